@@ -1,0 +1,73 @@
+# jointfem: build, run, test. `make help` lists the targets.
+
+FC        ?= gfortran
+ifeq ($(origin FC),default)
+FC         = gfortran
+endif
+BUILD      = build
+WARNINGS   = -std=f2018 -Wall -Wextra
+FFLAGS     = -O2 $(WARNINGS)
+FFLAGS_CHECKED = -O1 -g $(WARNINGS) -fcheck=all -ffpe-trap=invalid,zero
+LIBRARIES  = -lopenblas
+
+SOURCES    = $(sort $(wildcard src/*/*.f90))
+MODULES    = $(notdir $(SOURCES:.f90=))
+VPATH      = $(sort $(dir $(SOURCES)))
+
+RELEASE_OBJECTS = $(MODULES:%=$(BUILD)/release/%.o)
+CHECKED_OBJECTS = $(MODULES:%=$(BUILD)/checked/%.o)
+CHECKED_LIBRARY = $(BUILD)/checked/libjointfem.a
+CHECKED_MODULES = $(BUILD)/checked
+PF_FILES        = $(sort $(wildcard tests/unit/*.pf))
+
+.PHONY: all
+all: bin/jointfem
+
+.PHONY: help
+help:
+	@echo 'make            the program, bin/jointfem'
+	@echo 'make run        the worked example: the prism with 3, 5, 10 and 15 increments'
+	@echo 'make test       unit tests, every deck of input against reference_output, bad decks'
+	@echo 'make check      only the decks against reference_output'
+	@echo 'make accept CASE=name    take the results of input/name.bdf as the new reference'
+	@echo 'make bench      speed and memory'
+	@echo 'make figures    the pictures, from the CSV files of the decks'
+	@echo 'make clean'
+
+# The program, optimised and with run-time checks -----------------------------------------------------------------
+
+bin/jointfem: src/jointfem.f90 $(RELEASE_OBJECTS)
+	@mkdir -p bin
+	$(FC) $(FFLAGS) -I$(BUILD)/release -o $@ $< $(RELEASE_OBJECTS) $(LIBRARIES)
+
+$(BUILD)/checked/jointfem: src/jointfem.f90 $(CHECKED_LIBRARY)
+	$(FC) $(FFLAGS_CHECKED) -I$(CHECKED_MODULES) -o $@ $< $(CHECKED_LIBRARY) $(LIBRARIES)
+
+$(CHECKED_LIBRARY): $(CHECKED_OBJECTS)
+	@rm -f $@
+	ar rcs $@ $(CHECKED_OBJECTS)
+
+$(BUILD)/release/%.o: %.f90
+	@mkdir -p $(@D)
+	$(FC) $(FFLAGS) -J$(@D) -c -o $@ $<
+
+$(BUILD)/checked/%.o: %.f90
+	@mkdir -p $(@D)
+	$(FC) $(FFLAGS_CHECKED) -J$(@D) -c -o $@ $<
+
+# Which module uses which: file names are module names.
+$(BUILD)/dependencies.mk: $(SOURCES) Makefile
+	@mkdir -p $(@D)
+	@awk -v modules='$(MODULES)' 'BEGIN { n = split(modules, m, " "); for (i = 1; i <= n; i++) known[m[i]] = 1 } \
+	   FNR == 1 { me = FILENAME; sub(/.*\//, "", me); sub(/\.f90$$/, "", me) } \
+	   $$1 == "use" { used = $$2; sub(/,.*/, "", used); if (used in known) { \
+	      print "$(BUILD)/release/" me ".o: $(BUILD)/release/" used ".o"; \
+	      print "$(BUILD)/checked/" me ".o: $(BUILD)/checked/" used ".o" } }' $(SOURCES) > $@
+
+ifneq ($(MAKECMDGOALS),clean)
+-include $(BUILD)/dependencies.mk
+endif
+
+.PHONY: clean
+clean:
+	rm -rf $(BUILD) bin

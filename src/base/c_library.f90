@@ -1,0 +1,173 @@
+!> The few services of the C library that Fortran has no word for: reading a file of any kind by bytes,
+!! renaming and removing a file, the true path of a file, and whether a stream is a terminal.
+module c_library
+   use, intrinsic :: iso_c_binding, only: c_associated, c_char, c_f_pointer, c_int, c_null_char, c_null_ptr, &
+                                          c_ptr, c_size_t
+   implicit none
+   private
+
+   public :: read_all_bytes, rename_file, remove_file, true_path, is_terminal, end_run
+
+   interface
+      function c_fopen(path, mode) bind(c, name='fopen') result(stream)
+         import :: c_char, c_ptr
+         character(kind=c_char), intent(in) :: path(*), mode(*)
+         type(c_ptr) :: stream
+      end function c_fopen
+
+      function c_fread(buffer, size, count, stream) bind(c, name='fread') result(got)
+         import :: c_char, c_ptr, c_size_t
+         character(kind=c_char), intent(out) :: buffer(*)
+         integer(c_size_t), value :: size, count
+         type(c_ptr), value       :: stream
+         integer(c_size_t)        :: got
+      end function c_fread
+
+      function c_ferror(stream) bind(c, name='ferror') result(status)
+         import :: c_int, c_ptr
+         type(c_ptr), value :: stream
+         integer(c_int)     :: status
+      end function c_ferror
+
+      function c_fclose(stream) bind(c, name='fclose') result(status)
+         import :: c_int, c_ptr
+         type(c_ptr), value :: stream
+         integer(c_int)     :: status
+      end function c_fclose
+
+      function c_rename(old, new) bind(c, name='rename') result(status)
+         import :: c_char, c_int
+         character(kind=c_char), intent(in) :: old(*), new(*)
+         integer(c_int) :: status
+      end function c_rename
+
+      function c_remove(path) bind(c, name='remove') result(status)
+         import :: c_char, c_int
+         character(kind=c_char), intent(in) :: path(*)
+         integer(c_int) :: status
+      end function c_remove
+
+      function c_realpath(path, resolved) bind(c, name='realpath') result(text)
+         import :: c_char, c_ptr
+         character(kind=c_char), intent(in) :: path(*)
+         type(c_ptr), value :: resolved
+         type(c_ptr)        :: text
+      end function c_realpath
+
+      function c_strlen(text) bind(c, name='strlen') result(length)
+         import :: c_ptr, c_size_t
+         type(c_ptr), value :: text
+         integer(c_size_t)  :: length
+      end function c_strlen
+
+      subroutine c_free(memory) bind(c, name='free')
+         import :: c_ptr
+         type(c_ptr), value :: memory
+      end subroutine c_free
+
+      function c_isatty(descriptor) bind(c, name='isatty') result(answer)
+         import :: c_int
+         integer(c_int), value :: descriptor
+         integer(c_int)        :: answer
+      end function c_isatty
+
+      subroutine c_exit(status) bind(c, name='exit')
+         import :: c_int
+         integer(c_int), value :: status
+      end subroutine c_exit
+   end interface
+
+contains
+
+   !> All bytes of the file PATH, whatever it is: a plain file, a pipe, the standard input.
+   !! OK is false where it cannot be opened or read (a directory opens, but does not read).
+   subroutine read_all_bytes(path, bytes, ok)
+      character(*), intent(in)               :: path
+      character(:), allocatable, intent(out) :: bytes
+      logical, intent(out)                   :: ok
+      integer(c_size_t), parameter :: first_room = 1048576
+      character(:), allocatable :: wider
+      integer(c_size_t) :: used, got
+      integer(c_int)    :: status
+      type(c_ptr)       :: stream
+
+      ok = .false.
+      stream = c_fopen(path//c_null_char, 'rb'//c_null_char)
+      if (.not. c_associated(stream)) return
+      allocate (character(first_room) :: bytes)
+      used = 0
+      do
+         if (used == len(bytes, c_size_t)) then
+            allocate (character(2*used) :: wider)
+            wider(:used) = bytes
+            call move_alloc(wider, bytes)
+         end if
+         got = c_fread(bytes(used + 1:), 1_c_size_t, len(bytes, c_size_t) - used, stream)
+         if (got == 0) exit
+         used = used + got
+      end do
+      ok = c_ferror(stream) == 0
+      status = c_fclose(stream)
+      bytes = bytes(:used)
+   end subroutine read_all_bytes
+
+
+   !> Give the file OLD the name NEW, in place of any file of that name. OK is false on failure.
+   subroutine rename_file(old, new, ok)
+      character(*), intent(in) :: old, new
+      logical, intent(out)     :: ok
+
+      ok = c_rename(old//c_null_char, new//c_null_char) == 0
+   end subroutine rename_file
+
+
+   !> Remove the file PATH where it is there.
+   subroutine remove_file(path)
+      character(*), intent(in) :: path
+      integer(c_int) :: status
+
+      status = c_remove(path//c_null_char)
+      if (status /= 0) return   ! nothing of that name was there: as wanted
+   end subroutine remove_file
+
+
+   !> The absolute path of PATH with all links resolved; PATH itself where no such file is.
+   function true_path(path) result(resolved)
+      character(*), intent(in)  :: path
+      character(:), allocatable :: resolved
+      character(kind=c_char), pointer :: letters(:)
+      type(c_ptr) :: text
+      integer     :: i, length
+
+      text = c_realpath(path//c_null_char, c_null_ptr)
+      if (.not. c_associated(text)) then
+         resolved = path
+         return
+      end if
+      length = int(c_strlen(text))
+      call c_f_pointer(text, letters, [length])
+      allocate (character(length) :: resolved)
+      do i = 1, length
+         resolved(i:i) = letters(i)
+      end do
+      call c_free(text)
+   end function true_path
+
+
+   !> Whether the stream DESCRIPTOR (1 standard output, 2 standard error) is a terminal.
+   function is_terminal(descriptor) result(answer)
+      integer, intent(in) :: descriptor
+      logical :: answer
+
+      answer = c_isatty(int(descriptor, c_int)) /= 0
+   end function is_terminal
+
+
+   !> End the program with exit status STATUS and no further word on the terminal.
+   subroutine end_run(status)
+      integer, intent(in) :: status
+
+      call c_exit(int(status, c_int))
+   end subroutine end_run
+
+end module c_library

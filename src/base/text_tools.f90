@@ -1,0 +1,72 @@
+!> Small services for text: case, numbers as words, clean zeros.
+module text_tools
+   use kinds, only: wp
+   implicit none
+   private
+
+   public :: upper, integer_text, real_text, plural, clean
+
+contains
+
+   !> TEXT with a-z raised to A-Z; other bytes stay.
+   pure function upper(text) result(raised)
+      character(*), intent(in) :: text
+      character(len(text))     :: raised
+      integer :: i, code
+
+      do i = 1, len(text)
+         code = iachar(text(i:i))
+         if (code >= iachar('a') .and. code <= iachar('z')) code = code - 32
+         raised(i:i) = achar(code)
+      end do
+   end function upper
+
+
+   !> An integer without blanks around it.
+   pure function integer_text(value) result(text)
+      integer, intent(in)       :: value
+      character(:), allocatable :: text
+      character(12) :: buffer
+
+      write (buffer, '(i0)') value
+      text = trim(buffer)
+   end function integer_text
+
+
+   !> A real as a person would write it in a message: six significant digits, no padding.
+   pure function real_text(value) result(text)
+      real(wp), intent(in)      :: value
+      character(:), allocatable :: text
+      character(24) :: buffer
+
+      write (buffer, '(g0.6)') clean(value)
+      text = trim(adjustl(buffer))
+   end function real_text
+
+
+   !> '1 error', '2 errors': a count with its noun.
+   pure function plural(count, noun) result(text)
+      integer, intent(in)       :: count
+      character(*), intent(in)  :: noun
+      character(:), allocatable :: text
+
+      text = integer_text(count)//' '//noun
+      if (count /= 1) text = text//'s'
+   end function plural
+
+
+   !> VALUE for print: what lies below FLOOR counts as zero, and zero has no sign.
+   !! FLOOR [unit of value], default 0, takes away digits that another compiler would not reproduce.
+   elemental function clean(value, floor) result(printed)
+      real(wp), intent(in)           :: value
+      real(wp), intent(in), optional :: floor
+      real(wp) :: printed
+
+      printed = value
+      if (present(floor)) then
+         if (abs(value) < floor) printed = 0.0_wp
+      end if
+      if (abs(printed) < tiny(1.0_wp)) printed = 0.0_wp
+   end function clean
+
+end module text_tools

@@ -1,0 +1,112 @@
+!> The bulk data of a deck as read: one array a kind of card, cards in the order of the deck, nothing resolved yet.
+!! LINE is always the index of the card's first line in the deck text, for messages.
+module bulk_data
+   use kinds, only: wp
+   implicit none
+   private
+
+   type, public :: grid_card
+      integer  :: line = 0, id = 0, ps = 0
+      real(wp) :: x(3) = 0.0_wp
+   end type grid_card
+
+   !> An element with nodes: CQUAD4, CBAR, CROD.
+   type, public :: element_card
+      integer :: line = 0, id = 0, property = 0
+      integer :: nodes(8) = 0
+   end type element_card
+
+   type, public :: pshell_card
+      integer  :: line = 0, id = 0, material = 0
+      real(wp) :: thickness = 0.0_wp
+      logical  :: plane_strain = .false.
+   end type pshell_card
+
+   type, public :: mat1_card
+      integer  :: line = 0, id = 0
+      real(wp) :: e = 0.0_wp, nu = 0.0_wp
+   end type mat1_card
+
+   !> SPC, SPC1 and SPCM alike: nodes FIRST(k) to LAST(k), or all nodes of a marked surface.
+   type, public :: support_card
+      integer :: line = 0, set = 0, components = 0
+      integer :: surface = 0                            ! PMARK id, 0: the nodes below
+      integer, allocatable :: first(:), last(:), at(:)  ! AT(k): data field of FIRST(k)
+   end type support_card
+
+   type, public :: force_card
+      integer  :: line = 0, set = 0, node = 0
+      real(wp) :: force(3) = 0.0_wp
+   end type force_card
+
+   type, public :: load_card
+      integer  :: line = 0, set = 0
+      real(wp) :: scale = 0.0_wp
+      real(wp), allocatable :: factors(:)
+      integer, allocatable  :: sets(:)
+   end type load_card
+
+   type, public :: block2_card
+      integer  :: line = 0, id = 0, property = 0
+      integer  :: divisions(2) = 1                      ! along side 1-2 and along side 1-4
+      real(wp) :: corner(2, 4) = 0.0_wp
+      real(wp) :: grading(2) = 1.0_wp                   ! last division over first
+      integer  :: first_node = 1, first_element = 1
+      integer  :: marks(4) = 0                          ! PMARK of sides 1-2, 2-3, 3-4, 4-1
+      integer  :: weld = 0                              ! block whose coincident nodes are used
+   end type block2_card
+
+   type, public :: pmark_card
+      integer :: line = 0, id = 0
+   end type pmark_card
+
+   type, public :: joint_card
+      integer  :: line = 0, id = 0, law = 0, sides(2) = 0
+      real(wp) :: tolerance = 0.0_wp                    ! 0: default
+   end type joint_card
+
+   type, public :: cjoint_card
+      integer  :: line = 0, id = 0, law = 0, nodes(2) = 0
+      real(wp) :: area = 0.0_wp, normal(3) = 0.0_wp
+   end type cjoint_card
+
+   type, public :: pjoint_card
+      integer  :: line = 0, id = 0, normal_law = 0
+      real(wp) :: p0 = 0.0_wp
+      logical  :: p0_given = .false.
+   end type pjoint_card
+
+   type, public :: jnorm_card
+      integer  :: line = 0, id = 0
+      real(wp) :: c = 0.0_wp, m = 0.0_wp, e_u = 0.0_wp
+      logical  :: e_u_given = .false.
+   end type jnorm_card
+
+   type, public :: jincr_card
+      integer :: line = 0, id = 0
+      real(wp), allocatable :: shares(:)                ! of the stage's load change, add up to 1
+   end type jincr_card
+
+   !> All of them; the arrays have just the room needed, the counts say how much of it is filled.
+   type, public :: bulk_data_type
+      integer :: n_cards = 0 !! cards of all kinds
+      integer :: n_grid = 0, n_quad4 = 0, n_edge = 0, n_pshell = 0, n_mat1 = 0, n_support = 0, n_force = 0, &
+                 n_load = 0, n_block2 = 0, n_pmark = 0, n_joint = 0, n_cjoint = 0, n_pjoint = 0, n_jnorm = 0, n_jincr = 0
+      type(grid_card), allocatable    :: grid(:)
+      type(element_card), allocatable :: quad4(:)
+      type(element_card), allocatable :: edge(:)    ! CBAR and CROD: marks on surfaces
+      type(pshell_card), allocatable  :: pshell(:)
+      type(mat1_card), allocatable    :: mat1(:)
+      type(support_card), allocatable :: support(:)
+      type(force_card), allocatable   :: force(:)
+      type(load_card), allocatable    :: load(:)
+      type(block2_card), allocatable  :: block2(:)
+      type(pmark_card), allocatable   :: pmark(:)
+      type(joint_card), allocatable   :: joint(:)
+      type(cjoint_card), allocatable  :: cjoint(:)
+      type(pjoint_card), allocatable  :: pjoint(:)
+      type(jnorm_card), allocatable   :: jnorm(:)
+      type(jincr_card), allocatable   :: jincr(:)
+   end type bulk_data_type
+
+end module bulk_data

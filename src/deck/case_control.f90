@@ -1,0 +1,325 @@
+!> Case control: everything before BEGIN BULK. What to do, stage by stage; the bulk data says with what.
+module case_control
+   use deck_errors, only: deck_error_list
+   use deck_numbers, only: parse_integer
+   use deck_text, only: deck_text_type
+   use text_tools, only: integer_text, upper
+   implicit none
+   private
+
+   public :: read_case_control
+
+   integer, parameter, public :: pressure_sumf = 1, pressure_eq10 = 2                      !! PRESSURE =
+   integer, parameter, public :: output_none = 0, output_last = 1, output_joint = 2, output_all = 3 !! OUTPUT =
+
+   !> A key with a number, and the line it stands on (0: not given).
+   type, public :: set_reference
+      integer :: id   = 0
+      integer :: line = 0
+   end type set_reference
+
+   !> One SUBCASE: a stage of the load history.
+   type, public :: stage_type
+      integer :: id = 0, line = 0
+      character(:), allocatable :: label
+      type(set_reference) :: load     !! total load at the end of the stage; none: no load
+      type(set_reference) :: increments
+      type(set_reference) :: supports
+      integer :: output = output_last
+   end type stage_type
+
+   type, public :: case_control_type
+      character(:), allocatable :: title
+      character(8) :: length_unit = '', force_unit = ''  !! labels only
+      integer :: pressure = pressure_sumf
+      logical :: carry = .false.
+      logical :: echo  = .true.
+      type(stage_type), allocatable :: stages(:)
+   end type case_control_type
+
+   !> The line as it is being read, cut into key and value.
+   type :: entry_type
+      integer :: line = 0
+      character(:), allocatable :: key, value
+      integer :: first = 0, last = 0  ! columns of the value
+   end type entry_type
+
+contains
+
+   !> Read from line CURSOR of TEXT up to BEGIN BULK; CURSOR is left on the line behind it, FOUND_BULK tells whether
+   !! it was there.
+   subroutine read_case_control(text, cursor, control, found_bulk, errors)
+      type(deck_text_type), intent(in)     :: text
+      integer, intent(inout)               :: cursor
+      type(case_control_type), intent(out) :: control
+      logical, intent(out)                 :: found_bulk
+      type(deck_error_list), intent(inout) :: errors
+      type(stage_type) :: common           ! keys above the first SUBCASE hold for every stage
+      type(entry_type) :: entry
+      character(:), allocatable :: keys_seen
+      character(:), allocatable :: line
+
+      control%title = ''
+      allocate (control%stages(0))
+      common%label = ''
+      keys_seen = '|'
+      found_bulk = .false.
+      do while (cursor <= text%n)
+         line = text%card_part(cursor)
+         cursor = cursor + 1
+         if (line == '') cycle
+         call cut_entry(line, cursor - 1, entry)
+         if (entry%key == 'BEGIN') then
+            found_bulk = .true.
+            if (upper(entry%value) /= 'BULK') call value_error(entry, 'BULK', errors)
+            exit
+         else if (entry%key == 'ENDDATA') then
+            cursor = cursor - 1
+            exit
+         end if
+         call check_repeated(entry, keys_seen, errors)
+         call read_entry(entry, control, common, errors)
+      end do
+      call check_stages(control, errors)
+   end subroutine read_case_control
+
+
+   !> 'UNITS = MM, KGF' into key and value; a blank serves for the equals sign.
+   subroutine cut_entry(line, at, entry)
+      character(*), intent(in)      :: line
+      integer, intent(in)           :: at
+      type(entry_type), intent(out) :: entry
+      integer :: first, last
+
+      entry%line = at
+      first = verify(line, ' ')
+      last = scan(line(first:), ' =,')
+      last = merge(len(line), first + last - 2, last == 0)
+      entry%key = upper(line(first:last))
+      entry%first = last + 1
+      first = verify(line(last + 1:), ' ')
+      if (first > 0) then
+         first = last + first
+         if (line(first:first) == '=') then
+            entry%first = first
+            first = first + max(1, verify(line(first + 1:), ' '))
+         end if
+         entry%first = min(first, len(line))
+         entry%value = line(min(first, len(line) + 1):)
+      else
+         entry%value = ''
+      end if
+      if (entry%value == '=') entry%value = ''
+      entry%last = len(line)
+      entry%first = min(entry%first, entry%last)
+   end subroutine cut_entry
+
+
+   !> No key twice in the same place (above the stages, or in the same stage).
+   subroutine check_repeated(entry, keys_seen, errors)
+      type(entry_type), intent(in)             :: entry
+      character(:), allocatable, intent(inout) :: keys_seen
+      type(deck_error_list), intent(inout)     :: errors
+
+      if (entry%key == 'SUBCASE') then
+         keys_seen = '|'
+      else if (entry%key /= 'INCLUDE' .and. index(keys_seen, '|'//entry%key//'|') > 0) then
+         call errors%add(entry%line, entry%key//': given twice in the same place')
+      else
+         keys_seen = keys_seen//entry%key//'|'
+      end if
+   end subroutine check_repeated
+
+
+   !> What one line of case control says.
+   subroutine read_entry(entry, control, common, errors)
+      type(entry_type), intent(in)           :: entry
+      type(case_control_type), intent(inout) :: control
+      type(stage_type), intent(inout)        :: common
+      type(deck_error_list), intent(inout)   :: errors
+      integer :: n
+
+      n = size(control%stages)
+      select case (entry%key)
+      case ('INCLUDE')  ! its lines follow in the deck text
+         return
+      case ('CEND')     ! NASTRAN's end of executive control
+         return
+      case ('SUBCASE')
+         call start_stage(entry, control, common, errors)
+         return
+      case ('LABEL', 'LOAD', 'INCR', 'SPC', 'OUTPUT')
+         if (n == 0) then
+            call read_stage_entry(entry, common, errors)
+         else
+            call read_stage_entry(entry, control%stages(n), errors)
+         end if
+         return
+      case ('SOL', 'TITLE', 'UNITS', 'METHOD', 'PRESSURE', 'CARRY', 'SOLVER', 'ECHO')
+         if (n > 0) call errors%add(entry%line, entry%key//': holds for all stages, expected above the first SUBCASE')
+      case default
+         call errors%add(entry%line, ''''//entry%key//''' is no key of case control; expected TITLE, UNITS, METHOD, '// &
+                         'PRESSURE, CARRY, SOLVER, ECHO, SPC, SUBCASE, LABEL, LOAD, INCR, OUTPUT or BEGIN BULK')
+         return
+      end select
+      select case (entry%key)
+      case ('SOL')
+         call choose(entry, '|101|', errors)
+      case ('TITLE')
+         control%title = entry%value
+      case ('UNITS')
+         call read_units(entry, control, errors)
+      case ('METHOD')
+         call choose(entry, '|STEP|', errors)
+      case ('PRESSURE')
+         call choose(entry, '|SUMF|EQ10|', errors)
+         control%pressure = merge(pressure_eq10, pressure_sumf, upper(entry%value) == 'EQ10')
+      case ('CARRY')
+         call choose(entry, '|NO|YES|', errors)
+         control%carry = upper(entry%value) == 'YES'
+      case ('SOLVER')
+         call choose(entry, '|AUTO|SKYLINE|', errors)
+      case ('ECHO')
+         call choose(entry, '|YES|NO|', errors)
+         control%echo = upper(entry%value) /= 'NO'
+      end select
+   end subroutine read_entry
+
+
+   !> The value must be one of WORDS, '|A|B|'.
+   subroutine choose(entry, words, errors)
+      type(entry_type), intent(in)         :: entry
+      character(*), intent(in)             :: words
+      type(deck_error_list), intent(inout) :: errors
+
+      if (entry%value /= '' .and. index(words, '|'//upper(entry%value)//'|') > 0) return
+      call value_error(entry, words(2:len(words) - 1), errors)
+   end subroutine choose
+
+
+   subroutine value_error(entry, expected, errors)
+      type(entry_type), intent(in)         :: entry
+      character(*), intent(in)             :: expected
+      type(deck_error_list), intent(inout) :: errors
+      character(:), allocatable :: words
+      integer :: i
+
+      words = ''
+      do i = 1, len(expected)
+         if (expected(i:i) == '|') then
+            words = words//' or '
+         else
+            words = words//expected(i:i)
+         end if
+      end do
+      if (entry%value == '') then
+         call errors%add(entry%line, entry%key//': no value, expected '//words)
+      else
+         call errors%add(entry%line, entry%key//': '''//entry%value//''', expected '//words, entry%first, entry%last)
+      end if
+   end subroutine value_error
+
+
+   subroutine read_units(entry, control, errors)
+      type(entry_type), intent(in)           :: entry
+      type(case_control_type), intent(inout) :: control
+      type(deck_error_list), intent(inout)   :: errors
+      integer :: comma
+
+      comma = index(entry%value, ',')
+      if (comma < 2 .or. comma == len(entry%value) .or. comma /= index(entry%value, ',', back=.true.) .or. &
+          comma > 9 .or. len_trim(adjustl(entry%value(comma + 1:))) > 8) then
+         call value_error(entry, 'a unit of length and one of force of at most 8 letters each: UNITS = MM, KGF', errors)
+         return
+      end if
+      control%length_unit = entry%value(:comma - 1)
+      control%force_unit = adjustl(entry%value(comma + 1:))
+   end subroutine read_units
+
+
+   subroutine start_stage(entry, control, common, errors)
+      type(entry_type), intent(in)           :: entry
+      type(case_control_type), intent(inout) :: control
+      type(stage_type), intent(in)           :: common
+      type(deck_error_list), intent(inout)   :: errors
+      type(stage_type), allocatable :: longer(:)
+      type(set_reference) :: number
+      integer :: n
+
+      n = size(control%stages)
+      call read_number(entry, number, errors)
+      allocate (longer(n + 1))
+      longer(:n) = control%stages
+      longer(n + 1) = common
+      longer(n + 1)%id = number%id
+      longer(n + 1)%line = entry%line
+      if (n > 0 .and. number%id > 0) then
+         if (number%id <= longer(n)%id) call errors%add(entry%line, 'SUBCASE: '//integer_text(number%id)// &
+            ' after '//integer_text(longer(n)%id)//', expected ascending numbers: stages run in the order of the deck', &
+            entry%first, entry%last)
+      end if
+      call move_alloc(longer, control%stages)
+   end subroutine start_stage
+
+
+   subroutine read_stage_entry(entry, stage, errors)
+      type(entry_type), intent(in)         :: entry
+      type(stage_type), intent(inout)      :: stage
+      type(deck_error_list), intent(inout) :: errors
+
+      select case (entry%key)
+      case ('LABEL')
+         stage%label = entry%value
+      case ('LOAD')
+         call read_number(entry, stage%load, errors)
+      case ('INCR')
+         call read_number(entry, stage%increments, errors)
+      case ('SPC')
+         call read_number(entry, stage%supports, errors)
+      case ('OUTPUT')
+         call choose(entry, '|ALL|JOINT|LAST|NONE|', errors)
+         select case (upper(entry%value))
+         case ('ALL');   stage%output = output_all
+         case ('JOINT'); stage%output = output_joint
+         case ('NONE');  stage%output = output_none
+         case default;   stage%output = output_last
+         end select
+      end select
+   end subroutine read_stage_entry
+
+
+   subroutine read_number(entry, reference, errors)
+      type(entry_type), intent(in)         :: entry
+      type(set_reference), intent(out)     :: reference
+      type(deck_error_list), intent(inout) :: errors
+      logical :: ok
+
+      call parse_integer(entry%value, reference%id, ok)
+      if (.not. ok .or. reference%id < 1) then
+         call value_error(entry, 'an integer of 1 or more', errors)
+         reference%id = 0
+      else
+         reference%line = entry%line
+      end if
+   end subroutine read_number
+
+
+   !> There is a stage, and all stages stand on the same supports: [k_b] is formed once.
+   subroutine check_stages(control, errors)
+      type(case_control_type), intent(inout) :: control
+      type(deck_error_list), intent(inout)   :: errors
+      integer :: i
+
+      if (size(control%stages) == 0) then
+         call errors%add(0, 'no stage: expected at least one SUBCASE in case control')
+         return
+      end if
+      do i = 2, size(control%stages)
+         if (control%stages(i)%supports%id /= control%stages(1)%supports%id) then
+            call errors%add(max(control%stages(i)%supports%line, control%stages(i)%line), &
+                            'SPC: all stages must have the same supports; give SPC above the first SUBCASE')
+         end if
+      end do
+   end subroutine check_stages
+
+end module case_control

@@ -1,0 +1,178 @@
+!> A deck: its text, its case control, its bulk data. Read in one go, all errors collected.
+module deck_input
+   use bulk_data, only: bulk_data_type
+   use card_fields, only: card_values
+   use case_control, only: case_control_type, read_case_control
+   use deck_cards, only: card_name, card_type, is_continuation, read_card
+   use deck_errors, only: deck_error_list
+   use deck_text, only: deck_text_type, read_deck_text
+   use joint_cards, only: read_cjoint, read_jincr, read_jnorm, read_joint, read_pjoint
+   use load_cards, only: read_force, read_load, read_spc, read_spc1, read_spcm
+   use mesh_cards, only: read_block2, read_cbar, read_cquad4, read_crod, read_grid, read_mat1, read_pmark, read_pshell
+   implicit none
+   private
+
+   public :: read_deck
+
+   type, public :: deck_type
+      type(deck_text_type)    :: text
+      type(case_control_type) :: control
+      type(bulk_data_type)    :: bulk
+      logical :: is_whole = .false. !! false: a part of the deck is missing, what refers to it cannot be checked
+   end type deck_type
+
+   ! every card, in alphabetical order; a new one is added here, to the select case below and to the room
+   character(8), parameter :: known_cards(18) = [character(8) :: 'BLOCK2', 'CBAR', 'CJOINT', 'CQUAD4', 'CROD', 'FORCE', &
+      'GRID', 'JINCR', 'JNORM', 'JOINT', 'LOAD', 'MAT1', 'PJOINT', 'PMARK', 'PSHELL', 'SPC', 'SPC1', 'SPCM']
+
+contains
+
+   !> Read the deck PATH. READABLE is false where the file itself cannot be read; what is wrong in it goes to ERRORS.
+   subroutine read_deck(path, deck, errors, readable)
+      character(*), intent(in)             :: path
+      type(deck_type), intent(out)         :: deck
+      type(deck_error_list), intent(inout) :: errors
+      logical, intent(out)                 :: readable
+      integer :: cursor
+      logical :: found_bulk, is_whole
+
+      call read_deck_text(path, deck%text, errors, readable)
+      if (.not. (readable .and. deck%text%is_text)) return
+      is_whole = .not. errors%any()
+      cursor = 1
+      call read_case_control(deck%text, cursor, deck%control, found_bulk, errors)
+      if (.not. found_bulk) then
+         call errors%add(0, 'no BEGIN BULK: expected it between case control and the cards')
+         return
+      end if
+      call make_room(deck%text, cursor, deck%bulk)
+      call read_bulk_data(deck%text, cursor, deck%bulk, errors)
+      deck%is_whole = is_whole
+   end subroutine read_deck
+
+
+   !> Count the cards by name and give every kind its room.
+   subroutine make_room(text, first_line, bulk)
+      type(deck_text_type), intent(in)    :: text
+      integer, intent(in)                 :: first_line
+      type(bulk_data_type), intent(inout) :: bulk
+      integer :: counts(size(known_cards)), i, k
+
+      counts = 0
+      do i = first_line, text%n
+         k = card_number(card_name(text%card_part(i)))
+         if (k > 0) counts(k) = counts(k) + 1
+      end do
+      allocate (bulk%block2(number_of('BLOCK2')), bulk%cjoint(number_of('CJOINT')), bulk%quad4(number_of('CQUAD4')))
+      allocate (bulk%edge(number_of('CBAR') + number_of('CROD')), bulk%force(number_of('FORCE')))
+      allocate (bulk%grid(number_of('GRID')), bulk%jincr(number_of('JINCR')), bulk%jnorm(number_of('JNORM')))
+      allocate (bulk%joint(number_of('JOINT')), bulk%load(number_of('LOAD')), bulk%mat1(number_of('MAT1')))
+      allocate (bulk%pjoint(number_of('PJOINT')), bulk%pmark(number_of('PMARK')), bulk%pshell(number_of('PSHELL')))
+      allocate (bulk%support(2*number_of('SPC') + number_of('SPC1') + number_of('SPCM')))
+
+   contains
+
+      pure integer function number_of(name)
+         character(*), intent(in) :: name
+
+         number_of = counts(card_number(name))
+      end function number_of
+
+   end subroutine make_room
+
+
+   !> The place of NAME in the list of known cards, 0 for any other.
+   pure integer function card_number(name) result(k)
+      character(*), intent(in) :: name
+
+      do k = size(known_cards), 1, -1
+         if (known_cards(k) == name) return
+      end do
+   end function card_number
+
+
+   !> All cards from line CURSOR to ENDDATA.
+   subroutine read_bulk_data(text, cursor, bulk, errors)
+      type(deck_text_type), intent(in)     :: text
+      integer, intent(inout)               :: cursor
+      type(bulk_data_type), intent(inout)  :: bulk
+      type(deck_error_list), intent(inout) :: errors
+      type(card_type)   :: card
+      type(card_values) :: values
+      character(:), allocatable :: line
+      character(8) :: name
+      integer :: ended_file ! the file whose ENDDATA was read last, 1 the deck itself
+
+      ended_file = 0
+      do while (cursor <= text%n)
+         line = text%card_part(cursor)
+         if (line == '') then
+            cursor = cursor + 1
+            cycle
+         end if
+         name = card_name(line)
+         if (ended_file == 1 .or. text%file_number(cursor) == ended_file) then
+            call errors%add(cursor, 'text after ENDDATA')
+            return
+         else if (is_continuation(line)) then
+            call errors%add(cursor, 'a continuation line without a card before it')
+            cursor = cursor + 1
+         else if (name(1:7) == 'INCLUDE') then
+            cursor = cursor + 1     ! its lines follow in the deck text
+         else if (name == 'ENDDATA') then
+            ended_file = text%file_number(cursor)
+            call check_rest_of_line(line, cursor, errors)
+            cursor = cursor + 1
+         else
+            call read_card(text, cursor, card, errors)
+            bulk%n_cards = bulk%n_cards + 1
+            call dispatch(card, bulk, values, errors)
+         end if
+      end do
+      if (ended_file /= 1) call errors%add(0, 'no ENDDATA: the deck ends before its end, is it whole?')
+   end subroutine read_bulk_data
+
+
+   subroutine check_rest_of_line(line, at, errors)
+      character(*), intent(in)             :: line
+      integer, intent(in)                  :: at
+      type(deck_error_list), intent(inout) :: errors
+      character(:), allocatable :: words
+
+      words = trim(adjustl(line))
+      if (len(words) > 7) call errors%add(at, 'text behind ENDDATA', len(line) - len(words) + 8, len(line))
+   end subroutine check_rest_of_line
+
+
+   !> Hand a card to its routine.
+   subroutine dispatch(card, bulk, values, errors)
+      type(card_type), intent(in)          :: card
+      type(bulk_data_type), intent(inout)  :: bulk
+      type(card_values), intent(inout)     :: values
+      type(deck_error_list), intent(inout) :: errors
+
+      select case (card%name)
+      case ('BLOCK2'); call read_block2(card, bulk, values, errors)
+      case ('CBAR');   call read_cbar(card, bulk, values, errors)
+      case ('CJOINT'); call read_cjoint(card, bulk, values, errors)
+      case ('CQUAD4'); call read_cquad4(card, bulk, values, errors)
+      case ('CROD');   call read_crod(card, bulk, values, errors)
+      case ('FORCE');  call read_force(card, bulk, values, errors)
+      case ('GRID');   call read_grid(card, bulk, values, errors)
+      case ('JINCR');  call read_jincr(card, bulk, values, errors)
+      case ('JNORM');  call read_jnorm(card, bulk, values, errors)
+      case ('JOINT');  call read_joint(card, bulk, values, errors)
+      case ('LOAD');   call read_load(card, bulk, values, errors)
+      case ('MAT1');   call read_mat1(card, bulk, values, errors)
+      case ('PJOINT'); call read_pjoint(card, bulk, values, errors)
+      case ('PMARK');  call read_pmark(card, bulk, values, errors)
+      case ('PSHELL'); call read_pshell(card, bulk, values, errors)
+      case ('SPC');    call read_spc(card, bulk, values, errors)
+      case ('SPC1');   call read_spc1(card, bulk, values, errors)
+      case ('SPCM');   call read_spcm(card, bulk, values, errors)
+      case default
+         call errors%add(card%line, ''''//trim(card%name)//''' is no card that jointfem knows; see input/README.md', 1, 8)
+      end select
+   end subroutine dispatch
+
+end module deck_input

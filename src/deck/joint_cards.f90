@@ -1,0 +1,196 @@
+!> The cards of the joint: JOINT, CJOINT, PJOINT, JNORM, JINCR. A table and a routine each.
+module joint_cards
+   use bulk_data, only: bulk_data_type, jincr_card
+   use card_fields, only: blank_field, card_values, decode_card, decode_real, field_error, field_rule, integer_field, &
+                          real_field, word_field
+   use deck_cards, only: card_type
+   use deck_errors, only: deck_error_list
+   use kinds, only: wp
+   use load_shares, only: arithmetic_shares, geometric_shares
+   use text_tools, only: integer_text, real_text
+   implicit none
+   private
+
+   public :: read_joint, read_cjoint, read_pjoint, read_jnorm, read_jincr
+
+   integer, parameter :: most_increments = 100000
+
+contains
+
+   !> JOINT: interface elements between two marked surfaces, or one marked surface and a rigid base.
+   subroutine read_joint(card, bulk, values, errors)
+      type(card_type), intent(in)          :: card
+      type(bulk_data_type), intent(inout)  :: bulk
+      type(card_values), intent(inout)     :: values
+      type(deck_error_list), intent(inout) :: errors
+      type(field_rule), save, allocatable :: table(:)
+
+      if (.not. allocated(table)) table = [integer_field('JID'), integer_field('PJID'), integer_field('SIDE1'), &
+         integer_field('SIDE2', default=0), real_field('TOL', default=0.0_wp, above=0.0_wp)]
+      call decode_card(card, table, .false., values, errors)
+      if (values%integers(4) == values%integers(3) .and. values%integers(3) > 0) then
+         call field_error(card, 4, 'SIDE2: the same surface as SIDE1', errors)
+      end if
+      bulk%n_joint = bulk%n_joint + 1
+      associate (joint => bulk%joint(bulk%n_joint))
+         joint%line = card%line
+         joint%id = values%integers(1)
+         joint%law = values%integers(2)
+         joint%sides = values%integers(3:4)
+         joint%tolerance = values%reals(5)
+      end associate
+   end subroutine read_joint
+
+
+   !> CJOINT: one interface element given outright.
+   subroutine read_cjoint(card, bulk, values, errors)
+      type(card_type), intent(in)          :: card
+      type(bulk_data_type), intent(inout)  :: bulk
+      type(card_values), intent(inout)     :: values
+      type(deck_error_list), intent(inout) :: errors
+      type(field_rule), save, allocatable :: table(:)
+
+      if (.not. allocated(table)) table = [integer_field('EID'), integer_field('PJID'), integer_field('G1'), &
+         integer_field('G2', default=0), real_field('AREA', above=0.0_wp), real_field('NX', default=0.0_wp), &
+         real_field('NY', default=0.0_wp), real_field('NZ', default=0.0_wp)]
+      call decode_card(card, table, .false., values, errors)
+      if (values%ok .and. norm2(values%reals(6:8)) <= 0.0_wp) then
+         call field_error(card, 6, 'NX: the normal has no direction, expected NX, NY, NZ not all zero', errors)
+      end if
+      if (values%integers(4) == values%integers(3) .and. values%integers(3) > 0) then
+         call field_error(card, 4, 'G2: the same node as G1', errors)
+      end if
+      bulk%n_cjoint = bulk%n_cjoint + 1
+      associate (cjoint => bulk%cjoint(bulk%n_cjoint))
+         cjoint%line = card%line
+         cjoint%id = values%integers(1)
+         cjoint%law = values%integers(2)
+         cjoint%nodes = values%integers(3:4)
+         cjoint%area = values%reals(5)
+         cjoint%normal = values%reals(6:8)
+      end associate
+   end subroutine read_cjoint
+
+
+   !> PJOINT: the laws of a joint.
+   subroutine read_pjoint(card, bulk, values, errors)
+      type(card_type), intent(in)          :: card
+      type(bulk_data_type), intent(inout)  :: bulk
+      type(card_values), intent(inout)     :: values
+      type(deck_error_list), intent(inout) :: errors
+      type(field_rule), save, allocatable :: table(:)
+
+      if (.not. allocated(table)) table = [integer_field('PJID'), integer_field('NID'), blank_field('SIDX'), &
+         blank_field('SIDY'), blank_field('MU'), blank_field('NREAN'), real_field('P0', default=0.0_wp, above=0.0_wp)]
+      call decode_card(card, table, .false., values, errors)
+      bulk%n_pjoint = bulk%n_pjoint + 1
+      associate (pjoint => bulk%pjoint(bulk%n_pjoint))
+         pjoint%line = card%line
+         pjoint%id = values%integers(1)
+         pjoint%normal_law = values%integers(2)
+         pjoint%p0 = values%reals(7)
+         pjoint%p0_given = values%given(7)
+      end associate
+   end subroutine read_pjoint
+
+
+   !> JNORM: lambda = C p^M, unloading slope EU.
+   subroutine read_jnorm(card, bulk, values, errors)
+      type(card_type), intent(in)          :: card
+      type(bulk_data_type), intent(inout)  :: bulk
+      type(card_values), intent(inout)     :: values
+      type(deck_error_list), intent(inout) :: errors
+      type(field_rule), save, allocatable :: table(:)
+
+      if (.not. allocated(table)) table = [integer_field('NID'), real_field('C', above=0.0_wp), &
+         real_field('M', above=0.0_wp, most=1.0_wp), real_field('EU', default=0.0_wp, above=0.0_wp)]
+      call decode_card(card, table, .false., values, errors)
+      bulk%n_jnorm = bulk%n_jnorm + 1
+      associate (jnorm => bulk%jnorm(bulk%n_jnorm))
+         jnorm%line = card%line
+         jnorm%id = values%integers(1)
+         jnorm%c = values%reals(2)
+         jnorm%m = values%reals(3)
+         jnorm%e_u = values%reals(4)
+         jnorm%e_u_given = values%given(4)
+      end associate
+   end subroutine read_jnorm
+
+
+   !> JINCR: the increments of a stage, turned into shares that add up to 1.
+   subroutine read_jincr(card, bulk, values, errors)
+      type(card_type), intent(in)          :: card
+      type(bulk_data_type), intent(inout)  :: bulk
+      type(card_values), intent(inout)     :: values
+      type(deck_error_list), intent(inout) :: errors
+      type(field_rule), save, allocatable :: table(:)
+      logical :: ok
+
+      if (.not. allocated(table)) table = [integer_field('SID'), integer_field('N', default=0, most=most_increments), &
+         word_field('PROG', '|ARITH|GEOM|LIST|'), real_field('FIRST', default=0.05_wp, above=0.0_wp, most=1.0_wp)]
+      call decode_card(card, table, card_is_list(card), values, errors)
+      bulk%n_jincr = bulk%n_jincr + 1
+      associate (jincr => bulk%jincr(bulk%n_jincr), n => values%integers(2), first => values%reals(4))
+         jincr%line = card%line
+         jincr%id = values%integers(1)
+         jincr%shares = [1.0_wp]
+         if (.not. values%ok) return
+         if (values%words(3) == 'LIST') then
+            call read_list(card, values, jincr, errors)
+            return
+         end if
+         if (.not. values%given(2)) then
+            call field_error(card, 2, 'N: blank, expected the number of increments', errors)
+         else if (values%words(3) == 'ARITH') then
+            call arithmetic_shares(n, first, jincr%shares, ok)
+            if (.not. ok) call field_error(card, 4, 'FIRST: with '//integer_text(n)//' increments in arithmetic progression'// &
+               ' and a first share of '//real_text(first)//' the last share is not positive, expected FIRST below '// &
+               real_text(2.0_wp/n), errors)
+         else
+            call geometric_shares(n, first, jincr%shares, ok)
+            if (.not. ok) call field_error(card, 4, 'FIRST: no geometric progression of '//integer_text(n)// &
+               ' increments begins with '//real_text(first), errors)
+         end if
+      end associate
+   end subroutine read_jincr
+
+
+   pure logical function card_is_list(card)
+      type(card_type), intent(in) :: card
+
+      card_is_list = .false.
+      if (card%n >= 3) card_is_list = card%fields(3)%text == 'LIST'
+   end function card_is_list
+
+
+   !> The shares of PROG = LIST; they stand from FIRST on and add up to 1 (to 1E-6: then they are scaled to do so).
+   subroutine read_list(card, values, jincr, errors)
+      type(card_type), intent(in)          :: card
+      type(card_values), intent(in)        :: values
+      type(jincr_card), intent(inout)      :: jincr
+      type(deck_error_list), intent(inout) :: errors
+      real(wp), allocatable :: shares(:)
+      integer :: k, n, errors_before
+      logical :: ok
+
+      errors_before = errors%n
+      allocate (shares(card%n), source=0.0_wp)
+      n = 0
+      do k = 4, card%n
+         if (card%fields(k)%text == '') cycle
+         n = n + 1
+         call decode_real(card, k, 'SHARE', 'a share of the load change', shares(n), ok, errors)
+         if (ok .and. shares(n) <= 0.0_wp) call field_error(card, k, 'SHARE: '//real_text(shares(n))// &
+                                                            ', expected above 0', errors)
+      end do
+      if (errors%n > errors_before) return
+      if (values%given(2) .and. values%integers(2) /= n) then
+         call field_error(card, 2, 'N: '//integer_text(values%integers(2))//', but '//integer_text(n)//' shares follow', errors)
+      else if (abs(sum(shares(:n)) - 1.0_wp) > 1.0e-6_wp) then
+         call field_error(card, 4, 'the shares add up to '//real_text(sum(shares(:n)))//', expected 1', errors)
+      else
+         jincr%shares = shares(:n)/sum(shares(:n))
+      end if
+   end subroutine read_list
+
+end module joint_cards

@@ -1,0 +1,50 @@
+!> The stages of the load history and the shares of their increments, as case control and JINCR cards give them.
+module stage_plan
+   use deck_errors, only: deck_error_list
+   use deck_input, only: deck_type
+   use kinds, only: wp
+   use text_tools, only: integer_text
+   implicit none
+   private
+
+   public :: plan_stages
+
+   type, public :: planned_stage
+      integer :: id = 0
+      character(:), allocatable :: label
+      integer :: output = 0                 !! output_* of case_control
+      real(wp), allocatable :: shares(:)    !! of the stage's load change, one an increment, sum 1
+   end type planned_stage
+
+   type, public :: stage_plan_type
+      type(planned_stage), allocatable :: stages(:)
+   end type stage_plan_type
+
+contains
+
+   !> A stage without INCR takes its load in one increment.
+   subroutine plan_stages(deck, plan, errors)
+      type(deck_type), intent(in)          :: deck
+      type(stage_plan_type), intent(out)   :: plan
+      type(deck_error_list), intent(inout) :: errors
+      integer :: s, k
+
+      allocate (plan%stages(size(deck%control%stages)))
+      do s = 1, size(plan%stages)
+         associate (stage => plan%stages(s), given => deck%control%stages(s))
+            stage%id = given%id
+            stage%label = given%label
+            stage%output = given%output
+            stage%shares = [1.0_wp]
+            if (given%increments%id == 0) cycle
+            k = findloc(deck%bulk%jincr(:deck%bulk%n_jincr)%id, given%increments%id, dim=1)
+            if (k == 0) then
+               call errors%add(given%increments%line, 'INCR: there is no JINCR '//integer_text(given%increments%id))
+            else
+               stage%shares = deck%bulk%jincr(k)%shares
+            end if
+         end associate
+      end do
+   end subroutine plan_stages
+
+end module stage_plan

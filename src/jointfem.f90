@@ -1,0 +1,117 @@
+!> jointfem: structures with flexible joints by the step-wise tangent-stiffness method.
+!! The program is the flow chart of the method (Edelugo, Fig. 6a), one call a box.
+program jointfem
+   use command_line, only: command_type, deck_argument, read_command_line
+   use deck_errors, only: deck_error_list
+   use deck_input, only: deck_type, read_deck
+   use equations, only: equation_system, form_body_stiffness, start_equations
+   use failures, only: failure_type
+   use model_build, only: build_model
+   use model_data, only: model_type
+   use progress, only: progress_type
+   use results, only: finish_results, print_increment, print_stage, results_type, start_results
+   use run_control, only: end_program, report_checked, report_errors, report_failure, report_unreadable, &
+                          report_unwritten, set_threads
+   use stage_plan, only: stage_plan_type
+   use step_method, only: accumulate, analysis_type, interface_stiffness, solve_increment, start_analysis, &
+                          start_increment, start_stage, structure_stiffness
+   implicit none
+   type(command_type) :: command
+   integer :: i, status
+   logical :: finished
+
+   call read_command_line(command, finished, status)
+   if (finished) call end_program(status)
+   call set_threads()
+   do i = 1, size(command%decks)
+      call analyse(command%decks(i))
+   end do
+   call end_program(status)
+
+contains
+
+   subroutine analyse(argument)
+      type(deck_argument), intent(in) :: argument
+      type(deck_type)       :: deck
+      type(deck_error_list) :: errors
+      type(model_type)      :: model
+      type(stage_plan_type) :: plan
+      type(equation_system) :: system
+      type(analysis_type)   :: analysis
+      type(results_type)    :: results
+      type(progress_type)   :: progress
+      type(failure_type)    :: failure
+      integer :: stage, increment
+      logical :: readable, ok
+
+      ! ------------------------------------------------------------------ READ THE DATA
+      call read_deck(argument%path, deck, errors, readable)
+      if (.not. readable) then
+         call report_unreadable(argument)
+         return
+      end if
+
+      ! ------------------------------------------------------------------ BODIES, JOINTS, LOADS
+      call build_model(deck, model, plan, errors)
+      if (errors%any()) then
+         call report_errors(command, argument, deck, errors)
+         return
+      else if (command%check_only) then
+         call report_checked(argument, model, plan)
+         return
+      end if
+
+      ! ------------------------------------------------------------------ [k_b] OF THE BODIES, ONCE
+      call start_equations(model, system, failure)
+      if (failure%raised) then
+         call report_failure(argument, failure, results)
+         return
+      end if
+      call form_body_stiffness(model, system)
+      call start_results(argument%listing, argument%history, deck, model, plan, system, results, ok)
+      if (.not. ok) then
+         call report_unwritten(argument, results)
+         return
+      end if
+
+      ! ------------------------------------------------------------------ NORM: FIRST STIFFNESS OF THE JOINTS
+      call start_analysis(model, deck%control, analysis)
+      call interface_stiffness(model, analysis)
+      call progress%start(argument%name, plan, command%quiet)
+
+      do stage = 1, size(plan%stages)
+         call start_stage(model, stage, analysis)
+         do increment = 1, size(plan%stages(stage)%shares)
+
+            ! ------------------------------------------------------------ NEXT INCREMENT OF THE LOAD
+            call start_increment(plan, analysis)
+
+            ! ------------------------------------------------------------ [k_s] = SUM [k_b] + SUM [k_int]
+            call structure_stiffness(model, plan, analysis, system, failure)
+            if (failure%raised) then
+               call report_failure(argument, failure, results)
+               return
+            end if
+
+            ! ------------------------------------------------------------ SOLVE [k_s] {du} = {dF}
+            call solve_increment(system, analysis)
+
+            ! ------------------------------------------------------------ ACCUMULATE {u}, LAMBDA, SUMF
+            call accumulate(model, analysis)
+
+            ! ------------------------------------------------------------ NORM: BRANCHES, NEXT STIFFNESS
+            call interface_stiffness(model, analysis)
+
+            ! ------------------------------------------------------------ PRINT
+            call print_increment(model, plan, analysis, results)
+            call progress%advance(stage, increment, size(plan%stages(stage)%shares))
+         end do
+         call print_stage(model, plan, analysis, results)
+      end do
+      call progress%finish()
+
+      call finish_results(plan, results, ok)
+      if (.not. ok) call report_unwritten(argument, results)
+   end subroutine analyse
+
+end program jointfem

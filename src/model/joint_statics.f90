@@ -1,0 +1,216 @@
+!> What statics alone says of a joint: the normal resultant that the loads send through it, where no other support or
+!! joint can take a share, and from it the pressure of the first increment, Eq. (9) (departure 3).
+module joint_statics
+   use deck_errors, only: deck_error_list
+   use kinds, only: wp
+   use model_data, only: joint_type, model_type, stage_load_type
+   use text_tools, only: integer_text, real_text
+   implicit none
+   private
+
+   public :: find_parts, find_determinate_joints, find_first_pressures, carried_resultant
+
+contains
+
+   !> Number the connected bodies (a node without a body is a part of its own).
+   pure subroutine find_parts(model)
+      type(model_type), intent(inout) :: model
+      integer, allocatable :: parent(:)
+      integer :: e, k, node, root
+
+      allocate (parent(model%n_nodes))
+      parent = [(node, node = 1, model%n_nodes)]
+      do e = 1, model%n_elements
+         do k = 2, size(model%element_nodes, 1)
+            call join(parent, model%element_nodes(1, e), model%element_nodes(k, e))
+         end do
+      end do
+      allocate (model%part(model%n_nodes), source=0)
+      model%n_parts = 0
+      do node = 1, model%n_nodes
+         root = root_of(parent, node)
+         if (model%part(root) == 0) then
+            model%n_parts = model%n_parts + 1
+            model%part(root) = model%n_parts
+         end if
+         model%part(node) = model%part(root)
+      end do
+   end subroutine find_parts
+
+
+   !> Joint J is cut: where one of its sides then hangs on nothing along the joint's normal, the joint alone carries that
+   !! side's load.
+   pure subroutine find_determinate_joints(model)
+      type(model_type), intent(inout) :: model
+      integer, allocatable :: group(:)              ! parts joined by all the other joints; the base is the last one
+      logical, allocatable :: grounded(:), on_side(:, :)
+      integer :: base, i, j, k, node, side
+
+      base = model%n_parts + 1
+      allocate (group(base), grounded(base), on_side(base, 2))
+      do j = 1, size(model%joints)
+         associate (joint => model%joints(j))
+            allocate (joint%carries(model%n_parts), source=.false.)
+            if (norm2(joint%normal) <= 0.0_wp) cycle
+            group = [(k, k = 1, base)]
+            do i = 1, size(model%interface)
+               if (model%interface(i)%joint /= j) call join(group, part_of(model, i, 1), part_of(model, i, 2))
+            end do
+            grounded = .false.
+            grounded(root_of(group, base)) = .true.
+            do node = 1, model%n_nodes
+               do k = 1, model%dimension
+                  if (model%held(k, node) .and. abs(joint%normal(k)) > 1.0e-9_wp) &
+                     grounded(root_of(group, model%part(node))) = .true.
+               end do
+            end do
+            on_side = .false.
+            do i = joint%first, joint%last
+               do side = 1, 2
+                  on_side(root_of(group, part_of(model, i, side)), side) = .true.
+               end do
+            end do
+            if (any(on_side(:, 1) .and. on_side(:, 2))) cycle
+            do side = 1, 2
+               if (any(on_side(:, side) .and. grounded)) cycle
+               joint%determinate = .true.
+               joint%direction = merge(1.0_wp, -1.0_wp, side == 1)
+               do k = 1, model%n_parts
+                  joint%carries(k) = on_side(root_of(group, k), side)
+               end do
+               exit
+            end do
+         end associate
+      end do
+
+   end subroutine find_determinate_joints
+
+
+   !> The part at end SIDE of interface element I; the rigid base is the part behind the last.
+   pure integer function part_of(model, i, side)
+      type(model_type), intent(in) :: model
+      integer, intent(in)          :: i, side
+
+      part_of = model%n_parts + 1
+      if (model%interface(i)%nodes(side) > 0) part_of = model%part(model%interface(i)%nodes(side))
+   end function part_of
+
+
+   !> Normal resultant (compression positive) that LOADS send through a determinate JOINT [force].
+   pure real(wp) function carried_resultant(model, joint, loads) result(resultant)
+      type(model_type), intent(in)      :: model
+      type(joint_type), intent(in)      :: joint
+      type(stage_load_type), intent(in) :: loads
+      integer :: i
+
+      resultant = 0.0_wp
+      do i = 1, loads%n
+         if (joint%carries(model%part(loads%node(i)))) &
+            resultant = resultant + joint%direction*dot_product(loads%force(:, i), joint%normal)
+      end do
+   end function carried_resultant
+
+
+   !> p_av of every joint: the user's P0, else the resultant of the first increment (the share FIRST_SHARE of the first
+   !! stage's load) over A_int. Where neither gives a compression the deck is in error.
+   subroutine find_first_pressures(first_share, model, errors)
+      real(wp), intent(in)                 :: first_share
+      type(model_type), intent(inout)      :: model
+      type(deck_error_list), intent(inout) :: errors
+      real(wp) :: resultant, total
+      integer  :: i, j
+
+      total = 0.0_wp
+      do i = 1, model%stage_loads(1)%n
+         total = total + norm2(model%stage_loads(1)%force(:, i))
+      end do
+      do j = 1, size(model%joints)
+         associate (joint => model%joints(j))
+            resultant = 0.0_wp
+            if (joint%determinate) then
+               resultant = first_share*carried_resultant(model, joint, model%stage_loads(1))
+               if (resultant < 0.0_wp .and. .not. touches_body(model, joint)) then
+                  call turn_round(model, joint)
+                  resultant = -resultant
+               end if
+            end if
+            if (joint%p0 > 0.0_wp) then
+               joint%p_av = joint%p0
+            else if (.not. joint%determinate) then
+               call errors%add(joint%line, 'joint '//integer_text(joint%id)//' does not carry all the load (supports or other '// &
+                  'joints take a share), so the pressure of the first increment is not known: give P0 on its PJOINT')
+            else if (resultant <= 1.0e-12_wp*first_share*total) then
+               call errors%add(joint%line, 'the first increment does not press joint '//integer_text(joint%id)// &
+                  ' together (normal force '//real_text(resultant)//'), so its pressure is not known: give P0 on its PJOINT')
+            else
+               joint%p_av = resultant/joint%area
+            end if
+         end associate
+      end do
+   end subroutine find_first_pressures
+
+
+   !> Whether there is a body at any node of JOINT. If not, nothing but the load tells which sense of its normal closes it.
+   pure logical function touches_body(model, joint)
+      type(model_type), intent(in) :: model
+      type(joint_type), intent(in) :: joint
+      integer :: i, node, side
+
+      touches_body = .false.
+      do i = joint%first, joint%last
+         do side = 1, 2
+            node = model%interface(i)%nodes(side)
+            if (node > 0) touches_body = touches_body .or. model%first_at(node + 1) > model%first_at(node)
+         end do
+      end do
+   end function touches_body
+
+
+   !> Reverse the normals of a joint (and y with them, so that the axes stay right-handed).
+   pure subroutine turn_round(model, joint)
+      type(model_type), intent(inout) :: model
+      type(joint_type), intent(inout) :: joint
+      integer :: i
+
+      joint%normal = -joint%normal
+      do i = joint%first, joint%last
+         model%interface(i)%axes(:, 2:3) = -model%interface(i)%axes(:, 2:3)
+      end do
+   end subroutine turn_round
+
+
+   !> Union of the sets of A and B (union-find with path halving); a zero is nothing.
+   pure subroutine join(parent, a, b)
+      integer, intent(inout) :: parent(:)
+      integer, intent(in)    :: a, b
+      integer :: i, j
+
+      if (a == 0 .or. b == 0) return
+      i = a
+      do while (parent(i) /= i)
+         parent(i) = parent(parent(i))
+         i = parent(i)
+      end do
+      j = b
+      do while (parent(j) /= j)
+         parent(j) = parent(parent(j))
+         j = parent(j)
+      end do
+      if (i < j) then
+         parent(j) = i
+      else
+         parent(i) = j
+      end if
+   end subroutine join
+
+
+   pure integer function root_of(parent, member) result(root)
+      integer, intent(in) :: parent(:), member
+
+      root = member
+      do while (parent(root) /= root)
+         root = parent(root)
+      end do
+   end function root_of
+
+end module joint_statics

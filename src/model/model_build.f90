@@ -1,0 +1,44 @@
+!> From a deck to the structure that is solved.
+module model_build
+   use condition_build, only: build_loads, build_supports
+   use deck_errors, only: deck_error_list
+   use deck_input, only: deck_type
+   use id_checks, only: check_ids
+   use joint_build, only: build_joints
+   use joint_statics, only: find_determinate_joints, find_first_pressures, find_parts
+   use mesh_build, only: build_mesh, marked_edges
+   use model_data, only: model_type
+   use stage_plan, only: plan_stages, stage_plan_type
+   use surface_build, only: build_surfaces
+   implicit none
+   private
+
+   public :: build_model
+
+contains
+
+   !> Build MODEL and the PLAN of its stages from DECK; what does not fit together goes to ERRORS, and then neither
+   !! is fit to be solved.
+   subroutine build_model(deck, model, plan, errors)
+      type(deck_type), intent(in)          :: deck
+      type(model_type), intent(out)        :: model
+      type(stage_plan_type), intent(out)   :: plan
+      type(deck_error_list), intent(inout) :: errors
+      type(marked_edges) :: edges
+
+      if (.not. deck%is_whole) return
+      call check_ids(deck, errors)
+      call build_mesh(deck, model, edges, errors)
+      call build_surfaces(deck, edges, model, errors)
+      call build_joints(deck, model, errors)
+      call build_supports(deck, model, errors)
+      call build_loads(deck, model, errors)
+      call plan_stages(deck, plan, errors)
+      if (.not. any(model%used)) call errors%add(0, 'nothing to solve: expected body elements or interface elements')
+      if (errors%any()) return
+      call find_parts(model)
+      call find_determinate_joints(model)
+      call find_first_pressures(plan%stages(1)%shares(1), model, errors)
+   end subroutine build_model
+
+end module model_build

@@ -1,0 +1,83 @@
+!> The structure as it is solved: nodes, bodies, joints, supports, loads, all references resolved to positions.
+!! Built once from a deck; nothing in it changes afterwards.
+module model_data
+   use id_table, only: id_table_type
+   use kinds, only: wp
+   implicit none
+   private
+
+   !> Section and material of plane elements.
+   type, public :: property_type
+      integer  :: id = 0
+      real(wp) :: thickness = 0.0_wp         !! [length]
+      real(wp) :: e = 0.0_wp, nu = 0.0_wp    !! [pressure], [-]
+      logical  :: plane_strain = .false.
+   end type property_type
+
+   !> A marked surface: edges of elements (2-D), each run through with the body on its left.
+   type, public :: surface_type
+      integer :: id = 0
+      integer :: n  = 0                      !! edges
+      integer, allocatable :: nodes(:, :)    !! (2, n)
+      integer, allocatable :: element(:)     !! (n) the body element that the edge belongs to
+      integer, allocatable :: other(:)       !! (n) a body element on the other side of the edge, 0: none
+   end type surface_type
+
+   !> One joint: a group of interface elements with the same laws.
+   type, public :: joint_type
+      integer  :: id = 0                     !! JID; PJID for a group of CJOINT cards
+      integer  :: line = 0                   !! of its card (the first CJOINT) in the deck text
+      integer  :: first = 0, last = -1       !! its interface elements
+      real(wp) :: c = 0.0_wp, m = 0.0_wp     !! lambda = c p^m [length, pressure]
+      real(wp) :: e_u = 0.0_wp               !! unloading slope [pressure/length]
+      logical  :: e_u_given = .false.
+      real(wp) :: p0 = 0.0_wp                !! initial pressure given by the user, 0: none
+      real(wp) :: area = 0.0_wp              !! A_int, sum of the areas of influence [length^2]
+      real(wp) :: normal(3) = 0.0_wp         !! mean normal, from side 1 to side 2
+      logical  :: determinate = .false.      !! whether statics alone gives its normal resultant
+      logical, allocatable :: carries(:)     !! (parts) the parts whose load it carries, where determinate
+      real(wp) :: direction = 1.0_wp         !! +1: those parts are on side 1; -1: on side 2
+      real(wp) :: p_av = 0.0_wp              !! pressure of the first increment, Eq. (9)
+   end type joint_type
+
+   !> One interface element: the "beam" between two facing nodes, or a node and the rigid base.
+   type, public :: interface_element
+      integer  :: id = 0
+      integer  :: joint = 0
+      integer  :: nodes(2) = 0               !! positions; nodes(2) = 0: rigid base
+      real(wp) :: area = 0.0_wp              !! a_i [length^2]
+      real(wp) :: axes(3, 3) = 0.0_wp        !! columns: x, y in the joint, z its normal from node 1 to node 2
+   end type interface_element
+
+   !> Forces on nodes: the total load at the end of a stage.
+   type, public :: stage_load_type
+      integer :: n = 0
+      integer, allocatable  :: node(:)       !! (n), a node may stand here more than once
+      real(wp), allocatable :: force(:, :)   !! (3, n)
+   end type stage_load_type
+
+   type, public :: model_type
+      integer :: dimension = 2               !! degrees of freedom a node
+      integer :: n_nodes = 0
+      integer, allocatable  :: node_id(:)    !! ascending
+      real(wp), allocatable :: x(:, :)       !! (3, n_nodes) [length]
+      logical, allocatable  :: used(:)       !! (n_nodes) whether any element holds the node
+      logical, allocatable  :: held(:, :)    !! (dimension, n_nodes) supported
+      type(id_table_type)   :: node_table
+      integer :: n_elements = 0
+      integer, allocatable  :: element_id(:)
+      integer, allocatable  :: element_nodes(:, :)   !! (4, n_elements) counter-clockwise
+      integer, allocatable  :: element_property(:)
+      integer, allocatable  :: element_line(:)       !! of its card in the deck text
+      integer, allocatable  :: first_at(:)           !! (n_nodes + 1) elements_at(first_at(i):first_at(i+1)-1)
+      integer, allocatable  :: elements_at(:)        !! are the elements of node i
+      type(property_type), allocatable :: properties(:)
+      type(surface_type), allocatable  :: surfaces(:)
+      type(joint_type), allocatable    :: joints(:)
+      type(interface_element), allocatable :: interface(:)
+      type(stage_load_type), allocatable   :: stage_loads(:)
+      integer, allocatable  :: part(:)       !! (n_nodes) which connected body a node belongs to
+      integer :: n_parts = 0
+   end type model_type
+
+end module model_data

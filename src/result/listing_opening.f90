@@ -1,0 +1,240 @@
+!> The first pages of the listing: heading, deck echo, summary of the model, joints and stages.
+module listing_opening
+   use case_control, only: case_control_type, pressure_eq10
+   use deck_cards, only: card_name, is_continuation
+   use deck_input, only: deck_type
+   use equations, only: equation_system
+   use kinds, only: long, wp
+   use model_data, only: model_type
+   use normal_stiffness, only: pressure_floor
+   use output_file, only: output_file_type
+   use stage_plan, only: stage_plan_type
+   use text_tools, only: clean, integer_text
+   implicit none
+   private
+
+   public :: write_opening, unit_labels, label_type, heading
+
+   integer, parameter, public :: page_width = 132
+
+   !> What the numbers of the listing are measured in, blank where the deck does not say.
+   type :: label_type
+      character(20) :: length = '', force = '', pressure = '', area = '', stiffness = ''
+   end type label_type
+
+contains
+
+   !> Everything that can be said before the first increment.
+   subroutine write_opening(file, deck, model, plan, system)
+      type(output_file_type), intent(inout) :: file
+      type(deck_type), intent(in)           :: deck
+      type(model_type), intent(in)          :: model
+      type(stage_plan_type), intent(in)     :: plan
+      type(equation_system), intent(in)     :: system
+
+      call file%put(' '//repeat('-', page_width - 1))
+      call file%put('  J O I N T F E M      TANGENT-STIFFNESS FINITE ELEMENT ANALYSIS OF JOINTED STRUCTURES')
+      call file%put('  '//cut(deck%control%title, page_width - 2))
+      call file%put(' '//repeat('-', page_width - 1))
+      call write_echo(file, deck)
+      call write_summary(file, deck, model, system)
+      call write_joints(file, deck%control, model)
+      call write_stages(file, deck%control, model, plan)
+   end subroutine write_opening
+
+
+   !> Labels out of UNITS = length, force.
+   pure function unit_labels(control) result(labels)
+      type(case_control_type), intent(in) :: control
+      type(label_type) :: labels
+
+      if (control%length_unit == '') return
+      labels%length = control%length_unit
+      labels%force = control%force_unit
+      labels%pressure = trim(control%force_unit)//'/'//trim(control%length_unit)//'2'
+      labels%area = trim(control%length_unit)//'2'
+      labels%stiffness = trim(control%force_unit)//'/'//trim(control%length_unit)
+   end function unit_labels
+
+
+   !> A heading of a table, with an empty line before it.
+   subroutine heading(file, words)
+      type(output_file_type), intent(inout) :: file
+      character(*), intent(in)              :: words
+
+      call file%put('')
+      call file%put(' '//words)
+      call file%put('')
+   end subroutine heading
+
+
+   !> The deck as read, cards counted, under a field ruler. INCLUDE files are counted, not shown.
+   subroutine write_echo(file, deck)
+      type(output_file_type), intent(inout) :: file
+      type(deck_type), intent(in)           :: deck
+      character(:), allocatable :: line
+      character(10) :: counter
+      integer :: i, cards, hidden
+      logical :: in_bulk
+
+      if (.not. deck%control%echo) then
+         call heading(file, 'DECK: '//integer_text(deck%bulk%n_cards)//' CARDS, NOT ECHOED')
+         return
+      end if
+      call heading(file, 'DECK ECHO')
+      cards = 0
+      hidden = 0
+      in_bulk = .false.
+      do i = 1, deck%text%n
+         line = deck%text%card_part(i)
+         counter = ''
+         if (in_bulk .and. line /= '' .and. .not. is_continuation(line)) then
+            if (card_name(line) /= 'ENDDATA' .and. card_name(line) /= 'INCLUDE') then
+               cards = cards + 1
+               write (counter, '(i9, a)') cards, '-'
+            end if
+         end if
+         if (deck%text%file_number(i) > 1) then
+            hidden = hidden + 1
+         else
+            call count_hidden(file, hidden)
+            call file%put(' '//counter//' '//cut(deck%text%line(i), page_width - 13))
+         end if
+         if (.not. in_bulk .and. card_name(line) == 'BEGIN BU') then
+            in_bulk = .true.
+            call file%put('   CARD')
+            call file%put('  COUNT-    .   1  ..   2  ..   3  ..   4  ..   5  ..   6  ..   7  ..   8  ..   9  ..  10  .')
+         end if
+      end do
+      call count_hidden(file, hidden)
+      call file%put('')
+      call file%put('  TOTAL COUNT '//integer_text(cards)//' CARDS')
+   end subroutine write_echo
+
+
+   subroutine count_hidden(file, hidden)
+      type(output_file_type), intent(inout) :: file
+      integer, intent(inout)                :: hidden
+
+      if (hidden > 0) call file%put('            ('//integer_text(hidden)//' LINES OF INCLUDE FILES, NOT ECHOED)')
+      hidden = 0
+   end subroutine count_hidden
+
+
+   !> At most WIDTH characters of LINE, tabs and other controls as blanks.
+   pure function cut(line, width) result(part)
+      character(*), intent(in)  :: line
+      integer, intent(in)       :: width
+      character(:), allocatable :: part
+      integer :: i
+
+      part = line(:min(len(line), width))
+      if (len(line) > width) part(width - 2:) = '...'
+      do i = 1, len(part)
+         if (iachar(part(i:i)) < 32) part(i:i) = ' '
+      end do
+   end function cut
+
+
+   subroutine write_summary(file, deck, model, system)
+      type(output_file_type), intent(inout) :: file
+      type(deck_type), intent(in)           :: deck
+      type(model_type), intent(in)          :: model
+      type(equation_system), intent(in)     :: system
+
+      call heading(file, 'MODEL SUMMARY')
+      call count_line('NODES', int(model%n_nodes, long))
+      if (.not. all(model%used)) call count_line('   OF THESE WITHOUT AN ELEMENT, LEFT OUT', &
+                                                 count(.not. model%used, kind=long))
+      call count_line('BODY ELEMENTS', int(model%n_elements, long))
+      call count_line('JOINTS', size(model%joints, kind=long))
+      call count_line('INTERFACE ELEMENTS', size(model%interface, kind=long))
+      call count_line('SUPPORTED COMPONENTS', count(model%held, kind=long))
+      call count_line('UNKNOWNS', int(system%n, long))
+      call count_line('PROFILE OF THE STIFFNESS MATRIX, ENTRIES', system%profile)
+      call count_line('   IN THE ORDER OF THE NODE NUMBERS', system%profile_as_numbered)
+      call count_line('STAGES', size(deck%control%stages, kind=long))
+      call file%put('  METHOD STEP   PRESSURE '//trim(merge('EQ10', 'SUMF', deck%control%pressure == pressure_eq10))// &
+                    '   CARRY '//trim(merge('YES', 'NO ', deck%control%carry))//'   SOLVER SKYLINE')
+      if (deck%control%length_unit /= '') call file%put('  UNITS, LABELS ONLY: LENGTH '// &
+         trim(deck%control%length_unit)//', FORCE '//trim(deck%control%force_unit))
+
+   contains
+
+      subroutine count_line(words, number)
+         character(*), intent(in)  :: words
+         integer(long), intent(in) :: number
+         character(80) :: line
+
+         write (line, '(2x, a, t46, i12)') words, number
+         call file%put(line)
+      end subroutine count_line
+
+   end subroutine write_summary
+
+
+   !> Laws and areas of the joints.
+   subroutine write_joints(file, control, model)
+      type(output_file_type), intent(inout) :: file
+      type(case_control_type), intent(in)   :: control
+      type(model_type), intent(in)          :: model
+      type(label_type) :: labels
+      character(page_width) :: line
+      integer :: j
+
+      if (size(model%joints) == 0) return
+      labels = unit_labels(control)
+      call heading(file, 'JOINTS')
+      call file%put('     JOINT ELEMENTS        A_INT            C      M            E_U   FIRST P (EQ.9)  LEAST P ON LOAD'// &
+                    '   NORMAL X   NORMAL Y')
+      if (control%length_unit /= '') then
+         write (line, '(27x, a)') trim(labels%area)
+         line(57:) = trim(labels%pressure)//'/'//trim(labels%length)
+         line(78:) = labels%pressure
+         line(95:) = labels%pressure
+         call file%put(line)
+      end if
+      do j = 1, size(model%joints)
+         associate (joint => model%joints(j))
+            write (line, '(i10, i9, es13.5, es13.5, f7.4, es15.5, es17.5, es17.5, 2f11.6)') joint%id, &
+               joint%last - joint%first + 1, joint%area, joint%c, joint%m, joint%e_u, joint%p_av, &
+               pressure_floor*joint%p_av, clean(joint%normal(:2), 1.0e-9_wp)
+            call file%put(line)
+         end associate
+      end do
+   end subroutine write_joints
+
+
+   !> The load history: totals at the end of every stage.
+   subroutine write_stages(file, control, model, plan)
+      type(output_file_type), intent(inout) :: file
+      type(case_control_type), intent(in)   :: control
+      type(model_type), intent(in)          :: model
+      type(stage_plan_type), intent(in)     :: plan
+      type(label_type) :: labels
+      character(page_width) :: line
+      real(wp) :: total(3), largest
+      integer  :: s
+
+      labels = unit_labels(control)
+      call heading(file, 'STAGES')
+      call file%put('     STAGE  INCREMENTS   FIRST SHARE    LAST SHARE   TOTAL LOAD X   TOTAL LOAD Y   LABEL')
+      if (labels%force /= '') then
+         line = ''
+         line(54:) = labels%force
+         line(69:) = labels%force
+         call file%put(line)
+      end if
+      do s = 1, size(plan%stages)
+         associate (stage => plan%stages(s), loads => model%stage_loads(s))
+            total = sum(loads%force(:, :loads%n), dim=2)
+            largest = 0.0_wp
+            if (loads%n > 0) largest = maxval(abs(loads%force(:, :loads%n)))
+            write (line, '(i10, i12, 2es14.5, 2es15.5, 3x, a)') stage%id, size(stage%shares), stage%shares(1), &
+               stage%shares(size(stage%shares)), clean(total(:2), 1.0e-9_wp*largest), cut(stage%label, 40)
+            call file%put(line)
+         end associate
+      end do
+   end subroutine write_stages
+
+end module listing_opening

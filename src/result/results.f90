@@ -1,0 +1,104 @@
+!> The results of one deck, as the main program sees them: opened, fed after every increment, closed.
+module results
+   use c_library, only: remove_file
+   use deck_input, only: deck_type
+   use equations, only: equation_system
+   use joint_history, only: write_history, write_history_header
+   use listing, only: finish_listing, list_increment, list_stage, listing_type, start_listing
+   use model_data, only: model_type
+   use output_file, only: output_file_type
+   use stage_plan, only: stage_plan_type
+   use step_method, only: analysis_type
+   implicit none
+   private
+
+   public :: start_results, print_increment, print_stage, finish_results, discard_results, remove_old_results
+
+   type, public :: results_type
+      type(listing_type)     :: listing
+      type(output_file_type) :: history
+      character(:), allocatable :: listing_path, history_path !! empty: standard output, none
+   end type results_type
+
+contains
+
+   !> Open the files LISTING_PATH (empty: standard output) and HISTORY_PATH (empty: none) and write what opens them.
+   !! OK is false where that fails.
+   subroutine start_results(listing_path, history_path, deck, model, plan, system, results, ok)
+      character(*), intent(in)          :: listing_path, history_path
+      type(deck_type), intent(in)       :: deck
+      type(model_type), intent(in)      :: model
+      type(stage_plan_type), intent(in) :: plan
+      type(equation_system), intent(in) :: system
+      type(results_type), intent(inout) :: results
+      logical, intent(out)              :: ok
+
+      results%listing_path = listing_path
+      results%history_path = history_path
+      call start_listing(results%listing, listing_path, deck, model, plan, system)
+      ok = .not. results%listing%file%failed()
+      if (history_path /= '') then
+         call results%history%start(history_path)
+         call write_history_header(results%history)
+         ok = ok .and. .not. results%history%failed()
+      end if
+   end subroutine start_results
+
+
+   !> The increment just completed.
+   subroutine print_increment(model, plan, analysis, results)
+      type(model_type), intent(in)      :: model
+      type(stage_plan_type), intent(in) :: plan
+      type(analysis_type), intent(in)   :: analysis
+      type(results_type), intent(inout) :: results
+
+      call list_increment(results%listing, model, plan, analysis)
+      if (results%history%is_open) call write_history(results%history, model, plan, analysis)
+   end subroutine print_increment
+
+
+   !> The stage just completed.
+   subroutine print_stage(model, plan, analysis, results)
+      type(model_type), intent(in)      :: model
+      type(stage_plan_type), intent(in) :: plan
+      type(analysis_type), intent(in)   :: analysis
+      type(results_type), intent(inout) :: results
+
+      call list_stage(results%listing, model, plan, analysis)
+   end subroutine print_stage
+
+
+   !> Give the files their names. Both or none: OK is false where one could not be written.
+   subroutine finish_results(plan, results, ok)
+      type(stage_plan_type), intent(in) :: plan
+      type(results_type), intent(inout) :: results
+      logical, intent(out)              :: ok
+
+      ok = .true.
+      if (results%history%is_open) call results%history%finish(ok)
+      if (ok) call finish_listing(results%listing, plan, ok)
+      if (.not. ok) then
+         call discard_results(results)
+         if (results%history_path /= '') call remove_file(results%history_path)
+      end if
+   end subroutine finish_results
+
+
+   !> Leave nothing behind that could be taken for a result.
+   subroutine discard_results(results)
+      type(results_type), intent(inout) :: results
+
+      call results%listing%file%discard()
+      call results%history%discard()
+   end subroutine discard_results
+
+
+   !> Remove what an earlier run of the same deck left: it is not the result of this deck any more.
+   subroutine remove_old_results(listing_path, history_path)
+      character(*), intent(in) :: listing_path, history_path
+
+      if (listing_path /= '') call remove_file(listing_path)
+      if (history_path /= '') call remove_file(history_path)
+   end subroutine remove_old_results
+
+end module results

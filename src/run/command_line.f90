@@ -1,0 +1,205 @@
+!> The command line: options and decks.
+module command_line
+   use, intrinsic :: iso_fortran_env, only: error_unit, output_unit
+   use deck_numbers, only: parse_integer
+   use text_tools, only: integer_text
+   implicit none
+   private
+
+   public :: read_command_line
+
+   character(*), parameter :: version = '0.1.0'
+
+   !> One deck of the command and the files that its results go to.
+   type, public :: deck_argument
+      character(:), allocatable :: path     !! to read; /dev/stdin for `-`
+      character(:), allocatable :: name     !! as the user wrote it
+      character(:), allocatable :: listing  !! file, empty: standard output
+      character(:), allocatable :: history  !! file, empty: none
+   end type deck_argument
+
+   type, public :: command_type
+      logical :: check_only = .false.       !! --check
+      logical :: quiet      = .false.       !! -q
+      integer :: threads    = 0             !! --threads, 0: all cores
+      character(:), allocatable :: folder   !! -o, with a slash at its end, empty: here
+      type(deck_argument), allocatable :: decks(:)
+   end type command_type
+
+contains
+
+   !> Read the command. FINISHED is true where nothing is left to do: after --help and --version (STATUS 0), and after
+   !! a wrong command (STATUS 1, said on the standard error).
+   subroutine read_command_line(command, finished, status)
+      type(command_type), intent(out) :: command
+      logical, intent(out)            :: finished
+      integer, intent(out)            :: status
+      character(:), allocatable :: argument
+      integer :: i, n
+      logical :: options, ok
+
+      command%folder = ''
+      allocate (command%decks(0))
+      finished = .true.
+      status = 1
+      n = command_argument_count()
+      options = .true.
+      i = 0
+      do while (i < n)
+         i = i + 1
+         argument = argument_text(i)
+         if (.not. options .or. argument == '-' .or. len(argument) == 0) then
+            call add_deck(command, argument)
+            cycle
+         else if (argument(1:1) /= '-') then
+            call add_deck(command, argument)
+            cycle
+         end if
+         select case (argument)
+         case ('--')
+            options = .false.
+         case ('--help', '-h')
+            call print_help()
+            status = 0
+            return
+         case ('--version')
+            write (output_unit, '(a)') 'jointfem '//version
+            status = 0
+            return
+         case ('--check')
+            command%check_only = .true.
+         case ('-q')
+            command%quiet = .true.
+         case ('-o', '--threads')
+            if (i == n) then
+               call complain(argument//' needs a value behind it')
+               return
+            end if
+            i = i + 1
+            if (argument == '-o') then
+               command%folder = argument_text(i)//'/'
+               if (command%folder == '/') command%folder = './'
+            else
+               call parse_integer(argument_text(i), command%threads, ok)
+               if (.not. ok .or. command%threads < 1) then
+                  call complain('--threads '//argument_text(i)//': expected a number of 1 or more')
+                  return
+               end if
+            end if
+         case default
+            call complain('there is no option '//argument)
+            return
+         end select
+      end do
+      if (size(command%decks) == 0) then
+         call complain('no deck given')
+         return
+      end if
+      call name_results(command, ok)
+      if (.not. ok) return
+      finished = .false.
+      status = 0
+   end subroutine read_command_line
+
+
+   function argument_text(i) result(text)
+      integer, intent(in)       :: i
+      character(:), allocatable :: text
+      integer :: length
+
+      call get_command_argument(i, length=length)
+      allocate (character(length) :: text)
+      call get_command_argument(i, text)
+   end function argument_text
+
+
+   subroutine add_deck(command, name)
+      type(command_type), intent(inout) :: command
+      character(*), intent(in)          :: name
+      type(deck_argument) :: deck
+
+      deck%name = name
+      deck%path = name
+      if (name == '-') then
+         deck%name = 'standard input'
+         deck%path = '/dev/stdin'
+      end if
+      deck%listing = ''
+      deck%history = ''
+      command%decks = [command%decks, deck]
+   end subroutine add_deck
+
+
+   !> beam.bdf gives beam.out and beam.joint.csv. No two decks may write the same files, none may overwrite a deck.
+   subroutine name_results(command, ok)
+      type(command_type), intent(inout) :: command
+      logical, intent(out)              :: ok
+      integer :: i, k
+
+      ok = .false.
+      do i = 1, size(command%decks)
+         associate (deck => command%decks(i))
+            if (deck%path == '/dev/stdin') cycle
+            deck%listing = command%folder//base_name(deck%path)//'.out'
+            deck%history = command%folder//base_name(deck%path)//'.joint.csv'
+            do k = 1, i - 1
+               if (command%decks(k)%listing == deck%listing) then
+                  call complain(command%decks(k)%name//' and '//deck%name//' would both write '//deck%listing)
+                  return
+               end if
+            end do
+         end associate
+      end do
+      do i = 1, size(command%decks)
+         do k = 1, size(command%decks)
+            if (command%decks(i)%path == command%decks(k)%listing .or. command%decks(i)%path == command%decks(k)%history) then
+               call complain('the results of '//command%decks(k)%name//' would overwrite the deck '//command%decks(i)%name)
+               return
+            end if
+         end do
+      end do
+      ok = .true.
+   end subroutine name_results
+
+
+   !> PATH without its folder and its last extension.
+   pure function base_name(path) result(name)
+      character(*), intent(in)  :: path
+      character(:), allocatable :: name
+      integer :: dot
+
+      name = path(index(path, '/', back=.true.) + 1:)
+      dot = index(name, '.', back=.true.)
+      if (dot > 1) name = name(:dot - 1)
+   end function base_name
+
+
+   subroutine complain(message)
+      character(*), intent(in) :: message
+
+      write (error_unit, '(a)') 'jointfem: '//message, 'jointfem --help shows the usage'
+   end subroutine complain
+
+
+   subroutine print_help()
+
+      write (output_unit, '(a)') &
+         'usage: jointfem [options] DECK...', &
+         '', &
+         'Solves each deck: a structure with flexible joints, loaded in increments. A deck `-` is read from the', &
+         'standard input, and its listing goes to the standard output. For beam.bdf the results are beam.out, the', &
+         'listing, and beam.joint.csv, every interface element after every increment.', &
+         '', &
+         '   -o DIR        where the results go (default: here)', &
+         '   --check       read and check the decks, solve nothing', &
+         '   -q            no progress on the terminal', &
+         '   --threads N   at most N threads (default: all cores)', &
+         '   --version     print the version', &
+         '   --help        print this', &
+         '', &
+         'exit status: 0 all decks ran, 1 wrong usage or unreadable file, 2 errors in a deck, 3 a structure that', &
+         'cannot be solved, 4 output that cannot be written; of several decks the highest. The cards are explained', &
+         'in input/README.md.'
+   end subroutine print_help
+
+end module command_line

@@ -1,0 +1,127 @@
+!> The run of one deck among several: what it is called, what its exit status is, what is said on the terminal.
+module run_control
+   use, intrinsic :: iso_fortran_env, only: error_unit, output_unit
+   use c_library, only: end_run
+   use command_line, only: command_type, deck_argument
+   use deck_errors, only: deck_error_list
+   use deck_input, only: deck_type
+   use error_report, only: print_deck_errors
+   use failures, only: failure_type
+   use model_data, only: model_type
+   use results, only: discard_results, remove_old_results, results_type
+   use stage_plan, only: stage_plan_type
+   use text_tools, only: plural
+   implicit none
+   private
+
+   public :: set_threads, report_unreadable, report_errors, report_failure, report_unwritten, report_checked, end_program
+
+   integer, parameter :: status_unreadable = 1, status_deck = 2, status_unsolved = 3, status_unwritten = 4
+
+   !> Highest exit status so far.
+   integer, public, protected :: exit_status = 0
+
+   interface
+      subroutine openblas_set_num_threads(n) bind(c, name='openblas_set_num_threads')
+         use, intrinsic :: iso_c_binding, only: c_int
+         integer(c_int), value :: n
+      end subroutine openblas_set_num_threads
+   end interface
+
+contains
+
+   !> The profile method works in one thread: one order of additions, the same digits everywhere.
+   subroutine set_threads()
+
+      call openblas_set_num_threads(1)
+   end subroutine set_threads
+
+
+   subroutine raise_status(status)
+      integer, intent(in) :: status
+
+      exit_status = max(exit_status, status)
+   end subroutine raise_status
+
+
+   !> The deck file cannot be read at all.
+   subroutine report_unreadable(argument)
+      type(deck_argument), intent(in) :: argument
+      logical :: there, is_folder
+
+      call raise_status(status_unreadable)
+      inquire (file=argument%path, exist=there)
+      inquire (file=argument%path//'/.', exist=is_folder)
+      if (is_folder) then
+         write (error_unit, '(2a)') argument%name, ': a directory, expected a deck'
+      else if (there) then
+         write (error_unit, '(2a)') argument%name, ': cannot be read'
+      else
+         write (error_unit, '(2a)') argument%name, ': no such file'
+      end if
+   end subroutine report_unreadable
+
+
+   !> The deck has errors: all of them, and no result of an earlier run is left to be mistaken for its own.
+   subroutine report_errors(command, argument, deck, errors)
+      type(command_type), intent(in)    :: command
+      type(deck_argument), intent(in)   :: argument
+      type(deck_type), intent(in)       :: deck
+      type(deck_error_list), intent(in) :: errors
+
+      call raise_status(status_deck)
+      call print_deck_errors(error_unit, deck%text, errors)
+      if (.not. command%check_only) call remove_old_results(argument%listing, argument%history)
+   end subroutine report_errors
+
+
+   !> The structure cannot be solved.
+   subroutine report_failure(argument, failure, results)
+      type(deck_argument), intent(in)   :: argument
+      type(failure_type), intent(in)    :: failure
+      type(results_type), intent(inout) :: results
+
+      call raise_status(status_unsolved)
+      write (error_unit, '(4a)') argument%name, ': ', failure%message, '; no results'
+      call discard_results(results)
+      call remove_old_results(argument%listing, argument%history)
+   end subroutine report_failure
+
+
+   !> The results cannot be written.
+   subroutine report_unwritten(argument, results)
+      type(deck_argument), intent(in)   :: argument
+      type(results_type), intent(inout) :: results
+
+      call raise_status(status_unwritten)
+      if (argument%listing == '') then
+         write (error_unit, '(2a)') argument%name, ': the listing cannot be written to the standard output'
+      else
+         write (error_unit, '(5a)') argument%name, ': the results ', argument%listing, ' and ', argument%history// &
+            ' cannot be written: is the folder there, and is there room on the disk?'
+      end if
+      call discard_results(results)
+   end subroutine report_unwritten
+
+
+   !> --check: the deck is in order.
+   subroutine report_checked(argument, model, plan)
+      type(deck_argument), intent(in)   :: argument
+      type(model_type), intent(in)      :: model
+      type(stage_plan_type), intent(in) :: plan
+
+      write (output_unit, '(9a)') argument%name, ': no errors; ', plural(model%n_nodes, 'node'), ', ', &
+         plural(model%n_elements, 'body element'), ', ', plural(size(model%interface), 'interface element'), ', ', &
+         plural(size(plan%stages), 'stage')
+   end subroutine report_checked
+
+
+   !> End with STATUS, or the highest of the decks where that is higher.
+   subroutine end_program(status)
+      integer, intent(in) :: status
+
+      flush (output_unit)
+      call end_run(max(status, exit_status))
+   end subroutine end_program
+
+end module run_control

@@ -1,0 +1,113 @@
+# The unit tests, tests/unit/*.pf, built and run under one of two runners:
+#
+#    make unit-test                    pfunit where PFUNIT_DIR is set, else fallback
+#    make unit-test RUNNER=fallback    the translator and the module funit beside this file
+#    make unit-test RUNNER=pfunit      the pFUnit that is installed under PFUNIT_DIR
+#
+# The including makefile sets, above the include, FC, FFLAGS_CHECKED, BUILD, PF_FILES, CHECKED_LIBRARY, CHECKED_MODULES and
+# LIBRARIES, and names its own default target; it has a rule for CHECKED_LIBRARY. The run fails when a test fails, when none
+# ran, when fewer ran than are written, and when the program ends before its summary. The last line is `N passed, N failed`.
+
+AWK ?= awk
+RUNNER ?= $(if $(PFUNIT_DIR),pfunit,fallback)
+
+UNIT_RUNNER  := $(patsubst %/,%,$(dir $(lastword $(MAKEFILE_LIST))))
+UNIT_FOLDER  := $(BUILD)/unit-$(RUNNER)
+UNIT_PROGRAM := $(UNIT_FOLDER)/unit_tests
+UNIT_NAMES   := $(notdir $(basename $(PF_FILES)))
+UNIT_OBJECTS := $(UNIT_NAMES:%=$(UNIT_FOLDER)/%.o)
+UNIT_COMPILE  = $(FC) $(FFLAGS_CHECKED) -ffree-line-length-none -J$(UNIT_FOLDER)
+UNIT_CHECK    = $(AWK) -f $(UNIT_RUNNER)/pf_to_fortran.awk
+
+.PHONY: unit-test unit-force
+unit-force:
+
+# Show the log of a run without its lines of passed tests, and judge it.
+# written: tests in the .pf files; status: exit status of the program.
+define UNIT_REPORT
+/: ok$$/ { next }
+/^[0-9]+ passed, [0-9]+ failed$$/ { passed = $$1; failed = $$3; summary = 1; next }
+/^ *\([0-9]+ tests?[,)]/ { passed = substr($$1, 2) + 0; failed = 0; summary = 1 }
+/^Tests run: [0-9]+, Failures: / { failed = $$5 + $$7; passed = $$3 - failed; summary = 1 }
+{ print }
+END {
+   if (!summary) reason = "the run ended without a summary, with status " status
+   else if (passed + failed != written) reason = written " tests are written, " passed + failed " ran"
+   else if (!written) reason = "no test ran"
+   else if (!failed && status != 0) reason = "all passed, but the program ended with status " status
+   if (reason != "") print "unit tests: " reason
+   if (summary) print passed " passed, " failed " failed"
+   exit reason != "" || failed > 0
+}
+endef
+export UNIT_REPORT
+
+unit-test: $(UNIT_PROGRAM)
+	@written=$$(cat /dev/null $(PF_FILES) | \
+	   $(AWK) 'tolower($$1) == "@test" { n++ } tolower($$1) == "@disable" { n-- } END { print n + 0 }'); \
+	status=0; $(UNIT_PROGRAM) > $(UNIT_FOLDER)/unit_tests.log 2>&1 || status=$$?; \
+	$(AWK) -v written=$$written -v status=$$status "$$UNIT_REPORT" $(UNIT_FOLDER)/unit_tests.log
+
+$(UNIT_FOLDER):
+	@mkdir -p $@
+
+ifeq ($(RUNNER),fallback)
+
+# A refused file leaves no Fortran behind.
+$(UNIT_NAMES:%=$(UNIT_FOLDER)/%.f90): $(UNIT_FOLDER)/%.f90: tests/unit/%.pf $(UNIT_RUNNER)/pf_to_fortran.awk | $(UNIT_FOLDER)
+	@$(UNIT_CHECK) $< > $@.part && mv $@.part $@
+
+$(UNIT_OBJECTS): $(UNIT_FOLDER)/%.o: $(UNIT_FOLDER)/%.f90 $(UNIT_FOLDER)/funit.o $(CHECKED_LIBRARY)
+	$(UNIT_COMPILE) -I$(CHECKED_MODULES) -c $< -o $@
+
+$(UNIT_FOLDER)/funit.o: $(UNIT_RUNNER)/funit.f90 | $(UNIT_FOLDER)
+	$(UNIT_COMPILE) -c $< -o $@
+
+# Written anew, so that the program is linked again, only when a test file comes or goes.
+$(UNIT_FOLDER)/driver.f90: unit-force | $(UNIT_FOLDER)
+	@$(UNIT_CHECK) -v mode=driver $(UNIT_NAMES) > $@.part
+	@cmp -s $@.part $@ || mv $@.part $@; rm -f $@.part
+
+$(UNIT_FOLDER)/driver.o: $(UNIT_FOLDER)/driver.f90 $(UNIT_FOLDER)/funit.o
+	$(UNIT_COMPILE) -c $< -o $@
+
+$(UNIT_PROGRAM): $(UNIT_FOLDER)/driver.o $(UNIT_OBJECTS) $(UNIT_FOLDER)/funit.o $(CHECKED_LIBRARY)
+	$(FC) $(FFLAGS_CHECKED) -o $@ $^ $(LIBRARIES)
+
+else ifeq ($(RUNNER),pfunit)
+
+UNIT_PFUNIT := $(firstword $(wildcard $(PFUNIT_DIR)/PFUNIT-*/include/PFUNIT.mk $(PFUNIT_DIR)/include/PFUNIT.mk))
+ifeq ($(UNIT_PFUNIT),)
+
+$(UNIT_PROGRAM): unit-force
+	@echo "unit tests: no PFUNIT.mk below PFUNIT_DIR='$(PFUNIT_DIR)'" >&2; exit 1
+
+else
+
+include $(UNIT_PFUNIT)
+
+# The translator of the fallback goes first: pFUnit passes over in silence what it refuses.
+$(UNIT_NAMES:%=$(UNIT_FOLDER)/%.F90): $(UNIT_FOLDER)/%.F90: \
+      tests/unit/%.pf $(UNIT_RUNNER)/pf_to_fortran.awk $(UNIT_PFUNIT) | $(UNIT_FOLDER)
+	@$(UNIT_CHECK) $< > /dev/null
+	@python3 $(PFUNIT_BIN_DIR)/funitproc -quiet $< $@.part > /dev/null && mv $@.part $@
+
+$(UNIT_OBJECTS): $(UNIT_FOLDER)/%.o: $(UNIT_FOLDER)/%.F90 $(CHECKED_LIBRARY)
+	$(UNIT_COMPILE) -I$(CHECKED_MODULES) $(PFUNIT_EXTRA_FFLAGS) -c $< -o $@
+
+$(UNIT_FOLDER)/suites.inc: unit-force | $(UNIT_FOLDER)
+	@for name in $(UNIT_NAMES); do echo "ADD_TEST_SUITE($${name}_suite)"; done > $@.part
+	@cmp -s $@.part $@ || mv $@.part $@; rm -f $@.part
+
+# No trapped exceptions here: pFUnit raises them itself when it compares infinities or a NaN.
+$(UNIT_FOLDER)/driver.o: $(PFUNIT_INCLUDE_DIR)/driver.F90 $(UNIT_FOLDER)/suites.inc
+	$(filter-out -ffpe-trap=%,$(UNIT_COMPILE)) $(PFUNIT_EXTRA_FFLAGS) -I$(UNIT_FOLDER) -D_TEST_SUITES='"suites.inc"' -c $< -o $@
+
+$(UNIT_PROGRAM): $(UNIT_FOLDER)/driver.o $(UNIT_OBJECTS) $(CHECKED_LIBRARY)
+	$(FC) $(FFLAGS_CHECKED) -o $@ $^ $(LIBRARIES) $(PFUNIT_LIBRARIES)
+
+endif
+
+else
+$(error RUNNER=$(RUNNER): it is 'fallback' or 'pfunit')
+endif
