@@ -68,6 +68,52 @@ ifneq ($(MAKECMDGOALS),clean)
 -include $(BUILD)/dependencies.mk
 endif
 
+# The worked example ----------------------------------------------------------------------------------------------
+
+.PHONY: run
+run: bin/jointfem
+	@mkdir -p $(BUILD)/run
+	bin/jointfem -o $(BUILD)/run input/prism03.bdf input/prism05.bdf input/prism10.bdf input/prism15.bdf
+	@awk -f tests/prism_table.awk $(BUILD)/run/prism03.joint.csv $(BUILD)/run/prism05.joint.csv \
+	   $(BUILD)/run/prism10.joint.csv $(BUILD)/run/prism15.joint.csv
+	@echo 'listings and joint histories: $(BUILD)/run'
+
+# Tests -----------------------------------------------------------------------------------------------------------
+
+include tests/runner/unit_tests.mk
+
+COMPARE = $(BUILD)/compare/compare_results
+
+$(COMPARE): tests/compare/comparison_text.f90 tests/compare/comparison_rules.f90 tests/compare/compare_results.f90
+	@mkdir -p $(@D)
+	$(FC) $(FFLAGS) -J$(@D) -o $@ $^
+
+.PHONY: test
+test: bin/jointfem $(BUILD)/checked/jointfem $(COMPARE) $(UNIT_PROGRAM)
+	@MAKE='$(MAKE)' tests/run_all.sh bin/jointfem $(BUILD)/checked/jointfem $(COMPARE) $(BUILD)
+
+.PHONY: check
+check: bin/jointfem $(COMPARE)
+	@tests/check.sh bin/jointfem $(COMPARE) $(BUILD)/check
+
+# The results of one deck become its reference: make accept CASE=prism05
+.PHONY: accept
+accept: bin/jointfem
+	@test -n '$(CASE)' || { echo 'usage: make accept CASE=name, for input/name.bdf'; exit 1; }
+	@test -f 'input/$(CASE).bdf' || { echo 'there is no deck input/$(CASE).bdf'; exit 1; }
+	bin/jointfem -q -o reference_output 'input/$(CASE).bdf'
+	@echo 'say in the commit message why the reference changed'
+
+# Speed and pictures ----------------------------------------------------------------------------------------------
+
+.PHONY: bench
+bench: bin/jointfem
+	@tests/bench/bench.sh bin/jointfem $(BUILD)/bench
+
+.PHONY: figures
+figures: bin/jointfem
+	@reference_output/figures/draw.sh bin/jointfem $(BUILD)/figures
+
 .PHONY: clean
 clean:
 	rm -rf $(BUILD) bin

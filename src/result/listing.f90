@@ -81,16 +81,16 @@ contains
 
       associate (stage => plan%stages(analysis%stage), file => listing%file)
          call heading(file, 'INCREMENTS OF STAGE '//integer_text(stage%id)//'   '//trim(stage%label))
-         call file%put('  INCR     SHARE   LOAD   JOINT   OPEN LARGEST LAMBDA AT NODE    LARGEST P AT NODE    JOINT FORCE'// &
-                       '   APPLIED TO IT     DIFFERENCE  UNBALANCED')
+         call file%put('  INCR     SHARE    LOAD  JOINT  OPEN   LAMBDA MAX AT NODE        P MAX AT NODE  JOINT FORCE'// &
+                       '   APPLIED TO  DIFFERENCE  UNBALANCED')
          if (listing%labels%force /= '') then
             line = ''
-            line(40:) = listing%labels%length
-            line(59:) = listing%labels%pressure
-            line(80:) = listing%labels%force
-            line(96:) = listing%labels%force
-            line(111:) = listing%labels%force
-            line(123:) = listing%labels%force
+            line(42:) = adjustr(listing%labels%length(:9))
+            line(59:) = adjustr(listing%labels%pressure(:13))
+            line(84:) = adjustr(listing%labels%force(:9))
+            line(97:) = adjustr(listing%labels%force(:9))
+            line(109:) = adjustr(listing%labels%force(:9))
+            line(121:) = adjustr(listing%labels%force(:9))
             call file%put(line)
          end if
          do i = 1, listing%n_rows
@@ -130,7 +130,7 @@ contains
       integer  :: i, at_lambda, at_p, n_open
 
       floor = noise*listing%largest_force
-      write (row, '(i6, f10.6, f7.4)') analysis%increment, analysis%share, analysis%fraction
+      write (row, '(i6, f10.6, f8.4)') analysis%increment, analysis%share, analysis%fraction
       if (j > 0) then
          associate (joint => model%joints(j), state => analysis%normal)
             n_open = 0; force = 0.0_wp
@@ -141,17 +141,17 @@ contains
                if (state(i)%lambda > state(at_lambda)%lambda) at_lambda = i
                if (state(i)%pressure > state(at_p)%pressure) at_p = i
             end do
-            write (row(24:), '(i8, i7, es15.5, i8, es13.5, i8, es15.5)') joint%id, n_open, &
+            write (row(25:), '(i7, i6, 2(es13.5, i8), es13.5)') joint%id, n_open, &
                clean(state(at_lambda)%lambda), model%node_id(model%interface(at_lambda)%nodes(1)), &
                clean(state(at_p)%pressure), model%node_id(model%interface(at_p)%nodes(1)), clean(force, floor)
             if (joint%determinate) then
                call current_load(model, analysis, now)
                applied = carried_resultant(model, joint, now)
-               write (row(98:), '(es16.5, es15.5)') clean(applied, floor), clean(force - applied, floor)
+               write (row(93:), '(es13.5, es12.4)') clean(applied, floor), clean(force - applied, floor)
             end if
          end associate
       end if
-      write (row(121:), '(es12.4)') clean(unbalanced_force(model, analysis), floor)
+      write (row(118:), '(es12.4)') clean(unbalanced_force(model, analysis), floor)
    end function increment_row
 
 

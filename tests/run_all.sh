@@ -1,0 +1,41 @@
+#!/usr/bin/env bash
+# Everything that `make test` runs, part after part, and one sum at the end.
+#
+#    run_all.sh PROGRAM CHECKED_PROGRAM COMPARE BUILD_FOLDER
+#
+# CHECKED_PROGRAM is the program with run-time checks; bad and damaged decks go through it, so that a bound exceeded or a
+# floating-point exception is seen. Every part ends with a line `N passed, N failed`; a part without one has failed.
+set -u
+program=$1 checked=$2 compare=$3 build=$4
+passed=0 failed=0
+mkdir -p "$build/test"
+
+part() {
+   local title=$1 log="$build/test/part.log" last
+   shift
+   echo "---- $title"
+   "$@" > "$log" 2>&1
+   local status=$?
+   cat "$log"
+   last=$(grep -E '^[0-9]+ passed, [0-9]+ failed$' "$log" | tail -n 1)
+   if [ -z "$last" ]; then
+      echo "$title: ended without a count, with status $status"
+      failed=$((failed + 1))
+      return
+   fi
+   set -- $last
+   passed=$((passed + $1)) failed=$((failed + $3))
+   [ $status -ne 0 ] && [ "$3" -eq 0 ] && { echo "$title: status $status"; failed=$((failed + 1)); }
+}
+
+part 'unit tests' ${MAKE:-make} --no-print-directory -s unit-test
+part 'the test runner itself' tests/runner/selftest.sh
+part 'decks against their references' tests/check.sh "$program" "$compare" "$build/check"
+part 'decks through the program with run-time checks' tests/check.sh "$checked" "$compare" "$build/check-checked"
+part 'what the paper says of the prism' tests/prism_findings.sh "$build/check"
+part 'the comparison itself' tests/compare/test_compare.sh "$compare" reference_output tests/compare/tolerances.txt
+part 'bad decks and command lines' tests/bad/run.sh "$PWD/$checked"
+part 'damaged decks' tests/damage/run.sh "$PWD/$checked" "$PWD/input"
+echo '----'
+echo "$passed passed, $failed failed"
+[ $failed -eq 0 ]
