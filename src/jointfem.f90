@@ -1,6 +1,9 @@
 !> jointfem: structures with flexible joints by the step-wise tangent-stiffness method.
 !! The program is the flow chart of the method (Edelugo, Fig. 6a), one call a box.
 program jointfem
+   use analysis_state, only: analysis_type, interface_stiffness, start_analysis, start_increment, start_stage
+   use back_method, only: back_increment
+   use case_control, only: method_back, method_newton
    use command_line, only: command_type, deck_argument, read_command_line
    use deck_errors, only: deck_error_list
    use deck_input, only: deck_type, read_deck
@@ -8,13 +11,13 @@ program jointfem
    use failures, only: failure_type
    use model_build, only: build_model
    use model_data, only: model_type
+   use newton_method, only: newton_increment
    use progress, only: progress_type
    use results, only: finish_results, print_increment, print_stage, results_type, start_results
    use run_control, only: end_program, report_checked, report_errors, report_failure, report_unreadable, &
                           report_unwritten, set_threads
    use stage_plan, only: stage_plan_type
-   use step_method, only: accumulate, analysis_type, interface_stiffness, solve_increment, start_analysis, &
-                          start_increment, start_stage, structure_stiffness
+   use step_method, only: accumulate, limit_friction, solve_increment, structure_stiffness
    implicit none
    type(command_type) :: command
    integer :: i, status
@@ -74,8 +77,8 @@ contains
          return
       end if
 
-      ! ------------------------------------------------------------------ NORM: FIRST STIFFNESS OF THE JOINTS
-      call start_analysis(model, deck%control, analysis)
+      ! ------------------------------------------------------------------ NORM, SHEAR: FIRST STIFFNESS OF THE JOINTS
+      call start_analysis(model, deck%control%carry, analysis)
       call interface_stiffness(model, analysis)
       call progress%start(argument%name, plan, command%quiet)
 
@@ -86,21 +89,37 @@ contains
             ! ------------------------------------------------------------ NEXT INCREMENT OF THE LOAD
             call start_increment(plan, analysis)
 
-            ! ------------------------------------------------------------ [k_s] = SUM [k_b] + SUM [k_int]
-            call structure_stiffness(model, plan, analysis, system, failure)
+            select case (deck%control%method)
+            case (method_newton)
+               ! --------------------------------------------------------- ITERATE TO EQUILIBRIUM
+               call newton_increment(model, plan, analysis, system, failure)
+
+            case (method_back)
+               ! --------------------------------------------------------- SECANTS UNTIL THE PRESSURES SETTLE
+               call back_increment(model, plan, analysis, system, failure)
+
+            case default
+               ! --------------------------------------------------------- [k_s] = SUM [k_b] + SUM [k_int]
+               call structure_stiffness(model, plan, analysis, system, failure)
+
+               if (.not. failure%raised) then
+                  ! ------------------------------------------------------ SOLVE [k_s] {du} = {dF}
+                  call solve_increment(system, analysis)
+
+                  ! ------------------------------------------------------ ACCUMULATE {u}, DEFLECTIONS, FORCES
+                  call accumulate(model, analysis)
+
+                  ! ------------------------------------------------------ COULOMB LIMIT EXCEEDED: RE-ANALYSE
+                  call limit_friction(model, plan, system, analysis, failure)
+
+                  ! ------------------------------------------------------ NORM, SHEAR: BRANCHES, NEXT STIFFNESS
+                  call interface_stiffness(model, analysis)
+               end if
+            end select
             if (failure%raised) then
                call report_failure(argument, failure, results)
                return
             end if
-
-            ! ------------------------------------------------------------ SOLVE [k_s] {du} = {dF}
-            call solve_increment(system, analysis)
-
-            ! ------------------------------------------------------------ ACCUMULATE {u}, LAMBDA, SUMF
-            call accumulate(model, analysis)
-
-            ! ------------------------------------------------------------ NORM: BRANCHES, NEXT STIFFNESS
-            call interface_stiffness(model, analysis)
 
             ! ------------------------------------------------------------ PRINT
             call print_increment(model, plan, analysis, results)

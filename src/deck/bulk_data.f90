@@ -2,6 +2,7 @@
 !! LINE is always the index of the card's first line in the deck text, for messages.
 module bulk_data
    use kinds, only: wp
+   use shear_stiffness, only: shear_law
    implicit none
    private
 
@@ -72,6 +73,10 @@ module bulk_data
 
    type, public :: pjoint_card
       integer  :: line = 0, id = 0, normal_law = 0
+      integer  :: shear_laws(2) = 0                     ! along x and y of the joint, 0: none
+      real(wp) :: mu = 0.0_wp
+      logical  :: mu_given = .false.
+      integer  :: n_reanalyses = 1
       real(wp) :: p0 = 0.0_wp
       logical  :: p0_given = .false.
    end type pjoint_card
@@ -82,6 +87,11 @@ module bulk_data
       logical  :: e_u_given = .false.
    end type jnorm_card
 
+   type, public :: jshear_card
+      integer  :: line = 0, id = 0
+      type(shear_law) :: law
+   end type jshear_card
+
    type, public :: jincr_card
       integer :: line = 0, id = 0
       real(wp), allocatable :: shares(:)                ! of the stage's load change, add up to 1
@@ -91,7 +101,8 @@ module bulk_data
    type, public :: bulk_data_type
       integer :: n_cards = 0 !! cards of all kinds
       integer :: n_grid = 0, n_quad4 = 0, n_edge = 0, n_pshell = 0, n_mat1 = 0, n_support = 0, n_force = 0, &
-                 n_load = 0, n_block2 = 0, n_pmark = 0, n_joint = 0, n_cjoint = 0, n_pjoint = 0, n_jnorm = 0, n_jincr = 0
+                 n_load = 0, n_block2 = 0, n_pmark = 0, n_joint = 0, n_cjoint = 0, n_pjoint = 0, n_jnorm = 0, n_jshear = 0, &
+                 n_jincr = 0
       type(grid_card), allocatable    :: grid(:)
       type(element_card), allocatable :: quad4(:)
       type(element_card), allocatable :: edge(:)    ! CBAR and CROD: marks on surfaces
@@ -106,6 +117,7 @@ module bulk_data
       type(cjoint_card), allocatable  :: cjoint(:)
       type(pjoint_card), allocatable  :: pjoint(:)
       type(jnorm_card), allocatable   :: jnorm(:)
+      type(jshear_card), allocatable  :: jshear(:)
       type(jincr_card), allocatable   :: jincr(:)
    end type bulk_data_type
 

@@ -9,6 +9,7 @@ module case_control
 
    public :: read_case_control
 
+   integer, parameter, public :: method_step = 1, method_newton = 2, method_back = 3        !! METHOD =
    integer, parameter, public :: pressure_sumf = 1, pressure_eq10 = 2                      !! PRESSURE =
    integer, parameter, public :: output_none = 0, output_last = 1, output_joint = 2, output_all = 3 !! OUTPUT =
 
@@ -31,6 +32,7 @@ module case_control
    type, public :: case_control_type
       character(:), allocatable :: title
       character(8) :: length_unit = '', force_unit = ''  !! labels only
+      integer :: method = method_step
       integer :: pressure = pressure_sumf
       logical :: carry = .false.
       logical :: echo  = .true.
@@ -170,7 +172,12 @@ contains
       case ('UNITS')
          call read_units(entry, control, errors)
       case ('METHOD')
-         call choose(entry, '|STEP|', errors)
+         call choose(entry, '|STEP|NEWTON|BACK|', errors)
+         select case (upper(entry%value))
+         case ('NEWTON'); control%method = method_newton
+         case ('BACK');   control%method = method_back
+         case default;    control%method = method_step
+         end select
       case ('PRESSURE')
          call choose(entry, '|SUMF|EQ10|', errors)
          control%pressure = merge(pressure_eq10, pressure_sumf, upper(entry%value) == 'EQ10')
@@ -314,6 +321,8 @@ contains
          call errors%add(0, 'no stage: expected at least one SUBCASE in case control')
          return
       end if
+      if (control%method == method_back .and. size(control%stages) > 1) call errors%add(control%stages(2)%line, &
+         'SUBCASE: METHOD = BACK knows loading only, in one stage; METHOD = STEP or NEWTON follow a history')
       do i = 2, size(control%stages)
          if (control%stages(i)%supports%id /= control%stages(1)%supports%id) then
             call errors%add(max(control%stages(i)%supports%line, control%stages(i)%line), &

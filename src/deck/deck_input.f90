@@ -6,7 +6,7 @@ module deck_input
    use deck_cards, only: card_name, card_type, is_continuation, read_card
    use deck_errors, only: deck_error_list
    use deck_text, only: deck_text_type, read_deck_text
-   use joint_cards, only: read_cjoint, read_jincr, read_jnorm, read_joint, read_pjoint
+   use joint_cards, only: read_cjoint, read_jincr, read_jnorm, read_joint, read_jshear, read_pjoint
    use load_cards, only: read_force, read_load, read_spc, read_spc1, read_spcm
    use mesh_cards, only: read_block2, read_cbar, read_cquad4, read_crod, read_grid, read_mat1, read_pmark, read_pshell
    implicit none
@@ -22,8 +22,8 @@ module deck_input
    end type deck_type
 
    ! every card, in alphabetical order; a new one is added here, to the select case below and to the room
-   character(8), parameter :: known_cards(18) = [character(8) :: 'BLOCK2', 'CBAR', 'CJOINT', 'CQUAD4', 'CROD', 'FORCE', &
-      'GRID', 'JINCR', 'JNORM', 'JOINT', 'LOAD', 'MAT1', 'PJOINT', 'PMARK', 'PSHELL', 'SPC', 'SPC1', 'SPCM']
+   character(8), parameter :: known_cards(19) = [character(8) :: 'BLOCK2', 'CBAR', 'CJOINT', 'CQUAD4', 'CROD', 'FORCE', &
+      'GRID', 'JINCR', 'JNORM', 'JOINT', 'JSHEAR', 'LOAD', 'MAT1', 'PJOINT', 'PMARK', 'PSHELL', 'SPC', 'SPC1', 'SPCM']
 
 contains
 
@@ -66,6 +66,7 @@ contains
       allocate (bulk%block2(number_of('BLOCK2')), bulk%cjoint(number_of('CJOINT')), bulk%quad4(number_of('CQUAD4')))
       allocate (bulk%edge(number_of('CBAR') + number_of('CROD')), bulk%force(number_of('FORCE')))
       allocate (bulk%grid(number_of('GRID')), bulk%jincr(number_of('JINCR')), bulk%jnorm(number_of('JNORM')))
+      allocate (bulk%jshear(number_of('JSHEAR')))
       allocate (bulk%joint(number_of('JOINT')), bulk%load(number_of('LOAD')), bulk%mat1(number_of('MAT1')))
       allocate (bulk%pjoint(number_of('PJOINT')), bulk%pmark(number_of('PMARK')), bulk%pshell(number_of('PSHELL')))
       allocate (bulk%support(2*number_of('SPC') + number_of('SPC1') + number_of('SPCM')))
@@ -162,6 +163,7 @@ contains
       case ('JINCR');  call read_jincr(card, bulk, values, errors)
       case ('JNORM');  call read_jnorm(card, bulk, values, errors)
       case ('JOINT');  call read_joint(card, bulk, values, errors)
+      case ('JSHEAR'); call read_jshear(card, bulk, values, errors)
       case ('LOAD');   call read_load(card, bulk, values, errors)
       case ('MAT1');   call read_mat1(card, bulk, values, errors)
       case ('PJOINT'); call read_pjoint(card, bulk, values, errors)

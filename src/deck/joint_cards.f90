@@ -1,4 +1,4 @@
-!> The cards of the joint: JOINT, CJOINT, PJOINT, JNORM, JINCR. A table and a routine each.
+!> The cards of the joint: JOINT, CJOINT, PJOINT, JNORM, JSHEAR, JINCR. A table and a routine each.
 module joint_cards
    use bulk_data, only: bulk_data_type, jincr_card
    use card_fields, only: blank_field, card_values, decode_card, decode_real, field_error, field_rule, integer_field, &
@@ -7,13 +7,16 @@ module joint_cards
    use deck_errors, only: deck_error_list
    use kinds, only: wp
    use load_shares, only: arithmetic_shares, geometric_shares
+   use normal_stiffness, only: branch_load, branch_reload, branch_unload
    use text_tools, only: integer_text, real_text
    implicit none
    private
 
-   public :: read_joint, read_cjoint, read_pjoint, read_jnorm, read_jincr
+   public :: read_joint, read_cjoint, read_pjoint, read_jnorm, read_jshear, read_jincr
 
    integer, parameter :: most_increments = 100000
+   integer, parameter :: most_reanalyses = 1000
+   integer, parameter :: branches(3) = [branch_load, branch_unload, branch_reload] ! of the lines of JSHEAR
 
 contains
 
@@ -80,14 +83,19 @@ contains
       type(deck_error_list), intent(inout) :: errors
       type(field_rule), save, allocatable :: table(:)
 
-      if (.not. allocated(table)) table = [integer_field('PJID'), integer_field('NID'), blank_field('SIDX'), &
-         blank_field('SIDY'), blank_field('MU'), blank_field('NREAN'), real_field('P0', default=0.0_wp, above=0.0_wp)]
+      if (.not. allocated(table)) table = [integer_field('PJID'), integer_field('NID'), &
+         integer_field('SIDX', default=0), integer_field('SIDY', default=0), real_field('MU', default=0.0_wp, least=0.0_wp), &
+         integer_field('NREAN', default=1, least=-1, most=most_reanalyses), real_field('P0', default=0.0_wp, above=0.0_wp)]
       call decode_card(card, table, .false., values, errors)
       bulk%n_pjoint = bulk%n_pjoint + 1
       associate (pjoint => bulk%pjoint(bulk%n_pjoint))
          pjoint%line = card%line
          pjoint%id = values%integers(1)
          pjoint%normal_law = values%integers(2)
+         pjoint%shear_laws = values%integers(3:4)
+         pjoint%mu = values%reals(5)
+         pjoint%mu_given = values%given(5)
+         pjoint%n_reanalyses = values%integers(6)
          pjoint%p0 = values%reals(7)
          pjoint%p0_given = values%given(7)
       end associate
@@ -115,6 +123,74 @@ contains
          jnorm%e_u_given = values%given(4)
       end associate
    end subroutine read_jnorm
+
+
+   !> JSHEAR: the shear law of one direction. The card has the loading coefficients A; the first continuation has those of
+   !! unloading (B), the second those of reloading (C), either left blank as loading; the third the tested range.
+   subroutine read_jshear(card, bulk, values, errors)
+      type(card_type), intent(in)          :: card
+      type(bulk_data_type), intent(inout)  :: bulk
+      type(card_values), intent(inout)     :: values
+      type(deck_error_list), intent(inout) :: errors
+      type(field_rule), save, allocatable :: table(:)
+      integer :: branch, first, k
+
+      if (.not. allocated(table)) table = [integer_field('SID'), real_field('A11'), coefficient('A12'), coefficient('A21'), &
+         coefficient('A22'), coefficient('A31'), coefficient('A32'), blank_field('blank'), &
+         coefficient('B11'), coefficient('B12'), coefficient('B21'), coefficient('B22'), coefficient('B31'), &
+         coefficient('B32'), blank_field('blank'), blank_field('blank'), &
+         coefficient('C11'), coefficient('C12'), coefficient('C21'), coefficient('C22'), coefficient('C31'), &
+         coefficient('C32'), blank_field('blank'), blank_field('blank'), &
+         real_field('PMAX', default=huge(1.0_wp), above=0.0_wp), real_field('DMAX', default=huge(1.0_wp), above=0.0_wp)]
+      call decode_card(aligned(card), table, .false., values, errors)
+      bulk%n_jshear = bulk%n_jshear + 1
+      associate (jshear => bulk%jshear(bulk%n_jshear), x => values%reals)
+         jshear%line = card%line
+         jshear%id = values%integers(1)
+         jshear%law%given = .true.
+         do k = 1, size(branches)
+            branch = branches(k)
+            first = 8*k - 7
+            if (k == 1) first = 2
+            if (.not. any(values%given(first:first + 5))) then
+               jshear%law%coefficients(:, :, branch) = jshear%law%coefficients(:, :, branch_load)
+            else
+               jshear%law%coefficients(:, :, branch) = reshape(x(first:first + 5), [2, 3])
+               if (.not. values%given(first)) call field_error(card, first, trim(table(first)%name)// &
+                  ': blank, expected a real number (a branch is given whole or not at all)', errors)
+            end if
+         end do
+         jshear%law%p_max = x(25)
+         jshear%law%d_max = x(26)
+      end associate
+
+   contains
+
+      pure function coefficient(name) result(rule)
+         character(*), intent(in) :: name
+         type(field_rule) :: rule
+
+         rule = real_field(name, default=0.0_wp)
+      end function coefficient
+
+   end subroutine read_jshear
+
+
+   !> A JSHEAR card whose continuation lines begin in field 2, where they stand under A11 in field 3.
+   pure function aligned(card) result(moved)
+      type(card_type), intent(in) :: card
+      type(card_type) :: moved
+      integer :: before, entries
+
+      moved = card
+      do before = 8, 24, 8
+         entries = merge(6, 2, before < 24)
+         if (before + 1 + entries > card%n) cycle
+         if (card%fields(before + 1)%text /= '' .or. card%fields(before + 1 + entries)%text == '') cycle
+         moved%fields(before + 1:before + entries) = card%fields(before + 2:before + 1 + entries)
+         moved%fields(before + 1 + entries) = card%fields(before + 1)
+      end do
+   end function aligned
 
 
    !> JINCR: the increments of a stage, turned into shares that add up to 1.

@@ -1,5 +1,6 @@
 !> The stages of the load history and the shares of their increments, as case control and JINCR cards give them.
 module stage_plan
+   use case_control, only: method_back
    use deck_errors, only: deck_error_list
    use deck_input, only: deck_type
    use kinds, only: wp
@@ -7,7 +8,7 @@ module stage_plan
    implicit none
    private
 
-   public :: plan_stages
+   public :: plan_stages, where_in_plan
 
    type, public :: planned_stage
       integer :: id = 0
@@ -22,7 +23,7 @@ module stage_plan
 
 contains
 
-   !> A stage without INCR takes its load in one increment.
+   !> A stage without INCR takes its load in one increment, and so does METHOD = BACK.
    subroutine plan_stages(deck, plan, errors)
       type(deck_type), intent(in)          :: deck
       type(stage_plan_type), intent(out)   :: plan
@@ -36,7 +37,7 @@ contains
             stage%label = given%label
             stage%output = given%output
             stage%shares = [1.0_wp]
-            if (given%increments%id == 0) cycle
+            if (given%increments%id == 0 .or. deck%control%method == method_back) cycle
             k = findloc(deck%bulk%jincr(:deck%bulk%n_jincr)%id, given%increments%id, dim=1)
             if (k == 0) then
                call errors%add(given%increments%line, 'INCR: there is no JINCR '//integer_text(given%increments%id))
@@ -46,5 +47,15 @@ contains
          end associate
       end do
    end subroutine plan_stages
+
+
+   !> 'stage 2, increment 7', for messages.
+   pure function where_in_plan(plan, stage, increment) result(words)
+      type(stage_plan_type), intent(in) :: plan
+      integer, intent(in)               :: stage, increment
+      character(:), allocatable         :: words
+
+      words = 'stage '//integer_text(plan%stages(stage)%id)//', increment '//integer_text(increment)
+   end function where_in_plan
 
 end module stage_plan

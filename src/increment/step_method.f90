@@ -1,121 +1,22 @@
-!> The step-wise tangent-stiffness method: one routine a box of the flow chart (Fig. 6a).
+!> METHOD = STEP, the step-wise tangent-stiffness method: one routine a box of the flow chart (Fig. 6a).
 module step_method
-   use body_elements, only: internal_forces
-   use case_control, only: case_control_type, pressure_eq10
+   use analysis_state, only: analysis_type, pass_record, record_pass, tally_work
    use equations, only: equation_system, form_structure_stiffness, solve_equations
    use failures, only: failure_type
+   use joint_laws, only: friction_excess
    use kinds, only: wp
-   use model_data, only: model_type
-   use normal_stiffness, only: branch_open, norm, normal_law, normal_state
-   use stage_plan, only: stage_plan_type
-   use text_tools, only: integer_text
+   use model_data, only: joint_movement, model_type
+   use stage_plan, only: stage_plan_type, where_in_plan
+   use text_tools, only: integer_text, real_text
    implicit none
    private
 
-   public :: start_analysis, start_stage, start_increment, interface_stiffness, structure_stiffness, &
-             solve_increment, accumulate, joint_movement
+   public :: structure_stiffness, solve_increment, accumulate, limit_friction
 
-   !> Everything that changes from increment to increment. Arrays over nodes are (dimension, n_nodes).
-   type, public :: analysis_type
-      integer  :: stage = 0, increment = 0
-      real(wp) :: share = 0.0_wp                    !! of the stage's load change, this increment
-      real(wp) :: fraction = 0.0_wp                 !! of it, so far: exactly 1 at the end of the stage
-      logical  :: carry = .false.
-      real(wp), allocatable :: load_before(:, :)    !! at the start of the stage [force]
-      real(wp), allocatable :: load_after(:, :)     !! at its end
-      real(wp), allocatable :: applied(:, :)        !! now
-      real(wp), allocatable :: change(:, :)         !! load of this increment
-      real(wp), allocatable :: u(:, :), du(:, :)    !! displacements, and of this increment [length]
-      real(wp), allocatable :: unbalanced(:, :)     !! applied - internal forces; on held components minus the reaction
-      type(normal_law), allocatable   :: laws(:)    !! of the joints
-      type(normal_state), allocatable :: normal(:)  !! of the interface elements
-      real(wp), allocatable :: k_n(:)               !! their stiffness in the next increment [force/length]
-      integer  :: n_removed = 0                     !! interface elements removed by the last increment
-   end type analysis_type
+   integer, parameter  :: most_passes = 2000               ! of NREAN = -1
+   real(wp), parameter :: excess_tolerance = 1.0e-8_wp     ! of the sum of the limits, for NREAN = -1
 
 contains
-
-   !> A structure at rest without load.
-   subroutine start_analysis(model, control, analysis)
-      type(model_type), intent(in)        :: model
-      type(case_control_type), intent(in) :: control
-      type(analysis_type), intent(out)    :: analysis
-      integer :: j
-
-      allocate (analysis%applied(model%dimension, model%n_nodes), source=0.0_wp)
-      allocate (analysis%load_before, analysis%load_after, analysis%change, analysis%u, analysis%du, analysis%unbalanced, &
-                source=analysis%applied)
-      analysis%carry = control%carry
-      allocate (analysis%laws(size(model%joints)))
-      do j = 1, size(model%joints)
-         associate (joint => model%joints(j))
-            analysis%laws(j) = normal_law(c=joint%c, m=joint%m, e_u=joint%e_u, p_av=joint%p_av, &
-                                          eq10=control%pressure == pressure_eq10)
-         end associate
-      end do
-      allocate (analysis%normal(size(model%interface)))
-      allocate (analysis%k_n(size(model%interface)), source=0.0_wp)
-   end subroutine start_analysis
-
-
-   !> The next stage begins where the last one ended; the joint remembers.
-   subroutine start_stage(model, stage, analysis)
-      type(model_type), intent(in)       :: model
-      integer, intent(in)                :: stage
-      type(analysis_type), intent(inout) :: analysis
-      integer :: i
-
-      analysis%stage = stage
-      analysis%increment = 0
-      analysis%fraction = 0.0_wp
-      analysis%load_before = analysis%applied
-      analysis%load_after = 0.0_wp
-      associate (loads => model%stage_loads(stage))
-         do i = 1, loads%n
-            analysis%load_after(:, loads%node(i)) = analysis%load_after(:, loads%node(i)) + loads%force(:model%dimension, i)
-         end do
-      end associate
-   end subroutine start_stage
-
-
-   !> {dF} of the next increment: its share of the stage's load change, and what is unbalanced where CARRY asks for it.
-   subroutine start_increment(plan, analysis)
-      type(stage_plan_type), intent(in)  :: plan
-      type(analysis_type), intent(inout) :: analysis
-      real(wp), allocatable :: target(:, :)
-
-      associate (shares => plan%stages(analysis%stage)%shares)
-         analysis%increment = analysis%increment + 1
-         analysis%share = shares(analysis%increment)
-         analysis%fraction = sum(shares(:analysis%increment))
-         if (analysis%increment == size(shares)) then
-            analysis%fraction = 1.0_wp
-            target = analysis%load_after
-         else
-            target = analysis%load_before + analysis%fraction*(analysis%load_after - analysis%load_before)
-         end if
-      end associate
-      analysis%change = target - analysis%applied
-      analysis%applied = target
-      if (analysis%carry) analysis%change = analysis%change + analysis%unbalanced
-   end subroutine start_increment
-
-
-   !> NORM for every interface element: its branch after the last increment, its stiffness for the next one.
-   subroutine interface_stiffness(model, analysis)
-      type(model_type), intent(in)       :: model
-      type(analysis_type), intent(inout) :: analysis
-      integer :: before, i
-
-      analysis%n_removed = 0
-      do i = 1, size(model%interface)
-         before = analysis%normal(i)%branch
-         call norm(analysis%laws(model%interface(i)%joint), model%interface(i)%area, analysis%normal(i), analysis%k_n(i))
-         if (analysis%normal(i)%branch == branch_open .and. before /= branch_open) analysis%n_removed = analysis%n_removed + 1
-      end do
-      call find_unbalanced(model, analysis)
-   end subroutine interface_stiffness
-
 
    !> [k_s] = sum [k_b] + sum [k_int], ready to solve.
    subroutine structure_stiffness(model, plan, analysis, system, failure)
@@ -124,9 +25,14 @@ contains
       type(analysis_type), intent(in)      :: analysis
       type(equation_system), intent(inout) :: system
       type(failure_type), intent(inout)    :: failure
+      real(wp), allocatable :: k_int(:, :, :)
+      integer :: d
 
-      call form_structure_stiffness(model, analysis%k_n, 'stage '//integer_text(plan%stages(analysis%stage)%id)// &
-                                    ', increment '//integer_text(analysis%increment), system, failure)
+      allocate (k_int(3, 3, size(model%interface)), source=0.0_wp)
+      do d = 1, 3
+         k_int(d, d, :) = analysis%k(d, :)
+      end do
+      call form_structure_stiffness(model, k_int, where_in_plan(plan, analysis%stage, analysis%increment), system, failure)
    end subroutine structure_stiffness
 
 
@@ -143,62 +49,136 @@ contains
    subroutine accumulate(model, analysis)
       type(model_type), intent(in)       :: model
       type(analysis_type), intent(inout) :: analysis
-      real(wp) :: closing, movement(3)
-      integer  :: i
+      integer :: i, k
 
-      analysis%u = analysis%u + analysis%du
       do i = 1, size(model%interface)
-         associate (state => analysis%normal(i))
-            movement = joint_movement(model, analysis%du, i)
-            closing = movement(3)
-            state%k_n = analysis%k_n(i)
-            state%lambda_before = state%lambda
-            state%lambda = state%lambda + closing
-            state%sigmaf = state%sumf
-            state%sumf = state%sumf + state%k_n*closing
+         associate (state => analysis%states(i))
+            state%normal%k_n = analysis%k(3, i)
+            state%normal%lambda_before = state%normal%lambda
+            state%normal%sigmaf = state%normal%sumf
+            do k = 1, 2
+               state%shear(k)%k_s = analysis%k(k, i)
+               state%shear(k)%delta_before = state%shear(k)%delta
+               state%shear(k)%tau_before = state%shear(k)%tau
+            end do
+            state%slips = .false.
          end associate
       end do
+      call add_displacements(model, analysis)
    end subroutine accumulate
 
 
-   !> Movement of end 1 of interface element I against end 2 in its own axes: the shear deflections delta_x, delta_y and
-   !! the closing deflection lambda [length].
-   pure function joint_movement(model, u, i) result(movement)
-      type(model_type), intent(in) :: model
-      real(wp), intent(in)         :: u(:, :) !! (dimension, n_nodes) [length]
-      integer, intent(in)          :: i
-      real(wp) :: movement(3), between(3)
-
-      associate (element => model%interface(i), d => model%dimension)
-         between = 0.0_wp
-         between(:d) = u(:, element%nodes(1))
-         if (element%nodes(2) > 0) between(:d) = between(:d) - u(:, element%nodes(2))
-         movement = matmul(between, element%axes)
-      end associate
-   end function joint_movement
-
-
-   !> Applied load minus the forces in bodies and joints: what the increment leaves unbalanced, and on held components
-   !! minus the reaction.
-   subroutine find_unbalanced(model, analysis)
+   !> Add {du}, and what it does to the interface elements at the stiffness of this increment.
+   subroutine add_displacements(model, analysis)
       type(model_type), intent(in)       :: model
       type(analysis_type), intent(inout) :: analysis
+      real(wp) :: movement(3), work(2), tau
+      integer  :: i, k
+
+      analysis%u = analysis%u + analysis%du
+      do i = 1, size(model%interface)
+         movement = joint_movement(model, analysis%du, i)
+         associate (state => analysis%states(i), area => model%interface(i)%area)
+            work(1) = 0.0_wp
+            do k = 1, 2
+               tau = state%shear(k)%tau
+               state%shear(k)%delta = state%shear(k)%delta + movement(k)
+               state%shear(k)%tau = tau + analysis%k(k, i)*movement(k)/area
+               work(1) = work(1) + 0.5_wp*area*(tau + state%shear(k)%tau)*movement(k)
+            end do
+            work(2) = (state%normal%sumf + 0.5_wp*analysis%k(3, i)*movement(3))*movement(3)
+            state%normal%lambda = state%normal%lambda + movement(3)
+            state%normal%sumf = state%normal%sumf + analysis%k(3, i)*movement(3)
+            state%normal%pressure = state%normal%sumf/area
+         end associate
+         call tally_work(analysis%energy(model%interface(i)%joint), work)
+      end do
+   end subroutine add_displacements
+
+
+   !> Coulomb limit (section 4.4): where |tau| > mu p, the element is relieved of the excess, which is applied at its two ends,
+   !! and the structure is analysed again with the same stiffness, NREAN times.
+   subroutine limit_friction(model, plan, system, analysis, failure)
+      type(model_type), intent(in)       :: model
+      type(stage_plan_type), intent(in)  :: plan
+      type(equation_system), intent(in)  :: system
+      type(analysis_type), intent(inout) :: analysis
+      type(failure_type), intent(inout)  :: failure
+      real(wp), allocatable :: excess(:, :), relief(:, :)
+      real(wp) :: total, total_after, limit
+      integer  :: pass, worst
+      logical  :: again
+
+      if (.not. any(model%joints%law%has_friction)) return
+      allocate (excess(2, size(model%interface)), relief(model%dimension, model%n_nodes))
+      call find_excess(model, analysis, excess, total, limit)
+      where (maxval(abs(excess), dim=1) > 0.0_wp) analysis%states%slips = .true.
+      do pass = 1, most_passes
+         if (total <= 0.0_wp) return
+         call release(model, pass, total > excess_tolerance*limit, excess, analysis, relief, again)
+         if (.not. again) return
+         call solve_equations(system, relief, analysis%du)
+         call add_displacements(model, analysis)
+         call find_excess(model, analysis, excess, total_after, limit)
+         where (maxval(abs(excess), dim=1) > 0.0_wp) analysis%states%slips = .true.
+         call record_pass(analysis, pass_record(before=total, after=total_after, changes=count(analysis%states%slips)))
+         total = total_after
+      end do
+      worst = maxloc(maxval(abs(excess), dim=1), dim=1)
+      call failure%raise(where_in_plan(plan, analysis%stage, analysis%increment)//': after '//integer_text(most_passes)// &
+         ' re-analyses the friction of joint '//integer_text(model%joints(model%interface(worst)%joint)%id)// &
+         ' is still exceeded, by '//real_text(total)//' in all, most at node '// &
+         integer_text(model%node_id(model%interface(worst)%nodes(1)))//' in its tangential direction: the joint slips as a whole')
+   end subroutine limit_friction
+
+
+   !> EXCESS(2, n) of all elements, the TOTAL of their sizes and the sum of their limits [force].
+   subroutine find_excess(model, analysis, excess, total, limit)
+      type(model_type), intent(in)    :: model
+      type(analysis_type), intent(in) :: analysis
+      real(wp), intent(out)           :: excess(:, :), total, limit
       integer :: i
 
-      call internal_forces(model, analysis%u, analysis%unbalanced)
-      analysis%unbalanced = analysis%applied - analysis%unbalanced
+      total = 0.0_wp
+      limit = 0.0_wp
       do i = 1, size(model%interface)
-         associate (element => model%interface(i), d => model%dimension, force => analysis%normal(i)%sumf)
-            associate (one => analysis%unbalanced(:, element%nodes(1)))
-               one = one - force*element%axes(:d, 3)
-            end associate
-            if (element%nodes(2) == 0) cycle
-            associate (two => analysis%unbalanced(:, element%nodes(2)))
-               two = two + force*element%axes(:d, 3)
-            end associate
+         associate (law => model%joints(model%interface(i)%joint)%law, area => model%interface(i)%area)
+            excess(:, i) = friction_excess(law, area, analysis%states(i))
+            total = total + norm2(excess(:, i))
+            limit = limit + law%mu*max(0.0_wp, analysis%states(i)%normal%pressure)*area
          end associate
       end do
-   end subroutine find_unbalanced
+   end subroutine find_excess
 
+
+   !> Relieve the elements whose joints ask for re-analysis number PASS of their excess; RELIEF are the nodal forces that it
+   !! becomes, AGAIN whether there are any. MUCH: the excess is still above the tolerance of NREAN = -1.
+   subroutine release(model, pass, much, excess, analysis, relief, again)
+      type(model_type), intent(in)       :: model
+      integer, intent(in)                :: pass
+      logical, intent(in)                :: much
+      real(wp), intent(in)               :: excess(:, :)
+      type(analysis_type), intent(inout) :: analysis
+      real(wp), intent(out)              :: relief(:, :)
+      logical, intent(out)               :: again
+      real(wp) :: force(3)
+      integer  :: i, k
+
+      relief = 0.0_wp
+      again = .false.
+      do i = 1, size(model%interface)
+         associate (element => model%interface(i), d => model%dimension, passes => &
+                    model%joints(model%interface(i)%joint)%law%n_reanalyses)
+            if (norm2(excess(:, i)) <= 0.0_wp .or. (passes >= 0 .and. pass > passes) .or. (passes < 0 .and. .not. much)) cycle
+            again = .true.
+            do k = 1, 2
+               analysis%states(i)%shear(k)%tau = analysis%states(i)%shear(k)%tau - excess(k, i)/element%area
+            end do
+            force = matmul(element%axes(:, :2), excess(:, i))
+            relief(:, element%nodes(1)) = relief(:, element%nodes(1)) + force(:d)
+            if (element%nodes(2) > 0) relief(:, element%nodes(2)) = relief(:, element%nodes(2)) - force(:d)
+         end associate
+      end do
+   end subroutine release
 
 end module step_method

@@ -45,7 +45,7 @@ contains
       real(wp), intent(in)              :: area  !! area of influence a_i, > 0 [length^2]
       type(normal_state), intent(inout) :: state !! accumulated; its branch and points A, B are brought up to date
       real(wp), intent(out)             :: k_n   !! [force/length]
-      real(wp) :: p_before, no_change
+      real(wp) :: no_change
       logical  :: rises, falls
 
       state%calls = state%calls + 1
@@ -53,7 +53,6 @@ contains
          k_n = law%p_av**(1.0_wp - law%m)*area/law%c
          return
       end if
-      p_before = state%pressure
       no_change = rounding*max(abs(state%sumf), abs(state%sigmaf))
       rises = state%sumf > state%sigmaf + no_change
       falls = state%sumf < state%sigmaf - no_change
@@ -64,7 +63,7 @@ contains
       case (branch_load)
          if (falls) then
             state%lambda_a = state%lambda_before
-            state%p_a = p_before
+            state%p_a = state%sigmaf/area
             state%branch = branch_unload
          else if (law%eq10) then                                    ! Eq. (10) as printed
             state%pressure = state%k_n*state%lambda/area

@@ -17,7 +17,7 @@ contains
    subroutine check_ids(deck, errors)
       type(deck_type), intent(in)          :: deck
       type(deck_error_list), intent(inout) :: errors
-      integer :: i
+      integer :: direction, i
 
       associate (bulk => deck%bulk, text => deck%text)
          call check_kind(text, 'property', 'PID', [bulk%pshell(:bulk%n_pshell)%id, bulk%pmark(:bulk%n_pmark)%id], &
@@ -28,8 +28,15 @@ contains
          call check_kind(text, 'JOINT', 'JID', bulk%joint(:bulk%n_joint)%id, bulk%joint(:bulk%n_joint)%line, errors)
          call check_kind(text, 'PJOINT', 'PJID', bulk%pjoint(:bulk%n_pjoint)%id, bulk%pjoint(:bulk%n_pjoint)%line, errors)
          call check_kind(text, 'JNORM', 'NID', bulk%jnorm(:bulk%n_jnorm)%id, bulk%jnorm(:bulk%n_jnorm)%line, errors)
+         call check_kind(text, 'JSHEAR', 'SID', bulk%jshear(:bulk%n_jshear)%id, bulk%jshear(:bulk%n_jshear)%line, errors)
          call check_kind(text, 'JINCR', 'SID', bulk%jincr(:bulk%n_jincr)%id, bulk%jincr(:bulk%n_jincr)%line, errors)
          do i = 1, bulk%n_pjoint
+            do direction = 1, 2
+               if (bulk%pjoint(i)%shear_laws(direction) == 0) cycle
+               if (.not. any(bulk%jshear(:bulk%n_jshear)%id == bulk%pjoint(i)%shear_laws(direction))) call add_field_error( &
+                  text, bulk%pjoint(i)%line, direction + 2, merge('SIDX', 'SIDY', direction == 1), 'there is no JSHEAR '// &
+                  integer_text(bulk%pjoint(i)%shear_laws(direction)), errors)
+            end do
             if (bulk%pjoint(i)%normal_law == 0) cycle
             if (.not. any(bulk%jnorm(:bulk%n_jnorm)%id == bulk%pjoint(i)%normal_law)) call add_field_error(text, &
                bulk%pjoint(i)%line, 2, 'NID', 'there is no JNORM '//integer_text(bulk%pjoint(i)%normal_law), errors)

@@ -1,11 +1,13 @@
 !> Interface elements: between two facing surfaces, between a surface and a rigid base, or given outright.
 module joint_build
+   use case_control, only: pressure_eq10
    use deck_cards, only: add_field_error
    use deck_errors, only: deck_error_list
    use deck_input, only: deck_type
    use id_table, only: id_table_type
    use kinds, only: wp
    use model_data, only: interface_element, joint_type, model_type
+   use normal_stiffness, only: normal_law
    use position_search, only: position_search_type
    use surface_build, only: surface_node_list, surface_nodes
    use text_tools, only: integer_text, plural, real_text
@@ -280,7 +282,7 @@ contains
       integer, intent(in)                  :: id
       type(joint_type), intent(inout)      :: joint
       type(deck_error_list), intent(inout) :: errors
-      integer :: i, k
+      integer :: direction, i, k
 
       if (id == 0) return
       i = findloc(deck%bulk%pjoint(:deck%bulk%n_pjoint)%id, id, dim=1)
@@ -288,14 +290,22 @@ contains
          call add_field_error(deck%text, joint%line, 2, 'PJID', 'there is no PJOINT '//integer_text(id), errors)
          return
       end if
-      associate (pjoint => deck%bulk%pjoint(i))
+      associate (pjoint => deck%bulk%pjoint(i), law => joint%law)
          if (pjoint%p0_given) joint%p0 = pjoint%p0
+         law%has_friction = pjoint%mu_given
+         law%mu = pjoint%mu
+         law%n_reanalyses = pjoint%n_reanalyses
          k = findloc(deck%bulk%jnorm(:deck%bulk%n_jnorm)%id, pjoint%normal_law, dim=1)
-         if (k == 0) return ! said where PJOINT is checked
-         joint%c = deck%bulk%jnorm(k)%c
-         joint%m = deck%bulk%jnorm(k)%m
-         joint%e_u = deck%bulk%jnorm(k)%e_u
-         joint%e_u_given = deck%bulk%jnorm(k)%e_u_given
+         if (k > 0) then ! else said where PJOINT is checked
+            law%normal = normal_law(c=deck%bulk%jnorm(k)%c, m=deck%bulk%jnorm(k)%m, e_u=deck%bulk%jnorm(k)%e_u, &
+                                    eq10=deck%control%pressure == pressure_eq10)
+            joint%e_u_given = deck%bulk%jnorm(k)%e_u_given
+         end if
+         do direction = 1, 2
+            k = findloc(deck%bulk%jshear(:deck%bulk%n_jshear)%id, pjoint%shear_laws(direction), dim=1)
+            if (k == 0 .or. pjoint%shear_laws(direction) == 0) cycle
+            law%shear(direction) = deck%bulk%jshear(k)%law
+         end do
       end associate
    end subroutine resolve_laws
 
@@ -307,14 +317,14 @@ contains
       type(deck_error_list), intent(inout) :: errors
       integer :: i, node, side
 
-      if (joint%e_u_given .or. joint%c <= 0.0_wp) return
+      if (joint%e_u_given .or. joint%law%normal%c <= 0.0_wp) return
       do i = joint%first, joint%last
          do side = 1, 2
             node = model%interface(i)%nodes(side)
             if (node == 0) cycle
             if (model%first_at(node) == model%first_at(node + 1)) cycle
             associate (property => model%element_property(model%elements_at(model%first_at(node))))
-               if (property > 0) joint%e_u = model%properties(property)%e
+               if (property > 0) joint%law%normal%e_u = model%properties(property)%e
             end associate
             return
          end do

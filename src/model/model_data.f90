@@ -2,9 +2,12 @@
 !! Built once from a deck; nothing in it changes afterwards.
 module model_data
    use id_table, only: id_table_type
+   use joint_laws, only: joint_law
    use kinds, only: wp
    implicit none
    private
+
+   public :: joint_movement
 
    !> Section and material of plane elements.
    type, public :: property_type
@@ -28,16 +31,14 @@ module model_data
       integer  :: id = 0                     !! JID; PJID for a group of CJOINT cards
       integer  :: line = 0                   !! of its card (the first CJOINT) in the deck text
       integer  :: first = 0, last = -1       !! its interface elements
-      real(wp) :: c = 0.0_wp, m = 0.0_wp     !! lambda = c p^m [length, pressure]
-      real(wp) :: e_u = 0.0_wp               !! unloading slope [pressure/length]
-      logical  :: e_u_given = .false.
+      type(joint_law) :: law                 !! normal, shear, friction
+      logical  :: e_u_given = .false.        !! whether the deck gives the unloading slope
       real(wp) :: p0 = 0.0_wp                !! initial pressure given by the user, 0: none
       real(wp) :: area = 0.0_wp              !! A_int, sum of the areas of influence [length^2]
       real(wp) :: normal(3) = 0.0_wp         !! mean normal, from side 1 to side 2
       logical  :: determinate = .false.      !! whether statics alone gives its normal resultant
       logical, allocatable :: carries(:)     !! (parts) the parts whose load it carries, where determinate
       real(wp) :: direction = 1.0_wp         !! +1: those parts are on side 1; -1: on side 2
-      real(wp) :: p_av = 0.0_wp              !! pressure of the first increment, Eq. (9)
    end type joint_type
 
    !> One interface element: the "beam" between two facing nodes, or a node and the rigid base.
@@ -79,5 +80,23 @@ module model_data
       integer, allocatable  :: part(:)       !! (n_nodes) which connected body a node belongs to
       integer :: n_parts = 0
    end type model_type
+
+contains
+
+   !> Movement of end 1 of interface element I against end 2 in its own axes: tangential x, y, and the closing deflection
+   !! lambda [length].
+   pure function joint_movement(model, u, i) result(movement)
+      type(model_type), intent(in) :: model
+      real(wp), intent(in)         :: u(:, :) !! (dimension, n_nodes) [length]
+      integer, intent(in)          :: i
+      real(wp) :: movement(3), between(3)
+
+      associate (element => model%interface(i), d => model%dimension)
+         between = 0.0_wp
+         between(:d) = u(:, element%nodes(1))
+         if (element%nodes(2) > 0) between(:d) = between(:d) - u(:, element%nodes(2))
+         movement = matmul(between, element%axes)
+      end associate
+   end function joint_movement
 
 end module model_data

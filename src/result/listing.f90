@@ -1,30 +1,30 @@
 !> The listing NAME.out: increments of each stage, and the tables that OUTPUT asks for.
 module listing
-   use body_elements, only: element_stress
-   use case_control, only: output_all, output_joint, output_last
+   use case_control, only: method_back, method_newton, output_all, output_joint, output_last
    use deck_input, only: deck_type
    use equations, only: equation_system
    use joint_statics, only: carried_resultant
    use kinds, only: wp
-   use listing_opening, only: heading, label_type, page_width, unit_labels, write_opening
+   use listing_bodies, only: list_bodies
+   use listing_joints, only: list_energy, list_interface, list_passes, list_resultants, note_passes, note_resultants
+   use listing_opening, only: heading, label_type, noise, page_width, unit_labels, write_opening
    use model_data, only: model_type, stage_load_type
-   use normal_stiffness, only: branch_name, branch_open
+   use normal_stiffness, only: branch_open
    use output_file, only: output_file_type
+   use row_buffer, only: row_buffer_type
    use stage_plan, only: stage_plan_type
-   use step_method, only: analysis_type
+   use analysis_state, only: analysis_type
    use text_tools, only: clean, integer_text, plural, upper
    implicit none
    private
 
    public :: start_listing, list_increment, list_stage, finish_listing
 
-   real(wp), parameter :: noise = 1.0e-9_wp ! of the largest number of its kind: below it only rounding is printed
-
    type, public :: listing_type
       type(output_file_type) :: file
       type(label_type) :: labels
-      character(page_width), allocatable :: rows(:) ! of the increments of the stage so far
-      integer  :: n_rows = 0
+      integer :: method = 0
+      type(row_buffer_type) :: increments, resultants, passes ! of the stage so far
       integer  :: n_increments = 0, n_removed = 0
       real(wp) :: largest_force = 0.0_wp            ! ever applied, for the noise
    end type listing_type
@@ -42,7 +42,7 @@ contains
 
       call listing%file%start(path)
       listing%labels = unit_labels(deck%control)
-      allocate (listing%rows(64))
+      listing%method = deck%control%method
       call write_opening(listing%file, deck, model, plan, system)
    end subroutine start_listing
 
@@ -59,13 +59,17 @@ contains
       listing%n_removed = listing%n_removed + analysis%n_removed
       listing%largest_force = max(listing%largest_force, maxval(abs(analysis%applied)))
       do j = 1, size(model%joints)
-         call add_row(listing, increment_row(listing, model, analysis, j))
+         call listing%increments%add(increment_row(listing, model, analysis, j))
       end do
-      if (size(model%joints) == 0) call add_row(listing, increment_row(listing, model, analysis, 0))
+      if (size(model%joints) == 0) call listing%increments%add(increment_row(listing, model, analysis, 0))
+      call note_resultants(model, analysis, listing%largest_force, listing%resultants)
+      call note_passes(analysis, listing%passes)
       associate (stage => plan%stages(analysis%stage))
          if (analysis%increment == size(stage%shares)) return ! the tables of the end of the stage follow
-         if (stage%output == output_all .or. stage%output == output_joint) call list_interface(listing, model, plan, analysis)
-         if (stage%output == output_all) call list_bodies(listing, model, plan, analysis)
+         if (stage%output == output_all .or. stage%output == output_joint) call list_interface( &
+            listing%file, listing%labels, model, plan, analysis)
+         if (stage%output == output_all) &
+            call list_bodies(listing%file, listing%labels, listing%largest_force, model, plan, analysis)
       end associate
    end subroutine list_increment
 
@@ -77,8 +81,9 @@ contains
       type(stage_plan_type), intent(in) :: plan
       type(analysis_type), intent(in)   :: analysis
       character(page_width) :: line
-      integer :: i
+      character(:), allocatable :: words
 
+      words = 'STAGE '//integer_text(plan%stages(analysis%stage)%id)
       associate (stage => plan%stages(analysis%stage), file => listing%file)
          call heading(file, 'INCREMENTS OF STAGE '//integer_text(stage%id)//'   '//trim(stage%label))
          call file%put('  INCR     SHARE    LOAD  JOINT  OPEN   LAMBDA MAX AT NODE        P MAX AT NODE  JOINT FORCE'// &
@@ -93,29 +98,34 @@ contains
             line(121:) = adjustr(listing%labels%force(:9))
             call file%put(line)
          end if
-         do i = 1, listing%n_rows
-            call file%put(listing%rows(i))
-         end do
-         listing%n_rows = 0
-         if (stage%output >= output_last) call list_interface(listing, model, plan, analysis)
-         if (stage%output == output_all .or. stage%output == output_last) call list_bodies(listing, model, plan, analysis)
+         call listing%increments%flush(file)
+         call list_passes_of_method(listing, words)
+         call list_resultants(file, listing%labels, words, listing%resultants)
+         call list_energy(file, listing%labels, words, model, analysis)
+         if (stage%output >= output_last) call list_interface(file, listing%labels, model, plan, analysis)
+         if (stage%output == output_all .or. stage%output == output_last) &
+            call list_bodies(file, listing%labels, listing%largest_force, model, plan, analysis)
       end associate
    end subroutine list_stage
 
 
-   subroutine add_row(listing, row)
+   !> What was done in the increments of the stage besides solving once.
+   subroutine list_passes_of_method(listing, stage)
       type(listing_type), intent(inout) :: listing
-      character(*), intent(in)          :: row
-      character(page_width), allocatable :: longer(:)
+      character(*), intent(in)          :: stage
 
-      if (listing%n_rows == size(listing%rows)) then
-         allocate (longer(2*listing%n_rows))
-         longer(:listing%n_rows) = listing%rows
-         call move_alloc(longer, listing%rows)
-      end if
-      listing%n_rows = listing%n_rows + 1
-      listing%rows(listing%n_rows) = row
-   end subroutine add_row
+      select case (listing%method)
+      case (method_newton)
+         call list_passes(listing%file, 'CONVERGENCE HISTORY, '//stage//': UNBALANCED FORCE BEFORE AND AFTER EACH ITERATION', &
+                          '  INCR  PART    ITER        BEFORE         AFTER     STEP  CHANGES', listing%passes)
+      case (method_back)
+         call list_passes(listing%file, 'ITERATIONS, '//stage//': LARGEST PRESSURE, AND ITS LARGEST CHANGE', &
+                          '  INCR  ITER      PRESSURE        CHANGE', listing%passes)
+      case default
+         call list_passes(listing%file, 'RE-ANALYSES AFTER THE COULOMB CHECK, '//stage//': EXCESS OVER THE LIMITS', &
+                          '  INCR  PASS        BEFORE         AFTER  REMOVED %   SLIPPING', listing%passes)
+      end select
+   end subroutine list_passes_of_method
 
 
    !> One line of the table of increments: joint J after the increment just completed (J = 0: no joints).
@@ -132,7 +142,7 @@ contains
       floor = noise*listing%largest_force
       write (row, '(i6, f10.6, f8.4)') analysis%increment, analysis%share, analysis%fraction
       if (j > 0) then
-         associate (joint => model%joints(j), state => analysis%normal)
+         associate (joint => model%joints(j), state => analysis%states%normal)
             n_open = 0; force = 0.0_wp
             at_lambda = joint%first; at_p = joint%first
             do i = joint%first, joint%last
@@ -182,158 +192,6 @@ contains
    end function unbalanced_force
 
 
-   !> The interface elements, joint by joint.
-   subroutine list_interface(listing, model, plan, analysis)
-      type(listing_type), intent(inout) :: listing
-      type(model_type), intent(in)      :: model
-      type(stage_plan_type), intent(in) :: plan
-      type(analysis_type), intent(in)   :: analysis
-      character(page_width) :: line
-      real(wp) :: lambda_floor, p_floor, force_floor
-      integer  :: i, j, node2
-
-      do j = 1, size(model%joints)
-         associate (joint => model%joints(j), file => listing%file, state => analysis%normal)
-            call heading(file, 'INTERFACE ELEMENTS OF JOINT '//integer_text(joint%id)//where_now(plan, analysis))
-            call file%put('   ELEMENT   NODE 1   NODE 2            X            Y         AREA  BRANCH       LAMBDA'// &
-                          '            P        FORCE    K_N, USED')
-            if (listing%labels%force /= '') then
-               line = ''
-               line(41:) = listing%labels%length
-               line(54:) = listing%labels%length
-               line(66:) = listing%labels%area
-               line(86:) = listing%labels%length
-               line(97:) = listing%labels%pressure
-               line(112:) = listing%labels%force
-               line(123:) = listing%labels%stiffness
-               call file%put(line)
-            end if
-            lambda_floor = noise*maxval(abs(state(joint%first:joint%last)%lambda))
-            p_floor = noise*maxval(abs(state(joint%first:joint%last)%pressure))
-            force_floor = noise*maxval(abs(state(joint%first:joint%last)%sumf))
-            do i = joint%first, joint%last
-               associate (element => model%interface(i))
-                  node2 = 0
-                  if (element%nodes(2) > 0) node2 = model%node_id(element%nodes(2))
-                  write (line, '(i10, 2i9, 2es13.5, es13.5, 2x, a6, 4es13.5)') element%id, model%node_id(element%nodes(1)), &
-                     node2, clean(model%x(:2, element%nodes(1))), element%area, branch_name(state(i)%branch), &
-                     clean(state(i)%lambda, lambda_floor), clean(state(i)%pressure, p_floor), &
-                     clean(state(i)%sumf, force_floor), clean(state(i)%k_n)
-                  call file%put(line)
-               end associate
-            end do
-         end associate
-      end do
-   end subroutine list_interface
-
-
-   !> Displacements, stresses, reactions.
-   subroutine list_bodies(listing, model, plan, analysis)
-      type(listing_type), intent(inout) :: listing
-      type(model_type), intent(in)      :: model
-      type(stage_plan_type), intent(in) :: plan
-      type(analysis_type), intent(in)   :: analysis
-
-      call list_displacements(listing, model, plan, analysis)
-      call list_stresses(listing, model, plan, analysis)
-      call list_reactions(listing, model, plan, analysis)
-   end subroutine list_bodies
-
-
-   subroutine list_displacements(listing, model, plan, analysis)
-      type(listing_type), intent(inout) :: listing
-      type(model_type), intent(in)      :: model
-      type(stage_plan_type), intent(in) :: plan
-      type(analysis_type), intent(in)   :: analysis
-      character(page_width) :: line
-      real(wp) :: floor
-      integer  :: node
-
-      call heading(listing%file, 'DISPLACEMENTS OF NODES'//where_now(plan, analysis)//in_units(listing%labels%length))
-      call listing%file%put('      NODE            X            Y           UX           UY')
-      floor = noise*maxval(abs(analysis%u))
-      do node = 1, model%n_nodes
-         if (.not. model%used(node)) cycle
-         write (line, '(i10, 4es13.5)') model%node_id(node), clean(model%x(:2, node)), clean(analysis%u(:, node), floor)
-         call listing%file%put(line)
-      end do
-   end subroutine list_displacements
-
-
-   subroutine list_stresses(listing, model, plan, analysis)
-      type(listing_type), intent(inout) :: listing
-      type(model_type), intent(in)      :: model
-      type(stage_plan_type), intent(in) :: plan
-      type(analysis_type), intent(in)   :: analysis
-      character(page_width) :: line
-      real(wp), allocatable :: stress(:, :)
-      real(wp) :: floor
-      integer  :: e
-
-      if (model%n_elements == 0) return
-      allocate (stress(3, model%n_elements))
-      do e = 1, model%n_elements
-         stress(:, e) = element_stress(model, e, analysis%u)
-      end do
-      floor = noise*maxval(abs(stress))
-      call heading(listing%file, 'STRESSES AT THE CENTRES OF ELEMENTS'//where_now(plan, analysis)// &
-                   in_units(listing%labels%pressure))
-      call listing%file%put('   ELEMENT     CENTRE X     CENTRE Y      SIGMA X      SIGMA Y       TAU XY')
-      do e = 1, model%n_elements
-         write (line, '(i10, 5es13.5)') model%element_id(e), &
-            clean(0.25_wp*sum(model%x(:2, model%element_nodes(:, e)), dim=2)), clean(stress(:, e), floor)
-         call listing%file%put(line)
-      end do
-   end subroutine list_stresses
-
-
-   !> Reactions at supports, and the balance of all outer forces: loads, supports, rigid bases.
-   subroutine list_reactions(listing, model, plan, analysis)
-      type(listing_type), intent(inout) :: listing
-      type(model_type), intent(in)      :: model
-      type(stage_plan_type), intent(in) :: plan
-      type(analysis_type), intent(in)   :: analysis
-      character(page_width) :: line
-      real(wp) :: reaction(model%dimension), supports(model%dimension), base(model%dimension), loads(model%dimension), floor
-      integer  :: i, node
-
-      floor = noise*max(listing%largest_force, tiny(1.0_wp))
-      call heading(listing%file, 'REACTIONS AT SUPPORTS'//where_now(plan, analysis)//in_units(listing%labels%force))
-      call listing%file%put('      NODE            X            Y           RX           RY')
-      supports = 0.0_wp
-      do node = 1, model%n_nodes
-         if (.not. any(model%held(:, node)) .or. .not. model%used(node)) cycle
-         reaction = merge(-analysis%unbalanced(:, node), 0.0_wp, model%held(:, node))
-         supports = supports + reaction
-         write (line, '(i10, 4es13.5)') model%node_id(node), clean(model%x(:2, node)), clean(reaction, floor)
-         call listing%file%put(line)
-      end do
-      base = 0.0_wp
-      do i = 1, size(model%interface)
-         if (model%interface(i)%nodes(2) > 0) cycle
-         base = base - analysis%normal(i)%sumf*model%interface(i)%axes(:model%dimension, 3)
-      end do
-      loads = sum(analysis%applied, dim=2)
-      call heading(listing%file, 'BALANCE OF FORCES'//where_now(plan, analysis)//in_units(listing%labels%force))
-      call listing%file%put('                                               X            Y')
-      call balance_line('LOADS', loads)
-      call balance_line('SUPPORTS', supports)
-      call balance_line('RIGID BASES, THROUGH THE JOINTS', base)
-      call balance_line('SUM: LEFT UNBALANCED', loads + supports + base)
-
-   contains
-
-      subroutine balance_line(words, force)
-         character(*), intent(in) :: words
-         real(wp), intent(in)     :: force(:)
-
-         write (line, '(2x, a, t36, 3es13.5)') words, clean(force, floor)
-         call listing%file%put(line)
-      end subroutine balance_line
-
-   end subroutine list_reactions
-
-
    !> Close the listing under its name.
    subroutine finish_listing(listing, plan, ok)
       type(listing_type), intent(inout) :: listing
@@ -346,22 +204,5 @@ contains
       call listing%file%finish(ok)
    end subroutine finish_listing
 
-
-   pure function where_now(plan, analysis) result(words)
-      type(stage_plan_type), intent(in) :: plan
-      type(analysis_type), intent(in)   :: analysis
-      character(:), allocatable         :: words
-
-      words = ', STAGE '//integer_text(plan%stages(analysis%stage)%id)//', INCREMENT '//integer_text(analysis%increment)
-   end function where_now
-
-
-   pure function in_units(label) result(words)
-      character(*), intent(in)  :: label
-      character(:), allocatable :: words
-
-      words = ''
-      if (label /= '') words = '   ('//trim(label)//')'
-   end function in_units
 
 end module listing

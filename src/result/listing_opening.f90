@@ -1,24 +1,27 @@
 !> The first pages of the listing: heading, deck echo, summary of the model, joints and stages.
 module listing_opening
+   use analysis_state, only: analysis_type
    use case_control, only: case_control_type, pressure_eq10
    use deck_cards, only: card_name, is_continuation
    use deck_input, only: deck_type
    use equations, only: equation_system
    use kinds, only: long, wp
    use model_data, only: model_type
-   use normal_stiffness, only: pressure_floor
+   use normal_stiffness, only: branch_load, branch_name, branch_reload, branch_unload, pressure_floor
    use output_file, only: output_file_type
    use stage_plan, only: stage_plan_type
    use text_tools, only: clean, integer_text
    implicit none
    private
 
-   public :: write_opening, unit_labels, label_type, heading
+   public :: write_opening, unit_labels, heading, where_now, in_units
 
    integer, parameter, public :: page_width = 132
+   real(wp), parameter, public :: noise = 1.0e-9_wp !! of the largest number of its kind: below it only rounding is printed
+   character(6), parameter :: method_names(3) = [character(6) :: 'STEP', 'NEWTON', 'BACK']
 
    !> What the numbers of the listing are measured in, blank where the deck does not say.
-   type :: label_type
+   type, public :: label_type
       character(20) :: length = '', force = '', pressure = '', area = '', stiffness = ''
    end type label_type
 
@@ -154,8 +157,11 @@ contains
       call count_line('PROFILE OF THE STIFFNESS MATRIX, ENTRIES', system%profile)
       call count_line('   IN THE ORDER OF THE NODE NUMBERS', system%profile_as_numbered)
       call count_line('STAGES', size(deck%control%stages, kind=long))
-      call file%put('  METHOD STEP   PRESSURE '//trim(merge('EQ10', 'SUMF', deck%control%pressure == pressure_eq10))// &
-                    '   CARRY '//trim(merge('YES', 'NO ', deck%control%carry))//'   SOLVER SKYLINE')
+      associate (control => deck%control)
+         call file%put('  METHOD '//trim(method_names(control%method))//'   PRESSURE '// &
+                       trim(merge('EQ10', 'SUMF', control%pressure == pressure_eq10))//'   CARRY '// &
+                       trim(merge('YES', 'NO ', control%carry))//'   SOLVER SKYLINE')
+      end associate
       if (deck%control%length_unit /= '') call file%put('  UNITS, LABELS ONLY: LENGTH '// &
          trim(deck%control%length_unit)//', FORCE '//trim(deck%control%force_unit))
 
@@ -195,14 +201,55 @@ contains
          call file%put(line)
       end if
       do j = 1, size(model%joints)
-         associate (joint => model%joints(j))
+         associate (joint => model%joints(j), law => model%joints(j)%law%normal)
             write (line, '(i10, i9, es13.5, es13.5, f7.4, es15.5, es17.5, es17.5, 2f11.6)') joint%id, &
-               joint%last - joint%first + 1, joint%area, joint%c, joint%m, joint%e_u, joint%p_av, &
-               pressure_floor*joint%p_av, clean(joint%normal(:2), 1.0e-9_wp)
+               joint%last - joint%first + 1, joint%area, law%c, law%m, law%e_u, law%p_av, &
+               pressure_floor*law%p_av, clean(joint%normal(:2), 1.0e-9_wp)
             call file%put(line)
          end associate
       end do
+      call write_shear_laws(file, model)
    end subroutine write_joints
+
+
+   !> Shear laws and friction of the joints that have them.
+   subroutine write_shear_laws(file, model)
+      type(output_file_type), intent(inout) :: file
+      type(model_type), intent(in)          :: model
+      integer, parameter :: branches(3) = [branch_load, branch_unload, branch_reload]
+      character(page_width) :: line
+      integer :: b, j, k
+
+      if (.not. any(model%joints%law%shear(1)%given .or. model%joints%law%shear(2)%given .or. &
+                    model%joints%law%has_friction)) return
+      call heading(file, 'SHEAR LAWS: TAU = (C11 + C12 P) D + (C21 + C22 P) D**2 + (C31 + C32 P) D**3')
+      call file%put('     JOINT AXIS  BRANCH          C11          C12          C21          C22          C31          C32')
+      do j = 1, size(model%joints)
+         associate (law => model%joints(j)%law)
+            do k = 1, model%dimension - 1
+               if (.not. law%shear(k)%given) cycle
+               do b = 1, 3
+                  write (line, '(i10, 4x, a1, 2x, a6, 6es13.5)') model%joints(j)%id, merge('X', 'Y', k == 1), &
+                     branch_name(branches(b)), law%shear(k)%coefficients(:, :, branches(b))
+                  call file%put(line)
+               end do
+               if (law%shear(k)%p_max < huge(1.0_wp)) then
+                  write (line, '(17x, a, es13.5)') 'TESTED UP TO P =', law%shear(k)%p_max
+                  call file%put(line)
+               end if
+               if (law%shear(k)%d_max < huge(1.0_wp)) then
+                  write (line, '(17x, a, es13.5)') 'TESTED UP TO D =', law%shear(k)%d_max
+                  call file%put(line)
+               end if
+            end do
+            if (law%has_friction) then
+               write (line, '(i10, a, f10.6, a, i5)') model%joints(j)%id, '   FRICTION MU =', law%mu, '   RE-ANALYSES', &
+                  law%n_reanalyses
+               call file%put(line)
+            end if
+         end associate
+      end do
+   end subroutine write_shear_laws
 
 
    !> The load history: totals at the end of every stage.
@@ -236,5 +283,22 @@ contains
          end associate
       end do
    end subroutine write_stages
+
+   pure function where_now(plan, analysis) result(words)
+      type(stage_plan_type), intent(in) :: plan
+      type(analysis_type), intent(in)   :: analysis
+      character(:), allocatable         :: words
+
+      words = ', STAGE '//integer_text(plan%stages(analysis%stage)%id)//', INCREMENT '//integer_text(analysis%increment)
+   end function where_now
+
+
+   pure function in_units(label) result(words)
+      character(*), intent(in)  :: label
+      character(:), allocatable :: words
+
+      words = ''
+      if (label /= '') words = '   ('//trim(label)//')'
+   end function in_units
 
 end module listing_opening

@@ -8,7 +8,7 @@ module results
    use model_data, only: model_type
    use output_file, only: output_file_type
    use stage_plan, only: stage_plan_type
-   use step_method, only: analysis_type
+   use analysis_state, only: analysis_type
    implicit none
    private
 

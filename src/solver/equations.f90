@@ -158,22 +158,22 @@ contains
 
    !> [k_s] = [k_b] + sum of [k_int], Eq. (8), factorised. A structure without stiffness in some direction is a failure
    !! that names the node; WHERE says in which increment.
-   subroutine form_structure_stiffness(model, k_n, where, system, failure)
+   subroutine form_structure_stiffness(model, k_int, where, system, failure)
       type(model_type), intent(in)         :: model
-      real(wp), intent(in)                 :: k_n(:) !! (interface elements) normal stiffnesses [force/length]
+      real(wp), intent(in)                 :: k_int(:, :, :) !! (3, 3, n) of interface elements, in their axes [force/length]
       character(*), intent(in)             :: where
       type(equation_system), intent(inout) :: system
       type(failure_type), intent(inout)    :: failure
       character(1), parameter :: direction_name(3) = ['X', 'Y', 'Z']
-      real(wp) :: k(6, 6), z(3)
+      real(wp) :: k(6, 6), k_global(3, 3)
       integer  :: d, fault, i, rows(6)
 
       system%structure = system%body
       d = model%dimension
       do i = 1, size(model%interface)
          associate (nodes => model%interface(i)%nodes)
-            z = model%interface(i)%axes(:, 3)
-            k(:d, :d) = k_n(i)*spread(z(:d), 2, d)*spread(z(:d), 1, d)
+            k_global = matmul(model%interface(i)%axes, matmul(k_int(:, :, i), transpose(model%interface(i)%axes)))
+            k(:d, :d) = k_global(:d, :d)
             k(d + 1:2*d, d + 1:2*d) = k(:d, :d)
             k(:d, d + 1:2*d) = -k(:d, :d)
             k(d + 1:2*d, :d) = -k(:d, :d)

@@ -1,0 +1,193 @@
+!> Everything that changes from increment to increment, and what all methods do with it alike.
+module analysis_state
+   use body_elements, only: internal_forces
+   use joint_laws, only: element_state, element_stiffness_of
+   use kinds, only: wp
+   use model_data, only: joint_movement, model_type
+   use normal_stiffness, only: branch_open
+   use stage_plan, only: stage_plan_type
+   implicit none
+   private
+
+   public :: start_analysis, start_stage, start_increment, interface_stiffness, find_unbalanced, element_force, &
+             tally_work, record_pass, free_norm
+
+   !> Work done on one joint in the present stage [force x length].
+   type, public :: joint_energy
+      real(wp) :: put_in(2)     = 0.0_wp            !! by shear, by normal forces: sum of the positive works
+      real(wp) :: given_back(2) = 0.0_wp            !! likewise of the negative ones, as a positive number
+   end type joint_energy
+
+   !> One re-analysis after the Coulomb check, or one iteration towards equilibrium, for the listing.
+   type, public :: pass_record
+      real(wp) :: before = 0.0_wp, after = 0.0_wp   !! excess, or unbalanced force [force]
+      real(wp) :: step = 1.0_wp                     !! length of the line search
+      integer  :: changes = 0                       !! interface elements that slip, or that changed their branch
+      integer  :: part = 0                          !! NEWTON: which part of a divided increment
+   end type pass_record
+
+   !> Arrays over nodes are (dimension, n_nodes).
+   type, public :: analysis_type
+      integer  :: stage = 0, increment = 0
+      real(wp) :: share = 0.0_wp                    !! of the stage's load change, this increment
+      real(wp) :: fraction = 0.0_wp                 !! of it, so far: exactly 1 at the end of the stage
+      logical  :: carry = .false.
+      real(wp) :: tolerance = 0.0_wp                !! NEWTON: what may be left unbalanced [force]
+      real(wp), allocatable :: load_before(:, :)    !! at the start of the stage [force]
+      real(wp), allocatable :: load_after(:, :)     !! at its end
+      real(wp), allocatable :: applied(:, :)        !! now
+      real(wp), allocatable :: change(:, :)         !! load of this increment
+      real(wp), allocatable :: u(:, :), du(:, :)    !! displacements, and of this increment [length]
+      real(wp), allocatable :: unbalanced(:, :)     !! applied - internal forces; on held components minus the reaction
+      type(element_state), allocatable :: states(:) !! of the interface elements
+      real(wp), allocatable :: k(:, :)              !! (3, n) their stiffness (k_sx, k_sy, k_n) in the next increment
+      type(joint_energy), allocatable  :: energy(:) !! of the joints
+      type(pass_record), allocatable   :: passes(:) !! of the last increment
+      integer  :: n_passes  = 0
+      integer  :: n_removed = 0                     !! interface elements removed by the last increment
+      integer  :: n_parts   = 1                     !! NEWTON: parts that the last increment was divided into
+   end type analysis_type
+
+contains
+
+   !> A structure at rest without load.
+   subroutine start_analysis(model, carry, analysis)
+      type(model_type), intent(in)     :: model
+      logical, intent(in)              :: carry
+      type(analysis_type), intent(out) :: analysis
+
+      allocate (analysis%applied(model%dimension, model%n_nodes), source=0.0_wp)
+      allocate (analysis%load_before, analysis%load_after, analysis%change, analysis%u, analysis%du, analysis%unbalanced, &
+                source=analysis%applied)
+      analysis%carry = carry
+      allocate (analysis%states(size(model%interface)), analysis%energy(size(model%joints)), analysis%passes(16))
+      allocate (analysis%k(3, size(model%interface)), source=0.0_wp)
+   end subroutine start_analysis
+
+
+   !> The next stage begins where the last one ended; the joint remembers.
+   subroutine start_stage(model, stage, analysis)
+      type(model_type), intent(in)       :: model
+      integer, intent(in)                :: stage
+      type(analysis_type), intent(inout) :: analysis
+      integer :: i
+
+      analysis%stage = stage
+      analysis%increment = 0
+      analysis%fraction = 0.0_wp
+      analysis%energy = joint_energy()
+      analysis%load_before = analysis%applied
+      analysis%load_after = 0.0_wp
+      associate (loads => model%stage_loads(stage))
+         do i = 1, loads%n
+            analysis%load_after(:, loads%node(i)) = analysis%load_after(:, loads%node(i)) + loads%force(:model%dimension, i)
+         end do
+      end associate
+   end subroutine start_stage
+
+
+   !> {dF} of the next increment: its share of the stage's load change, and what is unbalanced where CARRY asks for it.
+   subroutine start_increment(plan, analysis)
+      type(stage_plan_type), intent(in)  :: plan
+      type(analysis_type), intent(inout) :: analysis
+      real(wp), allocatable :: target(:, :)
+
+      associate (shares => plan%stages(analysis%stage)%shares)
+         analysis%increment = analysis%increment + 1
+         analysis%share = shares(analysis%increment)
+         analysis%fraction = sum(shares(:analysis%increment))
+         if (analysis%increment == size(shares)) then
+            analysis%fraction = 1.0_wp
+            target = analysis%load_after
+         else
+            target = analysis%load_before + analysis%fraction*(analysis%load_after - analysis%load_before)
+         end if
+      end associate
+      analysis%change = target - analysis%applied
+      analysis%applied = target
+      if (analysis%carry) analysis%change = analysis%change + analysis%unbalanced
+      analysis%n_passes = 0
+      analysis%n_parts = 1
+   end subroutine start_increment
+
+
+   !> NORM and SHEAR for every interface element: its branches after the last increment, its stiffness for the next one.
+   subroutine interface_stiffness(model, analysis)
+      type(model_type), intent(in)       :: model
+      type(analysis_type), intent(inout) :: analysis
+      integer :: before, i
+
+      analysis%n_removed = 0
+      do i = 1, size(model%interface)
+         before = analysis%states(i)%normal%branch
+         call element_stiffness_of(model%joints(model%interface(i)%joint)%law, model%interface(i)%area, &
+                                   joint_movement(model, analysis%u, i), analysis%states(i), analysis%k(:, i))
+         if (analysis%states(i)%normal%branch == branch_open .and. before /= branch_open) &
+            analysis%n_removed = analysis%n_removed + 1
+      end do
+      call find_unbalanced(model, analysis)
+   end subroutine interface_stiffness
+
+
+   !> Force that interface element I carries, in global axes, as it acts on its node 2 or the base [force].
+   pure function element_force(model, analysis, i) result(force)
+      type(model_type), intent(in)    :: model
+      type(analysis_type), intent(in) :: analysis
+      integer, intent(in)             :: i
+      real(wp) :: force(3)
+
+      associate (state => analysis%states(i), element => model%interface(i))
+         force = matmul(element%axes, [state%shear%tau*element%area, state%normal%sumf])
+      end associate
+   end function element_force
+
+
+   !> Applied load minus the forces in bodies and joints: what the increment leaves unbalanced, and on held components
+   !! minus the reaction.
+   subroutine find_unbalanced(model, analysis)
+      type(model_type), intent(in)       :: model
+      type(analysis_type), intent(inout) :: analysis
+      real(wp) :: force(3)
+      integer  :: i
+
+      call internal_forces(model, analysis%u, analysis%unbalanced)
+      analysis%unbalanced = analysis%applied - analysis%unbalanced
+      do i = 1, size(model%interface)
+         force = element_force(model, analysis, i)
+         associate (nodes => model%interface(i)%nodes, d => model%dimension)
+            analysis%unbalanced(:, nodes(1)) = analysis%unbalanced(:, nodes(1)) - force(:d)
+            if (nodes(2) > 0) analysis%unbalanced(:, nodes(2)) = analysis%unbalanced(:, nodes(2)) + force(:d)
+         end associate
+      end do
+   end subroutine find_unbalanced
+
+
+   !> Euclidean norm of nodal forces over the free components [force].
+   pure real(wp) function free_norm(model, f)
+      type(model_type), intent(in) :: model
+      real(wp), intent(in)         :: f(:, :)
+
+      free_norm = sqrt(sum(f**2, mask=.not. model%held))
+   end function free_norm
+
+
+   !> Add the works (by shear, by normal forces) done on one element to those of its joint.
+   pure subroutine tally_work(energy, work)
+      type(joint_energy), intent(inout) :: energy
+      real(wp), intent(in)              :: work(2)
+
+      energy%put_in = energy%put_in + max(0.0_wp, work)
+      energy%given_back = energy%given_back + max(0.0_wp, -work)
+   end subroutine tally_work
+
+   !> Note a pass for the listing.
+   subroutine record_pass(analysis, pass)
+      type(analysis_type), intent(inout) :: analysis
+      type(pass_record), intent(in)      :: pass
+
+      if (analysis%n_passes == size(analysis%passes)) analysis%passes = [analysis%passes, analysis%passes]
+      analysis%n_passes = analysis%n_passes + 1
+      analysis%passes(analysis%n_passes) = pass
+   end subroutine record_pass
+
+end module analysis_state

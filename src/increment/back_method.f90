@@ -1,0 +1,124 @@
+!> METHOD = BACK, after Back, Burdekin and Cowley: the whole load at once with secant stiffnesses at the last pressures, two
+!! consecutive pressures averaged, until they settle. Loading only.
+module back_method
+   use analysis_state, only: analysis_type, find_unbalanced, record_pass, pass_record, tally_work
+   use equations, only: equation_system, form_structure_stiffness, solve_equations
+   use failures, only: failure_type
+   use kinds, only: wp
+   use model_data, only: joint_movement, model_type
+   use normal_stiffness, only: branch_load, branch_open, pressure_floor
+   use shear_stiffness, only: shear_law
+   use stage_plan, only: stage_plan_type, where_in_plan
+   use text_tools, only: integer_text, real_text
+   implicit none
+   private
+
+   public :: back_increment
+
+   integer, parameter  :: most_iterations = 1000
+   real(wp), parameter :: settled = 1.0e-11_wp !! of the largest pressure: change from one iteration to the next
+
+contains
+
+   !> The whole load in one go: secant k_n = p**(1-m) a/c, and P(d)/d a for shear, not above mu p/|delta| a.
+   subroutine back_increment(model, plan, analysis, system, failure)
+      type(model_type), intent(in)         :: model
+      type(stage_plan_type), intent(in)    :: plan
+      type(analysis_type), intent(inout)   :: analysis
+      type(equation_system), intent(inout) :: system
+      type(failure_type), intent(inout)    :: failure
+      real(wp), allocatable :: p(:), p_new(:), movement(:, :), k_int(:, :, :)
+      real(wp) :: change
+      integer  :: i, iteration, n, worst
+
+      n = size(model%interface)
+      allocate (p(n), p_new(n), movement(3, n), k_int(3, 3, n), source=0.0_wp)
+      do i = 1, n
+         p(i) = model%joints(model%interface(i)%joint)%law%normal%p_av
+      end do
+      do iteration = 1, most_iterations
+         do i = 1, n
+            call secants(i)
+         end do
+         call form_structure_stiffness(model, k_int, where_in_plan(plan, analysis%stage, analysis%increment), system, failure)
+         if (failure%raised) return
+         call solve_equations(system, analysis%applied, analysis%u)
+         do i = 1, n
+            movement(:, i) = joint_movement(model, analysis%u, i)
+            p_new(i) = max(0.0_wp, k_int(3, 3, i)*movement(3, i)/model%interface(i)%area)
+         end do
+         if (n == 0) exit
+         change = maxval(abs(p_new - p))
+         call record_pass(analysis, pass_record(before=maxval(abs(p)), after=change))
+         if (change <= settled*max(maxval(p), tiny(1.0_wp))) exit
+         p = 0.5_wp*(p + p_new)
+      end do
+      if (iteration > most_iterations) then
+         worst = maxloc(abs(p_new - p), dim=1)
+         call failure%raise(where_in_plan(plan, analysis%stage, analysis%increment)//': the pressures have not settled after '// &
+            integer_text(most_iterations)//' iterations; the one of node '// &
+            integer_text(model%node_id(model%interface(worst)%nodes(1)))//' still changes by '//real_text(change))
+         return
+      end if
+      call store()
+
+   contains
+
+      subroutine secants(j)
+         integer, intent(in) :: j
+         integer :: k
+
+         associate (law => model%joints(model%interface(j)%joint)%law, area => model%interface(j)%area)
+            k_int(:, :, j) = 0.0_wp
+            if (p(j) < pressure_floor*law%normal%p_av .and. movement(3, j) < 0.0_wp) return ! open
+            k_int(3, 3, j) = max(p(j), pressure_floor*law%normal%p_av)**(1.0_wp - law%normal%m)*area/law%normal%c
+            do k = 1, 2
+               if (.not. law%shear(k)%given) cycle
+               k_int(k, k, j) = area*shear_secant(law%shear(k), movement(k, j), max(p(j), 0.0_wp))
+            end do
+            if (.not. law%has_friction) return
+            do k = 1, 2
+               if (norm2(movement(:2, j)) > 0.0_wp) &
+                  k_int(k, k, j) = min(k_int(k, k, j), law%mu*max(p(j), 0.0_wp)*area/norm2(movement(:2, j)))
+            end do
+         end associate
+      end subroutine secants
+
+      subroutine store()
+         integer :: k
+
+         do i = 1, n
+            associate (state => analysis%states(i), element => model%interface(i))
+               state%normal%branch = merge(branch_load, branch_open, movement(3, i) > 0.0_wp)
+               state%normal%lambda = movement(3, i)
+               state%normal%k_n = k_int(3, 3, i)
+               state%normal%sumf = max(0.0_wp, k_int(3, 3, i)*movement(3, i))
+               state%normal%pressure = state%normal%sumf/element%area
+               do k = 1, 2
+                  state%shear(k)%sense = sign(1.0_wp, movement(k, i))
+                  state%shear(k)%delta = movement(k, i)
+                  state%shear(k)%k_s = k_int(k, k, i)
+                  state%shear(k)%tau = k_int(k, k, i)*movement(k, i)/element%area
+               end do
+               call tally_work(analysis%energy(element%joint), [0.0_wp, element%area*state%normal%pressure &
+                  *state%normal%lambda/(1.0_wp + 1.0_wp/model%joints(element%joint)%law%normal%m)])
+            end associate
+         end do
+         call find_unbalanced(model, analysis)
+      end subroutine store
+
+   end subroutine back_increment
+
+
+   !> P(d)/d of the loading curve at |DELTA| under the pressure P; its first slope at rest [pressure/length].
+   pure real(wp) function shear_secant(law, delta, p) result(secant)
+      type(shear_law), intent(in) :: law
+      real(wp), intent(in)        :: delta, p
+      real(wp) :: a(3), d
+
+      d = abs(delta)
+      a = law%coefficients(1, :, branch_load) + law%coefficients(2, :, branch_load)*p
+      secant = max(0.0_wp, a(1) + d*(a(2) + d*a(3)))
+   end function shear_secant
+
+end module back_method

@@ -1,0 +1,314 @@
+!> METHOD = NEWTON: every increment iterated to equilibrium with the exact branch laws, consistent tangent and line search; the
+!! states of the joints are committed only at equilibrium. An increment that does not converge is divided.
+module newton_method
+   use analysis_state, only: analysis_type, free_norm, pass_record, record_pass, tally_work
+   use body_elements, only: internal_forces
+   use coupled_solution, only: solve_coupled
+   use equations, only: equation_system, form_structure_stiffness, solve_equations
+   use failures, only: failure_type
+   use joint_laws, only: element_state, follow_element, rest_when_open
+   use kinds, only: wp
+   use model_data, only: joint_movement, model_type
+   use normal_stiffness, only: branch_name, branch_open
+   use stage_plan, only: stage_plan_type, where_in_plan
+   use text_tools, only: integer_text, real_text
+   implicit none
+   private
+
+   public :: newton_increment
+
+   real(wp), parameter :: load_tolerance = 1.0e-10_wp !! of the largest load so far: what may be left unbalanced
+   integer, parameter  :: most_iterations = 40
+   integer, parameter  :: most_halvings = 12
+   real(wp), parameter :: little = 1.0e-7_wp          ! of the elastic stiffness: what the matrix has where an element has none
+   real(wp), parameter :: enough = 0.8_wp             ! line search: the unbalanced work falls to this share or is searched
+
+   !> A trial: displacements, the joints that follow from them, and what is out of balance.
+   type :: trial_type
+      real(wp), allocatable :: u(:, :), body(:, :)    ! (dimension, n_nodes) displacements, forces in the bodies
+      type(element_state), allocatable :: states(:)
+      real(wp), allocatable :: tangent(:, :, :)       ! (3, 3, n) in joint axes
+      real(wp), allocatable :: work(:, :)             ! (2, n) since the committed state
+      real(wp), allocatable :: residual(:, :)
+      real(wp) :: size = 0.0_wp                       ! of the residual on free components [force]
+   end type trial_type
+
+contains
+
+   !> One increment of the load, from equilibrium to equilibrium.
+   subroutine newton_increment(model, plan, analysis, system, failure)
+      type(model_type), intent(in)         :: model
+      type(stage_plan_type), intent(in)    :: plan
+      type(analysis_type), intent(inout)   :: analysis !! applied is the load at the end of the increment
+      type(equation_system), intent(inout) :: system
+      type(failure_type), intent(inout)    :: failure
+      real(wp), allocatable :: load_start(:, :), load_end(:, :), u_start(:, :), load(:, :)
+      integer, allocatable  :: flips(:)
+      real(wp) :: done, part
+      logical  :: converged
+      integer  :: before_open
+
+      allocate (load_end, load, source=analysis%applied)
+      allocate (load_start, source=analysis%applied - analysis%change)
+      allocate (u_start, source=analysis%u)
+      before_open = count(analysis%states%normal%branch == branch_open)
+      allocate (flips(size(model%interface)), source=0)
+      done = 0.0_wp
+      part = 1.0_wp
+      analysis%n_parts = 0
+      do while (done < 1.0_wp)
+         part = min(part, 1.0_wp - done)
+         load = load_end
+         if (done + part < 1.0_wp) load = load_start + (done + part)*(load_end - load_start)
+         call iterate(model, load, where_in_plan(plan, analysis%stage, analysis%increment), analysis, system, flips, converged)
+         if (converged) then
+            done = done + part
+            part = 2.0_wp*part
+            analysis%n_parts = analysis%n_parts + 1
+         else if (part > 0.5_wp**most_halvings) then
+            part = 0.5_wp*part
+         else
+            call give_up(model, plan, analysis, flips, failure)
+            return
+         end if
+      end do
+      analysis%du = analysis%u - u_start
+      analysis%n_removed = max(0, count(analysis%states%normal%branch == branch_open) - before_open)
+   end subroutine newton_increment
+
+
+   !> Newton iterations under the nodal forces LOAD, from the committed state; converged, they are committed.
+   subroutine iterate(model, load, place, analysis, system, flips, converged)
+      type(model_type), intent(in)         :: model
+      real(wp), intent(in)                 :: load(:, :)
+      character(*), intent(in)             :: place !! stage and increment, for messages
+      type(analysis_type), intent(inout)   :: analysis
+      type(equation_system), intent(inout) :: system
+      integer, intent(inout)               :: flips(:)
+      logical, intent(out)                 :: converged
+      type(trial_type)      :: now, next
+      real(wp), allocatable :: direction(:, :)
+      real(wp) :: step
+      integer  :: iteration, changes
+      logical  :: solved
+
+      allocate (direction, mold=load)
+      converged = .false.
+      flips = 0
+      call start_trial(model, analysis, now)
+      call evaluate(model, load, analysis, now)
+      analysis%tolerance = max(analysis%tolerance, load_tolerance*free_norm(model, load), tiny(1.0_wp))
+      do iteration = 0, most_iterations
+         converged = now%size <= analysis%tolerance
+         if (converged .or. iteration == most_iterations) exit
+         call find_direction(model, now, analysis, iteration == 0, place, system, direction, solved)
+         if (.not. solved) exit
+         call search(model, load, analysis, now, direction, next, step)
+         changes = count(next%states%normal%branch /= now%states%normal%branch .or. (next%states%slips .neqv. now%states%slips))
+         where (next%states%normal%branch /= now%states%normal%branch .or. (next%states%slips .neqv. now%states%slips)) &
+            flips = flips + 1
+         call record_pass(analysis, pass_record(before=now%size, after=next%size, step=step, changes=changes, &
+                                           part=analysis%n_parts + 1))
+         if (.not. next%size < huge(1.0_wp)) exit
+         now = next
+      end do
+      if (converged) call commit(model, now, analysis)
+   end subroutine iterate
+
+
+   !> The committed state as a trial.
+   subroutine start_trial(model, analysis, trial)
+      type(model_type), intent(in)    :: model
+      type(analysis_type), intent(in) :: analysis
+      type(trial_type), intent(out)   :: trial
+
+      trial%u = analysis%u
+      allocate (trial%body, trial%residual, mold=analysis%u)
+      allocate (trial%tangent(3, 3, size(model%interface)), trial%work(2, size(model%interface)))
+      trial%states = analysis%states
+      call internal_forces(model, trial%u, trial%body)
+   end subroutine start_trial
+
+
+   !> Joints and residual of TRIAL, whose displacements and body forces are set.
+   subroutine evaluate(model, load, analysis, trial)
+      type(model_type), intent(in)    :: model
+      real(wp), intent(in)            :: load(:, :)
+      type(analysis_type), intent(in) :: analysis
+      type(trial_type), intent(inout) :: trial
+      real(wp) :: force(3)
+      integer  :: i
+
+      trial%residual = load - trial%body
+      do i = 1, size(model%interface)
+         associate (element => model%interface(i), state => trial%states(i), d => model%dimension)
+            call follow_element(model%joints(element%joint)%law, element%area, analysis%states(i), &
+                                joint_movement(model, trial%u, i), state, trial%tangent(:, :, i), trial%work(:, i))
+            force = matmul(element%axes, [state%shear%tau*element%area, state%normal%sumf])
+            trial%residual(:, element%nodes(1)) = trial%residual(:, element%nodes(1)) - force(:d)
+            if (element%nodes(2) > 0) &
+               trial%residual(:, element%nodes(2)) = trial%residual(:, element%nodes(2)) + force(:d)
+         end associate
+      end do
+      trial%size = free_norm(model, trial%residual)
+   end subroutine evaluate
+
+
+   !> The Newton direction from NOW. The factorised matrix has the symmetric, positive part of the tangent, with a little where
+   !! an element has no stiffness, and at the very first the secant of Eq. (9); what it lacks is brought in by solve_coupled.
+   subroutine find_direction(model, now, analysis, first, place, system, direction, solved)
+      type(model_type), intent(in)         :: model
+      type(trial_type), intent(in)         :: now
+      type(analysis_type), intent(inout)   :: analysis
+      logical, intent(in)                  :: first
+      character(*), intent(in)             :: place !! stage and increment, for messages
+      type(equation_system), intent(inout) :: system
+      real(wp), intent(out)                :: direction(:, :)
+      logical, intent(out)                 :: solved
+      type(failure_type)    :: failure
+      real(wp), allocatable :: matrix(:, :, :), rest(:, :, :)
+      real(wp) :: elastic(3)
+      integer  :: i, k
+      logical  :: virgin, coupled
+
+      allocate (matrix(3, 3, size(model%interface)), rest(3, 3, size(model%interface)), source=0.0_wp)
+      coupled = .false.
+      do i = 1, size(model%interface)
+         associate (element => model%interface(i), law => model%joints(model%interface(i)%joint)%law)
+            virgin = first .and. abs(analysis%states(i)%normal%lambda_a) <= 0.0_wp
+            elastic(3) = law%normal%p_av**(1.0_wp - law%normal%m)*element%area/law%normal%c
+            do k = 1, 2
+               elastic(k) = 0.0_wp
+               if (law%shear(k)%given) elastic(k) = element%area*(law%shear(k)%coefficients(1, 1, 1) &
+                                                                  + law%shear(k)%coefficients(2, 1, 1)*law%normal%p_av)
+            end do
+            matrix(3, 3, i) = max(now%tangent(3, 3, i), little*elastic(3))
+            if (virgin) matrix(3, 3, i) = elastic(3)
+            matrix(:2, :2, i) = 0.5_wp*(now%tangent(:2, :2, i) + transpose(now%tangent(:2, :2, i)))
+            do k = 1, 2
+               matrix(k, k, i) = max(0.0_wp, matrix(k, k, i)) + little*max(0.0_wp, elastic(k))
+               if (virgin) matrix(k, k, i) = max(matrix(k, k, i), elastic(k))
+            end do
+            analysis%k(:, i) = [now%tangent(1, 1, i), now%tangent(2, 2, i), now%tangent(3, 3, i)]
+            rest(:2, :, i) = now%tangent(:2, :, i) - matrix(:2, :, i)
+            if (any(abs(now%tangent(:2, 3, i)) > 0.0_wp)) coupled = .true.
+         end associate
+      end do
+      call form_structure_stiffness(model, matrix, place, system, failure)
+      solved = .not. failure%raised
+      if (.not. solved) return
+      if (coupled) then
+         call solve_coupled(model, system, rest, now%residual, 1.0e-4_wp, 25, direction)
+      else
+         call solve_equations(system, now%residual, direction)
+      end if
+   end subroutine find_direction
+
+
+   !> Line search: the step along DIRECTION at which the unbalanced forces do (next to) no work on it any more.
+   subroutine search(model, load, analysis, now, direction, next, step)
+      type(model_type), intent(in)    :: model
+      real(wp), intent(in)            :: load(:, :)
+      type(analysis_type), intent(in) :: analysis
+      type(trial_type), intent(in)    :: now
+      real(wp), intent(in)            :: direction(:, :)
+      type(trial_type), intent(out)   :: next
+      real(wp), intent(out)           :: step
+      real(wp), allocatable :: body(:, :)
+      real(wp) :: g_0, g, low, high, g_low, g_high
+      integer  :: attempt
+
+      allocate (body, mold=direction)
+      call internal_forces(model, direction, body)
+      next = now
+      g_0 = sum(now%residual*direction, mask=.not. model%held)
+      step = 1.0_wp
+      call try(step, g)
+      if (next%size <= 0.5_wp*now%size .or. abs(g) <= enough*abs(g_0)) return
+      low = 0.0_wp
+      g_low = g_0
+      high = 1.0_wp
+      g_high = g
+      do attempt = 1, 12
+         if (g_low*g_high > 0.0_wp) then                   ! the work does not change sign: only shorter steps help
+            step = 0.5_wp*step
+         else
+            step = (low*g_high - high*g_low)/(g_high - g_low)
+            step = min(max(step, low + 0.05_wp*(high - low)), high - 0.05_wp*(high - low))
+         end if
+         call try(step, g)
+         if (abs(g) <= 0.5_wp*abs(g_0) .or. next%size <= 0.5_wp*now%size) return
+         if (g_low*g > 0.0_wp .and. g_low*g_high <= 0.0_wp) then
+            low = step
+            g_low = g
+         else
+            high = step
+            g_high = g
+         end if
+      end do
+
+   contains
+
+      subroutine try(alpha, g_alpha)
+         real(wp), intent(in)  :: alpha
+         real(wp), intent(out) :: g_alpha
+
+         next%u = now%u + alpha*direction
+         next%body = now%body + alpha*body
+         call evaluate(model, load, analysis, next)
+         g_alpha = sum(next%residual*direction, mask=.not. model%held)
+      end subroutine try
+
+   end subroutine search
+
+
+   !> The trial is in equilibrium: it becomes the state of the structure.
+   subroutine commit(model, trial, analysis)
+      type(model_type), intent(in)       :: model
+      type(trial_type), intent(in)       :: trial
+      type(analysis_type), intent(inout) :: analysis
+      integer :: i
+
+      analysis%u = trial%u
+      do i = 1, size(model%interface)
+         call tally_work(analysis%energy(model%interface(i)%joint), trial%work(:, i))
+         analysis%states(i) = trial%states(i)
+         associate (state => analysis%states(i))
+            state%normal%k_n = trial%tangent(3, 3, i)
+            state%shear(1)%k_s = trial%tangent(1, 1, i)
+            state%shear(2)%k_s = trial%tangent(2, 2, i)
+            call rest_when_open(state, joint_movement(model, analysis%u, i))
+         end associate
+      end do
+      analysis%unbalanced = trial%residual
+   end subroutine commit
+
+
+   !> No part of the increment is small enough: say which element changed its branch most often.
+   subroutine give_up(model, plan, analysis, flips, failure)
+      type(model_type), intent(in)       :: model
+      type(stage_plan_type), intent(in)  :: plan
+      type(analysis_type), intent(in)    :: analysis
+      integer, intent(in)                :: flips(:)
+      type(failure_type), intent(inout)  :: failure
+      character(:), allocatable :: words
+      integer :: worst
+
+      words = where_in_plan(plan, analysis%stage, analysis%increment)//': no equilibrium'
+      if (analysis%n_passes > 0) words = words//', '//real_text(analysis%passes(analysis%n_passes)%after)// &
+                                         ' of force are left unbalanced'
+      if (size(flips) > 0) then
+         worst = maxloc(flips, dim=1)
+         if (flips(worst) > 1) then
+            words = words//'; node '//integer_text(model%node_id(model%interface(worst)%nodes(1)))//' changes its branch back '// &
+                    'and forth ('//integer_text(flips(worst))//' times, committed: '// &
+                    branch_name(analysis%states(worst)%normal%branch)//')'
+         else
+            words = words//'; node '//integer_text(model%node_id(model%interface(1)%nodes(1)))// &
+                    ' and its joint do not hold the load (open, or slipping as a whole)'
+         end if
+      end if
+      call failure%raise(words)
+   end subroutine give_up
+
+end module newton_method

@@ -1,0 +1,132 @@
+!> Tables of the bodies: displacements, stresses, reactions, and the balance of the outer forces.
+module listing_bodies
+   use analysis_state, only: analysis_type, element_force
+   use body_elements, only: element_stress
+   use kinds, only: wp
+   use listing_opening, only: heading, in_units, label_type, noise, page_width, where_now
+   use model_data, only: model_type
+   use output_file, only: output_file_type
+   use stage_plan, only: stage_plan_type
+   use text_tools, only: clean
+   implicit none
+   private
+
+   public :: list_bodies
+
+contains
+
+   !> Displacements, stresses, reactions.
+   subroutine list_bodies(file, labels, largest_force, model, plan, analysis)
+      type(output_file_type), intent(inout) :: file
+      type(label_type), intent(in)      :: labels
+      real(wp), intent(in)              :: largest_force !! ever applied, for the noise
+      type(model_type), intent(in)      :: model
+      type(stage_plan_type), intent(in) :: plan
+      type(analysis_type), intent(in)   :: analysis
+
+      call list_displacements(file, labels, model, plan, analysis)
+      call list_stresses(file, labels, model, plan, analysis)
+      call list_reactions(file, labels, largest_force, model, plan, analysis)
+   end subroutine list_bodies
+
+
+   subroutine list_displacements(file, labels, model, plan, analysis)
+      type(output_file_type), intent(inout) :: file
+      type(label_type), intent(in)      :: labels
+      type(model_type), intent(in)      :: model
+      type(stage_plan_type), intent(in) :: plan
+      type(analysis_type), intent(in)   :: analysis
+      character(page_width) :: line
+      real(wp) :: floor
+      integer  :: node
+
+      call heading(file, 'DISPLACEMENTS OF NODES'//where_now(plan, analysis)//in_units(labels%length))
+      call file%put('      NODE            X            Y           UX           UY')
+      floor = noise*maxval(abs(analysis%u))
+      do node = 1, model%n_nodes
+         if (.not. model%used(node)) cycle
+         write (line, '(i10, 4es13.5)') model%node_id(node), clean(model%x(:2, node)), clean(analysis%u(:, node), floor)
+         call file%put(line)
+      end do
+   end subroutine list_displacements
+
+
+   subroutine list_stresses(file, labels, model, plan, analysis)
+      type(output_file_type), intent(inout) :: file
+      type(label_type), intent(in)      :: labels
+      type(model_type), intent(in)      :: model
+      type(stage_plan_type), intent(in) :: plan
+      type(analysis_type), intent(in)   :: analysis
+      character(page_width) :: line
+      real(wp), allocatable :: stress(:, :)
+      real(wp) :: floor
+      integer  :: e
+
+      if (model%n_elements == 0) return
+      allocate (stress(3, model%n_elements))
+      do e = 1, model%n_elements
+         stress(:, e) = element_stress(model, e, analysis%u)
+      end do
+      floor = noise*maxval(abs(stress))
+      call heading(file, 'STRESSES AT THE CENTRES OF ELEMENTS'//where_now(plan, analysis)// &
+                   in_units(labels%pressure))
+      call file%put('   ELEMENT     CENTRE X     CENTRE Y      SIGMA X      SIGMA Y       TAU XY')
+      do e = 1, model%n_elements
+         write (line, '(i10, 5es13.5)') model%element_id(e), &
+            clean(0.25_wp*sum(model%x(:2, model%element_nodes(:, e)), dim=2)), clean(stress(:, e), floor)
+         call file%put(line)
+      end do
+   end subroutine list_stresses
+
+
+   !> Reactions at supports, and the balance of all outer forces: loads, supports, rigid bases.
+   subroutine list_reactions(file, labels, largest_force, model, plan, analysis)
+      type(output_file_type), intent(inout) :: file
+      type(label_type), intent(in)      :: labels
+      real(wp), intent(in)              :: largest_force !! ever applied, for the noise
+      type(model_type), intent(in)      :: model
+      type(stage_plan_type), intent(in) :: plan
+      type(analysis_type), intent(in)   :: analysis
+      character(page_width) :: line
+      real(wp), dimension(model%dimension) :: reaction, supports, base, loads
+      real(wp) :: floor, force(3)
+      integer  :: i, node
+
+      floor = noise*max(largest_force, tiny(1.0_wp))
+      call heading(file, 'REACTIONS AT SUPPORTS'//where_now(plan, analysis)//in_units(labels%force))
+      call file%put('      NODE            X            Y           RX           RY')
+      supports = 0.0_wp
+      do node = 1, model%n_nodes
+         if (.not. any(model%held(:, node)) .or. .not. model%used(node)) cycle
+         reaction = merge(-analysis%unbalanced(:, node), 0.0_wp, model%held(:, node))
+         supports = supports + reaction
+         write (line, '(i10, 4es13.5)') model%node_id(node), clean(model%x(:2, node)), clean(reaction, floor)
+         call file%put(line)
+      end do
+      base = 0.0_wp
+      do i = 1, size(model%interface)
+         if (model%interface(i)%nodes(2) > 0) cycle
+         force = element_force(model, analysis, i)
+         base = base - force(:model%dimension)
+      end do
+      loads = sum(analysis%applied, dim=2)
+      call heading(file, 'BALANCE OF FORCES'//where_now(plan, analysis)//in_units(labels%force))
+      call file%put('                                               X            Y')
+      call balance_line('LOADS', loads)
+      call balance_line('SUPPORTS', supports)
+      call balance_line('RIGID BASES, THROUGH THE JOINTS', base)
+      call balance_line('SUM: LEFT UNBALANCED', loads + supports + base)
+
+   contains
+
+      subroutine balance_line(words, resultant)
+         character(*), intent(in) :: words
+         real(wp), intent(in)     :: resultant(:)
+
+         write (line, '(2x, a, t36, 3es13.5)') words, clean(resultant, floor)
+         call file%put(line)
+      end subroutine balance_line
+
+   end subroutine list_reactions
+
+end module listing_bodies

@@ -1,0 +1,236 @@
+!> Tables of the joints: interface elements, resultants, re-analyses or iterations, energies.
+module listing_joints
+   use analysis_state, only: analysis_type, element_force
+   use kinds, only: wp
+   use listing_opening, only: heading, label_type, noise, page_width, where_now
+   use model_data, only: model_type
+   use normal_stiffness, only: branch_name
+   use output_file, only: output_file_type
+   use row_buffer, only: row_buffer_type
+   use stage_plan, only: stage_plan_type
+   use text_tools, only: clean, integer_text
+   implicit none
+   private
+
+   public :: list_interface, note_resultants, list_resultants, note_passes, list_passes, list_energy
+
+contains
+
+   !> The interface elements, joint by joint.
+   subroutine list_interface(file, labels, model, plan, analysis)
+      type(output_file_type), intent(inout) :: file
+      type(label_type), intent(in)      :: labels
+      type(model_type), intent(in)      :: model
+      type(stage_plan_type), intent(in) :: plan
+      type(analysis_type), intent(in)   :: analysis
+      character(page_width) :: line
+      real(wp) :: lambda_floor, p_floor, force_floor
+      integer  :: i, j, node2
+
+      do j = 1, size(model%joints)
+         associate (joint => model%joints(j), state => analysis%states%normal)
+            call heading(file, 'INTERFACE ELEMENTS OF JOINT '//integer_text(joint%id)//where_now(plan, analysis))
+            call file%put('   ELEMENT   NODE 1   NODE 2            X            Y         AREA  BRANCH       LAMBDA'// &
+                          '            P        FORCE    K_N, USED')
+            if (labels%force /= '') then
+               line = ''
+               line(41:) = labels%length
+               line(54:) = labels%length
+               line(66:) = labels%area
+               line(86:) = labels%length
+               line(97:) = labels%pressure
+               line(112:) = labels%force
+               line(123:) = labels%stiffness
+               call file%put(line)
+            end if
+            lambda_floor = noise*maxval(abs(state(joint%first:joint%last)%lambda))
+            p_floor = noise*maxval(abs(state(joint%first:joint%last)%pressure))
+            force_floor = noise*maxval(abs(state(joint%first:joint%last)%sumf))
+            do i = joint%first, joint%last
+               associate (element => model%interface(i))
+                  node2 = 0
+                  if (element%nodes(2) > 0) node2 = model%node_id(element%nodes(2))
+                  write (line, '(i10, 2i9, 2es13.5, es13.5, 2x, a6, 4es13.5)') element%id, model%node_id(element%nodes(1)), &
+                     node2, clean(model%x(:2, element%nodes(1))), element%area, branch_name(state(i)%branch), &
+                     clean(state(i)%lambda, lambda_floor), clean(state(i)%pressure, p_floor), &
+                     clean(state(i)%sumf, force_floor), clean(state(i)%k_n)
+                  call file%put(line)
+               end associate
+            end do
+            if (any(joint%law%shear%given)) call list_shear(file, labels, model, plan, analysis, j)
+         end associate
+      end do
+   end subroutine list_interface
+
+
+   !> Shear of the interface elements of joint J. LIMIT is mu p.
+   subroutine list_shear(file, labels, model, plan, analysis, j)
+      type(output_file_type), intent(inout) :: file
+      type(label_type), intent(in)      :: labels
+      type(model_type), intent(in)      :: model
+      type(stage_plan_type), intent(in) :: plan
+      type(analysis_type), intent(in)   :: analysis
+      integer, intent(in)               :: j
+      character(page_width) :: line
+      real(wp) :: delta_floor, tau_floor
+      integer  :: i, k
+
+      associate (joint => model%joints(j))
+         delta_floor = noise*max(maxval(abs(analysis%states(joint%first:joint%last)%shear(1)%delta)), &
+                                 maxval(abs(analysis%states(joint%first:joint%last)%shear(2)%delta)))
+         tau_floor = noise*max(maxval(abs(analysis%states(joint%first:joint%last)%normal%pressure)), &
+                               maxval(abs(analysis%states(joint%first:joint%last)%shear(1)%tau)))
+         do k = 1, model%dimension - 1
+            if (.not. joint%law%shear(k)%given) cycle
+            call heading(file, 'SHEAR IN DIRECTION '//merge('X', 'Y', k == 1)//' OF JOINT '//integer_text(joint%id)// &
+                         where_now(plan, analysis))
+            call file%put('   ELEMENT   NODE 1  BRANCH        DELTA          TAU        FORCE    K_S, USED        LIMIT')
+            if (labels%force /= '') then
+               line = ''
+               line(29:) = adjustr(labels%length(:13))
+               line(42:) = adjustr(labels%pressure(:13))
+               line(55:) = adjustr(labels%force(:13))
+               line(68:) = adjustr(labels%stiffness(:13))
+               line(81:) = adjustr(labels%pressure(:13))
+               call file%put(line)
+            end if
+            do i = joint%first, joint%last
+               associate (state => analysis%states(i)%shear(k), element => model%interface(i))
+                  write (line, '(i10, i9, 2x, a6, 4es13.5)') element%id, model%node_id(element%nodes(1)), &
+                     branch_name(state%branch), clean(state%delta, delta_floor), clean(state%tau, tau_floor), &
+                     clean(state%tau*element%area, tau_floor*element%area), clean(state%k_s)
+                  if (joint%law%has_friction) write (line(80:), '(es13.5)') &
+                     clean(joint%law%mu*max(0.0_wp, analysis%states(i)%normal%pressure), tau_floor)
+                  if (analysis%states(i)%slips) line(95:) = 'SLIPS'
+                  call file%put(line)
+               end associate
+            end do
+         end do
+      end associate
+   end subroutine list_shear
+
+
+   !> Note the resultants of all joints after the increment just completed: force of side 1 on side 2, moment about the
+   !! centroid of the joint's area.
+   subroutine note_resultants(model, analysis, largest_force, rows)
+      type(model_type), intent(in)         :: model
+      type(analysis_type), intent(in)      :: analysis
+      real(wp), intent(in)                 :: largest_force
+      type(row_buffer_type), intent(inout) :: rows
+      character(page_width) :: row
+      real(wp) :: force(3), total(3), centroid(3), arm(3), moment, normal, along, floor, extent
+      integer  :: i, j
+
+      floor = noise*largest_force
+      do j = 1, size(model%joints)
+         associate (joint => model%joints(j))
+            centroid = 0.0_wp
+            do i = joint%first, joint%last
+               centroid = centroid + model%interface(i)%area*model%x(:, model%interface(i)%nodes(1))/joint%area
+            end do
+            total = 0.0_wp
+            moment = 0.0_wp; normal = 0.0_wp; along = 0.0_wp; extent = 0.0_wp
+            do i = joint%first, joint%last
+               force = element_force(model, analysis, i)
+               arm = model%x(:, model%interface(i)%nodes(1)) - centroid
+               extent = max(extent, norm2(arm))
+               total = total + force
+               moment = moment + arm(1)*force(2) - arm(2)*force(1)
+               normal = normal + analysis%states(i)%normal%sumf
+               along = along + analysis%states(i)%shear(1)%tau*model%interface(i)%area
+            end do
+            write (row, '(i6, i9, 5es15.5)') analysis%increment, joint%id, clean(normal, floor), clean(along, floor), &
+               clean(total(:2), floor), clean(moment, floor*extent)
+            call rows%add(row)
+         end associate
+      end do
+   end subroutine note_resultants
+
+
+   subroutine list_resultants(file, labels, stage, rows)
+      type(output_file_type), intent(inout) :: file
+      type(label_type), intent(in)          :: labels
+      character(*), intent(in)              :: stage
+      type(row_buffer_type), intent(inout)  :: rows
+      character(page_width) :: line
+
+      if (rows%n == 0) return
+      call heading(file, 'RESULTANTS OF JOINTS, SIDE 1 ON SIDE 2 (MOMENT ABOUT THE CENTROID OF THE JOINT), '//stage)
+      call file%put('  INCR    JOINT   NORMAL FORCE    SHEAR FORCE        FORCE X        FORCE Y       MOMENT Z')
+      if (labels%force /= '') then
+         line = ''
+         line(16:) = adjustr(labels%force(:15))
+         line(31:) = adjustr(labels%force(:15))
+         line(46:) = adjustr(labels%force(:15))
+         line(61:) = adjustr(labels%force(:15))
+         line(76:) = adjustr(trim(labels%force(:7))//' '//labels%length(:7))
+         call file%put(line)
+      end if
+      call rows%flush(file)
+   end subroutine list_resultants
+
+
+   !> Note the re-analyses after the Coulomb check, or the iterations, of the increment just completed.
+   subroutine note_passes(analysis, rows)
+      type(analysis_type), intent(in)      :: analysis
+      type(row_buffer_type), intent(inout) :: rows
+      character(page_width) :: row
+      integer :: i
+
+      do i = 1, analysis%n_passes
+         associate (pass => analysis%passes(i))
+            if (pass%part > 0) then
+               write (row, '(2i6, i8, 2es14.3, f9.4, i9)') analysis%increment, pass%part, i, pass%before, pass%after, &
+                  pass%step, pass%changes
+            else
+               write (row, '(2i6, 2es14.5, f10.2, i9)') analysis%increment, i, pass%before, pass%after, &
+                  100.0_wp*(1.0_wp - pass%after/max(pass%before, tiny(1.0_wp))), pass%changes
+            end if
+            call rows%add(row)
+         end associate
+      end do
+   end subroutine note_passes
+
+
+   !> TITLE and COLUMNS say what the passes are.
+   subroutine list_passes(file, title, columns, rows)
+      type(output_file_type), intent(inout) :: file
+      character(*), intent(in)              :: title, columns
+      type(row_buffer_type), intent(inout)  :: rows
+
+      if (rows%n == 0) return
+      call heading(file, title)
+      call file%put(columns)
+      call rows%flush(file)
+   end subroutine list_passes
+
+
+   !> Work done on the joints in the stage, by shear and by normal forces; the difference is lost where the stage closes a loop.
+   subroutine list_energy(file, labels, stage, model, analysis)
+      type(output_file_type), intent(inout) :: file
+      type(label_type), intent(in)          :: labels
+      character(*), intent(in)              :: stage
+      type(model_type), intent(in)          :: model
+      type(analysis_type), intent(in)       :: analysis
+      character(page_width) :: line
+      real(wp) :: floor
+      integer  :: j
+
+      if (size(model%joints) == 0) return
+      call heading(file, 'ENERGY OF JOINTS, '//stage)
+      call file%put('                 ------------- NORMAL -------------------   -------------- SHEAR -------------------')
+      call file%put('     JOINT         PUT IN   GIVEN BACK         KEPT         PUT IN   GIVEN BACK         KEPT')
+      if (labels%force /= '') call file%put('                 ('//trim(labels%force)//' '//trim(labels%length)//')')
+      do j = 1, size(model%joints)
+         associate (energy => analysis%energy(j))
+            floor = noise*sum(energy%put_in)
+            write (line, '(i10, 2x, 3es13.5, 2x, 3es13.5)') model%joints(j)%id, &
+               clean(energy%put_in(2), floor), clean(energy%given_back(2), floor), &
+               clean(energy%put_in(2) - energy%given_back(2), floor), clean(energy%put_in(1), floor), &
+               clean(energy%given_back(1), floor), clean(energy%put_in(1) - energy%given_back(1), floor)
+            call file%put(line)
+         end associate
+      end do
+   end subroutine list_energy
+
+end module listing_joints
