@@ -1,7 +1,8 @@
 !> jointfem: structures with flexible joints by the step-wise tangent-stiffness method.
 !! The program is the flow chart of the method (Edelugo, Fig. 6a), one call a box.
 program jointfem
-   use analysis_state, only: analysis_type, interface_stiffness, start_analysis, start_increment, start_stage
+   use analysis_state, only: analysis_type, interface_stiffness, note_largest, start_analysis, start_increment, &
+                             start_stage
    use back_method, only: back_increment
    use case_control, only: method_back, method_newton
    use command_line, only: command_type, deck_argument, read_command_line
@@ -122,6 +123,7 @@ contains
             end if
 
             ! ------------------------------------------------------------ PRINT
+            call note_largest(analysis)
             call print_increment(model, plan, analysis, results)
             call progress%advance(stage, increment, size(plan%stages(stage)%shares))
          end do

@@ -22,7 +22,8 @@ module card_fields
       real(wp)      :: default  = 0.0_wp       !! of integer and real fields left blank
       real(wp)      :: least    = -huge(1.0_wp)
       real(wp)      :: most     = huge(1.0_wp)
-      logical       :: open     = .false.      !! reals: LEAST and MOST themselves are out
+      logical       :: above    = .false.      !! reals: LEAST itself is out
+      logical       :: below    = .false.      !! reals: MOST itself is out
       character(48) :: words    = ''           !! of a word field: '|STEP|BACK|', the first is the default
    end type field_rule
 
@@ -67,10 +68,10 @@ contains
       if (present(default)) rule%default = default
       if (present(least)) rule%least = least
       if (present(most)) rule%most = most
-      ! an excluded bound becomes the next number inside it
-      if (present(above)) rule%least = nearest(above, 1.0_wp)
-      if (present(below)) rule%most = nearest(below, -1.0_wp)
-      rule%open = present(above) .or. present(below)
+      if (present(above)) rule%least = above
+      if (present(below)) rule%most = below
+      rule%above = present(above)
+      rule%below = present(below)
    end function real_field
 
 
@@ -143,15 +144,17 @@ contains
    subroutine make_room(values, n)
       type(card_values), intent(inout) :: values
       integer, intent(in)              :: n
+      integer :: room
 
       if (allocated(values%given)) then
          if (size(values%given) >= n) return
          deallocate (values%integers, values%reals, values%words, values%given)
       end if
-      allocate (values%integers(n), source=0)
-      allocate (values%reals(n), source=0.0_wp)
-      allocate (values%words(n), source='        ')
-      allocate (values%given(n), source=.false.)
+      room = max(n, 32)
+      allocate (values%integers(room), source=0)
+      allocate (values%reals(room), source=0.0_wp)
+      allocate (values%words(room), source='        ')
+      allocate (values%given(room), source=.false.)
    end subroutine make_room
 
 
@@ -195,7 +198,7 @@ contains
          end if
       case (kind_real)
          call decode_real(card, k, rule%name, expectation(rule), values%reals(k), ok, errors)
-         if (ok .and. (values%reals(k) < rule%least .or. values%reals(k) > rule%most)) then
+         if (ok .and. .not. in_range(rule, values%reals(k))) then
             call out_of_range(card, k, rule, errors)
             values%reals(k) = rule%default
          end if
@@ -280,12 +283,21 @@ contains
    end subroutine field_error
 
 
+   pure logical function in_range(rule, value)
+      type(field_rule), intent(in) :: rule
+      real(wp), intent(in)         :: value
+
+      in_range = value >= rule%least .and. value <= rule%most
+      if (rule%above) in_range = in_range .and. value > rule%least
+      if (rule%below) in_range = in_range .and. value < rule%most
+   end function in_range
+
+
    !> What a rule wants, in words.
    pure function expectation(rule) result(words)
       type(field_rule), intent(in) :: rule
       character(:), allocatable    :: words
-      logical  :: has_least, has_most
-      real(wp) :: least, most
+      logical :: has_least, has_most
 
       has_least = rule%least > -huge(1.0_wp)
       has_most = rule%most < huge(1.0_wp)
@@ -301,20 +313,28 @@ contains
          words = 'a list of components, different digits of 1 to 6'
       case (kind_real)
          words = 'a real number'
-         least = rule%least
-         most = rule%most
-         if (has_least .and. abs(least) < tiny(1.0_wp)*2) least = 0.0_wp
-         if (has_least) words = words//trim(merge(' above   ', ' of least', rule%open))//' '//real_text(least)
-         if (has_most) then
-            if (has_least) words = words//' and'
-            words = words//trim(merge(' below  ', ' up to  ', rule%open))//' '//real_text(most)
-         end if
+         if (has_least) words = words//' '//bound('above', 'of at least', rule%least, rule%above)
+         if (has_least .and. has_most) words = words//' and'
+         if (has_most) words = words//' '//bound('below', 'at most', rule%most, rule%below)
       case (kind_word)
          words = 'one of '//list_of(trim(rule%words))
       case default
          words = 'blank'
       end select
    end function expectation
+
+
+   !> 'above 0', 'of at least 0': a bound that is out or in.
+   pure function bound(out, in, value, is_out) result(words)
+      character(*), intent(in)  :: out, in
+      real(wp), intent(in)      :: value
+      logical, intent(in)       :: is_out
+      character(:), allocatable :: words
+
+      words = in
+      if (is_out) words = out
+      words = words//' '//real_text(value)
+   end function bound
 
 
    !> '|STEP|BACK|' as 'STEP, BACK'.

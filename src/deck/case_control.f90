@@ -13,6 +13,8 @@ module case_control
    integer, parameter, public :: pressure_sumf = 1, pressure_eq10 = 2                      !! PRESSURE =
    integer, parameter, public :: output_none = 0, output_last = 1, output_joint = 2, output_all = 3 !! OUTPUT =
 
+   character(*), parameter :: known_keys = '|SOL|TITLE|UNITS|METHOD|PRESSURE|CARRY|SOLVER|ECHO|SPC|LABEL|LOAD|INCR|OUTPUT|'
+
    !> A key with a number, and the line it stands on (0: not given).
    type, public :: set_reference
       integer :: id   = 0
@@ -125,7 +127,9 @@ contains
 
       if (entry%key == 'SUBCASE') then
          keys_seen = '|'
-      else if (entry%key /= 'INCLUDE' .and. index(keys_seen, '|'//entry%key//'|') > 0) then
+      else if (index(known_keys, '|'//entry%key//'|') == 0) then
+         return ! INCLUDE, and what is said elsewhere to be no key
+      else if (index(keys_seen, '|'//entry%key//'|') > 0) then
          call errors%add(entry%line, entry%key//': given twice in the same place')
       else
          keys_seen = keys_seen//entry%key//'|'

@@ -114,7 +114,11 @@ contains
          name = card_name(line)
          if (ended_file == 1 .or. text%file_number(cursor) == ended_file) then
             call errors%add(cursor, 'text after ENDDATA')
-            return
+            if (ended_file == 1) return
+            do while (cursor <= text%n) ! the rest of this file cannot be meant
+               if (text%file_number(cursor) /= ended_file) exit
+               cursor = cursor + 1
+            end do
          else if (is_continuation(line)) then
             call errors%add(cursor, 'a continuation line without a card before it')
             cursor = cursor + 1

@@ -248,6 +248,8 @@ contains
 
       path = trim(adjustl(words))
       if (path == '') return
+      if (path(1:1) == '=') path = trim(adjustl(path(2:)))
+      if (path == '') return
       if (path(1:1) == '''' .or. path(1:1) == '"') then
          closing = index(path(2:), path(1:1))
          if (closing == 0) then

@@ -204,7 +204,7 @@ contains
 
       if (.not. allocated(table)) table = [integer_field('SID'), integer_field('N', default=0, most=most_increments), &
          word_field('PROG', '|ARITH|GEOM|LIST|'), real_field('FIRST', default=0.05_wp, above=0.0_wp, most=1.0_wp)]
-      call decode_card(card, table, card_is_list(card), values, errors)
+      call decode_card(card, table(:merge(3, 4, card_is_list(card))), card_is_list(card), values, errors)
       bulk%n_jincr = bulk%n_jincr + 1
       associate (jincr => bulk%jincr(bulk%n_jincr), n => values%integers(2), first => values%reals(4))
          jincr%line = card%line
@@ -239,7 +239,7 @@ contains
    end function card_is_list
 
 
-   !> The shares of PROG = LIST; they stand from FIRST on and add up to 1 (to 1E-6: then they are scaled to do so).
+   !> The shares of PROG = LIST; they stand from FIRST on and add up to 1 (to 1E-4: then they are scaled to do so).
    subroutine read_list(card, values, jincr, errors)
       type(card_type), intent(in)          :: card
       type(card_values), intent(in)        :: values
@@ -262,8 +262,8 @@ contains
       if (errors%n > errors_before) return
       if (values%given(2) .and. values%integers(2) /= n) then
          call field_error(card, 2, 'N: '//integer_text(values%integers(2))//', but '//integer_text(n)//' shares follow', errors)
-      else if (abs(sum(shares(:n)) - 1.0_wp) > 1.0e-6_wp) then
-         call field_error(card, 4, 'the shares add up to '//real_text(sum(shares(:n)))//', expected 1', errors)
+      else if (abs(sum(shares(:n)) - 1.0_wp) > 1.0e-4_wp) then
+         call field_error(card, 4, 'SHARE: the shares add up to '//real_text(sum(shares(:n)))//', expected 1', errors)
       else
          jincr%shares = shares(:n)/sum(shares(:n))
       end if

@@ -173,6 +173,8 @@ contains
             call decode_real(card, k, 'S', 'a real number', factor, factor_ok, errors)
             call decode_integer(card, k + 1, 'L', 'a load set number', set, set_ok, errors)
             if (.not. (factor_ok .and. set_ok)) cycle
+            if (set < 1) call field_error(card, k + 1, 'L: '''//integer_text(set)// &
+                                          ''' is out of range, expected a load set number of 1 or more', errors)
             load%factors = [load%factors, factor]
             load%sets = [load%sets, set]
          end do

@@ -10,7 +10,7 @@ module analysis_state
    private
 
    public :: start_analysis, start_stage, start_increment, interface_stiffness, find_unbalanced, element_force, &
-             tally_work, record_pass, free_norm
+             tally_work, record_pass, note_largest, free_norm
 
    !> Work done on one joint in the present stage [force x length].
    type, public :: joint_energy
@@ -44,6 +44,8 @@ module analysis_state
       type(joint_energy), allocatable  :: energy(:) !! of the joints
       type(pass_record), allocatable   :: passes(:) !! of the last increment
       integer  :: n_passes  = 0
+      real(wp) :: largest_p = 0.0_wp                !! pressure or shear stress so far, anywhere: the measure of noise
+      real(wp) :: largest_lambda = 0.0_wp           !! deflection so far, likewise
       integer  :: n_removed = 0                     !! interface elements removed by the last increment
       integer  :: n_parts   = 1                     !! NEWTON: parts that the last increment was divided into
    end type analysis_type
@@ -179,6 +181,21 @@ contains
       energy%put_in = energy%put_in + max(0.0_wp, work)
       energy%given_back = energy%given_back + max(0.0_wp, -work)
    end subroutine tally_work
+
+   !> Keep the largest pressure and deflection that there have been.
+   pure subroutine note_largest(analysis)
+      type(analysis_type), intent(inout) :: analysis
+      integer :: k
+
+      if (size(analysis%states) == 0) return
+      analysis%largest_p = max(analysis%largest_p, maxval(abs(analysis%states%normal%pressure)))
+      analysis%largest_lambda = max(analysis%largest_lambda, maxval(abs(analysis%states%normal%lambda)))
+      do k = 1, 2
+         analysis%largest_p = max(analysis%largest_p, maxval(abs(analysis%states%shear(k)%tau)))
+         analysis%largest_lambda = max(analysis%largest_lambda, maxval(abs(analysis%states%shear(k)%delta)))
+      end do
+   end subroutine note_largest
+
 
    !> Note a pass for the listing.
    subroutine record_pass(analysis, pass)

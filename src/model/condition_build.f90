@@ -124,7 +124,10 @@ contains
       rest = components
       do while (rest > 0)
          digit = modulo(rest, 10)
-         if (digit >= 1 .and. digit <= model%dimension) model%held(digit, node) = .true.
+         if (digit >= 1 .and. digit <= model%dimension) then
+            model%held(digit, node) = .true.
+            if (model%twin(node) > 0) model%held(digit, model%twin(node)) = .true. ! a split node: both of it
+         end if
          rest = rest/10
       end do
    end subroutine hold

@@ -90,9 +90,9 @@ contains
          end do
          if (surface(1) == 0 .or. (surface(2) == 0 .and. card%sides(2) > 0)) return
          if (model%surfaces(surface(1))%n == 0) return
-         if (any(model%surfaces(surface(1))%other(:model%surfaces(surface(1))%n) > 0)) then
+         if (surface(2) > 0 .and. any(model%surfaces(surface(1))%other(:model%surfaces(surface(1))%n) > 0)) then
             call add_field_error(deck%text, card%line, 3, 'SIDE1', 'bodies lie on both sides of surface '// &
-               integer_text(card%sides(1))//'; mesh them apart, and give the other face as SIDE2', errors)
+               integer_text(card%sides(1))//': leave SIDE2 blank, and the program splits it', errors)
             return
          end if
          call surface_nodes(model, model%surfaces(surface(1)), side1)
@@ -100,6 +100,9 @@ contains
          if (surface(2) > 0) then
             call surface_nodes(model, model%surfaces(surface(2)), side2)
             call pair_nodes(deck, j, model, surface(1), side1, side2, partner, errors)
+         else if (any(model%twin(side1%node) > 0)) then
+            call drop_tips(model, side1)
+            partner = model%twin(side1%node)
          end if
       end associate
       deallocate (elements)
@@ -114,6 +117,27 @@ contains
    end subroutine joint_elements
 
 
+   !> Leave out the nodes at which a split surface ends inside a body.
+   pure subroutine drop_tips(model, side)
+      type(model_type), intent(in)           :: model
+      type(surface_node_list), intent(inout) :: side
+      integer :: k, n
+
+      n = 0
+      do k = 1, side%n
+         if (model%twin(side%node(k)) == 0) cycle
+         n = n + 1
+         side%node(n) = side%node(k)
+         side%area(n) = side%area(k)
+         side%normal(:, n) = side%normal(:, k)
+      end do
+      side%n = n
+      side%node = side%node(:n)
+      side%area = side%area(:n)
+      side%normal = side%normal(:, :n)
+   end subroutine drop_tips
+
+
    !> For every node of side 1 the node of side 2 at the same place.
    subroutine pair_nodes(deck, j, model, surface, side1, side2, partner, errors)
       type(deck_type), intent(in)          :: deck
@@ -124,7 +148,8 @@ contains
       type(deck_error_list), intent(inout) :: errors
       type(position_search_type) :: search
       real(wp) :: tolerance, distance, shortest, worst
-      integer  :: k, found, lonely, turned, worst_node, e
+      integer  :: k, found, lonely, shared, turned, worst_node, e
+      logical, allocatable :: taken(:)
 
       associate (card => deck%bulk%joint(j), edges => model%surfaces(surface))
          shortest = huge(1.0_wp)
@@ -134,7 +159,8 @@ contains
          tolerance = card%tolerance
          if (tolerance <= 0.0_wp) tolerance = default_tolerance*shortest
          call search%build(model%x(:, side2%node), tolerance)
-         lonely = 0; turned = 0; worst = 0.0_wp; worst_node = 0
+         allocate (taken(side2%n), source=.false.)
+         lonely = 0; turned = 0; shared = 0; worst = 0.0_wp; worst_node = 0
          do k = 1, side1%n
             call search%nearest(model%x(:, side1%node(k)), tolerance, found, distance)
             if (found == 0) then
@@ -146,6 +172,8 @@ contains
                end if
             else
                partner(k) = side2%node(found)
+               if (taken(found)) shared = shared + 1
+               taken(found) = .true.
                if (dot_product(side1%normal(:, k), side2%normal(:, found)) > facing) turned = turned + 1
             end if
          end do
@@ -155,6 +183,9 @@ contains
                real_text(tolerance)//'; the farthest is node '//integer_text(model%node_id(worst_node))//' at '// &
                real_text(model%x(1, worst_node))//', '//real_text(model%x(2, worst_node))//', '//real_text(worst)//' away', &
                errors)
+         else if (shared > 0) then
+            call add_field_error(deck%text, card%line, merge(5, 4, card%tolerance > 0.0_wp), 'TOL', 'within '// &
+               real_text(tolerance)//' '//plural(shared, 'node')//' of SIDE1 found a partner that another one has already', errors)
          else if (turned > 0) then
             call add_field_error(deck%text, card%line, 4, 'SIDE2', 'the sides do not face each other: at '// &
                plural(turned, 'node')//' their normals do not point against each other', errors)
@@ -229,10 +260,21 @@ contains
             end associate
          end do
          j = j + 1
-         call add_elements(model, j, deck%bulk%cjoint(i)%law, deck%bulk%cjoint(i)%line, elements)
+         call add_elements(model, j, free_number(deck, deck%bulk%cjoint(i)%law), deck%bulk%cjoint(i)%line, elements)
          call resolve_laws(deck, deck%bulk%cjoint(i)%law, model%joints(j), errors)
       end do
    end subroutine group_cjoints
+
+
+   !> The number of a group of CJOINTs: that of its PJOINT, or where a JOINT has it already, the next that is free.
+   pure integer function free_number(deck, law) result(number)
+      type(deck_type), intent(in) :: deck
+      integer, intent(in)         :: law
+
+      number = law
+      if (.not. any(deck%bulk%joint(:deck%bulk%n_joint)%id == law)) return
+      number = law + max(maxval(deck%bulk%joint(:deck%bulk%n_joint)%id), maxval(deck%bulk%pjoint(:deck%bulk%n_pjoint)%id))
+   end function free_number
 
 
    !> The normal of a CJOINT in the sense from node 1 to node 2: out of the body at node 1, else into the body at node 2,

@@ -13,7 +13,7 @@ module mesh_build
    implicit none
    private
 
-   public :: build_mesh
+   public :: build_mesh, list_elements_of_nodes
 
    !> Edges that carry a mark, before they are sorted into surfaces.
    type, public :: marked_edges
@@ -312,6 +312,7 @@ contains
       integer, allocatable :: filled(:)
       integer :: e, k, node
 
+      if (allocated(model%first_at)) deallocate (model%first_at, model%elements_at)
       allocate (model%first_at(model%n_nodes + 1), source=0)
       do e = 1, model%n_elements
          do k = 1, 4
@@ -324,7 +325,7 @@ contains
          model%first_at(node + 1) = model%first_at(node) + model%first_at(node + 1)
       end do
       allocate (model%elements_at(model%first_at(model%n_nodes + 1) - 1))
-      filled = model%first_at
+      allocate (filled, source=model%first_at)
       do e = 1, model%n_elements
          do k = 1, 4
             node = model%element_nodes(k, e)

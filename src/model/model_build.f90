@@ -5,6 +5,7 @@ module model_build
    use deck_input, only: deck_type
    use id_checks, only: check_ids
    use joint_build, only: build_joints
+   use joint_split, only: split_shared_surfaces
    use joint_statics, only: find_determinate_joints, find_first_pressures, find_parts
    use mesh_build, only: build_mesh, marked_edges
    use model_data, only: model_type
@@ -30,6 +31,7 @@ contains
       call check_ids(deck, errors)
       call build_mesh(deck, model, edges, errors)
       call build_surfaces(deck, edges, model, errors)
+      call split_shared_surfaces(deck, model, errors)
       call build_joints(deck, model, errors)
       call build_supports(deck, model, errors)
       call build_loads(deck, model, errors)

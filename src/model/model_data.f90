@@ -62,6 +62,7 @@ module model_data
       integer :: n_nodes = 0
       integer, allocatable  :: node_id(:)    !! ascending
       real(wp), allocatable :: x(:, :)       !! (3, n_nodes) [length]
+      integer, allocatable  :: twin(:)       !! (n_nodes) the node that a split surface put opposite, 0: none
       logical, allocatable  :: used(:)       !! (n_nodes) whether any element holds the node
       logical, allocatable  :: held(:, :)    !! (dimension, n_nodes) supported
       type(id_table_type)   :: node_table

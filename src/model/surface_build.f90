@@ -3,7 +3,7 @@ module surface_build
    use deck_cards, only: add_field_error
    use deck_errors, only: deck_error_list
    use deck_input, only: deck_type
-   use id_table, only: id_table_type
+   use id_table, only: id_table_type, sorted_order
    use kinds, only: wp
    use mesh_build, only: marked_edges
    use model_data, only: model_type, surface_type
@@ -58,6 +58,9 @@ contains
          if (surface(i) == 0 .or. any(edges%nodes(:, i) == 0)) cycle
          call add_edge(edges, i, model, model%surfaces(surface(i)), errors)
       end do
+      do k = 1, n
+         call check_repeated(deck, model, model%surfaces(k), errors)
+      end do
    end subroutine build_surfaces
 
 
@@ -88,6 +91,25 @@ contains
          surface%other(surface%n) = 0
       end if
    end subroutine add_edge
+
+
+   !> No edge stands twice on a surface: its area would count twice.
+   subroutine check_repeated(deck, model, surface, errors)
+      type(deck_type), intent(in)          :: deck
+      type(model_type), intent(in)         :: model
+      type(surface_type), intent(in)       :: surface
+      type(deck_error_list), intent(inout) :: errors
+      integer, allocatable :: order(:)
+      integer :: k
+
+      call sorted_order(surface%nodes(1, :surface%n), order)
+      do k = 2, surface%n
+         if (any(surface%nodes(:, order(k)) /= surface%nodes(:, order(k - 1)))) cycle
+         call errors%add(deck%bulk%pmark(findloc(deck%bulk%pmark%id, surface%id, dim=1))%line, 'surface '// &
+            integer_text(surface%id)//': the edge between nodes '//integer_text(model%node_id(surface%nodes(1, order(k))))// &
+            ' and '//integer_text(model%node_id(surface%nodes(2, order(k))))//' is marked twice')
+      end do
+   end subroutine check_repeated
 
 
    !> The element that has the side A -> B in its counter-clockwise round, 0 for none.

@@ -43,9 +43,9 @@ contains
                line(123:) = labels%stiffness
                call file%put(line)
             end if
-            lambda_floor = noise*maxval(abs(state(joint%first:joint%last)%lambda))
-            p_floor = noise*maxval(abs(state(joint%first:joint%last)%pressure))
-            force_floor = noise*maxval(abs(state(joint%first:joint%last)%sumf))
+            lambda_floor = noise*analysis%largest_lambda
+            p_floor = noise*analysis%largest_p
+            force_floor = p_floor*joint%area
             do i = joint%first, joint%last
                associate (element => model%interface(i))
                   node2 = 0
@@ -76,10 +76,8 @@ contains
       integer  :: i, k
 
       associate (joint => model%joints(j))
-         delta_floor = noise*max(maxval(abs(analysis%states(joint%first:joint%last)%shear(1)%delta)), &
-                                 maxval(abs(analysis%states(joint%first:joint%last)%shear(2)%delta)))
-         tau_floor = noise*max(maxval(abs(analysis%states(joint%first:joint%last)%normal%pressure)), &
-                               maxval(abs(analysis%states(joint%first:joint%last)%shear(1)%tau)))
+         delta_floor = noise*analysis%largest_lambda
+         tau_floor = noise*analysis%largest_p
          do k = 1, model%dimension - 1
             if (.not. joint%law%shear(k)%given) cycle
             call heading(file, 'SHEAR IN DIRECTION '//merge('X', 'Y', k == 1)//' OF JOINT '//integer_text(joint%id)// &

@@ -10,7 +10,7 @@ module listing_opening
    use normal_stiffness, only: branch_load, branch_name, branch_reload, branch_unload, pressure_floor
    use output_file, only: output_file_type
    use stage_plan, only: stage_plan_type
-   use text_tools, only: clean, integer_text
+   use text_tools, only: clean, integer_text, upper
    implicit none
    private
 
@@ -103,7 +103,7 @@ contains
             call count_hidden(file, hidden)
             call file%put(' '//counter//' '//cut(deck%text%line(i), page_width - 13))
          end if
-         if (.not. in_bulk .and. card_name(line) == 'BEGIN BU') then
+         if (.not. in_bulk .and. index(adjustl(upper(line)), 'BEGIN') == 1) then
             in_bulk = .true.
             call file%put('   CARD')
             call file%put('  COUNT-    .   1  ..   2  ..   3  ..   4  ..   5  ..   6  ..   7  ..   8  ..   9  ..  10  .')
@@ -149,6 +149,7 @@ contains
       call count_line('NODES', int(model%n_nodes, long))
       if (.not. all(model%used)) call count_line('   OF THESE WITHOUT AN ELEMENT, LEFT OUT', &
                                                  count(.not. model%used, kind=long))
+      if (any(model%twin > 0)) call count_line('   OF THESE DOUBLED AT SPLIT SURFACES', count(model%twin > 0, kind=long))
       call count_line('BODY ELEMENTS', int(model%n_elements, long))
       call count_line('JOINTS', size(model%joints, kind=long))
       call count_line('INTERFACE ELEMENTS', size(model%interface, kind=long))
