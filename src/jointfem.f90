@@ -16,7 +16,7 @@ program jointfem
    use progress, only: progress_type
    use results, only: finish_results, print_increment, print_stage, results_type, start_results
    use run_control, only: end_program, report_checked, report_errors, report_failure, report_unreadable, &
-                          report_unwritten, set_threads
+                          report_unwritten, report_warnings, set_threads
    use stage_plan, only: stage_plan_type
    use step_method, only: accumulate, limit_friction, solve_increment, structure_stiffness
    implicit none
@@ -132,6 +132,7 @@ contains
       call progress%finish()
 
       call finish_results(plan, results, ok)
+      call report_warnings(argument, results)
       if (.not. ok) call report_unwritten(argument, results)
    end subroutine analyse
 

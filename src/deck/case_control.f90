@@ -29,6 +29,7 @@ module case_control
       type(set_reference) :: increments
       type(set_reference) :: supports
       integer :: output = output_last
+      logical :: plot   = .false.
    end type stage_type
 
    type, public :: case_control_type
@@ -288,15 +289,38 @@ contains
       case ('SPC')
          call read_number(entry, stage%supports, errors)
       case ('OUTPUT')
-         call choose(entry, '|ALL|JOINT|LAST|NONE|', errors)
-         select case (upper(entry%value))
-         case ('ALL');   stage%output = output_all
-         case ('JOINT'); stage%output = output_joint
-         case ('NONE');  stage%output = output_none
-         case default;   stage%output = output_last
-         end select
+         call read_output(entry, stage, errors)
       end select
    end subroutine read_stage_entry
+
+
+   !> OUTPUT = LAST, PLOT: words between commas.
+   subroutine read_output(entry, stage, errors)
+      type(entry_type), intent(in)         :: entry
+      type(stage_type), intent(inout)      :: stage
+      type(deck_error_list), intent(inout) :: errors
+      character(:), allocatable :: rest
+      integer :: comma
+
+      stage%output = output_last
+      stage%plot = .false.
+      rest = upper(entry%value)
+      if (rest == '') call choose(entry, '|ALL|JOINT|LAST|NONE|PLOT|', errors)
+      do while (rest /= '')
+         comma = index(rest//',', ',')
+         select case (adjustl(rest(:comma - 1)))
+         case ('ALL');   stage%output = output_all
+         case ('JOINT'); stage%output = output_joint
+         case ('LAST');  stage%output = output_last
+         case ('NONE');  stage%output = output_none
+         case ('PLOT');  stage%plot = .true.
+         case default
+            call value_error(entry, 'ALL, JOINT, LAST or NONE, and with a comma PLOT', errors)
+            return
+         end select
+         rest = rest(min(comma + 1, len(rest) + 1):)
+      end do
+   end subroutine read_output
 
 
    subroutine read_number(entry, reference, errors)

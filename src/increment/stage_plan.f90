@@ -14,6 +14,7 @@ module stage_plan
       integer :: id = 0
       character(:), allocatable :: label
       integer :: output = 0                 !! output_* of case_control
+      logical :: plot = .false.
       real(wp), allocatable :: shares(:)    !! of the stage's load change, one an increment, sum 1
    end type planned_stage
 
@@ -36,6 +37,7 @@ contains
             stage%id = given%id
             stage%label = given%label
             stage%output = given%output
+            stage%plot = given%plot
             stage%shares = [1.0_wp]
             if (given%increments%id == 0 .or. deck%control%method == method_back) cycle
             k = findloc(deck%bulk%jincr(:deck%bulk%n_jincr)%id, given%increments%id, dim=1)

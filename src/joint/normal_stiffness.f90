@@ -9,7 +9,7 @@ module normal_stiffness
    integer, parameter, public :: branch_load = 1, branch_unload = 2, branch_open = 3, branch_reload = 4
 
    real(wp), parameter, public :: pressure_floor = 1.0e-6_wp !! of p_av: the least p that a loading element has
-   real(wp), parameter :: rounding = 1.0e-12_wp              ! of its force: a change below this is none
+   real(wp), parameter :: rounding = 1.0e-10_wp              ! of its force: a change below this is none
 
    !> The normal law of one joint: lambda = c p^m (Eq. 1) and what goes with it.
    type, public :: normal_law

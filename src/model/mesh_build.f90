@@ -60,10 +60,9 @@ contains
       type(deck_type), intent(in)          :: deck
       type(raw_nodes), intent(out)         :: raw
       type(deck_error_list), intent(inout) :: errors
-      type(id_table_type)   :: table
-      integer, allocatable  :: id(:), again(:)
+      integer, allocatable  :: id(:)
       real(wp), allocatable :: x(:, :)
-      integer :: b, i, k, n, total, where_in
+      integer :: b, i, k, n, total
 
       associate (bulk => deck%bulk)
          allocate (raw%block_start(bulk%n_block2 + 1), source=0)
@@ -94,14 +93,7 @@ contains
          end do
       end associate
       raw%n = n
-      call table%build(raw%id(:n))
-      call table%list_repeated(again)
-      do k = 1, size(again)
-         if (raw%id(again(k)) == 0) cycle ! a field that could not be read
-         where_in = raw%line(table%find(raw%id(again(k))))
-         call add_field_error(deck%text, raw%line(again(k)), 1, 'ID', 'node '//integer_text(raw%id(again(k)))// &
-                              ' is given twice, first in '//deck%text%place(where_in), errors)
-      end do
+      call report_repeated(deck, raw%id(:n), raw%line(:n), 'ID', 'node', errors)
    end subroutine collect_nodes
 
 
@@ -276,8 +268,7 @@ contains
    subroutine check_element_numbers(deck, errors)
       type(deck_type), intent(in)          :: deck
       type(deck_error_list), intent(inout) :: errors
-      type(id_table_type)  :: table
-      integer, allocatable :: id(:), line(:), again(:)
+      integer, allocatable :: id(:), line(:)
       integer :: b, i, n, k, total
 
       associate (bulk => deck%bulk)
@@ -296,14 +287,39 @@ contains
             n = n + k
          end do
       end associate
+      call report_repeated(deck, id, line, 'EID', 'element', errors)
+   end subroutine check_element_numbers
+
+
+   !> Say which of the numbers ID(n), given on the cards of LINE(n), are given twice; a card that gives many is named once.
+   subroutine report_repeated(deck, id, line, field, noun, errors)
+      type(deck_type), intent(in)          :: deck
+      integer, intent(in)                  :: id(:), line(:)
+      character(*), intent(in)             :: field, noun
+      type(deck_error_list), intent(inout) :: errors
+      type(id_table_type)  :: table
+      integer, allocatable :: again(:), order(:)
+      integer :: k, last, more
+
       call table%build(id)
       call table%list_repeated(again)
-      do k = 1, size(again)
-         if (id(again(k)) == 0) cycle
-         call add_field_error(deck%text, line(again(k)), 1, 'EID', 'element '//integer_text(id(again(k)))// &
-                              ' is given twice, first in '//deck%text%place(line(table%find(id(again(k))))), errors)
+      call sorted_order(line(again), order)
+      k = 1
+      do while (k <= size(again))
+         last = k
+         do while (last < size(again))
+            if (line(again(order(last + 1))) /= line(again(order(k)))) exit
+            last = last + 1
+         end do
+         more = last - k
+         associate (this => again(order(k)))
+            if (id(this) > 0) call add_field_error(deck%text, line(this), 1, field, noun//' '//integer_text(id(this))// &
+               trim(merge(', and more of this card,', '                        ', more > 0))//' is given twice, first in '// &
+               deck%text%place(line(table%find(id(this)))), errors)
+         end associate
+         k = last + 1
       end do
-   end subroutine check_element_numbers
+   end subroutine report_repeated
 
 
    !> The elements of every node.

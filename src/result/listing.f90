@@ -8,9 +8,11 @@ module listing
    use listing_bodies, only: list_bodies
    use listing_joints, only: list_energy, list_interface, list_passes, list_resultants, note_passes, note_resultants
    use listing_opening, only: heading, label_type, noise, page_width, unit_labels, write_opening
+   use listing_plot, only: plot_joints
    use model_data, only: model_type, stage_load_type
    use normal_stiffness, only: branch_open
    use output_file, only: output_file_type
+   use range_watch, only: range_watch_type, watch_ranges
    use row_buffer, only: row_buffer_type
    use stage_plan, only: stage_plan_type
    use analysis_state, only: analysis_type
@@ -26,6 +28,7 @@ module listing
       integer :: method = 0
       type(row_buffer_type) :: increments, resultants, passes ! of the stage so far
       integer  :: n_increments = 0, n_removed = 0
+      type(range_watch_type) :: watch
       real(wp) :: largest_force = 0.0_wp            ! ever applied, for the noise
    end type listing_type
 
@@ -64,6 +67,7 @@ contains
       if (size(model%joints) == 0) call listing%increments%add(increment_row(listing, model, analysis, 0))
       call note_resultants(model, analysis, listing%largest_force, listing%resultants)
       call note_passes(analysis, listing%passes)
+      call watch_ranges(model, plan, analysis, listing%watch)
       associate (stage => plan%stages(analysis%stage))
          if (analysis%increment == size(stage%shares)) return ! the tables of the end of the stage follow
          if (stage%output == output_all .or. stage%output == output_joint) call list_interface( &
@@ -99,10 +103,15 @@ contains
             call file%put(line)
          end if
          call listing%increments%flush(file)
+         if (listing%watch%rows%n > 0) then
+            call file%put('')
+            call listing%watch%rows%flush(file)
+         end if
          call list_passes_of_method(listing, words)
          call list_resultants(file, listing%labels, words, listing%resultants)
          call list_energy(file, listing%labels, words, model, analysis)
          if (stage%output >= output_last) call list_interface(file, listing%labels, model, plan, analysis)
+         if (stage%plot) call plot_joints(file, listing%labels, model, plan, analysis)
          if (stage%output == output_all .or. stage%output == output_last) &
             call list_bodies(file, listing%labels, listing%largest_force, model, plan, analysis)
       end associate
@@ -201,7 +210,8 @@ contains
 
       call listing%file%put('')
       call listing%file%put(' END OF LISTING   '//upper(plural(size(plan%stages), 'stage')//', '// &
-         plural(listing%n_increments, 'increment')//', '//plural(listing%n_removed, 'interface element'))//' REMOVED')
+         plural(listing%n_increments, 'increment')//', '//plural(listing%n_removed, 'interface element'))//' REMOVED, '// &
+         upper(plural(listing%watch%n_warnings, 'warning')))
       call listing%file%finish(ok)
    end subroutine finish_listing
 

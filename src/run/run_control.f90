@@ -14,7 +14,8 @@ module run_control
    implicit none
    private
 
-   public :: set_threads, report_unreadable, report_errors, report_failure, report_unwritten, report_checked, end_program
+   public :: set_threads, report_unreadable, report_errors, report_failure, report_unwritten, report_checked, &
+             report_warnings, end_program
 
    integer, parameter :: status_unreadable = 1, status_deck = 2, status_unsolved = 3, status_unwritten = 4
 
@@ -102,6 +103,17 @@ contains
       end if
       call discard_results(results)
    end subroutine report_unwritten
+
+
+   !> Warnings stand in the listing; say that there are some.
+   subroutine report_warnings(argument, results)
+      type(deck_argument), intent(in) :: argument
+      type(results_type), intent(in)  :: results
+
+      associate (n => results%listing%watch%n_warnings)
+         if (n > 0) write (error_unit, '(4a)') argument%name, ': ', plural(n, 'warning'), ' in the listing'
+      end associate
+   end subroutine report_warnings
 
 
    !> --check: the deck is in order.
