@@ -112,7 +112,7 @@ bench: bin/jointfem
 
 .PHONY: figures
 figures: bin/jointfem
-	@reference_output/figures/draw.sh bin/jointfem $(BUILD)/figures
+	@reference_output/figures/draw.sh bin/jointfem bin/jointfit $(BUILD)/figures
 
 .PHONY: clean
 clean:

@@ -1,13 +1,35 @@
 #!/usr/bin/env bash
 # The pictures of this folder, PNG and SVG, from the joint histories of the decks. Needs gnuplot.
 #
-#    draw.sh PROGRAM WORK_FOLDER
+#    draw.sh PROGRAM FIT WORK_FOLDER
 set -eu
-program=$1 work=$2
+program=$1 fit=$2 work=$3
 here=$(dirname "$0")
 command -v gnuplot > /dev/null || { echo 'make figures needs gnuplot: apt-get install gnuplot-nox'; exit 1; }
 mkdir -p "$work"
-"$program" -q -o "$work" input/prism03.bdf input/prism05.bdf input/prism10.bdf input/prism15.bdf
+decks='normal_loop shear_loop shear_pressure friction_none friction_once friction_full
+       prism03 prism05 prism10 prism15 prism_newton prism_back'
+for deck in $decks; do "$program" -q -o "$work" "input/$deck.bdf"; done
+
+# the error of STEP against NEWTON, both in increments: NEWTON with 40, STEP with 3 to 320
+prism() { # METHOD INCREMENTS FIRST
+   sed -E "s/^METHOD.*/METHOD = $1/; s/^JINCR.*/JINCR,$2,$2,ARITH,$3/; s/^( *INCR =).*/\\1 $2/" input/prism05.bdf \
+      > "$work/$1_$2.bdf"
+   "$program" -q -o "$work" "$work/$1_$2.bdf"
+}
+prism NEWTON 40 0.025
+echo 'increments,error' > "$work/errors.csv"
+for n in 3 5 10 15 20 40 80 160 320; do
+   first=$(awk -v n=$n 'BEGIN { printf "%.7f", n < 20 ? 0.05 : 1 / n }')
+   prism STEP $n "$first"
+   awk -F, -v n=$n 'NR == FNR { if ($2 == 40) exact[$6] = $13; next }
+      $2 == n { e = $13 - exact[$6]; if (e < 0) e = -e; if (e > worst) worst = e }
+      END { print n "," worst }' "$work/NEWTON_40.joint.csv" "$work/STEP_$n.joint.csv" >> "$work/errors.csv"
+done
+
+# Fig. 2: the published cubics and the lines that jointfit lays through their coefficients
+"$fit" --points tests/fit/sanad.dat > "$work/sanad.csv" 2> /dev/null || true
+
 for script in "$here"/*.gp; do
    name=$(basename "$script" .gp)
    for terminal in 'pngcairo size 1000,700 font "Helvetica,14"' 'svg size 1000,700 font "Helvetica,14" background "white"'; do
