@@ -79,7 +79,7 @@ contains
       end if
 
       ! ------------------------------------------------------------------ NORM, SHEAR: FIRST STIFFNESS OF THE JOINTS
-      call start_analysis(model, deck%control%carry, analysis)
+      call start_analysis(model, deck%control%carry, deck%control%tolerance, analysis)
       call interface_stiffness(model, analysis)
       call progress%start(argument%name, plan, command%quiet)
 

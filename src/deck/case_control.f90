@@ -1,8 +1,9 @@
 !> Case control: everything before BEGIN BULK. What to do, stage by stage; the bulk data says with what.
 module case_control
    use deck_errors, only: deck_error_list
-   use deck_numbers, only: parse_integer
+   use deck_numbers, only: parse_integer, parse_real
    use deck_text, only: deck_text_type
+   use kinds, only: wp
    use text_tools, only: integer_text, upper
    implicit none
    private
@@ -13,7 +14,7 @@ module case_control
    integer, parameter, public :: pressure_sumf = 1, pressure_eq10 = 2                      !! PRESSURE =
    integer, parameter, public :: output_none = 0, output_last = 1, output_joint = 2, output_all = 3 !! OUTPUT =
 
-   character(*), parameter :: known_keys = '|SOL|TITLE|UNITS|METHOD|PRESSURE|CARRY|SOLVER|ECHO|SPC|LABEL|LOAD|INCR|OUTPUT|'
+   character(*), parameter :: known_keys = '|SOL|TITLE|UNITS|METHOD|TOL|PRESSURE|CARRY|SOLVER|ECHO|SPC|LABEL|LOAD|INCR|OUTPUT|'
 
    !> A key with a number, and the line it stands on (0: not given).
    type, public :: set_reference
@@ -38,6 +39,7 @@ module case_control
       integer :: method = method_step
       integer :: pressure = pressure_sumf
       logical :: carry = .false.
+      real(wp) :: tolerance = 1.0e-10_wp                 !! NEWTON: unbalanced share of the largest load
       logical :: echo  = .true.
       type(stage_type), allocatable :: stages(:)
    end type case_control_type
@@ -145,6 +147,7 @@ contains
       type(stage_type), intent(inout)        :: common
       type(deck_error_list), intent(inout)   :: errors
       integer :: n
+      logical :: ok
 
       n = size(control%stages)
       select case (entry%key)
@@ -162,10 +165,10 @@ contains
             call read_stage_entry(entry, control%stages(n), errors)
          end if
          return
-      case ('SOL', 'TITLE', 'UNITS', 'METHOD', 'PRESSURE', 'CARRY', 'SOLVER', 'ECHO')
+      case ('SOL', 'TITLE', 'UNITS', 'METHOD', 'TOL', 'PRESSURE', 'CARRY', 'SOLVER', 'ECHO')
          if (n > 0) call errors%add(entry%line, entry%key//': holds for all stages, expected above the first SUBCASE')
       case default
-         call errors%add(entry%line, ''''//entry%key//''' is no key of case control; expected TITLE, UNITS, METHOD, '// &
+         call errors%add(entry%line, ''''//entry%key//''' is no key of case control; expected TITLE, UNITS, METHOD, TOL, '// &
                          'PRESSURE, CARRY, SOLVER, ECHO, SPC, SUBCASE, LABEL, LOAD, INCR, OUTPUT or BEGIN BULK')
          return
       end select
@@ -183,6 +186,10 @@ contains
          case ('BACK');   control%method = method_back
          case default;    control%method = method_step
          end select
+      case ('TOL')
+         call parse_real(upper(entry%value), control%tolerance, ok)
+         if (.not. ok .or. control%tolerance < 1.0e-14_wp .or. control%tolerance > 0.01_wp) &
+            call value_error(entry, 'a real number from 1.E-14 to 0.01', errors)
       case ('PRESSURE')
          call choose(entry, '|SUMF|EQ10|', errors)
          control%pressure = merge(pressure_eq10, pressure_sumf, upper(entry%value) == 'EQ10')

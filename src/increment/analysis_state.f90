@@ -32,7 +32,8 @@ module analysis_state
       real(wp) :: share = 0.0_wp                    !! of the stage's load change, this increment
       real(wp) :: fraction = 0.0_wp                 !! of it, so far: exactly 1 at the end of the stage
       logical  :: carry = .false.
-      real(wp) :: tolerance = 0.0_wp                !! NEWTON: what may be left unbalanced [force]
+      real(wp) :: load_tolerance = 1.0e-10_wp       !! NEWTON: share of the largest load that may be left unbalanced
+      real(wp) :: tolerance = 0.0_wp                !! the same as a force, for the largest load so far
       real(wp), allocatable :: load_before(:, :)    !! at the start of the stage [force]
       real(wp), allocatable :: load_after(:, :)     !! at its end
       real(wp), allocatable :: applied(:, :)        !! now
@@ -53,15 +54,17 @@ module analysis_state
 contains
 
    !> A structure at rest without load.
-   subroutine start_analysis(model, carry, analysis)
+   subroutine start_analysis(model, carry, tolerance, analysis)
       type(model_type), intent(in)     :: model
       logical, intent(in)              :: carry
+      real(wp), intent(in)             :: tolerance !! of NEWTON [-]
       type(analysis_type), intent(out) :: analysis
 
       allocate (analysis%applied(model%dimension, model%n_nodes), source=0.0_wp)
       allocate (analysis%load_before, analysis%load_after, analysis%change, analysis%u, analysis%du, analysis%unbalanced, &
                 source=analysis%applied)
       analysis%carry = carry
+      analysis%load_tolerance = tolerance
       allocate (analysis%states(size(model%interface)), analysis%energy(size(model%joints)), analysis%passes(16))
       allocate (analysis%k(3, size(model%interface)), source=0.0_wp)
    end subroutine start_analysis

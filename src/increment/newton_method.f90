@@ -17,7 +17,6 @@ module newton_method
 
    public :: newton_increment
 
-   real(wp), parameter :: load_tolerance = 1.0e-10_wp !! of the largest load so far: what may be left unbalanced
    integer, parameter  :: most_iterations = 40
    integer, parameter  :: most_halvings = 12
    real(wp), parameter :: little = 1.0e-7_wp          ! of the elastic stiffness: what the matrix has where an element has none
@@ -97,7 +96,7 @@ contains
       flips = 0
       call start_trial(model, analysis, now)
       call evaluate(model, load, analysis, now)
-      analysis%tolerance = max(analysis%tolerance, load_tolerance*free_norm(model, load), tiny(1.0_wp))
+      analysis%tolerance = max(analysis%tolerance, analysis%load_tolerance*free_norm(model, load), tiny(1.0_wp))
       do iteration = 0, most_iterations
          converged = now%size <= analysis%tolerance
          if (converged .or. iteration == most_iterations) exit
