@@ -11,9 +11,10 @@ module bulk_data
       real(wp) :: x(3) = 0.0_wp
    end type grid_card
 
-   !> An element with nodes: CQUAD4, CBAR, CROD.
+   !> An element with nodes: bodies, and the edges CBAR and CROD (marks, or a CROD that is a bolt).
    type, public :: element_card
       integer :: line = 0, id = 0, property = 0
+      integer :: kind = 0                               ! of element_kinds; 0: an edge
       integer :: nodes(8) = 0
    end type element_card
 
@@ -21,11 +22,26 @@ module bulk_data
       integer  :: line = 0, id = 0, material = 0
       real(wp) :: thickness = 0.0_wp
       logical  :: plane_strain = .false.
+      logical  :: incompatible = .false.                ! modes of Wilson and Taylor
    end type pshell_card
+
+   type, public :: paxis_card
+      integer  :: line = 0, id = 0, material = 0
+   end type paxis_card
+
+   type, public :: psolid_card
+      integer  :: line = 0, id = 0, material = 0
+      logical  :: incompatible = .false.
+   end type psolid_card
+
+   type, public :: prod_card
+      integer  :: line = 0, id = 0, material = 0
+      real(wp) :: area = 0.0_wp
+   end type prod_card
 
    type, public :: mat1_card
       integer  :: line = 0, id = 0
-      real(wp) :: e = 0.0_wp, nu = 0.0_wp
+      real(wp) :: e = 0.0_wp, nu = 0.0_wp, rho = 0.0_wp
    end type mat1_card
 
    !> SPC, SPC1 and SPCM alike: nodes FIRST(k) to LAST(k), or all nodes of a marked surface.
@@ -39,6 +55,40 @@ module bulk_data
       integer  :: line = 0, set = 0, node = 0
       real(wp) :: force(3) = 0.0_wp
    end type force_card
+
+   !> PLOAD4 (elements FIRST to LAST, face at nodes G1, G3) and PLOADE (edge between nodes G1, G2 of element FIRST).
+   type, public :: pressure_card
+      integer  :: line = 0, set = 0, first = 0, last = 0
+      integer  :: corners(2) = 0
+      real(wp) :: pressure(4) = 0.0_wp                  ! at the corners, positive into the body
+      logical  :: varies = .false.                      ! whether the corners were given one by one
+   end type pressure_card
+
+   !> PLOADM and FORCEM: pressure, or a total force spread evenly, on a marked surface.
+   type, public :: surface_load_card
+      integer  :: line = 0, set = 0, surface = 0
+      real(wp) :: pressure = 0.0_wp
+      real(wp) :: force(3) = 0.0_wp
+   end type surface_load_card
+
+   !> GRAV: acceleration.
+   type, public :: gravity_card
+      integer  :: line = 0, set = 0
+      real(wp) :: acceleration(3) = 0.0_wp
+   end type gravity_card
+
+   !> SPCD: a displacement prescribed at a held component, in a load set.
+   type, public :: displacement_card
+      integer  :: line = 0, set = 0, node = 0, components = 0
+      real(wp) :: value = 0.0_wp
+   end type displacement_card
+
+   !> BOLT: a bolt tightened to PRELOAD in the stage of SUBCASE STAGE, locked afterwards. ELEMENT is a CROD, or SURFACE a marked
+   !! plane that cuts a solid bolt.
+   type, public :: bolt_card
+      integer  :: line = 0, id = 0, element = 0, surface = 0, stage = 0
+      real(wp) :: preload = 0.0_wp
+   end type bolt_card
 
    type, public :: load_card
       integer  :: line = 0, set = 0
@@ -56,6 +106,16 @@ module bulk_data
       integer  :: marks(4) = 0                          ! PMARK of sides 1-2, 2-3, 3-4, 4-1
       integer  :: weld = 0                              ! block whose coincident nodes are used
    end type block2_card
+
+   type, public :: block3_card
+      integer  :: line = 0, id = 0, property = 0
+      integer  :: divisions(3) = 1
+      real(wp) :: corner(3, 2) = 0.0_wp                 ! the two opposite ones
+      real(wp) :: grading(3) = 1.0_wp
+      integer  :: first_node = 1, first_element = 1
+      integer  :: marks(6) = 0                          ! PMARK of the sides x low, x high, y low, y high, z low, z high
+      integer  :: weld = 0
+   end type block3_card
 
    type, public :: pmark_card
       integer :: line = 0, id = 0
@@ -100,11 +160,12 @@ module bulk_data
    !> All of them; the arrays have just the room needed, the counts say how much of it is filled.
    type, public :: bulk_data_type
       integer :: n_cards = 0 !! cards of all kinds
-      integer :: n_grid = 0, n_quad4 = 0, n_edge = 0, n_pshell = 0, n_mat1 = 0, n_support = 0, n_force = 0, &
+      integer :: n_grid = 0, n_element = 0, n_edge = 0, n_pshell = 0, n_mat1 = 0, n_support = 0, n_force = 0, &
                  n_load = 0, n_block2 = 0, n_pmark = 0, n_joint = 0, n_cjoint = 0, n_pjoint = 0, n_jnorm = 0, n_jshear = 0, &
-                 n_jincr = 0
+                 n_jincr = 0, n_paxis = 0, n_psolid = 0, n_prod = 0, n_pressure = 0, n_surface_load = 0, n_gravity = 0, &
+                 n_displacement = 0, n_bolt = 0, n_block3 = 0
       type(grid_card), allocatable    :: grid(:)
-      type(element_card), allocatable :: quad4(:)
+      type(element_card), allocatable :: element(:) ! of bodies; faces of marked surfaces too
       type(element_card), allocatable :: edge(:)    ! CBAR and CROD: marks on surfaces
       type(pshell_card), allocatable  :: pshell(:)
       type(mat1_card), allocatable    :: mat1(:)
@@ -113,6 +174,15 @@ module bulk_data
       type(load_card), allocatable    :: load(:)
       type(block2_card), allocatable  :: block2(:)
       type(pmark_card), allocatable   :: pmark(:)
+      type(paxis_card), allocatable   :: paxis(:)
+      type(psolid_card), allocatable  :: psolid(:)
+      type(prod_card), allocatable    :: prod(:)
+      type(pressure_card), allocatable :: pressure(:)
+      type(surface_load_card), allocatable :: surface_load(:)
+      type(gravity_card), allocatable :: gravity(:)
+      type(displacement_card), allocatable :: displacement(:)
+      type(bolt_card), allocatable    :: bolt(:)
+      type(block3_card), allocatable  :: block3(:)
       type(joint_card), allocatable   :: joint(:)
       type(cjoint_card), allocatable  :: cjoint(:)
       type(pjoint_card), allocatable  :: pjoint(:)

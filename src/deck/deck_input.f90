@@ -6,9 +6,13 @@ module deck_input
    use deck_cards, only: card_name, card_type, is_continuation, read_card
    use deck_errors, only: deck_error_list
    use deck_text, only: deck_text_type, read_deck_text
+   use element_cards, only: read_element
+   use element_kinds, only: kind_hexa8, kind_penta6, kind_quad4, kind_tetra4, kind_tria3
    use joint_cards, only: read_cjoint, read_jincr, read_jnorm, read_joint, read_jshear, read_pjoint
    use load_cards, only: read_force, read_load, read_spc, read_spc1, read_spcm
-   use mesh_cards, only: read_block2, read_cbar, read_cquad4, read_crod, read_grid, read_mat1, read_pmark, read_pshell
+   use mesh_cards, only: read_block2, read_block3, read_cbar, read_crod, read_grid, read_pmark
+   use property_cards, only: read_mat1, read_paxis, read_prod, read_pshell, read_psolid
+   use surface_load_cards, only: read_bolt, read_forcem, read_grav, read_pload4, read_ploade, read_ploadm, read_spcd
    implicit none
    private
 
@@ -22,8 +26,10 @@ module deck_input
    end type deck_type
 
    ! every card, in alphabetical order; a new one is added here, to the select case below and to the room
-   character(8), parameter :: known_cards(19) = [character(8) :: 'BLOCK2', 'CBAR', 'CJOINT', 'CQUAD4', 'CROD', 'FORCE', &
-      'GRID', 'JINCR', 'JNORM', 'JOINT', 'JSHEAR', 'LOAD', 'MAT1', 'PJOINT', 'PMARK', 'PSHELL', 'SPC', 'SPC1', 'SPCM']
+   character(8), parameter :: known_cards(34) = [character(8) :: 'BLOCK2', 'BLOCK3', 'BOLT', 'CBAR', 'CHEXA', 'CJOINT', 'CPENTA', 'CQUAD4', 'CROD', &
+      'CTETRA', 'CTRIA3', 'FORCE', 'FORCEM', 'GRAV', 'GRID', 'JINCR', 'JNORM', 'JOINT', &
+      'JSHEAR', 'LOAD', 'MAT1', 'PAXIS', 'PJOINT', 'PLOAD4', 'PLOADE', 'PLOADM', 'PMARK', &
+      'PROD', 'PSHELL', 'PSOLID', 'SPC', 'SPC1', 'SPCD', 'SPCM']
 
 contains
 
@@ -63,7 +69,13 @@ contains
          k = card_number(card_name(text%card_part(i)))
          if (k > 0) counts(k) = counts(k) + 1
       end do
-      allocate (bulk%block2(number_of('BLOCK2')), bulk%cjoint(number_of('CJOINT')), bulk%quad4(number_of('CQUAD4')))
+      allocate (bulk%block2(number_of('BLOCK2')), bulk%cjoint(number_of('CJOINT')), bulk%block3(number_of('BLOCK3')))
+      allocate (bulk%element(number_of('CQUAD4') + number_of('CTRIA3') + number_of('CHEXA') + number_of('CPENTA') + &
+                             number_of('CTETRA')))
+      allocate (bulk%paxis(number_of('PAXIS')), bulk%psolid(number_of('PSOLID')), bulk%prod(number_of('PROD')))
+      allocate (bulk%pressure(number_of('PLOAD4') + number_of('PLOADE')), bulk%gravity(number_of('GRAV')))
+      allocate (bulk%surface_load(number_of('PLOADM') + number_of('FORCEM')))
+      allocate (bulk%displacement(2*number_of('SPCD')), bulk%bolt(number_of('BOLT')))
       allocate (bulk%edge(number_of('CBAR') + number_of('CROD')), bulk%force(number_of('FORCE')))
       allocate (bulk%grid(number_of('GRID')), bulk%jincr(number_of('JINCR')), bulk%jnorm(number_of('JNORM')))
       allocate (bulk%jshear(number_of('JSHEAR')))
@@ -158,11 +170,19 @@ contains
 
       select case (card%name)
       case ('BLOCK2'); call read_block2(card, bulk, values, errors)
+      case ('BLOCK3'); call read_block3(card, bulk, values, errors)
+      case ('BOLT');   call read_bolt(card, bulk, values, errors)
       case ('CBAR');   call read_cbar(card, bulk, values, errors)
+      case ('CHEXA');  call read_element(card, kind_hexa8, bulk, values, errors)
       case ('CJOINT'); call read_cjoint(card, bulk, values, errors)
-      case ('CQUAD4'); call read_cquad4(card, bulk, values, errors)
+      case ('CPENTA'); call read_element(card, kind_penta6, bulk, values, errors)
+      case ('CQUAD4'); call read_element(card, kind_quad4, bulk, values, errors)
       case ('CROD');   call read_crod(card, bulk, values, errors)
+      case ('CTETRA'); call read_element(card, kind_tetra4, bulk, values, errors)
+      case ('CTRIA3'); call read_element(card, kind_tria3, bulk, values, errors)
       case ('FORCE');  call read_force(card, bulk, values, errors)
+      case ('FORCEM'); call read_forcem(card, bulk, values, errors)
+      case ('GRAV');   call read_grav(card, bulk, values, errors)
       case ('GRID');   call read_grid(card, bulk, values, errors)
       case ('JINCR');  call read_jincr(card, bulk, values, errors)
       case ('JNORM');  call read_jnorm(card, bulk, values, errors)
@@ -170,11 +190,18 @@ contains
       case ('JSHEAR'); call read_jshear(card, bulk, values, errors)
       case ('LOAD');   call read_load(card, bulk, values, errors)
       case ('MAT1');   call read_mat1(card, bulk, values, errors)
+      case ('PAXIS');  call read_paxis(card, bulk, values, errors)
       case ('PJOINT'); call read_pjoint(card, bulk, values, errors)
+      case ('PLOAD4'); call read_pload4(card, bulk, values, errors)
+      case ('PLOADE'); call read_ploade(card, bulk, values, errors)
+      case ('PLOADM'); call read_ploadm(card, bulk, values, errors)
       case ('PMARK');  call read_pmark(card, bulk, values, errors)
+      case ('PROD');   call read_prod(card, bulk, values, errors)
       case ('PSHELL'); call read_pshell(card, bulk, values, errors)
+      case ('PSOLID'); call read_psolid(card, bulk, values, errors)
       case ('SPC');    call read_spc(card, bulk, values, errors)
       case ('SPC1');   call read_spc1(card, bulk, values, errors)
+      case ('SPCD');   call read_spcd(card, bulk, values, errors)
       case ('SPCM');   call read_spcm(card, bulk, values, errors)
       case default
          call errors%add(card%line, ''''//trim(card%name)//''' is no card that jointfem knows; see input/README.md', 1, 8)

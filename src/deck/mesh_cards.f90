@@ -1,4 +1,4 @@
-!> The cards that make a mesh: GRID, CQUAD4, CBAR, CROD, PSHELL, MAT1, PMARK, BLOCK2. A table and a routine each.
+!> The cards of nodes, edges and generated blocks: GRID, CBAR, CROD, PMARK, BLOCK2, BLOCK3. A table and a routine each.
 module mesh_cards
    use bulk_data, only: bulk_data_type
    use card_fields, only: blank_field, card_values, component_field, decode_card, field_error, field_rule, integer_field, &
@@ -6,11 +6,10 @@ module mesh_cards
    use deck_cards, only: card_type
    use deck_errors, only: deck_error_list
    use kinds, only: wp
-   use text_tools, only: real_text
    implicit none
    private
 
-   public :: read_grid, read_cquad4, read_cbar, read_crod, read_pshell, read_mat1, read_pmark, read_block2
+   public :: read_grid, read_cbar, read_crod, read_pmark, read_block2, read_block3
 
    integer, parameter :: largest = huge(1)
 
@@ -37,28 +36,6 @@ contains
    end subroutine read_grid
 
 
-   !> CQUAD4: four nodes counter-clockwise. THETA and the corner thicknesses mean nothing to an isotropic membrane
-   !! of one thickness; they must be blank.
-   subroutine read_cquad4(card, bulk, values, errors)
-      type(card_type), intent(in)          :: card
-      type(bulk_data_type), intent(inout)  :: bulk
-      type(card_values), intent(inout)     :: values
-      type(deck_error_list), intent(inout) :: errors
-      type(field_rule), save, allocatable :: table(:)
-
-      if (.not. allocated(table)) table = [integer_field('EID'), integer_field('PID'), integer_field('G1'), &
-         integer_field('G2'), integer_field('G3'), integer_field('G4'), blank_field('THETA'), blank_field('ZOFFS')]
-      call decode_card(card, table, .false., values, errors)
-      bulk%n_quad4 = bulk%n_quad4 + 1
-      associate (element => bulk%quad4(bulk%n_quad4))
-         element%line = card%line
-         element%id = values%integers(1)
-         element%property = values%integers(2)
-         element%nodes(:4) = values%integers(3:6)
-      end associate
-   end subroutine read_cquad4
-
-
    !> CBAR: an edge of a marked surface. The orientation vector of a real bar (Gmsh writes one) has no meaning here.
    subroutine read_cbar(card, bulk, values, errors)
       type(card_type), intent(in)          :: card
@@ -75,7 +52,7 @@ contains
    end subroutine read_cbar
 
 
-   !> CROD: an edge of a marked surface.
+   !> CROD: an edge of a marked surface, or with a PROD a bar, such as a bolt.
    subroutine read_crod(card, bulk, values, errors)
       type(card_type), intent(in)          :: card
       type(bulk_data_type), intent(inout)  :: bulk
@@ -102,72 +79,6 @@ contains
          edge%nodes(:2) = values%integers(3:4)
       end associate
    end subroutine store_edge
-
-
-   !> PSHELL: a membrane of thickness T; MID2 = -1 plane strain, blank plane stress.
-   subroutine read_pshell(card, bulk, values, errors)
-      type(card_type), intent(in)          :: card
-      type(bulk_data_type), intent(inout)  :: bulk
-      type(card_values), intent(inout)     :: values
-      type(deck_error_list), intent(inout) :: errors
-      type(field_rule), save, allocatable :: table(:)
-
-      if (.not. allocated(table)) table = [integer_field('PID'), integer_field('MID1'), real_field('T', above=0.0_wp), &
-         integer_field('MID2', default=0, least=-1, most=largest), blank_field('12I/T**3'), blank_field('MID3'), &
-         blank_field('TS/T'), blank_field('NSM')]
-      call decode_card(card, table, .false., values, errors)
-      if (values%integers(4) > 0) call field_error(card, 4, 'MID2: '// &
-         'only -1 (plane strain) or blank (plane stress): the plate does not bend out of its plane', errors)
-      bulk%n_pshell = bulk%n_pshell + 1
-      associate (pshell => bulk%pshell(bulk%n_pshell))
-         pshell%line = card%line
-         pshell%id = values%integers(1)
-         pshell%material = values%integers(2)
-         pshell%thickness = values%reals(3)
-         pshell%plane_strain = values%integers(4) == -1
-      end associate
-   end subroutine read_pshell
-
-
-   !> MAT1: of E, G and NU two are enough, G = E/(2 (1 + NU)); all three must agree within one per cent.
-   subroutine read_mat1(card, bulk, values, errors)
-      type(card_type), intent(in)          :: card
-      type(bulk_data_type), intent(inout)  :: bulk
-      type(card_values), intent(inout)     :: values
-      type(deck_error_list), intent(inout) :: errors
-      type(field_rule), save, allocatable :: table(:)
-      real(wp) :: e, g, nu
-
-      if (.not. allocated(table)) table = [integer_field('MID'), real_field('E', default=0.0_wp, above=0.0_wp), &
-         real_field('G', default=0.0_wp, above=0.0_wp), real_field('NU', default=0.0_wp, above=-1.0_wp, below=0.5_wp), &
-         real_field('RHO', default=0.0_wp, least=0.0_wp), real_field('A', default=0.0_wp), &
-         real_field('TREF', default=0.0_wp), real_field('GE', default=0.0_wp)]
-      call decode_card(card, table, .false., values, errors)
-      e = values%reals(2)
-      g = values%reals(3)
-      nu = values%reals(4)
-      if (values%ok) then
-         if (count(values%given(2:4)) < 2) then
-            call field_error(card, 2, 'E: expected two of E, G and NU', errors)
-         else if (.not. values%given(2)) then
-            e = 2.0_wp*(1.0_wp + nu)*g
-         else if (.not. values%given(4)) then
-            nu = e/(2.0_wp*g) - 1.0_wp
-            if (nu <= -1.0_wp .or. nu >= 0.5_wp) call field_error(card, 3, 'G: '// &
-               'E and G give NU = E/(2G) - 1 = '//real_text(nu)//', expected above -1 and below 0.5', errors)
-         else if (values%given(3) .and. abs(e/(2.0_wp*(1.0_wp + nu)) - g) > 0.01_wp*g) then
-            call field_error(card, 3, 'G: does not agree with E and NU, which give G = '// &
-                                 real_text(e/(2.0_wp*(1.0_wp + nu)))//'; leave one of the three blank', errors)
-         end if
-      end if
-      bulk%n_mat1 = bulk%n_mat1 + 1
-      associate (mat1 => bulk%mat1(bulk%n_mat1))
-         mat1%line = card%line
-         mat1%id = values%integers(1)
-         mat1%e = e
-         mat1%nu = nu
-      end associate
-   end subroutine read_mat1
 
 
    subroutine read_pmark(card, bulk, values, errors)
@@ -237,5 +148,51 @@ contains
          block2%weld = values%integers(21)
       end associate
    end subroutine read_block2
+
+
+   !> BLOCK3: a box of NX by NY by NZ elements between two opposite corners; nodes go up z first, then y, then x.
+   subroutine read_block3(card, bulk, values, errors)
+      type(card_type), intent(in)          :: card
+      type(bulk_data_type), intent(inout)  :: bulk
+      type(card_values), intent(inout)     :: values
+      type(deck_error_list), intent(inout) :: errors
+      type(field_rule), save, allocatable :: table(:)
+      integer, parameter :: most_divisions = 10000
+
+      if (.not. allocated(table)) table = [integer_field('BID'), integer_field('PID'), &
+         integer_field('NX', most=most_divisions), integer_field('NY', most=most_divisions), &
+         integer_field('NZ', most=most_divisions), &
+         real_field('X1', default=0.0_wp), real_field('Y1', default=0.0_wp), real_field('Z1', default=0.0_wp), &
+         real_field('X2'), real_field('Y2'), real_field('Z2'), real_field('RX', default=1.0_wp, above=0.0_wp), &
+         real_field('RY', default=1.0_wp, above=0.0_wp), real_field('RZ', default=1.0_wp, above=0.0_wp), &
+         integer_field('N1', default=1), integer_field('E1', default=1), &
+         integer_field('S1', default=0), integer_field('S2', default=0), integer_field('S3', default=0), &
+         integer_field('S4', default=0), integer_field('S5', default=0), integer_field('S6', default=0), &
+         integer_field('WELD', default=0)]
+      call decode_card(card, table, .false., values, errors)
+      if (product(real(values%integers(3:5), wp)) > 2.0e7_wp) then
+         call field_error(card, 3, 'NX: more than 2E7 elements in one block', errors)
+         values%integers(3:5) = 1
+      end if
+      if (max(values%integers(15), values%integers(16)) > largest - 200000000) then
+         call field_error(card, 15, 'N1: the last node or element number would pass 2147483647', errors)
+         values%integers(15:16) = 1
+      end if
+      if (values%ok .and. any(values%reals(9:11) <= values%reals(6:8))) call field_error(card, 9, &
+         'X2: the second corner must lie beyond the first in x, y and z', errors)
+      bulk%n_block3 = bulk%n_block3 + 1
+      associate (block3 => bulk%block3(bulk%n_block3), x => values%reals)
+         block3%line = card%line
+         block3%id = values%integers(1)
+         block3%property = values%integers(2)
+         block3%divisions = max(1, values%integers(3:5))
+         block3%corner = reshape(x(6:11), [3, 2])
+         block3%grading = x(12:14)
+         block3%first_node = values%integers(15)
+         block3%first_element = values%integers(16)
+         block3%marks = values%integers(17:22)
+         block3%weld = values%integers(23)
+      end associate
+   end subroutine read_block3
 
 end module mesh_cards

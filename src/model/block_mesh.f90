@@ -1,13 +1,160 @@
-!> The generator of teaching meshes: BLOCK2, a quadrilateral block, nodes numbered up each column first.
+!> The generator of teaching meshes: BLOCK2, a quadrilateral block, and BLOCK3, a box; nodes numbered up each column first.
 module block_mesh
-   use bulk_data, only: block2_card
+   use bulk_data, only: block2_card, block3_card
+   use element_kinds, only: kind_hexa8, kind_quad4
    use kinds, only: wp
    implicit none
    private
 
-   public :: block_nodes, block_elements, block_side
+   public :: generate_block2, generate_block3
+
+   !> What a block gives: places are positions in its own node list.
+   type, public :: block_type
+      integer :: line = 0, id = 0, property = 0, weld = 0
+      integer :: kind = 0                     !! of its elements
+      integer, allocatable  :: node_id(:)
+      real(wp), allocatable :: x(:, :)        !! (3, nodes)
+      integer, allocatable  :: element_id(:)
+      integer, allocatable  :: places(:, :)   !! (8, elements)
+      integer :: n_sides = 0                  !! marked sides
+      integer, allocatable  :: mark(:)        !! (n_sides) PMARK id
+      integer, allocatable  :: mark_field(:)  !! (n_sides) data field of the card that names it
+      integer, allocatable  :: side(:, :)     !! (4, n_sides) places of its corners, 0 behind the last
+   end type block_type
 
 contains
+
+   !> The nodes, elements and marked sides of a BLOCK2.
+   pure subroutine generate_block2(card, block)
+      type(block2_card), intent(in) :: card
+      type(block_type), intent(out) :: block
+      integer, allocatable  :: places(:), corners(:, :)
+      real(wp), allocatable :: x(:, :)
+      integer :: i, side
+
+      block%line = card%line
+      block%id = card%id
+      block%property = card%property
+      block%weld = card%weld
+      block%kind = kind_quad4
+      call block_nodes(card, block%node_id, x)
+      allocate (block%x(3, size(x, 2)), source=0.0_wp)
+      block%x(:2, :) = x
+      call block_elements(card, block%element_id, corners)
+      allocate (block%places(8, size(corners, 2)), source=0)
+      block%places(:4, :) = corners
+      call start_sides(block, 2*sum(card%divisions))
+      do side = 1, 4
+         if (card%marks(side) == 0) cycle
+         call block_side(card, side, places)
+         do i = 1, size(places) - 1
+            call add_side(block, card%marks(side), 16 + side, places(i:i + 1))
+         end do
+      end do
+   end subroutine generate_block2
+
+
+   pure subroutine start_sides(block, most)
+      type(block_type), intent(inout) :: block
+      integer, intent(in)             :: most
+
+      allocate (block%mark(most), block%mark_field(most), source=0)
+      allocate (block%side(4, most), source=0)
+   end subroutine start_sides
+
+
+   pure subroutine add_side(block, mark, field, places)
+      type(block_type), intent(inout) :: block
+      integer, intent(in)             :: mark, field, places(:)
+
+      block%n_sides = block%n_sides + 1
+      block%mark(block%n_sides) = mark
+      block%mark_field(block%n_sides) = field
+      block%side(:size(places), block%n_sides) = places
+   end subroutine add_side
+
+
+   !> The nodes, elements and marked sides of a BLOCK3: node (i, j, k), all from 0, is number
+   !! N1 + (i (NY + 1) + j)(NZ + 1) + k.
+   pure subroutine generate_block3(card, block)
+      type(block3_card), intent(in) :: card
+      type(block_type), intent(out) :: block
+      real(wp) :: r(0:card%divisions(1)), s(0:card%divisions(2)), t(0:card%divisions(3)), share(3)
+      integer  :: i, j, k, n(3), m
+
+      n = card%divisions
+      block%line = card%line
+      block%id = card%id
+      block%property = card%property
+      block%weld = card%weld
+      block%kind = kind_hexa8
+      call graded_places(card%grading(1), r)
+      call graded_places(card%grading(2), s)
+      call graded_places(card%grading(3), t)
+      allocate (block%node_id(product(n + 1)), block%x(3, product(n + 1)))
+      m = 0
+      do i = 0, n(1)
+         do j = 0, n(2)
+            do k = 0, n(3)
+               m = m + 1
+               share = [r(i), s(j), t(k)]
+               block%node_id(m) = card%first_node + m - 1
+               block%x(:, m) = card%corner(:, 1) + share*(card%corner(:, 2) - card%corner(:, 1))
+            end do
+         end do
+      end do
+      allocate (block%element_id(product(n)), block%places(8, product(n)))
+      m = 0
+      do i = 0, n(1) - 1
+         do j = 0, n(2) - 1
+            do k = 0, n(3) - 1
+               m = m + 1
+               block%element_id(m) = card%first_element + m - 1
+               block%places(:, m) = [at(i, j, k), at(i + 1, j, k), at(i + 1, j + 1, k), at(i, j + 1, k), &
+                                     at(i, j, k + 1), at(i + 1, j, k + 1), at(i + 1, j + 1, k + 1), at(i, j + 1, k + 1)]
+            end do
+         end do
+      end do
+      call start_sides(block, 2*(n(1)*n(2) + n(2)*n(3) + n(3)*n(1)))
+      do m = 1, 2 ! low, high
+         if (card%marks(m) > 0) then
+            i = merge(0, n(1), m == 1)
+            do j = 0, n(2) - 1
+               do k = 0, n(3) - 1
+                  call add_side(block, card%marks(m), 16 + m, [at(i, j, k), at(i, j + 1, k), at(i, j + 1, k + 1), at(i, j, k + 1)])
+               end do
+            end do
+         end if
+         if (card%marks(m + 2) > 0) then
+            j = merge(0, n(2), m == 1)
+            do i = 0, n(1) - 1
+               do k = 0, n(3) - 1
+                  call add_side(block, card%marks(m + 2), 18 + m, &
+                                [at(i, j, k), at(i + 1, j, k), at(i + 1, j, k + 1), at(i, j, k + 1)])
+               end do
+            end do
+         end if
+         if (card%marks(m + 4) > 0) then
+            k = merge(0, n(3), m == 1)
+            do i = 0, n(1) - 1
+               do j = 0, n(2) - 1
+                  call add_side(block, card%marks(m + 4), 20 + m, &
+                                [at(i, j, k), at(i + 1, j, k), at(i + 1, j + 1, k), at(i, j + 1, k)])
+               end do
+            end do
+         end if
+      end do
+
+   contains
+
+      pure integer function at(a, b, c)
+         integer, intent(in) :: a, b, c
+
+         at = (a*(n(2) + 1) + b)*(n(3) + 1) + c + 1
+      end function at
+
+   end subroutine generate_block3
+
 
    !> Coordinates X(2, n) and numbers ID(n) of the nodes of a block, n = (NX + 1)(NY + 1). Node (i, j), i counting
    !! along side 1-2 and j along side 1-4, both from 0, is number N1 + i (NY + 1) + j and stands at the bilinear
@@ -79,10 +226,10 @@ contains
 
 
    !> The nodes of side SIDE (1: corners 1-2, 2: 2-3, 3: 3-4, 4: 4-1) in this order, as places in the block's node list.
-   pure function block_side(block, side) result(places)
-      type(block2_card), intent(in) :: block
-      integer, intent(in)  :: side
-      integer, allocatable :: places(:)
+   pure subroutine block_side(block, side, places)
+      type(block2_card), intent(in)     :: block
+      integer, intent(in)               :: side
+      integer, allocatable, intent(out) :: places(:)
       integer :: i, column, last_column
 
       column = block%divisions(2) + 1
@@ -97,6 +244,6 @@ contains
       case default
          allocate (places, source=[(i, i = column, 1, -1)])
       end select
-   end function block_side
+   end subroutine block_side
 
 end module block_mesh

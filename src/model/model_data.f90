@@ -9,21 +9,27 @@ module model_data
 
    public :: joint_movement
 
-   !> Section and material of plane elements.
+   integer, parameter, public :: plane_stress = 1, plane_strain = 2, axisymmetric = 3, solid = 4 !! formulations
+
+   !> Section and material of body elements.
    type, public :: property_type
       integer  :: id = 0
-      real(wp) :: thickness = 0.0_wp         !! [length]
+      integer  :: formulation = plane_stress
+      real(wp) :: thickness = 0.0_wp         !! of a plane one [length]
       real(wp) :: e = 0.0_wp, nu = 0.0_wp    !! [pressure], [-]
-      logical  :: plane_strain = .false.
+      real(wp) :: rho = 0.0_wp               !! mass density
+      logical  :: incompatible = .false.     !! modes of Wilson and Taylor
    end type property_type
 
-   !> A marked surface: edges of elements (2-D), each run through with the body on its left.
+   !> A marked surface: sides of elements, edges in the plane and faces of solids, each in the order of its element: a plane body on
+   !! the left of the edge, the right-hand normal of a face out of the solid.
    type, public :: surface_type
       integer :: id = 0
-      integer :: n  = 0                      !! edges
-      integer, allocatable :: nodes(:, :)    !! (2, n)
-      integer, allocatable :: element(:)     !! (n) the body element that the edge belongs to
-      integer, allocatable :: other(:)       !! (n) a body element on the other side of the edge, 0: none
+      integer :: n  = 0                      !! sides
+      integer, allocatable :: corners(:)     !! (n) 2, 3 or 4
+      integer, allocatable :: nodes(:, :)    !! (4, n)
+      integer, allocatable :: element(:)     !! (n) the body element that the side belongs to
+      integer, allocatable :: other(:)       !! (n) a body element behind the side, 0: none
    end type surface_type
 
    !> One joint: a group of interface elements with the same laws.
@@ -68,7 +74,8 @@ module model_data
       type(id_table_type)   :: node_table
       integer :: n_elements = 0
       integer, allocatable  :: element_id(:)
-      integer, allocatable  :: element_nodes(:, :)   !! (4, n_elements) counter-clockwise
+      integer, allocatable  :: element_kind(:)       !! of element_kinds
+      integer, allocatable  :: element_nodes(:, :)   !! (8, n_elements) corners in NASTRAN's order, 0 behind the last
       integer, allocatable  :: element_property(:)
       integer, allocatable  :: element_line(:)       !! of its card in the deck text
       integer, allocatable  :: first_at(:)           !! (n_nodes + 1) elements_at(first_at(i):first_at(i+1)-1)

@@ -1,0 +1,182 @@
+!> Nodes: GRID cards and those of generated blocks, in the order of their numbers.
+module node_build
+   use block_mesh, only: block_type, generate_block2, generate_block3
+   use deck_cards, only: add_field_error
+   use deck_errors, only: deck_error_list
+   use deck_input, only: deck_type
+   use element_kinds, only: kind_quad4
+   use id_table, only: id_table_type, sorted_order
+   use kinds, only: wp
+   use model_data, only: model_type
+   use position_search, only: position_search_type
+   use text_tools, only: integer_text
+   implicit none
+   private
+
+   public :: generate_blocks, collect_nodes, order_nodes, report_repeated
+
+   !> Nodes as they come, before they are put in order, and which of them a block's places are.
+   type, public :: raw_nodes
+      integer :: n = 0
+      integer, allocatable  :: id(:), line(:)
+      real(wp), allocatable :: x(:, :)
+      integer, allocatable  :: place(:)        !! of all blocks, one after another: raw node
+      integer, allocatable  :: block_start(:)  !! place(block_start(b) + 1 : block_start(b + 1))
+   end type raw_nodes
+
+contains
+
+   !> What the BLOCK2 and BLOCK3 cards give, in the order of the deck.
+   subroutine generate_blocks(deck, blocks)
+      type(deck_type), intent(in)                :: deck
+      type(block_type), allocatable, intent(out) :: blocks(:)
+      integer, allocatable :: order(:)
+      integer :: b
+
+      associate (bulk => deck%bulk)
+         allocate (blocks(bulk%n_block2 + bulk%n_block3))
+         call sorted_order([bulk%block2(:bulk%n_block2)%line, bulk%block3(:bulk%n_block3)%line], order)
+         do b = 1, size(blocks)
+            if (order(b) <= bulk%n_block2) then
+               call generate_block2(bulk%block2(order(b)), blocks(b))
+            else
+               call generate_block3(bulk%block3(order(b) - bulk%n_block2), blocks(b))
+            end if
+         end do
+      end associate
+   end subroutine generate_blocks
+
+
+   !> All GRID cards and all nodes of blocks; a welded block uses the coincident nodes of the block it is welded to.
+   subroutine collect_nodes(deck, blocks, raw, errors)
+      type(deck_type), intent(in)          :: deck
+      type(block_type), intent(in)         :: blocks(:)
+      type(raw_nodes), intent(out)         :: raw
+      type(deck_error_list), intent(inout) :: errors
+      integer :: b, i, k, n, total
+
+      allocate (raw%block_start(size(blocks) + 1), source=0)
+      do b = 1, size(blocks)
+         raw%block_start(b + 1) = raw%block_start(b) + size(blocks(b)%node_id)
+      end do
+      n = deck%bulk%n_grid
+      total = n + raw%block_start(size(blocks) + 1)
+      allocate (raw%id(total), raw%line(total), raw%x(3, total), raw%place(total - n))
+      do i = 1, n
+         raw%id(i) = deck%bulk%grid(i)%id
+         raw%line(i) = deck%bulk%grid(i)%line
+         raw%x(:, i) = deck%bulk%grid(i)%x
+      end do
+      do b = 1, size(blocks)
+         associate (places => raw%place(raw%block_start(b) + 1:raw%block_start(b + 1)))
+            call weld_block(deck, blocks, b, raw, places, errors)
+            do k = 1, size(places)
+               if (places(k) > 0) cycle
+               n = n + 1
+               places(k) = n
+               raw%id(n) = blocks(b)%node_id(k)
+               raw%line(n) = blocks(b)%line
+               raw%x(:, n) = blocks(b)%x(:, k)
+            end do
+         end associate
+      end do
+      raw%n = n
+      call report_repeated(deck, raw%id(:n), raw%line(:n), 'ID', 'node', errors)
+   end subroutine collect_nodes
+
+
+   !> Where block B is welded to an earlier one, PLACES(k) is the raw node at X(:, k) of that block, else 0.
+   subroutine weld_block(deck, blocks, b, raw, places, errors)
+      type(deck_type), intent(in)          :: deck
+      type(block_type), intent(in)         :: blocks(:)
+      integer, intent(in)                  :: b
+      type(raw_nodes), intent(in)          :: raw
+      integer, intent(inout)               :: places(:)
+      type(deck_error_list), intent(inout) :: errors
+      type(position_search_type) :: search
+      integer, allocatable :: others(:)
+      real(wp) :: reach, distance
+      integer  :: k, other, found
+
+      places = 0
+      associate (block => blocks(b))
+         if (block%weld == 0) return
+         do other = b - 1, 1, -1
+            if (blocks(other)%id == block%weld) exit
+         end do
+         if (other == 0) then
+            call add_field_error(deck%text, block%line, weld_field(block), 'WELD', 'no block '//integer_text(block%weld)// &
+                                 ' stands before this one', errors)
+            return
+         end if
+      end associate
+      others = raw%place(raw%block_start(other) + 1:raw%block_start(other + 1))
+      reach = 1.0e-6_wp*maxval(maxval(blocks(b)%x, dim=2) - minval(blocks(b)%x, dim=2))
+      call search%build(raw%x(:, others), reach)
+      do k = 1, size(places)
+         call search%nearest(blocks(b)%x(:, k), reach, found, distance)
+         if (found > 0) places(k) = others(found)
+      end do
+      if (all(places == 0)) call add_field_error(deck%text, blocks(b)%line, &
+         weld_field(blocks(b)), 'WELD', &
+         'the two blocks have no node in common', errors)
+   end subroutine weld_block
+
+
+   !> The data field of WELD on the card of BLOCK.
+   pure integer function weld_field(block)
+      type(block_type), intent(in) :: block
+
+      weld_field = merge(21, 23, block%kind == kind_quad4)
+   end function weld_field
+
+
+   !> The nodes of the model in ascending order of their numbers.
+   subroutine order_nodes(raw, model, position)
+      type(raw_nodes), intent(in)       :: raw
+      type(model_type), intent(inout)   :: model
+      integer, allocatable, intent(out) :: position(:)
+      integer, allocatable :: order(:)
+      integer :: i
+
+      call sorted_order(raw%id(:raw%n), order)
+      allocate (position(raw%n))
+      position(order) = [(i, i = 1, raw%n)]
+      model%n_nodes = raw%n
+      model%node_id = raw%id(order)
+      model%x = raw%x(:, order)
+      call model%node_table%build(model%node_id)
+   end subroutine order_nodes
+
+
+   !> Say which of the numbers ID(n), given on the cards of LINE(n), are given twice; a card that gives many is named once.
+   subroutine report_repeated(deck, id, line, field, noun, errors)
+      type(deck_type), intent(in)          :: deck
+      integer, intent(in)                  :: id(:), line(:)
+      character(*), intent(in)             :: field, noun
+      type(deck_error_list), intent(inout) :: errors
+      type(id_table_type)  :: table
+      integer, allocatable :: again(:), order(:)
+      integer :: k, last, more
+
+      call table%build(id)
+      call table%list_repeated(again)
+      call sorted_order(line(again), order)
+      k = 1
+      do while (k <= size(again))
+         last = k
+         do while (last < size(again))
+            if (line(again(order(last + 1))) /= line(again(order(k)))) exit
+            last = last + 1
+         end do
+         more = last - k
+         associate (this => again(order(k)))
+            if (id(this) > 0) call add_field_error(deck%text, line(this), 1, field, noun//' '//integer_text(id(this))// &
+               trim(merge(', and more of this card,', '                        ', more > 0))//' is given twice, first in '// &
+               deck%text%place(line(table%find(id(this)))), errors)
+         end associate
+         k = last + 1
+      end do
+   end subroutine report_repeated
+
+end module node_build
