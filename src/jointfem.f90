@@ -15,8 +15,8 @@ program jointfem
    use newton_method, only: newton_increment
    use progress, only: progress_type
    use results, only: finish_results, print_increment, print_stage, results_type, start_results
-   use run_control, only: end_program, report_checked, report_errors, report_failure, report_unreadable, &
-                          report_unwritten, report_warnings, set_threads
+   use run_control, only: end_program, overwrites_input, report_checked, report_errors, report_failure, &
+                          report_unreadable, report_unwritten, report_warnings, set_threads
    use stage_plan, only: stage_plan_type
    use step_method, only: accumulate, limit_friction, solve_increment, structure_stiffness
    implicit none
@@ -52,6 +52,8 @@ contains
       call read_deck(argument%path, deck, errors, readable)
       if (.not. readable) then
          call report_unreadable(argument)
+         return
+      else if (overwrites_input(argument, deck)) then
          return
       end if
 
@@ -105,8 +107,10 @@ contains
 
                if (.not. failure%raised) then
                   ! ------------------------------------------------------ SOLVE [k_s] {du} = {dF}
-                  call solve_increment(system, analysis)
+                  call solve_increment(plan, system, analysis, failure)
 
+               end if
+               if (.not. failure%raised) then
                   ! ------------------------------------------------------ ACCUMULATE {u}, DEFLECTIONS, FORCES
                   call accumulate(model, analysis)
 

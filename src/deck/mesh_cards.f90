@@ -33,6 +33,7 @@ contains
          grid%id = values%integers(1)
          grid%x = values%reals(3:5)
          grid%ps = values%integers(7)
+         grid%doubtful = .not. values%ok
       end associate
    end subroutine read_grid
 
@@ -113,11 +114,9 @@ contains
       type(field_rule), save, allocatable :: table(:)
 
       if (.not. allocated(table)) table = [integer_field('PID'), integer_field('MID1'), real_field('T', above=0.0_wp), &
-         integer_field('MID2', default=0, least=-1, most=largest), blank_field('12I/T**3'), blank_field('MID3'), &
+         integer_field('MID2', default=0, least=-1, most=-1), blank_field('12I/T**3'), blank_field('MID3'), &
          blank_field('TS/T'), blank_field('NSM')]
       call decode_card(card, table, .false., values, errors)
-      if (values%integers(4) > 0) call field_error(card, 4, 'MID2: '// &
-         'only -1 (plane strain) or blank (plane stress): the plate does not bend out of its plane', errors)
       bulk%n_pshell = bulk%n_pshell + 1
       associate (pshell => bulk%pshell(bulk%n_pshell))
          pshell%line = card%line
@@ -194,7 +193,9 @@ contains
       type(deck_error_list), intent(inout) :: errors
       type(field_rule), save, allocatable :: table(:)
       integer, parameter :: most_divisions = 100000
+      integer :: errors_before
 
+      errors_before = errors%n
       if (.not. allocated(table)) table = [integer_field('BID'), integer_field('PID'), &
          integer_field('NX', most=most_divisions), integer_field('NY', most=most_divisions), &
          real_field('X1', default=0.0_wp), real_field('Y1', default=0.0_wp), &
@@ -235,6 +236,7 @@ contains
          block2%first_element = values%integers(16)
          block2%marks = values%integers(17:20)
          block2%weld = values%integers(21)
+         block2%doubtful = errors%n > errors_before
       end associate
    end subroutine read_block2
 

@@ -172,7 +172,7 @@ contains
       type(model_type), intent(in) :: model
       real(wp), intent(in)         :: f(:, :)
 
-      free_norm = sqrt(sum(f**2, mask=.not. model%held))
+      free_norm = norm2(merge(0.0_wp, f, model%held))
    end function free_norm
 
 

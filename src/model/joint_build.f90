@@ -90,6 +90,14 @@ contains
          end do
          if (surface(1) == 0 .or. (surface(2) == 0 .and. card%sides(2) > 0)) return
          if (model%surfaces(surface(1))%n == 0) return
+         if (surface(2) > 0) then
+            if (model%surfaces(surface(2))%n == 0) return
+            if (any(model%surfaces(surface(2))%other(:model%surfaces(surface(2))%n) > 0)) then
+               call add_field_error(deck%text, card%line, 4, 'SIDE2', 'bodies lie on both sides of surface '// &
+                  integer_text(card%sides(2)), errors)
+               return
+            end if
+         end if
          if (surface(2) > 0 .and. any(model%surfaces(surface(1))%other(:model%surfaces(surface(1))%n) > 0)) then
             call add_field_error(deck%text, card%line, 3, 'SIDE1', 'bodies lie on both sides of surface '// &
                integer_text(card%sides(1))//': leave SIDE2 blank, and the program splits it', errors)
@@ -105,6 +113,11 @@ contains
             partner = model%twin(side1%node)
          end if
       end associate
+      if (highest > huge(highest) - side1%n) then
+         call add_field_error(deck%text, deck%bulk%joint(j)%line, 1, 'JID', 'the numbers of its interface '// &
+            'elements, which follow those of the CJOINTs, would pass 2147483647', errors)
+         return
+      end if
       deallocate (elements)
       allocate (elements(side1%n))
       do k = 1, side1%n

@@ -24,6 +24,7 @@ module model_data
       integer, allocatable :: nodes(:, :)    !! (2, n)
       integer, allocatable :: element(:)     !! (n) the body element that the edge belongs to
       integer, allocatable :: other(:)       !! (n) a body element on the other side of the edge, 0: none
+      integer, allocatable :: line(:)        !! (n) of its card in the deck text
    end type surface_type
 
    !> One joint: a group of interface elements with the same laws.

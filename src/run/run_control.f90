@@ -1,8 +1,8 @@
 !> The run of one deck among several: what it is called, what its exit status is, what is said on the terminal.
 module run_control
-   use, intrinsic :: iso_fortran_env, only: error_unit, output_unit
-   use c_library, only: end_run
-   use command_line, only: command_type, deck_argument
+   use, intrinsic :: iso_fortran_env, only: error_unit
+   use c_library, only: end_run, write_bytes
+   use command_line, only: command_type, deck_argument, is_result_of
    use deck_errors, only: deck_error_list
    use deck_input, only: deck_type
    use error_report, only: print_deck_errors
@@ -14,8 +14,8 @@ module run_control
    implicit none
    private
 
-   public :: set_threads, report_unreadable, report_errors, report_failure, report_unwritten, report_checked, &
-             report_warnings, end_program
+   public :: set_threads, overwrites_input, report_unreadable, report_errors, report_failure, &
+             report_unwritten, report_checked, report_warnings, end_program
 
    integer, parameter :: status_unreadable = 1, status_deck = 2, status_unsolved = 3, status_unwritten = 4
 
@@ -51,8 +51,9 @@ contains
       logical :: there, is_folder
 
       call raise_status(status_unreadable)
+      is_folder = .false.
       inquire (file=argument%path, exist=there)
-      inquire (file=argument%path//'/.', exist=is_folder)
+      if (argument%path /= '') inquire (file=argument%path//'/.', exist=is_folder)
       if (is_folder) then
          write (error_unit, '(2a)') argument%name, ': a directory, expected a deck'
       else if (there) then
@@ -61,6 +62,22 @@ contains
          write (error_unit, '(2a)') argument%name, ': no such file'
       end if
    end subroutine report_unreadable
+
+
+   !> Whether a file that the deck includes is one that its results would be written to: said, and status 1.
+   logical function overwrites_input(argument, deck)
+      type(deck_argument), intent(in) :: argument
+      type(deck_type), intent(in)     :: deck
+      integer :: i
+
+      overwrites_input = .false.
+      do i = 2, deck%text%n_files
+         if (.not. is_result_of(deck%text%files(i)%true_path, argument)) cycle
+         overwrites_input = .true.
+         call raise_status(status_unreadable)
+         write (error_unit, '(3a)') argument%name, ': its results would overwrite the INCLUDE file ', deck%text%files(i)%path
+      end do
+   end function overwrites_input
 
 
    !> The deck has errors: all of them, and no result of an earlier run is left to be mistaken for its own.
@@ -121,10 +138,12 @@ contains
       type(deck_argument), intent(in)   :: argument
       type(model_type), intent(in)      :: model
       type(stage_plan_type), intent(in) :: plan
+      logical :: ok
 
-      write (output_unit, '(9a)') argument%name, ': no errors; ', plural(model%n_nodes, 'node'), ', ', &
-         plural(model%n_elements, 'body element'), ', ', plural(size(model%interface), 'interface element'), ', ', &
-         plural(size(plan%stages), 'stage')
+      call write_bytes(1, argument%name//': no errors; '//plural(model%n_nodes, 'node')//', '// &
+                       plural(model%n_elements, 'body element')//', '//plural(size(model%interface), 'interface element')// &
+                       ', '//plural(size(plan%stages), 'stage')//new_line('a'), ok)
+      if (.not. ok) call raise_status(status_unwritten)
    end subroutine report_checked
 
 
@@ -132,7 +151,6 @@ contains
    subroutine end_program(status)
       integer, intent(in) :: status
 
-      flush (output_unit)
       call end_run(max(status, exit_status))
    end subroutine end_program
 
