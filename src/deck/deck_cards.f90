@@ -226,7 +226,7 @@ contains
       end do
       if (len(line) > 72) marker = adjustl(line(73:min(80, len(line))))
       if (marker /= '' .and. scan(marker(1:1), '+*') == 0) call errors%add(at, ''''//trim(marker)// &
-         ''' in columns 73 to 80: expected a continuation mark that begins with +, or blanks', 73, min(80, len(line)))
+         ''' in columns 73 to 80: expected a continuation mark that begins with + or *, or blanks', 73, min(80, len(line)))
    end subroutine cut_fixed
 
 

@@ -307,6 +307,9 @@ contains
                     ' and its joint do not hold the load (open, or slipping as a whole)'
          end if
       end if
+      if (any((model%joints%law%shear(1)%given .or. model%joints%law%shear(2)%given) .and. &
+              .not. model%joints%law%has_friction)) words = words// &
+         '; an element with shear and without friction drops its shear at once when it opens: give MU on PJOINT'
       call failure%raise(words)
    end subroutine give_up
 

@@ -88,6 +88,11 @@ contains
             if (surface(k) == 0) call add_field_error(deck%text, card%line, k + 2, 'SIDE'//integer_text(k), &
                'there is no PMARK '//integer_text(card%sides(k)), errors)
          end do
+         do k = 1, j - 1
+            if (any(deck%bulk%joint(k)%sides == card%sides(1)) .or. (card%sides(2) > 0 .and. &
+                any(deck%bulk%joint(k)%sides == card%sides(2)))) call add_field_error(deck%text, card%line, 3, 'SIDE1', &
+               'one of the sides is a side of JOINT '//integer_text(deck%bulk%joint(k)%id)//' already', errors)
+         end do
          if (surface(1) == 0 .or. (surface(2) == 0 .and. card%sides(2) > 0)) return
          if (model%surfaces(surface(1))%n == 0) return
          if (surface(2) > 0) then

@@ -112,14 +112,19 @@ contains
       type(surface_type), intent(in)       :: surface
       type(deck_error_list), intent(inout) :: errors
       integer, allocatable :: order(:)
-      integer :: k
+      integer :: j, k
 
-      call sorted_order(surface%nodes(1, :surface%n), order)
+      call sorted_order(minval(surface%nodes(:, :surface%n), dim=1), order)
       do k = 2, surface%n
-         if (any(surface%nodes(:, order(k)) /= surface%nodes(:, order(k - 1)))) cycle
-         call errors%add(max(surface%line(order(k)), surface%line(order(k - 1))), 'surface '// &
-            integer_text(surface%id)//': the edge between nodes '//integer_text(model%node_id(surface%nodes(1, order(k))))// &
-            ' and '//integer_text(model%node_id(surface%nodes(2, order(k))))//' is marked twice')
+         do j = k - 1, 1, -1
+            associate (this => surface%nodes(:, order(k)), that => surface%nodes(:, order(j)))
+               if (minval(this) /= minval(that)) exit
+               if (maxval(this) /= maxval(that)) cycle
+               call errors%add(max(surface%line(order(k)), surface%line(order(j))), 'surface '//integer_text(surface%id)// &
+                  ': the edge between nodes '//integer_text(model%node_id(this(1)))//' and '// &
+                  integer_text(model%node_id(this(2)))//' is marked twice')
+            end associate
+         end do
       end do
    end subroutine check_repeated
 

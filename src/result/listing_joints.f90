@@ -180,6 +180,8 @@ contains
             if (pass%part > 0) then
                write (row, '(2i6, i8, 2es14.3, f9.4, i9)') analysis%increment, pass%part, i, pass%before, pass%after, &
                   pass%step, pass%changes
+            else if (pass%part < 0) then
+               write (row, '(2i6, 2es14.5)') analysis%increment, i, pass%before, pass%after
             else
                write (row, '(2i6, 2es14.5, f10.2, i9)') analysis%increment, i, pass%before, pass%after, &
                   100.0_wp*(1.0_wp - pass%after/max(pass%before, tiny(1.0_wp))), pass%changes

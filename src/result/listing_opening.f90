@@ -11,7 +11,7 @@ module listing_opening
    use normal_stiffness, only: branch_load, branch_name, branch_reload, branch_unload, pressure_floor
    use output_file, only: output_file_type
    use stage_plan, only: stage_plan_type
-   use text_tools, only: clean, integer_text, upper
+   use text_tools, only: clean, integer_text, plural, upper
    implicit none
    private
 
@@ -120,7 +120,8 @@ contains
       type(output_file_type), intent(inout) :: file
       integer, intent(inout)                :: hidden
 
-      if (hidden > 0) call file%put('            ('//integer_text(hidden)//' LINES OF INCLUDE FILES, NOT ECHOED)')
+      if (hidden > 0) call file%put('            ('//upper(plural(hidden, 'line'))// &
+                                          ' OF INCLUDE FILES, NOT ECHOED)')
       hidden = 0
    end subroutine count_hidden
 
