@@ -5,6 +5,7 @@ program jointfem
                              start_stage
    use back_method, only: back_increment
    use case_control, only: method_back, method_newton
+   use command_tools, only: use_one_thread
    use command_line, only: command_type, deck_argument, read_command_line
    use deck_errors, only: deck_error_list
    use deck_input, only: deck_type, read_deck
@@ -16,7 +17,7 @@ program jointfem
    use progress, only: progress_type
    use results, only: finish_results, print_increment, print_stage, results_type, start_results
    use run_control, only: end_program, overwrites_input, report_checked, report_errors, report_failure, &
-                          report_unreadable, report_unwritten, report_warnings, set_threads
+                          report_unreadable, report_unwritten, report_warnings
    use stage_plan, only: stage_plan_type
    use step_method, only: accumulate, limit_friction, solve_increment, structure_stiffness
    implicit none
@@ -26,7 +27,7 @@ program jointfem
 
    call read_command_line(command, finished, status)
    if (finished) call end_program(status)
-   call set_threads()
+   call use_one_thread()   ! the profile method: one order of additions, the same digits everywhere
    do i = 1, size(command%decks)
       call analyse(command%decks(i))
    end do

@@ -204,7 +204,7 @@ contains
          end if
       case (kind_word)
          values%words(k) = card%fields(k)%text(:8)
-         if (index(rule%words, '|'//trim(card%fields(k)%text)//'|') == 0) then
+         if (index(rule%words, '|'//trim(card%fields(k)%text)//'|') == 0 .or. index(card%fields(k)%text, '|') > 0) then
             call out_of_range(card, k, rule, errors)
          end if
       case (kind_blank)

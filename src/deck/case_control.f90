@@ -174,8 +174,8 @@ contains
          if (n > 0) call errors%add(entry%line, entry%key//': holds for all stages, expected above the first SUBCASE')
       case default
          call errors%add(entry%line, ''''//entry%key(:min(40, len(entry%key)))//''' is no key of case control; '// &
-                         'expected TITLE, UNITS, METHOD, TOL, PRESSURE, CARRY, SOLVER, ECHO, SPC, SUBCASE, LABEL, LOAD, INCR, '// &
-                         'OUTPUT or BEGIN BULK')
+                         'expected TITLE, UNITS, METHOD, TOL, PRESSURE, CARRY, SOLVER, ECHO, SPC, SUBCASE, LABEL, LOAD, '// &
+                         'INCR, OUTPUT or BEGIN BULK')
          return
       end select
       select case (entry%key)
@@ -217,7 +217,7 @@ contains
       character(*), intent(in)             :: words
       type(deck_error_list), intent(inout) :: errors
 
-      if (entry%value /= '' .and. index(words, '|'//upper(entry%value)//'|') > 0) return
+      if (entry%value /= '' .and. index(words, '|'//upper(entry%value)//'|') > 0 .and. index(entry%value, '|') == 0) return
       call value_error(entry, words(2:len(words) - 1), errors)
    end subroutine choose
 

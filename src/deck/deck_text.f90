@@ -2,14 +2,13 @@
 module deck_text
    use kinds, only: long
    use c_library, only: read_all_bytes, true_path
+   use command_tools, only: standard_input
    use deck_errors, only: deck_error_list
    use text_tools, only: integer_text, upper
    implicit none
    private
 
    public :: read_deck_text, is_include
-
-   character(*), parameter, public :: standard_input = '/dev/stdin' !! the deck `-`
 
    integer, parameter :: max_files = 500 ! a deck and its INCLUDE files
    integer, parameter :: max_depth = 20  ! of INCLUDE in INCLUDE

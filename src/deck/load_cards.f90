@@ -92,7 +92,7 @@ contains
             at(n) = k
          end if
       end do
-      if (n == 0) call field_error(card, 3, 'G1: blank, expected a node number', errors)
+      if (n == 0 .and. card%n < 3) call field_error(card, 3, 'G1: blank, expected a node number', errors)
       bulk%n_support = bulk%n_support + 1
       associate (support => bulk%support(bulk%n_support))
          call start_support(support, card%line, values%integers(1), values%integers(2), nodes(:n), at(:n))

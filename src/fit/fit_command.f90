@@ -1,6 +1,7 @@
 !> The command line of jointfit: options and data files.
 module fit_command
-   use, intrinsic :: iso_fortran_env, only: error_unit, output_unit
+   use, intrinsic :: iso_fortran_env, only: error_unit
+   use command_tools, only: argument_text, say, standard_input, version
    use deck_numbers, only: parse_integer, parse_real
    use fit_branches, only: branch_number
    use kinds, only: wp
@@ -10,7 +11,6 @@ module fit_command
 
    public :: read_fit_command
 
-   character(*), parameter, public :: fit_version = '0.1.0'
 
    !> One data file of the command.
    type, public :: data_argument
@@ -57,12 +57,10 @@ contains
          case ('--')
             options = .false.
          case ('--help', '-h')
-            call print_help()
-            status = 0
+            call print_help(status)
             return
          case ('--version')
-            write (output_unit, '(a)') 'jointfit '//fit_version
-            status = 0
+            call say('jointfit '//version, status)
             return
          case ('--joint-fit')
             command%joint_fit = .true.
@@ -135,19 +133,6 @@ contains
    end subroutine read_real
 
 
-   !> Argument I of the command, empty where there is none.
-   function argument_text(i) result(text)
-      integer, intent(in)       :: i
-      character(:), allocatable :: text
-      integer :: length
-
-      text = ''
-      if (i > command_argument_count()) return
-      call get_command_argument(i, length=length)
-      text = repeat(' ', length)
-      call get_command_argument(i, text)
-   end function argument_text
-
 
    subroutine add_file(command, name)
       type(fit_command_type), intent(inout) :: command
@@ -158,7 +143,7 @@ contains
       file%path = name
       if (name == '-') then
          file%name = 'standard input'
-         file%path = '/dev/stdin'
+         file%path = standard_input
       end if
       command%files = [command%files, file]
    end subroutine add_file
@@ -171,36 +156,38 @@ contains
    end subroutine complain
 
 
-   subroutine print_help()
+   subroutine print_help(status)
+      integer, intent(out) :: status
+      character(*), parameter :: nl = new_line('a')
 
-      write (output_unit, '(a)') &
-         'usage: jointfit [options] DATA...', &
-         '', &
-         'Fits the laws of a joint to test data and writes the cards for a deck of jointfem on the standard output,', &
-         'with the residuals as comments. Each file is one surface; `-` is the standard input. A line with the names', &
-         'of the columns, in any order, says what a file holds:', &
-         '', &
-         '   d tau p branch      points of shear tests; branch is LOAD, UNLOAD or RELOAD: a JSHEAR card', &
-         '   c1 c2 c3 p branch   cubics tau = c1 d + c2 d^2 + c3 d^3 published for several p: a JSHEAR card', &
-         '   lambda p            points of normal tests: a JNORM card', &
-         '', &
-         'Entries stand between blanks or commas, # and $ begin a comment, `UNITS = ...` is copied to the comments.', &
-         'The cards are in the units of the data.', &
-         '', &
-         '   --id N            id of the first card (default 1), the cards of more files count up', &
-         '   --joint-fit       shear: the coefficients fitted to all points of a branch at once, instead of the', &
-         '                     straight lines through the coefficients of the cubics of each pressure', &
-         '   --p-tolerance X   shear: pressures within this share of each other count as one (default 0.001)', &
-         '   --branch BRANCH   shear: use only this branch of the data', &
-         '   --as BRANCH       with --branch: as this branch of the card', &
-         '   --dmax X          shear: DMAX of the card (default: the largest d of the loading data)', &
-         '   --large           numbers in fields of 16 columns (default)', &
-         '   --small           numbers in fields of 8 columns', &
-         '   --version         print the version', &
-         '   --help            print this', &
-         '', &
-         'exit status: 0 all cards written, 1 wrong usage or unreadable file, 2 errors in the data, 4 output that', &
-         'cannot be written; of several files the highest.'
+      call say( &
+         'usage: jointfit [options] DATA...'//nl// &
+         ''//nl// &
+         'Fits the laws of a joint to test data and writes the cards for a deck of jointfem on the standard output,'//nl// &
+         'with the residuals as comments. Each file is one surface; `-` is the standard input. A line with the names'//nl// &
+         'of the columns, in any order, says what a file holds:'//nl// &
+         ''//nl// &
+         '   d tau p branch      points of shear tests; branch is LOAD, UNLOAD or RELOAD: a JSHEAR card'//nl// &
+         '   c1 c2 c3 p branch   cubics tau = c1 d + c2 d^2 + c3 d^3 published for several p: a JSHEAR card'//nl// &
+         '   lambda p            points of normal tests: a JNORM card'//nl// &
+         ''//nl// &
+         'Entries stand between blanks or commas, # and $ begin a comment, `UNITS = ...` is copied to the comments.'//nl// &
+         'The cards are in the units of the data.'//nl// &
+         ''//nl// &
+         '   --id N            id of the first card (default 1), the cards of more files count up'//nl// &
+         '   --joint-fit       shear: the coefficients fitted to all points of a branch at once, instead of the'//nl// &
+         '                     straight lines through the coefficients of the cubics of each pressure'//nl// &
+         '   --p-tolerance X   shear: pressures within this share of each other count as one (default 0.001)'//nl// &
+         '   --branch BRANCH   shear: use only this branch of the data'//nl// &
+         '   --as BRANCH       with --branch: as this branch of the card'//nl// &
+         '   --dmax X          shear: DMAX of the card (default: the largest d of the loading data)'//nl// &
+         '   --large           numbers in fields of 16 columns (default)'//nl// &
+         '   --small           numbers in fields of 8 columns'//nl// &
+         '   --version         print the version'//nl// &
+         '   --help            print this'//nl// &
+         ''//nl// &
+         'exit status: 0 all cards written, 1 wrong usage or unreadable file, 2 errors in the data, 4 output that'//nl// &
+         'cannot be written; of several files the highest.', status)
    end subroutine print_help
 
 end module fit_command

@@ -2,7 +2,8 @@
 module fit_comments
    use branch_fit, only: branch_fit_type, residual_type
    use fit_branches, only: branch_letters, branch_words, fit_load, fit_reload, fit_unload
-   use fit_command, only: fit_command_type, fit_version
+   use command_tools, only: version
+   use fit_command, only: fit_command_type
    use kinds, only: wp
    use law_cards, only: coefficient_line, jnorm_card, jshear_card
    use output_file, only: output_file_type
@@ -26,7 +27,7 @@ contains
       type(output_file_type), intent(inout) :: out
       integer :: k
 
-      call comment(out, '', 'fitted by jointfit '//fit_version//' to '//name)
+      call comment(out, '', 'fitted by jointfit '//version//' to '//name)
       if (data%units /= '') call comment(out, 'units', data%units)
       if (fit%kind == data_normal) then
          call describe_normal(fit, out)

@@ -299,8 +299,8 @@ contains
       if (size(flips) > 0) then
          worst = maxloc(flips, dim=1)
          if (flips(worst) > 1) then
-            words = words//'; node '//integer_text(model%node_id(model%interface(worst)%nodes(1)))//' changes its branch back '// &
-                    'and forth ('//integer_text(flips(worst))//' times, committed: '// &
+            words = words//'; node '//integer_text(model%node_id(model%interface(worst)%nodes(1)))//' changes its branch '// &
+                    'back and forth ('//integer_text(flips(worst))//' times, committed: '// &
                     branch_name(analysis%states(worst)%normal%branch)//')'
          else
             words = words//'; node '//integer_text(model%node_id(model%interface(1)%nodes(1)))// &

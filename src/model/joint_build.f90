@@ -203,7 +203,7 @@ contains
                errors)
          else if (shared > 0) then
             call add_field_error(deck%text, card%line, merge(5, 4, card%tolerance > 0.0_wp), 'TOL', 'within '// &
-               real_text(tolerance)//' '//plural(shared, 'node')//' of SIDE1 found a partner that another one has already', errors)
+               real_text(tolerance)//' '//plural(shared, 'node')//' of SIDE1 found a partner that another one has', errors)
          else if (turned > 0) then
             call add_field_error(deck%text, card%line, 4, 'SIDE2', 'the sides do not face each other: at '// &
                plural(turned, 'node')//' their normals do not point against each other', errors)

@@ -161,7 +161,8 @@ contains
                if (state(i)%pressure > state(at_p)%pressure) at_p = i
             end do
             write (row(22:), '(i11, i5, 2(es13.5, i11), es13.5)') joint%id, n_open, &
-               clean(state(at_lambda)%lambda, noise*analysis%largest_lambda), model%node_id(model%interface(at_lambda)%nodes(1)), &
+               clean(state(at_lambda)%lambda, noise*analysis%largest_lambda), &
+               model%node_id(model%interface(at_lambda)%nodes(1)), &
                clean(state(at_p)%pressure, noise*analysis%largest_p), model%node_id(model%interface(at_p)%nodes(1)), &
                clean(force, floor)
             if (joint%determinate) then

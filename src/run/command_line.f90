@@ -1,16 +1,14 @@
 !> The command line: options and decks.
 module command_line
    use, intrinsic :: iso_fortran_env, only: error_unit
-   use c_library, only: true_path, write_bytes
+   use c_library, only: true_path
+   use command_tools, only: argument_text, say, standard_input, version
    use deck_numbers, only: parse_integer
-   use deck_text, only: standard_input
    use text_tools, only: integer_text
    implicit none
    private
 
    public :: read_command_line, is_result_of
-
-   character(*), parameter :: version = '0.1.0'
 
    !> One deck of the command and the files that its results go to.
    type, public :: deck_argument
@@ -100,17 +98,6 @@ contains
       finished = .false.
       status = 0
    end subroutine read_command_line
-
-
-   function argument_text(i) result(text)
-      integer, intent(in)       :: i
-      character(:), allocatable :: text
-      integer :: length
-
-      call get_command_argument(i, length=length)
-      allocate (character(length) :: text)
-      call get_command_argument(i, text)
-   end function argument_text
 
 
    subroutine add_deck(command, name)
@@ -208,17 +195,6 @@ contains
 
       write (error_unit, '(a)') 'jointfem: '//message, 'jointfem --help shows the usage'
    end subroutine complain
-
-
-   !> Write TEXT on the standard output; STATUS is 0, or 4 where it cannot be written.
-   subroutine say(text, status)
-      character(*), intent(in) :: text
-      integer, intent(out)     :: status
-      logical :: ok
-
-      call write_bytes(1, text//new_line('a'), ok)
-      status = merge(0, 4, ok)
-   end subroutine say
 
 
    subroutine print_help(status)

@@ -2,10 +2,11 @@
 module run_control
    use, intrinsic :: iso_fortran_env, only: error_unit
    use c_library, only: end_run, write_bytes
+   use command_tools, only: why_unreadable
    use command_line, only: command_type, deck_argument, is_result_of
    use deck_errors, only: deck_error_list
    use deck_input, only: deck_type
-   use error_report, only: print_deck_errors
+   use error_report, only: print_errors
    use failures, only: failure_type
    use model_data, only: model_type
    use results, only: discard_results, remove_old_results, results_type
@@ -14,7 +15,7 @@ module run_control
    implicit none
    private
 
-   public :: set_threads, overwrites_input, report_unreadable, report_errors, report_failure, &
+   public :: overwrites_input, report_unreadable, report_errors, report_failure, &
              report_unwritten, report_checked, report_warnings, end_program
 
    integer, parameter :: status_unreadable = 1, status_deck = 2, status_unsolved = 3, status_unwritten = 4
@@ -22,21 +23,7 @@ module run_control
    !> Highest exit status so far.
    integer, public, protected :: exit_status = 0
 
-   interface
-      subroutine openblas_set_num_threads(n) bind(c, name='openblas_set_num_threads')
-         use, intrinsic :: iso_c_binding, only: c_int
-         integer(c_int), value :: n
-      end subroutine openblas_set_num_threads
-   end interface
-
 contains
-
-   !> The profile method works in one thread: one order of additions, the same digits everywhere.
-   subroutine set_threads()
-
-      call openblas_set_num_threads(1)
-   end subroutine set_threads
-
 
    subroutine raise_status(status)
       integer, intent(in) :: status
@@ -48,19 +35,9 @@ contains
    !> The deck file cannot be read at all.
    subroutine report_unreadable(argument)
       type(deck_argument), intent(in) :: argument
-      logical :: there, is_folder
 
       call raise_status(status_unreadable)
-      is_folder = .false.
-      inquire (file=argument%path, exist=there)
-      if (argument%path /= '') inquire (file=argument%path//'/.', exist=is_folder)
-      if (is_folder) then
-         write (error_unit, '(2a)') argument%name, ': a directory, expected a deck'
-      else if (there) then
-         write (error_unit, '(2a)') argument%name, ': cannot be read'
-      else
-         write (error_unit, '(2a)') argument%name, ': no such file'
-      end if
+      write (error_unit, '(3a)') argument%name, ': ', why_unreadable(argument%path, 'a deck')
    end subroutine report_unreadable
 
 
@@ -88,7 +65,7 @@ contains
       type(deck_error_list), intent(in) :: errors
 
       call raise_status(status_deck)
-      call print_deck_errors(error_unit, deck%text, errors)
+      call print_errors(error_unit, 'DECK', 'nothing solved', deck%text, errors)
       if (.not. command%check_only) call remove_old_results(argument%listing, argument%history)
    end subroutine report_errors
 

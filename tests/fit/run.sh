@@ -115,7 +115,7 @@ holds 'sanad: status 0' [ $status -eq 0 ]
 near 'sanad: the lines through c1, c2 and c3' 1e-10 sanad
 says 'sanad: c1 = 260.86 + 3.798 p' cards 'a1 = 260.8581 + 3.798367 p'
 says 'sanad: comments' cards '5 cubics given, p 24 to 128' 'taken from the RELOAD data' 'no data: left blank, as loading' \
-   'DMAX     left blank' 'D AND TAU NOT PRINTED IN THE SOURCE' 'largest 63.7644 at p = 75.0000'
+   'DMAX     left blank' 'D AND TAU NOT PRINTED IN THE SOURCE' 'largest 63.7644 at p = 75'
 printf 'JSHEAR 1 1\nJSHEAR 2 260.86\nJSHEAR 3 3.798\n' > c1
 grep '^JSHEAR\*' cards | cut -c 1-56 > line; mv line cards
 near 'sanad: c1 to the digits of the paper' 1e-4 c1
