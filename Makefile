@@ -7,7 +7,7 @@ endif
 BUILD      = build
 WARNINGS   = -std=f2018 -Wall -Wextra
 FFLAGS     = -O2 $(WARNINGS)
-FFLAGS_CHECKED = -O1 -g $(WARNINGS) -fcheck=all -ffpe-trap=invalid,zero
+FFLAGS_CHECKED = -O1 -g $(WARNINGS) -fcheck=all,no-array-temps -ffpe-trap=invalid,zero
 LIBRARIES  = -lopenblas
 
 SOURCES    = $(sort $(wildcard src/*/*.f90))
@@ -21,7 +21,7 @@ CHECKED_MODULES = $(BUILD)/checked
 PF_FILES        = $(sort $(wildcard tests/unit/*.pf))
 
 .PHONY: all
-all: bin/jointfem
+all: bin/jointfem bin/jointfit
 
 .PHONY: help
 help:
@@ -39,6 +39,13 @@ help:
 bin/jointfem: src/jointfem.f90 $(RELEASE_OBJECTS)
 	@mkdir -p bin
 	$(FC) $(FFLAGS) -I$(BUILD)/release -o $@ $< $(RELEASE_OBJECTS) $(LIBRARIES)
+
+bin/jointfit: src/jointfit.f90 $(RELEASE_OBJECTS)
+	@mkdir -p bin
+	$(FC) $(FFLAGS) -I$(BUILD)/release -o $@ $< $(RELEASE_OBJECTS) $(LIBRARIES)
+
+$(BUILD)/checked/jointfit: src/jointfit.f90 $(CHECKED_LIBRARY)
+	$(FC) $(FFLAGS_CHECKED) -I$(CHECKED_MODULES) -o $@ $< $(CHECKED_LIBRARY) $(LIBRARIES)
 
 $(BUILD)/checked/jointfem: src/jointfem.f90 $(CHECKED_LIBRARY)
 	$(FC) $(FFLAGS_CHECKED) -I$(CHECKED_MODULES) -o $@ $< $(CHECKED_LIBRARY) $(LIBRARIES)
@@ -71,7 +78,7 @@ endif
 # The worked example ----------------------------------------------------------------------------------------------
 
 .PHONY: run
-run: bin/jointfem
+run: bin/jointfem bin/jointfit
 	@mkdir -p $(BUILD)/run
 	bin/jointfem -o $(BUILD)/run input/prism03.bdf input/prism05.bdf input/prism10.bdf input/prism15.bdf
 	@awk -f tests/prism_table.awk $(BUILD)/run/prism03.joint.csv $(BUILD)/run/prism05.joint.csv \
@@ -89,7 +96,7 @@ $(COMPARE): tests/compare/comparison_text.f90 tests/compare/comparison_rules.f90
 	$(FC) $(FFLAGS) -J$(@D) -o $@ $^
 
 .PHONY: test
-test: bin/jointfem $(BUILD)/checked/jointfem $(COMPARE) $(UNIT_PROGRAM)
+test: bin/jointfem $(BUILD)/checked/jointfem $(BUILD)/checked/jointfit $(COMPARE) $(UNIT_PROGRAM)
 	@MAKE='$(MAKE)' tests/run_all.sh bin/jointfem $(BUILD)/checked/jointfem $(COMPARE) $(BUILD)
 
 .PHONY: check
@@ -111,7 +118,7 @@ bench: bin/jointfem
 	@tests/bench/bench.sh bin/jointfem $(BUILD)/bench
 
 .PHONY: figures
-figures: bin/jointfem
+figures: bin/jointfem bin/jointfit
 	@reference_output/figures/draw.sh bin/jointfem bin/jointfit $(BUILD)/figures
 
 .PHONY: clean

@@ -5,6 +5,7 @@ program jointfem
                              start_stage
    use back_method, only: back_increment
    use case_control, only: method_back, method_newton
+   use command_tools, only: use_one_thread
    use command_line, only: command_type, deck_argument, read_command_line
    use deck_errors, only: deck_error_list
    use deck_input, only: deck_type, read_deck
@@ -15,8 +16,8 @@ program jointfem
    use newton_method, only: newton_increment
    use progress, only: progress_type
    use results, only: finish_results, print_increment, print_stage, results_type, start_results
-   use run_control, only: end_program, report_checked, report_errors, report_failure, report_unreadable, &
-                          report_unwritten, report_warnings, set_threads
+   use run_control, only: end_program, overwrites_input, report_checked, report_errors, report_failure, &
+                          report_unreadable, report_unwritten, report_warnings
    use stage_plan, only: stage_plan_type
    use step_method, only: accumulate, limit_friction, solve_increment, structure_stiffness
    implicit none
@@ -26,7 +27,7 @@ program jointfem
 
    call read_command_line(command, finished, status)
    if (finished) call end_program(status)
-   call set_threads()
+   call use_one_thread()   ! the profile method: one order of additions, the same digits everywhere
    do i = 1, size(command%decks)
       call analyse(command%decks(i))
    end do
@@ -52,6 +53,8 @@ contains
       call read_deck(argument%path, deck, errors, readable)
       if (.not. readable) then
          call report_unreadable(argument)
+         return
+      else if (overwrites_input(argument, deck)) then
          return
       end if
 
@@ -105,8 +108,10 @@ contains
 
                if (.not. failure%raised) then
                   ! ------------------------------------------------------ SOLVE [k_s] {du} = {dF}
-                  call solve_increment(system, analysis)
+                  call solve_increment(plan, system, analysis, failure)
 
+               end if
+               if (.not. failure%raised) then
                   ! ------------------------------------------------------ ACCUMULATE {u}, DEFLECTIONS, FORCES
                   call accumulate(model, analysis)
 

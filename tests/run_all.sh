@@ -34,6 +34,8 @@ part 'decks against their references' tests/check.sh "$program" "$compare" "$bui
 part 'decks through the program with run-time checks' tests/check.sh "$checked" "$compare" "$build/check-checked"
 part 'what the paper says of the prism' tests/prism_findings.sh "$build/check"
 part 'the comparison itself' tests/compare/test_compare.sh "$compare" reference_output tests/compare/tolerances.txt
+part 'from test data to cards' tests/fit/run.sh "$build/checked/jointfit" "$program"
+part 'published surfaces' tests/fit/surfaces.sh "$program"
 part 'bad decks and command lines' tests/bad/run.sh "$PWD/$checked"
 part 'damaged decks' tests/damage/run.sh "$PWD/$checked" "$PWD/input"
 echo '----'

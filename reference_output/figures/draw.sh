@@ -27,8 +27,10 @@ for n in 3 5 10 15 20 40 80 160 320; do
       END { print n "," worst }' "$work/NEWTON_40.joint.csv" "$work/STEP_$n.joint.csv" >> "$work/errors.csv"
 done
 
-# Fig. 2: the published cubics and the lines that jointfit lays through their coefficients
-"$fit" --points tests/fit/sanad.dat > "$work/sanad.csv" 2> /dev/null || true
+# Fig. 2: the lines that jointfit lays through the coefficients of the published cubics, as it prints them
+"$fit" --branch RELOAD --as LOAD tests/fit/sanad.dat 2> /dev/null |
+   awk 'BEGIN { print "coefficient,constant,slope" }
+        $2 ~ /^a[123]$/ && $3 == "=" { print $2 "," $4 "," ($5 == "-" ? -$6 : $6) }' > "$work/sanad.csv"
 
 for script in "$here"/*.gp; do
    name=$(basename "$script" .gp)

@@ -1,12 +1,12 @@
-!> The few services of the C library that Fortran has no word for: reading a file of any kind by bytes,
-!! renaming and removing a file, the true path of a file, and whether a stream is a terminal.
+!> The few services of the C library that Fortran has no word for: reading and writing files by bytes with
+!! every failure told, renaming and removing a file, the true path of a file, and whether a stream is a terminal.
 module c_library
    use, intrinsic :: iso_c_binding, only: c_associated, c_char, c_f_pointer, c_int, c_null_char, c_null_ptr, &
                                           c_ptr, c_size_t
    implicit none
    private
 
-   public :: read_all_bytes, rename_file, remove_file, true_path, is_terminal, end_run
+   public :: read_all_bytes, create_file, write_bytes, close_file, rename_file, remove_file, true_path, is_terminal, end_run
 
    interface
       function c_fopen(path, mode) bind(c, name='fopen') result(stream)
@@ -35,17 +35,38 @@ module c_library
          integer(c_int)     :: status
       end function c_fclose
 
+      function c_creat(path, mode) bind(c, name='creat') result(descriptor)
+         import :: c_char, c_int
+         character(kind=c_char), intent(in) :: path(*)
+         integer(c_int), value :: mode
+         integer(c_int)        :: descriptor
+      end function c_creat
+
+      function c_write(descriptor, bytes, count) bind(c, name='write') result(written)
+         import :: c_char, c_int, c_size_t
+         integer(c_int), value              :: descriptor
+         character(kind=c_char), intent(in) :: bytes(*)
+         integer(c_size_t), value           :: count
+         integer(c_size_t)                  :: written  ! -1 on failure
+      end function c_write
+
+      function c_close(descriptor) bind(c, name='close') result(status)
+         import :: c_int
+         integer(c_int), value :: descriptor
+         integer(c_int)        :: status
+      end function c_close
+
       function c_rename(old, new) bind(c, name='rename') result(status)
          import :: c_char, c_int
          character(kind=c_char), intent(in) :: old(*), new(*)
          integer(c_int) :: status
       end function c_rename
 
-      function c_remove(path) bind(c, name='remove') result(status)
+      function c_unlink(path) bind(c, name='unlink') result(status)
          import :: c_char, c_int
          character(kind=c_char), intent(in) :: path(*)
          integer(c_int) :: status
-      end function c_remove
+      end function c_unlink
 
       function c_realpath(path, resolved) bind(c, name='realpath') result(text)
          import :: c_char, c_ptr
@@ -112,6 +133,44 @@ contains
    end subroutine read_all_bytes
 
 
+   !> Create the file PATH, empty, for writing. DESCRIPTOR is below zero where that fails.
+   subroutine create_file(path, descriptor)
+      character(*), intent(in) :: path
+      integer, intent(out)     :: descriptor
+      integer(c_int), parameter :: read_and_write_for_all = int(o'666', c_int) ! less the user's mask
+
+      descriptor = int(c_creat(path//c_null_char, read_and_write_for_all))
+   end subroutine create_file
+
+
+   !> Write all BYTES to DESCRIPTOR (1: the standard output). OK is false where some could not be written, as on a full disk:
+   !! the operating system is asked itself, nothing waits in a buffer.
+   subroutine write_bytes(descriptor, bytes, ok)
+      integer, intent(in)      :: descriptor
+      character(*), intent(in) :: bytes
+      logical, intent(out)     :: ok
+      integer(c_size_t) :: done, written
+
+      done = 0
+      ok = .true.
+      do while (done < len(bytes, c_size_t))
+         written = c_write(int(descriptor, c_int), bytes(done + 1:), len(bytes, c_size_t) - done)
+         ok = written > 0
+         if (.not. ok) return
+         done = done + written
+      end do
+   end subroutine write_bytes
+
+
+   !> Close DESCRIPTOR. OK is false where what was written did not all get there.
+   subroutine close_file(descriptor, ok)
+      integer, intent(in)  :: descriptor
+      logical, intent(out) :: ok
+
+      ok = c_close(int(descriptor, c_int)) == 0
+   end subroutine close_file
+
+
    !> Give the file OLD the name NEW, in place of any file of that name. OK is false on failure.
    subroutine rename_file(old, new, ok)
       character(*), intent(in) :: old, new
@@ -126,7 +185,7 @@ contains
       character(*), intent(in) :: path
       integer(c_int) :: status
 
-      status = c_remove(path//c_null_char)
+      status = c_unlink(path//c_null_char)
       if (status /= 0) return   ! nothing of that name was there: as wanted
    end subroutine remove_file
 

@@ -33,14 +33,35 @@ contains
    end function integer_text
 
 
-   !> A real as a person would write it in a message: six significant digits, no padding.
+   !> A real as a person would write it in a message: at most six significant digits, no padding: 0, 0.05, 1.5E-7.
    pure function real_text(value) result(text)
       real(wp), intent(in)      :: value
       character(:), allocatable :: text
       character(24) :: buffer
+      integer :: e, last
 
-      write (buffer, '(g0.6)') clean(value)
-      text = trim(adjustl(buffer))
+      if (abs(value) < tiny(1.0_wp)) then
+         text = '0'
+         return
+      else if (abs(value) >= 1.0e-3_wp .and. abs(value) < 1.0e6_wp) then
+         write (buffer, '(f0.6)') value
+         if (abs(value) >= 10.0_wp) write (buffer, '(f0.4)') value
+         if (abs(value) >= 1000.0_wp) write (buffer, '(f0.2)') value
+         last = verify(trim(buffer), '0', back=.true.)
+         if (buffer(last:last) == '.') last = last - 1
+         text = buffer(:last)
+         if (text(1:1) == '.') text = '0'//text
+         if (len(text) > 1) then
+            if (text(1:2) == '-.') text = '-0'//text(2:)
+         end if
+         return
+      end if
+      write (buffer, '(es13.5e3)') value
+      buffer = adjustl(buffer)
+      e = index(buffer, 'E')
+      last = verify(buffer(:e - 1), '0', back=.true.)
+      if (buffer(last:last) == '.') last = last - 1
+      text = buffer(:last)//trim(buffer(e:))
    end function real_text
 
 

@@ -9,6 +9,7 @@ module bulk_data
    type, public :: grid_card
       integer  :: line = 0, id = 0, ps = 0
       real(wp) :: x(3) = 0.0_wp
+      logical  :: doubtful = .false.                    ! some field could not be read
    end type grid_card
 
    !> An element with nodes: bodies, and the edges CBAR and CROD (marks, or a CROD that is a bolt).
@@ -95,6 +96,7 @@ module bulk_data
       real(wp) :: scale = 0.0_wp
       real(wp), allocatable :: factors(:)
       integer, allocatable  :: sets(:)
+      integer, allocatable  :: at(:)                    ! data field of each set
    end type load_card
 
    type, public :: block2_card
@@ -105,6 +107,7 @@ module bulk_data
       integer  :: first_node = 1, first_element = 1
       integer  :: marks(4) = 0                          ! PMARK of sides 1-2, 2-3, 3-4, 4-1
       integer  :: weld = 0                              ! block whose coincident nodes are used
+      logical  :: doubtful = .false.                    ! some field could not be read
    end type block2_card
 
    type, public :: block3_card

@@ -204,7 +204,7 @@ contains
          end if
       case (kind_word)
          values%words(k) = card%fields(k)%text(:8)
-         if (index(rule%words, '|'//trim(card%fields(k)%text)//'|') == 0) then
+         if (index(rule%words, '|'//trim(card%fields(k)%text)//'|') == 0 .or. index(card%fields(k)%text, '|') > 0) then
             call out_of_range(card, k, rule, errors)
          end if
       case (kind_blank)
@@ -237,7 +237,14 @@ contains
       type(deck_error_list), intent(inout) :: errors
 
       call parse_integer(card%fields(k)%text, value, ok)
-      if (.not. ok) call field_error(card, k, trim(name)//': '''//trim(card%fields(k)%text)// &
+      if (ok) return
+      value = 0
+      if (is_number_shape(card%fields(k)%text, '0123456789+-') .and. scan(trim(card%fields(k)%text(2:)), '+-') == 0) then
+         call field_error(card, k, trim(name)//': '''//trim(card%fields(k)%text)//''' is too large for an integer, expected '// &
+                          expected, errors)
+         return
+      end if
+      call field_error(card, k, trim(name)//': '''//trim(card%fields(k)%text)// &
                                      ''' is not an integer, expected '//expected, errors)
    end subroutine decode_integer
 
@@ -255,6 +262,12 @@ contains
 
       call parse_real(card%fields(k)%text, value, ok)
       if (ok) return
+      value = 0.0_wp
+      if (is_number_shape(card%fields(k)%text, '0123456789.+-ED') .and. scan(card%fields(k)%text, '.ED') > 0) then
+         call field_error(card, k, trim(name)//': '''//trim(card%fields(k)%text)//''' is too large or too small for a '// &
+                          'real number, or not one, expected '//expected, errors)
+         return
+      end if
       call parse_integer(card%fields(k)%text, whole, is_integer)
       if (is_integer) then
          call field_error(card, k, trim(name)//': '''//trim(card%fields(k)%text)// &
@@ -264,6 +277,16 @@ contains
                           ''' is not a real number, expected '//expected, errors)
       end if
    end subroutine decode_real
+
+
+   !> Whether TEXT consists of LETTERS only, begins and ends like a number.
+   pure logical function is_number_shape(text, letters)
+      character(*), intent(in) :: text, letters
+
+      is_number_shape = index(text, '.') == index(text, '.', back=.true.) .and. &
+                        verify(trim(text), letters) == 0 .and. scan(text(1:1), '0123456789+-.') == 1 .and. &
+                        scan(text(len_trim(text):len_trim(text)), '0123456789.') == 1
+   end function is_number_shape
 
 
    !> An error about data field K of CARD, its place and columns taken from the card.
@@ -304,7 +327,9 @@ contains
       select case (rule%kind)
       case (kind_integer)
          words = 'an integer'
-         if (has_least .and. has_most) then
+         if (has_least .and. has_most .and. nint(rule%least) == nint(rule%most)) then
+            words = integer_text(nint(rule%least))
+         else if (has_least .and. has_most) then
             words = words//' from '//integer_text(int(rule%least))//' to '//integer_text(int(rule%most))
          else if (has_least) then
             words = words//' of '//integer_text(int(rule%least))//' or more'
@@ -321,6 +346,7 @@ contains
       case default
          words = 'blank'
       end select
+      if (.not. rule%required .and. rule%kind /= kind_blank .and. rule%kind /= kind_word) words = words//', or blank'
    end function expectation
 
 

@@ -75,6 +75,11 @@ contains
          line = text%card_part(cursor)
          cursor = cursor + 1
          if (line == '') cycle
+         if (index(line, achar(9)) > 0) then
+            call errors%add(cursor - 1, 'a tab in column '//integer_text(index(line, achar(9)))//': expected blanks', &
+                            index(line, achar(9)), index(line, achar(9)))
+            cycle
+         end if
          call cut_entry(line, cursor - 1, entry)
          if (entry%key == 'BEGIN') then
             found_bulk = .true.
@@ -168,8 +173,9 @@ contains
       case ('SOL', 'TITLE', 'UNITS', 'METHOD', 'TOL', 'PRESSURE', 'CARRY', 'SOLVER', 'ECHO')
          if (n > 0) call errors%add(entry%line, entry%key//': holds for all stages, expected above the first SUBCASE')
       case default
-         call errors%add(entry%line, ''''//entry%key//''' is no key of case control; expected TITLE, UNITS, METHOD, TOL, '// &
-                         'PRESSURE, CARRY, SOLVER, ECHO, SPC, SUBCASE, LABEL, LOAD, INCR, OUTPUT or BEGIN BULK')
+         call errors%add(entry%line, ''''//entry%key(:min(40, len(entry%key)))//''' is no key of case control; '// &
+                         'expected TITLE, UNITS, METHOD, TOL, PRESSURE, CARRY, SOLVER, ECHO, SPC, SUBCASE, LABEL, LOAD, '// &
+                         'INCR, OUTPUT or BEGIN BULK')
          return
       end select
       select case (entry%key)
@@ -211,7 +217,7 @@ contains
       character(*), intent(in)             :: words
       type(deck_error_list), intent(inout) :: errors
 
-      if (entry%value /= '' .and. index(words, '|'//upper(entry%value)//'|') > 0) return
+      if (entry%value /= '' .and. index(words, '|'//upper(entry%value)//'|') > 0 .and. index(entry%value, '|') == 0) return
       call value_error(entry, words(2:len(words) - 1), errors)
    end subroutine choose
 
@@ -234,7 +240,8 @@ contains
       if (entry%value == '') then
          call errors%add(entry%line, entry%key//': no value, expected '//words)
       else
-         call errors%add(entry%line, entry%key//': '''//entry%value//''', expected '//words, entry%first, entry%last)
+         call errors%add(entry%line, entry%key//': '''//entry%value(:min(60, len(entry%value)))//''', expected '//words, &
+                         entry%first, entry%last)
       end if
    end subroutine value_error
 

@@ -75,6 +75,7 @@ contains
       type(deck_error_list), intent(inout) :: errors
       character(:), allocatable :: line
       character(8) :: marker
+      integer :: errors_before
       logical :: half  ! the first line of a large-field pair has been read
 
       line = text%card_part(cursor)
@@ -83,6 +84,9 @@ contains
       card%n = 0
       half = .false.
       marker = ''
+      errors_before = errors%n
+      call check_first_field(line, cursor, errors)
+      if (errors%n > errors_before) card%name = '' ! not to be understood
       if (.not. allocated(card%fields)) allocate (card%fields(64))
       call cut_line(line, cursor, card, half, marker, errors)
       do
@@ -113,31 +117,74 @@ contains
       comma = index(line, ',')
       if (comma == 0) comma = 9
       given = line(:min(8, comma - 1, len(line)))
-      if (given(2:) == '' .or. marker(2:) == '') return
-      if (upper(given(2:)) /= upper(marker(2:))) then
+      if (given(2:) == '' .or. upper(given(2:)) == upper(marker(2:))) return
+      if (marker(2:) == '') then
+         call errors%add(at, 'continuation '''//trim(given)//''': the line before it has no such mark in its last field; '// &
+                         'expected '//given(1:1)//' alone, or the same mark there', 1, len_trim(given))
+      else
          call errors%add(at, 'continuation '''//trim(given)//''' does not follow its card: the line before it ends in '''// &
                          trim(marker)//'''', 1, len_trim(given))
       end if
    end subroutine check_marker
 
 
+   !> Nothing but the name, and perhaps the * of large field, may stand in field 1.
+   subroutine check_first_field(line, at, errors)
+      character(*), intent(in)             :: line
+      integer, intent(in)                  :: at
+      type(deck_error_list), intent(inout) :: errors
+      character(:), allocatable :: entry
+      integer :: comma, last, star
+
+      comma = index(line, ',')
+      last = merge(comma - 1, min(8, len(line)), comma > 0)
+      entry = trim(adjustl(line(:last)))
+      star = index(entry, '*')
+      if (star > 1 .and. star < len(entry)) then
+         call errors%add(at, '''*'' inside field 1, expected it behind the name', 1, last)
+      else if (len(entry) > 8 .or. index(entry, ' ') > 0) then
+         call errors%add(at, ''''//entry(:min(len(entry), 40))//''' in field 1: expected the name of a card alone', 1, last)
+      end if
+   end subroutine check_first_field
+
+
+   !> TEXT with its tabs as blanks up to the next field, so that one tab makes one error.
+   pure function without_tabs(text) result(plain)
+      character(*), intent(in)  :: text
+      character(:), allocatable :: plain
+      integer :: i
+
+      plain = ''
+      do i = 1, len(text)
+         if (text(i:i) == achar(9)) then
+            plain = plain//repeat(' ', 8 - modulo(len(plain), 8))
+         else
+            plain = plain//text(i:i)
+         end if
+         if (len(plain) > 1000) return
+      end do
+   end function without_tabs
+
+
    !> Cut one line into fields and put them at the end of CARD. HALF says whether a large-field line before this one
    !! waits for its second half; MARKER returns what stands in field 10.
-   subroutine cut_line(line, at, card, half, marker, errors)
-      character(*), intent(in)             :: line
+   subroutine cut_line(raw_line, at, card, half, marker, errors)
+      character(*), intent(in)             :: raw_line
       integer, intent(in)                  :: at
       type(card_type), intent(inout)       :: card
       logical, intent(inout)               :: half
       character(8), intent(out)            :: marker
       type(deck_error_list), intent(inout) :: errors
+      character(:), allocatable :: line
       logical :: large
       integer :: tab
 
       marker = ''
+      line = raw_line
       tab = index(line, achar(9))
       if (tab > 0) then
          call errors%add(at, 'a tab in column '//integer_text(tab)//': expected blanks, fields are columns of eight', tab, tab)
-         return
+         line = without_tabs(raw_line)
       end if
       if (index(line, ',') > 0) then
          large = index(line(:index(line, ',') - 1), '*') > 0
@@ -179,7 +226,7 @@ contains
       end do
       if (len(line) > 72) marker = adjustl(line(73:min(80, len(line))))
       if (marker /= '' .and. scan(marker(1:1), '+*') == 0) call errors%add(at, ''''//trim(marker)// &
-         ''' in columns 73 to 80: expected a continuation mark that begins with +, or blanks', 73, min(80, len(line)))
+         ''' in columns 73 to 80: expected a continuation mark that begins with + or *, or blanks', 73, min(80, len(line)))
    end subroutine cut_fixed
 
 
@@ -230,7 +277,8 @@ contains
          field%last = last
          field%text = upper(adjustl(entry))
          if (len_trim(adjustl(entry)) > field_width) then
-            call errors%add(at, card%name//': an entry of more than '//integer_text(field_width)//' characters', first, last)
+            call errors%add(at, card%where_is(card%n)//': an entry of more than '//integer_text(field_width)// &
+                            ' characters', first, last)
          end if
       end associate
    end subroutine push

@@ -5,7 +5,7 @@ module deck_input
    use case_control, only: case_control_type, read_case_control
    use deck_cards, only: card_name, card_type, is_continuation, read_card
    use deck_errors, only: deck_error_list
-   use deck_text, only: deck_text_type, read_deck_text
+   use deck_text, only: deck_text_type, is_include, read_deck_text
    use element_cards, only: read_element
    use element_kinds, only: kind_hexa8, kind_penta6, kind_quad4, kind_tetra4, kind_tria3
    use joint_cards, only: read_cjoint, read_jincr, read_jnorm, read_joint, read_jshear, read_pjoint
@@ -134,7 +134,7 @@ contains
          else if (is_continuation(line)) then
             call errors%add(cursor, 'a continuation line without a card before it')
             cursor = cursor + 1
-         else if (name(1:7) == 'INCLUDE') then
+         else if (is_include(line)) then
             cursor = cursor + 1     ! its lines follow in the deck text
          else if (name == 'ENDDATA') then
             ended_file = text%file_number(cursor)
@@ -203,6 +203,8 @@ contains
       case ('SPC1');   call read_spc1(card, bulk, values, errors)
       case ('SPCD');   call read_spcd(card, bulk, values, errors)
       case ('SPCM');   call read_spcm(card, bulk, values, errors)
+      case ('') ! said already
+         return
       case default
          call errors%add(card%line, ''''//trim(card%name)//''' is no card that jointfem knows; see input/README.md', 1, 8)
       end select

@@ -2,15 +2,17 @@
 module deck_text
    use kinds, only: long
    use c_library, only: read_all_bytes, true_path
+   use command_tools, only: standard_input
    use deck_errors, only: deck_error_list
    use text_tools, only: integer_text, upper
    implicit none
    private
 
-   public :: read_deck_text
+   public :: read_deck_text, is_include
 
    integer, parameter :: max_files = 500 ! a deck and its INCLUDE files
    integer, parameter :: max_depth = 20  ! of INCLUDE in INCLUDE
+   integer, parameter :: longest_include = 10000 ! characters; no path is longer
 
    type :: source_file
       character(:), allocatable :: path      ! as the user wrote it
@@ -118,6 +120,7 @@ contains
 
       me = text%n_files + 1
       text%files(me)%path = path
+      if (path == standard_input) text%files(me)%path = 'standard input'
       text%files(me)%parent = parent
       call read_all_bytes(path, text%files(me)%bytes, readable)
       if (.not. readable) return
@@ -207,14 +210,9 @@ contains
       logical :: readable
 
       here = text%n
-      if (text%length(here) < 7) return
-      if (text%length(here) > 10000) return ! no path is longer; the card reader complains of such a line
+      if (text%length(here) < 7 .or. text%length(here) > longest_include) return
       line = adjustl(text%card_part(here))
-      if (len(line) < 7) return
-      if (upper(line(1:7)) /= 'INCLUDE') return
-      if (len_trim(line) > 7) then
-         if (scan(line(8:8), ' ''"=') == 0) return
-      end if
+      if (.not. is_include(line)) return
       path = included_path(line(8:))
       if (path == '') then
          call errors%add(here, 'INCLUDE: expected a file name, INCLUDE ''mesh.bdf''')
@@ -238,6 +236,21 @@ contains
       call add_file(text, path, me, depth + 1, errors, readable)
       if (.not. readable) call errors%add(here, 'INCLUDE: '''//path//''' cannot be read: no such file, or not a file')
    end subroutine follow_include
+
+
+   !> Whether LINE (its card part) is an INCLUDE: the word, then a blank, a quote or an equals sign.
+   pure logical function is_include(line)
+      character(*), intent(in) :: line
+      integer :: first
+
+      is_include = .false.
+      first = verify(line, ' ')
+      if (first == 0 .or. len(line) > longest_include) return
+      if (len(line) < first + 6) return
+      if (upper(line(first:first + 6)) /= 'INCLUDE') return
+      is_include = .true.
+      if (len(line) > first + 6) is_include = scan(line(first + 7:first + 7), ' ''"=') == 1
+   end function is_include
 
 
    !> The file name in what follows the word INCLUDE: in quotes of either kind, or bare.

@@ -1,4 +1,5 @@
-!> Deck errors as a person reads them: where, the line itself, a mark under the columns, what was expected.
+!> Errors of a deck, or of a file of test data, as a person reads them: where, the line itself, a mark under the columns,
+!! what was expected.
 module error_report
    use deck_errors, only: deck_error_list
    use deck_text, only: deck_text_type
@@ -7,7 +8,7 @@ module error_report
    implicit none
    private
 
-   public :: print_deck_errors
+   public :: print_errors
 
    integer, parameter :: most_printed = 200
    integer, parameter :: widest = 100 ! columns of a deck line that are shown
@@ -15,8 +16,10 @@ module error_report
 contains
 
    !> Print all errors on UNIT in the order of the lines they are about.
-   subroutine print_deck_errors(unit, text, errors)
+   subroutine print_errors(unit, kind, outcome, text, errors)
       integer, intent(in)               :: unit
+      character(*), intent(in)          :: kind    !! 'DECK', what the errors are of
+      character(*), intent(in)          :: outcome !! 'nothing solved', what follows from them
       type(deck_text_type), intent(in)  :: text
       type(deck_error_list), intent(in) :: errors
       integer, allocatable :: order(:)
@@ -25,7 +28,7 @@ contains
       call sorted_order(errors%items(:errors%n)%line, order)
       do k = 1, min(errors%n, most_printed)
          associate (item => errors%items(order(k)))
-            write (unit, '(4a, 3x, a)') 'DECK ERROR ', integer_text(k), ' OF ', integer_text(errors%n), text%place(item%line)
+            write (unit, '(5a, 3x, a)') kind, ' ERROR ', integer_text(k), ' OF ', integer_text(errors%n), text%place(item%line)
             if (item%line > 0) then
                write (unit, '(3x, a)') shown(text%line(item%line))
                if (item%first > 0) write (unit, '(3x, a)') mark(text%line(item%line), item%first, item%last)
@@ -35,8 +38,8 @@ contains
       end do
       if (errors%n > most_printed) write (unit, '(3a, /)') 'and ', plural(errors%n - most_printed, 'more error'), &
          ', not printed'
-      write (unit, '(4a)') text%place(0), ': ', plural(errors%n, 'error'), ', nothing solved'
-   end subroutine print_deck_errors
+      write (unit, '(5a)') text%place(0), ': ', plural(errors%n, 'error'), ', ', outcome
+   end subroutine print_errors
 
 
    !> LINE as it may be printed: cut where it is very long, control characters as '?'.

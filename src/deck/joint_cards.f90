@@ -156,8 +156,8 @@ contains
                jshear%law%coefficients(:, :, branch) = jshear%law%coefficients(:, :, branch_load)
             else
                jshear%law%coefficients(:, :, branch) = reshape(x(first:first + 5), [2, 3])
-               if (.not. values%given(first)) call field_error(card, first, trim(table(first)%name)// &
-                  ': blank, expected a real number (a branch is given whole or not at all)', errors)
+               if (k > 1 .and. .not. values%given(first)) call field_error(card, first, trim(table(first)%name)// &
+                  ': blank, expected a real number: the first coefficient of a branch that is given', errors)
             end if
          end do
          jshear%law%p_max = x(25)

@@ -92,7 +92,7 @@ contains
             at(n) = k
          end if
       end do
-      if (n == 0) call field_error(card, 3, 'G1: blank, expected a node number', errors)
+      if (n == 0 .and. card%n < 3) call field_error(card, 3, 'G1: blank, expected a node number', errors)
       bulk%n_support = bulk%n_support + 1
       associate (support => bulk%support(bulk%n_support))
          call start_support(support, card%line, values%integers(1), values%integers(2), nodes(:n), at(:n))
@@ -164,12 +164,17 @@ contains
          load%scale = values%reals(2)
          load%factors = values%reals(3:3)
          load%sets = values%integers(4:4)
+         load%at = [4]
          do k = 5, card%n, 2
             if (k + 1 > card%n) then
                call field_error(card, k, 'S: a factor without its load set', errors)
                exit
             end if
             if (card%fields(k)%text == '' .and. card%fields(k + 1)%text == '') cycle
+            if (card%fields(k)%text == '' .or. card%fields(k + 1)%text == '') then
+               call field_error(card, k, 'S: a factor S and its load set L go together, one of them is blank', errors)
+               cycle
+            end if
             call decode_real(card, k, 'S', 'a real number', factor, factor_ok, errors)
             call decode_integer(card, k + 1, 'L', 'a load set number', set, set_ok, errors)
             if (.not. (factor_ok .and. set_ok)) cycle
@@ -177,6 +182,7 @@ contains
                                           ''' is out of range, expected a load set number of 1 or more', errors)
             load%factors = [load%factors, factor]
             load%sets = [load%sets, set]
+            load%at = [load%at, k + 1]
          end do
       end associate
    end subroutine read_load

@@ -32,6 +32,7 @@ contains
          grid%id = values%integers(1)
          grid%x = values%reals(3:5)
          grid%ps = values%integers(7)
+         grid%doubtful = .not. values%ok
       end associate
    end subroutine read_grid
 
@@ -105,7 +106,9 @@ contains
       type(deck_error_list), intent(inout) :: errors
       type(field_rule), save, allocatable :: table(:)
       integer, parameter :: most_divisions = 100000
+      integer :: errors_before
 
+      errors_before = errors%n
       if (.not. allocated(table)) table = [integer_field('BID'), integer_field('PID'), &
          integer_field('NX', most=most_divisions), integer_field('NY', most=most_divisions), &
          real_field('X1', default=0.0_wp), real_field('Y1', default=0.0_wp), &
@@ -146,6 +149,7 @@ contains
          block2%first_element = values%integers(16)
          block2%marks = values%integers(17:20)
          block2%weld = values%integers(21)
+         block2%doubtful = errors%n > errors_before
       end associate
    end subroutine read_block2
 

@@ -11,8 +11,6 @@ module property_cards
 
    public :: read_pshell, read_paxis, read_psolid, read_prod, read_mat1
 
-   integer, parameter :: largest = huge(1)
-
 contains
 
    !> PSHELL: a membrane of thickness T; MID2 = -1 plane strain, blank plane stress; MODES = YES on a continuation line
@@ -25,11 +23,9 @@ contains
       type(field_rule), save, allocatable :: table(:)
 
       if (.not. allocated(table)) table = [integer_field('PID'), integer_field('MID1'), real_field('T', above=0.0_wp), &
-         integer_field('MID2', default=0, least=-1, most=largest), blank_field('12I/T**3'), blank_field('MID3'), &
+         integer_field('MID2', default=0, least=-1, most=-1), blank_field('12I/T**3'), blank_field('MID3'), &
          blank_field('TS/T'), blank_field('NSM'), word_field('MODES', '|NO|YES|')]
       call decode_card(card, table, .false., values, errors)
-      if (values%integers(4) > 0) call field_error(card, 4, 'MID2: '// &
-         'only -1 (plane strain) or blank (plane stress): the plate does not bend out of its plane', errors)
       bulk%n_pshell = bulk%n_pshell + 1
       associate (pshell => bulk%pshell(bulk%n_pshell))
          pshell%line = card%line

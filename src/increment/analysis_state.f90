@@ -23,7 +23,7 @@ module analysis_state
       real(wp) :: before = 0.0_wp, after = 0.0_wp   !! excess, or unbalanced force [force]
       real(wp) :: step = 1.0_wp                     !! length of the line search
       integer  :: changes = 0                       !! interface elements that slip, or that changed their branch
-      integer  :: part = 0                          !! NEWTON: which part of a divided increment
+      integer  :: part = 0                          !! NEWTON: which part of a divided increment; BACK: -1
    end type pass_record
 
    !> Arrays over nodes are (dimension, n_nodes).
@@ -172,7 +172,7 @@ contains
       type(model_type), intent(in) :: model
       real(wp), intent(in)         :: f(:, :)
 
-      free_norm = sqrt(sum(f**2, mask=.not. model%held))
+      free_norm = norm2(merge(0.0_wp, f, model%held))
    end function free_norm
 
 

@@ -4,6 +4,7 @@ module back_method
    use analysis_state, only: analysis_type, find_unbalanced, record_pass, pass_record, tally_work
    use equations, only: equation_system, form_structure_stiffness, solve_equations
    use failures, only: failure_type
+   use joint_laws, only: element_state, joint_law
    use kinds, only: wp
    use model_data, only: joint_movement, model_type
    use normal_stiffness, only: branch_load, branch_open, pressure_floor
@@ -49,7 +50,7 @@ contains
          end do
          if (n == 0) exit
          change = maxval(abs(p_new - p))
-         call record_pass(analysis, pass_record(before=maxval(abs(p)), after=change))
+         call record_pass(analysis, pass_record(before=maxval(abs(p)), after=change, part=-1))
          if (change <= settled*max(maxval(p), tiny(1.0_wp))) exit
          p = 0.5_wp*(p + p_new)
       end do
@@ -100,14 +101,40 @@ contains
                   state%shear(k)%k_s = k_int(k, k, i)
                   state%shear(k)%tau = k_int(k, k, i)*movement(k, i)/element%area
                end do
-               call tally_work(analysis%energy(element%joint), [0.0_wp, element%area*state%normal%pressure &
-                  *state%normal%lambda/(1.0_wp + 1.0_wp/model%joints(element%joint)%law%normal%m)])
+               associate (law => model%joints(element%joint)%law)
+                  state%slips = law%has_friction .and. any(law%shear%given) .and. &
+                                norm2(state%shear%tau) >= (1.0_wp - 1.0e-6_wp)*law%mu*state%normal%pressure .and. &
+                                norm2(state%shear%tau) > 0.0_wp
+                  call tally_work(analysis%energy(element%joint), [element%area*sum(shear_work(law, state)), &
+                     element%area*state%normal%pressure*state%normal%lambda/(1.0_wp + 1.0_wp/law%normal%m)])
+               end associate
             end associate
          end do
          call find_unbalanced(model, analysis)
       end subroutine store
 
    end subroutine back_increment
+
+
+   !> Work of the shear stresses on the way to where they are, in both directions: along the loading curve, and where the limit
+   !! was reached along the limit from the deflection on at which the initial slope reaches it [pressure x length].
+   pure function shear_work(law, state) result(work)
+      type(joint_law), intent(in)     :: law
+      type(element_state), intent(in) :: state
+      real(wp) :: work(2), a(3), d, tau, slope
+      integer  :: k
+
+      work = 0.0_wp
+      do k = 1, 2
+         if (.not. law%shear(k)%given) cycle
+         d = abs(state%shear(k)%delta)
+         tau = abs(state%shear(k)%tau)
+         a = law%shear(k)%coefficients(1, :, branch_load) + law%shear(k)%coefficients(2, :, branch_load)*state%normal%pressure
+         work(k) = d**2*(a(1)/2.0_wp + d*(a(2)/3.0_wp + d*a(3)/4.0_wp))
+         slope = shear_secant(law%shear(k), 0.0_wp, state%normal%pressure)
+         if (state%slips .and. slope > 0.0_wp) work(k) = tau*(d - 0.5_wp*tau/slope)
+      end do
+   end function shear_work
 
 
    !> P(d)/d of the loading curve at |DELTA| under the pressure P; its first slope at rest [pressure/length].

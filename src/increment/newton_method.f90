@@ -299,14 +299,17 @@ contains
       if (size(flips) > 0) then
          worst = maxloc(flips, dim=1)
          if (flips(worst) > 1) then
-            words = words//'; node '//integer_text(model%node_id(model%interface(worst)%nodes(1)))//' changes its branch back '// &
-                    'and forth ('//integer_text(flips(worst))//' times, committed: '// &
+            words = words//'; node '//integer_text(model%node_id(model%interface(worst)%nodes(1)))//' changes its branch '// &
+                    'back and forth ('//integer_text(flips(worst))//' times, committed: '// &
                     branch_name(analysis%states(worst)%normal%branch)//')'
          else
             words = words//'; node '//integer_text(model%node_id(model%interface(1)%nodes(1)))// &
                     ' and its joint do not hold the load (open, or slipping as a whole)'
          end if
       end if
+      if (any((model%joints%law%shear(1)%given .or. model%joints%law%shear(2)%given) .and. &
+              .not. model%joints%law%has_friction)) words = words// &
+         '; an element with shear and without friction drops its shear at once when it opens: give MU on PJOINT'
       call failure%raise(words)
    end subroutine give_up
 

@@ -39,11 +39,11 @@ contains
             stage%output = given%output
             stage%plot = given%plot
             stage%shares = [1.0_wp]
-            if (given%increments%id == 0 .or. deck%control%method == method_back) cycle
+            if (given%increments%id == 0) cycle
             k = findloc(deck%bulk%jincr(:deck%bulk%n_jincr)%id, given%increments%id, dim=1)
             if (k == 0) then
                call errors%add(given%increments%line, 'INCR: there is no JINCR '//integer_text(given%increments%id))
-            else
+            else if (deck%control%method /= method_back) then
                stage%shares = deck%bulk%jincr(k)%shares
             end if
          end associate

@@ -14,6 +14,7 @@ module step_method
    public :: structure_stiffness, solve_increment, accumulate, limit_friction
 
    integer, parameter  :: most_passes = 2000               ! of NREAN = -1
+   real(wp), parameter :: largest_number = 1.0e100_wp      ! [length] of a displacement that can be meant
    real(wp), parameter :: excess_tolerance = 1.0e-8_wp     ! of the sum of the limits, for NREAN = -1
 
 contains
@@ -37,11 +38,15 @@ contains
 
 
    !> {du} from [k_s] {du} = {dF}.
-   subroutine solve_increment(system, analysis)
+   subroutine solve_increment(plan, system, analysis, failure)
+      type(stage_plan_type), intent(in)  :: plan
       type(equation_system), intent(in)  :: system
       type(analysis_type), intent(inout) :: analysis
+      type(failure_type), intent(inout)  :: failure
 
       call solve_equations(system, analysis%change, analysis%du)
+      if (.not. all(abs(analysis%du) <= largest_number)) call failure%raise(where_in_plan(plan, analysis%stage, &
+         analysis%increment)//': the displacements are beyond all numbers; are loads and stiffnesses in consistent units?')
    end subroutine solve_increment
 
 

@@ -9,7 +9,7 @@ module normal_stiffness
    integer, parameter, public :: branch_load = 1, branch_unload = 2, branch_open = 3, branch_reload = 4
 
    real(wp), parameter, public :: pressure_floor = 1.0e-6_wp !! of p_av: the least p that a loading element has
-   real(wp), parameter :: rounding = 1.0e-10_wp              ! of its force: a change below this is none
+   real(wp), parameter :: rounding = 1.0e-10_wp              ! of its force, or of p_av a_i: a change below is none
 
    !> The normal law of one joint: lambda = c p^m (Eq. 1) and what goes with it.
    type, public :: normal_law
@@ -53,7 +53,7 @@ contains
          k_n = law%p_av**(1.0_wp - law%m)*area/law%c
          return
       end if
-      no_change = rounding*max(abs(state%sumf), abs(state%sigmaf))
+      no_change = rounding*max(abs(state%sumf), abs(state%sigmaf), law%p_av*area)
       rises = state%sumf > state%sigmaf + no_change
       falls = state%sumf < state%sigmaf - no_change
       state%removed = 0.0_wp
@@ -69,7 +69,7 @@ contains
             state%pressure = state%k_n*state%lambda/area
          end if
       case (branch_unload)
-         if (state%sumf <= -rounding*state%p_a*area) then
+         if (state%sumf <= -rounding*max(state%p_a, law%p_av)*area) then
             call open_element(state)
          else if (rises) then
             state%branch = branch_reload

@@ -4,7 +4,7 @@
 module shear_path
    use kinds, only: wp
    use normal_stiffness, only: branch_load, branch_reload, branch_unload
-   use shear_stiffness, only: no_movement, shear_law, shear_slope, shear_slope_derivatives, shear_state
+   use shear_stiffness, only: least_movement, shear_law, shear_slope, shear_slope_derivatives, shear_state
    implicit none
    private
 
@@ -46,7 +46,7 @@ contains
       by_p = 0.0_wp
       movement = delta - before%delta
       way = way_type(before%delta, movement, p_before, p - p_before)
-      if (abs(movement) <= no_movement*max(abs(delta), abs(before%delta)) .or. .not. law%given) then
+      if (abs(movement) <= least_movement(law, before, p) .or. .not. law%given) then
          by_delta = 0.0_wp
          if (law%given) by_delta = shear_slope(law, after%branch, after%sense*delta, p)
          after%tau = before%tau + by_delta*movement

@@ -11,9 +11,9 @@ module shear_stiffness
    implicit none
    private
 
-   public :: shear, shear_slope, shear_slope_derivatives, start_shear
+   public :: shear, shear_slope, shear_slope_derivatives, start_shear, least_movement
 
-   real(wp), parameter, public :: no_movement = 1.0e-12_wp !! of delta: a change below this is none
+   real(wp), parameter :: rounding = 1.0e-10_wp ! of the stresses at hand: a change below this is none
 
    type, public :: shear_law
       logical  :: given = .false.              !! false: no shear stiffness
@@ -50,7 +50,7 @@ contains
       k_s = 0.0_wp
       if (.not. law%given) return
       change = state%sense*(state%delta - state%delta_before)
-      smallest = no_movement*max(abs(state%delta), abs(state%delta_before))
+      smallest = least_movement(law, state, pressure)
       d = state%sense*state%delta
       select case (state%branch)
       case (branch_load)
@@ -77,6 +77,19 @@ contains
       end select
       k_s = area*shear_slope(law, state%branch, state%sense*state%delta, pressure)
    end subroutine shear
+
+
+   !> The least change of delta that counts as a movement: what is below it is rounding, beside the stresses that the element
+   !! bears or could bear [length].
+   pure real(wp) function least_movement(law, state, pressure) result(least)
+      type(shear_law), intent(in)   :: law
+      type(shear_state), intent(in) :: state
+      real(wp), intent(in)          :: pressure
+      real(wp) :: stress
+
+      stress = max(abs(state%tau), abs(state%tau_before), abs(pressure))
+      least = rounding*stress/max(shear_slope(law, branch_load, 0.0_wp, pressure), tiny(1.0_wp)*1.0e100_wp)
+   end function least_movement
 
 
    !> The unloading branch has come to the mirror of A: it joins the loading curve of the other sense.

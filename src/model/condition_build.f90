@@ -82,7 +82,7 @@ contains
             cycle
          end if
          ! G1 THRU G2: the nodes that are there, as in NASTRAN; there must be one
-         any_node = .false.
+         any_node = support%last(k) < support%first(k) ! said already
          do node = first_from(model, support%first(k)), model%n_nodes
             if (model%node_id(node) > support%last(k)) exit
             any_node = .true.
@@ -185,7 +185,7 @@ contains
          do i = 1, bulk%n_load
             do k = 1, size(bulk%load(i)%sets)
                if (.not. any(bulk%force(:bulk%n_force)%set == bulk%load(i)%sets(k)) .and. bulk%load(i)%sets(k) > 0) &
-                  call add_field_error(deck%text, bulk%load(i)%line, 2*k + 2, 'L'//integer_text(k), &
+                  call add_field_error(deck%text, bulk%load(i)%line, bulk%load(i)%at(k), 'L'//integer_text(k), &
                                        'there is no FORCE with set '//integer_text(bulk%load(i)%sets(k)), errors)
             end do
             if (any(bulk%force(:bulk%n_force)%set == bulk%load(i)%set)) call add_field_error(deck%text, bulk%load(i)%line, 1, &

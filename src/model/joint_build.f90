@@ -88,8 +88,21 @@ contains
             if (surface(k) == 0) call add_field_error(deck%text, card%line, k + 2, 'SIDE'//integer_text(k), &
                'there is no PMARK '//integer_text(card%sides(k)), errors)
          end do
+         do k = 1, j - 1
+            if (any(deck%bulk%joint(k)%sides == card%sides(1)) .or. (card%sides(2) > 0 .and. &
+                any(deck%bulk%joint(k)%sides == card%sides(2)))) call add_field_error(deck%text, card%line, 3, 'SIDE1', &
+               'one of the sides is a side of JOINT '//integer_text(deck%bulk%joint(k)%id)//' already', errors)
+         end do
          if (surface(1) == 0 .or. (surface(2) == 0 .and. card%sides(2) > 0)) return
          if (model%surfaces(surface(1))%n == 0) return
+         if (surface(2) > 0) then
+            if (model%surfaces(surface(2))%n == 0) return
+            if (any(model%surfaces(surface(2))%other(:model%surfaces(surface(2))%n) > 0)) then
+               call add_field_error(deck%text, card%line, 4, 'SIDE2', 'bodies lie on both sides of surface '// &
+                  integer_text(card%sides(2)), errors)
+               return
+            end if
+         end if
          if (surface(2) > 0 .and. any(model%surfaces(surface(1))%other(:model%surfaces(surface(1))%n) > 0)) then
             call add_field_error(deck%text, card%line, 3, 'SIDE1', 'bodies lie on both sides of surface '// &
                integer_text(card%sides(1))//': leave SIDE2 blank, and the program splits it', errors)
@@ -105,6 +118,11 @@ contains
             partner = model%twin(side1%node)
          end if
       end associate
+      if (highest > huge(highest) - side1%n) then
+         call add_field_error(deck%text, deck%bulk%joint(j)%line, 1, 'JID', 'the numbers of its interface '// &
+            'elements, which follow those of the CJOINTs, would pass 2147483647', errors)
+         return
+      end if
       deallocate (elements)
       allocate (elements(side1%n))
       do k = 1, side1%n
@@ -185,7 +203,7 @@ contains
                errors)
          else if (shared > 0) then
             call add_field_error(deck%text, card%line, merge(5, 4, card%tolerance > 0.0_wp), 'TOL', 'within '// &
-               real_text(tolerance)//' '//plural(shared, 'node')//' of SIDE1 found a partner that another one has already', errors)
+               real_text(tolerance)//' '//plural(shared, 'node')//' of SIDE1 found a partner that another one has', errors)
          else if (turned > 0) then
             call add_field_error(deck%text, card%line, 4, 'SIDE2', 'the sides do not face each other: at '// &
                plural(turned, 'node')//' their normals do not point against each other', errors)

@@ -40,10 +40,36 @@ contains
                                  'surface '//integer_text(model%surfaces(s)%id)//' and on one side of others', errors)
             cycle
          end if
+         if (any(meets_a_split(model, s))) then
+            call add_field_error(deck%text, deck%bulk%joint(j)%line, 3, 'SIDE1', 'surface '// &
+               integer_text(model%surfaces(s)%id)//' meets another surface that is split, at node '// &
+               integer_text(model%node_id(findloc(meets_a_split(model, s), .true., dim=1)))// &
+               ': mesh the bodies apart there and give both faces, SIDE1 and SIDE2', errors)
+            cycle
+         end if
          call split_surface(model, s)
          call list_elements_of_nodes(model)
       end do
    end subroutine split_shared_surfaces
+
+
+   !> Which nodes of surface S belong to a surface that was split before, or are twins of its nodes.
+   pure function meets_a_split(model, s) result(meets)
+      type(model_type), intent(in) :: model
+      integer, intent(in)          :: s
+      logical :: meets(model%n_nodes), is_twin(model%n_nodes)
+      integer :: i, k, node
+
+      meets = .false.
+      is_twin = .false.
+      is_twin(pack(model%twin, model%twin > 0)) = .true.
+      do i = 1, model%surfaces(s)%n
+         do k = 1, 2
+            node = model%surfaces(s)%nodes(k, i)
+            meets(node) = model%twin(node) > 0 .or. is_twin(node)
+         end do
+      end do
+   end function meets_a_split
 
 
    subroutine split_surface(model, s)

@@ -137,8 +137,8 @@ contains
             if (joint%p0 > 0.0_wp) then
                joint%law%normal%p_av = joint%p0
             else if (.not. joint%determinate) then
-               call errors%add(joint%line, 'joint '//integer_text(joint%id)//' does not carry all the load (supports or other '// &
-                  'joints take a share), so the pressure of the first increment is not known: give P0 on its PJOINT')
+               call errors%add(joint%line, 'joint '//integer_text(joint%id)//' does not carry all the load (supports or '// &
+                  'other joints take a share), so the pressure of the first increment is not known: give P0 on its PJOINT')
             else if (resultant <= 1.0e-12_wp*first_share*total) then
                call errors%add(joint%line, 'the first increment does not press joint '//integer_text(joint%id)// &
                   ' together (normal force '//real_text(resultant)//'), so its pressure is not known: give P0 on its PJOINT')

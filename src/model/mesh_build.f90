@@ -1,7 +1,7 @@
 !> Nodes, bodies and marked edges: from the mesh cards and the block generator to positions in the model.
 module mesh_build
    use block_mesh, only: block_elements, block_nodes, block_side
-   use deck_cards, only: add_field_error
+   use deck_cards, only: add_field_error, card_name
    use deck_errors, only: deck_error_list
    use deck_input, only: deck_type
    use id_table, only: id_table_type, sorted_order
@@ -93,7 +93,7 @@ contains
          end do
       end associate
       raw%n = n
-      call report_repeated(deck, raw%id(:n), raw%line(:n), 'ID', 'node', errors)
+      call report_repeated(deck, raw%id(:n), raw%line(:n), deck%bulk%n_grid, 'node', errors)
    end subroutine collect_nodes
 
 
@@ -287,19 +287,21 @@ contains
             n = n + k
          end do
       end associate
-      call report_repeated(deck, id, line, 'EID', 'element', errors)
+      call report_repeated(deck, id, line, deck%bulk%n_quad4 + deck%bulk%n_edge + deck%bulk%n_cjoint, 'element', errors)
    end subroutine check_element_numbers
 
 
    !> Say which of the numbers ID(n), given on the cards of LINE(n), are given twice; a card that gives many is named once.
-   subroutine report_repeated(deck, id, line, field, noun, errors)
+   subroutine report_repeated(deck, id, line, n_cards, noun, errors)
       type(deck_type), intent(in)          :: deck
       integer, intent(in)                  :: id(:), line(:)
-      character(*), intent(in)             :: field, noun
+      integer, intent(in)                  :: n_cards !! the first so many are given one by one, the others by blocks
+      character(*), intent(in)             :: noun
       type(deck_error_list), intent(inout) :: errors
       type(id_table_type)  :: table
       integer, allocatable :: again(:), order(:)
-      integer :: k, last, more
+      integer :: field, k, last, more
+      character(3) :: name
 
       call table%build(id)
       call table%list_repeated(again)
@@ -313,7 +315,13 @@ contains
          end do
          more = last - k
          associate (this => again(order(k)))
-            if (id(this) > 0) call add_field_error(deck%text, line(this), 1, field, noun//' '//integer_text(id(this))// &
+            field = 1
+            name = merge('ID ', 'EID', noun == 'node')
+            if (this > n_cards) then
+               field = merge(15, 16, noun == 'node')
+               name = merge('N1', 'E1', noun == 'node')
+            end if
+            if (id(this) > 0) call add_field_error(deck%text, line(this), field, trim(name), noun//' '//integer_text(id(this))// &
                trim(merge(', and more of this card,', '                        ', more > 0))//' is given twice, first in '// &
                deck%text%place(line(table%find(id(this)))), errors)
          end associate
@@ -359,20 +367,41 @@ contains
       type(model_type), intent(in)         :: model
       type(deck_error_list), intent(inout) :: errors
       real(wp) :: smallest
-      integer  :: e, i
+      integer  :: e, i, last_line
+      logical, allocatable :: doubtful(:)
 
       do i = 1, deck%bulk%n_grid
          if (abs(deck%bulk%grid(i)%x(3)) > 0.0_wp) call add_field_error(deck%text, deck%bulk%grid(i)%line, 5, 'X3', &
             'not zero, but a plane model lies in x-y', errors)
       end do
+      allocate (doubtful(model%n_nodes), source=.false.)
+      do i = 1, deck%bulk%n_grid
+         if (deck%bulk%grid(i)%doubtful .and. model%node_table%find(deck%bulk%grid(i)%id) > 0) &
+            doubtful(model%node_table%find(deck%bulk%grid(i)%id)) = .true.
+      end do
+      last_line = 0
       do e = 1, model%n_elements
-         if (any(model%element_nodes(:, e) == 0)) cycle
+         if (any(model%element_nodes(:, e) == 0) .or. model%element_line(e) == last_line) cycle ! once a card
+         if (any(doubtful(model%element_nodes(:, e)))) cycle
+         if (any(deck%bulk%block2%line == model%element_line(e) .and. deck%bulk%block2%doubtful)) cycle
          smallest = quad4_smallest_jacobian(model%x(:2, model%element_nodes(:, e)))
          if (smallest > 0.0_wp) cycle
+         last_line = model%element_line(e)
          call errors%add(model%element_line(e), 'element '//integer_text(model%element_id(e))//' has no positive area at '// &
                          'some corner; expected four nodes counter-clockwise round a convex quadrilateral')
       end do
    end subroutine check_elements
+
+
+   !> What the manual calls node K of the edge on LINE: GA, GB of a CBAR, G1, G2 of a CROD.
+   function edge_node(deck, line, k) result(name)
+      type(deck_type), intent(in) :: deck
+      integer, intent(in)         :: line, k
+      character(2) :: name
+
+      name = merge('G1', 'G2', k == 1)
+      if (card_name(deck%text%card_part(line)) == 'CBAR') name = merge('GA', 'GB', k == 1)
+   end function edge_node
 
 
    !> CBAR and CROD edges and the marked sides of blocks.
@@ -399,8 +428,8 @@ contains
             edges%line(n) = edge%line
             edges%field(n) = 2
             do k = 1, 2
-               call resolve_node(deck, model, edge%line, k + 2, 'node G'//integer_text(k), edge%nodes(k), edges%nodes(k, n), &
-                                 errors)
+               call resolve_node(deck, model, edge%line, k + 2, 'node '//edge_node(deck, edge%line, k), edge%nodes(k), &
+                                 edges%nodes(k, n), errors)
             end do
          end associate
       end do

@@ -30,6 +30,7 @@ module model_data
       integer, allocatable :: nodes(:, :)    !! (4, n)
       integer, allocatable :: element(:)     !! (n) the body element that the side belongs to
       integer, allocatable :: other(:)       !! (n) a body element behind the side, 0: none
+      integer, allocatable :: line(:)        !! (n) of its card in the deck text
    end type surface_type
 
    !> One joint: a group of interface elements with the same laws.

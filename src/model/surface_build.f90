@@ -40,7 +40,7 @@ contains
       do i = 1, edges%n
          surface(i) = marks%find(edges%mark(i))
          if (surface(i) == 0 .and. edges%mark(i) > 0) then
-            call add_field_error(deck%text, edges%line(i), edges%field(i), 'PID', 'there is no PMARK '// &
+            call add_field_error(deck%text, edges%line(i), edges%field(i), mark_name(edges%field(i)), 'there is no PMARK '// &
                                  integer_text(edges%mark(i)), errors)
          else if (surface(i) > 0) then
             filled(surface(i)) = filled(surface(i)) + 1
@@ -50,18 +50,30 @@ contains
          model%surfaces(k)%id = deck%bulk%pmark(k)%id
          model%surfaces(k)%n = 0
          allocate (model%surfaces(k)%nodes(2, filled(k)), model%surfaces(k)%element(filled(k)), &
-                   model%surfaces(k)%other(filled(k)))
-         if (filled(k) == 0) call add_field_error(deck%text, deck%bulk%pmark(k)%line, 1, 'PID', 'surface '// &
-            integer_text(model%surfaces(k)%id)//' has no edge: expected a CBAR, CROD or side of a block with this PID', errors)
+                   model%surfaces(k)%other(filled(k)), model%surfaces(k)%line(filled(k)))
+         if (filled(k) > 0 .or. model%surfaces(k)%id == 0) cycle
+         if (findloc(deck%bulk%pmark(:k)%id, model%surfaces(k)%id, dim=1) < k) cycle ! a number given twice: said elsewhere
+         call add_field_error(deck%text, deck%bulk%pmark(k)%line, 1, 'PID', 'surface '//integer_text(model%surfaces(k)%id)// &
+                              ' has no edge: expected a CBAR, CROD or side of a block with this PID', errors)
       end do
       do i = 1, edges%n
          if (surface(i) == 0 .or. any(edges%nodes(:, i) == 0)) cycle
          call add_edge(edges, i, model, model%surfaces(surface(i)), errors)
       end do
       do k = 1, n
-         call check_repeated(deck, model, model%surfaces(k), errors)
+         call check_repeated(model, model%surfaces(k), errors)
       end do
    end subroutine build_surfaces
+
+
+   !> The field that names a mark: PID of an edge, S1 to S4 of a block.
+   pure function mark_name(field) result(name)
+      integer, intent(in)       :: field
+      character(:), allocatable :: name
+
+      name = 'PID'
+      if (field > 16) name = 'S'//integer_text(field - 16)
+   end function mark_name
 
 
    !> Add edge I to its surface, run through with its body on the left.
@@ -81,6 +93,7 @@ contains
          return
       end if
       surface%n = surface%n + 1
+      surface%line(surface%n) = edges%line(i)
       if (left > 0) then
          surface%nodes(:, surface%n) = edges%nodes(:, i)
          surface%element(surface%n) = left
@@ -94,20 +107,24 @@ contains
 
 
    !> No edge stands twice on a surface: its area would count twice.
-   subroutine check_repeated(deck, model, surface, errors)
-      type(deck_type), intent(in)          :: deck
+   subroutine check_repeated(model, surface, errors)
       type(model_type), intent(in)         :: model
       type(surface_type), intent(in)       :: surface
       type(deck_error_list), intent(inout) :: errors
       integer, allocatable :: order(:)
-      integer :: k
+      integer :: j, k
 
-      call sorted_order(surface%nodes(1, :surface%n), order)
+      call sorted_order(minval(surface%nodes(:, :surface%n), dim=1), order)
       do k = 2, surface%n
-         if (any(surface%nodes(:, order(k)) /= surface%nodes(:, order(k - 1)))) cycle
-         call errors%add(deck%bulk%pmark(findloc(deck%bulk%pmark%id, surface%id, dim=1))%line, 'surface '// &
-            integer_text(surface%id)//': the edge between nodes '//integer_text(model%node_id(surface%nodes(1, order(k))))// &
-            ' and '//integer_text(model%node_id(surface%nodes(2, order(k))))//' is marked twice')
+         do j = k - 1, 1, -1
+            associate (this => surface%nodes(:, order(k)), that => surface%nodes(:, order(j)))
+               if (minval(this) /= minval(that)) exit
+               if (maxval(this) /= maxval(that)) cycle
+               call errors%add(max(surface%line(order(k)), surface%line(order(j))), 'surface '//integer_text(surface%id)// &
+                  ': the edge between nodes '//integer_text(model%node_id(this(1)))//' and '// &
+                  integer_text(model%node_id(this(2)))//' is marked twice')
+            end associate
+         end do
       end do
    end subroutine check_repeated
 
@@ -165,7 +182,7 @@ contains
             node = place(surface%nodes(k, e))
             list%node(node) = surface%nodes(k, e)
             list%area(node) = list%area(node) + area
-            list%normal(:2, node) = list%normal(:2, node) + area*[along(2), -along(1)]/norm2(along)
+            list%normal(:2, node) = list%normal(:2, node) + area*[along(2), -along(1)]/max(norm2(along), tiny(1.0_wp))
          end do
       end do
       do k = 1, list%n

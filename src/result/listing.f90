@@ -15,7 +15,7 @@ module listing
    use range_watch, only: range_watch_type, watch_ranges
    use row_buffer, only: row_buffer_type
    use stage_plan, only: stage_plan_type
-   use analysis_state, only: analysis_type
+   use analysis_state, only: analysis_type, free_norm
    use text_tools, only: clean, integer_text, plural, upper
    implicit none
    private
@@ -90,16 +90,16 @@ contains
       words = 'STAGE '//integer_text(plan%stages(analysis%stage)%id)
       associate (stage => plan%stages(analysis%stage), file => listing%file)
          call heading(file, 'INCREMENTS OF STAGE '//integer_text(stage%id)//'   '//trim(stage%label))
-         call file%put('  INCR     SHARE    LOAD  JOINT  OPEN   LAMBDA MAX AT NODE        P MAX AT NODE  JOINT FORCE'// &
-                       '   APPLIED TO  DIFFERENCE  UNBALANCED')
+         call file%put('  INCR   SHARE   LOAD      JOINT OPEN   LAMBDA MAX    AT NODE        P MAX    AT NODE  JOINT FORCE'// &
+                       '  APPLIED TO DIFFERENCE UNBALANCED')
          if (listing%labels%force /= '') then
             line = ''
-            line(42:) = adjustr(listing%labels%length(:9))
-            line(59:) = adjustr(listing%labels%pressure(:13))
-            line(84:) = adjustr(listing%labels%force(:9))
-            line(97:) = adjustr(listing%labels%force(:9))
-            line(109:) = adjustr(listing%labels%force(:9))
-            line(121:) = adjustr(listing%labels%force(:9))
+            line(44:) = adjustr(listing%labels%length(:9))
+            line(62:) = adjustr(listing%labels%pressure(:13))
+            line(90:) = adjustr(listing%labels%force(:9))
+            line(102:) = adjustr(listing%labels%force(:9))
+            line(113:) = adjustr(listing%labels%force(:9))
+            line(124:) = adjustr(listing%labels%force(:9))
             call file%put(line)
          end if
          call listing%increments%flush(file)
@@ -149,7 +149,7 @@ contains
       integer  :: i, at_lambda, at_p, n_open
 
       floor = noise*listing%largest_force
-      write (row, '(i6, f10.6, f8.4)') analysis%increment, analysis%share, analysis%fraction
+      write (row, '(i6, f8.5, f7.4)') analysis%increment, analysis%share, analysis%fraction
       if (j > 0) then
          associate (joint => model%joints(j), state => analysis%states%normal)
             n_open = 0; force = 0.0_wp
@@ -160,18 +160,19 @@ contains
                if (state(i)%lambda > state(at_lambda)%lambda) at_lambda = i
                if (state(i)%pressure > state(at_p)%pressure) at_p = i
             end do
-            write (row(25:), '(i7, i6, 2(es13.5, i8), es13.5)') joint%id, n_open, &
-               clean(state(at_lambda)%lambda, noise*analysis%largest_lambda), model%node_id(model%interface(at_lambda)%nodes(1)), &
+            write (row(22:), '(i11, i5, 2(es13.5, i11), es13.5)') joint%id, n_open, &
+               clean(state(at_lambda)%lambda, noise*analysis%largest_lambda), &
+               model%node_id(model%interface(at_lambda)%nodes(1)), &
                clean(state(at_p)%pressure, noise*analysis%largest_p), model%node_id(model%interface(at_p)%nodes(1)), &
                clean(force, floor)
             if (joint%determinate) then
                call current_load(model, analysis, now)
                applied = carried_resultant(model, joint, now)
-               write (row(93:), '(es13.5, es12.4)') clean(applied, floor), clean(force - applied, floor)
+               write (row(99:), '(es12.5, es11.3)') clean(applied, floor), clean(force - applied, floor)
             end if
          end associate
       end if
-      write (row(118:), '(es12.4)') clean(unbalanced_force(model, analysis), floor)
+      write (row(122:), '(es11.3)') clean(unbalanced_force(model, analysis), floor)
    end function increment_row
 
 
@@ -198,7 +199,7 @@ contains
       type(model_type), intent(in)    :: model
       type(analysis_type), intent(in) :: analysis
 
-      force = sqrt(sum(analysis%unbalanced**2, mask=.not. model%held))
+      force = free_norm(model, analysis%unbalanced)
    end function unbalanced_force
 
 

@@ -41,11 +41,11 @@ contains
       integer  :: node
 
       call heading(file, 'DISPLACEMENTS OF NODES'//where_now(plan, analysis)//in_units(labels%length))
-      call file%put('      NODE            X            Y           UX           UY')
+      call file%put('       NODE            X            Y           UX           UY')
       floor = noise*maxval(abs(analysis%u))
       do node = 1, model%n_nodes
          if (.not. model%used(node)) cycle
-         write (line, '(i10, 4es13.5)') model%node_id(node), clean(model%x(:2, node)), clean(analysis%u(:, node), floor)
+         write (line, '(i11, 4es13.5)') model%node_id(node), clean(model%x(:2, node)), clean(analysis%u(:, node), floor)
          call file%put(line)
       end do
    end subroutine list_displacements
@@ -70,9 +70,9 @@ contains
       floor = noise*maxval(abs(stress))
       call heading(file, 'STRESSES AT THE CENTRES OF ELEMENTS'//where_now(plan, analysis)// &
                    in_units(labels%pressure))
-      call file%put('   ELEMENT     CENTRE X     CENTRE Y      SIGMA X      SIGMA Y       TAU XY')
+      call file%put('    ELEMENT     CENTRE X     CENTRE Y      SIGMA X      SIGMA Y       TAU XY')
       do e = 1, model%n_elements
-         write (line, '(i10, 5es13.5)') model%element_id(e), &
+         write (line, '(i11, 5es13.5)') model%element_id(e), &
             clean(0.25_wp*sum(model%x(:2, model%element_nodes(:, e)), dim=2)), clean(stress(:, e), floor)
          call file%put(line)
       end do
@@ -94,13 +94,13 @@ contains
 
       floor = noise*max(largest_force, tiny(1.0_wp))
       call heading(file, 'REACTIONS AT SUPPORTS'//where_now(plan, analysis)//in_units(labels%force))
-      call file%put('      NODE            X            Y           RX           RY')
+      call file%put('       NODE            X            Y           RX           RY')
       supports = 0.0_wp
       do node = 1, model%n_nodes
          if (.not. any(model%held(:, node)) .or. .not. model%used(node)) cycle
          reaction = merge(-analysis%unbalanced(:, node), 0.0_wp, model%held(:, node))
          supports = supports + reaction
-         write (line, '(i10, 4es13.5)') model%node_id(node), clean(model%x(:2, node)), clean(reaction, floor)
+         write (line, '(i11, 4es13.5)') model%node_id(node), clean(model%x(:2, node)), clean(reaction, floor)
          call file%put(line)
       end do
       base = 0.0_wp

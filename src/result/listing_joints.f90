@@ -30,17 +30,17 @@ contains
       do j = 1, size(model%joints)
          associate (joint => model%joints(j), state => analysis%states%normal)
             call heading(file, 'INTERFACE ELEMENTS OF JOINT '//integer_text(joint%id)//where_now(plan, analysis))
-            call file%put('   ELEMENT   NODE 1   NODE 2            X            Y         AREA  BRANCH       LAMBDA'// &
+            call file%put('    ELEMENT     NODE 1     NODE 2            X            Y         AREA  BRANCH       LAMBDA'// &
                           '            P        FORCE    K_N, USED')
             if (labels%force /= '') then
                line = ''
-               line(41:) = labels%length
-               line(54:) = labels%length
-               line(66:) = labels%area
-               line(86:) = labels%length
-               line(97:) = labels%pressure
-               line(112:) = labels%force
-               line(123:) = labels%stiffness
+               line(37:) = adjustr(labels%length(:10))
+               line(50:) = adjustr(labels%length(:10))
+               line(63:) = adjustr(labels%area(:10))
+               line(84:) = adjustr(labels%length(:10))
+               line(94:) = adjustr(labels%pressure(:13))
+               line(110:) = adjustr(labels%force(:10))
+               line(121:) = adjustr(labels%stiffness(:12))
                call file%put(line)
             end if
             lambda_floor = noise*analysis%largest_lambda
@@ -50,7 +50,7 @@ contains
                associate (element => model%interface(i))
                   node2 = 0
                   if (element%nodes(2) > 0) node2 = model%node_id(element%nodes(2))
-                  write (line, '(i10, 2i9, 2es13.5, es13.5, 2x, a6, 4es13.5)') element%id, model%node_id(element%nodes(1)), &
+                  write (line, '(3i11, 3es13.5, 2x, a6, 4es13.5)') element%id, model%node_id(element%nodes(1)), &
                      node2, clean(model%x(:2, element%nodes(1))), element%area, branch_name(state(i)%branch), &
                      clean(state(i)%lambda, lambda_floor), clean(state(i)%pressure, p_floor), &
                      clean(state(i)%sumf, force_floor), clean(state(i)%k_n)
@@ -82,24 +82,24 @@ contains
             if (.not. joint%law%shear(k)%given) cycle
             call heading(file, 'SHEAR IN DIRECTION '//merge('X', 'Y', k == 1)//' OF JOINT '//integer_text(joint%id)// &
                          where_now(plan, analysis))
-            call file%put('   ELEMENT   NODE 1  BRANCH        DELTA          TAU        FORCE    K_S, USED        LIMIT')
+            call file%put('    ELEMENT     NODE 1  BRANCH        DELTA          TAU        FORCE    K_S, USED        LIMIT')
             if (labels%force /= '') then
                line = ''
-               line(29:) = adjustr(labels%length(:13))
-               line(42:) = adjustr(labels%pressure(:13))
-               line(55:) = adjustr(labels%force(:13))
-               line(68:) = adjustr(labels%stiffness(:13))
-               line(81:) = adjustr(labels%pressure(:13))
+               line(32:) = adjustr(labels%length(:13))
+               line(45:) = adjustr(labels%pressure(:13))
+               line(58:) = adjustr(labels%force(:13))
+               line(71:) = adjustr(labels%stiffness(:13))
+               line(84:) = adjustr(labels%pressure(:13))
                call file%put(line)
             end if
             do i = joint%first, joint%last
                associate (state => analysis%states(i)%shear(k), element => model%interface(i))
-                  write (line, '(i10, i9, 2x, a6, 4es13.5)') element%id, model%node_id(element%nodes(1)), &
+                  write (line, '(2i11, 2x, a6, 4es13.5)') element%id, model%node_id(element%nodes(1)), &
                      branch_name(state%branch), clean(state%delta, delta_floor), clean(state%tau, tau_floor), &
                      clean(state%tau*element%area, tau_floor*element%area), clean(state%k_s)
-                  if (joint%law%has_friction) write (line(80:), '(es13.5)') &
+                  if (joint%law%has_friction) write (line(83:), '(es13.5)') &
                      clean(joint%law%mu*max(0.0_wp, analysis%states(i)%normal%pressure), tau_floor)
-                  if (analysis%states(i)%slips) line(95:) = 'SLIPS'
+                  if (analysis%states(i)%slips) line(98:) = 'SLIPS'
                   call file%put(line)
                end associate
             end do
@@ -137,7 +137,7 @@ contains
                normal = normal + analysis%states(i)%normal%sumf
                along = along + analysis%states(i)%shear(1)%tau*model%interface(i)%area
             end do
-            write (row, '(i6, i9, 5es15.5)') analysis%increment, joint%id, clean(normal, floor), clean(along, floor), &
+            write (row, '(i6, i11, 5es15.5)') analysis%increment, joint%id, clean(normal, floor), clean(along, floor), &
                clean(total(:2), floor), clean(moment, floor*extent)
             call rows%add(row)
          end associate
@@ -154,14 +154,14 @@ contains
 
       if (rows%n == 0) return
       call heading(file, 'RESULTANTS OF JOINTS, SIDE 1 ON SIDE 2 (MOMENT ABOUT THE CENTROID OF THE JOINT), '//stage)
-      call file%put('  INCR    JOINT   NORMAL FORCE    SHEAR FORCE        FORCE X        FORCE Y       MOMENT Z')
+      call file%put('  INCR      JOINT   NORMAL FORCE    SHEAR FORCE        FORCE X        FORCE Y       MOMENT Z')
       if (labels%force /= '') then
          line = ''
-         line(16:) = adjustr(labels%force(:15))
-         line(31:) = adjustr(labels%force(:15))
-         line(46:) = adjustr(labels%force(:15))
-         line(61:) = adjustr(labels%force(:15))
-         line(76:) = adjustr(trim(labels%force(:7))//' '//labels%length(:7))
+         line(18:) = adjustr(labels%force(:15))
+         line(33:) = adjustr(labels%force(:15))
+         line(48:) = adjustr(labels%force(:15))
+         line(63:) = adjustr(labels%force(:15))
+         line(78:) = adjustr(trim(labels%force(:7))//' '//labels%length(:7))
          call file%put(line)
       end if
       call rows%flush(file)
@@ -180,6 +180,8 @@ contains
             if (pass%part > 0) then
                write (row, '(2i6, i8, 2es14.3, f9.4, i9)') analysis%increment, pass%part, i, pass%before, pass%after, &
                   pass%step, pass%changes
+            else if (pass%part < 0) then
+               write (row, '(2i6, 2es14.5)') analysis%increment, i, pass%before, pass%after
             else
                write (row, '(2i6, 2es14.5, f10.2, i9)') analysis%increment, i, pass%before, pass%after, &
                   100.0_wp*(1.0_wp - pass%after/max(pass%before, tiny(1.0_wp))), pass%changes
@@ -222,7 +224,7 @@ contains
       do j = 1, size(model%joints)
          associate (energy => analysis%energy(j))
             floor = noise*sum(energy%put_in)
-            write (line, '(i10, 2x, 3es13.5, 2x, 3es13.5)') model%joints(j)%id, &
+            write (line, '(i11, 1x, 3es13.5, 2x, 3es13.5)') model%joints(j)%id, &
                clean(energy%put_in(2), floor), clean(energy%given_back(2), floor), &
                clean(energy%put_in(2) - energy%given_back(2), floor), clean(energy%put_in(1), floor), &
                clean(energy%given_back(1), floor), clean(energy%put_in(1) - energy%given_back(1), floor)

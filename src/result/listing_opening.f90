@@ -4,13 +4,14 @@ module listing_opening
    use case_control, only: case_control_type, pressure_eq10
    use deck_cards, only: card_name, is_continuation
    use deck_input, only: deck_type
+   use deck_text, only: is_include
    use equations, only: equation_system
    use kinds, only: long, wp
    use model_data, only: model_type
    use normal_stiffness, only: branch_load, branch_name, branch_reload, branch_unload, pressure_floor
    use output_file, only: output_file_type
    use stage_plan, only: stage_plan_type
-   use text_tools, only: clean, integer_text, upper
+   use text_tools, only: clean, integer_text, plural, upper
    implicit none
    private
 
@@ -92,7 +93,7 @@ contains
          line = deck%text%card_part(i)
          counter = ''
          if (in_bulk .and. line /= '' .and. .not. is_continuation(line)) then
-            if (card_name(line) /= 'ENDDATA' .and. card_name(line) /= 'INCLUDE') then
+            if (card_name(line) /= 'ENDDATA' .and. .not. is_include(line)) then
                cards = cards + 1
                write (counter, '(i9, a)') cards, '-'
             end if
@@ -119,7 +120,8 @@ contains
       type(output_file_type), intent(inout) :: file
       integer, intent(inout)                :: hidden
 
-      if (hidden > 0) call file%put('            ('//integer_text(hidden)//' LINES OF INCLUDE FILES, NOT ECHOED)')
+      if (hidden > 0) call file%put('            ('//upper(plural(hidden, 'line'))// &
+                                          ' OF INCLUDE FILES, NOT ECHOED)')
       hidden = 0
    end subroutine count_hidden
 
@@ -192,18 +194,18 @@ contains
       if (size(model%joints) == 0) return
       labels = unit_labels(control)
       call heading(file, 'JOINTS')
-      call file%put('     JOINT ELEMENTS        A_INT            C      M            E_U   FIRST P (EQ.9)  LEAST P ON LOAD'// &
+      call file%put('      JOINT ELEMENTS        A_INT            C      M            E_U   FIRST P (EQ.9)  LEAST P ON LOAD'// &
                     '   NORMAL X   NORMAL Y')
       if (control%length_unit /= '') then
-         write (line, '(27x, a)') trim(labels%area)
-         line(57:) = trim(labels%pressure)//'/'//trim(labels%length)
-         line(78:) = labels%pressure
-         line(95:) = labels%pressure
+         write (line, '(28x, a)') trim(labels%area)
+         line(58:) = trim(labels%pressure)//'/'//trim(labels%length)
+         line(79:) = labels%pressure
+         line(96:) = labels%pressure
          call file%put(line)
       end if
       do j = 1, size(model%joints)
          associate (joint => model%joints(j), law => model%joints(j)%law%normal)
-            write (line, '(i10, i9, es13.5, es13.5, f7.4, es15.5, es17.5, es17.5, 2f11.6)') joint%id, &
+            write (line, '(i11, i9, es13.5, es13.5, f7.4, es15.5, es17.5, es17.5, 2f11.6)') joint%id, &
                joint%last - joint%first + 1, joint%area, law%c, law%m, law%e_u, law%p_av, &
                pressure_floor*law%p_av, clean(joint%normal(:2), 1.0e-9_wp)
             call file%put(line)
@@ -230,7 +232,7 @@ contains
             do k = 1, model%dimension - 1
                if (.not. law%shear(k)%given) cycle
                do b = 1, 3
-                  write (line, '(i10, 4x, a1, 2x, a6, 6es13.5)') model%joints(j)%id, merge('X', 'Y', k == 1), &
+                  write (line, '(i11, 3x, a1, 2x, a6, 6es13.5)') model%joints(j)%id, merge('X', 'Y', k == 1), &
                      branch_name(branches(b)), law%shear(k)%coefficients(:, :, branches(b))
                   call file%put(line)
                end do
@@ -244,7 +246,7 @@ contains
                end if
             end do
             if (law%has_friction) then
-               write (line, '(i10, a, f10.6, a, i5)') model%joints(j)%id, '   FRICTION MU =', law%mu, '   RE-ANALYSES', &
+               write (line, '(i11, a, f10.6, a, i5)') model%joints(j)%id, '   FRICTION MU =', law%mu, '   RE-ANALYSES', &
                   law%n_reanalyses
                call file%put(line)
             end if
@@ -278,7 +280,7 @@ contains
             total = sum(loads%force(:, :loads%n), dim=2)
             largest = 0.0_wp
             if (loads%n > 0) largest = maxval(abs(loads%force(:, :loads%n)))
-            write (line, '(i10, i12, 2es14.5, 2es15.5, 3x, a)') stage%id, size(stage%shares), stage%shares(1), &
+            write (line, '(i11, i11, 2es14.5, 2es15.5, 3x, a)') stage%id, size(stage%shares), stage%shares(1), &
                stage%shares(size(stage%shares)), clean(total(:2), 1.0e-9_wp*largest), cut(stage%label, 40)
             call file%put(line)
          end associate

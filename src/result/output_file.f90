@@ -1,16 +1,17 @@
 !> Result files that appear under their names only when they are complete: written as NAME.part, renamed at the end.
 !! With no name the lines go to the standard output, at the end too.
 module output_file
-   use, intrinsic :: iso_fortran_env, only: output_unit
-   use c_library, only: remove_file, rename_file
+   use c_library, only: close_file, create_file, remove_file, rename_file, write_bytes
    implicit none
    private
 
    type, public :: output_file_type
       private
       character(:), allocatable :: path          ! empty: standard output
-      integer :: unit   = 0
-      integer :: status = 0                      ! of the first write that failed
+      character(:), allocatable :: buffer
+      integer :: used = 0
+      integer :: descriptor = -1
+      logical :: fault = .false.                 ! some write has failed
       logical, public :: is_open = .false.
    contains
       procedure :: start
@@ -21,7 +22,7 @@ module output_file
    end type output_file_type
 
    character(*), parameter :: suffix = '.part'
-   integer, parameter :: longest_line = 1024
+   integer, parameter :: room = 1048576          ! bytes that are gathered before they are written
 
 contains
 
@@ -31,13 +32,10 @@ contains
       character(*), intent(in)               :: path
 
       self%path = path
-      if (path == '') then
-         open (newunit=self%unit, status='scratch', action='readwrite', recl=longest_line, iostat=self%status)
-      else
-         open (newunit=self%unit, file=path//suffix, status='replace', action='write', recl=longest_line, &
-               iostat=self%status)
-      end if
-      self%is_open = self%status == 0
+      allocate (character(room) :: self%buffer)
+      if (path /= '') call create_file(path//suffix, self%descriptor)
+      self%fault = path /= '' .and. self%descriptor < 0
+      self%is_open = .not. self%fault
    end subroutine start
 
 
@@ -45,16 +43,42 @@ contains
    subroutine put(self, line)
       class(output_file_type), intent(inout) :: self
       character(*), intent(in)               :: line
+      integer :: length
 
-      if (self%status == 0) write (self%unit, '(a)', iostat=self%status) trim(line)
+      if (self%fault) return
+      length = len_trim(line)
+      if (self%used + length + 1 > len(self%buffer)) call make_room(self, length + 1)
+      if (self%fault) return
+      self%buffer(self%used + 1:self%used + length) = line(:length)
+      self%used = self%used + length + 1
+      self%buffer(self%used:self%used) = new_line('a')
    end subroutine put
+
+
+   !> Empty the buffer into the file; for the standard output, make the buffer larger.
+   subroutine make_room(self, needed)
+      class(output_file_type), intent(inout) :: self
+      integer, intent(in)                    :: needed
+      character(:), allocatable :: wider
+      logical :: ok
+
+      if (self%path /= '') then
+         call write_bytes(self%descriptor, self%buffer(:self%used), ok)
+         self%fault = .not. ok
+         self%used = 0
+      end if
+      if (self%used + needed <= len(self%buffer)) return
+      allocate (character(2*len(self%buffer) + needed) :: wider)
+      wider(:self%used) = self%buffer(:self%used)
+      call move_alloc(wider, self%buffer)
+   end subroutine make_room
 
 
    !> Whether anything could not be written.
    pure logical function failed(self)
       class(output_file_type), intent(in) :: self
 
-      failed = self%status /= 0
+      failed = self%fault
    end function failed
 
 
@@ -62,46 +86,35 @@ contains
    subroutine finish(self, ok)
       class(output_file_type), intent(inout) :: self
       logical, intent(out)                   :: ok
-      character(longest_line) :: line
-      integer :: status
+      logical :: closed
 
       ok = .false.
       if (.not. self%is_open) return
-      if (self%status == 0) flush (self%unit, iostat=self%status)
-      if (self%status /= 0) then
-         call self%discard()
-         return
+      if (.not. self%fault) then
+         call write_bytes(merge(1, self%descriptor, self%path == ''), self%buffer(:self%used), ok)
+         self%used = 0
       end if
       if (self%path /= '') then
-         close (self%unit, iostat=self%status)
-         self%is_open = .false.
-         if (self%status == 0) call rename_file(self%path//suffix, self%path, ok)
+         call close_file(self%descriptor, closed)
+         ok = ok .and. closed
+         if (ok) call rename_file(self%path//suffix, self%path, ok)
          if (.not. ok) call remove_file(self%path//suffix)
-         return
       end if
-      rewind (self%unit)
-      do
-         read (self%unit, '(a)', iostat=status) line
-         if (status /= 0) exit
-         write (output_unit, '(a)', iostat=self%status) trim(line)
-         if (self%status /= 0) exit
-      end do
-      if (self%status == 0) flush (output_unit, iostat=self%status)
-      close (self%unit)
       self%is_open = .false.
-      ok = self%status == 0
+      self%fault = .not. ok
    end subroutine finish
 
 
    !> Leave nothing behind.
    subroutine discard(self)
       class(output_file_type), intent(inout) :: self
-      integer :: status
+      logical :: closed
 
       if (.not. self%is_open) return
-      close (self%unit, iostat=status)
       self%is_open = .false.
-      if (self%path /= '') call remove_file(self%path//suffix)
+      if (self%path == '') return
+      call close_file(self%descriptor, closed)
+      call remove_file(self%path//suffix)
    end subroutine discard
 
 end module output_file

@@ -35,6 +35,7 @@ contains
 
       results%listing_path = listing_path
       results%history_path = history_path
+      call remove_old_results(listing_path, history_path)
       call start_listing(results%listing, listing_path, deck, model, plan, system)
       ok = .not. results%listing%file%failed()
       if (history_path /= '') then

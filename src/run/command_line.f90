@@ -1,14 +1,14 @@
 !> The command line: options and decks.
 module command_line
-   use, intrinsic :: iso_fortran_env, only: error_unit, output_unit
+   use, intrinsic :: iso_fortran_env, only: error_unit
+   use c_library, only: true_path
+   use command_tools, only: argument_text, say, standard_input, version
    use deck_numbers, only: parse_integer
    use text_tools, only: integer_text
    implicit none
    private
 
-   public :: read_command_line
-
-   character(*), parameter :: version = '0.1.0'
+   public :: read_command_line, is_result_of
 
    !> One deck of the command and the files that its results go to.
    type, public :: deck_argument
@@ -59,12 +59,10 @@ contains
          case ('--')
             options = .false.
          case ('--help', '-h')
-            call print_help()
-            status = 0
+            call print_help(status)
             return
          case ('--version')
-            write (output_unit, '(a)') 'jointfem '//version
-            status = 0
+            call say('jointfem '//version, status)
             return
          case ('--check')
             command%check_only = .true.
@@ -102,17 +100,6 @@ contains
    end subroutine read_command_line
 
 
-   function argument_text(i) result(text)
-      integer, intent(in)       :: i
-      character(:), allocatable :: text
-      integer :: length
-
-      call get_command_argument(i, length=length)
-      allocate (character(length) :: text)
-      call get_command_argument(i, text)
-   end function argument_text
-
-
    subroutine add_deck(command, name)
       type(command_type), intent(inout) :: command
       character(*), intent(in)          :: name
@@ -122,7 +109,7 @@ contains
       deck%path = name
       if (name == '-') then
          deck%name = 'standard input'
-         deck%path = '/dev/stdin'
+         deck%path = standard_input
       end if
       deck%listing = ''
       deck%history = ''
@@ -139,7 +126,7 @@ contains
       ok = .false.
       do i = 1, size(command%decks)
          associate (deck => command%decks(i))
-            if (deck%path == '/dev/stdin') cycle
+            if (deck%path == standard_input) cycle
             deck%listing = command%folder//base_name(deck%path)//'.out'
             deck%history = command%folder//base_name(deck%path)//'.joint.csv'
             do k = 1, i - 1
@@ -152,7 +139,7 @@ contains
       end do
       do i = 1, size(command%decks)
          do k = 1, size(command%decks)
-            if (command%decks(i)%path == command%decks(k)%listing .or. command%decks(i)%path == command%decks(k)%history) then
+            if (is_result_of(true_path(command%decks(i)%path), command%decks(k))) then
                call complain('the results of '//command%decks(k)%name//' would overwrite the deck '//command%decks(i)%name)
                return
             end if
@@ -160,6 +147,35 @@ contains
       end do
       ok = .true.
    end subroutine name_results
+
+
+   !> Whether the file with the true path FILE is one that the results of DECK would be written to, however it is named.
+   logical function is_result_of(file, deck)
+      character(*), intent(in)        :: file
+      type(deck_argument), intent(in) :: deck
+
+      is_result_of = .false.
+      if (deck%listing == '') return
+      if (file == in_true_folder(deck%listing)) is_result_of = .true.
+      if (file == in_true_folder(deck%history)) is_result_of = .true.
+      if (file == true_path(deck%listing)) is_result_of = .true.
+      if (file == true_path(deck%history)) is_result_of = .true.
+   end function is_result_of
+
+
+   !> PATH with its folder resolved, whether or not the file is there.
+   function in_true_folder(path) result(resolved)
+      character(*), intent(in)  :: path
+      character(:), allocatable :: resolved
+      integer :: slash
+
+      slash = index(path, '/', back=.true.)
+      if (slash == 0) then
+         resolved = true_path('.')//'/'//path
+      else
+         resolved = true_path(path(:slash))//'/'//path(slash + 1:)
+      end if
+   end function in_true_folder
 
 
    !> PATH without its folder and its last extension.
@@ -181,25 +197,27 @@ contains
    end subroutine complain
 
 
-   subroutine print_help()
+   subroutine print_help(status)
+      integer, intent(out) :: status
+      character(*), parameter :: nl = new_line('a')
 
-      write (output_unit, '(a)') &
-         'usage: jointfem [options] DECK...', &
-         '', &
-         'Solves each deck: a structure with flexible joints, loaded in increments. A deck `-` is read from the', &
-         'standard input, and its listing goes to the standard output. For beam.bdf the results are beam.out, the', &
-         'listing, and beam.joint.csv, every interface element after every increment.', &
-         '', &
-         '   -o DIR        where the results go (default: here)', &
-         '   --check       read and check the decks, solve nothing', &
-         '   -q            no progress on the terminal', &
-         '   --threads N   at most N threads (default: all cores)', &
-         '   --version     print the version', &
-         '   --help        print this', &
-         '', &
-         'exit status: 0 all decks ran, 1 wrong usage or unreadable file, 2 errors in a deck, 3 a structure that', &
-         'cannot be solved, 4 output that cannot be written; of several decks the highest. The cards are explained', &
-         'in input/README.md.'
+      call say( &
+         'usage: jointfem [options] DECK...'//nl// &
+         ''//nl// &
+         'Solves each deck: a structure with flexible joints, loaded in increments. A deck `-` is read from the'//nl// &
+         'standard input, and its listing goes to the standard output. For beam.bdf the results are beam.out, the'//nl// &
+         'listing, and beam.joint.csv, every interface element after every increment.'//nl// &
+         ''//nl// &
+         '   -o DIR        where the results go (default: here)'//nl// &
+         '   --check       read and check the decks, solve nothing'//nl// &
+         '   -q            no progress on the terminal'//nl// &
+         '   --threads N   at most N threads (default: all cores)'//nl// &
+         '   --version     print the version'//nl// &
+         '   --help        print this'//nl// &
+         ''//nl// &
+         'exit status: 0 all decks ran, 1 wrong usage or unreadable file, 2 errors in a deck, 3 a structure that'//nl// &
+         'cannot be solved, 4 output that cannot be written; of several decks the highest. The cards are explained'//nl// &
+         'in input/README.md.', status)
    end subroutine print_help
 
 end module command_line

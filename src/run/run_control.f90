@@ -1,11 +1,12 @@
 !> The run of one deck among several: what it is called, what its exit status is, what is said on the terminal.
 module run_control
-   use, intrinsic :: iso_fortran_env, only: error_unit, output_unit
-   use c_library, only: end_run
-   use command_line, only: command_type, deck_argument
+   use, intrinsic :: iso_fortran_env, only: error_unit
+   use c_library, only: end_run, write_bytes
+   use command_tools, only: why_unreadable
+   use command_line, only: command_type, deck_argument, is_result_of
    use deck_errors, only: deck_error_list
    use deck_input, only: deck_type
-   use error_report, only: print_deck_errors
+   use error_report, only: print_errors
    use failures, only: failure_type
    use model_data, only: model_type
    use results, only: discard_results, remove_old_results, results_type
@@ -14,29 +15,15 @@ module run_control
    implicit none
    private
 
-   public :: set_threads, report_unreadable, report_errors, report_failure, report_unwritten, report_checked, &
-             report_warnings, end_program
+   public :: overwrites_input, report_unreadable, report_errors, report_failure, &
+             report_unwritten, report_checked, report_warnings, end_program
 
    integer, parameter :: status_unreadable = 1, status_deck = 2, status_unsolved = 3, status_unwritten = 4
 
    !> Highest exit status so far.
    integer, public, protected :: exit_status = 0
 
-   interface
-      subroutine openblas_set_num_threads(n) bind(c, name='openblas_set_num_threads')
-         use, intrinsic :: iso_c_binding, only: c_int
-         integer(c_int), value :: n
-      end subroutine openblas_set_num_threads
-   end interface
-
 contains
-
-   !> The profile method works in one thread: one order of additions, the same digits everywhere.
-   subroutine set_threads()
-
-      call openblas_set_num_threads(1)
-   end subroutine set_threads
-
 
    subroutine raise_status(status)
       integer, intent(in) :: status
@@ -48,19 +35,26 @@ contains
    !> The deck file cannot be read at all.
    subroutine report_unreadable(argument)
       type(deck_argument), intent(in) :: argument
-      logical :: there, is_folder
 
       call raise_status(status_unreadable)
-      inquire (file=argument%path, exist=there)
-      inquire (file=argument%path//'/.', exist=is_folder)
-      if (is_folder) then
-         write (error_unit, '(2a)') argument%name, ': a directory, expected a deck'
-      else if (there) then
-         write (error_unit, '(2a)') argument%name, ': cannot be read'
-      else
-         write (error_unit, '(2a)') argument%name, ': no such file'
-      end if
+      write (error_unit, '(3a)') argument%name, ': ', why_unreadable(argument%path, 'a deck')
    end subroutine report_unreadable
+
+
+   !> Whether a file that the deck includes is one that its results would be written to: said, and status 1.
+   logical function overwrites_input(argument, deck)
+      type(deck_argument), intent(in) :: argument
+      type(deck_type), intent(in)     :: deck
+      integer :: i
+
+      overwrites_input = .false.
+      do i = 2, deck%text%n_files
+         if (.not. is_result_of(deck%text%files(i)%true_path, argument)) cycle
+         overwrites_input = .true.
+         call raise_status(status_unreadable)
+         write (error_unit, '(3a)') argument%name, ': its results would overwrite the INCLUDE file ', deck%text%files(i)%path
+      end do
+   end function overwrites_input
 
 
    !> The deck has errors: all of them, and no result of an earlier run is left to be mistaken for its own.
@@ -71,7 +65,7 @@ contains
       type(deck_error_list), intent(in) :: errors
 
       call raise_status(status_deck)
-      call print_deck_errors(error_unit, deck%text, errors)
+      call print_errors(error_unit, 'DECK', 'nothing solved', deck%text, errors)
       if (.not. command%check_only) call remove_old_results(argument%listing, argument%history)
    end subroutine report_errors
 
@@ -121,10 +115,12 @@ contains
       type(deck_argument), intent(in)   :: argument
       type(model_type), intent(in)      :: model
       type(stage_plan_type), intent(in) :: plan
+      logical :: ok
 
-      write (output_unit, '(9a)') argument%name, ': no errors; ', plural(model%n_nodes, 'node'), ', ', &
-         plural(model%n_elements, 'body element'), ', ', plural(size(model%interface), 'interface element'), ', ', &
-         plural(size(plan%stages), 'stage')
+      call write_bytes(1, argument%name//': no errors; '//plural(model%n_nodes, 'node')//', '// &
+                       plural(model%n_elements, 'body element')//', '//plural(size(model%interface), 'interface element')// &
+                       ', '//plural(size(plan%stages), 'stage')//new_line('a'), ok)
+      if (.not. ok) call raise_status(status_unwritten)
    end subroutine report_checked
 
 
@@ -132,7 +128,6 @@ contains
    subroutine end_program(status)
       integer, intent(in) :: status
 
-      flush (output_unit)
       call end_run(max(status, exit_status))
    end subroutine end_program
 

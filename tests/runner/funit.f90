@@ -290,7 +290,7 @@ contains
 
    pure type(operand) function real_vector(x)
       real(wp), intent(in) :: x(:)
-      real_vector = operand('real', 1, [size(x), 1], x, '')
+      real_vector = operand('real', 1, [size(x), 1], [x], '') ! [x]: a strided section is copied rightly
    end function real_vector
 
    pure type(operand) function real_matrix(x)

@@ -1,0 +1,72 @@
+!> What the command lines of the programs have in common: arguments, version, the standard output, why a file cannot be read,
+!! one thread for BLAS.
+module command_tools
+   use, intrinsic :: iso_c_binding, only: c_int
+   use c_library, only: write_bytes
+   implicit none
+   private
+
+   public :: argument_text, say, why_unreadable, use_one_thread
+
+   character(*), parameter, public :: version = '0.1.0'
+   character(*), parameter, public :: standard_input = '/dev/stdin' !! the file that `-` means
+
+   interface
+      subroutine openblas_set_num_threads(n) bind(c, name='openblas_set_num_threads')
+         import :: c_int
+         integer(c_int), value :: n
+      end subroutine openblas_set_num_threads
+   end interface
+
+contains
+
+   !> Argument I of the command, whole; empty where there is none.
+   function argument_text(i) result(text)
+      integer, intent(in)       :: i
+      character(:), allocatable :: text
+      integer :: length
+
+      length = 0
+      if (i <= command_argument_count()) call get_command_argument(i, length=length)
+      allocate (character(length) :: text)
+      if (length > 0) call get_command_argument(i, text)
+   end function argument_text
+
+
+   !> Write TEXT and a line end on the standard output; STATUS is 0, or 4 where it cannot be written.
+   subroutine say(text, status)
+      character(*), intent(in) :: text
+      integer, intent(out)     :: status
+      logical :: ok
+
+      call write_bytes(1, text//new_line('a'), ok)
+      status = merge(0, 4, ok)
+   end subroutine say
+
+
+   !> Words for a file that cannot be read; EXPECTED is what it should have been, 'a deck'.
+   function why_unreadable(path, expected) result(words)
+      character(*), intent(in)  :: path, expected
+      character(:), allocatable :: words
+      logical :: there, is_folder
+
+      is_folder = .false.
+      inquire (file=path, exist=there)
+      if (path /= '') inquire (file=path//'/.', exist=is_folder)
+      if (is_folder) then
+         words = 'a directory, expected '//expected
+      else if (there .and. path /= '') then
+         words = 'cannot be read'
+      else
+         words = 'no such file'
+      end if
+   end function why_unreadable
+
+
+   !> One order of additions, the same digits everywhere.
+   subroutine use_one_thread()
+
+      call openblas_set_num_threads(1_c_int)
+   end subroutine use_one_thread
+
+end module command_tools

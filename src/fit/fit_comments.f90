@@ -1,0 +1,251 @@
+!> What stands above the fitted cards: data, residuals, range, coefficients, warnings.
+module fit_comments
+   use branch_fit, only: branch_fit_type, residual_type
+   use fit_branches, only: branch_letters, branch_words, fit_load, fit_reload, fit_unload
+   use command_tools, only: version
+   use fit_command, only: fit_command_type
+   use kinds, only: wp
+   use law_cards, only: coefficient_line, jnorm_card, jshear_card
+   use output_file, only: output_file_type
+   use surface_fit, only: surface_fit_type
+   use fit_data, only: column_d, column_p, data_normal, test_data_type
+   use text_tools, only: integer_text, plural, real_text
+   implicit none
+   private
+
+   public :: write_cards
+
+contains
+
+   !> Write the card of one surface with its comments. NAME is the data file, ID the card's.
+   subroutine write_cards(name, data, command, id, fit, out)
+      character(*), intent(in)              :: name
+      type(test_data_type), intent(in)      :: data
+      type(fit_command_type), intent(in)    :: command
+      integer, intent(in)                   :: id
+      type(surface_fit_type), intent(in)    :: fit
+      type(output_file_type), intent(inout) :: out
+      integer :: k
+
+      call comment(out, '', 'fitted by jointfit '//version//' to '//name)
+      if (data%units /= '') call comment(out, 'units', data%units)
+      if (fit%kind == data_normal) then
+         call describe_normal(fit, out)
+      else
+         call describe_shear(data, command, fit, out)
+      end if
+      do k = 1, fit%warnings%n
+         call comment(out, 'WARNING', fit%warnings%items(k)%message)
+      end do
+      if (fit%kind == data_normal) then
+         call put_lines(out, '', jnorm_card(id, fit%c, fit%m, command%small))
+      else if (fit%has_loading) then
+         call put_lines(out, '', jshear_card(id, fit%card, fit%branch%n_points > 0, fit%p_max, fit%d_max, command%small))
+      else
+         do k = fit_unload, fit_reload
+            if (fit%branch(k)%n_points == 0) cycle
+            call comment(out, '', 'no card: there are no loading data. The '//trim(branch_words(k))// &
+                         ' continuation of a JSHEAR card, without its $:')
+            call put_lines(out, '$', coefficient_line(fit%card(:, :, k), command%small))
+         end do
+      end if
+   end subroutine write_cards
+
+
+   subroutine describe_normal(fit, out)
+      type(surface_fit_type), intent(in)    :: fit
+      type(output_file_type), intent(inout) :: out
+
+      call comment(out, 'law', 'lambda = c p^m, c = '//real_text(fit%c)//', m = '//real_text(fit%m))
+      call comment(out, 'data', plural(fit%n_points, 'point')//', p '//range_text(fit%p_low, fit%p_high)//', lambda to '// &
+                   real_text(fit%lambda_high))
+      call comment(out, 'residual', 'of lambda: rms '//real_text(fit%rms)//', largest '//real_text(fit%largest)// &
+                   ' at p = '//real_text(fit%p_largest))
+   end subroutine describe_normal
+
+
+   subroutine describe_shear(data, command, fit, out)
+      type(test_data_type), intent(in)      :: data
+      type(fit_command_type), intent(in)    :: command
+      type(surface_fit_type), intent(in)    :: fit
+      type(output_file_type), intent(inout) :: out
+      integer :: b, left_out
+
+      call comment(out, 'law', 'tau = (a11 + a12 p) d + (a21 + a22 p) d^2 + (a31 + a32 p) d^3, b unloading, c reloading')
+      do b = fit_load, fit_reload
+         if (fit%branch(b)%n_points == 0) then
+            if (b /= fit_load .and. fit%has_loading) call comment(out, branch_words(b), 'no data: left blank, as loading')
+            cycle
+         end if
+         if (fit%source(b) /= b) call comment(out, branch_words(b), 'taken from the '// &
+                                              trim(branch_words(fit%source(b)))//' data')
+         if (fit%branch(b)%from_points) then
+            call describe_points(data, fit, b, command%joint_fit, out)
+         else
+            call describe_cubics(fit, b, out)
+         end if
+      end do
+      left_out = data%n - sum(fit%branch%n_points)
+      if (left_out > 0) call comment(out, '', plural(left_out, 'row')//' of other branches left out')
+      if (fit%has_loading .and. fit%d_max <= 0.0_wp) call comment(out, 'DMAX', 'left blank: the data do not show it')
+   end subroutine describe_shear
+
+
+   !> A branch that was fitted to test points.
+   subroutine describe_points(data, fit, b, joint_fit, out)
+      type(test_data_type), intent(in)      :: data
+      type(surface_fit_type), intent(in)    :: fit
+      integer, intent(in)                   :: b
+      logical, intent(in)                   :: joint_fit
+      type(output_file_type), intent(inout) :: out
+      integer, allocatable :: rows(:)
+      integer :: i
+
+      rows = pack([(i, i = 1, data%n)], data%branch(:data%n) == fit%source(b))
+      associate (branch => fit%branch(b))
+         call comment(out, branch_words(b), plural(branch%n_points, 'point')//' at '// &
+                      plural(size(branch%group_p), 'pressure')//', p '//range_text(branch%p_low, branch%p_high)//', d '// &
+                      range_text(branch%d_low, branch%d_high))
+         if (branch%two_step) then
+            call table_of_cubics(branch, b, out)
+            call comment(out, '', 'residual of these cubics: '//residual_words(branch%of_cubics))
+         end if
+         if (branch%two_step) then
+            call comment(out, '', 'lines through their coefficients (Fig. 2)'//on_card(.not. joint_fit)//':')
+            call lines_of_coefficients(branch, b, branch%lines, .true., out)
+            call comment(out, '', '   residual: '//residual_words(branch%of_lines))
+         end if
+         call comment(out, '', 'all points in one step'//on_card(joint_fit)//':')
+         call lines_of_coefficients(branch, b, branch%joint, .false., out)
+         call comment(out, '', '   residual: '//residual_words(branch%of_joint))
+      end associate
+
+   contains
+
+      function residual_words(residual) result(words)
+         type(residual_type), intent(in) :: residual
+         character(:), allocatable :: words
+
+         words = 'rms '//real_text(residual%rms)//', largest '//real_text(residual%largest)//' at p = '// &
+                 real_text(data%value(column_p, rows(residual%at)))//', d = '// &
+                 real_text(data%value(column_d, rows(residual%at)))
+      end function residual_words
+
+   end subroutine describe_points
+
+
+   !> A branch of which the cubics were given.
+   subroutine describe_cubics(fit, b, out)
+      type(surface_fit_type), intent(in)    :: fit
+      integer, intent(in)                   :: b
+      type(output_file_type), intent(inout) :: out
+
+      associate (branch => fit%branch(b))
+         call comment(out, branch_words(b), plural(branch%n_points, 'cubic')//' given, p '// &
+                      range_text(branch%p_low, branch%p_high))
+         call table_of_cubics(branch, b, out)
+         call comment(out, '', 'lines through their coefficients (Fig. 2), on the card:')
+         call lines_of_coefficients(branch, b, branch%lines, .true., out)
+      end associate
+   end subroutine describe_cubics
+
+
+   !> The cubic of each pressure, the points of Fig. 2.
+   subroutine table_of_cubics(branch, b, out)
+      type(branch_fit_type), intent(in)     :: branch
+      integer, intent(in)                   :: b
+      type(output_file_type), intent(inout) :: out
+      character(14) :: cells(6)
+      character(1)  :: letter
+      integer :: i, first
+
+      letter = branch_letters(b)
+      first = merge(2, 3, branch%constant)
+      cells = [character(14) :: 'p', letter//'0', letter//'1', letter//'2', letter//'3', 'points']
+      call row()
+      do i = 1, size(branch%group_p)
+         cells = [character(14) :: real_text(branch%group_p(i)), real_text(branch%cubic(0, i)), &
+                  real_text(branch%cubic(1, i)), real_text(branch%cubic(2, i)), real_text(branch%cubic(3, i)), '']
+         if (branch%from_points) cells(6) = integer_text(count(branch%group == i))
+         call row()
+      end do
+
+   contains
+
+      subroutine row()
+         character(:), allocatable :: words
+         integer :: k
+
+         words = cells(1)
+         do k = first, merge(6, 5, branch%from_points)
+            words = words//cells(k)
+         end do
+         call comment(out, '', '   '//words)
+      end subroutine row
+
+   end subroutine table_of_cubics
+
+
+   !> a1 = a11 + a12 p and so on; WITH_SCATTER says how far the coefficients of the cubics lie off.
+   subroutine lines_of_coefficients(branch, b, lines, with_scatter, out)
+      type(branch_fit_type), intent(in)     :: branch
+      integer, intent(in)                   :: b
+      real(wp), intent(in)                  :: lines(2, 3)
+      logical, intent(in)                   :: with_scatter
+      type(output_file_type), intent(inout) :: out
+      character(40) :: words
+      integer :: k
+
+      do k = 1, 3
+         words = '   '//branch_letters(b)//integer_text(k)//' = '//real_text(lines(1, k))// &
+                 merge(' - ', ' + ', lines(2, k) < 0.0_wp)//real_text(abs(lines(2, k)))//' p'
+         if (with_scatter) then
+            call comment(out, '', words//'scatter rms '//real_text(branch%of_coefficients(k)%rms)//', largest '// &
+                         real_text(branch%of_coefficients(k)%largest)//' at p = '// &
+                         real_text(branch%group_p(branch%of_coefficients(k)%at)))
+         else
+            call comment(out, '', words)
+         end if
+      end do
+   end subroutine lines_of_coefficients
+
+
+   pure function on_card(chosen) result(words)
+      logical, intent(in)       :: chosen
+      character(:), allocatable :: words
+
+      words = trim(merge(', on the card', '             ', chosen))
+   end function on_card
+
+
+   pure function range_text(low, high) result(words)
+      real(wp), intent(in)      :: low, high
+      character(:), allocatable :: words
+
+      words = real_text(low)//' to '//real_text(high)
+   end function range_text
+
+
+   !> One comment line: a word in a column of its own, then the text.
+   subroutine comment(out, label, words)
+      type(output_file_type), intent(inout) :: out
+      character(*), intent(in)              :: label, words
+      character(9) :: column
+
+      column = label
+      call out%put('$ '//column//words)
+   end subroutine comment
+
+
+   subroutine put_lines(out, before, lines)
+      type(output_file_type), intent(inout) :: out
+      character(*), intent(in)              :: before
+      character(80), intent(in)             :: lines(:)
+      integer :: k
+
+      do k = 1, size(lines)
+         call out%put(before//lines(k))
+      end do
+   end subroutine put_lines
+
+end module fit_comments

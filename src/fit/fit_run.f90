@@ -1,0 +1,76 @@
+!> The run of jointfit: what is said on the standard error, and the exit status.
+module fit_run
+   use, intrinsic :: iso_fortran_env, only: error_unit
+   use c_library, only: end_run
+   use command_tools, only: why_unreadable
+   use deck_errors, only: deck_error_list
+   use deck_text, only: deck_text_type
+   use error_report, only: print_errors
+   use fit_command, only: data_argument
+   use output_file, only: output_file_type
+   use surface_fit, only: surface_fit_type
+   use fit_data, only: data_normal
+   implicit none
+   private
+
+   public :: report_unreadable_data, report_data_errors, report_fit, finish_output, end_fit
+
+   integer, parameter :: status_unreadable = 1, status_data = 2, status_unwritten = 4
+
+   integer :: exit_status = 0 ! the highest so far
+
+contains
+
+   subroutine report_unreadable_data(file)
+      type(data_argument), intent(in) :: file
+
+      exit_status = max(exit_status, status_unreadable)
+      write (error_unit, '(3a)') file%name, ': ', why_unreadable(file%path, 'a file of test data')
+   end subroutine report_unreadable_data
+
+
+   !> All errors of a data file.
+   subroutine report_data_errors(text, errors)
+      type(deck_text_type), intent(in)  :: text
+      type(deck_error_list), intent(in) :: errors
+
+      exit_status = max(exit_status, status_data)
+      call print_errors(error_unit, 'DATA', 'no card written', text, errors)
+   end subroutine report_data_errors
+
+
+   !> The warnings of a fit, and that there is no card for want of loading data.
+   subroutine report_fit(file, fit)
+      type(data_argument), intent(in)    :: file
+      type(surface_fit_type), intent(in) :: fit
+      integer :: k
+
+      do k = 1, fit%warnings%n
+         write (error_unit, '(3a)') file%name, ': WARNING: ', fit%warnings%items(k)%message
+      end do
+      if (fit%kind == data_normal .or. fit%has_loading) return
+      exit_status = max(exit_status, status_data)
+      write (error_unit, '(2a)') file%name, ': no LOAD data, and a JSHEAR card needs the loading coefficients: those of the'// &
+         ' other branches are written as comments; --branch RELOAD --as LOAD makes a card of RELOAD data'
+   end subroutine report_fit
+
+
+   subroutine finish_output(out)
+      type(output_file_type), intent(inout) :: out
+      logical :: ok
+
+      call out%finish(ok)
+      if (ok) return
+      exit_status = max(exit_status, status_unwritten)
+      write (error_unit, '(a)') 'jointfit: the cards cannot be written to the standard output'
+   end subroutine finish_output
+
+
+   !> End with STATUS, or the highest of the files where that is higher.
+   subroutine end_fit(status)
+      integer, intent(in) :: status
+
+      call end_run(max(status, exit_status))
+   end subroutine end_fit
+
+end module fit_run

@@ -1,0 +1,59 @@
+!> jointfit: the cards of a joint's laws, JNORM and JSHEAR, from test data.
+program jointfit
+   use command_tools, only: use_one_thread
+   use deck_errors, only: deck_error_list
+   use fit_command, only: fit_command_type, read_fit_command
+   use fit_comments, only: write_cards
+   use fit_run, only: end_fit, finish_output, report_data_errors, report_fit, report_unreadable_data
+   use output_file, only: output_file_type
+   use slope_warnings, only: check_slopes
+   use surface_fit, only: fit_surface, surface_fit_type
+   use fit_data, only: read_test_data, test_data_type
+   implicit none
+   type(fit_command_type) :: command
+   type(output_file_type) :: out
+   integer :: i, status
+   logical :: finished
+
+   call read_fit_command(command, finished, status)
+   if (finished) call end_fit(status)
+   call use_one_thread()
+   call out%start('')
+   do i = 1, size(command%files)
+      call fit_file(i)
+   end do
+   call finish_output(out)
+   call end_fit(status)
+
+contains
+
+   subroutine fit_file(i)
+      integer, intent(in) :: i
+      type(test_data_type)   :: data
+      type(surface_fit_type) :: fit
+      type(deck_error_list)  :: errors
+      logical :: readable
+
+      ! ------------------------------------------------------------------ READ THE TEST DATA
+      call read_test_data(command%files(i)%path, command%files(i)%name, data, errors, readable)
+      if (.not. readable) then
+         call report_unreadable_data(command%files(i))
+         return
+      end if
+
+      ! ------------------------------------------------------------------ LEAST SQUARES
+      if (.not. errors%any()) call fit_surface(data, command, fit, errors)
+      if (errors%any()) then
+         call report_data_errors(data%text, errors)
+         return
+      end if
+
+      ! ------------------------------------------------------------------ POSITIVE SLOPE?
+      call check_slopes(fit)
+
+      ! ------------------------------------------------------------------ CARDS
+      call write_cards(command%files(i)%name, data, command, command%id + i - 1, fit, out)
+      call report_fit(command%files(i), fit)
+   end subroutine fit_file
+
+end program jointfit
