@@ -1,8 +1,12 @@
 !> The elements of the bodies, each by its kind: stiffness, stress. The one place that knows which kinds there are.
 module body_elements
+   use elasticity, only: plane_strain, plane_stress
+   use element_kinds, only: kind_quad4
+   use element_mapping, only: element_law, make_element_law
+   use isoparametric, only: stiffness
    use kinds, only: wp
-   use model_data, only: model_type
-   use quad4, only: plane_elasticity, quad4_stiffness, quad4_stress
+   use model_data, only: model_type, property_type
+   use stress_recovery, only: centre_stress
    implicit none
    private
 
@@ -14,11 +18,10 @@ contains
    pure subroutine element_stiffness(model, e, k)
       type(model_type), intent(in) :: model
       integer, intent(in)          :: e
-      real(wp), intent(out)        :: k(:, :) !! (8, 8)
+      real(wp), intent(inout)      :: k(:, :) !! (8, 8), set here
 
-      associate (property => model%properties(model%element_property(e)), nodes => model%element_nodes(:, e))
-         call quad4_stiffness(model%x(:2, nodes), plane_elasticity(property%e, property%nu, property%plane_strain), &
-                              property%thickness, k)
+      associate (nodes => model%element_nodes(:, e))
+         call stiffness(law_of(model%properties(model%element_property(e))), model%x(:2, nodes), k)
       end associate
    end subroutine element_stiffness
 
@@ -30,9 +33,8 @@ contains
       real(wp), intent(in)         :: u(:, :) !! (dimension, n_nodes) [length]
       real(wp) :: stress(3)
 
-      associate (property => model%properties(model%element_property(e)), nodes => model%element_nodes(:, e))
-         stress = quad4_stress(model%x(:2, nodes), plane_elasticity(property%e, property%nu, property%plane_strain), &
-                               reshape(u(:, nodes), [8]))
+      associate (nodes => model%element_nodes(:, e))
+         call centre_stress(law_of(model%properties(model%element_property(e))), model%x(:2, nodes), u(:, nodes), stress)
       end associate
    end function element_stress
 
@@ -53,5 +55,14 @@ contains
          end associate
       end do
    end subroutine internal_forces
+
+
+   !> The law of plane quadrilaterals with a property.
+   pure type(element_law) function law_of(property)
+      type(property_type), intent(in) :: property
+
+      law_of = make_element_law(kind_quad4, merge(plane_strain, plane_stress, property%plane_strain), property%e, property%nu, &
+                                property%thickness, incompatible=.false.)
+   end function law_of
 
 end module body_elements

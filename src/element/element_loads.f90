@@ -1,0 +1,125 @@
+!> Consistent nodal forces and areas of influence: of body forces over an element, of pressures over its sides.
+!! Source: Zienkiewicz, Taylor, Zhu, The Finite Element Method, 6th ed., sections 2.3 and 5.5.
+module element_loads
+   use elasticity, only: axisymmetric, solid
+   use element_kinds, only: kind_quad4, kind_tria3, max_nodes, max_side_nodes
+   use element_mapping, only: element_law, element_map, map_element, map_point, max_shapes, two_pi
+   use kinds, only: wp
+   use quadrature, only: body_rule, integration_rule, side_rule
+   use shape_functions, only: shape_derivatives, shape_values
+   implicit none
+   private
+
+   public :: body_forces, side_areas, side_forces
+
+contains
+
+   !> Nodal forces of a constant body force: F(:, i) = B times the integral of N_i over the element.
+   pure subroutine body_forces(law, x, b, f)
+      type(element_law), intent(in) :: law
+      real(wp), intent(in)    :: x(:, :)      !! corners (dimension, nodes) [length]
+      real(wp), intent(in)    :: b(:)         !! (dimension) force per volume, as rho*g [force/length^3]
+      real(wp), intent(inout) :: f(:, :)      !! (dimension, nodes) [force], set here
+      type(element_map)      :: map
+      type(integration_rule) :: rule
+      real(wp) :: g(3, max_shapes), n(max_nodes), share(max_nodes), volume
+      integer  :: i
+
+      call map_element(law, x, map)
+      call body_rule(law%kind, law%state == axisymmetric, rule)
+      share = 0.0_wp
+      do i = 1, rule%n
+         call map_point(law, map, rule%point(:, i), g, volume)
+         call shape_values(law%kind, rule%point(:, i), n)
+         share = share + n*(rule%weight(i)*volume)
+      end do
+      do i = 1, map%n
+         f(:size(b), i) = b*share(i)
+      end do
+   end subroutine body_forces
+
+
+   !> Areas of influence of one side, a_i = integral of N_i: an edge of a plane or axisymmetric body, a triangle or a
+   !! quadrilateral of a solid. Their sum is the area of the side.
+   pure subroutine side_areas(state, thickness, x, area)
+      integer, intent(in)     :: state        !! plane_stress ... solid
+      real(wp), intent(in)    :: thickness    !! of a plane body [length]
+      real(wp), intent(in)    :: x(:, :)      !! nodes of the side (dimension, 2, 3 or 4) [length]
+      real(wp), intent(inout) :: area(:)      !! (nodes of the side) [length^2], set here
+      type(integration_rule) :: rule
+      real(wp) :: n(max_side_nodes), normal(3)
+      integer  :: i, nodes
+
+      nodes = size(x, 2)
+      call side_rule(nodes, rule)
+      area(:nodes) = 0.0_wp
+      do i = 1, rule%n
+         call map_side(state, thickness, x, rule%point(:, i), n, normal)
+         area(:nodes) = area(:nodes) + n(:nodes)*(rule%weight(i)*sqrt(sum(normal**2)))
+      end do
+   end subroutine side_areas
+
+
+   !> Nodal forces of a pressure on one side, positive when it presses on the body: against the normal that points out. It
+   !! varies as the shape functions between its values at the nodes. With -1 at all nodes the result is the integral of
+   !! N_i times the outward normal.
+   pure subroutine side_forces(state, thickness, x, pressure, f)
+      integer, intent(in)     :: state        !! plane_stress ... solid
+      real(wp), intent(in)    :: thickness    !! of a plane body [length]
+      real(wp), intent(in)    :: x(:, :)      !! nodes of the side (dimension, 2, 3 or 4), in the order of element_kinds
+      real(wp), intent(in)    :: pressure(:)  !! (nodes of the side) [pressure]
+      real(wp), intent(inout) :: f(:, :)      !! (dimension, nodes of the side) [force], set here
+      type(integration_rule) :: rule
+      real(wp) :: n(max_side_nodes), normal(3), p
+      integer  :: d, i, k, nodes
+
+      d = size(x, 1)
+      nodes = size(x, 2)
+      call side_rule(nodes, rule)
+      f(:d, :nodes) = 0.0_wp
+      do i = 1, rule%n
+         call map_side(state, thickness, x, rule%point(:, i), n, normal)
+         p = rule%weight(i)*dot_product(n(:nodes), pressure(:nodes))
+         do k = 1, nodes
+            f(:d, k) = f(:d, k) - (p*n(k))*normal(:d)
+         end do
+      end do
+   end subroutine side_forces
+
+
+   !> Shape functions at a point of a side, and the outward normal there, as long as the area that a unit of weight stands
+   !! for.
+   pure subroutine map_side(state, thickness, x, point, n, normal)
+      integer, intent(in)   :: state
+      real(wp), intent(in)  :: thickness, x(:, :)
+      real(wp), intent(in)  :: point(3)                 !! local coordinates of the side
+      real(wp), intent(out) :: n(max_side_nodes)        !! [-]
+      real(wp), intent(out) :: normal(3)                !! [length^2]
+      real(wp) :: values(max_nodes), dn(3, max_nodes), a(3), b(3)
+      integer  :: i, kind
+
+      if (state /= solid) then
+         n = [0.5_wp*(1.0_wp - point(1)), 0.5_wp*(1.0_wp + point(1)), 0.0_wp, 0.0_wp]
+         normal = 0.5_wp*[x(2, 2) - x(2, 1), x(1, 1) - x(1, 2), 0.0_wp]
+         if (state == axisymmetric) then
+            normal = normal*(two_pi*(n(1)*x(1, 1) + n(2)*x(1, 2)))
+         else
+            normal = normal*thickness
+         end if
+      else
+         kind = kind_quad4
+         if (size(x, 2) == 3) kind = kind_tria3
+         call shape_values(kind, point, values)
+         call shape_derivatives(kind, point, dn)
+         n = values(:max_side_nodes)
+         a = 0.0_wp
+         b = 0.0_wp
+         do i = 1, size(x, 2)
+            a = a + dn(1, i)*x(:3, i)
+            b = b + dn(2, i)*x(:3, i)
+         end do
+         normal = [a(2)*b(3) - a(3)*b(2), a(3)*b(1) - a(1)*b(3), a(1)*b(2) - a(2)*b(1)]
+      end if
+   end subroutine map_side
+
+end module element_loads

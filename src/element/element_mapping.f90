@@ -1,0 +1,243 @@
+!> The map from local coordinates to the body: gradients of the shape functions, volumes, the shape of an element; and the
+!! law of an element, which all integrals over it share.
+!! Source: Zienkiewicz, Taylor, Zhu, The Finite Element Method, 6th ed., section 5.5; the incompatible modes: Taylor,
+!! Beresford, Wilson, A non-conforming element for stress analysis, Int. J. Numer. Meth. Engng 10 (1976) 1211-1219.
+module element_mapping
+   use elasticity, only: axisymmetric, elasticity_matrix, max_stresses, solid
+   use element_kinds, only: element_table, kind_hexa8, kind_penta6, kind_quad4, kind_tetra4, kind_tria3, max_nodes
+   use kinds, only: wp
+   use quadrature, only: body_rule, integration_rule
+   use shape_functions, only: centre_point, corner_point, shape_derivatives, shape_values
+   implicit none
+   private
+
+   public :: make_element_law, has_incompatible_modes, map_element, map_point, element_volume, smallest_jacobian
+
+   integer, parameter, public  :: max_shapes = max_nodes + 3 !! shape functions of an element and incompatible modes
+   real(wp), parameter, public :: two_pi = 2.0_wp*acos(-1.0_wp)
+
+   !> What elements of one kind, property and material have in common.
+   type, public :: element_law
+      integer  :: kind = 0                                !! kind_tria3 ... kind_hexa8
+      integer  :: state = 0                               !! plane_stress ... solid
+      real(wp) :: thickness = 1.0_wp                      !! of a plane body [length]; not used by the others
+      logical  :: incompatible = .false.                  !! with the modes of Wilson and Taylor, where the kind has them
+      real(wp) :: d(max_stresses, max_stresses) = 0.0_wp  !! [D]: isotropic, or orthotropic along the axes [pressure]
+   end type element_law
+
+   !> The corners of one element and what is the same at all its points.
+   type, public :: element_map
+      integer  :: n = 0                                   !! nodes
+      integer  :: n_modes = 0                             !! incompatible modes, each with one parameter a component
+      real(wp) :: x(3, max_nodes) = 0.0_wp                !! corners [length]
+      real(wp) :: inverse(3, 3) = 0.0_wp                  !! of the Jacobian matrix at the centre [1/length], with modes
+      real(wp) :: jacobian = 0.0_wp                       !! det J at the centre, with modes
+   end type element_map
+
+   real(wp), parameter :: flat = 1.0e-12_wp               ! relative to the longest edge: no volume but rounding
+
+contains
+
+   !> The law of an element of isotropic material.
+   pure type(element_law) function make_element_law(kind, state, e, nu, thickness, incompatible) result(law)
+      integer, intent(in)  :: kind, state                 !! kind_tria3 ... kind_hexa8; plane_stress ... solid
+      real(wp), intent(in) :: e, nu                       !! [pressure], > 0; [-], -1 < nu < 0.5
+      real(wp), intent(in) :: thickness                   !! of a plane body [length], > 0
+      logical, intent(in)  :: incompatible                !! wanted; taken where the kind has modes
+
+      law%kind = kind
+      law%state = state
+      law%thickness = thickness
+      law%incompatible = incompatible .and. has_incompatible_modes(kind, state)
+      call elasticity_matrix(state, e, nu, law%d)
+   end function make_element_law
+
+
+   !> Whether incompatible modes exist for a kind of element: the plane quadrilateral and the hexahedron.
+   pure logical function has_incompatible_modes(kind, state)
+      integer, intent(in) :: kind, state
+
+      has_incompatible_modes = kind == kind_hexa8 .or. (kind == kind_quad4 .and. state /= axisymmetric)
+   end function has_incompatible_modes
+
+
+   !> Take up the corners of an element.
+   pure subroutine map_element(law, x, map)
+      type(element_law), intent(in)  :: law
+      real(wp), intent(in)           :: x(:, :)           !! corners (dimension, nodes) in the order of the card [length]
+      type(element_map), intent(out) :: map
+      real(wp) :: dn(3, max_nodes)
+      integer  :: d, i
+
+      d = element_table(law%kind)%dimension
+      map%n = element_table(law%kind)%n_nodes
+      do i = 1, map%n
+         map%x(:d, i) = x(:d, i)
+      end do
+      if (.not. law%incompatible) return
+      map%n_modes = d
+      call shape_derivatives(law%kind, centre_point(:, law%kind), dn)
+      call invert_jacobian(d, map%n, map%x, dn, map%inverse, map%jacobian)
+   end subroutine map_element
+
+
+   !> Gradients at a point and the volume that a unit of weight stands for there. The first components are d/dx, d/dy, d/dz;
+   !! in an axisymmetric body the third is N/r, which makes the hoop strain. After the nodes come the incompatible modes
+   !! 1 - r**2, 1 - s**2, 1 - t**2, their gradients formed with J at the centre and the ratio of the determinants, so that
+   !! their integral over the element is zero whatever its shape: this is what passes the patch test.
+   pure subroutine map_point(law, map, point, g, volume)
+      type(element_law), intent(in) :: law
+      type(element_map), intent(in) :: map
+      real(wp), intent(in)    :: point(3)                 !! local coordinates
+      real(wp), intent(inout) :: g(3, max_shapes)         !! of nodes, then modes [1/length]; in the plane two rows are set
+      real(wp), intent(out)   :: volume                   !! [length^3]; det J times thickness, 2 pi r or 1
+      real(wp) :: dn(3, max_nodes), n(max_nodes), inverse(3, 3), jacobian, radius, factor
+      integer  :: i, k
+
+      call shape_derivatives(law%kind, point, dn)
+      if (law%state == solid) then
+         call invert_jacobian(3, map%n, map%x, dn, inverse, jacobian)
+         do i = 1, map%n
+            do k = 1, 3
+               g(k, i) = inverse(k, 1)*dn(1, i) + inverse(k, 2)*dn(2, i) + inverse(k, 3)*dn(3, i)
+            end do
+         end do
+         volume = jacobian
+      else
+         call invert_jacobian(2, map%n, map%x, dn, inverse, jacobian)
+         do i = 1, map%n
+            g(1, i) = inverse(1, 1)*dn(1, i) + inverse(1, 2)*dn(2, i)
+            g(2, i) = inverse(2, 1)*dn(1, i) + inverse(2, 2)*dn(2, i)
+         end do
+         volume = jacobian*law%thickness
+      end if
+      if (law%state == axisymmetric) then
+         call shape_values(law%kind, point, n)
+         radius = dot_product(n(:map%n), map%x(1, :map%n))
+         g(3, :map%n) = n(:map%n)/radius
+         volume = jacobian*two_pi*radius
+      end if
+      do i = 1, map%n_modes
+         factor = -2.0_wp*point(i)*map%jacobian/jacobian
+         g(:, map%n + i) = factor*map%inverse(:, i)
+      end do
+   end subroutine map_point
+
+
+   !> The derivatives of the local coordinates, and det J: d/dx_b = sum over a of inverse(b, a) d/d(local a).
+   pure subroutine invert_jacobian(dimension, n, x, dn, inverse, jacobian)
+      integer, intent(in)     :: dimension, n
+      real(wp), intent(in)    :: x(3, max_nodes)          !! corners [length]
+      real(wp), intent(in)    :: dn(3, max_nodes)         !! as from shape_derivatives
+      real(wp), intent(inout) :: inverse(3, 3)            !! dimension rows and columns are set [1/length]
+      real(wp), intent(out)   :: jacobian                 !! [length^dimension], not zero
+      real(wp) :: j(3, 3)
+
+      call jacobian_matrix(dimension, n, x, dn, j, jacobian)
+      if (dimension == 2) then
+         inverse(1, 1) = j(2, 2)/jacobian
+         inverse(1, 2) = -j(2, 1)/jacobian
+         inverse(2, 1) = -j(1, 2)/jacobian
+         inverse(2, 2) = j(1, 1)/jacobian
+      else
+         inverse(:, 1) = cross(j(:, 2), j(:, 3))/jacobian
+         inverse(:, 2) = cross(j(:, 3), j(:, 1))/jacobian
+         inverse(:, 3) = cross(j(:, 1), j(:, 2))/jacobian
+      end if
+   end subroutine invert_jacobian
+
+
+   !> The Jacobian matrix, j(b, a) = d x_b/d(local a), and its determinant.
+   pure subroutine jacobian_matrix(dimension, n, x, dn, j, jacobian)
+      integer, intent(in)     :: dimension, n
+      real(wp), intent(in)    :: x(3, max_nodes), dn(3, max_nodes)
+      real(wp), intent(inout) :: j(3, 3)
+      real(wp), intent(out)   :: jacobian
+      integer :: a, b, i
+
+      j = 0.0_wp
+      do i = 1, n
+         do a = 1, dimension
+            do b = 1, dimension
+               j(b, a) = j(b, a) + dn(a, i)*x(b, i)
+            end do
+         end do
+      end do
+      if (dimension == 2) then
+         jacobian = j(1, 1)*j(2, 2) - j(1, 2)*j(2, 1)
+      else
+         jacobian = dot_product(j(:, 1), cross(j(:, 2), j(:, 3)))
+      end if
+   end subroutine jacobian_matrix
+
+
+   pure function cross(a, b) result(c)
+      real(wp), intent(in) :: a(3), b(3)
+      real(wp) :: c(3)
+
+      c = [a(2)*b(3) - a(3)*b(2), a(3)*b(1) - a(1)*b(3), a(1)*b(2) - a(2)*b(1)]
+   end function cross
+
+
+   !> Volume of an element: area times thickness in the plane, of the whole ring in an axisymmetric body [length^3].
+   pure real(wp) function element_volume(law, x) result(total)
+      type(element_law), intent(in) :: law
+      real(wp), intent(in)          :: x(:, :)            !! corners (dimension, nodes) [length]
+      type(integration_rule) :: rule
+      type(element_map)      :: map
+      real(wp) :: g(3, max_shapes), volume
+      integer  :: i
+
+      call map_element(law, x, map)
+      call body_rule(law%kind, law%state == axisymmetric, rule)
+      total = 0.0_wp
+      do i = 1, rule%n
+         call map_point(law, map, rule%point(:, i), g, volume)
+         total = total + rule%weight(i)*volume
+      end do
+   end function element_volume
+
+
+   !> The smallest det J over the corners and the integration points, divided by the longest edge to the power of the
+   !! dimension and scaled so that a square or cube has 1 [-]. Not above zero for an element that is turned round, folded,
+   !! or flat to 1E-12. Of a solid the corners ask for more than the integration needs: one hexahedron of the patch of
+   !! MacNeal and Harder has -0.0127 at a corner.
+   pure real(wp) function smallest_jacobian(kind, x) result(smallest)
+      integer, intent(in)  :: kind                        !! kind_tria3 ... kind_hexa8
+      real(wp), intent(in) :: x(:, :)                     !! corners (dimension, nodes) [length]
+      real(wp), parameter  :: scale(5) = [1.0_wp, 4.0_wp, 1.0_wp, 2.0_wp, 8.0_wp] ! det J of a cube of edge 1, inverted
+      type(integration_rule) :: rule
+      real(wp) :: corners(3, max_nodes), dn(3, max_nodes), j(3, 3), jacobian, longest
+      integer  :: d, i, k, n, next, side
+
+      n = element_table(kind)%n_nodes
+      d = element_table(kind)%dimension
+      corners = 0.0_wp
+      corners(:d, :n) = x(:d, :n)
+      longest = 0.0_wp
+      do side = 1, element_table(kind)%n_sides
+         associate (m => element_table(kind)%side_size(side), nodes => element_table(kind)%side_nodes(:, side))
+            do i = 1, m
+               next = nodes(modulo(i, m) + 1)
+               longest = max(longest, sum((corners(:, next) - corners(:, nodes(i)))**2))
+            end do
+         end associate
+      end do
+      longest = sqrt(longest)
+      smallest = huge(1.0_wp)
+      call body_rule(kind, .false., rule)
+      do k = 1, n + rule%n
+         if (k <= n) call shape_derivatives(kind, corner_point(:, k, kind), dn)
+         if (k > n) call shape_derivatives(kind, rule%point(:, k - n), dn)
+         call jacobian_matrix(d, n, corners, dn, j, jacobian)
+         smallest = min(smallest, scale(kind)*jacobian)
+      end do
+      if (smallest > flat*longest**d) then
+         smallest = smallest/longest**d
+      else
+         smallest = min(smallest, 0.0_wp)
+         if (longest > 0.0_wp) smallest = smallest/longest**d
+      end if
+   end function smallest_jacobian
+
+end module element_mapping

@@ -1,0 +1,147 @@
+!> Stresses in an element under given displacements: at its centre, and at its corners from the integration points.
+!! Source: Zienkiewicz, Taylor, Zhu, The Finite Element Method, 6th ed., section 13.3; Hinton and Campbell, Local and global
+!! smoothing of discontinuous finite element functions, Int. J. Numer. Meth. Engng 8 (1974) 461-480.
+module stress_recovery
+   use elasticity, only: axisymmetric, max_stresses, n_stresses, solid
+   use element_kinds, only: element_table, kind_penta6, kind_tetra4, kind_tria3, max_nodes
+   use element_mapping, only: element_law, element_map, map_element, map_point, max_shapes
+   use isoparametric, only: condensed_stiffness, max_unknowns
+   use kinds, only: wp
+   use quadrature, only: body_rule, gauss, integration_rule
+   use shape_functions, only: centre_point, corner_point, shape_values
+   implicit none
+   private
+
+   public :: centre_stress, corner_stress
+
+contains
+
+   !> Stress at the centre, where a linear element is at its best. The incompatible modes have no strain there.
+   pure subroutine centre_stress(law, x, u, stress)
+      type(element_law), intent(in) :: law
+      real(wp), intent(in)    :: x(:, :)         !! corners (dimension, nodes) [length]
+      real(wp), intent(in)    :: u(:, :)         !! displacements (dimension, nodes) [length]
+      real(wp), intent(inout) :: stress(:)       !! (n_stresses(state)) [pressure], set here; components as in elasticity
+      type(element_map) :: map
+      real(wp) :: g(3, max_shapes), q(3, max_shapes), strain(max_stresses), volume
+      integer  :: n
+
+      call map_element(law, x, map)
+      call take_displacements(law, u, q)
+      call map_point(law, map, centre_point(:, law%kind), g, volume)
+      call strain_at(law, map%n, g, q, strain)
+      n = n_stresses(law%state)
+      stress(:n) = matmul(law%d(:n, :n), strain(:n))
+   end subroutine centre_stress
+
+
+   !> Stresses at the corners: those of the integration points, with the parameters of the incompatible modes, continued by
+   !! the shape functions through these points. Where the element has one such point its stress stands at all corners.
+   pure subroutine corner_stress(law, x, u, stress)
+      type(element_law), intent(in) :: law
+      real(wp), intent(in)    :: x(:, :)         !! corners (dimension, nodes) [length]
+      real(wp), intent(in)    :: u(:, :)         !! displacements (dimension, nodes) [length]
+      real(wp), intent(inout) :: stress(:, :)    !! (n_stresses(state), nodes) [pressure], set here
+      type(element_map)      :: map
+      type(integration_rule) :: rule
+      real(wp) :: g(3, max_shapes), q(3, max_shapes), strain(max_stresses), at_point(max_stresses, max_nodes)
+      real(wp) :: n(max_nodes), volume
+      integer  :: i, k, m
+
+      m = n_stresses(law%state)
+      call map_element(law, x, map)
+      call take_displacements(law, u, q)
+      if (map%n_modes > 0) call recover_modes(law, x, q)
+      call body_rule(law%kind, law%state == axisymmetric, rule)
+      do k = 1, rule%n
+         call map_point(law, map, rule%point(:, k), g, volume)
+         call strain_at(law, map%n + map%n_modes, g, q, strain)
+         at_point(:m, k) = matmul(law%d(:m, :m), strain(:m))
+      end do
+      do i = 1, map%n
+         if (rule%n == 1) then
+            stress(:m, i) = at_point(:m, 1)
+         else
+            call shape_values(law%kind, in_points(law%kind, corner_point(:, i, law%kind)), n)
+            stress(:m, i) = matmul(at_point(:m, :rule%n), n(:rule%n))
+         end if
+      end do
+   end subroutine corner_stress
+
+
+   !> A point in the local coordinates of the element whose corners are the integration points.
+   pure function in_points(kind, point) result(scaled)
+      integer, intent(in)  :: kind
+      real(wp), intent(in) :: point(3)
+      real(wp) :: scaled(3)
+
+      scaled = point/gauss
+      if (kind == kind_tria3 .or. kind == kind_penta6) scaled(:2) = 2.0_wp*point(:2) - 1.0_wp/3.0_wp
+   end function in_points
+
+
+   pure subroutine take_displacements(law, u, q)
+      type(element_law), intent(in) :: law
+      real(wp), intent(in)          :: u(:, :)
+      real(wp), intent(out)         :: q(3, max_shapes) !! zero for the modes, and for the third component in the plane
+      integer :: i
+
+      q = 0.0_wp
+      associate (kind => element_table(law%kind))
+         do i = 1, kind%n_nodes
+            q(:kind%dimension, i) = u(:kind%dimension, i)
+         end do
+      end associate
+   end subroutine take_displacements
+
+
+   !> Parameters of the incompatible modes, which the condensation has left behind: no force works on them.
+   pure subroutine recover_modes(law, x, q)
+      type(element_law), intent(in) :: law
+      real(wp), intent(in)          :: x(:, :)
+      real(wp), intent(inout)       :: q(3, max_shapes)
+      real(wp) :: full(max_unknowns, max_unknowns), values(max_unknowns)
+      integer  :: d, i, n, n_all, p
+
+      d = element_table(law%kind)%dimension
+      call condensed_stiffness(law, x, full, n, n_all)
+      do i = 1, n/d
+         values(d*(i - 1) + 1:d*i) = q(:d, i)
+      end do
+      do p = n + 1, n_all
+         values(p) = -dot_product(full(:p - 1, p), values(:p - 1))/full(p, p)
+      end do
+      do i = n/d + 1, n_all/d
+         q(:d, i) = values(d*(i - 1) + 1:d*i)
+      end do
+   end subroutine recover_modes
+
+
+   !> Strain at a point from the gradients of N shape functions there.
+   pure subroutine strain_at(law, n, g, q, strain)
+      type(element_law), intent(in) :: law
+      integer, intent(in)   :: n
+      real(wp), intent(in)  :: g(3, max_shapes)         !! as from map_point [1/length]
+      real(wp), intent(in)  :: q(3, max_shapes)         !! displacements, parameters of modes [length]
+      real(wp), intent(out) :: strain(max_stresses)     !! [-]
+      integer :: i
+
+      strain = 0.0_wp
+      do i = 1, n
+         strain(1) = strain(1) + g(1, i)*q(1, i)
+         strain(2) = strain(2) + g(2, i)*q(2, i)
+         if (law%state == solid) then
+            strain(3) = strain(3) + g(3, i)*q(3, i)
+            strain(4) = strain(4) + g(2, i)*q(1, i) + g(1, i)*q(2, i)
+            strain(5) = strain(5) + g(3, i)*q(2, i) + g(2, i)*q(3, i)
+            strain(6) = strain(6) + g(1, i)*q(3, i) + g(3, i)*q(1, i)
+         else if (law%state == axisymmetric) then
+            strain(3) = strain(3) + g(3, i)*q(1, i)
+            strain(4) = strain(4) + g(2, i)*q(1, i) + g(1, i)*q(2, i)
+         else
+            strain(3) = strain(3) + g(2, i)*q(1, i) + g(1, i)*q(2, i)
+         end if
+      end do
+   end subroutine strain_at
+
+end module stress_recovery
