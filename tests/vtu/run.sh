@@ -1,0 +1,90 @@
+#!/usr/bin/env bash
+# The .vtu and .pvd files: sample files are written, and read back by meshio and vtk; a disk that is full leaves none.
+#
+#    run.sh WORK_FOLDER [X.pvd ...]
+#
+# Compiles write_sample.f90 with the modules that it needs, from the root of the project (FC, default gfortran). Further
+# collections are opened and checked for sizes and finite values. PYTHON names a python3 that has meshio or vtk; without
+# it meshio is installed in WORK_FOLDER/venv where pip can, and the reading is skipped where not.
+# Ends with `N passed, N failed`.
+set -u
+export LC_ALL=C
+[ $# -ge 1 ] || { echo "usage: run.sh WORK_FOLDER [X.pvd ...]" >&2; exit 2; }
+work=$1; shift
+here=$(dirname "$0")
+passed=0 failed=0
+
+pass() { passed=$((passed + 1)); }
+fail() { failed=$((failed + 1)); echo "FAILED: $1"; }
+finish() { echo "$passed passed, $failed failed"; [ $failed -eq 0 ] && [ $passed -gt 0 ]; exit; }
+
+# ---- writing ----
+
+mkdir -p "$work/object"
+rm -rf "$work/sample" "$work/full"
+mkdir "$work/sample" "$work/full"
+sample=$work/write_sample
+if ${FC:-gfortran} -O2 -std=f2018 -Wall -Wextra -Werror -fno-backtrace -J"$work/object" -o "$sample" \
+   src/base/{kinds,c_library,text_tools}.f90 src/result/{output_file,vtu_file,pvd_file}.f90 "$here/write_sample.f90"
+then pass; else fail 'write_sample.f90 does not compile'; finish; fi
+
+"$sample" "$work/sample"
+[ $? -eq 0 ] && pass || fail 'the sample files are not written'
+[ -z "$(find "$work/sample" -name '*.part')" ] && pass || fail 'a .part file is left'
+
+# A limit on the size of files stands for the full disk: with its signal ignored (and not caught for a backtrace), a
+# write beyond it fails in the same way. The limits meet the header, an array, and the last bytes of the file.
+limited() { (trap '' XFSZ; ulimit -f "$1"; shift; exec "$sample" "$work/full" "$@") > "$work/log" 2>&1; }
+for n in 2000 100000; do
+   "$sample" "$work/full" $n > "$work/log" && pass || fail "$n points: not written"
+   size=$(wc -c < "$work/full/big.vtu")
+   rm -f "$work/full/big.vtu"
+   for kilobytes in 0 1 16 100 $(((size - 1) / 1024)); do
+      limited $kilobytes $n
+      status=$?
+      [ $status -eq 1 ] && pass || fail "$n points, $kilobytes kB: status $status"
+      [ -z "$(ls -A "$work/full")" ] && pass || fail "$n points, $kilobytes kB: left $(ls -A "$work/full")"
+      rm -f "$work/full"/*
+   done
+done
+limited 0
+[ $? -eq 1 ] && [ -z "$(ls -A "$work/full")" ] && pass || fail "no room at all: left $(ls -A "$work/full")"
+"$sample" "$work/full/no/folder" > "$work/log" 2>&1
+[ $? -eq 1 ] && pass || fail 'a missing folder passes unseen'
+
+# ---- reading ----
+
+can_read() { "$1" -c 'import meshio' 2> /dev/null || "$1" -c 'import vtk' 2> /dev/null; }
+
+python=${PYTHON:-python3}
+if ! "$python" -c 'import xml.etree' 2> /dev/null; then
+   echo 'reading back: skipped, no python3; 0 checks'
+   finish
+fi
+if ! can_read "$python"; then
+   if [ ! -x "$work/venv/bin/python" ]; then # built once, used again
+      "$python" -m venv "$work/venv" > "$work/log" 2>&1 || rm -rf "$work/venv"
+   fi
+   own=$work/venv/bin/python
+   if [ -x "$own" ] && ! can_read "$own"; then
+      timeout 180 "$own" -m pip install -q --retries 0 --timeout 15 --disable-pip-version-check meshio \
+         > "$work/log" 2>&1
+   fi
+   if can_read "$own"; then
+      python=$own
+   else
+      echo 'reading .vtu back: skipped, neither meshio nor vtk is there and pip cannot install meshio; 0 checks'
+   fi
+fi
+"$python" "$here/read_back.py" "$work/sample" "$@" > "$work/log" 2>&1
+status=$?
+grep -v -E '^[0-9]+ passed, [0-9]+ failed$' "$work/log"
+last=$(grep -E '^[0-9]+ passed, [0-9]+ failed$' "$work/log" | tail -n 1)
+if [ -z "$last" ]; then
+   fail "read_back.py ended without a count, with status $status"
+else
+   set -- $last
+   passed=$((passed + $1)) failed=$((failed + $3))
+   [ $status -ne 0 ] && [ "$3" -eq 0 ] && fail "read_back.py: status $status"
+fi
+finish
