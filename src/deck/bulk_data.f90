@@ -57,17 +57,18 @@ module bulk_data
       real(wp) :: force(3) = 0.0_wp
    end type force_card
 
-   !> PLOAD4 (elements FIRST to LAST, face at nodes G1, G3) and PLOADE (edge between nodes G1, G2 of element FIRST).
+   !> PLOAD4 (the face of element FIRST at corners G1 and G3 or G4) and PLOADE (its edge between G1 and G2).
    type, public :: pressure_card
-      integer  :: line = 0, set = 0, first = 0, last = 0
+      integer  :: line = 0, set = 0, first = 0
+      logical  :: on_face = .false.                     ! PLOAD4
       integer  :: corners(2) = 0
-      real(wp) :: pressure(4) = 0.0_wp                  ! at the corners, positive into the body
-      logical  :: varies = .false.                      ! whether the corners were given one by one
+      real(wp) :: pressure = 0.0_wp                     ! positive into the body
    end type pressure_card
 
    !> PLOADM and FORCEM: pressure, or a total force spread evenly, on a marked surface.
    type, public :: surface_load_card
       integer  :: line = 0, set = 0, surface = 0
+      logical  :: is_pressure = .false.                 ! PLOADM
       real(wp) :: pressure = 0.0_wp
       real(wp) :: force(3) = 0.0_wp
    end type surface_load_card
@@ -81,6 +82,7 @@ module bulk_data
    !> SPCD: a displacement prescribed at a held component, in a load set.
    type, public :: displacement_card
       integer  :: line = 0, set = 0, node = 0, components = 0
+      integer  :: field = 0                             ! data field of the node
       real(wp) :: value = 0.0_wp
    end type displacement_card
 
@@ -118,6 +120,7 @@ module bulk_data
       integer  :: first_node = 1, first_element = 1
       integer  :: marks(6) = 0                          ! PMARK of the sides x low, x high, y low, y high, z low, z high
       integer  :: weld = 0
+      logical  :: doubtful = .false.
    end type block3_card
 
    type, public :: pmark_card

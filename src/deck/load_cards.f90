@@ -144,7 +144,7 @@ contains
    end subroutine read_force
 
 
-   !> LOAD: S (S1 L1 + S2 L2 + ...), the sets L being those of FORCE cards.
+   !> LOAD: S (S1 L1 + S2 L2 + ...), the sets L being those of load cards other than LOAD.
    subroutine read_load(card, bulk, values, errors)
       type(card_type), intent(in)          :: card
       type(bulk_data_type), intent(inout)  :: bulk

@@ -162,7 +162,9 @@ contains
       type(deck_error_list), intent(inout) :: errors
       type(field_rule), save, allocatable :: table(:)
       integer, parameter :: most_divisions = 10000
+      integer :: errors_before
 
+      errors_before = errors%n
       if (.not. allocated(table)) table = [integer_field('BID'), integer_field('PID'), &
          integer_field('NX', most=most_divisions), integer_field('NY', most=most_divisions), &
          integer_field('NZ', most=most_divisions), &
@@ -196,6 +198,7 @@ contains
          block3%first_element = values%integers(16)
          block3%marks = values%integers(17:22)
          block3%weld = values%integers(23)
+         block3%doubtful = errors%n > errors_before
       end associate
    end subroutine read_block3
 

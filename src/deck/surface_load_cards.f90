@@ -14,32 +14,32 @@ module surface_load_cards
 
 contains
 
-   !> PLOAD4: pressure on a face of a solid, positive into it. The face is named by G1 and, for CHEXA and CPENTA, the opposite
-   !! corner G3; for CTETRA G4 is the corner that the face does not have. EID1 THRU EID2 where G1 and G4 stand, as NASTRAN allows for
-   !! plates, has no meaning here.
+   !> PLOAD4: even pressure on a face of a solid, positive into it. The face is named by G1 and, for CHEXA and CPENTA, the
+   !! opposite corner G3; for CTETRA G4 is the corner that the face does not have.
    subroutine read_pload4(card, bulk, values, errors)
       type(card_type), intent(in)          :: card
       type(bulk_data_type), intent(inout)  :: bulk
       type(card_values), intent(inout)     :: values
       type(deck_error_list), intent(inout) :: errors
       type(field_rule), save, allocatable :: table(:)
+      integer :: k
 
       if (.not. allocated(table)) table = [integer_field('SID'), integer_field('EID'), real_field('P1'), &
          real_field('P2', default=0.0_wp), real_field('P3', default=0.0_wp), real_field('P4', default=0.0_wp), &
          integer_field('G1'), integer_field('G34', default=0)]
       call decode_card(card, table, .false., values, errors)
+      do k = 4, 6
+         if (values%ok .and. values%given(k) .and. abs(values%reals(k) - values%reals(3)) > 0.0_wp) call field_error(card, k, &
+            'P'//achar(iachar('0') + k - 2)//': not as P1; the pressure on a face is even here', errors)
+      end do
       bulk%n_pressure = bulk%n_pressure + 1
       associate (pressure => bulk%pressure(bulk%n_pressure))
          pressure%line = card%line
+         pressure%on_face = .true.
          pressure%set = values%integers(1)
          pressure%first = values%integers(2)
-         pressure%last = values%integers(2)
          pressure%corners = values%integers(7:8)
          pressure%pressure = values%reals(3)
-         pressure%varies = any(values%given(4:6))
-         if (pressure%varies) then
-            pressure%pressure = merge(values%reals(3:6), values%reals(3), [.true., values%given(4:6)])
-         end if
       end associate
    end subroutine read_pload4
 
@@ -60,7 +60,6 @@ contains
          pressure%line = card%line
          pressure%set = values%integers(1)
          pressure%first = values%integers(2)
-         pressure%last = values%integers(2)
          pressure%corners = values%integers(4:5)
          pressure%pressure = values%reals(3)
       end associate
@@ -81,6 +80,7 @@ contains
       associate (load => bulk%surface_load(bulk%n_surface_load))
          load%line = card%line
          load%set = values%integers(1)
+         load%is_pressure = .true.
          load%pressure = values%reals(2)
          load%surface = values%integers(3)
       end associate
@@ -154,6 +154,7 @@ contains
          associate (displacement => bulk%displacement(bulk%n_displacement))
             displacement%line = card%line
             displacement%set = values%integers(1)
+            displacement%field = first
             displacement%node = values%integers(first)
             displacement%components = values%integers(first + 1)
             displacement%value = values%reals(first + 2)
@@ -171,8 +172,8 @@ contains
       type(deck_error_list), intent(inout) :: errors
       type(field_rule), save, allocatable :: table(:)
 
-      if (.not. allocated(table)) table = [integer_field('BOLTID'), integer_field('EID', default=0), integer_field('PID', default=0), &
-         real_field('PRELOAD', above=0.0_wp), integer_field('STAGE', default=1)]
+      if (.not. allocated(table)) table = [integer_field('BOLTID'), integer_field('EID', default=0), &
+         integer_field('PID', default=0), real_field('PRELOAD', above=0.0_wp), integer_field('STAGE', default=1)]
       call decode_card(card, table, .false., values, errors)
       if (values%given(2) .eqv. values%given(3)) call field_error(card, 2, 'EID: expected either a CROD here or the PMARK of '// &
          'the plane that cuts a solid bolt in the next field', errors)

@@ -1,16 +1,17 @@
-!> The elements of the bodies, each by its kind: stiffness, stress. The one place that knows which kinds there are.
+!> The elements of the bodies, each by its kind: stiffness, stresses, forces. The one place that knows which kinds there are.
 module body_elements
-   use elasticity, only: plane_strain, plane_stress
-   use element_kinds, only: kind_quad4
+   use elasticity, only: max_stresses, n_stresses, plane_strain, solid
+   use element_kinds, only: max_dofs
+   use element_loads, only: body_forces
    use element_mapping, only: element_law, make_element_law
    use isoparametric, only: stiffness
    use kinds, only: wp
-   use model_data, only: model_type, property_type
-   use stress_recovery, only: centre_stress
+   use model_data, only: corners_of, model_type
+   use stress_recovery, only: centre_stress, corner_stress
    implicit none
    private
 
-   public :: element_stiffness, element_stress, internal_forces
+   public :: element_stiffness, element_stress, element_corner_stress, element_weight, internal_forces, law_of, full_stress
 
 contains
 
@@ -18,25 +19,69 @@ contains
    pure subroutine element_stiffness(model, e, k)
       type(model_type), intent(in) :: model
       integer, intent(in)          :: e
-      real(wp), intent(inout)      :: k(:, :) !! (8, 8), set here
+      real(wp), intent(inout)      :: k(:, :) !! dimension x corners rows and columns are set
 
-      associate (nodes => model%element_nodes(:, e))
-         call stiffness(law_of(model%properties(model%element_property(e))), model%x(:2, nodes), k)
-      end associate
+      call stiffness(law_of(model, e), model%x(:model%dimension, corners_of(model, e)), k)
    end subroutine element_stiffness
 
 
-   !> Stress (sigma_x, sigma_y, tau_xy) at the centre of element E under the displacements U [pressure].
+   !> Stress at the centre of element E under the displacements U: components as in elasticity [pressure].
    pure function element_stress(model, e, u) result(stress)
       type(model_type), intent(in) :: model
       integer, intent(in)          :: e
       real(wp), intent(in)         :: u(:, :) !! (dimension, n_nodes) [length]
-      real(wp) :: stress(3)
+      real(wp) :: stress(n_stresses(model%properties(model%element_property(e))%state))
 
-      associate (nodes => model%element_nodes(:, e))
-         call centre_stress(law_of(model%properties(model%element_property(e))), model%x(:2, nodes), u(:, nodes), stress)
+      associate (nodes => corners_of(model, e))
+         call centre_stress(law_of(model, e), model%x(:model%dimension, nodes), u(:, nodes), stress)
       end associate
    end function element_stress
+
+
+   !> Stresses at the corners of element E, as element_stress.
+   pure subroutine element_corner_stress(model, e, u, stress)
+      type(model_type), intent(in) :: model
+      integer, intent(in)          :: e
+      real(wp), intent(in)         :: u(:, :)      !! (dimension, n_nodes) [length]
+      real(wp), intent(inout)      :: stress(:, :) !! (components, corners) [pressure], set here
+
+      associate (nodes => corners_of(model, e))
+         call corner_stress(law_of(model, e), model%x(:model%dimension, nodes), u(:, nodes), stress)
+      end associate
+   end subroutine element_corner_stress
+
+
+   !> STRESS of element E as (xx, yy, zz, xy, yz, zx), the stress across the plane and along the hoop included.
+   pure function full_stress(model, e, stress) result(full)
+      type(model_type), intent(in) :: model
+      integer, intent(in)          :: e
+      real(wp), intent(in)         :: stress(:) !! components as in elasticity
+      real(wp) :: full(max_stresses)
+
+      full = 0.0_wp
+      associate (property => model%properties(model%element_property(e)))
+         if (property%state == solid) then
+            full = stress
+         else
+            full(:2) = stress(:2)
+            full(4) = stress(size(stress))
+            if (size(stress) == 4) full(3) = stress(3)
+            if (property%state == plane_strain) full(3) = property%nu*(stress(1) + stress(2))
+         end if
+      end associate
+   end function full_stress
+
+
+   !> Nodal forces of element E under a body force B per mass, an acceleration with the sign of the force.
+   pure subroutine element_weight(model, e, b, f)
+      type(model_type), intent(in) :: model
+      integer, intent(in)          :: e
+      real(wp), intent(in)         :: b(:)     !! (dimension) [length/time^2]
+      real(wp), intent(inout)      :: f(:, :)  !! (dimension, corners) [force], set here
+
+      call body_forces(law_of(model, e), model%x(:model%dimension, corners_of(model, e)), &
+                       model%properties(model%element_property(e))%rho*b, f)
+   end subroutine element_weight
 
 
    !> Forces that hold the bodies in their displaced shape: F = sum of [k] {u} of their elements.
@@ -44,25 +89,36 @@ contains
       type(model_type), intent(in) :: model
       real(wp), intent(in)         :: u(:, :) !! (dimension, n_nodes) [length]
       real(wp), intent(out)        :: f(:, :) !! (dimension, n_nodes) [force]
-      real(wp) :: k(8, 8)
-      integer  :: e
+      real(wp) :: k(max_dofs, max_dofs), q(max_dofs), p(max_dofs)
+      integer  :: d, e, i, n
 
+      d = model%dimension
       f = 0.0_wp
       do e = 1, model%n_elements
          call element_stiffness(model, e, k)
-         associate (nodes => model%element_nodes(:, e))
-            f(:, nodes) = f(:, nodes) + reshape(matmul(k, reshape(u(:, nodes), [8])), [2, 4])
+         associate (nodes => corners_of(model, e))
+            n = d*size(nodes)
+            do i = 1, size(nodes)
+               q(d*(i - 1) + 1:d*i) = u(:, nodes(i))
+            end do
+            p(:n) = matmul(k(:n, :n), q(:n))
+            do i = 1, size(nodes)
+               f(:, nodes(i)) = f(:, nodes(i)) + p(d*(i - 1) + 1:d*i)
+            end do
          end associate
       end do
    end subroutine internal_forces
 
 
-   !> The law of plane quadrilaterals with a property.
-   pure type(element_law) function law_of(property)
-      type(property_type), intent(in) :: property
+   !> What element E is made of.
+   pure type(element_law) function law_of(model, e)
+      type(model_type), intent(in) :: model
+      integer, intent(in)          :: e
 
-      law_of = make_element_law(kind_quad4, merge(plane_strain, plane_stress, property%plane_strain), property%e, property%nu, &
-                                property%thickness, incompatible=.false.)
+      associate (property => model%properties(model%element_property(e)))
+         law_of = make_element_law(model%element_kind(e), property%state, property%e, property%nu, property%thickness, &
+                                   property%incompatible)
+      end associate
    end function law_of
 
 end module body_elements

@@ -6,7 +6,7 @@ module block_mesh
    implicit none
    private
 
-   public :: generate_block2, generate_block3
+   public :: generate_block2, generate_block3, block_nodes, block_elements, block_side
 
    !> What a block gives: places are positions in its own node list.
    type, public :: block_type
@@ -28,7 +28,7 @@ contains
    pure subroutine generate_block2(card, block)
       type(block2_card), intent(in) :: card
       type(block_type), intent(out) :: block
-      integer, allocatable  :: places(:), corners(:, :)
+      integer, allocatable  :: corners(:, :)
       real(wp), allocatable :: x(:, :)
       integer :: i, side
 
@@ -46,10 +46,11 @@ contains
       call start_sides(block, 2*sum(card%divisions))
       do side = 1, 4
          if (card%marks(side) == 0) cycle
-         call block_side(card, side, places)
-         do i = 1, size(places) - 1
-            call add_side(block, card%marks(side), 16 + side, places(i:i + 1))
-         end do
+         associate (places => block_side(card, side))
+            do i = 1, size(places) - 1
+               call add_side(block, card%marks(side), 16 + side, places(i:i + 1))
+            end do
+         end associate
       end do
    end subroutine generate_block2
 
@@ -226,10 +227,10 @@ contains
 
 
    !> The nodes of side SIDE (1: corners 1-2, 2: 2-3, 3: 3-4, 4: 4-1) in this order, as places in the block's node list.
-   pure subroutine block_side(block, side, places)
+   pure function block_side(block, side) result(places)
       type(block2_card), intent(in)     :: block
       integer, intent(in)               :: side
-      integer, allocatable, intent(out) :: places(:)
+      integer, allocatable              :: places(:)
       integer :: i, column, last_column
 
       column = block%divisions(2) + 1
@@ -244,6 +245,6 @@ contains
       case default
          allocate (places, source=[(i, i = column, 1, -1)])
       end select
-   end subroutine block_side
+   end function block_side
 
 end module block_mesh

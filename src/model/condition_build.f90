@@ -1,16 +1,15 @@
-!> Supports and loads: which components are held, which forces act at the end of every stage.
+!> Supports: which components of which nodes are held.
 module condition_build
    use bulk_data, only: support_card
    use deck_cards, only: add_field_error
    use deck_errors, only: deck_error_list
    use deck_input, only: deck_type
-   use kinds, only: wp
-   use model_data, only: model_type, stage_load_type
+   use model_data, only: model_type
    use text_tools, only: integer_text
    implicit none
    private
 
-   public :: build_supports, build_loads
+   public :: build_supports
 
 contains
 
@@ -67,7 +66,7 @@ contains
          end if
          if (.not. active) return
          do e = 1, model%surfaces(surface)%n
-            do k = 1, 2
+            do k = 1, model%surfaces(surface)%corners(e)
                call hold(model, model%surfaces(surface)%nodes(k, e), support%components)
             end do
          end do
@@ -131,94 +130,5 @@ contains
          rest = rest/10
       end do
    end subroutine hold
-
-
-   !> The total load at the end of each stage.
-   subroutine build_loads(deck, model, errors)
-      type(deck_type), intent(in)          :: deck
-      type(model_type), intent(inout)      :: model
-      type(deck_error_list), intent(inout) :: errors
-      integer :: i, set, s
-
-      call check_forces(deck, model, errors)
-      allocate (model%stage_loads(size(deck%control%stages)))
-      do s = 1, size(deck%control%stages)
-         associate (loads => model%stage_loads(s), reference => deck%control%stages(s)%load)
-            allocate (loads%node(deck%bulk%n_force), loads%force(3, deck%bulk%n_force))
-            if (reference%id == 0) cycle
-            i = findloc(deck%bulk%load(:deck%bulk%n_load)%set, reference%id, dim=1)
-            if (i > 0) then
-               do set = 1, size(deck%bulk%load(i)%sets)
-                  call add_forces(deck, model, deck%bulk%load(i)%sets(set), &
-                                  deck%bulk%load(i)%scale*deck%bulk%load(i)%factors(set), loads)
-               end do
-            else
-               call add_forces(deck, model, reference%id, 1.0_wp, loads)
-               if (loads%n == 0 .and. .not. any(deck%bulk%force(:deck%bulk%n_force)%set == reference%id)) &
-                  call errors%add(reference%line, 'LOAD: there is no FORCE or LOAD with set '//integer_text(reference%id))
-            end if
-         end associate
-      end do
-   end subroutine build_loads
-
-
-   !> Forces act on nodes that are there, in directions that they have; LOAD cards combine sets that are there.
-   subroutine check_forces(deck, model, errors)
-      type(deck_type), intent(in)          :: deck
-      type(model_type), intent(in)         :: model
-      type(deck_error_list), intent(inout) :: errors
-      integer :: i, k, node
-
-      associate (bulk => deck%bulk)
-         do i = 1, bulk%n_force
-            node = model%node_table%find(bulk%force(i)%node)
-            if (node == 0 .and. bulk%force(i)%node > 0) then
-               call add_field_error(deck%text, bulk%force(i)%line, 2, 'G', 'there is no GRID '// &
-                                    integer_text(bulk%force(i)%node), errors)
-            else if (node > 0) then
-               if (.not. model%used(node)) call add_field_error(deck%text, bulk%force(i)%line, 2, 'G', 'node '// &
-                  integer_text(bulk%force(i)%node)//' belongs to no element', errors)
-            end if
-            if (abs(bulk%force(i)%force(3)) > 0.0_wp) call add_field_error(deck%text, bulk%force(i)%line, 7, 'N3', &
-               'not zero, but a plane model lies in x-y', errors)
-         end do
-         do i = 1, bulk%n_load
-            do k = 1, size(bulk%load(i)%sets)
-               if (.not. any(bulk%force(:bulk%n_force)%set == bulk%load(i)%sets(k)) .and. bulk%load(i)%sets(k) > 0) &
-                  call add_field_error(deck%text, bulk%load(i)%line, bulk%load(i)%at(k), 'L'//integer_text(k), &
-                                       'there is no FORCE with set '//integer_text(bulk%load(i)%sets(k)), errors)
-            end do
-            if (any(bulk%force(:bulk%n_force)%set == bulk%load(i)%set)) call add_field_error(deck%text, bulk%load(i)%line, 1, &
-               'SID', 'set '//integer_text(bulk%load(i)%set)//' is that of a FORCE too: case control could mean either', errors)
-         end do
-      end associate
-   end subroutine check_forces
-
-
-   !> Add FACTOR times the forces of SET to LOADS.
-   subroutine add_forces(deck, model, set, factor, loads)
-      type(deck_type), intent(in)          :: deck
-      type(model_type), intent(in)         :: model
-      integer, intent(in)                  :: set
-      real(wp), intent(in)                 :: factor
-      type(stage_load_type), intent(inout) :: loads
-      integer,  allocatable :: node(:)
-      real(wp), allocatable :: force(:, :)
-      integer :: i
-
-      do i = 1, deck%bulk%n_force
-         if (deck%bulk%force(i)%set /= set) cycle
-         if (loads%n == size(loads%node)) then ! a set may count more than once in a LOAD
-            allocate (node(2*loads%n), force(3, 2*loads%n))
-            node(:loads%n) = loads%node
-            force(:, :loads%n) = loads%force
-            call move_alloc(node, loads%node)
-            call move_alloc(force, loads%force)
-         end if
-         loads%n = loads%n + 1
-         loads%node(loads%n) = model%node_table%find(deck%bulk%force(i)%node)
-         loads%force(:, loads%n) = factor*deck%bulk%force(i)%force
-      end do
-   end subroutine add_forces
 
 end module condition_build

@@ -6,7 +6,7 @@ module joint_build
    use deck_input, only: deck_type
    use id_table, only: id_table_type
    use kinds, only: wp
-   use model_data, only: interface_element, joint_type, model_type
+   use model_data, only: corners_of, interface_element, joint_type, model_type
    use normal_stiffness, only: normal_law
    use position_search, only: position_search_type
    use surface_build, only: surface_node_list, surface_nodes
@@ -118,6 +118,11 @@ contains
             partner = model%twin(side1%node)
          end if
       end associate
+      if (any(side1%area <= 0.0_wp)) then
+         call errors%add(deck%bulk%joint(j)%line, 'surface '//integer_text(deck%bulk%joint(j)%sides(1))// &
+            ' has no area at node '//integer_text(model%node_id(side1%node(minloc(side1%area, dim=1))))//': it lies on the axis')
+         return
+      end if
       if (highest > huge(highest) - side1%n) then
          call add_field_error(deck%text, deck%bulk%joint(j)%line, 1, 'JID', 'the numbers of its interface '// &
             'elements, which follow those of the CJOINTs, would pass 2147483647', errors)
@@ -129,7 +134,7 @@ contains
          elements(k)%id = highest + k
          elements(k)%nodes = [side1%node(k), partner(k)]
          elements(k)%area = side1%area(k)
-         elements(k)%axes = joint_axes(side1%normal(:, k))
+         elements(k)%axes = joint_axes(model, side1%normal(:, k))
       end do
       highest = highest + side1%n
    end subroutine joint_elements
@@ -172,7 +177,10 @@ contains
       associate (card => deck%bulk%joint(j), edges => model%surfaces(surface))
          shortest = huge(1.0_wp)
          do e = 1, edges%n
-            shortest = min(shortest, norm2(model%x(:, edges%nodes(2, e)) - model%x(:, edges%nodes(1, e))))
+            do k = 1, edges%corners(e)
+               shortest = min(shortest, norm2(model%x(:, edges%nodes(modulo(k, edges%corners(e)) + 1, e)) &
+                                              - model%x(:, edges%nodes(k, e))))
+            end do
          end do
          tolerance = card%tolerance
          if (tolerance <= 0.0_wp) tolerance = default_tolerance*shortest
@@ -199,8 +207,7 @@ contains
             call add_field_error(deck%text, card%line, 4, 'SIDE2', 'the sides do not face each other node by node: '// &
                plural(lonely, 'node')//' of '//integer_text(side1%n)//' of SIDE1 found no partner within '// &
                real_text(tolerance)//'; the farthest is node '//integer_text(model%node_id(worst_node))//' at '// &
-               real_text(model%x(1, worst_node))//', '//real_text(model%x(2, worst_node))//', '//real_text(worst)//' away', &
-               errors)
+               place_text(model, worst_node)//', '//real_text(worst)//' away', errors)
          else if (shared > 0) then
             call add_field_error(deck%text, card%line, merge(5, 4, card%tolerance > 0.0_wp), 'TOL', 'within '// &
                real_text(tolerance)//' '//plural(shared, 'node')//' of SIDE1 found a partner that another one has', errors)
@@ -215,14 +222,34 @@ contains
    end subroutine pair_nodes
 
 
-   !> Axes of an interface element with normal Z (unit): columns x, y, z, right-handed. In the plane x lies in the
-   !! joint and y out of the plane; x points towards +X (+Y where the joint stands upright).
-   pure function joint_axes(z) result(axes)
-      real(wp), intent(in) :: z(3)
+   !> Where a node lies, for messages.
+   function place_text(model, node) result(text)
+      type(model_type), intent(in) :: model
+      integer, intent(in)          :: node
+      character(:), allocatable    :: text
+
+      text = real_text(model%x(1, node))//', '//real_text(model%x(2, node))
+      if (model%dimension == 3) text = text//', '//real_text(model%x(3, node))
+   end function place_text
+
+
+   !> Axes of an interface element with normal Z (unit): columns x, y, z, right-handed. In the plane x lies in the joint and y
+   !! out of the plane; x points towards +X (+Y where the joint stands upright). In space x is +X projected on the joint, or +Y
+   !! where the normal is within 25 degrees of X.
+   pure function joint_axes(model, z) result(axes)
+      type(model_type), intent(in) :: model
+      real(wp), intent(in)         :: z(3)
       real(wp) :: axes(3, 3), x(3)
 
-      x = [-z(2), z(1), 0.0_wp]
-      if (x(1) < -1.0e-9_wp .or. (abs(x(1)) <= 1.0e-9_wp .and. x(2) < 0.0_wp)) x = -x
+      if (model%dimension == 3) then
+         x = [1.0_wp, 0.0_wp, 0.0_wp]
+         if (abs(z(1)) > 0.9_wp) x = [0.0_wp, 1.0_wp, 0.0_wp]
+         x = x - dot_product(x, z)*z
+         x = x/norm2(x)
+      else
+         x = [-z(2), z(1), 0.0_wp]
+         if (x(1) < -1.0e-9_wp .or. (abs(x(1)) <= 1.0e-9_wp .and. x(2) < 0.0_wp)) x = -x
+      end if
       axes(:, 1) = x
       axes(:, 2) = [z(2)*x(3) - z(3)*x(2), z(3)*x(1) - z(1)*x(3), z(1)*x(2) - z(2)*x(1)]
       axes(:, 3) = z
@@ -271,10 +298,10 @@ contains
                   if (element%nodes(node) == 0) call add_field_error(deck%text, card%line, node + 2, 'node G'// &
                      integer_text(node), 'there is no GRID '//integer_text(card%nodes(node)), errors)
                end do
-               if (abs(card%normal(3)) > 0.0_wp) call add_field_error(deck%text, card%line, 8, 'NZ', &
+               if (model%dimension == 2 .and. abs(card%normal(3)) > 0.0_wp) call add_field_error(deck%text, card%line, 8, 'NZ', &
                   'not zero, but a plane model lies in x-y', errors)
                if (norm2(card%normal) > 0.0_wp) &
-                  element%axes = joint_axes(outward(model, element%nodes, card%normal/norm2(card%normal)))
+                  element%axes = joint_axes(model, outward(model, element%nodes, card%normal/norm2(card%normal)))
             end associate
          end do
          j = j + 1
@@ -326,9 +353,9 @@ contains
 
       to_body = 0.0_wp
       do i = model%first_at(node), model%first_at(node + 1) - 1
-         associate (corners => model%element_nodes(:, model%elements_at(i)))
+         associate (corners => corners_of(model, model%elements_at(i)))
             if (any(corners == 0)) cycle
-            to_body = to_body + 0.25_wp*sum(model%x(:, corners), dim=2) - model%x(:, node)
+            to_body = to_body + sum(model%x(:, corners), dim=2)/size(corners) - model%x(:, node)
          end associate
       end do
       side = 0.0_wp

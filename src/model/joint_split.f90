@@ -6,7 +6,7 @@ module joint_split
    use deck_input, only: deck_type
    use kinds, only: wp
    use mesh_build, only: list_elements_of_nodes
-   use model_data, only: model_type
+   use model_data, only: model_type, surface_type
    use text_tools, only: integer_text
    implicit none
    private
@@ -18,10 +18,15 @@ module joint_split
       integer, allocatable :: node(:), twin(:)
    end type split_type
 
+   !> side(first(i):first(i+1)-1) are the sides of a surface at node i.
+   type :: side_list
+      integer, allocatable :: first(:), side(:)
+   end type side_list
+
 contains
 
-   !> Split the shared surfaces that JOINT cards name as SIDE1 without a SIDE2. The elements on the left of the surface's
-   !! edges keep the nodes, those on the right get the twins, numbered from the highest node number on.
+   !> Split the shared surfaces that JOINT cards name as SIDE1 without a SIDE2. The elements on the left of the
+   !! surface's edges, or inside its faces, keep the nodes; those behind get the twins, numbered from the highest node number on.
    subroutine split_shared_surfaces(deck, model, errors)
       type(deck_type), intent(in)          :: deck
       type(model_type), intent(inout)      :: model
@@ -36,7 +41,7 @@ contains
          if (model%surfaces(s)%n == 0) cycle
          if (.not. any(model%surfaces(s)%other(:model%surfaces(s)%n) > 0)) cycle
          if (any(model%surfaces(s)%other(:model%surfaces(s)%n) == 0)) then
-            call add_field_error(deck%text, deck%bulk%joint(j)%line, 3, 'SIDE1', 'bodies lie on both sides of some edges of '// &
+            call add_field_error(deck%text, deck%bulk%joint(j)%line, 3, 'SIDE1', 'bodies lie on both sides of some parts of '// &
                                  'surface '//integer_text(model%surfaces(s)%id)//' and on one side of others', errors)
             cycle
          end if
@@ -64,7 +69,7 @@ contains
       is_twin = .false.
       is_twin(pack(model%twin, model%twin > 0)) = .true.
       do i = 1, model%surfaces(s)%n
-         do k = 1, 2
+         do k = 1, model%surfaces(s)%corners(i)
             node = model%surfaces(s)%nodes(k, i)
             meets(node) = model%twin(node) > 0 .or. is_twin(node)
          end do
@@ -76,16 +81,17 @@ contains
       type(model_type), intent(inout) :: model
       integer, intent(in)             :: s
       type(split_type)     :: split
-      integer, allocatable :: edges_at(:, :), right(:)
-      integer :: i, k, n, node
+      type(side_list)      :: at
+      integer, allocatable :: right(:)
+      integer :: n, node
 
-      call list_edges_of_nodes(model, s, edges_at)
-      call face_one_way(model, s, edges_at)
+      call list_sides_of_nodes(model, s, at)
+      call face_one_way(model, s, at)
+      allocate (split%node(model%n_nodes), split%twin(model%n_nodes), source=0)
       n = 0
-      allocate (split%node(count(edges_at(1, :) > 0)), split%twin(count(edges_at(1, :) > 0)), source=0)
       do node = 1, model%n_nodes
-         if (edges_at(1, node) == 0) cycle
-         call right_of(model, s, edges_at(:, node), node, right)
+         if (at%first(node) == at%first(node + 1)) cycle
+         call right_of(model, s, at, node, right)
          if (size(right) == 0) cycle          ! the surface ends inside a body here: the tip stays whole
          n = n + 1
          split%node(n) = node
@@ -93,45 +99,55 @@ contains
       end do
       split%node = split%node(:n)
       split%twin = split%twin(:n)
-      do k = 1, n                             ! FIRST_AT and ELEMENTS_AT still are those of the whole nodes
-         call right_of(model, s, edges_at(:, split%node(k)), split%node(k), right)
-         do i = 1, size(right)
-            associate (corners => model%element_nodes(:, right(i)))
-               corners = merge(split%twin(k), corners, corners == split%node(k))
-            end associate
-         end do
-      end do
+      call give_twins(model, s, at, split)
       call add_twins(model, split)
       call move_other_surfaces(model, s)
       model%surfaces(s)%other = 0
    end subroutine split_surface
 
 
-   !> The one or two edges of surface S at every node.
-   subroutine list_edges_of_nodes(model, s, edges_at)
-      type(model_type), intent(in)      :: model
-      integer, intent(in)               :: s
-      integer, allocatable, intent(out) :: edges_at(:, :) !! (2, n_nodes)
+   !> The sides of surface S at every node.
+   subroutine list_sides_of_nodes(model, s, at)
+      type(model_type), intent(in) :: model
+      integer, intent(in)          :: s
+      type(side_list), intent(out) :: at
+      integer, allocatable :: filled(:)
       integer :: i, k, node
 
-      allocate (edges_at(2, model%n_nodes), source=0)
-      do i = 1, model%surfaces(s)%n
-         do k = 1, 2
-            node = model%surfaces(s)%nodes(k, i)
-            edges_at(merge(1, 2, edges_at(1, node) == 0), node) = i
+      allocate (at%first(model%n_nodes + 1), source=0)
+      associate (surface => model%surfaces(s))
+         do i = 1, surface%n
+            do k = 1, surface%corners(i)
+               node = surface%nodes(k, i)
+               at%first(node + 1) = at%first(node + 1) + 1
+            end do
          end do
-      end do
-   end subroutine list_edges_of_nodes
+         at%first(1) = 1
+         do node = 1, model%n_nodes
+            at%first(node + 1) = at%first(node) + at%first(node + 1)
+         end do
+         allocate (at%side(at%first(model%n_nodes + 1) - 1))
+         allocate (filled, source=at%first)
+         do i = 1, surface%n
+            do k = 1, surface%corners(i)
+               node = surface%nodes(k, i)
+               at%side(filled(node)) = i
+               filled(node) = filled(node) + 1
+            end do
+         end do
+      end associate
+   end subroutine list_sides_of_nodes
 
 
-   !> Turn edges of surface S round so that each goes on where another ends: the same body side on the left of all.
+   !> Turn sides of surface S round so that neighbours go on where the others end: the same body side on the left of all edges,
+   !! inside all faces.
    subroutine face_one_way(model, s, at)
       type(model_type), intent(inout) :: model
       integer, intent(in)             :: s
-      integer, intent(in)             :: at(:, :)
+      type(side_list), intent(in)     :: at
       integer, allocatable :: queue(:)
       logical, allocatable :: done(:)
-      integer :: edge, first, i, k, n, last, other, node
+      integer :: side, first, i, j, k, n, last, other
 
       associate (surface => model%surfaces(s))
          allocate (done(surface%n), queue(surface%n))
@@ -144,22 +160,24 @@ contains
             last = 1
             do while (n < last)
                n = n + 1
-               edge = queue(n)
-               do k = 1, 2
-                  node = surface%nodes(k, edge)
-                  other = at(1, node)
-                  if (other == edge) other = at(2, node)
-                  if (other == 0) cycle
-                  if (done(other)) cycle
-                  if (surface%nodes(k, other) == node) then ! both begin, or both end here
-                     surface%nodes(:, other) = surface%nodes([2, 1], other)
-                     i = surface%element(other)
-                     surface%element(other) = surface%other(other)
-                     surface%other(other) = i
-                  end if
-                  done(other) = .true.
-                  last = last + 1
-                  queue(last) = other
+               side = queue(n)
+               do k = 1, surface%corners(side)
+                  do i = at%first(surface%nodes(k, side)), at%first(surface%nodes(k, side) + 1) - 1
+                     other = at%side(i)
+                     if (done(other)) cycle
+                     select case (common_sense(surface, side, k, other))
+                     case (0)
+                        cycle
+                     case (1)
+                        surface%nodes(:surface%corners(other), other) = surface%nodes(surface%corners(other):1:-1, other)
+                        j = surface%element(other)
+                        surface%element(other) = surface%other(other)
+                        surface%other(other) = j
+                     end select
+                     done(other) = .true.
+                     last = last + 1
+                     queue(last) = other
+                  end do
                end do
             end do
          end do
@@ -167,61 +185,119 @@ contains
    end subroutine face_one_way
 
 
-   !> The elements of NODE on the right of surface S: those that hang together with the right side of one of its edges there
-   !! without crossing the surface. None where they hang together with the left side too.
-   subroutine right_of(model, s, edges, node, right)
+   !> How side OTHER shares what begins at corner K of SIDE (in the plane this node, of a face the rim to the next corner): 0 not at
+   !! all, 1 in the same sense, which is wrong for neighbours, -1 in the opposite one.
+   pure integer function common_sense(surface, side, k, other) result(sense)
+      type(surface_type), intent(in) :: surface
+      integer, intent(in)            :: side, k, other
+      integer :: at, n, next
+
+      n = surface%corners(other)
+      at = findloc(surface%nodes(:n, other), surface%nodes(k, side), dim=1)
+      sense = 0
+      if (n == 2) then
+         sense = merge(1, -1, at == k) ! both begin, or both end here
+      else
+         next = surface%nodes(modulo(k, surface%corners(side)) + 1, side)
+         if (surface%nodes(modulo(at, n) + 1, other) == next) sense = 1
+         if (surface%nodes(modulo(at - 2, n) + 1, other) == next) sense = -1
+      end if
+   end function common_sense
+
+
+   !> The elements of NODE behind surface S: those that hang together with the back of one of its sides there without crossing
+   !! the surface. None where they hang together with the front too.
+   subroutine right_of(model, s, at, node, right)
       type(model_type), intent(in)      :: model
       integer, intent(in)               :: s
-      integer, intent(in)               :: edges(2) !! of the surface at NODE, 0: none
+      type(side_list), intent(in)       :: at
       integer, intent(in)               :: node
       integer, allocatable, intent(out) :: right(:)
       integer, allocatable :: around(:), group(:)
-      integer :: beyond(2), i, j, n, pass
-      logical :: is_tip
+      logical, allocatable :: touch(:, :)
+      integer :: i, j, n
+      logical :: is_tip, more
 
       n = model%first_at(node + 1) - model%first_at(node)
       allocate (around, source=model%elements_at(model%first_at(node):model%first_at(node + 1) - 1))
       allocate (group(n), source=0)
-      beyond = 0
-      do i = 1, 2
-         if (edges(i) == 0) cycle
-         beyond(i) = sum(model%surfaces(s)%nodes(:, edges(i))) - node
-         where (around == model%surfaces(s)%element(edges(i))) group = 1
-         where (around == model%surfaces(s)%other(edges(i))) group = 2
+      do i = at%first(node), at%first(node + 1) - 1
+         where (around == model%surfaces(s)%element(at%side(i))) group = 1
+         where (around == model%surfaces(s)%other(at%side(i))) group = 2
       end do
-      do pass = 1, n                         ! spread over common sides that are not of the surface
+      allocate (touch(n, n), source=.false.)
+      do i = 1, n
+         do j = 1, i - 1
+            touch(i, j) = common_side(model, s, at, node, around(i), around(j))
+            touch(j, i) = touch(i, j)
+         end do
+      end do
+      more = .true.
+      do while (more)                        ! spread over common sides that are not of the surface
+         more = .false.
          do i = 1, n
             if (group(i) /= 0) cycle
             do j = 1, n
-               if (group(j) > 0 .and. common_side(model, node, beyond, around(i), around(j))) group(i) = group(j)
+               if (group(j) == 0 .or. .not. touch(i, j)) cycle
+               group(i) = group(j)
+               more = .true.
+               exit
             end do
          end do
       end do
       is_tip = .false.
       do i = 1, n
-         do j = 1, n
-            if (group(i) == 1 .and. group(j) == 2) &
-               is_tip = is_tip .or. common_side(model, node, beyond, around(i), around(j))
-         end do
+         if (group(i) == 1) is_tip = is_tip .or. any(touch(:, i) .and. group == 2)
       end do
       allocate (right(merge(0, count(group == 2), is_tip)))
       if (.not. is_tip) right(:) = pack(around, group == 2)
    end subroutine right_of
 
 
-   !> Whether elements A and B share a side at NODE other than those to the nodes BEYOND.
-   pure logical function common_side(model, node, beyond, a, b)
+   !> Whether elements A and B share a side at NODE that is not of surface S.
+   pure logical function common_side(model, s, at, node, a, b)
       type(model_type), intent(in) :: model
-      integer, intent(in)          :: node, beyond(2), a, b
-      integer :: k, other
+      integer, intent(in)          :: s, node, a, b
+      type(side_list), intent(in)  :: at
+      integer :: common(size(model%element_nodes, 1)), i, k, n
 
-      common_side = .true.
+      n = 0
       do k = 1, size(model%element_nodes, 1)
-         other = model%element_nodes(k, a)
-         if (other /= node .and. all(beyond /= other) .and. any(model%element_nodes(:, b) == other)) return
+         if (model%element_nodes(k, a) == 0) exit
+         if (all(model%element_nodes(:, b) /= model%element_nodes(k, a))) cycle
+         n = n + 1
+         common(n) = model%element_nodes(k, a)
       end do
-      common_side = .false.
+      common_side = n >= model%dimension
+      do i = at%first(node), at%first(node + 1) - 1
+         if (.not. common_side) return
+         associate (side => model%surfaces(s)%nodes(:model%surfaces(s)%corners(at%side(i)), at%side(i)))
+            common_side = any([(all(side /= common(k)), k = 1, n)])
+         end associate
+      end do
    end function common_side
+
+
+   !> The elements behind surface S get the twins of its nodes.
+   subroutine give_twins(model, s, at, split)
+      type(model_type), intent(inout) :: model
+      integer, intent(in)             :: s
+      type(side_list), intent(in)     :: at
+      type(split_type), intent(in)    :: split
+      integer, allocatable :: nodes(:, :), right(:)
+      integer :: i, k
+
+      allocate (nodes, source=model%element_nodes) ! the whole nodes are needed until all twins are given
+      do k = 1, size(split%node)
+         call right_of(model, s, at, split%node(k), right)
+         do i = 1, size(right)
+            associate (corners => nodes(:, right(i)))
+               corners = merge(split%twin(k), corners, corners == split%node(k))
+            end associate
+         end do
+      end do
+      call move_alloc(nodes, model%element_nodes)
+   end subroutine give_twins
 
 
    !> Append the twins to the nodes of the model.
@@ -252,7 +328,7 @@ contains
    end subroutine add_twins
 
 
-   !> Edges of other surfaces follow their elements.
+   !> Sides of other surfaces follow their elements.
    subroutine move_other_surfaces(model, s)
       type(model_type), intent(inout) :: model
       integer, intent(in)             :: s
@@ -262,7 +338,7 @@ contains
          if (other == s) cycle
          associate (surface => model%surfaces(other))
             do i = 1, surface%n
-               do k = 1, 2
+               do k = 1, surface%corners(i)
                   twin = model%twin(surface%nodes(k, i))
                   if (twin == 0) cycle
                   if (any(model%element_nodes(:, surface%element(i)) == twin)) surface%nodes(k, i) = twin

@@ -52,6 +52,7 @@ contains
          associate (joint => model%joints(j))
             allocate (joint%carries(model%n_parts), source=.false.)
             if (norm2(joint%normal) <= 0.0_wp) cycle
+            if (model%axisymmetric .and. abs(joint%normal(1)) > 1.0e-9_wp) cycle ! hoop stresses carry the rest
             group = [(k, k = 1, base)]
             do i = 1, size(model%interface)
                if (model%interface(i)%joint /= j) call join(group, part_of(model, i, 1), part_of(model, i, 2))

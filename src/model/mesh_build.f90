@@ -1,235 +1,187 @@
-!> Nodes, bodies and marked edges: from the mesh cards and the block generator to positions in the model.
+!> Nodes, bodies and marked sides: from the mesh cards and the block generators to positions in the model.
 module mesh_build
-   use block_mesh, only: block_elements, block_nodes, block_side
+   use block_mesh, only: block_type
+   use bulk_data, only: element_card
    use deck_cards, only: add_field_error, card_name
    use deck_errors, only: deck_error_list
    use deck_input, only: deck_type
+   use elasticity, only: axisymmetric, plane_strain, plane_stress, solid
+   use element_kinds, only: element_table, kind_quad4, kind_tria3, max_nodes, max_side_nodes
+   use element_mapping, only: smallest_jacobian
    use id_table, only: id_table_type, sorted_order
    use kinds, only: wp
-   use model_data, only: model_type, property_type
-   use position_search, only: position_search_type
-   use quad4, only: quad4_smallest_jacobian
+   use model_data, only: corners_of, model_type, property_type
+   use node_build, only: collect_nodes, generate_blocks, order_nodes, raw_nodes, report_repeated
    use text_tools, only: integer_text
    implicit none
    private
 
    public :: build_mesh, list_elements_of_nodes
 
-   !> Edges that carry a mark, before they are sorted into surfaces.
-   type, public :: marked_edges
+   !> Sides that carry a mark, before they are sorted into surfaces.
+   type, public :: marked_sides
       integer :: n = 0
       integer, allocatable :: mark(:)      !! PMARK id
-      integer, allocatable :: nodes(:, :)  !! (2, n)
+      integer, allocatable :: corners(:)   !! 2, 3 or 4
+      integer, allocatable :: nodes(:, :)  !! (4, n)
       integer, allocatable :: line(:)      !! of its card
       integer, allocatable :: field(:)     !! data field with the mark's id
-   end type marked_edges
-
-   !> Nodes as they come, before they are put in order, and which of them a block's places are.
-   type :: raw_nodes
-      integer :: n = 0
-      integer, allocatable  :: id(:), line(:)
-      real(wp), allocatable :: x(:, :)
-      integer, allocatable  :: place(:)        ! of all blocks, one after another: raw node
-      integer, allocatable  :: block_start(:)  ! place(block_start(b) + 1 : block_start(b + 1))
-   end type raw_nodes
+   end type marked_sides
 
 contains
 
-   !> Fill the mesh part of MODEL; EDGES are the marked edges found on the way.
-   subroutine build_mesh(deck, model, edges, errors)
+   !> Fill the mesh part of MODEL; SIDES are the marked sides found on the way.
+   subroutine build_mesh(deck, model, sides, errors)
       type(deck_type), intent(in)          :: deck
       type(model_type), intent(inout)      :: model
-      type(marked_edges), intent(out)      :: edges
+      type(marked_sides), intent(out)      :: sides
       type(deck_error_list), intent(inout) :: errors
+      type(block_type), allocatable :: blocks(:)
       type(raw_nodes) :: raw
       integer, allocatable :: position(:) ! raw node -> node of the model
 
-      call collect_nodes(deck, raw, errors)
+      model%dimension = 2
+      if (deck%bulk%n_block3 > 0 .or. any(element_table(deck%bulk%element(:deck%bulk%n_element)%kind)%dimension == 3)) &
+         model%dimension = 3
+      call generate_blocks(deck, blocks)
+      call collect_nodes(deck, blocks, raw, errors)
       call order_nodes(raw, model, position)
       call resolve_properties(deck, model, errors)
-      call collect_elements(deck, raw, position, model, errors)
-      call check_element_numbers(deck, errors)
+      call collect_elements(deck, blocks, raw, position, model, errors)
+      call check_element_numbers(deck, blocks, errors)
       call list_elements_of_nodes(model)
+      call check_one_state(model, errors)
+      call check_nodes(deck, model, errors)
       call check_elements(deck, model, errors)
-      call collect_edges(deck, raw, position, model, edges, errors)
+      call collect_sides(deck, blocks, raw, position, model, sides, errors)
    end subroutine build_mesh
 
 
-   !> All GRID cards and all nodes of blocks; a welded block uses the coincident nodes of the block it is welded to.
-   subroutine collect_nodes(deck, raw, errors)
-      type(deck_type), intent(in)          :: deck
-      type(raw_nodes), intent(out)         :: raw
-      type(deck_error_list), intent(inout) :: errors
-      integer, allocatable  :: id(:)
-      real(wp), allocatable :: x(:, :)
-      integer :: b, i, k, n, total
-
-      associate (bulk => deck%bulk)
-         allocate (raw%block_start(bulk%n_block2 + 1), source=0)
-         do b = 1, bulk%n_block2
-            raw%block_start(b + 1) = raw%block_start(b) + product(bulk%block2(b)%divisions + 1)
-         end do
-         total = bulk%n_grid + raw%block_start(bulk%n_block2 + 1)
-         allocate (raw%id(total), raw%line(total), raw%x(3, total), raw%place(raw%block_start(bulk%n_block2 + 1)))
-         do i = 1, bulk%n_grid
-            raw%id(i) = bulk%grid(i)%id
-            raw%line(i) = bulk%grid(i)%line
-            raw%x(:, i) = bulk%grid(i)%x
-         end do
-         n = bulk%n_grid
-         do b = 1, bulk%n_block2
-            call block_nodes(bulk%block2(b), id, x)
-            associate (places => raw%place(raw%block_start(b) + 1:raw%block_start(b + 1)))
-               call weld_block(deck, b, raw, x, places, errors)
-               do k = 1, size(id)
-                  if (places(k) > 0) cycle
-                  n = n + 1
-                  places(k) = n
-                  raw%id(n) = id(k)
-                  raw%line(n) = bulk%block2(b)%line
-                  raw%x(:, n) = [x(1, k), x(2, k), 0.0_wp]
-               end do
-            end associate
-         end do
-      end associate
-      raw%n = n
-      call report_repeated(deck, raw%id(:n), raw%line(:n), deck%bulk%n_grid, 'node', errors)
-   end subroutine collect_nodes
-
-
-   !> Where block B is welded to an earlier one, PLACES(k) is the raw node at X(:, k) of that block, else 0.
-   subroutine weld_block(deck, b, raw, x, places, errors)
-      type(deck_type), intent(in)          :: deck
-      integer, intent(in)                  :: b
-      type(raw_nodes), intent(in)          :: raw
-      real(wp), intent(in)                 :: x(:, :)
-      integer, intent(inout)               :: places(:)
-      type(deck_error_list), intent(inout) :: errors
-      type(position_search_type) :: search
-      integer, allocatable :: others(:)
-      real(wp) :: reach, distance
-      integer  :: k, other, found
-
-      places = 0
-      associate (block => deck%bulk%block2(b))
-         if (block%weld == 0) return
-         do other = b - 1, 1, -1
-            if (deck%bulk%block2(other)%id == block%weld) exit
-         end do
-         if (other == 0) then
-            call add_field_error(deck%text, block%line, 21, 'WELD', 'no BLOCK2 '//integer_text(block%weld)// &
-                                 ' stands before this one', errors)
-            return
-         end if
-      end associate
-      others = raw%place(raw%block_start(other) + 1:raw%block_start(other + 1))
-      reach = 1.0e-6_wp*maxval(maxval(x, dim=2) - minval(x, dim=2))
-      call search%build(raw%x(:, others), reach)
-      do k = 1, size(places)
-         call search%nearest([x(1, k), x(2, k), 0.0_wp], reach, found, distance)
-         if (found > 0) places(k) = others(found)
-      end do
-      if (all(places == 0)) call add_field_error(deck%text, deck%bulk%block2(b)%line, 21, 'WELD', &
-         'the two blocks have no node in common', errors)
-   end subroutine weld_block
-
-
-   !> The nodes of the model in ascending order of their numbers.
-   subroutine order_nodes(raw, model, position)
-      type(raw_nodes), intent(in)       :: raw
-      type(model_type), intent(inout)   :: model
-      integer, allocatable, intent(out) :: position(:)
-      integer, allocatable :: order(:)
-      integer :: i
-
-      call sorted_order(raw%id(:raw%n), order)
-      allocate (position(raw%n))
-      position(order) = [(i, i = 1, raw%n)]
-      model%n_nodes = raw%n
-      model%node_id = raw%id(order)
-      model%x = raw%x(:, order)
-      call model%node_table%build(model%node_id)
-   end subroutine order_nodes
-
-
-   !> Every PSHELL with its material.
+   !> Every PSHELL, PAXIS and PSOLID with its material.
    subroutine resolve_properties(deck, model, errors)
       type(deck_type), intent(in)          :: deck
       type(model_type), intent(inout)      :: model
       type(deck_error_list), intent(inout) :: errors
       type(id_table_type) :: materials
-      integer :: i, material
+      integer :: i, n
 
       associate (bulk => deck%bulk)
          call materials%build(bulk%mat1(:bulk%n_mat1)%id)
-         allocate (model%properties(bulk%n_pshell))
+         allocate (model%properties(bulk%n_pshell + bulk%n_paxis + bulk%n_psolid))
          do i = 1, bulk%n_pshell
             associate (pshell => bulk%pshell(i), property => model%properties(i))
                property%id = pshell%id
+               property%state = merge(plane_strain, plane_stress, pshell%plane_strain)
                property%thickness = pshell%thickness
-               property%plane_strain = pshell%plane_strain
-               material = materials%find(pshell%material)
-               if (material > 0) then
-                  property%e = bulk%mat1(material)%e
-                  property%nu = bulk%mat1(material)%nu
-               else if (pshell%material > 0) then
-                  call add_field_error(deck%text, pshell%line, 2, 'MID1', 'there is no MAT1 '// &
-                                       integer_text(pshell%material), errors)
-               end if
+               property%incompatible = pshell%incompatible
+               call set_material(deck, materials, pshell%material, pshell%line, 'MID1', property, errors)
             end associate
+         end do
+         n = bulk%n_pshell
+         do i = 1, bulk%n_paxis
+            model%properties(n + i)%id = bulk%paxis(i)%id
+            model%properties(n + i)%state = axisymmetric
+            call set_material(deck, materials, bulk%paxis(i)%material, bulk%paxis(i)%line, 'MID', model%properties(n + i), errors)
+         end do
+         n = n + bulk%n_paxis
+         do i = 1, bulk%n_psolid
+            model%properties(n + i)%id = bulk%psolid(i)%id
+            model%properties(n + i)%state = solid
+            model%properties(n + i)%incompatible = bulk%psolid(i)%incompatible
+            call set_material(deck, materials, bulk%psolid(i)%material, bulk%psolid(i)%line, 'MID', model%properties(n + i), &
+                              errors)
          end do
       end associate
    end subroutine resolve_properties
 
 
-   !> CQUAD4 cards and elements of blocks, in ascending order of their numbers.
-   subroutine collect_elements(deck, raw, position, model, errors)
+   !> The material of a PROPERTY by its id; an error about field 2 of the card on LINE where there is none.
+   subroutine set_material(deck, materials, id, line, field, property, errors)
       type(deck_type), intent(in)          :: deck
+      type(id_table_type), intent(in)      :: materials
+      integer, intent(in)                  :: id, line
+      character(*), intent(in)             :: field
+      type(property_type), intent(inout)   :: property
+      type(deck_error_list), intent(inout) :: errors
+      integer :: material
+
+      material = materials%find(id)
+      if (material > 0) then
+         property%e = deck%bulk%mat1(material)%e
+         property%nu = deck%bulk%mat1(material)%nu
+         property%rho = deck%bulk%mat1(material)%rho
+      else if (id > 0) then
+         call add_field_error(deck%text, line, 2, field, 'there is no MAT1 '//integer_text(id), errors)
+      end if
+   end subroutine set_material
+
+
+   !> Whether an element card marks a face: in a model of solids, CQUAD4 and CTRIA3 do nothing else.
+   elemental logical function is_face(model, card)
+      type(model_type), intent(in)   :: model
+      type(element_card), intent(in) :: card
+
+      is_face = model%dimension == 3 .and. element_table(card%kind)%dimension == 2
+   end function is_face
+
+
+   !> Elements of cards and of blocks, in ascending order of their numbers.
+   subroutine collect_elements(deck, blocks, raw, position, model, errors)
+      type(deck_type), intent(in)          :: deck
+      type(block_type), intent(in)         :: blocks(:)
       type(raw_nodes), intent(in)          :: raw
       integer, intent(in)                  :: position(:)
       type(model_type), intent(inout)      :: model
       type(deck_error_list), intent(inout) :: errors
       type(id_table_type)  :: properties
-      integer, allocatable :: id(:), nodes(:, :), property(:), line(:), block_id(:), block_nodes(:, :), order(:)
-      integer :: b, i, k, n, total
+      integer, allocatable :: id(:), kind(:), nodes(:, :), property(:), line(:), order(:)
+      integer :: b, i, k, n, total, most
 
       call properties%build(model%properties%id)
-      total = deck%bulk%n_quad4
-      do b = 1, deck%bulk%n_block2
-         total = total + product(deck%bulk%block2(b)%divisions)
+      total = deck%bulk%n_element
+      do b = 1, size(blocks)
+         total = total + size(blocks(b)%element_id)
       end do
-      allocate (id(total), nodes(4, total), property(total), line(total))
-      do i = 1, deck%bulk%n_quad4
-         associate (element => deck%bulk%quad4(i))
-            id(i) = element%id
-            line(i) = element%line
-            do k = 1, 4
-               call resolve_node(deck, model, element%line, k + 2, 'node G'//integer_text(k), element%nodes(k), nodes(k, i), &
+      allocate (id(total), kind(total), property(total), line(total))
+      allocate (nodes(max_nodes, total), source=0)
+      n = 0
+      do i = 1, deck%bulk%n_element
+         associate (element => deck%bulk%element(i))
+            if (is_face(model, element)) cycle
+            n = n + 1
+            id(n) = element%id
+            kind(n) = element%kind
+            line(n) = element%line
+            do k = 1, element_table(element%kind)%n_nodes
+               call resolve_node(deck, model, element%line, k + 2, 'node G'//integer_text(k), element%nodes(k), nodes(k, n), &
                                  errors)
             end do
-            property(i) = properties%find(element%property)
-            call check_property(deck, element%line, element%property, property(i), errors)
+            property(n) = properties%find(element%property)
+            call check_property(deck, model, element%line, element%property, element%kind, property(n), errors)
          end associate
       end do
-      n = deck%bulk%n_quad4
-      do b = 1, deck%bulk%n_block2
-         associate (block => deck%bulk%block2(b))
-            call block_elements(block, block_id, block_nodes)
+      do b = 1, size(blocks)
+         associate (block => blocks(b))
             k = properties%find(block%property)
-            call check_property(deck, block%line, block%property, k, errors)
-            do i = 1, size(block_id)
-               id(n + i) = block_id(i)
-               nodes(:, n + i) = position(raw%place(raw%block_start(b) + block_nodes(:, i)))
+            call check_property(deck, model, block%line, block%property, block%kind, k, errors)
+            do i = 1, size(block%element_id)
+               n = n + 1
+               id(n) = block%element_id(i)
+               kind(n) = block%kind
+               line(n) = block%line
+               property(n) = k
+               associate (corners => element_table(block%kind)%n_nodes)
+                  nodes(:corners, n) = position(raw%place(raw%block_start(b) + block%places(:corners, i)))
+               end associate
             end do
-            property(n + 1:n + size(block_id)) = k
-            line(n + 1:n + size(block_id)) = block%line
-            n = n + size(block_id)
          end associate
       end do
-      call sorted_order(id, order)
+      call sorted_order(id(:n), order)
+      most = maxval([4, element_table(kind(:n))%n_nodes])
       model%n_elements = n
       model%element_id = id(order)
-      model%element_nodes = nodes(:, order)
+      model%element_kind = kind(order)
+      model%element_nodes = nodes(:most, order)
       model%element_property = property(order)
       model%element_line = line(order)
    end subroutine collect_elements
@@ -249,85 +201,63 @@ contains
    end subroutine resolve_node
 
 
-   subroutine check_property(deck, line, id, property, errors)
+   !> The property ID of an element of a KIND must be one of its own sort; PROPERTY is its position, 0 for none, and set to 0
+   !! where it is of another.
+   subroutine check_property(deck, model, line, id, kind, property, errors)
       type(deck_type), intent(in)          :: deck
-      integer, intent(in)                  :: line, id, property
+      type(model_type), intent(in)         :: model
+      integer, intent(in)                  :: line, id, kind
+      integer, intent(inout)               :: property
       type(deck_error_list), intent(inout) :: errors
+      character(:), allocatable :: wanted
 
-      if (property > 0 .or. id == 0) return
-      if (any(deck%bulk%pmark(:deck%bulk%n_pmark)%id == id)) then
+      if (model%dimension == 3 .and. element_table(kind)%dimension == 2) then
+         call errors%add(line, 'BLOCK2: the model has solids; plane bodies and solids cannot be mixed')
+         return
+      end if
+      wanted = 'PSHELL or PAXIS '
+      if (element_table(kind)%dimension == 3) wanted = 'PSOLID '
+      if (property > 0) then
+         if ((model%properties(property)%state == solid) .eqv. element_table(kind)%dimension == 3) return
+         property = 0
+      end if
+      if (id == 0) return
+      if (any(deck%bulk%pmark(:deck%bulk%n_pmark)%id == id) .and. element_table(kind)%dimension == 2) then
          call add_field_error(deck%text, line, 2, 'PID', integer_text(id)//' is a PMARK: a surface of a plane body is '// &
                               'marked with CBAR or CROD edges', errors)
       else
-         call add_field_error(deck%text, line, 2, 'PID', 'there is no PSHELL '//integer_text(id), errors)
+         call add_field_error(deck%text, line, 2, 'PID', 'there is no '//wanted//integer_text(id), errors)
       end if
    end subroutine check_property
 
 
-   !> No element number twice, bodies, edges and interface elements counted together as NASTRAN does.
-   subroutine check_element_numbers(deck, errors)
+   !> No element number twice, bodies, faces, edges and interface elements counted together as NASTRAN does.
+   subroutine check_element_numbers(deck, blocks, errors)
       type(deck_type), intent(in)          :: deck
+      type(block_type), intent(in)         :: blocks(:)
       type(deck_error_list), intent(inout) :: errors
       integer, allocatable :: id(:), line(:)
-      integer :: b, i, n, k, total
+      integer :: b, n, n_cards, k, total
 
       associate (bulk => deck%bulk)
-         total = bulk%n_quad4 + bulk%n_edge + bulk%n_cjoint
-         do b = 1, bulk%n_block2
-            total = total + product(bulk%block2(b)%divisions)
+         n_cards = bulk%n_element + bulk%n_edge + bulk%n_cjoint
+         total = n_cards
+         do b = 1, size(blocks)
+            total = total + size(blocks(b)%element_id)
          end do
          allocate (id(total), line(total))
-         n = bulk%n_quad4 + bulk%n_edge + bulk%n_cjoint
-         id(:n) = [bulk%quad4(:bulk%n_quad4)%id, bulk%edge(:bulk%n_edge)%id, bulk%cjoint(:bulk%n_cjoint)%id]
-         line(:n) = [bulk%quad4(:bulk%n_quad4)%line, bulk%edge(:bulk%n_edge)%line, bulk%cjoint(:bulk%n_cjoint)%line]
-         do b = 1, bulk%n_block2
-            k = product(bulk%block2(b)%divisions)
-            id(n + 1:n + k) = [(bulk%block2(b)%first_element + i, i = 0, k - 1)]
-            line(n + 1:n + k) = bulk%block2(b)%line
+         id(:n_cards) = [bulk%element(:bulk%n_element)%id, bulk%edge(:bulk%n_edge)%id, bulk%cjoint(:bulk%n_cjoint)%id]
+         line(:n_cards) = [bulk%element(:bulk%n_element)%line, bulk%edge(:bulk%n_edge)%line, bulk%cjoint(:bulk%n_cjoint)%line]
+         n = n_cards
+         do b = 1, size(blocks)
+            k = size(blocks(b)%element_id)
+            id(n + 1:n + k) = blocks(b)%element_id
+            line(n + 1:n + k) = blocks(b)%line
             n = n + k
          end do
       end associate
-      call report_repeated(deck, id, line, deck%bulk%n_quad4 + deck%bulk%n_edge + deck%bulk%n_cjoint, 'element', errors)
+      call report_repeated(deck, id, line, n_cards, 'element', errors)
    end subroutine check_element_numbers
-
-
-   !> Say which of the numbers ID(n), given on the cards of LINE(n), are given twice; a card that gives many is named once.
-   subroutine report_repeated(deck, id, line, n_cards, noun, errors)
-      type(deck_type), intent(in)          :: deck
-      integer, intent(in)                  :: id(:), line(:)
-      integer, intent(in)                  :: n_cards !! the first so many are given one by one, the others by blocks
-      character(*), intent(in)             :: noun
-      type(deck_error_list), intent(inout) :: errors
-      type(id_table_type)  :: table
-      integer, allocatable :: again(:), order(:)
-      integer :: field, k, last, more
-      character(3) :: name
-
-      call table%build(id)
-      call table%list_repeated(again)
-      call sorted_order(line(again), order)
-      k = 1
-      do while (k <= size(again))
-         last = k
-         do while (last < size(again))
-            if (line(again(order(last + 1))) /= line(again(order(k)))) exit
-            last = last + 1
-         end do
-         more = last - k
-         associate (this => again(order(k)))
-            field = 1
-            name = merge('ID ', 'EID', noun == 'node')
-            if (this > n_cards) then
-               field = merge(15, 16, noun == 'node')
-               name = merge('N1', 'E1', noun == 'node')
-            end if
-            if (id(this) > 0) call add_field_error(deck%text, line(this), field, trim(name), noun//' '//integer_text(id(this))// &
-               trim(merge(', and more of this card,', '                        ', more > 0))//' is given twice, first in '// &
-               deck%text%place(line(table%find(id(this)))), errors)
-         end associate
-         k = last + 1
-      end do
-   end subroutine report_repeated
 
 
    !> The elements of every node.
@@ -339,7 +269,7 @@ contains
       if (allocated(model%first_at)) deallocate (model%first_at, model%elements_at)
       allocate (model%first_at(model%n_nodes + 1), source=0)
       do e = 1, model%n_elements
-         do k = 1, 4
+         do k = 1, size(model%element_nodes, 1)
             node = model%element_nodes(k, e)
             if (node > 0) model%first_at(node + 1) = model%first_at(node + 1) + 1
          end do
@@ -351,7 +281,7 @@ contains
       allocate (model%elements_at(model%first_at(model%n_nodes + 1) - 1))
       allocate (filled, source=model%first_at)
       do e = 1, model%n_elements
-         do k = 1, 4
+         do k = 1, size(model%element_nodes, 1)
             node = model%element_nodes(k, e)
             if (node == 0) cycle
             model%elements_at(filled(node)) = e
@@ -361,19 +291,62 @@ contains
    end subroutine list_elements_of_nodes
 
 
-   !> Every element lies in the plane and has a positive area at all its corners.
+   !> Plane bodies and bodies of revolution cannot be mixed: the forces of the ones are those of their thickness, of the
+   !! others those of the whole ring.
+   subroutine check_one_state(model, errors)
+      type(model_type), intent(inout)      :: model
+      type(deck_error_list), intent(inout) :: errors
+      logical :: rings, others
+      integer :: e
+
+      rings = .false.
+      others = .false.
+      do e = 1, model%n_elements
+         if (model%element_property(e) == 0) cycle
+         if (model%properties(model%element_property(e))%state == axisymmetric) then
+            rings = .true.
+         else
+            others = .true.
+         end if
+         if (.not. (rings .and. others)) cycle
+         call errors%add(model%element_line(e), 'element '//integer_text(model%element_id(e))//': PAXIS and PSHELL cannot be '// &
+                         'mixed in one model')
+         exit
+      end do
+      model%axisymmetric = rings
+   end subroutine check_one_state
+
+
+   !> A plane model lies in x-y, an axisymmetric one besides in x >= 0.
+   subroutine check_nodes(deck, model, errors)
+      type(deck_type), intent(in)          :: deck
+      type(model_type), intent(in)         :: model
+      type(deck_error_list), intent(inout) :: errors
+      integer :: b, i
+
+      if (model%dimension == 3) return
+      do i = 1, deck%bulk%n_grid
+         if (abs(deck%bulk%grid(i)%x(3)) > 0.0_wp) call add_field_error(deck%text, deck%bulk%grid(i)%line, 5, 'X3', &
+            'not zero, but a plane model lies in x-y', errors)
+         if (model%axisymmetric .and. deck%bulk%grid(i)%x(1) < 0.0_wp) call add_field_error(deck%text, &
+            deck%bulk%grid(i)%line, 3, 'X1', 'negative, but an axisymmetric model lies in x >= 0', errors)
+      end do
+      if (.not. model%axisymmetric) return
+      do b = 1, deck%bulk%n_block2
+         if (any(deck%bulk%block2(b)%corner(1, :) < 0.0_wp)) call errors%add(deck%bulk%block2(b)%line, &
+            'BLOCK2: a corner has x < 0, but an axisymmetric model lies in x >= 0')
+      end do
+   end subroutine check_nodes
+
+
+   !> Every element has a positive area or volume at all its corners.
    subroutine check_elements(deck, model, errors)
       type(deck_type), intent(in)          :: deck
       type(model_type), intent(in)         :: model
       type(deck_error_list), intent(inout) :: errors
-      real(wp) :: smallest
       integer  :: e, i, last_line
       logical, allocatable :: doubtful(:)
 
-      do i = 1, deck%bulk%n_grid
-         if (abs(deck%bulk%grid(i)%x(3)) > 0.0_wp) call add_field_error(deck%text, deck%bulk%grid(i)%line, 5, 'X3', &
-            'not zero, but a plane model lies in x-y', errors)
-      end do
       allocate (doubtful(model%n_nodes), source=.false.)
       do i = 1, deck%bulk%n_grid
          if (deck%bulk%grid(i)%doubtful .and. model%node_table%find(deck%bulk%grid(i)%id) > 0) &
@@ -381,16 +354,36 @@ contains
       end do
       last_line = 0
       do e = 1, model%n_elements
-         if (any(model%element_nodes(:, e) == 0) .or. model%element_line(e) == last_line) cycle ! once a card
-         if (any(doubtful(model%element_nodes(:, e)))) cycle
-         if (any(deck%bulk%block2%line == model%element_line(e) .and. deck%bulk%block2%doubtful)) cycle
-         smallest = quad4_smallest_jacobian(model%x(:2, model%element_nodes(:, e)))
-         if (smallest > 0.0_wp) cycle
+         if (model%element_line(e) == last_line) cycle ! once a card
+         associate (nodes => corners_of(model, e))
+            if (any(nodes == 0)) cycle
+            if (any(doubtful(nodes))) cycle
+            if (any(deck%bulk%block2%line == model%element_line(e) .and. deck%bulk%block2%doubtful)) cycle
+            if (any(deck%bulk%block3%line == model%element_line(e) .and. deck%bulk%block3%doubtful)) cycle
+            if (smallest_jacobian(model%element_kind(e), model%x(:model%dimension, nodes)) > 0.0_wp) cycle
+         end associate
          last_line = model%element_line(e)
-         call errors%add(model%element_line(e), 'element '//integer_text(model%element_id(e))//' has no positive area at '// &
-                         'some corner; expected four nodes counter-clockwise round a convex quadrilateral')
+         call errors%add(model%element_line(e), 'element '//integer_text(model%element_id(e))//' has no positive '// &
+                         shape_words(model%element_kind(e)))
       end do
    end subroutine check_elements
+
+
+   !> What an element of a KIND lacks, and what was expected.
+   pure function shape_words(kind) result(words)
+      integer, intent(in)       :: kind
+      character(:), allocatable :: words
+
+      select case (kind)
+      case (kind_quad4)
+         words = 'area at some corner; expected four nodes counter-clockwise round a convex quadrilateral'
+      case (kind_tria3)
+         words = 'area at some corner; expected three nodes counter-clockwise'
+      case default
+         words = 'volume at some corner; expected the corners in the order of '//trim(element_table(kind)%card)// &
+                 ' in the card manual'
+      end select
+   end function shape_words
 
 
    !> What the manual calls node K of the edge on LINE: GA, GB of a CBAR, G1, G2 of a CROD.
@@ -404,49 +397,68 @@ contains
    end function edge_node
 
 
-   !> CBAR and CROD edges and the marked sides of blocks.
-   subroutine collect_edges(deck, raw, position, model, edges, errors)
+   !> CBAR and CROD edges in the plane, CTRIA3 and CQUAD4 faces of solids, and the marked sides of blocks.
+   subroutine collect_sides(deck, blocks, raw, position, model, sides, errors)
       type(deck_type), intent(in)          :: deck
+      type(block_type), intent(in)         :: blocks(:)
       type(raw_nodes), intent(in)          :: raw
       integer, intent(in)                  :: position(:)
       type(model_type), intent(in)         :: model
-      type(marked_edges), intent(out)      :: edges
+      type(marked_sides), intent(out)      :: sides
       type(deck_error_list), intent(inout) :: errors
-      integer, allocatable :: places(:)
-      integer :: b, i, k, n, side, total
+      integer :: b, i, k, n, total
 
-      total = deck%bulk%n_edge
-      do b = 1, deck%bulk%n_block2
-         total = total + 2*sum(deck%bulk%block2(b)%divisions)
-      end do
-      allocate (edges%mark(total), edges%nodes(2, total), edges%line(total), edges%field(total))
+      total = deck%bulk%n_edge + sum(blocks%n_sides)
+      if (model%dimension == 3) total = total + deck%bulk%n_element
+      allocate (sides%mark(total), sides%corners(total), sides%line(total), sides%field(total))
+      allocate (sides%nodes(max_side_nodes, total), source=0)
       n = 0
       do i = 1, deck%bulk%n_edge
          associate (edge => deck%bulk%edge(i))
-            n = n + 1
-            edges%mark(n) = edge%property
-            edges%line(n) = edge%line
-            edges%field(n) = 2
+            if (model%dimension == 3) then
+               call errors%add(edge%line, 'a CBAR or CROD marks an edge of a plane body; surfaces of solids are marked with '// &
+                               'CTRIA3 and CQUAD4 faces')
+               cycle
+            end if
+            call start_side(edge%property, 2, edge%line, 2)
             do k = 1, 2
                call resolve_node(deck, model, edge%line, k + 2, 'node '//edge_node(deck, edge%line, k), edge%nodes(k), &
-                                 edges%nodes(k, n), errors)
+                                 sides%nodes(k, n), errors)
             end do
          end associate
       end do
-      do b = 1, deck%bulk%n_block2
-         do side = 1, 4
-            if (deck%bulk%block2(b)%marks(side) == 0) cycle
-            places = block_side(deck%bulk%block2(b), side)
-            do i = 1, size(places) - 1
-               n = n + 1
-               edges%mark(n) = deck%bulk%block2(b)%marks(side)
-               edges%line(n) = deck%bulk%block2(b)%line
-               edges%field(n) = 16 + side
-               edges%nodes(:, n) = position(raw%place(raw%block_start(b) + places(i:i + 1)))
+      do i = 1, deck%bulk%n_element
+         associate (face => deck%bulk%element(i))
+            if (.not. is_face(model, face)) cycle
+            call start_side(face%property, element_table(face%kind)%n_nodes, face%line, 2)
+            do k = 1, sides%corners(n)
+               call resolve_node(deck, model, face%line, k + 2, 'node G'//integer_text(k), face%nodes(k), sides%nodes(k, n), &
+                                 errors)
             end do
+         end associate
+      end do
+      do b = 1, size(blocks)
+         do i = 1, blocks(b)%n_sides
+            associate (corners => blocks(b)%side(:count(blocks(b)%side(:, i) > 0), i))
+               call start_side(blocks(b)%mark(i), size(corners), blocks(b)%line, blocks(b)%mark_field(i))
+               sides%nodes(:size(corners), n) = position(raw%place(raw%block_start(b) + corners))
+            end associate
          end do
       end do
-      edges%n = n
-   end subroutine collect_edges
+      sides%n = n
+
+   contains
+
+      subroutine start_side(mark, corners, line, field)
+         integer, intent(in) :: mark, corners, line, field
+
+         n = n + 1
+         sides%mark(n) = mark
+         sides%corners(n) = corners
+         sides%line(n) = line
+         sides%field(n) = field
+      end subroutine start_side
+
+   end subroutine collect_sides
 
 end module mesh_build

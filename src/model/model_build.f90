@@ -1,13 +1,14 @@
 !> From a deck to the structure that is solved.
 module model_build
-   use condition_build, only: build_loads, build_supports
+   use condition_build, only: build_supports
    use deck_errors, only: deck_error_list
    use deck_input, only: deck_type
    use id_checks, only: check_ids
    use joint_build, only: build_joints
    use joint_split, only: split_shared_surfaces
    use joint_statics, only: find_determinate_joints, find_first_pressures, find_parts
-   use mesh_build, only: build_mesh, marked_edges
+   use load_build, only: build_loads
+   use mesh_build, only: build_mesh, marked_sides
    use model_data, only: model_type
    use stage_plan, only: plan_stages, stage_plan_type
    use surface_build, only: build_surfaces
@@ -25,12 +26,12 @@ contains
       type(model_type), intent(out)        :: model
       type(stage_plan_type), intent(out)   :: plan
       type(deck_error_list), intent(inout) :: errors
-      type(marked_edges) :: edges
+      type(marked_sides) :: sides
 
       if (.not. deck%is_whole) return
       call check_ids(deck, errors)
-      call build_mesh(deck, model, edges, errors)
-      call build_surfaces(deck, edges, model, errors)
+      call build_mesh(deck, model, sides, errors)
+      call build_surfaces(deck, sides, model, errors)
       call split_shared_surfaces(deck, model, errors)
       call build_joints(deck, model, errors)
       call build_supports(deck, model, errors)

@@ -1,33 +1,33 @@
 !> The structure as it is solved: nodes, bodies, joints, supports, loads, all references resolved to positions.
 !! Built once from a deck; nothing in it changes afterwards.
 module model_data
+   use elasticity, only: plane_stress
+   use element_kinds, only: element_table
    use id_table, only: id_table_type
    use joint_laws, only: joint_law
    use kinds, only: wp
    implicit none
    private
 
-   public :: joint_movement
-
-   integer, parameter, public :: plane_stress = 1, plane_strain = 2, axisymmetric = 3, solid = 4 !! formulations
+   public :: joint_movement, corners_of
 
    !> Section and material of body elements.
    type, public :: property_type
       integer  :: id = 0
-      integer  :: formulation = plane_stress
+      integer  :: state = plane_stress       !! of stress: plane_stress ... solid, of elasticity
       real(wp) :: thickness = 0.0_wp         !! of a plane one [length]
       real(wp) :: e = 0.0_wp, nu = 0.0_wp    !! [pressure], [-]
-      real(wp) :: rho = 0.0_wp               !! mass density
+      real(wp) :: rho = 0.0_wp               !! mass density [force x time^2/length^4]
       logical  :: incompatible = .false.     !! modes of Wilson and Taylor
    end type property_type
 
-   !> A marked surface: sides of elements, edges in the plane and faces of solids, each in the order of its element: a plane body on
-   !! the left of the edge, the right-hand normal of a face out of the solid.
+   !> A marked surface: sides of elements, edges in the plane and faces of solids, each in the order of its element: a plane
+   !! body on the left of the edge, the right-hand normal of a face out of the solid.
    type, public :: surface_type
       integer :: id = 0
       integer :: n  = 0                      !! sides
       integer, allocatable :: corners(:)     !! (n) 2, 3 or 4
-      integer, allocatable :: nodes(:, :)    !! (4, n)
+      integer, allocatable :: nodes(:, :)    !! (most of any, n) its corners, 0 behind the last
       integer, allocatable :: element(:)     !! (n) the body element that the side belongs to
       integer, allocatable :: other(:)       !! (n) a body element behind the side, 0: none
       integer, allocatable :: line(:)        !! (n) of its card in the deck text
@@ -57,15 +57,17 @@ module model_data
       real(wp) :: axes(3, 3) = 0.0_wp        !! columns: x, y in the joint, z its normal from node 1 to node 2
    end type interface_element
 
-   !> Forces on nodes: the total load at the end of a stage.
+   !> Forces on nodes and displacements of supports: the total load at the end of a stage.
    type, public :: stage_load_type
       integer :: n = 0
       integer, allocatable  :: node(:)       !! (n), a node may stand here more than once
       real(wp), allocatable :: force(:, :)   !! (3, n)
+      real(wp), allocatable :: moved(:, :)   !! (dimension, n_nodes) displacements of held components [length]; where there are any
    end type stage_load_type
 
    type, public :: model_type
       integer :: dimension = 2               !! degrees of freedom a node
+      logical :: axisymmetric = .false.      !! about y; loads, areas and forces are those of the whole ring
       integer :: n_nodes = 0
       integer, allocatable  :: node_id(:)    !! ascending
       real(wp), allocatable :: x(:, :)       !! (3, n_nodes) [length]
@@ -76,7 +78,7 @@ module model_data
       integer :: n_elements = 0
       integer, allocatable  :: element_id(:)
       integer, allocatable  :: element_kind(:)       !! of element_kinds
-      integer, allocatable  :: element_nodes(:, :)   !! (8, n_elements) corners in NASTRAN's order, 0 behind the last
+      integer, allocatable  :: element_nodes(:, :)   !! (most of any, n_elements) corners as on the cards, 0 behind the last
       integer, allocatable  :: element_property(:)
       integer, allocatable  :: element_line(:)       !! of its card in the deck text
       integer, allocatable  :: first_at(:)           !! (n_nodes + 1) elements_at(first_at(i):first_at(i+1)-1)
@@ -107,5 +109,15 @@ contains
          movement = matmul(between, element%axes)
       end associate
    end function joint_movement
+
+
+   !> The corners of element E.
+   pure function corners_of(model, e) result(nodes)
+      type(model_type), intent(in) :: model
+      integer, intent(in)          :: e
+      integer :: nodes(element_table(model%element_kind(e))%n_nodes)
+
+      nodes = model%element_nodes(:size(nodes), e)
+   end function corners_of
 
 end module model_data

@@ -81,7 +81,7 @@ contains
          end associate
       end do
       raw%n = n
-      call report_repeated(deck, raw%id(:n), raw%line(:n), 'ID', 'node', errors)
+      call report_repeated(deck, raw%id(:n), raw%line(:n), deck%bulk%n_grid, 'node', errors)
    end subroutine collect_nodes
 
 
@@ -105,7 +105,8 @@ contains
             if (blocks(other)%id == block%weld) exit
          end do
          if (other == 0) then
-            call add_field_error(deck%text, block%line, weld_field(block), 'WELD', 'no block '//integer_text(block%weld)// &
+            call add_field_error(deck%text, block%line, weld_field(block), 'WELD', 'no '// &
+                                 merge('BLOCK2 ', 'BLOCK3 ', block%kind == kind_quad4)//integer_text(block%weld)// &
                                  ' stands before this one', errors)
             return
          end if
@@ -150,14 +151,16 @@ contains
 
 
    !> Say which of the numbers ID(n), given on the cards of LINE(n), are given twice; a card that gives many is named once.
-   subroutine report_repeated(deck, id, line, field, noun, errors)
+   subroutine report_repeated(deck, id, line, n_cards, noun, errors)
       type(deck_type), intent(in)          :: deck
       integer, intent(in)                  :: id(:), line(:)
-      character(*), intent(in)             :: field, noun
+      integer, intent(in)                  :: n_cards !! the first so many are given one by one, the others by blocks
+      character(*), intent(in)             :: noun
       type(deck_error_list), intent(inout) :: errors
       type(id_table_type)  :: table
       integer, allocatable :: again(:), order(:)
-      integer :: k, last, more
+      integer :: field, k, last, more
+      character(3) :: name
 
       call table%build(id)
       call table%list_repeated(again)
@@ -171,7 +174,13 @@ contains
          end do
          more = last - k
          associate (this => again(order(k)))
-            if (id(this) > 0) call add_field_error(deck%text, line(this), 1, field, noun//' '//integer_text(id(this))// &
+            field = 1
+            name = merge('ID ', 'EID', noun == 'node')
+            if (this > n_cards) then
+               field = merge(15, 16, noun == 'node')
+               name = merge('N1', 'E1', noun == 'node')
+            end if
+            if (id(this) > 0) call add_field_error(deck%text, line(this), field, trim(name), noun//' '//integer_text(id(this))// &
                trim(merge(', and more of this card,', '                        ', more > 0))//' is given twice, first in '// &
                deck%text%place(line(table%find(id(this)))), errors)
          end associate

@@ -1,17 +1,19 @@
-!> Marked surfaces: which body elements their edges belong to, which way they face, the areas of their nodes.
+!> Marked surfaces: which body elements their sides belong to, which way they face, the areas of their nodes.
 module surface_build
    use deck_cards, only: add_field_error
    use deck_errors, only: deck_error_list
    use deck_input, only: deck_type
+   use element_kinds, only: element_table, max_side_nodes
+   use element_loads, only: side_areas, side_forces
    use id_table, only: id_table_type, sorted_order
    use kinds, only: wp
-   use mesh_build, only: marked_edges
+   use mesh_build, only: marked_sides
    use model_data, only: model_type, surface_type
    use text_tools, only: integer_text
    implicit none
    private
 
-   public :: build_surfaces, surface_nodes
+   public :: build_surfaces, surface_nodes, side_of_element, side_influence
 
    !> The nodes of a surface, each once, in ascending order of their numbers.
    type, public :: surface_node_list
@@ -23,10 +25,10 @@ module surface_build
 
 contains
 
-   !> One surface for every PMARK card, with the edges that name it.
-   subroutine build_surfaces(deck, edges, model, errors)
+   !> One surface for every PMARK card, with the sides that name it.
+   subroutine build_surfaces(deck, sides, model, errors)
       type(deck_type), intent(in)          :: deck
-      type(marked_edges), intent(in)       :: edges
+      type(marked_sides), intent(in)       :: sides
       type(model_type), intent(inout)      :: model
       type(deck_error_list), intent(inout) :: errors
       type(id_table_type)  :: marks
@@ -35,30 +37,37 @@ contains
 
       n = deck%bulk%n_pmark
       call marks%build(deck%bulk%pmark(:n)%id)
-      allocate (model%surfaces(n), surface(edges%n), filled(n))
+      allocate (model%surfaces(n), surface(sides%n), filled(n))
       filled = 0
-      do i = 1, edges%n
-         surface(i) = marks%find(edges%mark(i))
-         if (surface(i) == 0 .and. edges%mark(i) > 0) then
-            call add_field_error(deck%text, edges%line(i), edges%field(i), mark_name(edges%field(i)), 'there is no PMARK '// &
-                                 integer_text(edges%mark(i)), errors)
-         else if (surface(i) > 0) then
+      do i = 1, sides%n
+         surface(i) = marks%find(sides%mark(i))
+         if (surface(i) > 0) then
             filled(surface(i)) = filled(surface(i)) + 1
+         else if (sides%mark(i) > 0) then
+            call add_field_error(deck%text, sides%line(i), sides%field(i), mark_name(sides%field(i)), 'there is no PMARK '// &
+                                 integer_text(sides%mark(i))//shell_hint(sides, i), errors)
          end if
       end do
       do k = 1, n
          model%surfaces(k)%id = deck%bulk%pmark(k)%id
          model%surfaces(k)%n = 0
-         allocate (model%surfaces(k)%nodes(2, filled(k)), model%surfaces(k)%element(filled(k)), &
-                   model%surfaces(k)%other(filled(k)), model%surfaces(k)%line(filled(k)))
+         allocate (model%surfaces(k)%nodes(merge(2, max_side_nodes, model%dimension == 2), filled(k)), source=0)
+         allocate (model%surfaces(k)%element(filled(k)), model%surfaces(k)%other(filled(k)), &
+                   model%surfaces(k)%line(filled(k)), model%surfaces(k)%corners(filled(k)))
          if (filled(k) > 0 .or. model%surfaces(k)%id == 0) cycle
          if (findloc(deck%bulk%pmark(:k)%id, model%surfaces(k)%id, dim=1) < k) cycle ! a number given twice: said elsewhere
-         call add_field_error(deck%text, deck%bulk%pmark(k)%line, 1, 'PID', 'surface '//integer_text(model%surfaces(k)%id)// &
-                              ' has no edge: expected a CBAR, CROD or side of a block with this PID', errors)
+         if (model%dimension == 3) then
+            call add_field_error(deck%text, deck%bulk%pmark(k)%line, 1, 'PID', 'surface '// &
+               integer_text(model%surfaces(k)%id)//' has no face: expected a CTRIA3, CQUAD4 or side of a block with this PID', &
+               errors)
+         else
+            call add_field_error(deck%text, deck%bulk%pmark(k)%line, 1, 'PID', 'surface '// &
+               integer_text(model%surfaces(k)%id)//' has no edge: expected a CBAR, CROD or side of a block with this PID', errors)
+         end if
       end do
-      do i = 1, edges%n
-         if (surface(i) == 0 .or. any(edges%nodes(:, i) == 0)) cycle
-         call add_edge(edges, i, model, model%surfaces(surface(i)), errors)
+      do i = 1, sides%n
+         if (surface(i) == 0 .or. any(sides%nodes(:sides%corners(i), i) == 0)) cycle
+         call add_side(sides, i, model, model%surfaces(surface(i)), errors)
       end do
       do k = 1, n
          call check_repeated(model, model%surfaces(k), errors)
@@ -66,7 +75,7 @@ contains
    end subroutine build_surfaces
 
 
-   !> The field that names a mark: PID of an edge, S1 to S4 of a block.
+   !> The field that names a mark: PID of an edge or face, S1 to S6 of a block.
    pure function mark_name(field) result(name)
       integer, intent(in)       :: field
       character(:), allocatable :: name
@@ -76,94 +85,183 @@ contains
    end function mark_name
 
 
-   !> Add edge I to its surface, run through with its body on the left.
-   subroutine add_edge(edges, i, model, surface, errors)
-      type(marked_edges), intent(in)       :: edges
+   !> What else a face of solids without its PMARK may be meant to be.
+   pure function shell_hint(sides, i) result(words)
+      type(marked_sides), intent(in) :: sides
+      integer, intent(in)            :: i
+      character(:), allocatable      :: words
+
+      words = ''
+      if (sides%corners(i) > 2 .and. sides%field(i) == 2) &
+         words = ': in a model of solids CTRIA3 and CQUAD4 mark surfaces, and plane bodies cannot be mixed in'
+   end function shell_hint
+
+
+   !> Add side I to its surface, in the order of the element that it belongs to: of two the one that has it in the sense of its
+   !! card, the other is then behind it.
+   subroutine add_side(sides, i, model, surface, errors)
+      type(marked_sides), intent(in)       :: sides
       integer, intent(in)                  :: i
       type(model_type), intent(in)         :: model
       type(surface_type), intent(inout)    :: surface
       type(deck_error_list), intent(inout) :: errors
-      integer :: left, right
+      integer :: owner, other, found, e, j, side, own_side
+      logical :: same_sense, owner_same
 
-      left = element_left_of(model, edges%nodes(1, i), edges%nodes(2, i))
-      right = element_left_of(model, edges%nodes(2, i), edges%nodes(1, i))
-      if (left == 0 .and. right == 0) then
-         call errors%add(edges%line(i), 'the edge between nodes '//integer_text(model%node_id(edges%nodes(1, i)))//' and '// &
-                         integer_text(model%node_id(edges%nodes(2, i)))//' is no side of a body element')
+      owner = 0
+      other = 0
+      own_side = 0
+      owner_same = .false.
+      associate (nodes => sides%nodes(:sides%corners(i), i))
+         do j = model%first_at(nodes(1)), model%first_at(nodes(1) + 1) - 1
+            e = model%elements_at(j)
+            if (e == owner) cycle ! a corner that stands on the card twice
+            call side_of_element(model, e, nodes, side, same_sense)
+            if (side == 0) cycle
+            found = e
+            if (owner == 0 .or. (same_sense .and. .not. owner_same)) then
+               found = owner
+               owner = e
+               own_side = side
+               owner_same = same_sense
+            end if
+            if (found > 0) other = found
+         end do
+         if (owner == 0) then
+            call errors%add(sides%line(i), 'the '//side_name(model, nodes)//' is no side of a body element')
+            return
+         end if
+         surface%n = surface%n + 1
+         surface%line(surface%n) = sides%line(i)
+         surface%corners(surface%n) = size(nodes)
+         surface%element(surface%n) = owner
+         surface%other(surface%n) = other
+         surface%nodes(:size(nodes), surface%n) = &
+            model%element_nodes(element_table(model%element_kind(owner))%side_nodes(:size(nodes), own_side), owner)
+      end associate
+   end subroutine add_side
+
+
+   !> A side in words, by its nodes.
+   pure function side_name(model, nodes) result(words)
+      type(model_type), intent(in) :: model
+      integer, intent(in)          :: nodes(:)
+      character(:), allocatable    :: words
+      integer :: k
+
+      if (size(nodes) == 2) then
+         words = 'edge between nodes '//integer_text(model%node_id(nodes(1)))//' and '//integer_text(model%node_id(nodes(2)))
          return
       end if
-      surface%n = surface%n + 1
-      surface%line(surface%n) = edges%line(i)
-      if (left > 0) then
-         surface%nodes(:, surface%n) = edges%nodes(:, i)
-         surface%element(surface%n) = left
-         surface%other(surface%n) = right
-      else
-         surface%nodes(:, surface%n) = edges%nodes([2, 1], i)
-         surface%element(surface%n) = right
-         surface%other(surface%n) = 0
-      end if
-   end subroutine add_edge
+      words = 'face of nodes '//integer_text(model%node_id(nodes(1)))
+      do k = 2, size(nodes)
+         words = words//merge(', ', '  ', k < size(nodes))
+         if (k == size(nodes)) words = trim(words)//' and '
+         words = words//integer_text(model%node_id(nodes(k)))
+      end do
+   end function side_name
 
 
-   !> No edge stands twice on a surface: its area would count twice.
+   !> Which SIDE of element E has the NODES, in any order; 0: none. SAME_SENSE: its own order goes round them as they stand.
+   pure subroutine side_of_element(model, e, nodes, side, same_sense)
+      type(model_type), intent(in) :: model
+      integer, intent(in)          :: e, nodes(:)
+      integer, intent(out)         :: side
+      logical, intent(out)         :: same_sense
+      integer :: at, k, n
+
+      n = size(nodes)
+      same_sense = .false.
+      associate (kind => element_table(model%element_kind(e)))
+         do side = 1, kind%n_sides
+            if (kind%side_size(side) /= n) cycle
+            associate (own => model%element_nodes(kind%side_nodes(:n, side), e))
+               if (any([(all(own /= nodes(k)), k = 1, n)])) cycle
+               if (any([(all(nodes /= own(k)), k = 1, n)])) cycle
+               at = findloc(own, nodes(1), dim=1)
+               if (n == 2) then
+                  same_sense = at == 1
+               else
+                  same_sense = own(modulo(at, n) + 1) == nodes(2)
+               end if
+               return
+            end associate
+         end do
+      end associate
+      side = 0
+   end subroutine side_of_element
+
+
+   !> No side stands twice on a surface: its area would count twice.
    subroutine check_repeated(model, surface, errors)
       type(model_type), intent(in)         :: model
       type(surface_type), intent(in)       :: surface
       type(deck_error_list), intent(inout) :: errors
-      integer, allocatable :: order(:)
-      integer :: j, k
+      integer, allocatable :: order(:), lowest(:)
+      integer :: j, k, m
 
-      call sorted_order(minval(surface%nodes(:, :surface%n), dim=1), order)
+      allocate (lowest(surface%n))
+      do k = 1, surface%n
+         lowest(k) = minval(surface%nodes(:surface%corners(k), k))
+      end do
+      call sorted_order(lowest, order)
       do k = 2, surface%n
          do j = k - 1, 1, -1
-            associate (this => surface%nodes(:, order(k)), that => surface%nodes(:, order(j)))
-               if (minval(this) /= minval(that)) exit
-               if (maxval(this) /= maxval(that)) cycle
+            if (lowest(order(k)) /= lowest(order(j))) exit
+            if (surface%corners(order(k)) /= surface%corners(order(j))) cycle
+            associate (this => surface%nodes(:surface%corners(order(k)), order(k)), &
+                       that => surface%nodes(:surface%corners(order(j)), order(j)))
+               if (any([(all(that /= this(m)), m = 1, size(this))])) cycle
                call errors%add(max(surface%line(order(k)), surface%line(order(j))), 'surface '//integer_text(surface%id)// &
-                  ': the edge between nodes '//integer_text(model%node_id(this(1)))//' and '// &
-                  integer_text(model%node_id(this(2)))//' is marked twice')
+                  ': the '//side_name(model, this)//' is marked twice')
             end associate
          end do
       end do
    end subroutine check_repeated
 
 
-   !> The element that has the side A -> B in its counter-clockwise round, 0 for none.
-   pure integer function element_left_of(model, a, b) result(element)
-      type(model_type), intent(in) :: model
-      integer, intent(in)          :: a, b
-      integer :: i, k
+   !> Areas of influence of the corners of side S of SURFACE, a_i = integral of N_i over it [length^2] (section 4.1).
+   pure subroutine side_influence(model, surface, s, area, normal)
+      type(model_type), intent(in)   :: model
+      type(surface_type), intent(in) :: surface
+      integer, intent(in)            :: s
+      real(wp), intent(out)          :: area(max_side_nodes)        !! 0 behind the last corner
+      real(wp), intent(out)          :: normal(3, max_side_nodes)   !! integral of N_i times the outward normal [length^2]
+      real(wp) :: force(model%dimension, max_side_nodes)
+      integer  :: n
 
-      do i = model%first_at(a), model%first_at(a + 1) - 1
-         element = model%elements_at(i)
-         do k = 1, 4
-            if (model%element_nodes(k, element) == a .and. model%element_nodes(modulo(k, 4) + 1, element) == b) return
-         end do
-      end do
-      element = 0
-   end function element_left_of
+      area = 0.0_wp
+      normal = 0.0_wp
+      n = surface%corners(s)
+      if (model%element_property(surface%element(s)) == 0) return ! said already
+      associate (property => model%properties(model%element_property(surface%element(s))), &
+                 x => model%x(:model%dimension, surface%nodes(:n, s)))
+         call side_areas(property%state, property%thickness, x, area)
+         call side_forces(property%state, property%thickness, x, spread(-1.0_wp, 1, n), force)
+      end associate
+      normal(:model%dimension, :n) = force(:, :n)
+   end subroutine side_influence
 
 
-   !> The nodes of SURFACE with their areas of influence, a_i = sum over the edges of the integral of N_i over the face:
-   !! half the length times the thickness (section 4.1), and their normals (mean of the edges' by area).
+   !> The nodes of SURFACE with their areas of influence, the sum over the sides at a node, and their normals, the mean of the
+   !! sides' by area.
    pure subroutine surface_nodes(model, surface, list)
       type(model_type), intent(in)         :: model
       type(surface_type), intent(in)       :: surface
       type(surface_node_list), intent(out) :: list
       integer, allocatable :: place(:)
-      real(wp) :: along(2), area
-      integer  :: e, k, lowest, highest, node
+      real(wp) :: area(max_side_nodes), normal(3, max_side_nodes)
+      integer  :: s, k, lowest, highest, node
 
       if (surface%n == 0) then
          allocate (list%node(0), list%area(0), list%normal(3, 0))
          return
       end if
-      lowest = minval(surface%nodes(:, :surface%n))
+      lowest = minval(surface%nodes(:, :surface%n), mask=surface%nodes(:, :surface%n) > 0)
       highest = maxval(surface%nodes(:, :surface%n))
       allocate (place(lowest:highest), source=0)
-      do e = 1, surface%n
-         place(surface%nodes(:, e)) = 1
+      do s = 1, surface%n
+         place(surface%nodes(:surface%corners(s), s)) = 1
       end do
       do node = lowest, highest
          if (place(node) == 0) cycle
@@ -173,16 +271,13 @@ contains
       allocate (list%node(list%n), source=0)
       allocate (list%area(list%n), source=0.0_wp)
       allocate (list%normal(3, list%n), source=0.0_wp)
-      do e = 1, surface%n
-         along = model%x(:2, surface%nodes(2, e)) - model%x(:2, surface%nodes(1, e))
-         area = 0.0_wp
-         if (model%element_property(surface%element(e)) > 0) &
-            area = 0.5_wp*norm2(along)*model%properties(model%element_property(surface%element(e)))%thickness
-         do k = 1, 2
-            node = place(surface%nodes(k, e))
-            list%node(node) = surface%nodes(k, e)
-            list%area(node) = list%area(node) + area
-            list%normal(:2, node) = list%normal(:2, node) + area*[along(2), -along(1)]/max(norm2(along), tiny(1.0_wp))
+      do s = 1, surface%n
+         call side_influence(model, surface, s, area, normal)
+         do k = 1, surface%corners(s)
+            node = place(surface%nodes(k, s))
+            list%node(node) = surface%nodes(k, s)
+            list%area(node) = list%area(node) + area(k)
+            list%normal(:, node) = list%normal(:, node) + normal(:, k)
          end do
       end do
       do k = 1, list%n

@@ -2,9 +2,10 @@
 module listing_bodies
    use analysis_state, only: analysis_type, element_force
    use body_elements, only: element_stress
+   use elasticity, only: max_stresses, n_stresses
    use kinds, only: wp
    use listing_opening, only: heading, in_units, label_type, noise, page_width, where_now
-   use model_data, only: model_type
+   use model_data, only: corners_of, model_type
    use output_file, only: output_file_type
    use stage_plan, only: stage_plan_type
    use text_tools, only: clean
@@ -41,11 +42,16 @@ contains
       integer  :: node
 
       call heading(file, 'DISPLACEMENTS OF NODES'//where_now(plan, analysis)//in_units(labels%length))
-      call file%put('       NODE            X            Y           UX           UY')
+      if (model%dimension == 3) then
+         call file%put('       NODE            X            Y            Z           UX           UY           UZ')
+      else
+         call file%put('       NODE            X            Y           UX           UY')
+      end if
       floor = noise*maxval(abs(analysis%u))
       do node = 1, model%n_nodes
          if (.not. model%used(node)) cycle
-         write (line, '(i11, 4es13.5)') model%node_id(node), clean(model%x(:2, node)), clean(analysis%u(:, node), floor)
+         write (line, '(i11, 6es13.5)') model%node_id(node), clean(model%x(:model%dimension, node)), &
+            clean(analysis%u(:, node), floor)
          call file%put(line)
       end do
    end subroutine list_displacements
@@ -60,23 +66,43 @@ contains
       character(page_width) :: line
       real(wp), allocatable :: stress(:, :)
       real(wp) :: floor
-      integer  :: e
+      integer  :: e, n
 
       if (model%n_elements == 0) return
-      allocate (stress(3, model%n_elements))
+      allocate (stress(max_stresses, model%n_elements), source=0.0_wp)
+      n = 0
       do e = 1, model%n_elements
-         stress(:, e) = element_stress(model, e, analysis%u)
+         n = n_stresses(model%properties(model%element_property(e))%state)
+         stress(:n, e) = element_stress(model, e, analysis%u)
       end do
       floor = noise*maxval(abs(stress))
       call heading(file, 'STRESSES AT THE CENTRES OF ELEMENTS'//where_now(plan, analysis)// &
                    in_units(labels%pressure))
-      call file%put('    ELEMENT     CENTRE X     CENTRE Y      SIGMA X      SIGMA Y       TAU XY')
+      if (model%dimension == 3) then
+         call file%put('    ELEMENT     CENTRE X     CENTRE Y     CENTRE Z      SIGMA X      SIGMA Y      SIGMA Z       TAU XY'// &
+                       '       TAU YZ       TAU ZX')
+      else if (model%axisymmetric) then
+         call file%put('    ELEMENT     CENTRE X     CENTRE Y      SIGMA X      SIGMA Y   SIGMA HOOP       TAU XY')
+      else
+         call file%put('    ELEMENT     CENTRE X     CENTRE Y      SIGMA X      SIGMA Y       TAU XY')
+      end if
       do e = 1, model%n_elements
-         write (line, '(i11, 5es13.5)') model%element_id(e), &
-            clean(0.25_wp*sum(model%x(:2, model%element_nodes(:, e)), dim=2)), clean(stress(:, e), floor)
+         write (line, '(i11, 9es13.5)') model%element_id(e), clean(centre(model, e)), clean(stress(:n, e), floor)
          call file%put(line)
       end do
    end subroutine list_stresses
+
+
+   !> The mean of the corners of element E.
+   pure function centre(model, e) result(x)
+      type(model_type), intent(in) :: model
+      integer, intent(in)          :: e
+      real(wp) :: x(model%dimension)
+
+      associate (nodes => corners_of(model, e))
+         x = sum(model%x(:model%dimension, nodes), dim=2)/size(nodes)
+      end associate
+   end function centre
 
 
    !> Reactions at supports, and the balance of all outer forces: loads, supports, rigid bases.
@@ -94,13 +120,17 @@ contains
 
       floor = noise*max(largest_force, tiny(1.0_wp))
       call heading(file, 'REACTIONS AT SUPPORTS'//where_now(plan, analysis)//in_units(labels%force))
-      call file%put('       NODE            X            Y           RX           RY')
+      if (model%dimension == 3) then
+         call file%put('       NODE            X            Y            Z           RX           RY           RZ')
+      else
+         call file%put('       NODE            X            Y           RX           RY')
+      end if
       supports = 0.0_wp
       do node = 1, model%n_nodes
          if (.not. any(model%held(:, node)) .or. .not. model%used(node)) cycle
          reaction = merge(-analysis%unbalanced(:, node), 0.0_wp, model%held(:, node))
          supports = supports + reaction
-         write (line, '(i11, 4es13.5)') model%node_id(node), clean(model%x(:2, node)), clean(reaction, floor)
+         write (line, '(i11, 6es13.5)') model%node_id(node), clean(model%x(:model%dimension, node)), clean(reaction, floor)
          call file%put(line)
       end do
       base = 0.0_wp
@@ -111,7 +141,13 @@ contains
       end do
       loads = sum(analysis%applied, dim=2)
       call heading(file, 'BALANCE OF FORCES'//where_now(plan, analysis)//in_units(labels%force))
-      call file%put('                                               X            Y')
+      if (model%dimension == 3) then
+         call file%put('                                               X            Y            Z')
+      else if (model%axisymmetric) then
+         call file%put('                                               Y  (THE RADIAL FORCES BALANCE ROUND THE RING)')
+      else
+         call file%put('                                               X            Y')
+      end if
       call balance_line('LOADS', loads)
       call balance_line('SUPPORTS', supports)
       call balance_line('RIGID BASES, THROUGH THE JOINTS', base)
@@ -123,7 +159,7 @@ contains
          character(*), intent(in) :: words
          real(wp), intent(in)     :: resultant(:)
 
-         write (line, '(2x, a, t36, 3es13.5)') words, clean(resultant, floor)
+         write (line, '(2x, a, t36, 3es13.5)') words, clean(resultant(merge(2, 1, model%axisymmetric):), floor)
          call file%put(line)
       end subroutine balance_line
 

@@ -30,8 +30,13 @@ contains
       do j = 1, size(model%joints)
          associate (joint => model%joints(j), state => analysis%states%normal)
             call heading(file, 'INTERFACE ELEMENTS OF JOINT '//integer_text(joint%id)//where_now(plan, analysis))
-            call file%put('    ELEMENT     NODE 1     NODE 2            X            Y         AREA  BRANCH       LAMBDA'// &
-                          '            P        FORCE    K_N, USED')
+            if (model%dimension == 3) then
+               call file%put('    ELEMENT     NODE 1     NODE 2            X            Y            Z         AREA  BRANCH '// &
+                             '      LAMBDA            P        FORCE')
+            else
+               call file%put('    ELEMENT     NODE 1     NODE 2            X            Y         AREA  BRANCH       LAMBDA'// &
+                             '            P        FORCE    K_N, USED')
+            end if
             if (labels%force /= '') then
                line = ''
                line(37:) = adjustr(labels%length(:10))
@@ -41,6 +46,7 @@ contains
                line(94:) = adjustr(labels%pressure(:13))
                line(110:) = adjustr(labels%force(:10))
                line(121:) = adjustr(labels%stiffness(:12))
+               if (model%dimension == 3) line = line(:62)//adjustr(labels%length(:10))//'   '//line(63:119)
                call file%put(line)
             end if
             lambda_floor = noise*analysis%largest_lambda
@@ -50,10 +56,17 @@ contains
                associate (element => model%interface(i))
                   node2 = 0
                   if (element%nodes(2) > 0) node2 = model%node_id(element%nodes(2))
-                  write (line, '(3i11, 3es13.5, 2x, a6, 4es13.5)') element%id, model%node_id(element%nodes(1)), &
-                     node2, clean(model%x(:2, element%nodes(1))), element%area, branch_name(state(i)%branch), &
-                     clean(state(i)%lambda, lambda_floor), clean(state(i)%pressure, p_floor), &
-                     clean(state(i)%sumf, force_floor), clean(state(i)%k_n)
+                  if (model%dimension == 3) then ! K_N is in the joint history
+                     write (line, '(3i11, 4es13.5, 2x, a6, 3es13.5)') element%id, model%node_id(element%nodes(1)), &
+                        node2, clean(model%x(:, element%nodes(1))), element%area, branch_name(state(i)%branch), &
+                        clean(state(i)%lambda, lambda_floor), clean(state(i)%pressure, p_floor), &
+                        clean(state(i)%sumf, force_floor)
+                  else
+                     write (line, '(3i11, 3es13.5, 2x, a6, 4es13.5)') element%id, model%node_id(element%nodes(1)), &
+                        node2, clean(model%x(:2, element%nodes(1))), element%area, branch_name(state(i)%branch), &
+                        clean(state(i)%lambda, lambda_floor), clean(state(i)%pressure, p_floor), &
+                        clean(state(i)%sumf, force_floor), clean(state(i)%k_n)
+                  end if
                   call file%put(line)
                end associate
             end do
@@ -116,7 +129,7 @@ contains
       real(wp), intent(in)                 :: largest_force
       type(row_buffer_type), intent(inout) :: rows
       character(page_width) :: row
-      real(wp) :: force(3), total(3), centroid(3), arm(3), moment, normal, along, floor, extent
+      real(wp) :: force(3), total(3), centroid(3), arm(3), moment(3), normal, along(2), floor, extent
       integer  :: i, j
 
       floor = noise*largest_force
@@ -133,28 +146,40 @@ contains
                arm = model%x(:, model%interface(i)%nodes(1)) - centroid
                extent = max(extent, norm2(arm))
                total = total + force
-               moment = moment + arm(1)*force(2) - arm(2)*force(1)
+               moment = moment + [arm(2)*force(3) - arm(3)*force(2), arm(3)*force(1) - arm(1)*force(3), &
+                                  arm(1)*force(2) - arm(2)*force(1)]
                normal = normal + analysis%states(i)%normal%sumf
-               along = along + analysis%states(i)%shear(1)%tau*model%interface(i)%area
+               along = along + analysis%states(i)%shear%tau*model%interface(i)%area
             end do
-            write (row, '(i6, i11, 5es15.5)') analysis%increment, joint%id, clean(normal, floor), clean(along, floor), &
-               clean(total(:2), floor), clean(moment, floor*extent)
+            if (model%dimension == 3) then
+               write (row, '(i6, i11, 7es15.5)') analysis%increment, joint%id, clean(normal, floor), clean(total, floor), &
+                  clean(moment, floor*extent)
+            else
+               write (row, '(i6, i11, 5es15.5)') analysis%increment, joint%id, clean(normal, floor), clean(along(1), floor), &
+                  clean(total(:2), floor), clean(moment(3), floor*extent)
+            end if
             call rows%add(row)
          end associate
       end do
    end subroutine note_resultants
 
 
-   subroutine list_resultants(file, labels, stage, rows)
+   subroutine list_resultants(file, labels, stage, dimension, rows)
       type(output_file_type), intent(inout) :: file
       type(label_type), intent(in)          :: labels
       character(*), intent(in)              :: stage
+      integer, intent(in)                   :: dimension
       type(row_buffer_type), intent(inout)  :: rows
       character(page_width) :: line
 
       if (rows%n == 0) return
       call heading(file, 'RESULTANTS OF JOINTS, SIDE 1 ON SIDE 2 (MOMENT ABOUT THE CENTROID OF THE JOINT), '//stage)
-      call file%put('  INCR      JOINT   NORMAL FORCE    SHEAR FORCE        FORCE X        FORCE Y       MOMENT Z')
+      if (dimension == 3) then
+         call file%put('  INCR      JOINT   NORMAL FORCE        FORCE X        FORCE Y        FORCE Z       MOMENT X'// &
+                       '       MOMENT Y       MOMENT Z')
+      else
+         call file%put('  INCR      JOINT   NORMAL FORCE    SHEAR FORCE        FORCE X        FORCE Y       MOMENT Z')
+      end if
       if (labels%force /= '') then
          line = ''
          line(18:) = adjustr(labels%force(:15))
@@ -162,6 +187,10 @@ contains
          line(48:) = adjustr(labels%force(:15))
          line(63:) = adjustr(labels%force(:15))
          line(78:) = adjustr(trim(labels%force(:7))//' '//labels%length(:7))
+         if (dimension == 3) then
+            line(93:) = line(78:92)
+            line(108:) = line(78:92)
+         end if
          call file%put(line)
       end if
       call rows%flush(file)

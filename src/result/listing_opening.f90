@@ -194,8 +194,13 @@ contains
       if (size(model%joints) == 0) return
       labels = unit_labels(control)
       call heading(file, 'JOINTS')
-      call file%put('      JOINT ELEMENTS        A_INT            C      M            E_U   FIRST P (EQ.9)  LEAST P ON LOAD'// &
-                    '   NORMAL X   NORMAL Y')
+      if (model%dimension == 3) then
+         call file%put('      JOINT ELEMENTS        A_INT            C      M            E_U   FIRST P (EQ.9)  LEAST P ON'// &
+                       ' LOAD NORMAL X Y Z')
+      else
+         call file%put('      JOINT ELEMENTS        A_INT            C      M            E_U   FIRST P (EQ.9)  LEAST P ON'// &
+                       ' LOAD   NORMAL X   NORMAL Y')
+      end if
       if (control%length_unit /= '') then
          write (line, '(28x, a)') trim(labels%area)
          line(58:) = trim(labels%pressure)//'/'//trim(labels%length)
@@ -205,9 +210,13 @@ contains
       end if
       do j = 1, size(model%joints)
          associate (joint => model%joints(j), law => model%joints(j)%law%normal)
-            write (line, '(i11, i9, es13.5, es13.5, f7.4, es15.5, es17.5, es17.5, 2f11.6)') joint%id, &
-               joint%last - joint%first + 1, joint%area, law%c, law%m, law%e_u, law%p_av, &
-               pressure_floor*law%p_av, clean(joint%normal(:2), 1.0e-9_wp)
+            write (line, '(i11, i9, es13.5, es13.5, f7.4, es15.5, es17.5, es17.5)') joint%id, &
+               joint%last - joint%first + 1, joint%area, law%c, law%m, law%e_u, law%p_av, pressure_floor*law%p_av
+            if (model%dimension == 3) then
+               write (line(103:), '(3f10.6)') clean(joint%normal, 1.0e-9_wp)
+            else
+               write (line(103:), '(2f11.6)') clean(joint%normal(:2), 1.0e-9_wp)
+            end if
             call file%put(line)
          end associate
       end do
@@ -268,11 +277,16 @@ contains
 
       labels = unit_labels(control)
       call heading(file, 'STAGES')
-      call file%put('     STAGE  INCREMENTS   FIRST SHARE    LAST SHARE   TOTAL LOAD X   TOTAL LOAD Y   LABEL')
+      if (model%dimension == 3) then
+         call file%put('     STAGE  INCREMENTS   FIRST SHARE    LAST SHARE   TOTAL LOAD X   TOTAL LOAD Y   TOTAL LOAD Z   LABEL')
+      else
+         call file%put('     STAGE  INCREMENTS   FIRST SHARE    LAST SHARE   TOTAL LOAD X   TOTAL LOAD Y   LABEL')
+      end if
       if (labels%force /= '') then
          line = ''
          line(54:) = labels%force
          line(69:) = labels%force
+         if (model%dimension == 3) line(84:) = labels%force
          call file%put(line)
       end if
       do s = 1, size(plan%stages)
@@ -280,8 +294,9 @@ contains
             total = sum(loads%force(:, :loads%n), dim=2)
             largest = 0.0_wp
             if (loads%n > 0) largest = maxval(abs(loads%force(:, :loads%n)))
-            write (line, '(i11, i11, 2es14.5, 2es15.5, 3x, a)') stage%id, size(stage%shares), stage%shares(1), &
-               stage%shares(size(stage%shares)), clean(total(:2), 1.0e-9_wp*largest), cut(stage%label, 40)
+            write (line, '(i11, i11, 2es14.5, 3es15.5)') stage%id, size(stage%shares), stage%shares(1), &
+               stage%shares(size(stage%shares)), clean(total(:model%dimension), 1.0e-9_wp*largest)
+            line(54 + 15*model%dimension:) = cut(stage%label, 33)
             call file%put(line)
          end associate
       end do

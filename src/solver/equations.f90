@@ -2,10 +2,11 @@
 !! once, [k_s] = [k_b] + sum of [k_int] formed and factorised in every increment.
 module equations
    use body_elements, only: element_stiffness
+   use element_kinds, only: max_dofs
    use failures, only: failure_type
    use kinds, only: long, wp
    use machine, only: available_memory
-   use model_data, only: model_type
+   use model_data, only: corners_of, model_type
    use node_ordering, only: build_node_graph, node_graph, reverse_cuthill_mckee
    use skyline, only: add_to_skyline, factorise_skyline, skyline_matrix, solve_skyline, start_skyline
    use text_tools, only: integer_text
@@ -105,7 +106,7 @@ contains
 
       allocate (first_row, source=[(i, i = 1, system%n)])
       do e = 1, model%n_elements
-         call couple(model%element_nodes(:, e))
+         call couple(corners_of(model, e))
       end do
       do i = 1, size(model%interface)
          call couple(pack(model%interface(i)%nodes, model%interface(i)%nodes > 0))
@@ -143,15 +144,19 @@ contains
    subroutine form_body_stiffness(model, system)
       type(model_type), intent(in)         :: model
       type(equation_system), intent(inout) :: system
-      real(wp) :: k(8, 8)
-      integer  :: e, node, rows(8)
+      real(wp) :: k(max_dofs, max_dofs)
+      integer  :: d, e, i, n, rows(max_dofs)
 
+      d = model%dimension
       do e = 1, model%n_elements
          call element_stiffness(model, e, k)
-         do node = 1, 4
-            rows(2*node - 1:2*node) = system%number(:, model%element_nodes(node, e))
-         end do
-         call scatter(system%body, rows, k)
+         associate (nodes => corners_of(model, e))
+            n = d*size(nodes)
+            do i = 1, size(nodes)
+               rows(d*(i - 1) + 1:d*i) = system%number(:, nodes(i))
+            end do
+         end associate
+         call scatter(system%body, rows(:n), k(:n, :n))
       end do
    end subroutine form_body_stiffness
 

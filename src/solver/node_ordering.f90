@@ -53,6 +53,7 @@ contains
          integer, intent(in) :: candidate
 
          other = candidate
+         if (other == 0) return ! behind the last corner
          if (mark(other) == node) return
          mark(other) = node
          n = n + 1
