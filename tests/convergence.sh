@@ -5,7 +5,8 @@
 #    convergence.sh PROGRAM WORK_FOLDER
 #
 # The error is the largest difference of lambda and delta_x over the nodes at the end of the loading, as a share of the largest
-# lambda; a run without its rows counts as a failure. It need not fall at first order: the first increment is a secant, and for m = 0.5 that alone leaves order 1/2.
+# lambda; a run without its rows is a failure. It need not fall at first order: the first increment is a secant, and for m = 0.5
+# that alone leaves order 1/2.
 set -u
 program=$1 work=$2
 mkdir -p "$work"
