@@ -28,12 +28,12 @@ contains
       type(analysis_type), intent(inout)   :: analysis
       type(equation_system), intent(inout) :: system
       type(failure_type), intent(inout)    :: failure
-      real(wp), allocatable :: p(:), p_new(:), movement(:, :), k_int(:, :, :)
+      real(wp), allocatable :: p(:), p_new(:), k_shear(:, :), movement(:, :), k_int(:, :, :)
       real(wp) :: change
-      integer  :: i, iteration, n, worst
+      integer  :: i, iteration, k, n, worst
 
       n = size(model%interface)
-      allocate (p(n), p_new(n), movement(3, n), k_int(3, 3, n), source=0.0_wp)
+      allocate (p(n), p_new(n), k_shear(2, n), movement(3, n), k_int(3, 3, n), source=0.0_wp)
       do i = 1, n
          p(i) = model%joints(model%interface(i)%joint)%law%normal%p_av
       end do
@@ -50,6 +50,12 @@ contains
          end do
          if (n == 0) exit
          change = maxval(abs(p_new - p))
+         do i = 1, n ! the shear secants must be those of the deflections that they led to
+            k_shear(:, i) = shear_secants(i)
+            do k = 1, 2
+               change = max(change, abs((k_shear(k, i) - k_int(k, k, i))*movement(k, i))/model%interface(i)%area)
+            end do
+         end do
          call record_pass(analysis, pass_record(before=maxval(abs(p)), after=change, part=-1))
          if (change <= settled*max(maxval(p), tiny(1.0_wp))) exit
          p = 0.5_wp*(p + p_new)
@@ -65,28 +71,44 @@ contains
 
    contains
 
+      !> Normal secant at the pressure, shear secants halfway between the last two.
       subroutine secants(j)
          integer, intent(in) :: j
-         integer :: k
+         real(wp) :: k_x, k_y
 
-         associate (law => model%joints(model%interface(j)%joint)%law, area => model%interface(j)%area)
+         associate (law => model%joints(model%interface(j)%joint)%law%normal, area => model%interface(j)%area)
+            k_x = k_int(1, 1, j)
+            k_y = k_int(2, 2, j)
             k_int(:, :, j) = 0.0_wp
-            if (p(j) < pressure_floor*law%normal%p_av .and. movement(3, j) < 0.0_wp) return ! open
-            k_int(3, 3, j) = max(p(j), pressure_floor*law%normal%p_av)**(1.0_wp - law%normal%m)*area/law%normal%c
-            do k = 1, 2
-               if (.not. law%shear(k)%given) cycle
-               k_int(k, k, j) = area*shear_secant(law%shear(k), movement(k, j), max(p(j), 0.0_wp))
-            end do
-            if (.not. law%has_friction) return
-            do k = 1, 2
-               if (norm2(movement(:2, j)) > 0.0_wp) &
-                  k_int(k, k, j) = min(k_int(k, k, j), law%mu*max(p(j), 0.0_wp)*area/norm2(movement(:2, j)))
-            end do
+            if (p(j) < pressure_floor*law%p_av .and. movement(3, j) < 0.0_wp) return ! open
+            k_int(3, 3, j) = max(p(j), pressure_floor*law%p_av)**(1.0_wp - law%m)*area/law%c
+            if (iteration == 1) k_shear(:, j) = shear_secants(j)
+            k_int(1, 1, j) = k_shear(1, j)
+            k_int(2, 2, j) = k_shear(2, j)
+            if (iteration < 3) return
+            k_int(1, 1, j) = 0.5_wp*(k_shear(1, j) + k_x)
+            k_int(2, 2, j) = 0.5_wp*(k_shear(2, j) + k_y)
          end associate
       end subroutine secants
 
+      !> P(d)/d a in both directions, at the movement and pressure of element J, and not above mu p a/|delta|.
+      function shear_secants(j) result(secant)
+         integer, intent(in) :: j
+         real(wp) :: secant(2), moved
+         integer  :: direction
+
+         associate (law => model%joints(model%interface(j)%joint)%law, area => model%interface(j)%area)
+            secant = 0.0_wp
+            do direction = 1, 2
+               if (law%shear(direction)%given) secant(direction) = area*shear_secant(law%shear(direction), &
+                                                                  movement(direction, j), max(p(j), 0.0_wp))
+            end do
+            moved = norm2(movement(:2, j))
+            if (law%has_friction .and. moved > 0.0_wp) secant = min(secant, law%mu*max(p(j), 0.0_wp)*area/moved)
+         end associate
+      end function shear_secants
+
       subroutine store()
-         integer :: k
 
          do i = 1, n
             associate (state => analysis%states(i), element => model%interface(i))

@@ -10,6 +10,7 @@ module shear_path
 
    public :: follow_shear
 
+   real(wp), parameter :: rounding = 1.0e-9_wp ! of the way: an end so near to a corner is the corner
    real(wp), parameter :: gauss_2(2) = 0.5_wp + [-0.5_wp, 0.5_wp]/sqrt(3.0_wp)          ! on 0..1, weights 1/2
    real(wp), parameter :: gauss_3(3) = 0.5_wp + [-0.5_wp, 0.0_wp, 0.5_wp]*sqrt(0.6_wp)  ! on 0..1
    real(wp), parameter :: weight_3(3) = [5.0_wp, 8.0_wp, 5.0_wp]/18.0_wp
@@ -58,11 +59,12 @@ contains
       do pieces = 1, 4 ! load, unload, load of the other sense are the most there can be; the fourth is never left
          call end_of_piece(after, way, from, to, at_corner)
          call follow_piece(law, after, way, from, to, by_delta, by_p, work)
-         if (.not. at_corner .or. to >= 1.0_wp) exit
+         if (.not. at_corner) exit
          by_delta = by_delta - to*shear_slope_at(law, after, way, to)
          if (after%branch == branch_unload) after%sense = -after%sense
          after%branch = branch_load
          by_delta = by_delta + to*shear_slope_at(law, after, way, to)
+         if (to >= 1.0_wp) exit
          from = to
       end do
    end subroutine follow_shear
@@ -103,7 +105,8 @@ contains
       if (state%branch == branch_load) return
       corner = state%sense*merge(state%d_r, -state%d_r, state%branch == branch_reload)
       to = (corner - way%delta_0)/way%d_delta
-      at_corner = to < 1.0_wp
+      at_corner = to < 1.0_wp + rounding
+      if (abs(to - 1.0_wp) <= rounding) to = 1.0_wp
       to = min(1.0_wp, max(from, to))
    end subroutine end_of_piece
 

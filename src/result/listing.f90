@@ -157,7 +157,8 @@ contains
             do i = joint%first, joint%last
                if (state(i)%branch == branch_open) n_open = n_open + 1
                force = force + state(i)%sumf*dot_product(model%interface(i)%axes(:, 3), joint%normal)
-               if (state(i)%lambda > state(at_lambda)%lambda + noise*analysis%largest_lambda) at_lambda = i ! of equals the first
+               ! of values that rounding alone tells apart the first counts
+               if (state(i)%lambda > state(at_lambda)%lambda + noise*analysis%largest_lambda) at_lambda = i
                if (state(i)%pressure > state(at_p)%pressure + noise*analysis%largest_p) at_p = i
             end do
             write (row(22:), '(i11, i5, 2(es13.5, i11), es13.5)') joint%id, n_open, &

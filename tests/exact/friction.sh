@@ -1,0 +1,147 @@
+# The Coulomb limit.
+
+# A block clamped evenly to p = 0.5 and pushed at its interface nodes as their areas are: every node has the same tau.
+pushed_block() { # NAME METHOD NREAN SHARE-OF-THE-LIMIT
+   awk -v method="$2" -v nrean="$3" -v share="$4" 'BEGIN {
+      print "METHOD = " method "\nSUBCASE 1\n  LOAD = 1\n  INCR = 1\n  OUTPUT = NONE\nSUBCASE 2\n  LOAD = 2\n  INCR = 1\nBEGIN BULK"
+      print "BLOCK2,1,1,10,4,0.0,0.0\n+,100.0,40.0\n+,20\nPMARK,20\nPSHELL,1,1,20.0\nMAT1,1,9500.0,,0.0"
+      print "JOINT,1,1,20\nPJOINT,1,1,1,,0.2," nrean "\nJNORM,1,8.0-3,0.5,9500.0\nJSHEAR,1,100.0,300.0"
+      for (i = 0; i <= 10; i++) {
+         w = i % 10 ? 0.1 : 0.05
+         printf "FORCE,1,%d,,%.6f,0.0,-1.0\nFORCE,12,%d,,%.9f,1.0,0.0\n", 5 * i + 5, 1000 * w, 5 * i + 1, 200 * share * w
+      }
+      print "LOAD,2,1.0,1.0,1,1.0,12\nJINCR,1,10,ARITH,0.1\nENDDATA" }' > "$work/$1.bdf"
+}
+
+# all 11 elements at the end: p, tau, delta, slip
+pushed_evenly() { # WORDS NAME TAU DELTA SLIP TOLERANCE
+   judge "$1" -F, -v tau="$3" -v delta="$4" -v slip="$5" -v tolerance="$6" '
+      FNR == 1 { for (k = 1; k <= NF; k++) at[$k] = k; next }
+      function off(a, b) { return (a / b - 1)^2 > tolerance^2 }
+      $1 == 2 && $2 == 10 {
+         n++
+         if (off($(at["pressure"]), 0.5) || off($(at["tau_x"]), tau) || off($(at["delta_x"]), delta) || $(at["slip"]) != slip)
+            print "node " $(at["node1"]) ": p " $(at["pressure"]) ", tau " $(at["tau_x"]) ", delta " $(at["delta_x"]) ", slip " $(at["slip"])
+      }
+      END { if (n != 11) print n " elements"; print "checked " n }' "$work/$2.joint.csv"
+}
+
+for method in STEP NEWTON; do
+   pushed_block sticks $method 1 0.99 && run sticks &&
+      pushed_evenly "0.99 of the limit sticks, $method" sticks 0.099 3.96e-4 0 1e-9
+done
+pushed_block slips STEP 0 1.01 && run slips && pushed_evenly '1.01 of the limit, not analysed again' slips 0.101 4.04e-4 1 1e-9
+# each re-analysis moves the block by the excess over k_s, and the excess stays
+for nrean in 1 5; do
+   pushed_block slips STEP $nrean 1.01 && run slips && {
+      pushed_evenly "1.01 of the limit, $nrean re-analyses" slips 0.101 "$(awk -v n=$nrean 'BEGIN { print 4.04e-4 + n * 4e-6 }')" 1 1e-9
+      judge "1.01 of the limit: $nrean re-analyses remove nothing" -v nrean=$nrean '
+         /RE-ANALYSES AFTER|RE-ANALYS.*STAGE 2/ { on = 1 }
+         on && $1 == 10 && NF == 6 { n++; if ($5 + 0 != 0 || $6 != 11) print }
+         / RESULTANTS/ { on = 0 }
+         END { if (n != nrean) print n " lines"; print "checked " n }' "$work/slips.out"
+   }
+done
+pushed_block slides NEWTON 1 1.01 && run slides 3 && says '1.01 of the limit, NEWTON names a node' "$work/slides.log" 'node [0-9]'
+pushed_block slides STEP -1 1.01 && run slides 3 && says '1.01 of the limit, STEP to the end names a node' "$work/slides.log" 'node [0-9]'
+
+# One element beside a spring of 10000 kgf/mm: k_s = 25000, so a re-analysis removes 10000/35000 of the excess.
+spring() { # NAME METHOD NREAN FORCE
+   cat > "$work/$1.bdf" <<DECK
+METHOD = $2
+SUBCASE 1
+  LOAD = 1
+  OUTPUT = NONE
+SUBCASE 2
+  LOAD = 2
+BEGIN BULK
+GRID,1
+CJOINT,1,1,1,,100.0,0.0,-1.0
+PJOINT,1,1,1,,0.2,$3,0.5
+JNORM,1,8.0-3,0.5,500.0
+JSHEAR,1,100.0,300.0
+\$ the spring: lambda = c p along x
+CJOINT,2,2,1,,100.0,1.0,0.0
+PJOINT,2,2,,,,,0.1
+JNORM,2,1.0-2,1.0,100.0
+FORCE,1,1,,50.0,0.0,-1.0
+FORCE,12,1,,$4,1.0
+LOAD,2,1.0,1.0,1,1.0,12
+ENDDATA
+DECK
+   run "$1"
+}
+sides() { cell "$1" 2 1 1 "$2" 1; }
+
+# which way x of the element and the normal of the spring point is not the matter here: sizes
+size() { echo "${1#-}" | tr -d ' '; }
+spring spring STEP 5 13.86 && {
+   near 'spring, 0.99: tau' "$(size "$(sides spring tau_x)")" 0.099 1e-12
+   near 'spring, 0.99: delta' "$(size "$(sides spring delta_x)")" 3.96e-4 1e-12
+   same 'spring, 0.99: sticks' "$(sides spring slip)" 0
+}
+spring spring STEP 5 14.14 && {
+   same 'spring, 1.01: slips' "$(sides spring slip)" 1
+   judge 'spring, 1.01: every re-analysis removes 28.57 per cent' '
+      BEGIN { e = 0.1 }
+      /RE-ANALYS.*STAGE 2/ { on = 1 }
+      on && NF == 6 && $1 == 1 { n++; after = e * 5 / 7
+         if ($5 != "28.57" || ($3 / e - 1)^2 > 1e-11 || ($4 / after - 1)^2 > 1e-11) print; e = after }
+      / RESULTANTS/ { on = 0 }
+      END { if (n != 5) print n " lines"; print "checked " n }' "$work/spring.out"
+   near 'spring, 1.01: tau after five re-analyses' "$(size "$(sides spring tau_x)")" 0.10018593443208187 1e-12
+   near 'spring, 1.01: delta after five re-analyses' "$(size "$(sides spring delta_x)")" 4.1214065567918144e-4 1e-12
+}
+spring spring STEP -1 14.14 && near 'spring, 1.01: excess gone' "$(size "$(sides spring tau_x)")" 0.1 2e-8
+spring spring NEWTON 1 14.14 && {
+   near 'spring, 1.01: NEWTON tau' "$(size "$(sides spring tau_x)")" 0.1 1e-9
+   near 'spring, 1.01: NEWTON delta' "$(size "$(sides spring delta_x)")" 4.14e-4 1e-9
+   same 'spring, 1.01: NEWTON slips' "$(sides spring slip)" 1
+}
+spring spring NEWTON 1 13.86 && {
+   near 'spring, 0.99: NEWTON delta' "$(size "$(sides spring delta_x)")" 3.96e-4 1e-9
+   same 'spring, 0.99: NEWTON sticks' "$(sides spring slip)" 0
+}
+
+# The block of input/friction_once.bdf, NREAN 0, 1, 2, 5, against an independent computation.
+for nrean in 0 1 2 5; do
+   awk -v nrean=$nrean '/^PJOINT/ { $0 = "PJOINT,1,1,1,,0.2," nrean } { print }' input/friction_once.bdf > "$work/block$nrean.bdf"
+   run block$nrean || continue
+   judge "block pushed by 190, NREAN $nrean: p, tau, slip" -F, -v nrean=$nrean '
+      FNR == 1 { file++ }
+      /^#/ || $1 == "nrean" { next }
+      file == 1 { if ($1 == nrean) { k = $2; l[k] = $3; p[k] = $4; d[k] = $5; t[k] = $6; s[k] = $7; nodes++ }; next }
+      FNR == 1 { for (k = 1; k <= NF; k++) at[$k] = k; next }
+      function off(a, b) { return (a / b - 1)^2 > 1e-16 }
+      $1 == 2 && $2 == 10 {
+         n++; k = $(at["node1"])
+         if (off($(at["lambda"]), l[k]) || off($(at["pressure"]), p[k]) || off($(at["delta_x"]), d[k]) || off($(at["tau_x"]), t[k]) || $(at["slip"]) != s[k])
+            print "node " k ": " $(at["lambda"]), $(at["pressure"]), $(at["delta_x"]), $(at["tau_x"]), $(at["slip"])
+      }
+      END { if (n != nodes || n != 11) print n " elements"; print "checked " n }' tests/exact/friction_reference.csv "$work/block$nrean.joint.csv"
+   [ $nrean = 0 ] && continue
+   judge "block pushed by 190, NREAN $nrean: what each re-analysis removes" -v nrean=$nrean '
+      function off(a, b) { return a != sprintf("%.5E", b) }
+      FILENAME ~ /reference/ { split($0, v, ","); if (v[1] == nrean) { k = v[2] " " v[3]; before[k] = v[4]; after[k] = v[5]; passes++ }; next }
+      /RE-ANALYS.*STAGE 2/ { on = 1 }
+      on && NF == 6 && $1 ~ /^[0-9]+$/ {
+         n++; k = $1 " " $2
+         if (off($3, before[k]) || off($4, after[k]) || $5 != sprintf("%.2f", 100 * (1 - after[k] / before[k]))) print $0 ": " before[k], after[k]
+      }
+      / RESULTANTS/ { on = 0 }
+      END { if (n != passes) print n " lines, not " passes; print "checked " n }' tests/exact/friction_passes_reference.csv "$work/block$nrean.out"
+done
+
+# Repeated until it is gone: no node beyond its limit by more than the tolerance, and the push is carried.
+run_input friction_full && judge 'friction_full: excess gone, push carried' -F, '
+   FNR == 1 { for (k = 1; k <= NF; k++) at[$k] = k; next }
+   { t = $(at["tau_x"]); if (t < 0) t = -t
+     e = (t - 0.2 * $(at["pressure"])) * $(at["area"]); key = $1 "," $2; n++
+     if (e > 0) excess[key] += e
+     push[key] += $(at["tau_x"]) * $(at["area"]); load[key] = $1 == 2 ? 190 * $3 : 0 }
+   END {
+      for (key in push) {
+         if (excess[key] > 1e-8 * 200) print key ": excess " excess[key]
+         if ((push[key] - load[key])^2 > 1e-14) print key ": push " push[key]
+      }
+      print "checked " n }' "$work/friction_full.joint.csv"

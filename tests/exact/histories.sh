@@ -1,0 +1,170 @@
+# Load histories: loops and their energy, joints that open and close again, ranges left.
+
+# The shear loop of Masing: energy of a cycle -(4/3) a2 d0**3 - 2 a3 d0**4, times a; the end of each stage by hand.
+run_input shear_loop && {
+   near 'shear loop: pushed to d0' "$(cell shear_loop 2 10 1 delta_x)" 0.01 1e-9
+   near 'shear loop: pushed back to -d0' "$(cell shear_loop 3 20 1 delta_x)" -0.01 1e-9
+   near 'shear loop: pushed again to d0' "$(cell shear_loop 4 20 1 delta_x)" 0.01 1e-9
+   kept=$(awk '/ENERGY OF JOINTS, STAGE [34]/ { for (i = 1; i <= 5; i++) getline; kept += $NF } END { print kept }' "$work/shear_loop.out")
+   near 'shear loop: energy of the cycle from the listing' "$kept" 0.20666667 2e-5
+   put_in=$(awk '/ENERGY OF JOINTS, STAGE 2/ { for (i = 1; i <= 5; i++) getline; print $5 }' "$work/shear_loop.out")
+   near 'shear loop: work of the first push' "$put_in" 0.2908333 2e-6
+}
+
+# The loop closes at the mirror of A, whatever rounding says of the last digit there: at -d0 the loading of the other sense begins, and
+# from there its own unloading branch leads back. So delta at one and the same load is the same for any number of increments.
+back=$(awk 'function B(d) { return 52.25 * d + 775 * d^2 + 7500 * d^3 }
+   BEGIN { low = 0; high = 0.01
+      for (i = 0; i < 100; i++) { d = (low + high) / 2; if (0.53 - B(0.01) + B(d) > 0.318) high = d; else low = d }
+      printf "%.12e", -d }')
+for n in 5 10 15 20 25 40 50; do
+   awk -v n=$n '/^JINCR +20/ { printf "JINCR,20,%d,ARITH,%.9f\n", n, 1 / n; next } { print }' input/shear_loop.bdf > "$work/loop.bdf"
+   run loop || continue
+   # a fifth of the way back the force is -31.8: 0.53 - B(d0) + B(d) = 0.318 on the mirror of the unloading branch
+   near "shear loop in $n increments: a fifth of the way back from -d0" "$(cell loop 4 $((n / 5)) 1 delta_x)" $back 1e-7
+   same "shear loop in $n increments: branch there" "$(cell loop 4 $((n / 5)) 1 branch_x)" UNLOAD
+done
+
+# An element opens and closes again beside an elastic body (k_b at each node), by STEP and by NEWTON; the recurrence and the law are written out.
+reopen() { # NAME METHOD
+   cat > "$work/$1.bdf" <<DECK
+METHOD = $2
+SPC = 1
+SUBCASE 1
+  LOAD = 1
+  INCR = 1
+SUBCASE 2
+  LOAD = 2
+  INCR = 1
+SUBCASE 3
+  LOAD = 3
+  INCR = 1
+BEGIN BULK
+BLOCK2,1,1,1,1,0.0,0.0
++,10.0,50.0
++,20,,21
+PMARK,20
+PMARK,21
+PSHELL,1,1,20.0
+MAT1,1,1000.0,,0.0
+JOINT,1,1,20
+PJOINT,1,1,,,,,0.05
+JNORM,1,8.0-3,0.5,500.0
+SPCM,1,12,21
+SPCM,1,1,20
+FORCE,1,1,,100.0,0.0,-1.0
+FORCE,1,3,,100.0,0.0,-1.0
+LOAD,2,-0.4,1.0,1
+LOAD,3,1.5,1.0,1
+JINCR,1,8,ARITH,0.125
+ENDDATA
+DECK
+   run "$1"
+}
+# k_b = E a/h = 1000 x 100/50 a node; a = 100
+reopen reopen STEP && judge 'opens and closes again, STEP' -F, '
+   FNR == 1 { for (k = 1; k <= NF; k++) at[$k] = k; next }
+   function law() {   # branch and stiffness after an increment, section 4 of the paper
+      if (branch == "LOAD") {
+         if (s < before) { la = l_before; branch = "UNLOAD" }
+      } else if (branch == "UNLOAD") {
+         if (s <= 0) { branch = "OPEN"; lb = l; s = 0 } else if (s > before) branch = "RELOAD"
+      } else if (branch == "OPEN") { if (l >= lb) branch = "RELOAD" }
+      else if (s < before) branch = "UNLOAD"
+      else if (l >= la) branch = "LOAD"
+      kn = branch == "OPEN" ? 0 : branch == "LOAD" ? sqrt(s / 100) * 100 / 4e-3 : 50000
+   }
+   BEGIN { a = 100; kb = 2000; branch = "LOAD"; kn = sqrt(0.05) * a / 8e-3; split("100 -40 150", load, " ") }
+   $(at["node1"]) == 1 {
+      n++; before = s; l_before = l
+      d = (load[$1] - load[$1 - 1]) / 8 / (kb + kn); l += d; s += kn * d; law(); seen[branch]++
+      if (branch == "OPEN") opened = 1
+      if (branch == "LOAD" && opened) again = 1
+      if (($(at["lambda"]) - l)^2 > 1e-20 || ($(at["force"]) - s)^2 > 1e-14 || $(at["branch"]) != branch)
+         print $1 "," $2 ": " $(at["lambda"]), $(at["force"]), $(at["branch"]) ", not " l, s, branch
+   }
+   END { if (n != 24 || !seen["OPEN"] || !seen["RELOAD"] || !again) print n " rows, open " seen["OPEN"]; print "checked " n }' "$work/reopen.joint.csv"
+
+reopen reopen NEWTON && judge 'opens and closes again, NEWTON' -F, '
+   FNR == 1 { for (k = 1; k <= NF; k++) at[$k] = k; next }
+   function p(l) { return l >= la ? (l > 0 ? (l / 8e-3)^2 : 0) : (pa - 500 * (la - l) > 0 ? pa - 500 * (la - l) : 0) }
+   BEGIN { split("100 -40 150", load, " ") }
+   $(at["node1"]) == 1 {
+      n++; f = load[$1 - 1] + (load[$1] - load[$1 - 1]) * $3
+      low = -1; high = 1
+      for (i = 0; i < 200; i++) { l = (low + high) / 2; if (2000 * l + 100 * p(l) > f) high = l; else low = l }
+      now = p(l); was = branch
+      branch = l >= la ? "LOAD" : now <= 0 ? "OPEN" : l > before ? "RELOAD" : "UNLOAD"
+      if (l >= la) { la = l; pa = now }
+      before = l; seen[branch]++
+      if (was == "RELOAD" && branch == "LOAD") again = 1
+      if (($(at["lambda"]) - l)^2 > 1e-22 || ($(at["pressure"]) - now)^2 > 1e-18 || $(at["branch"]) != branch)
+         print $1 "," $2 ": " $(at["lambda"]), $(at["pressure"]), $(at["branch"]) ", not " l, now, branch
+   }
+   END { if (n != 24 || !seen["OPEN"] || !seen["UNLOAD"] || !again) print n " rows, open " seen["OPEN"]; print "checked " n }' "$work/reopen.joint.csv"
+
+# One element under shear: STEP is the sum of tangents, each at the pressure and the place reached; a softening cubic stops at slope 0.
+cat > "$work/range.bdf" <<'DECK'
+METHOD = STEP
+SUBCASE 1
+  LOAD = 1
+SUBCASE 2
+  LOAD = 2
+  INCR = 1
+BEGIN BULK
+GRID,7
+CJOINT,1,1,7,,100.0,0.0,-1.0
+$ a spring of 1000 along x holds what the joint does not
+CJOINT,2,2,7,,100.0,1.0,0.0
+PJOINT,1,1,1,,,,0.5
+JNORM,1,8.0-3,0.5,500.0
+JSHEAR,1,20.0,100.0,-4.0+3,0.0
++
++
++,0.6,0.006
+PJOINT,2,2,,,,,0.1
+JNORM,2,0.1,1.0,10.0
+FORCE,1,7,,50.0,0.0,-1.0
+FORCE,9,7,,60.0,1.0,0.0
+LOAD,2,1.0,1.0,1,1.0,9
+JINCR,1,10,ARITH,0.1
+ENDDATA
+DECK
+run range && {
+   judge 'a softening cubic: tangents by hand, never below zero' -F, '
+      FNR == 1 { for (k = 1; k <= NF; k++) at[$k] = k; next }
+      $1 == 2 && $(at["joint"]) == 1 {
+         n++; k = 100 * (70 - 8000 * d); if (k < 0) { k = 0; cut++ }
+         step = 6 / (1000 + k); d += step; tau += k * step / 100
+         if (($(at["delta_x"]) - d)^2 > 1e-20 || ($(at["tau_x"]) - tau)^2 > 1e-16 || ($(at["k_sx"]) - k)^2 > 1e-10) print $2 ": " $(at["delta_x"]), $(at["tau_x"]), $(at["k_sx"]) ", not " d, tau, k
+      }
+      END { if (n != 10 || !cut) print n " rows, cut off " cut; print "checked " n }' "$work/range.joint.csv"
+   first=$(awk -F, 'FNR == 1 { for (k = 1; k <= NF; k++) at[$k] = k; next } $1 == 2 && $(at["joint"]) == 1 && $(at["delta_x"]) > 0.006 {
+      printf "%d %.5f", $2, $(at["delta_x"]) * 1000; exit }' "$work/range.joint.csv")
+   judge 'range left: the warning names node, increment, p and d' -v first="$first" '
+      /WARNING: NODE/ {
+         n++; split(first, v, " ")
+         if ($0 !~ "NODE 7, STAGE 2, INCREMENT " v[1] ":") print
+         p = $0; sub(/.*P = /, "", p); d = $0; sub(/.*D = /, "", d)
+         if ((p / 0.5 - 1)^2 > 1e-9 || (d * 1000 / v[2] - 1)^2 > 1e-9) print p, d ", not 0.5", v[2] / 1000
+      }
+      END { if (n != 1) print n + 0 " warnings"; print "checked " n }' "$work/range.out"
+}
+# p beyond PMAX, and within both no warning
+sed 's/^+,0.6,0.006/+,0.4,0.1/' "$work/range.bdf" > "$work/range_p.bdf"
+run range_p && says 'range of p left' "$work/range_p.out" 'WARNING: NODE 7, STAGE 1, INCREMENT 1'
+sed 's/^+,0.6,0.006/+,0.6,0.1/' "$work/range.bdf" > "$work/range_in.bdf"
+run range_in && same 'within the range no warning' "$(grep -c 'WARNING: NODE' "$work/range_in.out")" 0
+
+# Shear under a pressure that rises, one increment a curve (Fig. 4b), by hand: k_s of each increment at the pressure before it.
+run_input shear_pressure && judge 'shear under rising pressure, STEP' -F, '
+   FNR == 1 { for (k = 1; k <= NF; k++) at[$k] = k; next }
+   { p = $(at["pressure"]) }
+   $1 == 1 { before = p; next }
+   $1 == 2 {
+      n++; k = 100 * (20 + 100 * before - 2 * (1000 + 2000 * before) * d + 3 * (10000 + 40000 * before) * d^2)
+      d += 2 / k
+      if (($(at["k_sx"]) / k - 1)^2 > 1e-20 || ($(at["delta_x"]) / d - 1)^2 > 1e-20) print $2 ": " $(at["k_sx"]), $(at["delta_x"]) ", not " k, d
+      before = p
+   }
+   END { if (n != 10) print n " rows"; print "checked " n }' "$work/shear_pressure.joint.csv"

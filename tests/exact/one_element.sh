@@ -1,0 +1,50 @@
+# One interface element: NEWTON gives lambda = c (F/a)**m, STEP a closed recurrence.
+
+one_element() { # NAME METHOD M INCREMENTS
+   cat > "$work/$1.bdf" <<DECK
+METHOD = $2
+TOL = 1.0E-14
+SUBCASE 1
+  LOAD = 1
+  INCR = 1
+  OUTPUT = NONE
+BEGIN BULK
+GRID,1,,0.0,0.0,,,1
+CJOINT,1,1,1,,100.0,0.0,1.0
+PJOINT,1,1
+JNORM,1,8.0-3,$3,500.0
+FORCE,1,1,,100.0,0.0,-1.3
+JINCR,1,$4,GEOM,0.07
+ENDDATA
+DECK
+   run "$1"
+}
+
+for m in 0.3 0.5 0.77 1.0; do
+   one_element "newton$m" NEWTON $m 6 && judge "one element, m = $m, NEWTON" -F, -v m=$m '
+      FNR == 1 { for (k = 1; k <= NF; k++) at[$k] = k; next }
+      { p = $3 * 1.3; lambda = 8e-3 * p^m; d = $(at["lambda"]) / lambda - 1; e = $(at["pressure"]) / p - 1; n++
+        if (!(d * d < 1e-24 && e * e < 1e-24)) printf "increment %d: lambda %s, not %.16e\n", $2, $(at["lambda"]), lambda }
+      END { if (n != 6) print n " rows"; print "checked " n }' "$work/newton$m.joint.csv"
+   one_element "step$m" STEP $m 6 && judge "one element, m = $m, STEP" -F, -v m=$m '
+      FNR == 1 { for (k = 1; k <= NF; k++) at[$k] = k; next }
+      { p = $3 * 1.3; if (n == 0) lambda = 8e-3 * p^m; else lambda += (p - before) * m * 8e-3 * before^(m - 1)
+        before = p; n++; d = $(at["lambda"]) / lambda - 1
+        if (!(d * d < 1e-24)) printf "increment %d: lambda %s, not %.16e\n", $2, $(at["lambda"]), lambda }
+      END { if (n != 6) print n " rows"; print "checked " n }' "$work/step$m.joint.csv"
+   one_element "back$m" BACK $m 6 && near "one element, m = $m, BACK" "$(cell "back$m" 1 1 1 lambda)" \
+      "$(awk -v m=$m 'BEGIN { printf "%.15e", 8e-3 * 1.3^m }')" 1e-10
+done
+
+# Loading, relief and loading again in equilibrium: by hand in the deck itself.
+run_input normal_loop && {
+   near 'normal loop, lambda at A' "$(cell normal_loop 1 20 1 lambda)" 8.0e-3 1e-12
+   near 'normal loop, relieved to p = 0.01' "$(cell normal_loop 2 20 1 lambda)" 6.02e-3 1e-11
+   same 'normal loop, relieved' "$(cell normal_loop 2 20 1 branch)" UNLOAD
+   near 'normal loop, on past A' "$(cell normal_loop 3 20 1 lambda)" 9.797958971132712e-3 1e-12
+   same 'normal loop, on past A' "$(cell normal_loop 3 20 1 branch)" LOAD
+   energy=$(awk '/ENERGY OF JOINTS/ { n++; getline; getline; getline; getline; getline; if (n < 4) print $2, $3 }' "$work/normal_loop.out")
+   # F lambda/3 to A; p**2 a/(2 E_u) back, less what the last hundredth keeps
+   near 'normal loop, work put in to A' "$(echo $energy | cut -d' ' -f1)" 0.266667 2e-6
+   near 'normal loop, work given back' "$(echo $energy | cut -d' ' -f4)" 0.09999 1e-5
+}

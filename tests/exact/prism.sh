@@ -1,0 +1,85 @@
+# The prism of the worked example against an independent computation (input/prism*.bdf; see *_reference.csv).
+
+run_input prism_newton && {
+   near 'prism, NEWTON in one increment: lambda at node 51' "$(cell prism_newton 1 1 51 lambda)" 6.234906012806e-3 1e-10
+   near 'prism, NEWTON in one increment: lambda at node 1' "$(cell prism_newton 1 1 1 lambda)" -1.722222094507e-4 1e-9
+   same 'prism, NEWTON in one increment: node 1' "$(cell prism_newton 1 1 1 branch)" OPEN
+}
+
+# BACK and NEWTON in one increment have no history: the same answer.
+run_input prism_back && {
+   near 'prism, BACK: lambda at node 51' "$(cell prism_back 1 1 51 lambda)" 6.234906012806e-3 1e-8
+   judge 'prism, BACK equals NEWTON in one increment' -F, '
+      FNR == 1 { file++; for (k = 1; k <= NF; k++) at[$k] = k; next }
+      function off(a, b, top) { return (a - b)^2 > (1e-8 * top)^2 }
+      { k = $(at["node1"]) }
+      file == 1 { l[k] = $(at["lambda"]); p[k] = $(at["pressure"]); b[k] = $(at["branch"]); next }
+      { n++; if (off($(at["lambda"]), l[k], 6e-3) || off($(at["pressure"]), p[k], 0.6) || $(at["branch"]) != b[k])
+           print "node " k ": " $(at["lambda"]), $(at["pressure"]), $(at["branch"]) }
+      END { if (n != 11) print n " rows"; print "checked " n }' "$work/prism_newton.joint.csv" "$work/prism_back.joint.csv"
+}
+
+# The cycle: all 30 increments, 11 nodes.
+run_input prism_cycle && judge 'prism, cycle by NEWTON: branches, lambda and p of all increments' -F, '
+   /^#/ || $1 == "increment" { next }
+   FILENAME ~ /reference/ { k = $1 "," $4; l[k] = $6; p[k] = $7; b[k] = $8; rows++; next }
+   FNR == 1 { for (k = 1; k <= NF; k++) at[$k] = k; next }
+   function off(a, b, top) { return (a - b)^2 > (1e-8 * top)^2 }
+   { if ($1 "," $2 != now) { now = $1 "," $2; i++ }
+     n++; k = i "," $(at["node1"])
+     if (!(k in l) || off($(at["lambda"]), l[k], 6e-3) || off($(at["pressure"]), p[k], 0.6) || $(at["branch"]) != b[k])
+        print "increment " k ": " $(at["lambda"]), $(at["pressure"]), $(at["branch"]) ", not " l[k], p[k], b[k] }
+   END { if (n != rows || n != 330) print n " rows, not " rows; print "checked " n }' \
+   tests/exact/prism_cycle_reference.csv "$work/prism_cycle.joint.csv"
+
+# STEP in N increments, the force of removed elements left or carried on: lambda at nodes 51 and 1, p at node 51.
+while read -r deck carry lambda51 p51 lambda1; do
+   n=${deck#prism}; n=${n#0}
+   awk -v carry=$carry '/^SPC *=/ { print "CARRY = " carry } { print }' "input/$deck.bdf" > "$work/$deck-$carry.bdf"
+   run $deck-$carry || continue
+   near "$deck, CARRY = $carry: lambda at node 51" "$(cell $deck-$carry 1 $n 51 lambda)" $lambda51 1e-9
+   near "$deck, CARRY = $carry: p at node 51" "$(cell $deck-$carry 1 $n 51 pressure)" $p51 1e-9
+   near "$deck, CARRY = $carry: lambda at node 1" "$(cell $deck-$carry 1 $n 1 lambda)" $lambda1 1e-8
+done <<'NUMBERS'
+prism03 NO 9.406481683775e-03 5.430625377673e-01 5.574753640e-04
+prism05 NO 7.620129133321e-03 5.740665043155e-01 1.997947828e-04
+prism10 NO 6.921696612300e-03 5.881223029364e-01 9.610276495e-05
+prism15 NO 6.775946175503e-03 5.915719573766e-01 -4.248301188e-05
+prism03 YES 9.406481683775e-03 5.430625377673e-01 5.574753640e-04
+prism05 YES 7.623208079227e-03 5.745246910784e-01 2.783349884e-05
+prism10 YES 6.923194327295e-03 5.883795751953e-01 9.354505709e-06
+prism15 YES 6.776378150497e-03 5.916506456159e-01 -7.218664389e-05
+NUMBERS
+
+# newton NAME PROGRESSION LINES: the prism by NEWTON in these increments, with LINES more of case control
+newton() {
+   awk -v p="$2" -v lines="$3" '/^METHOD/ { print; if (lines != "") print lines; next } /^SUBCASE/ { print; print "  INCR = 77"; next }
+      /^ENDDATA/ { print "JINCR,77," p } { print }' input/prism_newton.bdf > "$work/$1.bdf"
+   run "$1"
+}
+
+# In increments node 6 unloads on the way, so the answer is another one than in one increment, but the same for all of these.
+newton ten 10,ARITH,0.1 '' && near 'prism, NEWTON in 10 equal increments: lambda at node 51' "$(cell ten 1 10 51 lambda)" 6.233944579875e-3 1e-10
+for progression in 3,ARITH,0.05 5,ARITH,0.05 10,ARITH,0.05 15,ARITH,0.05; do
+   newton way $progression '' &&
+      near "prism, NEWTON in $progression: lambda at node 51" "$(cell way 1 ${progression%%,*} 51 lambda)" 6.233944579875e-3 1e-9
+done
+
+# TOL: how much of the load NEWTON may leave unbalanced.
+for tolerance in 1.0E-3 1.0E-6 1.0E-12; do
+   newton tolerance 10,ARITH,0.1 "TOL = $tolerance" || continue
+   judge "TOL = $tolerance: unbalanced force at the end of each increment" -v tolerance=$tolerance '
+      function close_increment() { if (last > tolerance * 80 * i) print "increment " i ": " last }
+      /CONVERGENCE HISTORY/ { on = 1 }
+      on && NF == 7 && $1 ~ /^[0-9]+$/ {
+         if (n && $1 != i) close_increment()
+         i = $1; last = $5; n++
+         if ($4 <= tolerance * 80 * i) print "increment " i ": iterated on from " $4
+      }
+      / RESULTANTS/ { on = 0 }
+      END { close_increment(); if (i != 10) print i " increments"; print "checked " n }' "$work/tolerance.out"
+   iterations=$(awk '/CONVERGENCE HISTORY/ { on = 1 } / RESULTANTS/ { on = 0 } on && NF == 7 && $1 ~ /^[0-9]+$/ { n++ } END { print n }' "$work/tolerance.out")
+   [ $tolerance != 1.0E-3 ] && holds "TOL = $tolerance takes more iterations" "$iterations > $fewer"
+   fewer=$iterations
+   near "TOL = $tolerance: lambda at node 51" "$(cell tolerance 1 10 51 lambda)" 6.233944579875e-3 "$tolerance" 1e-12
+done

@@ -1,0 +1,92 @@
+# A block 1e6 times stiffer than the joint under an eccentric load: lambda = d + t x.
+# Against the numbers of a rigid block on the same nodes (to 3E-6: the block is 1e6 times stiffer, no more), and, as the nodes become dense, against the continuous formulas.
+
+rigid_block() { # NAME NX M E: the load is shared by the two nodes on top next to its place
+   awk -v nx="$2" -v m="$3" -v e="$4" 'BEGIN {
+      print "METHOD = NEWTON\nTOL = 1.0E-9\nSPC = 1\nSUBCASE 1\n  LOAD = 1\n  OUTPUT = NONE\nBEGIN BULK"
+      print "BLOCK2,1,1," nx ",1,-50.0,0.0\n+,50.0,100.0\n+,20\nPMARK,20\nPSHELL,1,1,20.0\nMAT1,1,1.0E10,,0.0"
+      print "JOINT,1,1,20\nPJOINT,1,1\nJNORM,1,8.0-3," m ",9500.0\nSPC1,1,1,1"
+      i = int((e + 50) * nx / 100 + 1e-9); if (i == nx) i--
+      right = (e - (-50 + 100 * i / nx)) * nx / 100
+      printf "FORCE,1,%d,,%.12f,0.0,-1.0\n", 2 * i + 2, 1000 * (1 - right)
+      printf "FORCE,1,%d,,%.12f,0.0,-1.0\nENDDATA\n", 2 * i + 4, 1000 * right
+   }' > "$work/$1.bdf"
+   run "$1" || return 1
+   read -r d t worst open <<< "$(awk -F, 'FNR == 1 { for (k = 1; k <= NF; k++) at[$k] = k; next }
+      { n++; x[n] = $(at["x"]); l[n] = $(at["lambda"]); if ($(at["branch"]) == "OPEN") open++ }
+      END { t = (l[n] - l[1]) / (x[n] - x[1]); d = (l[n] + l[1]) / 2
+         for (i = 1; i <= n; i++) { b = l[i] - d - t * x[i]; if (b < 0) b = -b; if (b > worst) worst = b }
+         printf "%.15e %.15e %.3e %d", d, t, worst / d, open }' "$work/$1.joint.csv")"
+}
+
+for m in 0.5 1.0; do
+   for e in 10.0 20.0 24.0 26.0 30.0; do
+      for nx in 10 20 40; do
+         rigid_block block $nx $m $e || continue
+         read -r d_reference t_reference <<< "$(awk -F, -v nx=$nx -v m=$m -v e=$e \
+            '$1 == nx && $2 == m + 0 && $3 == e + 0 { print $4, $5 }' tests/exact/rigid_block_reference.csv)"
+         near "rigid block, m = $m, e = $e, $nx elements: d" "$d" "$d_reference" 3e-6
+         near "rigid block, m = $m, e = $e, $nx elements: t" "$t" "$t_reference" 3e-6
+         holds "rigid block, m = $m, e = $e, $nx elements: it stays straight" "$worst < 1e-5"
+      done
+   done
+done
+
+# Continuous formulas: full contact up to e = L/4 (m = 0.5), L/6 (m = 1): N = (b/c**2)(d**2 L + t**2 L**3/12), M = (b/c**2) d t L**3/6,
+# and for m = 1 N = b L d/c, M = b t L**3/(12 c). Beyond it the contact length is (n + 2)(L/2 - e). The error falls as nodes double.
+for case in '0.5 10.0' '0.5 24.0' '0.5 30.0' '0.5 40.0' '1.0 10.0' '1.0 24.0' '1.0 40.0'; do
+   set -- $case
+   before=
+   for nx in 20 40 80 160; do
+      rigid_block block $nx $1 $2 || continue
+      error=$(awk -v m=$1 -v e=$2 -v d="$d" -v t="$t" 'BEGIN {
+         b = 20; c = 8e-3; L = 100; N = 1000; n = 1 / m
+         if (e <= L / (n == 2 ? 4 : 6)) {
+            force = n == 2 ? b / c^2 * (d^2 * L + t^2 * L^3 / 12) : b / c * d * L
+            moment = n == 2 ? b / c^2 * d * t * L^3 / 6 : b / c * t * L^3 / 12
+            x = force / N - 1; y = moment / (N * e) - 1
+         } else {
+            x = (L / 2 + d / t) / ((n + 2) * (L / 2 - e)) - 1; y = 0
+         }
+         printf "%.6e", (x < 0 ? -x : x) + (y < 0 ? -y : y) }')
+      [ -n "$before" ] && holds "rigid block, m = $1, e = $2, $nx elements: error falls" "$error < 0.6 * $before"
+      before=$error
+   done
+   holds "rigid block, m = $1, e = $2: close to the continuous formula" "$error < 1e-3"
+done
+
+# Separation begins at L/4 for m = 0.5 and at L/6 for m = 1.
+rigid_block block 80 0.5 24.5 && same 'rigid block, m = 0.5, e below L/4: open nodes' "$open" 0
+rigid_block block 80 0.5 25.5 && holds 'rigid block, m = 0.5, e above L/4: open nodes' "$open > 0"
+rigid_block block 80 1.0 16.2 && same 'rigid block, m = 1, e below L/6: open nodes' "$open" 0
+rigid_block block 80 1.0 17.2 && holds 'rigid block, m = 1, e above L/6: open nodes' "$open > 0"
+
+# Pressed evenly: every node p = F/A_int, lambda = c p**m, also where the body is soft.
+cat > "$work/patch.bdf" <<'DECK'
+METHOD = NEWTON
+SPC = 1
+SUBCASE 1
+  LOAD = 1
+  OUTPUT = NONE
+BEGIN BULK
+BLOCK2,1,1,3,2,0.0,0.0
++,100.0,50.0,,,0.4,1.0
++,20
+PMARK,20
+PSHELL,1,1,20.0
+MAT1,1,100.0,,0.3
+JOINT,1,1,20
+PJOINT,1,1
+JNORM,1,8.0-3,0.4,9500.0
+SPC1,1,1,1
+DECK
+# forces on top as the areas of influence below: three divisions 1 : sqrt(0.4) : 0.4
+awk 'BEGIN { CONVFMT = "%.17g"; r = sqrt(0.4); h = 100 / (1 + r + r * r)
+   split(h / 2 " " h * (1 + r) / 2 " " h * r * (1 + r) / 2 " " h * r * r / 2, share, " ")
+   for (i = 1; i <= 4; i++) printf "FORCE,1,%d,,%.13f,0.0,-1.0\n", 3 * i, 4 * share[i]
+   print "ENDDATA" }' >> "$work/patch.bdf"
+run patch && judge 'pressed evenly' -F, '
+   FNR == 1 { for (k = 1; k <= NF; k++) at[$k] = k; next }
+   { n++; p = $(at["pressure"]) / 0.2 - 1; l = $(at["lambda"]) / (8e-3 * 0.2^0.4) - 1
+     if (!(p * p < 1e-16 && l * l < 1e-16)) print "node " $(at["node1"]) ": p " $(at["pressure"]) ", lambda " $(at["lambda"]) }
+   END { if (n != 4) print n " rows"; print "checked " n }' "$work/patch.joint.csv"

@@ -1,0 +1,16 @@
+#!/usr/bin/env bash
+# Whole runs against exact answers and independent computations.
+#
+#    run.sh PROGRAM WORK_FOLDER [PART...]      all parts, or those named
+#
+# Prints what fails and a last line `N passed, N failed`.
+set -u
+program=$1 work=$2
+shift 2
+mkdir -p "$work"
+source tests/exact/lib.sh
+[ $# -gt 0 ] || set -- one_element rigid_block beam friction prism turned two_bodies resultants histories
+
+for part in "$@"; do source "tests/exact/$part.sh"; done
+echo "$passed passed, $failed failed"
+[ $failed -eq 0 ] && [ $passed -gt 0 ]

@@ -1,0 +1,91 @@
+# Joints between two bodies.
+
+# block_on NAME METHOD BASE: a block pressed off the middle, pushed and released, on RIGID base, on a BODY 1e6 times stiffer that is held below,
+# or on a SOFT body of its own material; the joint SPLIT out of one mesh or between two MESHES with facing surfaces.
+block_on() {
+   awk -v method="$2" -v base="$3" 'BEGIN {
+      print "METHOD = " method "\nSPC = 1"
+      for (stage = 1; stage <= 3; stage++)
+         print "SUBCASE " stage "\n  LOAD = " stage "\n  INCR = " (stage == 1 ? 4 : 8) "\n  OUTPUT = NONE"
+      print "BEGIN BULK\nPSHELL,1,1,20.0\nMAT1,1,9500.0,,0.25\nPSHELL,2,2,20.0"
+      print "MAT1,2," (base == "BODY" ? "9.5E9" : "9500.0") ",,0.25"
+      weld = ""; sides = "20,"; marks = "+,20"
+      if (base != "RIGID") {
+         print "BLOCK2,2,2,10,2,0.0,-30.0\n+,100.0,0.0,,,,,1001,1001\n+,22,," (base == "SPLIT" ? "" : "21") "\nPMARK,22\nSPCM,1,12,22"
+         if (base == "SPLIT") weld = ",,,,2"; else { sides = "20,21"; print "PMARK,21" }
+      }
+      print "BLOCK2,1,1,10,4,0.0,0.0\n+,100.0,40.0,,,,,1,1\n+,20" weld "\nPMARK,20"
+      print "SPC1,1,3,55"
+      print "JOINT,1,1," sides "\nPJOINT,1,1,1,,0.2,3\nJNORM,1,8.0-3,0.5,9500.0\nJSHEAR,1,100.0,300.0\n+,160.0,250.0"
+      print "FORCE,1,30,,600.0,0.0,-1.0\nFORCE,1,25,,400.0,0.0,-1.0\nFORCE,9,55,,130.0,1.0"
+      print "LOAD,2,1.0,1.0,1,1.0,9\nLOAD,3,1.0,1.0,1,-0.5,9\nJINCR,4,4,ARITH,0.25\nJINCR,8,8,ARITH,0.125\nENDDATA"
+   }' > "$work/$1.bdf"
+   run "$1"
+}
+
+for method in NEWTON STEP; do
+   block_on rigid $method RIGID && block_on stiff $method BODY && same_states "on a body 1e6 times stiffer, $method" rigid stiff 1e-5
+   block_on meshes $method MESHES && block_on split $method SPLIT && same_states "split or meshed apart, $method" meshes split 1e-10
+done
+
+# Which of the two sides is SIDE1 does not matter, but for the sense of the shear.
+sed 's/^JOINT,1,1,20,21/JOINT,1,1,21,20/' "$work/meshes.bdf" > "$work/swapped.bdf"
+run swapped && same_states 'sides exchanged' meshes swapped 1e-10 -1
+
+# Three blocks on a rigid base, three joints with laws of their own, pressed evenly (nu = 0): each carries all, lambda = c p**m of its law.
+cat > "$work/stack.bdf" <<'DECK'
+METHOD = NEWTON
+SPC = 1
+SUBCASE 1
+  LOAD = 1
+  INCR = 1
+BEGIN BULK
+BLOCK2,1,1,2,2,0.0,0.0
++,40.0,20.0,,,,,1,1
++,10,,11
+BLOCK2,2,1,2,2,0.0,20.0
++,40.0,40.0,,,,,101,101
++,12,,13
+BLOCK2,3,1,2,2,0.0,40.0
++,40.0,60.0,,,,,201,201
++,14
+PMARK,10
+PMARK,11
+PMARK,12
+PMARK,13
+PMARK,14
+PSHELL,1,1,20.0
+MAT1,1,9500.0,,0.0
+JOINT,1,1,10
+JOINT,2,2,11,12
+JOINT,3,3,14,13
+PJOINT,1,1
+PJOINT,2,2
+PJOINT,3,3
+JNORM,1,8.0-3,0.5,9500.0
+JNORM,2,5.0-3,0.4,9500.0
+JNORM,3,3.0-3,1.0,9500.0
+SPC1,1,1,2,102,202
+FORCE,1,203,,100.0,0.0,-1.0
+FORCE,1,206,,200.0,0.0,-1.0
+FORCE,1,209,,100.0,0.0,-1.0
+JINCR,1,3,ARITH,0.2
+ENDDATA
+DECK
+run stack && {
+   judge 'three joints in one model' -F, '
+      FNR == 1 { for (k = 1; k <= NF; k++) at[$k] = k; next }
+      BEGIN { split("8e-3 5e-3 3e-3", c, " "); split("0.5 0.4 1", m, " ") }
+      { n++; j = $(at["joint"]); p = 0.5 * $3; l = c[j] * p^m[j]; a = $(at["lambda"]) / l - 1; b = $(at["pressure"]) / p - 1; joints[j]++
+        if (!(a * a < 1e-16 && b * b < 1e-16)) print "joint " j ", node " $(at["node1"]) ": " $(at["lambda"]), $(at["pressure"]) }
+      END { for (j = 1; j <= 3; j++) if (joints[j] != 9) print joints[j] " rows of joint " j; print "checked " n }' "$work/stack.joint.csv"
+   judge 'three joints in one model: resultants' '
+      /RESULTANTS OF JOINTS/ { on = 1; next }
+      /ENERGY/ { on = 0 }
+      on && NF == 7 && $1 ~ /^[0-9]+$/ {
+         n++; load = $1 == 1 ? 80 : $1 == 2 ? 80 + 400 / 3 : 400
+         fy = ($2 == 3 ? 1 : 1) * load
+         if (($3 / load - 1)^2 > 1e-10 || $4 != 0 || $5 != 0 || ($6 + ($2 == 2 ? -fy : fy))^2 > 1e-6 || $7 != 0) print
+      }
+      END { if (n != 9) print n " lines"; print "checked " n }' "$work/stack.out"
+}
