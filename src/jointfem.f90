@@ -108,7 +108,7 @@ contains
 
                if (.not. failure%raised) then
                   ! ------------------------------------------------------ SOLVE [k_s] {du} = {dF}
-                  call solve_increment(plan, system, analysis, failure)
+                  call solve_increment(model, plan, system, analysis, failure)
 
                end if
                if (.not. failure%raised) then

@@ -38,6 +38,11 @@ module analysis_state
       real(wp), allocatable :: load_after(:, :)     !! at its end
       real(wp), allocatable :: applied(:, :)        !! now
       real(wp), allocatable :: change(:, :)         !! load of this increment
+      logical  :: moves = .false.                   !! whether supports are moved in this increment
+      real(wp), allocatable :: moved_before(:, :)   !! displacements of held components at the start of the stage [length]
+      real(wp), allocatable :: moved_after(:, :)    !! at its end
+      real(wp), allocatable :: moved(:, :)          !! now
+      real(wp), allocatable :: move(:, :)           !! in this increment
       real(wp), allocatable :: u(:, :), du(:, :)    !! displacements, and of this increment [length]
       real(wp), allocatable :: unbalanced(:, :)     !! applied - internal forces; on held components minus the reaction
       type(element_state), allocatable :: states(:) !! of the interface elements
@@ -63,6 +68,7 @@ contains
       allocate (analysis%applied(model%dimension, model%n_nodes), source=0.0_wp)
       allocate (analysis%load_before, analysis%load_after, analysis%change, analysis%u, analysis%du, analysis%unbalanced, &
                 source=analysis%applied)
+      allocate (analysis%moved_before, analysis%moved_after, analysis%moved, analysis%move, source=analysis%applied)
       analysis%carry = carry
       analysis%load_tolerance = tolerance
       allocate (analysis%states(size(model%interface)), analysis%energy(size(model%joints)), analysis%passes(16))
@@ -83,7 +89,10 @@ contains
       analysis%energy = joint_energy()
       analysis%load_before = analysis%applied
       analysis%load_after = 0.0_wp
+      analysis%moved_before = analysis%moved
+      analysis%moved_after = 0.0_wp
       associate (loads => model%stage_loads(stage))
+         if (allocated(loads%moved)) analysis%moved_after = loads%moved
          do i = 1, loads%n
             analysis%load_after(:, loads%node(i)) = analysis%load_after(:, loads%node(i)) + loads%force(:model%dimension, i)
          end do
@@ -95,7 +104,7 @@ contains
    subroutine start_increment(plan, analysis)
       type(stage_plan_type), intent(in)  :: plan
       type(analysis_type), intent(inout) :: analysis
-      real(wp), allocatable :: target(:, :)
+      real(wp), allocatable :: target(:, :), moved(:, :)
 
       associate (shares => plan%stages(analysis%stage)%shares)
          analysis%increment = analysis%increment + 1
@@ -104,12 +113,17 @@ contains
          if (analysis%increment == size(shares)) then
             analysis%fraction = 1.0_wp
             target = analysis%load_after
+            moved = analysis%moved_after
          else
             target = analysis%load_before + analysis%fraction*(analysis%load_after - analysis%load_before)
+            moved = analysis%moved_before + analysis%fraction*(analysis%moved_after - analysis%moved_before)
          end if
       end associate
       analysis%change = target - analysis%applied
       analysis%applied = target
+      analysis%move = moved - analysis%moved
+      analysis%moved = moved
+      analysis%moves = any(abs(analysis%move) > 0.0_wp)
       if (analysis%carry) analysis%change = analysis%change + analysis%unbalanced
       analysis%n_passes = 0
       analysis%n_parts = 1

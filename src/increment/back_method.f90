@@ -2,6 +2,7 @@
 !! consecutive pressures averaged, until they settle. Loading only.
 module back_method
    use analysis_state, only: analysis_type, find_unbalanced, record_pass, pass_record, tally_work
+   use coupled_solution, only: solve_moved
    use equations, only: equation_system, form_structure_stiffness, solve_equations
    use failures, only: failure_type
    use joint_laws, only: element_state, joint_law
@@ -43,7 +44,11 @@ contains
          end do
          call form_structure_stiffness(model, k_int, where_in_plan(plan, analysis%stage, analysis%increment), system, failure)
          if (failure%raised) return
-         call solve_equations(system, analysis%applied, analysis%u)
+         if (analysis%moves) then
+            call solve_moved(model, system, k_int, analysis%applied, analysis%moved, analysis%u)
+         else
+            call solve_equations(system, analysis%applied, analysis%u)
+         end if
          do i = 1, n
             movement(:, i) = joint_movement(model, analysis%u, i)
             p_new(i) = max(0.0_wp, k_int(3, 3, i)*movement(3, i)/model%interface(i)%area)

@@ -3,7 +3,7 @@
 module newton_method
    use analysis_state, only: analysis_type, free_norm, pass_record, record_pass, tally_work
    use body_elements, only: internal_forces
-   use coupled_solution, only: solve_coupled
+   use coupled_solution, only: solve_coupled, solve_moved
    use equations, only: equation_system, form_structure_stiffness, solve_equations
    use failures, only: failure_type
    use joint_laws, only: element_state, follow_element, rest_when_open
@@ -41,7 +41,7 @@ contains
       type(analysis_type), intent(inout)   :: analysis !! applied is the load at the end of the increment
       type(equation_system), intent(inout) :: system
       type(failure_type), intent(inout)    :: failure
-      real(wp), allocatable :: load_start(:, :), load_end(:, :), u_start(:, :), load(:, :)
+      real(wp), allocatable :: load_start(:, :), load_end(:, :), u_start(:, :), load(:, :), moved(:, :)
       integer, allocatable  :: flips(:)
       real(wp) :: done, part
       logical  :: converged
@@ -50,6 +50,7 @@ contains
       allocate (load_end, load, source=analysis%applied)
       allocate (load_start, source=analysis%applied - analysis%change)
       allocate (u_start, source=analysis%u)
+      allocate (moved, source=analysis%moved)
       before_open = count(analysis%states%normal%branch == branch_open)
       allocate (flips(size(model%interface)), source=0)
       done = 0.0_wp
@@ -59,7 +60,10 @@ contains
          part = min(part, 1.0_wp - done)
          load = load_end
          if (done + part < 1.0_wp) load = load_start + (done + part)*(load_end - load_start)
-         call iterate(model, load, where_in_plan(plan, analysis%stage, analysis%increment), analysis, system, flips, converged)
+         moved = analysis%moved
+         if (done + part < 1.0_wp) moved = analysis%moved - (1.0_wp - done - part)*analysis%move
+         call iterate(model, load, moved, where_in_plan(plan, analysis%stage, analysis%increment), analysis, system, flips, &
+                      converged)
          if (converged) then
             done = done + part
             part = 2.0_wp*part
@@ -76,22 +80,25 @@ contains
    end subroutine newton_increment
 
 
-   !> Newton iterations under the nodal forces LOAD, from the committed state; converged, they are committed.
-   subroutine iterate(model, load, place, analysis, system, flips, converged)
+   !> Newton iterations under the nodal forces LOAD with held components MOVED, from the committed state; converged, they are
+   !! committed. The first iteration moves the supports, in one go and with the tangent of the committed state.
+   subroutine iterate(model, load, moved, place, analysis, system, flips, converged)
       type(model_type), intent(in)         :: model
-      real(wp), intent(in)                 :: load(:, :)
+      real(wp), intent(in)                 :: load(:, :), moved(:, :)
       character(*), intent(in)             :: place !! stage and increment, for messages
       type(analysis_type), intent(inout)   :: analysis
       type(equation_system), intent(inout) :: system
       integer, intent(inout)               :: flips(:)
       logical, intent(out)                 :: converged
       type(trial_type)      :: now, next
-      real(wp), allocatable :: direction(:, :)
+      real(wp), allocatable :: direction(:, :), move(:, :)
       real(wp) :: load_size, noise, step, stiffest
       integer  :: iteration, changes
-      logical  :: solved
+      logical  :: solved, moves
 
       allocate (direction, mold=load)
+      allocate (move, source=merge(moved - analysis%u, 0.0_wp, model%held))
+      moves = any(abs(move) > 0.0_wp)
       converged = .false.
       flips = 0
       call start_trial(model, analysis, now)
@@ -103,11 +110,21 @@ contains
          ! forces in the bodies are differences of large numbers: what rounding leaves of them is no residual, and where it is no
          ! small part of the load, a body has moved away and nothing is in equilibrium
          noise = 10.0_wp*epsilon(1.0_wp)*stiffest*maxval(abs(now%u))
-         converged = now%size <= max(analysis%tolerance, 0.1_wp*noise) .and. noise <= 1.0e-5_wp*load_size
+         converged = now%size <= max(analysis%tolerance, 0.1_wp*noise) .and. noise <= 1.0e-5_wp*load_size .and. &
+                     .not. moves
          if (converged .or. iteration == most_iterations .or. noise > load_size) exit
-         call find_direction(model, now, analysis, iteration == 0, place, system, direction, solved)
+         call find_direction(model, now, analysis, iteration == 0, move, place, system, direction, solved)
          if (.not. solved) exit
-         call search(model, load, analysis, now, direction, next, step)
+         if (moves) then
+            call take_whole_step(model, load, analysis, now, direction, next)
+            step = 1.0_wp
+            moves = .false.
+            move = 0.0_wp
+            analysis%tolerance = max(analysis%tolerance, analysis%load_tolerance*norm2(pack(next%residual, model%held)))
+            load_size = analysis%tolerance/analysis%load_tolerance ! what the supports take is a load here
+         else
+            call search(model, load, analysis, now, direction, next, step)
+         end if
          changes = count(next%states%normal%branch /= now%states%normal%branch .or. (next%states%slips .neqv. now%states%slips))
          where (next%states%normal%branch /= now%states%normal%branch .or. (next%states%slips .neqv. now%states%slips)) &
             flips = flips + 1
@@ -160,11 +177,12 @@ contains
 
    !> The Newton direction from NOW. The factorised matrix has the symmetric, positive part of the tangent, with a little where
    !! an element has no stiffness, and at the very first the secant of Eq. (9); what it lacks is brought in by solve_coupled.
-   subroutine find_direction(model, now, analysis, first, place, system, direction, solved)
+   subroutine find_direction(model, now, analysis, first, move, place, system, direction, solved)
       type(model_type), intent(in)         :: model
       type(trial_type), intent(in)         :: now
       type(analysis_type), intent(inout)   :: analysis
       logical, intent(in)                  :: first
+      real(wp), intent(in)                 :: move(:, :) !! of held components, that is still to be made
       character(*), intent(in)             :: place !! stage and increment, for messages
       type(equation_system), intent(inout) :: system
       real(wp), intent(out)                :: direction(:, :)
@@ -201,12 +219,30 @@ contains
       call form_structure_stiffness(model, matrix, place, system, failure)
       solved = .not. failure%raised
       if (.not. solved) return
-      if (coupled) then
+      if (any(abs(move) > 0.0_wp)) then
+         call solve_moved(model, system, matrix, now%residual, move, direction)
+      else if (coupled) then
          call solve_coupled(model, system, rest, now%residual, 1.0e-4_wp, 25, direction)
       else
          call solve_equations(system, now%residual, direction)
       end if
    end subroutine find_direction
+
+
+   !> The step that moves the supports: it cannot be shortened.
+   subroutine take_whole_step(model, load, analysis, now, direction, next)
+      type(model_type), intent(in)    :: model
+      real(wp), intent(in)            :: load(:, :)
+      type(analysis_type), intent(in) :: analysis
+      type(trial_type), intent(in)    :: now
+      real(wp), intent(in)            :: direction(:, :)
+      type(trial_type), intent(out)   :: next
+
+      next = now
+      next%u = now%u + direction
+      call internal_forces(model, next%u, next%body)
+      call evaluate(model, load, analysis, next)
+   end subroutine take_whole_step
 
 
    !> Line search: the step along DIRECTION at which the unbalanced forces do (next to) no work on it any more.

@@ -1,6 +1,7 @@
 !> METHOD = STEP, the step-wise tangent-stiffness method: one routine a box of the flow chart (Fig. 6a).
 module step_method
    use analysis_state, only: analysis_type, pass_record, record_pass, tally_work
+   use coupled_solution, only: solve_moved
    use equations, only: equation_system, form_structure_stiffness, solve_equations
    use failures, only: failure_type
    use joint_laws, only: friction_excess
@@ -26,25 +27,38 @@ contains
       type(analysis_type), intent(in)      :: analysis
       type(equation_system), intent(inout) :: system
       type(failure_type), intent(inout)    :: failure
-      real(wp), allocatable :: k_int(:, :, :)
-      integer :: d
 
-      allocate (k_int(3, 3, size(model%interface)), source=0.0_wp)
-      do d = 1, 3
-         k_int(d, d, :) = analysis%k(d, :)
-      end do
-      call form_structure_stiffness(model, k_int, where_in_plan(plan, analysis%stage, analysis%increment), system, failure)
+      call form_structure_stiffness(model, diagonal(analysis%k), where_in_plan(plan, analysis%stage, analysis%increment), &
+                                    system, failure)
    end subroutine structure_stiffness
 
 
+   !> The stiffnesses K(3, n) of interface elements as matrices.
+   pure function diagonal(k) result(k_int)
+      real(wp), intent(in) :: k(:, :)
+      real(wp) :: k_int(3, 3, size(k, 2))
+      integer  :: d
+
+      k_int = 0.0_wp
+      do d = 1, 3
+         k_int(d, d, :) = k(d, :)
+      end do
+   end function diagonal
+
+
    !> {du} from [k_s] {du} = {dF}.
-   subroutine solve_increment(plan, system, analysis, failure)
+   subroutine solve_increment(model, plan, system, analysis, failure)
+      type(model_type), intent(in)       :: model
       type(stage_plan_type), intent(in)  :: plan
       type(equation_system), intent(in)  :: system
       type(analysis_type), intent(inout) :: analysis
       type(failure_type), intent(inout)  :: failure
 
-      call solve_equations(system, analysis%change, analysis%du)
+      if (analysis%moves) then
+         call solve_moved(model, system, diagonal(analysis%k), analysis%change, analysis%move, analysis%du)
+      else
+         call solve_equations(system, analysis%change, analysis%du)
+      end if
       if (.not. all(abs(analysis%du) <= largest_number)) call failure%raise(where_in_plan(plan, analysis%stage, &
          analysis%increment)//': the displacements are beyond all numbers; are loads and stiffnesses in consistent units?')
    end subroutine solve_increment

@@ -41,7 +41,8 @@ contains
          if (model%surfaces(s)%n == 0) cycle
          if (.not. any(model%surfaces(s)%other(:model%surfaces(s)%n) > 0)) cycle
          if (any(model%surfaces(s)%other(:model%surfaces(s)%n) == 0)) then
-            call add_field_error(deck%text, deck%bulk%joint(j)%line, 3, 'SIDE1', 'bodies lie on both sides of some parts of '// &
+            call add_field_error(deck%text, deck%bulk%joint(j)%line, 3, 'SIDE1', 'bodies lie on both sides of some '// &
+                                 merge('edges', 'faces', model%dimension == 2)//' of '// &
                                  'surface '//integer_text(model%surfaces(s)%id)//' and on one side of others', errors)
             cycle
          end if

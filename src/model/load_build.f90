@@ -22,7 +22,7 @@ module load_build
       integer :: element = 0, side = 0
    end type pressed_side
 
-   character(*), parameter :: load_cards = 'FORCE, PLOAD4, PLOADE, PLOADM, FORCEM, GRAV or SPCD'
+   character(*), parameter :: nor_others = ', nor a PLOAD4, PLOADE, PLOADM, FORCEM, GRAV or SPCD'
 
 contains
 
@@ -54,8 +54,8 @@ contains
                end associate
             else
                call add_set(deck, model, pressed, reference%id, 1.0_wp, loads)
-               if (.not. has_set(deck%bulk, reference%id)) call errors%add(reference%line, 'LOAD: there is no '//load_cards// &
-                  ' or LOAD with set '//integer_text(reference%id))
+               if (.not. has_set(deck%bulk, reference%id)) call errors%add(reference%line, &
+                  'LOAD: there is no FORCE or LOAD with set '//integer_text(reference%id)//nor_others)
             end if
          end associate
       end do
@@ -317,7 +317,7 @@ contains
             do k = 1, size(bulk%load(i)%sets)
                if (bulk%load(i)%sets(k) > 0 .and. .not. has_set(bulk, bulk%load(i)%sets(k))) &
                   call add_field_error(deck%text, bulk%load(i)%line, bulk%load(i)%at(k), 'L'//integer_text(k), &
-                                       'there is no '//load_cards//' with set '//integer_text(bulk%load(i)%sets(k)), errors)
+                                       'there is no FORCE with set '//integer_text(bulk%load(i)%sets(k))//nor_others, errors)
             end do
             if (has_set(bulk, bulk%load(i)%set)) call add_field_error(deck%text, bulk%load(i)%line, 1, 'SID', 'set '// &
                integer_text(bulk%load(i)%set)//' is that of a '//first_of_set(bulk, bulk%load(i)%set)// &

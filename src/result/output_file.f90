@@ -32,6 +32,7 @@ contains
       character(*), intent(in)               :: path
 
       self%path = path
+      if (allocated(self%buffer)) deallocate (self%buffer)
       allocate (character(room) :: self%buffer)
       if (path /= '') call create_file(path//suffix, self%descriptor)
       self%fault = path /= '' .and. self%descriptor < 0

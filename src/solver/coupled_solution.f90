@@ -1,14 +1,16 @@
 !> Systems whose matrix is a factorised symmetric one plus a small unsymmetric rest: ([k] + [r]) {x} = {b}. Friction makes the
 !! tangent of a joint unsymmetric; the rest acts on few unknowns, and a few steps of GMRES with [k] as preconditioner do.
+!! Beside it, systems whose supports move.
 !! Source: Saad, Schultz, SIAM J. Sci. Stat. Comput. 7 (1986) 856-869 (right-preconditioned, Gram-Schmidt modified).
 module coupled_solution
+   use body_elements, only: internal_forces
    use equations, only: equation_system, solve_equations
    use kinds, only: wp
    use model_data, only: joint_movement, model_type
    implicit none
    private
 
-   public :: solve_coupled
+   public :: solve_coupled, solve_moved
 
 contains
 
@@ -72,6 +74,25 @@ contains
       end do
       call solve_equations(system, shifted, u)
    end subroutine solve_coupled
+
+
+   !> Displacements U of all nodes under the nodal forces F where held components are MOVED: the forces that this alone would
+   !! take, by bodies and interface elements, act on the others.
+   subroutine solve_moved(model, system, k_int, f, moved, u)
+      type(model_type), intent(in)      :: model
+      type(equation_system), intent(in) :: system
+      real(wp), intent(in)              :: k_int(:, :, :) !! (3, 3, n) as in the factor in SYSTEM [force/length]
+      real(wp), intent(in)              :: f(:, :)        !! (dimension, n_nodes) [force]
+      real(wp), intent(in)              :: moved(:, :)    !! (dimension, n_nodes), zero on free components [length]
+      real(wp), intent(out)             :: u(:, :)        !! (dimension, n_nodes) [length]
+      real(wp), allocatable :: body(:, :), joint(:, :)
+
+      allocate (body, joint, mold=f)
+      call internal_forces(model, moved, body)
+      call rest_times(model, k_int, moved, joint)
+      call solve_equations(system, f - body - joint, u)
+      u = u + moved
+   end subroutine solve_moved
 
 
    !> F = [r] {U}: nodal forces of nodal displacements, by the interface elements.
