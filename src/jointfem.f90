@@ -4,6 +4,7 @@ program jointfem
    use analysis_state, only: analysis_type, interface_stiffness, note_largest, start_analysis, start_increment, &
                              start_stage
    use back_method, only: back_increment
+   use bolt_locking, only: lock_bolts
    use case_control, only: method_back, method_newton
    use command_tools, only: use_one_thread
    use command_line, only: command_type, deck_argument, read_command_line
@@ -87,6 +88,8 @@ contains
       call progress%start(argument%name, plan, command%quiet)
 
       do stage = 1, size(plan%stages)
+         ! --------------------------------------------------------------- BOLTS OF THE STAGE BEFORE LOCKED, NEXT STAGE
+         call lock_bolts(stage, model, system, analysis)
          call start_stage(model, stage, analysis)
          do increment = 1, size(plan%stages(stage)%shares)
 

@@ -86,10 +86,9 @@ module bulk_data
       real(wp) :: value = 0.0_wp
    end type displacement_card
 
-   !> BOLT: a bolt tightened to PRELOAD in the stage of SUBCASE STAGE, locked afterwards. ELEMENT is a CROD, or SURFACE a marked
-   !! plane that cuts a solid bolt.
+   !> BOLT: a bolt tightened to PRELOAD in the stage of SUBCASE STAGE, locked afterwards. ELEMENT is a CROD.
    type, public :: bolt_card
-      integer  :: line = 0, id = 0, element = 0, surface = 0, stage = 0
+      integer  :: line = 0, id = 0, element = 0, stage = 0
       real(wp) :: preload = 0.0_wp
    end type bolt_card
 

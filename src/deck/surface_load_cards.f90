@@ -164,7 +164,7 @@ contains
    end subroutine read_spcd
 
 
-   !> BOLT: a bolt tightened to PRELOAD in SUBCASE STAGE and locked in the later ones.
+   !> BOLT: the CROD EID tightened to PRELOAD in SUBCASE STAGE and locked in the later ones.
    subroutine read_bolt(card, bulk, values, errors)
       type(card_type), intent(in)          :: card
       type(bulk_data_type), intent(inout)  :: bulk
@@ -172,19 +172,16 @@ contains
       type(deck_error_list), intent(inout) :: errors
       type(field_rule), save, allocatable :: table(:)
 
-      if (.not. allocated(table)) table = [integer_field('BOLTID'), integer_field('EID', default=0), &
-         integer_field('PID', default=0), real_field('PRELOAD', above=0.0_wp), integer_field('STAGE', default=1)]
+      if (.not. allocated(table)) table = [integer_field('BID'), integer_field('EID'), real_field('PRELOAD', above=0.0_wp), &
+         integer_field('STAGE', default=1)]
       call decode_card(card, table, .false., values, errors)
-      if (values%given(2) .eqv. values%given(3)) call field_error(card, 2, 'EID: expected either a CROD here or the PMARK of '// &
-         'the plane that cuts a solid bolt in the next field', errors)
       bulk%n_bolt = bulk%n_bolt + 1
       associate (bolt => bulk%bolt(bulk%n_bolt))
          bolt%line = card%line
          bolt%id = values%integers(1)
          bolt%element = values%integers(2)
-         bolt%surface = values%integers(3)
-         bolt%preload = values%reals(4)
-         bolt%stage = values%integers(5)
+         bolt%preload = values%reals(3)
+         bolt%stage = values%integers(4)
       end associate
    end subroutine read_bolt
 

@@ -1,5 +1,6 @@
 !> Everything that changes from increment to increment, and what all methods do with it alike.
 module analysis_state
+   use bar_elements, only: add_pull
    use body_elements, only: internal_forces
    use joint_laws, only: element_state, element_stiffness_of
    use kinds, only: wp
@@ -35,7 +36,7 @@ module analysis_state
       real(wp) :: load_tolerance = 1.0e-10_wp       !! NEWTON: share of the largest load that may be left unbalanced
       real(wp) :: tolerance = 0.0_wp                !! the same as a force, for the largest load so far
       real(wp), allocatable :: load_before(:, :)    !! at the start of the stage [force]
-      real(wp), allocatable :: load_after(:, :)     !! at its end
+      real(wp), allocatable :: load_after(:, :)     !! at its end; what is not elastic in bolts included
       real(wp), allocatable :: applied(:, :)        !! now
       real(wp), allocatable :: change(:, :)         !! load of this increment
       logical  :: moves = .false.                   !! whether supports are moved in this increment
@@ -45,6 +46,7 @@ module analysis_state
       real(wp), allocatable :: move(:, :)           !! in this increment
       real(wp), allocatable :: u(:, :), du(:, :)    !! displacements, and of this increment [length]
       real(wp), allocatable :: unbalanced(:, :)     !! applied - internal forces; on held components minus the reaction
+      real(wp), allocatable :: pull(:)              !! of locked bolts: tension at the lengths of the model at rest [force]
       type(element_state), allocatable :: states(:) !! of the interface elements
       real(wp), allocatable :: k(:, :)              !! (3, n) their stiffness (k_sx, k_sy, k_n) in the next increment
       type(joint_energy), allocatable  :: energy(:) !! of the joints
@@ -69,6 +71,7 @@ contains
       allocate (analysis%load_before, analysis%load_after, analysis%change, analysis%u, analysis%du, analysis%unbalanced, &
                 source=analysis%applied)
       allocate (analysis%moved_before, analysis%moved_after, analysis%moved, analysis%move, source=analysis%applied)
+      allocate (analysis%pull(size(model%bars)), source=0.0_wp)
       analysis%carry = carry
       analysis%load_tolerance = tolerance
       allocate (analysis%states(size(model%interface)), analysis%energy(size(model%joints)), analysis%passes(16))
@@ -97,6 +100,10 @@ contains
             analysis%load_after(:, loads%node(i)) = analysis%load_after(:, loads%node(i)) + loads%force(:model%dimension, i)
          end do
       end associate
+      do i = 1, size(model%bars)
+         if (model%bars(i)%stage == stage) analysis%pull(i) = model%bars(i)%preload
+         call add_pull(model, i, analysis%pull(i), analysis%load_after)
+      end do
    end subroutine start_stage
 
 

@@ -29,6 +29,11 @@ contains
             if (model%interface(i)%nodes(node) > 0) model%used(model%interface(i)%nodes(node)) = .true.
          end do
       end do
+      do i = 1, size(model%bars)
+         do node = 1, 2
+            if (model%bars(i)%nodes(node) > 0) model%used(model%bars(i)%nodes(node)) = .true.
+         end do
+      end do
       do i = 1, deck%bulk%n_grid
          if (deck%bulk%grid(i)%ps == 0) cycle
          call hold(model, model%node_table%find(deck%bulk%grid(i)%id), deck%bulk%grid(i)%ps)

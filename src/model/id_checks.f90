@@ -13,18 +13,22 @@ module id_checks
 
 contains
 
-   !> Every id of its kind once; PSHELL and PMARK share theirs, as properties do in NASTRAN.
+   !> Every id of its kind once; properties and PMARK share theirs, as properties do in NASTRAN.
    subroutine check_ids(deck, errors)
       type(deck_type), intent(in)          :: deck
       type(deck_error_list), intent(inout) :: errors
       integer :: direction, i
 
       associate (bulk => deck%bulk, text => deck%text)
-         call check_kind(text, 'property', 'PID', [bulk%pshell(:bulk%n_pshell)%id, bulk%pmark(:bulk%n_pmark)%id], &
-                         [bulk%pshell(:bulk%n_pshell)%line, bulk%pmark(:bulk%n_pmark)%line], errors)
+         call check_kind(text, 'property', 'PID', [bulk%pshell(:bulk%n_pshell)%id, bulk%paxis(:bulk%n_paxis)%id, &
+                         bulk%psolid(:bulk%n_psolid)%id, bulk%prod(:bulk%n_prod)%id, bulk%pmark(:bulk%n_pmark)%id], &
+                         [bulk%pshell(:bulk%n_pshell)%line, bulk%paxis(:bulk%n_paxis)%line, &
+                         bulk%psolid(:bulk%n_psolid)%line, bulk%prod(:bulk%n_prod)%line, bulk%pmark(:bulk%n_pmark)%line], errors)
          call check_kind(text, 'MAT1', 'MID', bulk%mat1(:bulk%n_mat1)%id, bulk%mat1(:bulk%n_mat1)%line, errors)
          call check_kind(text, 'LOAD', 'SID', bulk%load(:bulk%n_load)%set, bulk%load(:bulk%n_load)%line, errors)
          call check_kind(text, 'BLOCK2', 'BID', bulk%block2(:bulk%n_block2)%id, bulk%block2(:bulk%n_block2)%line, errors)
+         call check_kind(text, 'BLOCK3', 'BID', bulk%block3(:bulk%n_block3)%id, bulk%block3(:bulk%n_block3)%line, errors)
+         call check_kind(text, 'BOLT', 'BID', bulk%bolt(:bulk%n_bolt)%id, bulk%bolt(:bulk%n_bolt)%line, errors)
          call check_kind(text, 'JOINT', 'JID', bulk%joint(:bulk%n_joint)%id, bulk%joint(:bulk%n_joint)%line, errors)
          call check_kind(text, 'PJOINT', 'PJID', bulk%pjoint(:bulk%n_pjoint)%id, bulk%pjoint(:bulk%n_pjoint)%line, errors)
          call check_kind(text, 'JNORM', 'NID', bulk%jnorm(:bulk%n_jnorm)%id, bulk%jnorm(:bulk%n_jnorm)%line, errors)

@@ -13,8 +13,9 @@ module joint_statics
 contains
 
    !> Number the connected bodies (a node without a body is a part of its own).
-   pure subroutine find_parts(model)
+   pure subroutine find_parts(model, with_bolts)
       type(model_type), intent(inout) :: model
+      logical, intent(in)             :: with_bolts !! whether bolts connect bodies as other bars do
       integer, allocatable :: parent(:)
       integer :: e, k, node, root
 
@@ -25,6 +26,12 @@ contains
             call join(parent, model%element_nodes(1, e), model%element_nodes(k, e))
          end do
       end do
+      if (allocated(model%bars)) then
+         do k = 1, size(model%bars)
+            if (with_bolts .or. model%bars(k)%bolt == 0) call join(parent, model%bars(k)%nodes(1), model%bars(k)%nodes(2))
+         end do
+      end if
+      if (allocated(model%part)) deallocate (model%part)
       allocate (model%part(model%n_nodes), source=0)
       model%n_parts = 0
       do node = 1, model%n_nodes
@@ -50,7 +57,9 @@ contains
       allocate (group(base), grounded(base), on_side(base, 2))
       do j = 1, size(model%joints)
          associate (joint => model%joints(j))
+            if (allocated(joint%carries)) deallocate (joint%carries)
             allocate (joint%carries(model%n_parts), source=.false.)
+            joint%determinate = .false.
             if (norm2(joint%normal) <= 0.0_wp) cycle
             if (model%axisymmetric .and. abs(joint%normal(1)) > 1.0e-9_wp) cycle ! hoop stresses carry the rest
             group = [(k, k = 1, base)]
@@ -118,18 +127,20 @@ contains
       real(wp), intent(in)                 :: first_share
       type(model_type), intent(inout)      :: model
       type(deck_error_list), intent(inout) :: errors
+      type(stage_load_type) :: loads
       real(wp) :: resultant, total
       integer  :: i, j
 
+      call first_loads(model, loads)
       total = 0.0_wp
-      do i = 1, model%stage_loads(1)%n
-         total = total + norm2(model%stage_loads(1)%force(:, i))
+      do i = 1, loads%n
+         total = total + norm2(loads%force(:, i))
       end do
       do j = 1, size(model%joints)
          associate (joint => model%joints(j))
             resultant = 0.0_wp
             if (joint%determinate) then
-               resultant = first_share*carried_resultant(model, joint, model%stage_loads(1))
+               resultant = first_share*carried_resultant(model, joint, loads)
                if (resultant < 0.0_wp .and. .not. touches_body(model, joint)) then
                   call turn_round(model, joint)
                   resultant = -resultant
@@ -149,6 +160,30 @@ contains
          end associate
       end do
    end subroutine find_first_pressures
+
+
+   !> The load of the first stage with the preloads of the bolts that it tightens.
+   pure subroutine first_loads(model, loads)
+      type(model_type), intent(in)       :: model
+      type(stage_load_type), intent(out) :: loads
+      integer :: i, k, n
+
+      n = model%stage_loads(1)%n
+      allocate (loads%node(n + 2*size(model%bars)), loads%force(3, n + 2*size(model%bars)))
+      loads%node(:n) = model%stage_loads(1)%node(:n)
+      loads%force(:, :n) = model%stage_loads(1)%force(:, :n)
+      do i = 1, size(model%bars)
+         associate (bar => model%bars(i))
+            if (bar%stage /= 1) cycle
+            do k = 1, 2
+               n = n + 1
+               loads%node(n) = bar%nodes(k)
+               loads%force(:, n) = merge(1.0_wp, -1.0_wp, k == 1)*bar%preload*bar%direction
+            end do
+         end associate
+      end do
+      loads%n = n
+   end subroutine first_loads
 
 
    !> Whether there is a body at any node of JOINT. If not, nothing but the load tells which sense of its normal closes it.

@@ -1,5 +1,6 @@
 !> Nodes, bodies and marked sides: from the mesh cards and the block generators to positions in the model.
 module mesh_build
+   use bar_build, only: is_bar
    use block_mesh, only: block_type
    use bulk_data, only: element_card
    use deck_cards, only: add_field_error, card_name
@@ -415,9 +416,10 @@ contains
       n = 0
       do i = 1, deck%bulk%n_edge
          associate (edge => deck%bulk%edge(i))
+            if (is_bar(deck, edge)) cycle
             if (model%dimension == 3) then
-               call errors%add(edge%line, 'a CBAR or CROD marks an edge of a plane body; surfaces of solids are marked with '// &
-                               'CTRIA3 and CQUAD4 faces')
+               call errors%add(edge%line, 'a CBAR, or a CROD without a PROD, marks an edge of a plane body; surfaces of '// &
+                               'solids are marked with CTRIA3 and CQUAD4 faces')
                cycle
             end if
             call start_side(edge%property, 2, edge%line, 2)

@@ -1,5 +1,6 @@
 !> From a deck to the structure that is solved.
 module model_build
+   use bar_build, only: build_bars
    use condition_build, only: build_supports
    use deck_errors, only: deck_error_list
    use deck_input, only: deck_type
@@ -34,14 +35,18 @@ contains
       call build_surfaces(deck, sides, model, errors)
       call split_shared_surfaces(deck, model, errors)
       call build_joints(deck, model, errors)
+      call build_bars(deck, model, errors)
       call build_supports(deck, model, errors)
       call build_loads(deck, model, errors)
       call plan_stages(deck, plan, errors)
       if (.not. any(model%used)) call errors%add(0, 'nothing to solve: expected body elements or interface elements')
       if (errors%any()) return
-      call find_parts(model)
+      call find_parts(model, .false.)          ! bolts that are being tightened connect nothing yet
       call find_determinate_joints(model)
       call find_first_pressures(plan%stages(1)%shares(1), model, errors)
+      if (all(model%bars%bolt == 0)) return
+      call find_parts(model, .true.)
+      call find_determinate_joints(model)
    end subroutine build_model
 
 end module model_build

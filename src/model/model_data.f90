@@ -1,5 +1,5 @@
 !> The structure as it is solved: nodes, bodies, joints, supports, loads, all references resolved to positions.
-!! Built once from a deck; nothing in it changes afterwards.
+!! Built once from a deck; nothing in it changes afterwards but that bolts are locked.
 module model_data
    use elasticity, only: plane_stress
    use element_kinds, only: element_table
@@ -65,6 +65,18 @@ module model_data
       real(wp), allocatable :: moved(:, :)   !! (dimension, n_nodes) displacements of held components [length]; where there are any
    end type stage_load_type
 
+   !> A bar, which may be a bolt.
+   type, public :: bar_type
+      integer  :: id = 0
+      integer  :: nodes(2) = 0
+      real(wp) :: direction(3) = 0.0_wp      !! from node 1 to node 2, unit
+      real(wp) :: stiffness = 0.0_wp         !! E A/L [force/length]
+      integer  :: bolt = 0                   !! BOLT id, 0: none
+      real(wp) :: preload = 0.0_wp           !! of a bolt [force]
+      integer  :: stage = 0                  !! position of the stage that tightens it
+      logical  :: is_elastic = .true.        !! a bolt is from the end of that stage on: the one thing that changes in a model
+   end type bar_type
+
    type, public :: model_type
       integer :: dimension = 2               !! degrees of freedom a node
       logical :: axisymmetric = .false.      !! about y; loads, areas and forces are those of the whole ring
@@ -87,6 +99,7 @@ module model_data
       type(surface_type), allocatable  :: surfaces(:)
       type(joint_type), allocatable    :: joints(:)
       type(interface_element), allocatable :: interface(:)
+      type(bar_type), allocatable          :: bars(:)
       type(stage_load_type), allocatable   :: stage_loads(:)
       integer, allocatable  :: part(:)       !! (n_nodes) which connected body a node belongs to
       integer :: n_parts = 0

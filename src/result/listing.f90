@@ -5,6 +5,7 @@ module listing
    use equations, only: equation_system
    use joint_statics, only: carried_resultant
    use kinds, only: wp
+   use listing_bars, only: list_bars, note_bars
    use listing_bodies, only: list_bodies
    use listing_joints, only: list_energy, list_interface, list_passes, list_resultants, note_passes, note_resultants
    use listing_opening, only: heading, label_type, noise, page_width, unit_labels, write_opening
@@ -26,7 +27,7 @@ module listing
       type(output_file_type) :: file
       type(label_type) :: labels
       integer :: method = 0
-      type(row_buffer_type) :: increments, resultants, passes ! of the stage so far
+      type(row_buffer_type) :: increments, resultants, passes, bars ! of the stage so far
       integer  :: n_increments = 0, n_removed = 0
       type(range_watch_type) :: watch
       real(wp) :: largest_force = 0.0_wp            ! ever applied, for the noise
@@ -61,12 +62,15 @@ contains
       listing%n_increments = listing%n_increments + 1
       listing%n_removed = listing%n_removed + analysis%n_removed
       listing%largest_force = max(listing%largest_force, maxval(abs(analysis%applied)))
+      if (any(abs(analysis%moved) > 0.0_wp)) listing%largest_force = &
+         max(listing%largest_force, maxval(abs(analysis%unbalanced), mask=model%held)) ! what moves the supports
       do j = 1, size(model%joints)
          call listing%increments%add(increment_row(listing, model, analysis, j))
       end do
       if (size(model%joints) == 0) call listing%increments%add(increment_row(listing, model, analysis, 0))
       call note_resultants(model, analysis, listing%largest_force, listing%resultants)
       call note_passes(analysis, listing%passes)
+      call note_bars(model, analysis, listing%largest_force, listing%bars)
       call watch_ranges(model, plan, analysis, listing%watch)
       associate (stage => plan%stages(analysis%stage))
          if (analysis%increment == size(stage%shares)) return ! the tables of the end of the stage follow
@@ -109,6 +113,7 @@ contains
          end if
          call list_passes_of_method(listing, words)
          call list_resultants(file, listing%labels, words, model%dimension, listing%resultants)
+         call list_bars(file, listing%labels, words, listing%bars)
          call list_energy(file, listing%labels, words, model, analysis)
          if (stage%output >= output_last) call list_interface(file, listing%labels, model, plan, analysis)
          if (stage%plot) call plot_joints(file, listing%labels, model, plan, analysis)

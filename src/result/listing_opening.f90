@@ -153,6 +153,7 @@ contains
                                                  count(.not. model%used, kind=long))
       if (any(model%twin > 0)) call count_line('   OF THESE DOUBLED AT SPLIT SURFACES', count(model%twin > 0, kind=long))
       call count_line('BODY ELEMENTS', int(model%n_elements, long))
+      if (size(model%bars) > 0) call count_line('BARS, BOLTS INCLUDED', size(model%bars, kind=long))
       call count_line('JOINTS', size(model%joints, kind=long))
       call count_line('INTERFACE ELEMENTS', size(model%interface, kind=long))
       call count_line('SUPPORTED COMPONENTS', count(model%held, kind=long))

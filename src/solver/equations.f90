@@ -1,6 +1,7 @@
 !> The equations of the structure by the SKYLINE method: numbered along a profile ordering, [k_b] of the bodies formed
 !! once, [k_s] = [k_b] + sum of [k_int] formed and factorised in every increment.
 module equations
+   use bar_elements, only: bar_stiffness
    use body_elements, only: element_stiffness
    use element_kinds, only: max_dofs
    use failures, only: failure_type
@@ -13,7 +14,7 @@ module equations
    implicit none
    private
 
-   public :: start_equations, form_body_stiffness, form_structure_stiffness, solve_equations
+   public :: add_bar, start_equations, form_body_stiffness, form_structure_stiffness, solve_equations
 
    real(wp), parameter :: pivot_tolerance = 1.0e-12_wp ! of the diagonal entry: below it there is no stiffness
 
@@ -111,6 +112,11 @@ contains
       do i = 1, size(model%interface)
          call couple(pack(model%interface(i)%nodes, model%interface(i)%nodes > 0))
       end do
+      if (allocated(model%bars)) then
+         do i = 1, size(model%bars)
+            call couple(model%bars(i)%nodes)
+         end do
+      end if
       profile = 0
       do i = 1, system%n
          profile = profile + i - first_row(i) + 1
@@ -140,7 +146,7 @@ contains
    end subroutine lay_out_profile
 
 
-   !> [k_b]: the stiffness of all bodies.
+   !> [k_b]: the stiffness of all bodies, bars included.
    subroutine form_body_stiffness(model, system)
       type(model_type), intent(in)         :: model
       type(equation_system), intent(inout) :: system
@@ -158,7 +164,23 @@ contains
          end associate
          call scatter(system%body, rows(:n), k(:n, :n))
       end do
+      if (.not. allocated(model%bars)) return
+      do i = 1, size(model%bars)
+         if (model%bars(i)%is_elastic) call add_bar(model, i, system)
+      end do
    end subroutine form_body_stiffness
+
+
+   !> Add bar I to the stiffness of the bodies.
+   subroutine add_bar(model, i, system)
+      type(model_type), intent(in)         :: model
+      integer, intent(in)                  :: i
+      type(equation_system), intent(inout) :: system
+
+      associate (nodes => model%bars(i)%nodes)
+         call scatter(system%body, [system%number(:, nodes(1)), system%number(:, nodes(2))], bar_stiffness(model, i))
+      end associate
+   end subroutine add_bar
 
 
    !> [k_s] = [k_b] + sum of [k_int], Eq. (8), factorised. A structure without stiffness in some direction is a failure

@@ -63,7 +63,7 @@ contains
    end subroutine build_node_graph
 
 
-   !> The nodes at the other ends of the interface elements of every node.
+   !> The nodes at the other ends of the interface elements and bars of every node.
    pure subroutine list_partners(model, first, partners)
       type(model_type), intent(in)      :: model
       integer, allocatable, intent(out) :: first(:), partners(:)
@@ -74,6 +74,9 @@ contains
       do i = 1, size(model%interface)
          if (model%interface(i)%nodes(2) == 0) cycle
          first(model%interface(i)%nodes + 1) = first(model%interface(i)%nodes + 1) + 1
+      end do
+      do i = 1, n_bars(model)
+         first(model%bars(i)%nodes + 1) = first(model%bars(i)%nodes + 1) + 1
       end do
       first(1) = 1
       do node = 1, model%n_nodes
@@ -89,7 +92,22 @@ contains
             filled(node) = filled(node) + 1
          end do
       end do
+      do i = 1, n_bars(model)
+         do side = 1, 2
+            node = model%bars(i)%nodes(side)
+            partners(filled(node)) = model%bars(i)%nodes(3 - side)
+            filled(node) = filled(node) + 1
+         end do
+      end do
    end subroutine list_partners
+
+
+   pure integer function n_bars(model)
+      type(model_type), intent(in) :: model
+
+      n_bars = 0
+      if (allocated(model%bars)) n_bars = size(model%bars)
+   end function n_bars
 
 
    !> ORDER(k) is the k-th node of the reverse Cuthill-McKee ordering of GRAPH, connected piece after connected piece.

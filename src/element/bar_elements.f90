@@ -1,0 +1,67 @@
+!> Bars: two nodes and a stiffness E A/L along the line between them.
+module bar_elements
+   use kinds, only: wp
+   use model_data, only: model_type
+   implicit none
+   private
+
+   public :: bar_elongation, add_pull, add_bar_forces, bar_stiffness
+
+contains
+
+   !> How much longer bar I is under the displacements U [length].
+   pure real(wp) function bar_elongation(model, u, i) result(elongation)
+      type(model_type), intent(in) :: model
+      real(wp), intent(in)         :: u(:, :) !! (dimension, n_nodes) [length]
+      integer, intent(in)          :: i
+
+      associate (bar => model%bars(i))
+         elongation = dot_product(u(:, bar%nodes(2)) - u(:, bar%nodes(1)), bar%direction(:model%dimension))
+      end associate
+   end function bar_elongation
+
+
+   !> Add to F the nodal forces by which bar I pulls its nodes together under a tension N.
+   pure subroutine add_pull(model, i, n, f)
+      type(model_type), intent(in) :: model
+      integer, intent(in)          :: i
+      real(wp), intent(in)         :: n       !! [force]
+      real(wp), intent(inout)      :: f(:, :) !! (dimension, n_nodes) [force]
+
+      associate (bar => model%bars(i), d => model%dimension)
+         f(:, bar%nodes(1)) = f(:, bar%nodes(1)) + n*bar%direction(:d)
+         f(:, bar%nodes(2)) = f(:, bar%nodes(2)) - n*bar%direction(:d)
+      end associate
+   end subroutine add_pull
+
+
+   !> Add to F the forces that hold all elastic bars in their displaced shape.
+   pure subroutine add_bar_forces(model, u, f)
+      type(model_type), intent(in) :: model
+      real(wp), intent(in)         :: u(:, :) !! (dimension, n_nodes) [length]
+      real(wp), intent(inout)      :: f(:, :) !! (dimension, n_nodes) [force]
+      integer :: i
+
+      if (.not. allocated(model%bars)) return
+      do i = 1, size(model%bars)
+         if (model%bars(i)%is_elastic) call add_pull(model, i, -model%bars(i)%stiffness*bar_elongation(model, u, i), f)
+      end do
+   end subroutine add_bar_forces
+
+
+   !> [k] of bar I, components of node 1 first [force/length].
+   pure function bar_stiffness(model, i) result(k)
+      type(model_type), intent(in) :: model
+      integer, intent(in)          :: i
+      real(wp) :: k(2*model%dimension, 2*model%dimension), between(2*model%dimension)
+      integer  :: row
+
+      associate (bar => model%bars(i), d => model%dimension)
+         between = [-bar%direction(:d), bar%direction(:d)]
+         do row = 1, 2*d
+            k(row, :) = bar%stiffness*between(row)*between
+         end do
+      end associate
+   end function bar_stiffness
+
+end module bar_elements
