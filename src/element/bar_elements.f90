@@ -1,7 +1,7 @@
 !> Bars: two nodes and a stiffness E A/L along the line between them.
 module bar_elements
    use kinds, only: wp
-   use model_data, only: model_type
+   use model_data, only: model_type, n_bars
    implicit none
    private
 
@@ -42,8 +42,7 @@ contains
       real(wp), intent(inout)      :: f(:, :) !! (dimension, n_nodes) [force]
       integer :: i
 
-      if (.not. allocated(model%bars)) return
-      do i = 1, size(model%bars)
+      do i = 1, n_bars(model)
          if (model%bars(i)%is_elastic) call add_pull(model, i, -model%bars(i)%stiffness*bar_elongation(model, u, i), f)
       end do
    end subroutine add_bar_forces

@@ -4,7 +4,7 @@ module analysis_state
    use body_elements, only: internal_forces
    use joint_laws, only: element_state, element_stiffness_of
    use kinds, only: wp
-   use model_data, only: joint_movement, model_type
+   use model_data, only: joint_movement, model_type, n_bars
    use normal_stiffness, only: branch_open
    use stage_plan, only: stage_plan_type
    implicit none
@@ -71,7 +71,7 @@ contains
       allocate (analysis%load_before, analysis%load_after, analysis%change, analysis%u, analysis%du, analysis%unbalanced, &
                 source=analysis%applied)
       allocate (analysis%moved_before, analysis%moved_after, analysis%moved, analysis%move, source=analysis%applied)
-      allocate (analysis%pull(size(model%bars)), source=0.0_wp)
+      allocate (analysis%pull(n_bars(model)), source=0.0_wp)
       analysis%carry = carry
       analysis%load_tolerance = tolerance
       allocate (analysis%states(size(model%interface)), analysis%energy(size(model%joints)), analysis%passes(16))
@@ -100,7 +100,7 @@ contains
             analysis%load_after(:, loads%node(i)) = analysis%load_after(:, loads%node(i)) + loads%force(:model%dimension, i)
          end do
       end associate
-      do i = 1, size(model%bars)
+      do i = 1, n_bars(model)
          if (model%bars(i)%stage == stage) analysis%pull(i) = model%bars(i)%preload
          call add_pull(model, i, analysis%pull(i), analysis%load_after)
       end do

@@ -5,7 +5,7 @@ module bolt_locking
    use bar_elements, only: add_pull, bar_elongation
    use equations, only: add_bar, equation_system
    use kinds, only: wp
-   use model_data, only: model_type
+   use model_data, only: model_type, n_bars
    implicit none
    private
 
@@ -21,7 +21,7 @@ contains
       type(analysis_type), intent(inout)   :: analysis
       integer :: i
 
-      do i = 1, size(model%bars)
+      do i = 1, n_bars(model)
          associate (bar => model%bars(i))
             if (bar%bolt == 0 .or. bar%stage /= stage - 1) cycle
             bar%is_elastic = .true.

@@ -4,7 +4,7 @@ module condition_build
    use deck_cards, only: add_field_error
    use deck_errors, only: deck_error_list
    use deck_input, only: deck_type
-   use model_data, only: model_type
+   use model_data, only: model_type, n_bars
    use text_tools, only: integer_text
    implicit none
    private
@@ -29,7 +29,7 @@ contains
             if (model%interface(i)%nodes(node) > 0) model%used(model%interface(i)%nodes(node)) = .true.
          end do
       end do
-      do i = 1, size(model%bars)
+      do i = 1, n_bars(model)
          do node = 1, 2
             if (model%bars(i)%nodes(node) > 0) model%used(model%bars(i)%nodes(node)) = .true.
          end do

@@ -118,7 +118,7 @@ contains
             partner = model%twin(side1%node)
          end if
       end associate
-      if (any(side1%area <= 0.0_wp)) then
+      if (model%axisymmetric .and. any(side1%area <= 0.0_wp)) then
          call errors%add(deck%bulk%joint(j)%line, 'surface '//integer_text(deck%bulk%joint(j)%sides(1))// &
             ' has no area at node '//integer_text(model%node_id(side1%node(minloc(side1%area, dim=1))))//': it lies on the axis')
          return

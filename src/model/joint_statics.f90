@@ -3,7 +3,7 @@
 module joint_statics
    use deck_errors, only: deck_error_list
    use kinds, only: wp
-   use model_data, only: joint_type, model_type, stage_load_type
+   use model_data, only: joint_type, model_type, n_bars, stage_load_type
    use text_tools, only: integer_text, real_text
    implicit none
    private
@@ -26,11 +26,9 @@ contains
             call join(parent, model%element_nodes(1, e), model%element_nodes(k, e))
          end do
       end do
-      if (allocated(model%bars)) then
-         do k = 1, size(model%bars)
-            if (with_bolts .or. model%bars(k)%bolt == 0) call join(parent, model%bars(k)%nodes(1), model%bars(k)%nodes(2))
-         end do
-      end if
+      do k = 1, n_bars(model)
+         if (with_bolts .or. model%bars(k)%bolt == 0) call join(parent, model%bars(k)%nodes(1), model%bars(k)%nodes(2))
+      end do
       if (allocated(model%part)) deallocate (model%part)
       allocate (model%part(model%n_nodes), source=0)
       model%n_parts = 0
@@ -169,10 +167,10 @@ contains
       integer :: i, k, n
 
       n = model%stage_loads(1)%n
-      allocate (loads%node(n + 2*size(model%bars)), loads%force(3, n + 2*size(model%bars)))
+      allocate (loads%node(n + 2*n_bars(model)), loads%force(3, n + 2*n_bars(model)))
       loads%node(:n) = model%stage_loads(1)%node(:n)
       loads%force(:, :n) = model%stage_loads(1)%force(:, :n)
-      do i = 1, size(model%bars)
+      do i = 1, n_bars(model)
          associate (bar => model%bars(i))
             if (bar%stage /= 1) cycle
             do k = 1, 2

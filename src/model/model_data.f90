@@ -9,7 +9,7 @@ module model_data
    implicit none
    private
 
-   public :: joint_movement, corners_of
+   public :: joint_movement, corners_of, n_bars
 
    !> Section and material of body elements.
    type, public :: property_type
@@ -122,6 +122,15 @@ contains
          movement = matmul(between, element%axes)
       end associate
    end function joint_movement
+
+
+   !> How many bars there are.
+   pure integer function n_bars(model)
+      type(model_type), intent(in) :: model
+
+      n_bars = 0
+      if (allocated(model%bars)) n_bars = size(model%bars)
+   end function n_bars
 
 
    !> The corners of element E.

@@ -5,7 +5,7 @@ module listing_bars
    use bolt_locking, only: bar_tension
    use kinds, only: wp
    use listing_opening, only: heading, label_type, noise, page_width
-   use model_data, only: model_type
+   use model_data, only: model_type, n_bars
    use output_file, only: output_file_type
    use row_buffer, only: row_buffer_type
    use text_tools, only: clean
@@ -25,7 +25,7 @@ contains
       character(page_width) :: row
       integer :: i
 
-      do i = 1, size(model%bars)
+      do i = 1, n_bars(model)
          associate (bar => model%bars(i))
             write (row, '(i6, 11x, 3i11, 2es15.5)') analysis%increment, bar%id, model%node_id(bar%nodes), &
                clean(bar_tension(model, analysis, i), noise*largest_force), &

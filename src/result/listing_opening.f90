@@ -7,7 +7,7 @@ module listing_opening
    use deck_text, only: is_include
    use equations, only: equation_system
    use kinds, only: long, wp
-   use model_data, only: model_type
+   use model_data, only: model_type, n_bars
    use normal_stiffness, only: branch_load, branch_name, branch_reload, branch_unload, pressure_floor
    use output_file, only: output_file_type
    use stage_plan, only: stage_plan_type
@@ -153,7 +153,7 @@ contains
                                                  count(.not. model%used, kind=long))
       if (any(model%twin > 0)) call count_line('   OF THESE DOUBLED AT SPLIT SURFACES', count(model%twin > 0, kind=long))
       call count_line('BODY ELEMENTS', int(model%n_elements, long))
-      if (size(model%bars) > 0) call count_line('BARS, BOLTS INCLUDED', size(model%bars, kind=long))
+      if (n_bars(model) > 0) call count_line('BARS, BOLTS INCLUDED', size(model%bars, kind=long))
       call count_line('JOINTS', size(model%joints, kind=long))
       call count_line('INTERFACE ELEMENTS', size(model%interface, kind=long))
       call count_line('SUPPORTED COMPONENTS', count(model%held, kind=long))

@@ -7,7 +7,7 @@ module equations
    use failures, only: failure_type
    use kinds, only: long, wp
    use machine, only: available_memory
-   use model_data, only: corners_of, model_type
+   use model_data, only: corners_of, model_type, n_bars
    use node_ordering, only: build_node_graph, node_graph, reverse_cuthill_mckee
    use skyline, only: add_to_skyline, factorise_skyline, skyline_matrix, solve_skyline, start_skyline
    use text_tools, only: integer_text
@@ -112,11 +112,9 @@ contains
       do i = 1, size(model%interface)
          call couple(pack(model%interface(i)%nodes, model%interface(i)%nodes > 0))
       end do
-      if (allocated(model%bars)) then
-         do i = 1, size(model%bars)
-            call couple(model%bars(i)%nodes)
-         end do
-      end if
+      do i = 1, n_bars(model)
+         call couple(model%bars(i)%nodes)
+      end do
       profile = 0
       do i = 1, system%n
          profile = profile + i - first_row(i) + 1
@@ -164,8 +162,7 @@ contains
          end associate
          call scatter(system%body, rows(:n), k(:n, :n))
       end do
-      if (.not. allocated(model%bars)) return
-      do i = 1, size(model%bars)
+      do i = 1, n_bars(model)
          if (model%bars(i)%is_elastic) call add_bar(model, i, system)
       end do
    end subroutine form_body_stiffness

@@ -2,7 +2,7 @@
 !! Sources: Cuthill, McKee (Proc. 24th ACM Conf., 1969); George, Liu, Computer Solution of Large Sparse Positive
 !! Definite Systems, 1981, chapter 4 (the start node, and why reversed).
 module node_ordering
-   use model_data, only: model_type
+   use model_data, only: model_type, n_bars
    implicit none
    private
 
@@ -100,14 +100,6 @@ contains
          end do
       end do
    end subroutine list_partners
-
-
-   pure integer function n_bars(model)
-      type(model_type), intent(in) :: model
-
-      n_bars = 0
-      if (allocated(model%bars)) n_bars = size(model%bars)
-   end function n_bars
 
 
    !> ORDER(k) is the k-th node of the reverse Cuthill-McKee ordering of GRAPH, connected piece after connected piece.
