@@ -117,12 +117,13 @@ contains
          end do
       end do
       call start_sides(block, 2*(n(1)*n(2) + n(2)*n(3) + n(3)*n(1)))
-      do m = 1, 2 ! low, high
+      do m = 1, 2 ! low, high; the corners of every face go round it as seen from outside
          if (card%marks(m) > 0) then
             i = merge(0, n(1), m == 1)
             do j = 0, n(2) - 1
                do k = 0, n(3) - 1
-                  call add_side(block, card%marks(m), 16 + m, [at(i, j, k), at(i, j + 1, k), at(i, j + 1, k + 1), at(i, j, k + 1)])
+                  call add_side(block, card%marks(m), 16 + m, &
+                                faced(m == 2, [at(i, j, k), at(i, j + 1, k), at(i, j + 1, k + 1), at(i, j, k + 1)]))
                end do
             end do
          end if
@@ -131,7 +132,7 @@ contains
             do i = 0, n(1) - 1
                do k = 0, n(3) - 1
                   call add_side(block, card%marks(m + 2), 18 + m, &
-                                [at(i, j, k), at(i + 1, j, k), at(i + 1, j, k + 1), at(i, j, k + 1)])
+                                faced(m == 1, [at(i, j, k), at(i + 1, j, k), at(i + 1, j, k + 1), at(i, j, k + 1)]))
                end do
             end do
          end if
@@ -140,13 +141,23 @@ contains
             do i = 0, n(1) - 1
                do j = 0, n(2) - 1
                   call add_side(block, card%marks(m + 4), 20 + m, &
-                                [at(i, j, k), at(i + 1, j, k), at(i + 1, j + 1, k), at(i, j + 1, k)])
+                                faced(m == 2, [at(i, j, k), at(i + 1, j, k), at(i + 1, j + 1, k), at(i, j + 1, k)]))
                end do
             end do
          end if
       end do
 
    contains
+
+      pure function faced(outwards, places)
+         logical, intent(in) :: outwards !! whether the normal of PLACES as they stand points out
+         integer, intent(in) :: places(4)
+         integer :: faced(4)
+
+         faced = places
+         if (.not. outwards) faced = places(4:1:-1)
+      end function faced
+
 
       pure integer function at(a, b, c)
          integer, intent(in) :: a, b, c
