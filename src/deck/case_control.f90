@@ -314,14 +314,18 @@ contains
       type(stage_type), intent(inout)      :: stage
       type(deck_error_list), intent(inout) :: errors
       character(:), allocatable :: rest
-      integer :: comma
+      integer :: comma, n_plots, n_words
 
       stage%output = output_last
       stage%plot = .false.
+      n_words = 0
+      n_plots = 0
       rest = upper(entry%value)
       if (rest == '') call choose(entry, '|ALL|JOINT|LAST|NONE|PLOT|', errors)
       do while (rest /= '')
          comma = index(rest//',', ',')
+         n_words = n_words + 1
+         if (adjustl(rest(:comma - 1)) == 'PLOT') n_plots = n_plots + 1
          select case (adjustl(rest(:comma - 1)))
          case ('ALL');   stage%output = output_all
          case ('JOINT'); stage%output = output_joint
@@ -334,6 +338,8 @@ contains
          end select
          rest = rest(min(comma + 1, len(rest) + 1):)
       end do
+      if (n_plots > 1 .or. n_words - n_plots > 1) call value_error( &
+         entry, 'one of ALL, JOINT, LAST, NONE, and with a comma PLOT', errors)
    end subroutine read_output
 
 
