@@ -38,7 +38,7 @@ contains
       real(wp), intent(in)      :: value
       character(:), allocatable :: text
       character(24) :: buffer
-      integer :: e, last
+      integer :: e, exponent, last
 
       if (abs(value) < tiny(1.0_wp)) then
          text = '0'
@@ -61,7 +61,8 @@ contains
       e = index(buffer, 'E')
       last = verify(buffer(:e - 1), '0', back=.true.)
       if (buffer(last:last) == '.') last = last - 1
-      text = buffer(:last)//trim(buffer(e:))
+      read (buffer(e + 1:), *) exponent
+      text = buffer(:last)//'E'//integer_text(exponent)
    end function real_text
 
 
