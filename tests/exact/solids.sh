@@ -332,16 +332,16 @@ done
 
 # ---- Lame's thick cylinder ----
 
-# inner radius 20, outer 40, pressure 100 inside, ends free: u(r) = p a**2/(b**2 - a**2)/E ((1 - nu) r + (1 + nu) b**2/r)
-lame=$(awk 'BEGIN { printf "%.10g", 100 * 400 / 1200 / 21000 * (0.7 * 20 + 1.3 * 1600 / 20) }')
+# inner radius 20, outer 40, pressure 525 inside (so that six digits tell most), ends free: u(r) = p a**2/(b**2 - a**2)/E ((1 - nu) r + (1 + nu) b**2/r)
+lame=$(awk 'BEGIN { printf "%.10g", 525 * 400 / 1200 / 21000 * (0.7 * 20 + 1.3 * 1600 / 20) }')
 cylinder() { # NAME N: bodies of revolution, N elements through the wall
-   printf 'SPC = 1\nSUBCASE 1\n  LOAD = 1\nBEGIN BULK\nBLOCK2,1,1,%d,1,20.0,0.0\n+,40.0,5.0\n+,20,,,23\nPMARK,20\nPMARK,23\nPAXIS,1,1\nMAT1,1,21000.0,,0.3\nSPCM,1,2,20\nPLOADM,1,100.0,23\nENDDATA\n' \
+   printf 'SPC = 1\nSUBCASE 1\n  LOAD = 1\nBEGIN BULK\nBLOCK2,1,1,%d,1,20.0,0.0\n+,40.0,5.0\n+,20,,,23\nPMARK,20\nPMARK,23\nPAXIS,1,1\nMAT1,1,21000.0,,0.3\nSPCM,1,2,20\nPLOADM,1,525.0,23\nENDDATA\n' \
       "$2" > "$work/$1.bdf"
    run "$1"
 }
 quarter() { # NAME N: a quarter of it of hexahedra, N through the wall, 2 N round it
    awk -v n="$2" 'BEGIN {
-      print "SPC = 1\nSUBCASE 1\n  LOAD = 1\nBEGIN BULK\nPSOLID,1,1\nMAT1,1,21000.0,,0.3\nPMARK,23\nPLOADM,1,100.0,23"
+      print "SPC = 1\nSUBCASE 1\n  LOAD = 1\nBEGIN BULK\nPSOLID,1,1\nMAT1,1,21000.0,,0.3\nPMARK,23\nPLOADM,1,525.0,23"
       pi = atan2(0, -1); m = 2 * n
       for (k = 0; k <= 1; k++) for (j = 0; j <= m; j++) for (i = 0; i <= n; i++) {
          g = 1 + i + (n + 1) * (j + (m + 1) * k); r = 20 + 20 * i / n; f = pi / 2 * j / m
