@@ -1,0 +1,436 @@
+# Solids, bodies of revolution, distributed loads and prescribed displacements: joints in space and round an axis against what
+# is known of them.
+
+# ---- tools ----
+
+# total NAME LINE [COLUMN]: X, Y, Z (1, 2, 3) of a line of BALANCE OF FORCES at the end of the listing
+total() {
+   awk -v line="$2" -v c="${3:-3}" '/BALANCE OF FORCES/ { on = 1 } on && index($0, "  " line " ") == 1 { v = $(NF - 3 + c) } END { print v == "" ? "missing" : v }' \
+      "$work/$1.out"
+}
+# total2: the same in a plane model, X, Y (1, 2)
+total2() {
+   awk -v line="$2" -v c="${3:-2}" '/BALANCE OF FORCES/ { on = 1 } on && index($0, "  " line " ") == 1 { v = $(NF - 2 + c) } END { print v == "" ? "missing" : v }' \
+      "$work/$1.out"
+}
+# moved NAME NODE COLUMNS C: component C of 2 or 3 of the last displacements of a node
+moved() {
+   awk -v node="$2" -v n="$3" -v c="$4" '/DISPLACEMENTS OF NODES/ { on = 1; next } /STRESSES|REACTIONS|BALANCE/ { on = 0 }
+      on && $1 == node && NF == 2 * n + 1 { v = $(n + 1 + c) } END { print v == "" ? "missing" : v }' "$work/$1.out"
+}
+
+# pressed_evenly WORDS NAME P A_INT [RELATIVE]: every pressure of the last increment is P, the areas add up to A_INT
+pressed_evenly() {
+   judge "$1" -F, -v p="$3" -v a="$4" -v relative="${5:-1e-10}" '
+      function size(x) { return x < 0 ? -x : x }
+      FNR == 1 { for (k = 1; k <= NF; k++) at[$k] = k; next }
+      { if ($1 "," $2 != now) { now = $1 "," $2; n = 0; sum = 0; faults = "" }
+        n++; sum += $(at["area"]); if (!(size($(at["pressure"]) - p) <= relative * p)) faults = faults "node " $(at["node1"]) ": p " $(at["pressure"]) "\n" }
+      END { if (faults != "") printf "%s", faults
+            if (!(size(sum - a) <= 1e-12 * a)) printf "areas add up to %.16g, expected %.16g\n", sum, a
+            print "checked " n }' "$work/$2.joint.csv"
+}
+
+# same_rows WORDS NAME-A NAME-B RELATIVE [SHEAR]: all rows, in order: branch, lambda, p and what SHEAR asks for: XY both components,
+# TURNED the resultant, NONE
+same_rows() {
+   judge "$1" -F, -v tolerance="$4" -v shear="${5:-XY}" '
+      function size(x) { return x < 0 ? -x : x }
+      function get(k) {
+         if (k == 1) return $(at["lambda"]) + 0
+         if (k == 2) return $(at["pressure"]) + 0
+         if (shear == "NONE") return 0
+         if (shear == "TURNED") return k < 5 ? 0 : sqrt($(at[k == 5 ? "delta_x" : "tau_x"])^2 + $(at[k == 5 ? "delta_y" : "tau_y"])^2)
+         return $(at[k == 3 ? "delta_x" : k == 4 ? "delta_y" : k == 5 ? "tau_x" : "tau_y"]) + 0
+      }
+      FNR == 1 { file++; for (k = 1; k <= NF; k++) at[$k] = k; next }
+      file == 1 { n++; where[n] = $1 "," $2; branch[n] = $(at["branch"]) $(at["slip"])
+         for (k = 1; k <= 6; k++) { v[k, n] = get(k); if (size(v[k, n]) > top[k]) top[k] = size(v[k, n]) } }
+      file == 2 { m++
+         if (where[m] != $1 "," $2 || branch[m] != $(at["branch"]) $(at["slip"])) print "row " m ": " $1 "," $2, $(at["branch"]) $(at["slip"]) ", not " where[m], branch[m]
+         for (k = 1; k <= 6; k++) if (!(size(get(k) - v[k, m]) <= tolerance * top[k])) print "row " m ", value " k ": " get(k) ", not " v[k, m] }
+      END { if (n != m || top[2] == 0) print n " rows, " m " rows, p up to " top[2]; print "checked " n }' \
+      "$work/$2.joint.csv" "$work/$3.joint.csv"
+}
+
+# The mesh of a box, 0 to 60 x 0 to 40 x 0 to 30, 3 x 2 x 2 cells, GRIDs 1 to 36 (x fastest, then y, then z), skewed inside and on the
+# lower and upper faces: as HEXA, PENTA (2 a cell) or TETRA (6 a cell). The lower face is marked 20, the upper one 23 (cards CQUAD4, CTRIA3).
+# TURN: degrees about z, then about x, then about y.
+box_mesh() { # KIND SKEW [TURN]
+   awk -v kind="$1" -v skew="$2" -v turn="${3:-0 0 0}" '
+      function node(i, j, k) { return 1 + i + 4 * j + 12 * k }
+      function element(kind, list) { print "C" kind "," ++e ",1," list }
+      function face(list, mark,   n) { n = split(list, g, ","); print (n == 4 ? "CQUAD4," : "CTRIA3,") ++f "," mark "," list }
+      function penta(a, b, c, d, p, q) { element("PENTA", a "," b "," c "," d "," p "," q) }
+      BEGIN {
+         pi = atan2(0, -1); split(turn, t, " "); for (m = 1; m <= 3; m++) { c[m] = cos(t[m] * pi / 180); s[m] = sin(t[m] * pi / 180) }
+         for (k = 0; k <= 2; k++) for (j = 0; j <= 2; j++) for (i = 0; i <= 3; i++) {
+            x = 20 * i; y = 20 * j; z = 15 * k
+            if (i % 3) x += skew * (1 + j - 2 * k); if (j % 2) y += skew * (i - 1.3 + k); if (k % 2) z += skew * (1 - i + j)
+            u = c[1] * x - s[1] * y; v = s[1] * x + c[1] * y; w = z
+            y = c[2] * v - s[2] * w; z = s[2] * v + c[2] * w
+            x = c[3] * u + s[3] * z; z = -s[3] * u + c[3] * z
+            printf "GRID,%d,,%.14f,%.14f,%.14f\n", node(i, j, k), x, y, z
+         }
+         f = 1000
+         for (k = 0; k < 2; k++) for (j = 0; j < 2; j++) for (i = 0; i < 3; i++) {
+            a = node(i, j, k); b = node(i + 1, j, k); d = node(i + 1, j + 1, k); g4 = node(i, j + 1, k)
+            A = a + 12; B = b + 12; D = d + 12; G = g4 + 12
+            if (kind == "HEXA") {
+               print "CHEXA," ++e ",1," a "," b "," d "," g4 "," A "," B "\n+," D "," G
+               if (k == 0) face(a "," b "," d "," g4, 20)
+               if (k == 1) face(A "," B "," D "," G, 23)
+            } else {
+               if (k == 0) { face(a "," b "," d, 20); face(a "," d "," g4, 20) }
+               if (k == 1) { face(A "," B "," D, 23); face(A "," D "," G, 23) }
+               if (kind == "PENTA") { penta(a, b, d, A, B, D); penta(a, d, g4, A, D, G) }
+               else {
+                  element("TETRA", a "," b "," d "," D); element("TETRA", a "," B "," b "," D); element("TETRA", a "," A "," B "," D)
+                  element("TETRA", a "," d "," g4 "," D); element("TETRA", a "," g4 "," G "," D); element("TETRA", a "," G "," A "," D)
+               }
+            }
+         }
+         print "PMARK,20\nPMARK,23"
+      }'
+}
+
+# ---- the prism of the worked example in space ----
+
+# nu = 0: nothing happens across its thickness, and every row of nodes has the pressures of the plane prism
+prism_in() { # NAME DIMENSION METHOD MODES
+   awk -v plane="$(($2 == 2))" -v method="$3" -v modes="$4" 'BEGIN {
+      print "METHOD = " method "\nSPC = 1\nSUBCASE 1\n  LOAD = 1\n  INCR = 5\nBEGIN BULK\nMAT1,1,9500.0,,0.0\nJOINT,1,1,20\nPJOINT,1,1\nJNORM,1,8.0-3,0.5"
+      print "PMARK,20\nPMARK,21\nSPCM,1,1,21\nJINCR,5,5,ARITH,0.05"
+      if (plane) {
+         print "BLOCK2,1,1,10,4,0.0,0.0\n+,150.0,100.0\n+,20,21\nPSHELL,1,1,20.0" (modes == "YES" ? "\n+,YES" : "") "\nFORCE,1,55,,800.0,0.0,-1.0"
+      } else {
+         print "BLOCK3,1,1,10,4,2,0.0,0.0,0.0\n+,150.0,100.0,20.0\n+,,21,20,,22\nPMARK,22\nSPCM,1,3,22\nPSOLID,1,1,,,," (modes == "YES" ? "MODES" : "")
+         print "FORCE,1,163,,200.0,0.0,-1.0\nFORCE,1,164,,400.0,0.0,-1.0\nFORCE,1,165,,200.0,0.0,-1.0"
+      }
+      print "ENDDATA" }' > "$work/$1.bdf"
+   run "$1"
+}
+for method in NEWTON STEP BACK; do
+   for modes in NO YES; do
+      prism_in flat 2 $method $modes && prism_in space 3 $method $modes &&
+         judge "prism in space, $method, modes $modes" -F, '
+            FNR == 1 { file++; for (k = 1; k <= NF; k++) at[$k] = k; next }
+            file == 1 { q = $(at["pressure"]) + 0; p[$1, $2, $(at["x"])] = q; if (q > top) top = q; n++ }
+            file == 2 { m++; q = p[$1, $2, $(at["x"])]; d = $(at["pressure"]) - q; if (q == "" || !(d * d <= 1e-18 * top * top)) print "node " $(at["node1"]) ": " $(at["pressure"]) ", not " q }
+            END { if (m != 3 * n || !(top > 0.2)) print n " rows, " m " rows"; print "checked " m }' "$work/flat.joint.csv" "$work/space.joint.csv"
+   done
+done
+
+# ---- rings ----
+
+# ring NAME CARDS: a ring pressed by 0.5 on its top, on the joint law of the prism; CARDS are its mesh, marks 20 (joint) and 23 (top)
+ring() {
+   { printf 'METHOD = NEWTON\nSPC = 1\nSUBCASE 1\n  LOAD = 1\n  INCR = 5\nBEGIN BULK\nPAXIS,1,1\nMAT1,1,9500.0,,0.3\nJOINT,1,1,20\nPJOINT,1,1\nJNORM,1,8.0-3,0.5\n'
+     printf 'PMARK,20\nPMARK,23\nPLOADM,1,0.5,23\nJINCR,5,5\n%b\nENDDATA\n' "$2"; } > "$work/$1.bdf"
+   run "$1"
+}
+ring_area() { awk -v a="$1" -v b="$2" 'BEGIN { printf "%.17g", atan2(0, -1) * (b * b - a * a) }'; }
+free='GRID,999,,200.0,200.0\nSPC1,1,12,999' # a set of supports must hold some node
+ring ring "BLOCK2,1,1,5,3,20.0,0.0\n+,60.0,30.0,,,3.0,1.0,1,1\n+,20,,23\n$free" && {
+   pressed_evenly 'ring pressed evenly' ring 0.5 "$(ring_area 20 60)"
+   near 'ring: total load 0.5 A_int' "$(total2 ring LOADS)" "-$(awk -v a="$(ring_area 20 60)" 'BEGIN { print 0.5 * a }')" 3e-6
+   near 'ring: lambda = c p**m' "$(cell ring 1 5 1 lambda)" 5.656854249492380e-3 1e-9
+}
+ring disc "BLOCK2,1,1,7,2,0.0,0.0\n+,60.0,30.0,,,0.2\n+,20,22,23,21\nPMARK,21\nPMARK,22\nSPCM,1,1,21" && {
+   pressed_evenly 'disc with its axis pressed evenly' disc 0.5 "$(ring_area 0 60)"
+   near 'disc: area of the node on the axis, pi h**2/3' "$(cell disc 1 5 1 area)" \
+      "$(awk 'BEGIN { f = 0.2^(1/6); s = 0; t = 1; for (i = 1; i <= 7; i++) { s += t; t *= f } h = 60 / s; printf "%.15g", atan2(0, -1) * h * h / 3 }')" 1e-10
+}
+# of triangles, skewed
+ring_triangles=$(awk 'BEGIN {
+   for (i = 0; i <= 5; i++) for (j = 0; j <= 3; j++) {
+      x = 20 + 8 * i + ((i % 5) ? 1.5 * (j - 1.2) : 0); y = 10 * j + ((j % 3) ? 1.1 * (i - 2.6) : 0)
+      printf "GRID,%d,,%.12f,%.12f\\n", 1 + 4 * i + j, x, y
+   }
+   for (i = 0; i < 5; i++) for (j = 0; j < 3; j++) {
+      a = 1 + 4 * i + j; b = a + 4
+      if ((i + j) % 2) { printf "CTRIA3,%d,1,%d,%d,%d\\n", ++e, a, b, b + 1; printf "CTRIA3,%d,1,%d,%d,%d\\n", ++e, a, b + 1, a + 1 }
+      else { printf "CTRIA3,%d,1,%d,%d,%d\\n", ++e, a, b, a + 1; printf "CTRIA3,%d,1,%d,%d,%d\\n", ++e, b, b + 1, a + 1 }
+      if (j == 0) printf "CBAR,%d,20,%d,%d\\n", 100 + i, a, b
+      if (j == 2) printf "CBAR,%d,23,%d,%d\\n", 200 + i, a + 1, b + 1
+   } }')
+ring ring_tria "$ring_triangles\n$free" && pressed_evenly 'ring of triangles pressed evenly' ring_tria 0.5 "$(ring_area 20 60)"
+# a ring in a ring, the joint between them a cylinder: pressed from outside it carries the same along its height
+cat > "$work/rings.bdf" <<'DECK'
+METHOD = NEWTON
+SPC = 1
+SUBCASE 1
+  LOAD = 1
+  INCR = 5
+BEGIN BULK
+BLOCK2,1,1,4,3,20.0,0.0
++,40.0,30.0,,,,0.5
++,,20
+BLOCK2,2,1,4,3,40.0,0.0
++,60.0,30.0,,,,0.5,101,101
++,,23,,21
+PMARK,20
+PMARK,21
+PMARK,23
+PAXIS,1,1
+MAT1,1,9500.0,,0.3
+JOINT,1,1,20,21
+PJOINT,1,1,,,,,1.0
+JNORM,1,8.0-3,0.5
+SPC1,1,2,1,THRU,200
+PLOADM,1,2.0,23
+JINCR,5,5
+ENDDATA
+DECK
+run rings && pressed_evenly 'ring in a ring: the same pressure along the height' rings "$(cell rings 1 5 17 pressure)" \
+   "$(awk 'BEGIN { printf "%.17g", 8 * atan2(0, -1) * 10 * 30 }')"
+
+# ---- boxes pressed evenly, free to slide ----
+
+box() { # NAME KIND SKEW CARDS [TURN]
+   { printf 'METHOD = NEWTON\nSPC = 1\nSUBCASE 1\n  LOAD = 1\n  INCR = 5\nBEGIN BULK\nMAT1,1,9500.0,,0.3\nJOINT,1,1,20\nPJOINT,1,1,,,,,%s\nJNORM,1,8.0-3,0.5\nJINCR,5,5\n' "${p0:-}"
+     box_mesh "$2" "$3" "${5:-0 0 0}"; printf '%b\nENDDATA\n' "$4"; } > "$work/$1.bdf"
+   run "$1"
+}
+for kind in HEXA PENTA TETRA; do
+   for modes in '' MODES; do
+      for skew in 0.0 1.2; do
+         box box_$kind $kind $skew "PSOLID,1,1,,,,$modes\nSPC1,1,12,1\nSPC1,1,2,4\nPLOADM,1,0.5,23" &&
+            pressed_evenly "box of C$kind pressed evenly, skew $skew, $modes" box_$kind 0.5 2400
+      done
+   done
+done
+near 'box: total load' "$(total box_TETRA LOADS)" -1200 2e-6
+near 'box: the joint carries it' "$(total box_TETRA 'RIGID BASES, THROUGH THE JOINTS')" 1200 2e-6
+
+# ---- distributed loads ----
+
+# PLOAD4 on every face of the top, PLOADM on its mark, FORCEM of the same total: the same nodal forces, the same joint
+on_top() { # KIND: PLOAD4 cards
+   case $1 in
+      HEXA)  for e in 7 8 9 10 11 12; do k=$((e - 7)); a=$((25 + k % 3 + 4 * (k / 3))); printf 'PLOAD4,1,%d,0.5,,,,%d,%d\\n' $e $a $((a + 5)); done ;;
+      PENTA) for k in 0 1 2 3 4 5; do a=$((25 + k % 3 + 4 * (k / 3))); printf 'PLOAD4,1,%d,0.5,,,,%d\\nPLOAD4,1,%d,0.5,,,,%d\\n' $((13 + 2 * k)) $a $((14 + 2 * k)) $a; done ;;
+      TETRA) for k in 0 1 2 3 4 5; do a=$((25 + k % 3 + 4 * (k / 3))); b=$((a - 12)); printf 'PLOAD4,1,%d,0.5,,,,%d,%d\\nPLOAD4,1,%d,0.5,,,,%d,%d\\n' \
+                $((39 + 6 * k)) $a $b $((42 + 6 * k)) $a $b; done ;;
+   esac
+}
+for kind in HEXA PENTA TETRA; do
+   box face_$kind $kind 1.2 "PSOLID,1,1\nSPC1,1,12,1\nSPC1,1,2,4\n$(on_top $kind)" && box mark_$kind $kind 1.2 "PSOLID,1,1\nSPC1,1,12,1\nSPC1,1,2,4\nPLOADM,1,0.5,23" &&
+      same_rows "C$kind: PLOAD4 and PLOADM" face_$kind mark_$kind 1e-10
+   box force_$kind $kind 1.2 "PSOLID,1,1\nSPC1,1,12,1\nSPC1,1,2,4\nFORCEM,1,600.0,0.0,0.0,-2.0,23" &&
+      same_rows "C$kind: FORCEM and PLOADM" force_$kind mark_$kind 1e-10
+done
+# with factors of LOAD; inclined
+p0=1.0 box inclined HEXA 1.2 "PSOLID,1,1\nSPC1,1,123,1,THRU,12\nFORCEM,7,100.0,3.0,-2.0,-6.0,23\nLOAD,1,2.0,0.5,7,1.0,8\nPLOADM,8,0.25,23" && {
+   near 'FORCEM and PLOADM by LOAD: x' "$(total inclined LOADS 1)" 300 2e-6
+   near 'FORCEM and PLOADM by LOAD: y' "$(total inclined LOADS 2)" -200 2e-6
+   near 'FORCEM and PLOADM by LOAD: z' "$(total inclined LOADS 3)" -1800 2e-6
+}
+# a pressure round a closed body has no resultant: on all faces of a tetrahedron
+cat > "$work/around.bdf" <<'DECK'
+SPC = 1
+SUBCASE 1
+  LOAD = 1
+BEGIN BULK
+GRID,1,,0.0,0.0,0.0
+GRID,2,,7.0,1.0,0.5
+GRID,3,,1.5,6.0,-0.5
+GRID,4,,2.0,1.0,5.0
+CTETRA,1,1,1,2,3,4
+PSOLID,1,1
+MAT1,1,9500.0,,0.3
+PLOAD4,1,1,2.0,,,,1,4
+PLOAD4,1,1,2.0,,,,1,3
+PLOAD4,1,1,2.0,,,,2,1
+PLOAD4,1,1,2.0,,,,1,2
+SPC1,1,123,1
+SPC1,1,23,2
+SPC1,1,3,3
+ENDDATA
+DECK
+run around && for c in 1 2 3; do near "pressure all round: component $c" "$(total around LOADS $c)" 0 0 1e-12; near "pressure all round: reaction $c" "$(total around SUPPORTS $c)" 0 0 1e-10; done
+
+# plane and axisymmetric edges: PLOADE on the edges of the top as PLOADM on its mark
+for property in 'PSHELL,1,1,20.0' 'PAXIS,1,1'; do
+   for load in 'PLOADM,1,0.5,23' "$(for i in 0 1 2 3 4; do printf 'PLOADE,1,%d,0.5,%d,%d\\n' $((3 * i + 3)) $((4 * i + 8)) $((4 * i + 4)); done)"; do
+      name=edge_${property%%,*}_${load%%,*}
+      { printf 'METHOD = NEWTON\nSPC = 1\nSUBCASE 1\n  LOAD = 1\n  INCR = 5\nBEGIN BULK\nBLOCK2,1,1,5,3,20.0,0.0\n+,60.0,30.0,,,3.0\n+,20,,23\nMAT1,1,9500.0,,0.3\nJOINT,1,1,20\nPJOINT,1,1\n'
+        printf 'JNORM,1,8.0-3,0.5\nPMARK,20\nPMARK,23\nJINCR,5,5\nSPC1,1,1,1\n%b\n%b\nENDDATA\n' "$property" "$load"; } > "$work/$name.bdf"
+      run "$name"
+   done
+   same_rows "${property%%,*}: PLOADE and PLOADM" "edge_${property%%,*}_PLOADM" "edge_${property%%,*}_PLOADE" 1e-10
+done
+near 'PLOADE on a plane body: p times length times thickness' "$(total2 edge_PSHELL_PLOADE LOADS)" -400 2e-6
+
+# weight: rho g V, all of it in the supports
+gravity() { # NAME CARDS
+   { printf 'SPC = 1\nSUBCASE 1\n  LOAD = 1\nBEGIN BULK\nMAT1,1,9500.0,,0.3,7.85-6\n%b\nENDDATA\n' "$2"; } > "$work/$1.bdf"
+   run "$1"
+}
+for kind in HEXA PENTA TETRA; do
+   gravity weight "$(box_mesh $kind 1.2)\nPSOLID,1,1\nSPCM,1,123,20\nGRAV,1,,10.0,0.6,0.0,-0.8" && {
+      near "weight of C$kind, z" "$(total weight SUPPORTS 3)" 4.5216 2e-6      # 7.85E-6 x 72000 x 8
+      near "weight of C$kind, x" "$(total weight SUPPORTS 1)" -3.3912 2e-6
+   }
+done
+gravity weight2 'BLOCK2,1,1,4,3,0.0,0.0,50.0,-5.0\n+,60.0,40.0,5.0,30.0\n+,20\nPMARK,20\nPSHELL,1,1,2.5\nSPCM,1,12,20\nGRAV,1,,9.81,0.0,-1.0' &&
+   near 'weight of a plate' "$(total2 weight2 SUPPORTS)" "$(awk 'BEGIN { # area by the shoelace rule
+      split("0 50 60 5", x, " "); split("0 -5 40 30", y, " "); for (i = 1; i <= 4; i++) { j = i % 4 + 1; a += (x[i] * y[j] - x[j] * y[i]) / 2 } print 7.85e-6 * 9.81 * 2.5 * a }')" 3e-6
+gravity weight_ring 'BLOCK2,1,1,4,3,20.0,0.0\n+,60.0,30.0\n+,20\nPMARK,20\nPAXIS,1,1\nSPCM,1,12,20\nGRAV,1,,9.81,0.0,-1.0' &&
+   near 'weight of a ring' "$(total2 weight_ring SUPPORTS)" "$(awk -v a="$(ring_area 20 60)" 'BEGIN { print 7.85e-6 * 9.81 * 30 * a }')" 3e-6
+
+# ---- two bodies, a joint turned in space ----
+
+# pressed off the middle, pushed in x and y, released; the joint SPLIT out of one mesh or between two MESHES
+bodies_in_space() { # NAME METHOD BASE
+   awk -v method="$2" -v base="$3" 'BEGIN {
+      print "METHOD = " method "\nSPC = 1"
+      for (s = 1; s <= 3; s++) print "SUBCASE " s "\n  LOAD = " s "\n  INCR = " (s == 1 ? 4 : 8) "\n  OUTPUT = NONE"
+      print "BEGIN BULK\nPSOLID,1,1\nMAT1,1,9500.0,,0.25\nBLOCK3,2,1,4,3,2,0.0,0.0,-20.0\n+,80.0,60.0,0.0,,,,1001,1001\n+,,,,,22,20"
+      print "PMARK,22\nPMARK,20\nSPCM,1,123,22\nBLOCK3,1,1,4,3,2,0.0,0.0,0.0\n+,80.0,60.0,40.0,,,,1,1\n+,,,,," (base == "SPLIT" ? ",23,2" : "21,23") "\nPMARK,23"
+      if (base != "SPLIT") print "PMARK,21"
+      print "JOINT,1,1,20" (base == "SPLIT" ? "" : ",21") "\nPJOINT,1,1,1,1,0.2,3\nJNORM,1,8.0-3,0.5,9500.0\nJSHEAR,1,100.0,300.0\n+,160.0,250.0"
+      print "PLOADM,11,0.3,23\nFORCE,12,60,,600.0,0.0,0.0,-1.0\nFORCEM,13,200.0,0.8,-0.6,0.0,23"
+      print "LOAD,1,1.0,1.0,11,1.0,12\nLOAD,2,1.0,1.0,11,1.0,12,1.0,13\nLOAD,3,1.0,1.0,11,0.5,12,-0.5,13\nJINCR,4,4,ARITH,0.25\nJINCR,8,8,ARITH,0.125\nENDDATA" }' > "$work/$1.bdf"
+   run "$1"
+}
+for method in NEWTON STEP; do
+   bodies_in_space apart $method MESHES && bodies_in_space split $method SPLIT && {
+      same_rows "joint in space, split or meshed apart, $method" apart split 1e-9
+      judge "joint in space, $method: unloads and slips" -F, '
+         FNR == 1 { for (k = 1; k <= NF; k++) at[$k] = k; next } { n++; seen[$(at["branch"])]++; slips += $(at["slip"]) }
+         END { if (!seen["LOAD"] || !seen["UNLOAD"] || !slips || slips == n) print seen["LOAD"], seen["UNLOAD"], slips; print "checked " n }' "$work/split.joint.csv"
+   }
+done
+sed 's/^JOINT,1,1,20,21/JOINT,1,1,21,20/' "$work/apart.bdf" > "$work/exchanged.bdf"
+run exchanged && same_rows 'joint in space, sides exchanged' apart exchanged 1e-9 TURNED
+
+# turned in space, with its loads, no supports but the joint: the same pressures; of the shear the resultant is the same
+turned_box() { # NAME KIND METHOD TURN
+   local push
+   push=$(awk -v turn="$4" 'BEGIN { pi = atan2(0, -1); split(turn, t, " "); for (m = 1; m <= 3; m++) { c[m] = cos(t[m] * pi / 180); s[m] = sin(t[m] * pi / 180) }
+      n = split("13 31 36", g, " "); split("9 4 -7 3 2 5 -5 1 8", q, " ")
+      for (i = 1; i <= n; i++) {
+         x = q[3 * i - 2]; y = q[3 * i - 1]; z = -100 + q[3 * i]
+         u = c[1] * x - s[1] * y; v = s[1] * x + c[1] * y; w = z
+         y = c[2] * v - s[2] * w; z = s[2] * v + c[2] * w; x = c[3] * u + s[3] * z; z = -s[3] * u + c[3] * z
+         printf "FORCE,2,%d,,1.0,%.14f,%.14f,%.14f\n", g[i], x, y, z
+      } }')
+   { printf 'METHOD = %s\nSUBCASE 1\n  LOAD = 1\n  INCR = 5\nSUBCASE 2\n  LOAD = 3\n  INCR = 5\nBEGIN BULK\nMAT1,1,9500.0,,0.0\nPSOLID,1,1\nJOINT,1,1,20\nPJOINT,1,1,1,1,0.3,3\n' "$3"
+     printf 'JNORM,1,8.0-3,0.5,9500.0\nJSHEAR,1,100.0,0.0\nJINCR,5,5\nPLOADM,1,0.5,23\nLOAD,3,1.0,1.0,1,1.0,2\n'
+     box_mesh "$2" 1.2 "$4"; printf '%s\nENDDATA\n' "$push"; } > "$work/$1.bdf"
+   run "$1"
+}
+for method in NEWTON STEP; do
+   for kind in HEXA TETRA; do
+      turned_box upright $kind $method '0 0 0' || continue
+      for turn in '0 30 0' '0 0 90' '0 180 0' '25 61.7 -40'; do
+         turned_box turned $kind $method "$turn" && same_rows "box of C$kind turned by $turn degrees, $method" upright turned 1e-10 TURNED
+      done
+   done
+done
+
+# ---- Lame's thick cylinder ----
+
+# inner radius 20, outer 40, pressure 525 inside (so that six digits tell most), ends free: u(r) = p a**2/(b**2 - a**2)/E ((1 - nu) r + (1 + nu) b**2/r)
+lame=$(awk 'BEGIN { printf "%.10g", 525 * 400 / 1200 / 21000 * (0.7 * 20 + 1.3 * 1600 / 20) }')
+cylinder() { # NAME N: bodies of revolution, N elements through the wall
+   printf 'SPC = 1\nSUBCASE 1\n  LOAD = 1\nBEGIN BULK\nBLOCK2,1,1,%d,1,20.0,0.0\n+,40.0,5.0\n+,20,,,23\nPMARK,20\nPMARK,23\nPAXIS,1,1\nMAT1,1,21000.0,,0.3\nSPCM,1,2,20\nPLOADM,1,525.0,23\nENDDATA\n' \
+      "$2" > "$work/$1.bdf"
+   run "$1"
+}
+quarter() { # NAME N: a quarter of it of hexahedra, N through the wall, 2 N round it
+   awk -v n="$2" 'BEGIN {
+      print "SPC = 1\nSUBCASE 1\n  LOAD = 1\nBEGIN BULK\nPSOLID,1,1\nMAT1,1,21000.0,,0.3\nPMARK,23\nPLOADM,1,525.0,23"
+      pi = atan2(0, -1); m = 2 * n
+      for (k = 0; k <= 1; k++) for (j = 0; j <= m; j++) for (i = 0; i <= n; i++) {
+         g = 1 + i + (n + 1) * (j + (m + 1) * k); r = 20 + 20 * i / n; f = pi / 2 * j / m
+         printf "GRID,%d,,%.12f,%.12f,%.12f,,%s\n", g, j == m ? 0 : r * cos(f), j == 0 ? 0 : r * sin(f), 5 * k, (j == m ? "1" : j == 0 ? "2" : "") (k ? "" : "3")
+      }
+      layer = (n + 1) * (m + 1)
+      for (j = 0; j < m; j++) for (i = 0; i < n; i++) {
+         a = 1 + i + (n + 1) * j; d = a + n + 1
+         print "CHEXA," ++e ",1," a "," a + 1 "," d + 1 "," d "," a + layer "," a + 1 + layer "\n+," d + 1 + layer "," d + layer
+         if (i == 0) print "CQUAD4," 100000 + ++f4 ",23," a "," d "," d + layer "," a + layer
+      }
+      print "SPC1,1,3,1\nENDDATA" }' > "$work/$1.bdf"
+   run "$1"
+}
+for n in 16 32 64; do cylinder lame$n $n; done
+for n in 8 16 32; do quarter lame_solid$n $n; done
+for name in lame lame_solid; do
+   errors=$(for n in $([ $name = lame ] && echo 16 32 64 || echo 8 16 32); do moved $name$n 1 "$([ $name = lame ] && echo 2 || echo 3)" 1; done | awk -v u="$lame" '{ printf "%.6g ", $1 / u - 1 }')
+   judge "$name: the displacement inside, differences $errors" -v errors="$errors" 'BEGIN {
+      split(errors, e, " "); if (!(e[3] * e[3] < 2e-4^2)) print "still " e[3]
+      for (k = 1; k <= 2; k++) { q = e[k + 1] == 0 ? 0 : e[k] / e[k + 1]; if (!(q > 4 - 0.3 / k && q < 4 + 0.6 / k)) print "from " e[k] " to " e[k + 1] ", not a quarter" }
+      print "checked 3" }'
+done
+
+# ---- the slender beam of MacNeal and Harder (1985): 6 x 0.2 x 0.1, six elements, E = 1E7, nu = 0.3, unit load across the free end ----
+
+beam2() { # NAME MODES
+   printf 'SPC = 1\nSUBCASE 1\n  LOAD = 1\nBEGIN BULK\nBLOCK2,1,1,6,1,0.0,0.0\n+,6.0,0.2\nPSHELL,1,1,0.1\n+,%s\nMAT1,1,1.0+7,,0.3\nSPC1,1,1,1,2\nSPC1,1,2,1\nFORCE,1,13,,0.5,0.0,1.0\nFORCE,1,14,,0.5,0.0,1.0\nENDDATA\n' \
+      "$2" > "$work/$1.bdf"
+   run "$1"
+}
+beam3() { # NAME MODES DIRECTION: in y (depth 0.2) or z (depth 0.1)
+   { printf 'SPC = 1\nSUBCASE 1\n  LOAD = 1\nBEGIN BULK\nBLOCK3,1,1,6,1,1,0.0,0.0,0.0\n+,6.0,0.2,0.1\n+,20\nPMARK,20\nPSOLID,1,1,,,,%s\nMAT1,1,1.0+7,,0.3\nSPCM,1,1,20\nSPC1,1,23,1\nSPC1,1,%d,%d\n' \
+      "$2" "$([ "$3" = y ] && echo 3 || echo 2)" "$([ "$3" = y ] && echo 3 || echo 2)"
+     for g in 25 26 27 28; do printf 'FORCE,1,%d,,0.25,0.0,%s\n' $g "$([ "$3" = y ] && echo 1.0,0.0 || echo 0.0,1.0)"; done; echo ENDDATA; } > "$work/$1.bdf"
+   run "$1"
+}
+beam2 beam_modes YES && near 'slender beam, CQUAD4 with modes' "$(moved beam_modes 13 2 2)" 0.1081 0.02
+beam2 beam_plain NO && holds 'slender beam, plain CQUAD4: an order too stiff' "$(moved beam_plain 13 2 2) > 0.05 * 0.1081 && $(moved beam_plain 13 2 2) < 0.15 * 0.1081"
+for direction in y z; do
+   exact=$([ $direction = y ] && echo 0.1081 || echo 0.4321) c=$([ $direction = y ] && echo 2 || echo 3)
+   beam3 beam_modes3 MODES $direction && near "slender beam, CHEXA with modes, $direction" "$(moved beam_modes3 25 3 $c)" $exact 0.02
+   beam3 beam_plain3 PLAIN $direction && holds "slender beam, plain CHEXA, $direction: far too stiff" "$(moved beam_plain3 25 3 $c) > 0 && $(moved beam_plain3 25 3 $c) < 0.15 * $exact"
+done
+
+# ---- prescribed displacements ----
+
+# node 36, a corner of the top, is moved down; a force as large as its reaction gives the same joint and moves it as far
+p0=0.1 box pushed HEXA 1.2 'PSOLID,1,1\nSPC1,1,12,1\nSPC1,1,2,4\nSPC1,1,3,30\nSPCD,1,30,3,-0.02' && {
+   reaction=$(awk '/REACTIONS AT/ { on = 1; next } /BALANCE/ { on = 0 } on && $1 == 30 { r = $NF } END { print r }' "$work/pushed.out")
+   box pressed HEXA 1.2 "PSOLID,1,1\nSPC1,1,12,1\nSPC1,1,2,4\nFORCE,1,30,,1.0,0.0,0.0,$reaction" && {
+      near 'a force as large as the reaction: the displacement of SPCD' "$(moved pressed 30 3 3)" -0.02 3e-5
+      judge 'SPCD and a force: the same pressures' -F, 'FNR == 1 { file++; for (k = 1; k <= NF; k++) at[$k] = k; next } $2 != 5 { next }
+         file == 1 { p[$(at["node1"])] = $(at["pressure"]); if (p[$(at["node1"])] > top) top = p[$(at["node1"])] }
+         file == 2 { n++; d = $(at["pressure"]) - p[$(at["node1"])]; if (!(d * d < 1e-9 * top * top)) print $(at["node1"]), d }
+         END { if (n != 12 || !(top > 0)) print n, top; print "checked " n }' "$work/pushed.joint.csv" "$work/pressed.joint.csv"
+   }
+}
+
+# ---- friction in the plane of the joint ----
+
+# pressed by 1200, mu = 0.25, then dragged by SPCD on the lower face along a direction, until all slips: the resultant is mu N whatever the direction
+dragged() { # NAME DEGREES METHOD
+   { printf 'METHOD = %s\nTOL = 1.0-10\nSPC = 1\nSUBCASE 1\n  LOAD = 1\n  INCR = 2\nSUBCASE 2\n  LOAD = 2\n  INCR = 20\nBEGIN BULK\nMAT1,1,9500.0,,0.0\nPSOLID,1,1\nJOINT,1,1,20\nPJOINT,1,1,1,1,0.25,-1,1.0\nJNORM,1,8.0-3,0.5,9500.0\n' "$3"
+     printf 'JSHEAR,1,100.0,300.0\nJINCR,2,2\nJINCR,20,20\nPLOADM,1,0.5,23\nLOAD,2,1.0,1.0,1,1.0,3\nSPC1,1,12,1,THRU,36\n'
+     box_mesh HEXA 0.0
+     awk -v t="$2" 'BEGIN { t *= atan2(0, -1) / 180; for (g = 1; g <= 36; g++) printf "SPCD,3,%d,1,%.12f,%d,2,%.12f\n", g, 0.01 * cos(t), g, 0.01 * sin(t) }'
+     echo ENDDATA; } > "$work/$1.bdf"
+   run "$1"
+}
+for degrees in 0 90 45 200; do
+   dragged drag $degrees NEWTON && {
+      near "dragged along $degrees degrees: all nodes slip" "$(awk -F, '$1 == 2 && $2 == 20 { n += $NF } END { print n }' "$work/drag.joint.csv")" 12 0
+      judge "dragged along $degrees degrees: the resultant of the shear is mu p" -F, -v t="$degrees" '
+         FNR == 1 { for (k = 1; k <= NF; k++) at[$k] = k; next }
+         { x = $(at["tau_x"]); y = $(at["tau_y"]); r = sqrt(x * x + y * y); q = 0.25 * $(at["pressure"]); if (!(r <= q * (1 + 1e-7))) print $1 "," $2 ": " r " above " q }
+         $1 == 2 && $2 == 20 { n++; if (!(r >= q * (1 - 1e-7))) print "node " $(at["node1"]) ": " r ", mu p " q; fx += x * $(at["area"]); fy += y * $(at["area"]) }
+         END { a = t * atan2(0, -1) / 180; f = sqrt(fx * fx + fy * fy); c = (fx * cos(a) + -fy * sin(a)) / f; if (!((f - 300)^2 < 1e-8)) print "resultant " f ", expected 300"
+               if (!(c * c > 1 - 1e-10)) print "cosine " c; print "checked " n }' "$work/drag.joint.csv"
+   }
+done
+
+# one element: 0.99 of the limit sticks, 1.01 slips, in every direction
+for degrees in 0 90 45 200; do
+   for share in 0.99 1.01; do
+      awk -v t="$degrees" -v share="$share" 'BEGIN { t *= atan2(0, -1) / 180
+         print "METHOD = STEP\nSPC = 1\nSUBCASE 1\n  LOAD = 1\n  INCR = 1\nBEGIN BULK\nBLOCK3,1,1,1,1,1,0.0,0.0,0.0\n+,10.0,10.0,10.0\n+,,,,,20,23\nPMARK,20\nPMARK,23\nPSOLID,1,1\nMAT1,1,9500.0,,0.0"
+         print "JOINT,1,1,20\nPJOINT,1,1,1,1,0.25,0\nJNORM,1,8.0-3,0.5\nJSHEAR,1,100.0\nJINCR,1,2\nFORCEM,1,100.0,0.0,0.0,-1.0,23\nSPC1,1,3,2,4,6,8"
+         printf "FORCEM,1,%.12f,%.12f,%.12f,0.0,20\nENDDATA\n", 25 * share, cos(t), sin(t) }' | sed '/^SPC/d' > "$work/limit.bdf"
+      run limit && near "at $degrees degrees, $share of the limit" "$(awk -F, '$2 == 2 { n += $NF } END { print n + 0 }' "$work/limit.joint.csv")" "$([ $share = 0.99 ] && echo 0 || echo 4)" 0
+   done
+done
