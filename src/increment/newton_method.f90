@@ -45,6 +45,7 @@ contains
       integer, allocatable  :: flips(:)
       real(wp) :: done, part
       logical  :: converged, imprecise
+      type(failure_type) :: trouble
       integer  :: before_open, loose
 
       allocate (load_end, load, source=analysis%applied)
@@ -63,7 +64,7 @@ contains
          moved = analysis%moved
          if (done + part < 1.0_wp) moved = analysis%moved - (1.0_wp - done - part)*analysis%move
          call iterate(model, load, moved, where_in_plan(plan, analysis%stage, analysis%increment), analysis, system, flips, &
-                      loose, imprecise, converged)
+                      loose, imprecise, trouble, converged)
          if (converged) then
             done = done + part
             part = 2.0_wp*part
@@ -71,6 +72,10 @@ contains
          else if (part > 0.5_wp**most_halvings) then
             part = 0.5_wp*part
          else
+            if (trouble%raised) then
+               call failure%raise(trouble%message) ! a mechanism says more than any iteration
+               return
+            end if
             call give_up(model, plan, analysis, flips, loose, imprecise, failure)
             return
          end if
@@ -82,7 +87,7 @@ contains
 
    !> Newton iterations under the nodal forces LOAD with held components MOVED, from the committed state; converged, they are
    !! committed. The first iteration moves the supports, in one go and with the tangent of the committed state.
-   subroutine iterate(model, load, moved, place, analysis, system, flips, loose, imprecise, converged)
+   subroutine iterate(model, load, moved, place, analysis, system, flips, loose, imprecise, trouble, converged)
       type(model_type), intent(in)         :: model
       real(wp), intent(in)                 :: load(:, :), moved(:, :)
       character(*), intent(in)             :: place !! stage and increment, for messages
@@ -90,13 +95,14 @@ contains
       type(equation_system), intent(inout) :: system
       integer, intent(inout)               :: flips(:)  !! changes of branch in these iterations
       integer, intent(out)                 :: loose     !! a joint that is open or slips all over at their end, 0: none
+      type(failure_type), intent(out)      :: trouble   !! a matrix that could not be factorised
       logical, intent(out)                 :: imprecise !! rounding in the bodies is no small part of the load
       logical, intent(out)                 :: converged
       type(trial_type)      :: now, next
       real(wp), allocatable :: direction(:, :), move(:, :)
       real(wp) :: load_size, noise, step, stiffest
       integer  :: iteration, changes
-      logical  :: solved, moves
+      logical  :: moves
 
       allocate (direction, mold=load)
       allocate (move, source=merge(moved - analysis%u, 0.0_wp, model%held))
@@ -115,8 +121,8 @@ contains
          converged = now%size <= max(analysis%tolerance, 0.1_wp*noise) .and. noise <= 1.0e-5_wp*load_size .and. &
                      .not. moves
          if (converged .or. iteration == most_iterations .or. noise > load_size) exit
-         call find_direction(model, now, analysis, iteration == 0, move, place, system, direction, solved)
-         if (.not. solved) exit
+         call find_direction(model, now, analysis, iteration == 0, move, place, system, direction, trouble)
+         if (trouble%raised) exit
          if (moves) then
             call take_whole_step(model, load, analysis, now, direction, next)
             step = 1.0_wp
@@ -195,7 +201,7 @@ contains
 
    !> The Newton direction from NOW. The factorised matrix has the symmetric, positive part of the tangent, with a little where
    !! an element has no stiffness, and at the very first the secant of Eq. (9); what it lacks is brought in by solve_coupled.
-   subroutine find_direction(model, now, analysis, first, move, place, system, direction, solved)
+   subroutine find_direction(model, now, analysis, first, move, place, system, direction, failure)
       type(model_type), intent(in)         :: model
       type(trial_type), intent(in)         :: now
       type(analysis_type), intent(inout)   :: analysis
@@ -204,8 +210,7 @@ contains
       character(*), intent(in)             :: place !! stage and increment, for messages
       type(equation_system), intent(inout) :: system
       real(wp), intent(out)                :: direction(:, :)
-      logical, intent(out)                 :: solved
-      type(failure_type)    :: failure
+      type(failure_type), intent(inout)    :: failure
       real(wp), allocatable :: matrix(:, :, :), rest(:, :, :)
       real(wp) :: elastic(3)
       integer  :: i, k
@@ -235,8 +240,7 @@ contains
          end associate
       end do
       call form_structure_stiffness(model, matrix, place, system, failure)
-      solved = .not. failure%raised
-      if (.not. solved) return
+      if (failure%raised) return
       if (any(abs(move) > 0.0_wp)) then
          call solve_moved(model, system, matrix, now%residual, move, direction)
       else if (coupled) then
