@@ -31,6 +31,8 @@ module case_control
       type(set_reference) :: supports
       integer :: output = output_last
       logical :: plot   = .false.
+      logical :: vtu    = .false.
+      logical :: stress = .false.   !! principal stresses and von Mises in the listing
    end type stage_type
 
    type, public :: case_control_type
@@ -318,8 +320,10 @@ contains
 
       stage%output = output_last
       stage%plot = .false.
+      stage%vtu = .false.
+      stage%stress = .false.
       rest = upper(entry%value)
-      if (rest == '') call choose(entry, '|ALL|JOINT|LAST|NONE|PLOT|', errors)
+      if (rest == '') call choose(entry, '|ALL|JOINT|LAST|NONE|PLOT|STRESS|VTU|', errors)
       do while (rest /= '')
          comma = index(rest//',', ',')
          select case (adjustl(rest(:comma - 1)))
@@ -328,8 +332,10 @@ contains
          case ('LAST');  stage%output = output_last
          case ('NONE');  stage%output = output_none
          case ('PLOT');  stage%plot = .true.
+         case ('VTU');   stage%vtu = .true.
+         case ('STRESS'); stage%stress = .true.
          case default
-            call value_error(entry, 'ALL, JOINT, LAST or NONE, and with a comma PLOT', errors)
+            call value_error(entry, 'ALL, JOINT, LAST or NONE, and with a comma PLOT, STRESS, VTU', errors)
             return
          end select
          rest = rest(min(comma + 1, len(rest) + 1):)
