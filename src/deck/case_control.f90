@@ -31,6 +31,8 @@ module case_control
       type(set_reference) :: supports
       integer :: output = output_last
       logical :: plot   = .false.
+      logical :: vtu    = .false.
+      logical :: stress = .false.   !! principal stresses and von Mises in the listing
    end type stage_type
 
    type, public :: case_control_type
@@ -314,32 +316,48 @@ contains
       type(stage_type), intent(inout)      :: stage
       type(deck_error_list), intent(inout) :: errors
       character(:), allocatable :: rest
-      integer :: comma, n_plots, n_words
+      integer :: comma, levels
+      logical :: twice
 
       stage%output = output_last
       stage%plot = .false.
-      n_words = 0
-      n_plots = 0
+      stage%vtu = .false.
+      stage%stress = .false.
+      levels = 0
+      twice = .false.
       rest = upper(entry%value)
-      if (rest == '') call choose(entry, '|ALL|JOINT|LAST|NONE|PLOT|', errors)
+      if (rest == '') call choose(entry, '|ALL|JOINT|LAST|NONE|PLOT|STRESS|VTU|', errors)
       do while (rest /= '')
          comma = index(rest//',', ',')
-         n_words = n_words + 1
-         if (adjustl(rest(:comma - 1)) == 'PLOT') n_plots = n_plots + 1
+         levels = levels + 1
          select case (adjustl(rest(:comma - 1)))
-         case ('ALL');   stage%output = output_all
-         case ('JOINT'); stage%output = output_joint
-         case ('LAST');  stage%output = output_last
-         case ('NONE');  stage%output = output_none
-         case ('PLOT');  stage%plot = .true.
+         case ('ALL');    stage%output = output_all
+         case ('JOINT');  stage%output = output_joint
+         case ('LAST');   stage%output = output_last
+         case ('NONE');   stage%output = output_none
+         case ('PLOT');   call switch_on(stage%plot)
+         case ('STRESS'); call switch_on(stage%stress)
+         case ('VTU');    call switch_on(stage%vtu)
          case default
-            call value_error(entry, 'ALL, JOINT, LAST or NONE, and with a comma PLOT', errors)
+            call value_error(entry, 'ALL, JOINT, LAST or NONE, and with a comma PLOT, STRESS, VTU', errors)
             return
          end select
          rest = rest(min(comma + 1, len(rest) + 1):)
       end do
-      if (n_plots > 1 .or. n_words - n_plots > 1) call value_error( &
-         entry, 'one of ALL, JOINT, LAST, NONE, and with a comma PLOT', errors)
+      if (levels > 1 .or. twice) call value_error(entry, 'one of ALL, JOINT, LAST, NONE, and with commas PLOT, STRESS, VTU', &
+                                                  errors)
+
+   contains
+
+      !> A word that stands beside a level, not in place of one.
+      subroutine switch_on(switch)
+         logical, intent(inout) :: switch
+
+         twice = twice .or. switch
+         switch = .true.
+         levels = levels - 1
+      end subroutine switch_on
+
    end subroutine read_output
 
 

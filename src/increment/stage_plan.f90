@@ -14,7 +14,7 @@ module stage_plan
       integer :: id = 0
       character(:), allocatable :: label
       integer :: output = 0                 !! output_* of case_control
-      logical :: plot = .false.
+      logical :: plot = .false., vtu = .false., stress = .false.
       real(wp), allocatable :: shares(:)    !! of the stage's load change, one an increment, sum 1
    end type planned_stage
 
@@ -38,6 +38,8 @@ contains
             stage%label = given%label
             stage%output = given%output
             stage%plot = given%plot
+            stage%vtu = given%vtu
+            stage%stress = given%stress
             stage%shares = [1.0_wp]
             if (given%increments%id == 0) cycle
             k = findloc(deck%bulk%jincr(:deck%bulk%n_jincr)%id, given%increments%id, dim=1)

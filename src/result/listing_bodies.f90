@@ -1,13 +1,14 @@
 !> Tables of the bodies: displacements, stresses, reactions, and the balance of the outer forces.
 module listing_bodies
    use analysis_state, only: analysis_type, element_force
-   use body_elements, only: element_stress
+   use body_elements, only: element_stress, full_stress
    use elasticity, only: max_stresses, n_stresses
    use kinds, only: wp
    use listing_opening, only: heading, in_units, label_type, noise, page_width, where_now
    use model_data, only: corners_of, model_type
    use output_file, only: output_file_type
    use stage_plan, only: stage_plan_type
+   use stress_measures, only: principal_stresses, von_mises
    use text_tools, only: clean
    implicit none
    private
@@ -90,7 +91,32 @@ contains
          write (line, '(i11, 9es13.5)') model%element_id(e), clean(centre(model, e)), clean(stress(:n, e), floor)
          call file%put(line)
       end do
+      if (plan%stages(analysis%stage)%stress) call list_principal(file, labels, model, plan, analysis, stress(:n, :), floor)
    end subroutine list_stresses
+
+
+   !> Principal stresses and the equivalent stress of von Mises at the centres, where OUTPUT = STRESS asks for them.
+   subroutine list_principal(file, labels, model, plan, analysis, stress, floor)
+      type(output_file_type), intent(inout) :: file
+      type(label_type), intent(in)      :: labels
+      type(model_type), intent(in)      :: model
+      type(stage_plan_type), intent(in) :: plan
+      type(analysis_type), intent(in)   :: analysis
+      real(wp), intent(in)              :: stress(:, :)
+      real(wp), intent(in)              :: floor
+      character(page_width) :: line
+      real(wp) :: full(max_stresses)
+      integer  :: e
+
+      call heading(file, 'PRINCIPAL STRESSES AT THE CENTRES OF ELEMENTS'//where_now(plan, analysis)//in_units(labels%pressure))
+      call file%put('    ELEMENT      SIGMA 1      SIGMA 2      SIGMA 3    VON MISES')
+      do e = 1, model%n_elements
+         full = full_stress(model, e, stress(:, e))
+         write (line, '(i11, 4es13.5)') model%element_id(e), clean(principal_stresses(full), floor), &
+            clean(von_mises(full), floor)
+         call file%put(line)
+      end do
+   end subroutine list_principal
 
 
    !> The mean of the corners of element E.

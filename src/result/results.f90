@@ -9,6 +9,7 @@ module results
    use output_file, only: output_file_type
    use stage_plan, only: stage_plan_type
    use analysis_state, only: analysis_type
+   use vtu_results, only: discard_vtu, finish_vtu, remove_old_vtu, start_vtu, vtu_results_type, write_vtu
    implicit none
    private
 
@@ -17,6 +18,7 @@ module results
    type, public :: results_type
       type(listing_type)     :: listing
       type(output_file_type) :: history
+      type(vtu_results_type) :: vtu
       character(:), allocatable :: listing_path, history_path !! empty: standard output, none
    end type results_type
 
@@ -36,6 +38,7 @@ contains
       results%listing_path = listing_path
       results%history_path = history_path
       call remove_old_results(listing_path, history_path)
+      call start_vtu(results%vtu, base_of(history_path), plan)
       call start_listing(results%listing, listing_path, deck, model, plan, system)
       ok = .not. results%listing%file%failed()
       if (history_path /= '') then
@@ -66,10 +69,11 @@ contains
       type(results_type), intent(inout) :: results
 
       call list_stage(results%listing, model, plan, analysis)
+      call write_vtu(results%vtu, model, plan, analysis)
    end subroutine print_stage
 
 
-   !> Give the files their names. Both or none: OK is false where one could not be written.
+   !> Give the files their names. All or none: OK is false where one could not be written.
    subroutine finish_results(plan, results, ok)
       type(stage_plan_type), intent(in) :: plan
       type(results_type), intent(inout) :: results
@@ -77,6 +81,7 @@ contains
 
       ok = .true.
       if (results%history%is_open) call results%history%finish(ok)
+      if (ok) call finish_vtu(results%vtu, ok)
       if (ok) call finish_listing(results%listing, plan, ok)
       if (.not. ok) then
          call discard_results(results)
@@ -91,6 +96,7 @@ contains
 
       call results%listing%file%discard()
       call results%history%discard()
+      call discard_vtu(results%vtu)
    end subroutine discard_results
 
 
@@ -100,6 +106,16 @@ contains
 
       if (listing_path /= '') call remove_file(listing_path)
       if (history_path /= '') call remove_file(history_path)
+      call remove_old_vtu(base_of(history_path))
    end subroutine remove_old_results
+
+
+   !> NAME of NAME.joint.csv, folder included; empty for no file.
+   pure function base_of(history_path) result(name)
+      character(*), intent(in)  :: history_path
+      character(:), allocatable :: name
+
+      name = history_path(:max(0, len(history_path) - len('.joint.csv')))
+   end function base_of
 
 end module results

@@ -1,0 +1,239 @@
+!> Results for ParaView: for a stage with OUTPUT = VTU the bodies in one file and the interface elements in another, and where
+!! there is more than one stage their list NAME.pvd. All stay unnamed until the whole run is complete.
+module vtu_results
+   use, intrinsic :: iso_fortran_env, only: int8
+   use analysis_state, only: analysis_type
+   use body_elements, only: element_corner_stress, element_stress, full_stress
+   use c_library, only: remove_file
+   use element_kinds, only: element_table, kind_penta6, max_nodes
+   use elasticity, only: max_stresses, n_stresses
+   use kinds, only: wp
+   use model_data, only: corners_of, model_type
+   use pvd_file, only: pvd_file_type
+   use stage_plan, only: stage_plan_type
+   use stress_measures, only: principal_stresses, von_mises
+   use text_tools, only: integer_text
+   use vtu_file, only: vtk_vertex, vtu_file_type
+   implicit none
+   private
+
+   public :: start_vtu, write_vtu, finish_vtu, discard_vtu, remove_old_vtu
+
+   integer, parameter :: most_old = 999 ! stages whose old files are looked for
+
+   type, public :: vtu_results_type
+      private
+      character(:), allocatable :: name             ! files begin with it; empty: none are written
+      type(vtu_file_type), allocatable :: files(:)  ! bodies, joint of every stage that has them
+      character(:), allocatable :: endings(:)       ! of their names
+      integer, allocatable :: stages(:)
+      integer :: n = 0
+      logical :: many = .false.                     ! more than one stage
+      type(pvd_file_type) :: list
+   end type vtu_results_type
+
+contains
+
+   !> NAME: what the names of the files begin with, folder included; empty: none are written.
+   subroutine start_vtu(results, name, plan)
+      type(vtu_results_type), intent(inout) :: results
+      character(*), intent(in)              :: name
+      type(stage_plan_type), intent(in)     :: plan
+
+      results%name = name
+      results%n = 0
+      results%many = size(plan%stages) > 1
+      if (allocated(results%files)) deallocate (results%files, results%endings, results%stages)
+      allocate (results%files(2*size(plan%stages)), results%stages(2*size(plan%stages)))
+      allocate (character(24) :: results%endings(2*size(plan%stages)))
+   end subroutine start_vtu
+
+
+   !> Write the files of the stage just completed, where it asks for them.
+   subroutine write_vtu(results, model, plan, analysis)
+      type(vtu_results_type), intent(inout) :: results
+      type(model_type), intent(in)          :: model
+      type(stage_plan_type), intent(in)     :: plan
+      type(analysis_type), intent(in)       :: analysis
+
+      if (results%name == '' .or. .not. plan%stages(analysis%stage)%vtu) return
+      if (model%n_elements > 0) then
+         call open_next('.vtu')
+         call write_bodies(results%files(results%n), model, analysis)
+      end if
+      if (size(model%interface) > 0) then
+         call open_next('.joint.vtu')
+         call write_joint(results%files(results%n), model, analysis)
+      end if
+
+   contains
+
+      subroutine open_next(ending)
+         character(*), intent(in) :: ending
+         character(:), allocatable :: whole
+
+         whole = ending
+         if (results%many) whole = '.'//integer_text(plan%stages(analysis%stage)%id)//ending
+         results%n = results%n + 1
+         results%endings(results%n) = whole
+         results%stages(results%n) = plan%stages(analysis%stage)%id
+         call results%files(results%n)%start(results%name//whole)
+      end subroutine open_next
+
+   end subroutine write_vtu
+
+
+   !> Elements with stresses at their centres, nodes with displacements and the mean of the stresses at the corners there.
+   subroutine write_bodies(file, model, analysis)
+      type(vtu_file_type), intent(inout) :: file
+      type(model_type), intent(in)       :: model
+      type(analysis_type), intent(in)    :: analysis
+      integer, parameter :: wedge(6) = [1, 3, 2, 4, 6, 5] ! VTK wants the first triangle of a wedge to face out
+      real(wp), allocatable :: u(:, :), at_node(:, :), at_centre(:, :), principal(:, :)
+      real(wp) :: corner(max_stresses, max_nodes)
+      integer, allocatable       :: corners(:), ends(:), properties(:)
+      integer(int8), allocatable :: types(:)
+      integer :: c, e, i, k, n
+
+      allocate (u(3, model%n_nodes), at_node(6, model%n_nodes), source=0.0_wp)
+      allocate (at_centre(6, model%n_elements), principal(3, model%n_elements))
+      allocate (corners(count(model%element_nodes > 0)), ends(model%n_elements), types(model%n_elements))
+      u(:model%dimension, :) = analysis%u
+      n = 0
+      do e = 1, model%n_elements
+         associate (nodes => corners_of(model, e))
+            do i = 1, size(nodes)
+               k = i
+               if (model%element_kind(e) == kind_penta6) k = wedge(i)
+               corners(n + i) = nodes(k)
+            end do
+            n = n + size(nodes)
+            ends(e) = n
+            types(e) = int(element_table(model%element_kind(e))%vtk_type, int8)
+            c = n_stresses(model%properties(model%element_property(e))%state)
+            at_centre(:, e) = full_stress(model, e, element_stress(model, e, analysis%u))
+            principal(:, e) = principal_stresses(at_centre(:, e))
+            call element_corner_stress(model, e, analysis%u, corner(:c, :size(nodes)))
+            do i = 1, size(nodes)
+               at_node(:, nodes(i)) = at_node(:, nodes(i)) + full_stress(model, e, corner(:c, i))/ &
+                                      real(model%first_at(nodes(i) + 1) - model%first_at(nodes(i)), wp)
+            end do
+         end associate
+      end do
+      allocate (properties(model%n_elements))
+      do e = 1, model%n_elements
+         properties(e) = model%properties(model%element_property(e))%id
+      end do
+      call file%points(model%x)
+      call file%cells(corners, ends, types)
+      call file%point_data('node', model%node_id)
+      call file%point_data('displacement', u)
+      call file%point_data('stress', at_node)
+      call file%point_data('von_mises', [(von_mises(at_node(:, i)), i = 1, model%n_nodes)])
+      call file%cell_data('element', model%element_id)
+      call file%cell_data('property', properties)
+      call file%cell_data('stress_at_centre', at_centre)
+      call file%cell_data('principal_stress', principal)
+      call file%cell_data('von_mises_at_centre', [(von_mises(at_centre(:, e)), e = 1, model%n_elements)])
+   end subroutine write_bodies
+
+
+   !> A vertex for every interface element, at its node 1. BRANCH is 1 load, 2 unload, 3 open, 4 reload as in the chart; TAU the
+   !! shear stress on side 2 in global axes.
+   subroutine write_joint(file, model, analysis)
+      type(vtu_file_type), intent(inout) :: file
+      type(model_type), intent(in)       :: model
+      type(analysis_type), intent(in)    :: analysis
+      real(wp), allocatable :: x(:, :), tau(:, :), u(:, :)
+      integer :: i, n
+
+      n = size(model%interface)
+      allocate (x(3, n), tau(3, n))
+      allocate (u(3, n), source=0.0_wp)
+      do i = 1, n
+         associate (element => model%interface(i))
+            x(:, i) = model%x(:, element%nodes(1))
+            u(:model%dimension, i) = analysis%u(:, element%nodes(1))
+            tau(:, i) = matmul(element%axes(:, :2), analysis%states(i)%shear%tau)
+         end associate
+      end do
+      call file%points(x)
+      call file%cells([(i, i = 1, n)], [(i, i = 1, n)], [(vtk_vertex, i = 1, n)])
+      call file%point_data('element', model%interface%id)
+      call file%point_data('joint', model%joints(model%interface%joint)%id)
+      call file%point_data('displacement', u)
+      call file%point_data('lambda', analysis%states%normal%lambda)
+      call file%point_data('p', analysis%states%normal%pressure)
+      call file%point_data('branch', analysis%states%normal%branch)
+      call file%point_data('tau', tau)
+      call file%point_data('slip', merge(1, 0, analysis%states%slips))
+      call file%point_data('area', model%interface%area)
+   end subroutine write_joint
+
+
+   !> Give all files their names. All or none: OK is false where one could not be written.
+   subroutine finish_vtu(results, ok)
+      type(vtu_results_type), intent(inout) :: results
+      logical, intent(out)                  :: ok
+      character(:), allocatable :: base
+      integer :: i
+
+      ok = .true.
+      if (results%n == 0) return
+      do i = 1, results%n
+         call results%files(i)%finish(ok)
+         if (.not. ok) exit
+      end do
+      if (ok .and. results%many) then
+         base = results%name(index(results%name, '/', back=.true.) + 1:)
+         call results%list%start(results%name//'.pvd')
+         do i = 1, results%n
+            call results%list%add(real(results%stages(i), wp), merge(1, 0, index(results%endings(i), '.joint') > 0), &
+                                  base//trim(results%endings(i)))
+         end do
+         call results%list%finish(ok)
+      end if
+      if (ok) return
+      do i = 1, results%n
+         call results%files(i)%discard()
+         call remove_file(results%name//trim(results%endings(i)))
+      end do
+   end subroutine finish_vtu
+
+
+   !> Leave nothing behind, files that have their names already included.
+   subroutine discard_vtu(results)
+      type(vtu_results_type), intent(inout) :: results
+      integer :: i
+
+      do i = 1, results%n
+         call results%files(i)%discard()
+         call remove_file(results%name//trim(results%endings(i)))
+      end do
+      if (results%n > 0) then
+         call results%list%discard()
+         call remove_file(results%name//'.pvd')
+      end if
+      results%n = 0
+   end subroutine discard_vtu
+
+
+   !> Remove what an earlier run left.
+   subroutine remove_old_vtu(name)
+      character(*), intent(in) :: name
+      logical :: there
+      integer :: k
+
+      if (name == '') return
+      call remove_file(name//'.vtu')
+      call remove_file(name//'.joint.vtu')
+      inquire (file=name//'.pvd', exist=there)
+      if (.not. there) return
+      do k = 1, most_old
+         call remove_file(name//'.'//integer_text(k)//'.vtu')
+         call remove_file(name//'.'//integer_text(k)//'.joint.vtu')
+      end do
+      call remove_file(name//'.pvd')
+   end subroutine remove_old_vtu
+
+end module vtu_results
