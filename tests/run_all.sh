@@ -38,6 +38,10 @@ part 'STEP tends to NEWTON' tests/convergence.sh "$program" "$build/convergence"
 part 'the comparison itself' tests/compare/test_compare.sh "$compare" reference_output tests/compare/tolerances.txt
 part 'from test data to cards' tests/fit/run.sh "$build/checked/jointfit" "$program"
 part 'published surfaces' tests/fit/surfaces.sh "$program"
+mkdir -p "$build/vtu-deck"
+sed -E 's/^( *INCR = .*)/\1\n  OUTPUT = LAST, VTU/; /OUTPUT = (ALL|JOINT|LAST|NONE)$/d' input/prism_history.bdf > "$build/vtu-deck/history.bdf"
+"$program" -q -o "$build/vtu-deck" "$build/vtu-deck/history.bdf" 2> /dev/null
+part 'files for ParaView' tests/vtu/run.sh "$build/vtu" "$build/vtu-deck/history.pvd"
 part 'bad decks and command lines' tests/bad/run.sh "$PWD/$checked"
 part 'damaged decks' tests/damage/run.sh "$PWD/$checked" "$PWD/input"
 echo '----'
