@@ -324,7 +324,7 @@ turned_box() { # NAME KIND METHOD TURN
 for method in NEWTON STEP; do
    for kind in HEXA TETRA; do
       turned_box upright $kind $method '0 0 0' || continue
-      for turn in '0 30 0' '0 0 90' '0 180 0' '25 61.7 -40'; do
+      for turn in '0 30 0' '0 0 90' '0 10 75' '0 180 0' '25 61.7 -40'; do
          turned_box turned $kind $method "$turn" && same_rows "box of C$kind turned by $turn degrees, $method" upright turned 1e-10 TURNED
       done
    done
