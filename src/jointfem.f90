@@ -105,25 +105,21 @@ contains
                ! --------------------------------------------------------- SECANTS UNTIL THE PRESSURES SETTLE
                call back_increment(model, plan, analysis, system, failure)
 
-            case default
+            case default ! a box does nothing once one before it has failed
                ! --------------------------------------------------------- [k_s] = SUM [k_b] + SUM [k_int]
                call structure_stiffness(model, plan, analysis, system, failure)
 
-               if (.not. failure%raised) then
-                  ! ------------------------------------------------------ SOLVE [k_s] {du} = {dF}
-                  call solve_increment(model, plan, system, analysis, failure)
+               ! --------------------------------------------------------- SOLVE [k_s] {du} = {dF}
+               call solve_increment(model, plan, system, analysis, failure)
 
-               end if
-               if (.not. failure%raised) then
-                  ! ------------------------------------------------------ ACCUMULATE {u}, DEFLECTIONS, FORCES
-                  call accumulate(model, analysis)
+               ! --------------------------------------------------------- ACCUMULATE {u}, DEFLECTIONS, FORCES
+               call accumulate(model, analysis, failure)
 
-                  ! ------------------------------------------------------ COULOMB LIMIT EXCEEDED: RE-ANALYSE
-                  call limit_friction(model, plan, system, analysis, failure)
+               ! --------------------------------------------------------- COULOMB LIMIT EXCEEDED: RE-ANALYSE
+               call limit_friction(model, plan, system, analysis, failure)
 
-                  ! ------------------------------------------------------ NORM, SHEAR: BRANCHES, NEXT STIFFNESS
-                  call interface_stiffness(model, analysis)
-               end if
+               ! --------------------------------------------------------- NORM, SHEAR: BRANCHES, NEXT STIFFNESS
+               call interface_stiffness(model, analysis)
             end select
             if (failure%raised) then
                call report_failure(argument, failure, results)

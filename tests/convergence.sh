@@ -22,7 +22,6 @@ variant() {
       /^ *OUTPUT/ { next }
       /^SUBCASE/ { print; print "  OUTPUT = NONE"; next }
       /^JINCR/ { gsub(",", " "); printf "JINCR,%d,%d,ARITH,%s\n", $2, n, share; next }
-      # one re-analysis leaves some excess at any number of increments: only the full relief tends to the limit
       { print }' "input/$1.bdf" > "$work/$1.$2.$3.bdf"
    "$program" -q -o "$work" "$work/$1.$2.$3.bdf" || { echo "FAILED $1 $2 $3"; failed=$((failed + 1)); return 1; }
 }

@@ -316,17 +316,31 @@ contains
       type(stage_type), intent(inout)      :: stage
       type(deck_error_list), intent(inout) :: errors
       character(:), allocatable :: rest
-      integer :: comma
+      character(:), allocatable :: extras ! PLOT, STRESS, VTU so far
+      character(:), allocatable :: word
+      integer :: comma, n_tables
+      logical :: repeated
 
       stage%output = output_last
       stage%plot = .false.
       stage%vtu = .false.
       stage%stress = .false.
+      n_tables = 0
+      extras = '|'
+      repeated = .false.
       rest = upper(entry%value)
       if (rest == '') call choose(entry, '|ALL|JOINT|LAST|NONE|PLOT|STRESS|VTU|', errors)
       do while (rest /= '')
          comma = index(rest//',', ',')
-         select case (adjustl(rest(:comma - 1)))
+         word = trim(adjustl(rest(:comma - 1)))
+         if (index('|PLOT|STRESS|VTU|', '|'//word//'|') == 0) then
+            n_tables = n_tables + 1
+         else if (index(extras, '|'//word//'|') > 0) then
+            repeated = .true.
+         else
+            extras = extras//word//'|'
+         end if
+         select case (word)
          case ('ALL');   stage%output = output_all
          case ('JOINT'); stage%output = output_joint
          case ('LAST');  stage%output = output_last
@@ -340,6 +354,8 @@ contains
          end select
          rest = rest(min(comma + 1, len(rest) + 1):)
       end do
+      if (repeated .or. n_tables > 1) call value_error( &
+         entry, 'one of ALL, JOINT, LAST, NONE, and with a comma PLOT, STRESS, VTU', errors)
    end subroutine read_output
 
 

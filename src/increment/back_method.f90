@@ -62,7 +62,7 @@ contains
             end do
          end do
          call record_pass(analysis, pass_record(before=maxval(abs(p)), after=change, part=-1))
-         if (change <= settled*max(maxval(p), tiny(1.0_wp))) exit
+         if (change <= settled*max(maxval(p), pressure_floor*maxval(model%joints%law%normal%p_av))) exit
          p = 0.5_wp*(p + p_new)
       end do
       if (iteration > most_iterations) then

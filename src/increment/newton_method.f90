@@ -44,8 +44,8 @@ contains
       real(wp), allocatable :: load_start(:, :), load_end(:, :), u_start(:, :), load(:, :), moved(:, :)
       integer, allocatable  :: flips(:)
       real(wp) :: done, part
-      logical  :: converged
-      integer  :: before_open
+      logical  :: converged, imprecise
+      integer  :: before_open, loose
 
       allocate (load_end, load, source=analysis%applied)
       allocate (load_start, source=analysis%applied - analysis%change)
@@ -63,7 +63,7 @@ contains
          moved = analysis%moved
          if (done + part < 1.0_wp) moved = analysis%moved - (1.0_wp - done - part)*analysis%move
          call iterate(model, load, moved, where_in_plan(plan, analysis%stage, analysis%increment), analysis, system, flips, &
-                      converged)
+                      loose, imprecise, converged)
          if (converged) then
             done = done + part
             part = 2.0_wp*part
@@ -71,7 +71,7 @@ contains
          else if (part > 0.5_wp**most_halvings) then
             part = 0.5_wp*part
          else
-            call give_up(model, plan, analysis, flips, failure)
+            call give_up(model, plan, analysis, flips, loose, imprecise, failure)
             return
          end if
       end do
@@ -82,13 +82,15 @@ contains
 
    !> Newton iterations under the nodal forces LOAD with held components MOVED, from the committed state; converged, they are
    !! committed. The first iteration moves the supports, in one go and with the tangent of the committed state.
-   subroutine iterate(model, load, moved, place, analysis, system, flips, converged)
+   subroutine iterate(model, load, moved, place, analysis, system, flips, loose, imprecise, converged)
       type(model_type), intent(in)         :: model
       real(wp), intent(in)                 :: load(:, :), moved(:, :)
       character(*), intent(in)             :: place !! stage and increment, for messages
       type(analysis_type), intent(inout)   :: analysis
       type(equation_system), intent(inout) :: system
-      integer, intent(inout)               :: flips(:)
+      integer, intent(inout)               :: flips(:)  !! changes of branch in these iterations
+      integer, intent(out)                 :: loose     !! a joint that is open or slips all over at their end, 0: none
+      logical, intent(out)                 :: imprecise !! rounding in the bodies is no small part of the load
       logical, intent(out)                 :: converged
       type(trial_type)      :: now, next
       real(wp), allocatable :: direction(:, :), move(:, :)
@@ -133,8 +135,24 @@ contains
          if (.not. next%size < huge(1.0_wp)) exit
          now = next
       end do
+      imprecise = noise > 1.0e-5_wp*load_size
+      loose = loose_joint(model, now)
       if (converged) call commit(model, now, analysis)
    end subroutine iterate
+
+
+   !> The first joint whose elements all are open or slip in TRIAL, 0 for none.
+   pure integer function loose_joint(model, trial) result(joint)
+      type(model_type), intent(in) :: model
+      type(trial_type), intent(in) :: trial
+
+      do joint = 1, size(model%joints)
+         associate (states => trial%states(model%joints(joint)%first:model%joints(joint)%last))
+            if (size(states) > 0 .and. all(states%slips .or. states%normal%branch == branch_open)) return
+         end associate
+      end do
+      joint = 0
+   end function loose_joint
 
 
    !> The committed state as a trial.
@@ -324,29 +342,32 @@ contains
    end subroutine commit
 
 
-   !> No part of the increment is small enough: say which element changed its branch most often.
-   subroutine give_up(model, plan, analysis, flips, failure)
+   !> No part of the increment is small enough: say why, as far as it can be told, and which element changed its branch most often.
+   subroutine give_up(model, plan, analysis, flips, loose, imprecise, failure)
       type(model_type), intent(in)       :: model
       type(stage_plan_type), intent(in)  :: plan
       type(analysis_type), intent(in)    :: analysis
-      integer, intent(in)                :: flips(:)
+      integer, intent(in)                :: flips(:), loose
+      logical, intent(in)                :: imprecise
       type(failure_type), intent(inout)  :: failure
       character(:), allocatable :: words
       integer :: worst
 
       words = where_in_plan(plan, analysis%stage, analysis%increment)//': no equilibrium'
-      if (analysis%n_passes > 0) words = words//', '//real_text(analysis%passes(analysis%n_passes)%after)// &
-                                         ' of force are left unbalanced'
+      if (loose > 0) then
+         words = words//': joint '//integer_text(model%joints(loose)%id)//' slips or is open at all its nodes, from node '// &
+                 integer_text(model%node_id(model%interface(model%joints(loose)%first)%nodes(1)))// &
+                 ' on, and does not hold the load in the direction of its movement'
+      else if (imprecise) then
+         words = words//': stiffnesses differ so much, or bodies moved so far, that rounding leaves no balance of forces'
+      else if (analysis%n_passes > 0) then
+         words = words//', '//real_text(analysis%passes(analysis%n_passes)%after)//' of force are left unbalanced'
+      end if
       if (size(flips) > 0) then
          worst = maxloc(flips, dim=1)
-         if (flips(worst) > 1) then
-            words = words//'; node '//integer_text(model%node_id(model%interface(worst)%nodes(1)))//' changes its branch '// &
-                    'back and forth ('//integer_text(flips(worst))//' times, committed: '// &
-                    branch_name(analysis%states(worst)%normal%branch)//')'
-         else
-            words = words//'; node '//integer_text(model%node_id(model%interface(1)%nodes(1)))// &
-                    ' and its joint do not hold the load (open, or slipping as a whole)'
-         end if
+         if (flips(worst) > 1) words = words//'; node '//integer_text(model%node_id(model%interface(worst)%nodes(1)))// &
+            ' changes its branch back and forth ('//integer_text(flips(worst))//' times, committed: '// &
+            branch_name(analysis%states(worst)%normal%branch)//')'
       end if
       if (any((model%joints%law%shear(1)%given .or. model%joints%law%shear(2)%given) .and. &
               .not. model%joints%law%has_friction)) words = words// &

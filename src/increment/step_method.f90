@@ -4,7 +4,7 @@ module step_method
    use coupled_solution, only: solve_moved
    use equations, only: equation_system, form_structure_stiffness, solve_equations
    use failures, only: failure_type
-   use joint_laws, only: friction_excess
+   use joint_laws, only: exceeds_limit, friction_excess
    use kinds, only: wp
    use model_data, only: joint_movement, model_type
    use stage_plan, only: stage_plan_type, where_in_plan
@@ -16,7 +16,6 @@ module step_method
 
    integer, parameter  :: most_passes = 2000               ! of NREAN = -1
    real(wp), parameter :: largest_number = 1.0e100_wp      ! [length] of a displacement that can be meant
-   real(wp), parameter :: excess_tolerance = 1.0e-8_wp     ! of the sum of the limits, for NREAN = -1
 
 contains
 
@@ -54,6 +53,7 @@ contains
       type(analysis_type), intent(inout) :: analysis
       type(failure_type), intent(inout)  :: failure
 
+      if (failure%raised) return
       if (analysis%moves) then
          call solve_moved(model, system, diagonal(analysis%k), analysis%change, analysis%move, analysis%du)
       else
@@ -65,11 +65,13 @@ contains
 
 
    !> Add the increment's displacements, deflections and forces to their sums.
-   subroutine accumulate(model, analysis)
+   subroutine accumulate(model, analysis, failure)
       type(model_type), intent(in)       :: model
       type(analysis_type), intent(inout) :: analysis
+      type(failure_type), intent(in)     :: failure
       integer :: i, k
 
+      if (failure%raised) return
       do i = 1, size(model%interface)
          associate (state => analysis%states(i))
             state%normal%k_n = analysis%k(3, i)
@@ -124,26 +126,24 @@ contains
       type(analysis_type), intent(inout) :: analysis
       type(failure_type), intent(inout)  :: failure
       real(wp), allocatable :: excess(:, :), relief(:, :)
-      real(wp) :: total, total_after, limit
+      real(wp) :: total, total_after
       integer  :: pass, worst
       logical  :: again
 
-      if (.not. any(model%joints%law%has_friction)) return
+      if (failure%raised .or. .not. any(model%joints%law%has_friction)) return
       allocate (excess(2, size(model%interface)), relief(model%dimension, model%n_nodes))
-      call find_excess(model, analysis, excess, total, limit)
-      where (maxval(abs(excess), dim=1) > 0.0_wp) analysis%states%slips = .true.
+      call find_excess(model, analysis, excess, total)
       do pass = 1, most_passes
          if (total <= 0.0_wp) return
-         call release(model, pass, total > excess_tolerance*limit, excess, analysis, relief, again)
+         call release(model, pass, excess, analysis, relief, again)
          if (.not. again) return
          call solve_equations(system, relief, analysis%du)
          call add_displacements(model, analysis)
-         call find_excess(model, analysis, excess, total_after, limit)
-         where (maxval(abs(excess), dim=1) > 0.0_wp) analysis%states%slips = .true.
+         call find_excess(model, analysis, excess, total_after)
          call record_pass(analysis, pass_record(before=total, after=total_after, changes=count(analysis%states%slips)))
          total = total_after
       end do
-      worst = maxloc(maxval(abs(excess), dim=1), dim=1)
+      worst = maxloc(maxval(abs(excess), dim=1), mask=is_endless(model), dim=1)
       call failure%raise(where_in_plan(plan, analysis%stage, analysis%increment)//': after '//integer_text(most_passes)// &
          ' re-analyses the friction of joint '//integer_text(model%joints(model%interface(worst)%joint)%id)// &
          ' is still exceeded, by '//real_text(total)//' in all, most at node '// &
@@ -151,31 +151,39 @@ contains
    end subroutine limit_friction
 
 
-   !> EXCESS(2, n) of all elements, the TOTAL of their sizes and the sum of their limits [force].
-   subroutine find_excess(model, analysis, excess, total, limit)
-      type(model_type), intent(in)    :: model
-      type(analysis_type), intent(in) :: analysis
-      real(wp), intent(out)           :: excess(:, :), total, limit
+   !> EXCESS(2, n) of all elements and the TOTAL of their sizes [force]; those that slip are marked.
+   subroutine find_excess(model, analysis, excess, total)
+      type(model_type), intent(in)       :: model
+      type(analysis_type), intent(inout) :: analysis
+      real(wp), intent(out)              :: excess(:, :), total
       integer :: i
 
       total = 0.0_wp
-      limit = 0.0_wp
       do i = 1, size(model%interface)
-         associate (law => model%joints(model%interface(i)%joint)%law, area => model%interface(i)%area)
-            excess(:, i) = friction_excess(law, area, analysis%states(i))
-            total = total + norm2(excess(:, i))
-            limit = limit + law%mu*max(0.0_wp, analysis%states(i)%normal%pressure)*area
-         end associate
+         excess(:, i) = friction_excess(model%joints(model%interface(i)%joint)%law, model%interface(i)%area, analysis%states(i))
+         total = total + norm2(excess(:, i))
+         if (exceeds_limit(model%joints(model%interface(i)%joint)%law, analysis%states(i))) analysis%states(i)%slips = .true.
       end do
    end subroutine find_excess
 
 
+   !> Which interface elements are analysed again until the excess is gone, NREAN = -1.
+   pure function is_endless(model)
+      type(model_type), intent(in) :: model
+      logical :: is_endless(size(model%interface))
+      integer :: i
+
+      do i = 1, size(model%interface)
+         is_endless(i) = model%joints(model%interface(i)%joint)%law%n_reanalyses < 0
+      end do
+   end function is_endless
+
+
    !> Relieve the elements whose joints ask for re-analysis number PASS of their excess; RELIEF are the nodal forces that it
-   !! becomes, AGAIN whether there are any. MUCH: the excess is still above the tolerance of NREAN = -1.
-   subroutine release(model, pass, much, excess, analysis, relief, again)
+   !! becomes, AGAIN whether there are any. NREAN = -1 goes on as long as any excess is left.
+   subroutine release(model, pass, excess, analysis, relief, again)
       type(model_type), intent(in)       :: model
       integer, intent(in)                :: pass
-      logical, intent(in)                :: much
       real(wp), intent(in)               :: excess(:, :)
       type(analysis_type), intent(inout) :: analysis
       real(wp), intent(out)              :: relief(:, :)
@@ -188,7 +196,7 @@ contains
       do i = 1, size(model%interface)
          associate (element => model%interface(i), d => model%dimension, passes => &
                     model%joints(model%interface(i)%joint)%law%n_reanalyses)
-            if (norm2(excess(:, i)) <= 0.0_wp .or. (passes >= 0 .and. pass > passes) .or. (passes < 0 .and. .not. much)) cycle
+            if (norm2(excess(:, i)) <= 0.0_wp .or. (passes >= 0 .and. pass > passes)) cycle
             again = .true.
             do k = 1, 2
                analysis%states(i)%shear(k)%tau = analysis%states(i)%shear(k)%tau - excess(k, i)/element%area

@@ -2,15 +2,16 @@
 module joint_laws
    use kinds, only: wp
    use normal_path, only: follow_normal
-   use normal_stiffness, only: branch_open, norm, normal_law, normal_state
+   use normal_stiffness, only: branch_open, is_virgin, norm, normal_law, normal_state
    use shear_path, only: follow_shear
    use shear_stiffness, only: shear, shear_law, shear_state, start_shear
    implicit none
    private
 
-   public :: element_stiffness_of, friction_excess, follow_element, rest_when_open
+   public :: element_stiffness_of, friction_excess, exceeds_limit, follow_element, rest_when_open
 
-   real(wp), parameter :: slip_margin = 1.0e-9_wp !! of the limit: rounding does not make a joint slip
+   real(wp), parameter :: slip_margin = 1.0e-9_wp ! of the limit: rounding does not make a joint slip
+   real(wp), parameter :: flag_margin = 1.0e-7_wp ! of the limit: what a relief leaves is no slip in the next increment
 
    type, public :: joint_law
       type(normal_law) :: normal
@@ -43,7 +44,7 @@ contains
       call norm(law%normal, area, state%normal, k(3))
       call rest_when_open(state, movement)
       pressure = state%normal%pressure
-      if (state%normal%calls == 1) pressure = law%normal%p_av
+      if (is_virgin(law%normal, area, state%normal)) pressure = law%normal%p_av
       k(:2) = 0.0_wp
       if (state%normal%branch == branch_open) return
       do i = 1, 2
@@ -52,7 +53,7 @@ contains
    end subroutine element_stiffness_of
 
 
-   !> An open element transmits no shear, and when it closes it begins anew from where it is (departure 8).
+   !> An open element transmits no shear, and when it closes it begins anew from where it is.
    pure subroutine rest_when_open(state, movement)
       type(element_state), intent(inout) :: state
       real(wp), intent(in)               :: movement(3)
@@ -79,6 +80,17 @@ contains
       if (norm2(tau) <= limit*(1.0_wp + slip_margin)) return
       excess = tau*(1.0_wp - limit/norm2(tau))*area
    end function friction_excess
+
+
+   !> Whether the shear stress is so far above the limit that the element is said to slip.
+   pure logical function exceeds_limit(law, state)
+      type(joint_law), intent(in)     :: law
+      type(element_state), intent(in) :: state
+
+      exceeds_limit = .false.
+      if (.not. law%has_friction) return
+      exceeds_limit = norm2(state%shear%tau) > law%mu*max(0.0_wp, state%normal%pressure)*(1.0_wp + flag_margin)
+   end function exceeds_limit
 
 
    !> Follow all laws of one element exactly from its state BEFORE, in equilibrium, to MOVEMENT: the branches, and Coulomb as a

@@ -36,7 +36,6 @@ contains
          slope = max(after%pressure, pressure_floor*law%p_av)**(1.0_wp - law%m)/(law%m*law%c)
       else if (unloaded > 0.0_wp) then
          after%branch = merge(branch_reload, branch_unload, lambda > before%lambda)
-         if (abs(lambda - before%lambda) <= 0.0_wp) after%branch = before%branch
          after%pressure = unloaded
          slope = law%e_u
       else
@@ -45,6 +44,7 @@ contains
          after%lambda_b = before%lambda_a - before%p_a/law%e_u
          slope = 0.0_wp
       end if
+      if (abs(lambda - before%lambda) <= 0.0_wp) after%branch = before%branch ! at rest
       after%sumf = after%pressure*area
       work = area*(stored(law, after) - stored(law, before))
    end subroutine follow_normal

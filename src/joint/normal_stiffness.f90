@@ -4,7 +4,7 @@ module normal_stiffness
    implicit none
    private
 
-   public :: norm, branch_name
+   public :: norm, branch_name, is_virgin
 
    integer, parameter, public :: branch_load = 1, branch_unload = 2, branch_open = 3, branch_reload = 4
 
@@ -23,7 +23,6 @@ module normal_stiffness
    !> State of one interface element in its normal direction.
    type, public :: normal_state
       integer  :: branch   = branch_load
-      integer  :: calls    = 0       !! of NORM so far
       real(wp) :: sigmaf   = 0.0_wp  !! sum of the incremental normal forces before the last increment [force]
       real(wp) :: sumf     = 0.0_wp  !! the same after it, compression positive [force]
       real(wp) :: lambda   = 0.0_wp  !! closing deflection [length]
@@ -39,7 +38,8 @@ contains
 
    !> Normal stiffness of one interface element for the next increment, from what the last one did to it.
    !! Source: Edelugo, section 4.1-4.2, Fig. 6(b), Eqs. (9), (10), (11). Called once before the first increment, and
-   !! after each increment once its forces and deflections are accumulated.
+   !! after each increment once its forces and deflections are accumulated. The first increment is the element's own: the first
+   !! that reaches it.
    pure subroutine norm(law, area, state, k_n)
       type(normal_law), intent(in)      :: law
       real(wp), intent(in)              :: area  !! area of influence a_i, > 0 [length^2]
@@ -48,8 +48,8 @@ contains
       real(wp) :: no_change
       logical  :: rises, falls
 
-      state%calls = state%calls + 1
-      if (state%calls == 1) then                                    ! Eq. (9): secant at the mean pressure
+      if (is_virgin(law, area, state)) then                         ! Eq. (9): secant at the mean pressure
+         state%pressure = state%sumf/area
          k_n = law%p_av**(1.0_wp - law%m)*area/law%c
          return
       end if
@@ -93,6 +93,17 @@ contains
          k_n = 0.0_wp
       end select
    end subroutine norm
+
+
+   !> Whether the element has not carried anything yet: at first, and until a load reaches it.
+   pure logical function is_virgin(law, area, state)
+      type(normal_law), intent(in)   :: law
+      real(wp), intent(in)           :: area
+      type(normal_state), intent(in) :: state
+
+      is_virgin = state%branch == branch_load .and. &
+                  max(abs(state%sumf), abs(state%sigmaf)) <= rounding*law%p_av*area
+   end function is_virgin
 
 
    !> Remove an element: it stands at its point B and carries nothing. The tension it had is left unbalanced.

@@ -101,7 +101,7 @@ contains
    end subroutine change_sense
 
 
-   !> d tau/d d of a branch at D under the pressure P, not below zero (departure 6) [pressure/length].
+   !> d tau/d d of a branch at D under the pressure P, not below zero [pressure/length].
    pure real(wp) function shear_slope(law, branch, d, p) result(slope)
       type(shear_law), intent(in) :: law
       integer, intent(in)         :: branch

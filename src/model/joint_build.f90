@@ -397,7 +397,7 @@ contains
    end subroutine resolve_laws
 
 
-   !> The unloading slope that the card leaves blank: E of the body at the joint, per unit length (departure 2).
+   !> The unloading slope that the card leaves blank: E of the body at the joint, per unit length.
    subroutine default_slope(model, joint, errors)
       type(model_type), intent(in)         :: model
       type(joint_type), intent(inout)      :: joint

@@ -1,5 +1,5 @@
 !> What statics alone says of a joint: the normal resultant that the loads send through it, where no other support or
-!! joint can take a share, and from it the pressure of the first increment, Eq. (9) (departure 3).
+!! joint can take a share, and from it the pressure of the first increment, Eq. (9).
 module joint_statics
    use deck_errors, only: deck_error_list
    use kinds, only: wp
@@ -139,9 +139,11 @@ contains
             resultant = 0.0_wp
             if (joint%determinate) then
                resultant = first_share*carried_resultant(model, joint, loads)
-               if (resultant < 0.0_wp .and. .not. touches_body(model, joint)) then
-                  call turn_round(model, joint)
-                  resultant = -resultant
+               if (.not. touches_body(model, joint)) then
+                  if (opens_first(model, joint)) then
+                     call turn_round(model, joint)
+                     resultant = -resultant
+                  end if
                end if
             end if
             if (joint%p0 > 0.0_wp) then
@@ -182,6 +184,23 @@ contains
       end do
       loads%n = n
    end subroutine first_loads
+
+
+   !> Whether the first stage that sends any load through JOINT pulls it open in the sense of its normal.
+   pure logical function opens_first(model, joint)
+      type(model_type), intent(in) :: model
+      type(joint_type), intent(in) :: joint
+      real(wp) :: resultant
+      integer  :: s
+
+      opens_first = .false.
+      do s = 1, size(model%stage_loads)
+         resultant = carried_resultant(model, joint, model%stage_loads(s))
+         if (abs(resultant) <= 0.0_wp) cycle
+         opens_first = resultant < 0.0_wp
+         return
+      end do
+   end function opens_first
 
 
    !> Whether there is a body at any node of JOINT. If not, nothing but the load tells which sense of its normal closes it.

@@ -13,7 +13,7 @@ module listing
    use model_data, only: model_type, stage_load_type
    use normal_stiffness, only: branch_open
    use output_file, only: output_file_type
-   use range_watch, only: range_watch_type, watch_ranges
+   use range_watch, only: range_watch_type, watch_balance, watch_ranges
    use row_buffer, only: row_buffer_type
    use stage_plan, only: stage_plan_type
    use analysis_state, only: analysis_type, free_norm
@@ -107,6 +107,7 @@ contains
             call file%put(line)
          end if
          call listing%increments%flush(file)
+         call watch_balance(model, plan, analysis, listing%largest_force, listing%watch)
          if (listing%watch%rows%n > 0) then
             call file%put('')
             call listing%watch%rows%flush(file)

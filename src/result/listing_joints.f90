@@ -202,9 +202,17 @@ contains
       type(analysis_type), intent(in)      :: analysis
       type(row_buffer_type), intent(inout) :: rows
       character(page_width) :: row
+      integer, parameter :: shown = 8 ! of many passes
       integer :: i
 
       do i = 1, analysis%n_passes
+         if (analysis%n_passes > 3*shown .and. i > shown .and. i < analysis%n_passes) then
+            if (i == shown + 1) then
+               write (row, '(i6, a, i0, a)') analysis%increment, '   ... ', analysis%n_passes - shown - 1, ' MORE ...'
+               call rows%add(row)
+            end if
+            cycle
+         end if
          associate (pass => analysis%passes(i))
             if (pass%part > 0) then
                write (row, '(2i6, i8, 2es14.3, f9.4, i9)') analysis%increment, pass%part, i, pass%before, pass%after, &

@@ -1,7 +1,7 @@
 !> The first pages of the listing: heading, deck echo, summary of the model, joints and stages.
 module listing_opening
    use analysis_state, only: analysis_type
-   use case_control, only: case_control_type, pressure_eq10
+   use case_control, only: case_control_type, method_newton, method_step, pressure_eq10
    use deck_cards, only: card_name, is_continuation
    use deck_input, only: deck_type
    use deck_text, only: is_include
@@ -11,7 +11,7 @@ module listing_opening
    use normal_stiffness, only: branch_load, branch_name, branch_reload, branch_unload, pressure_floor
    use output_file, only: output_file_type
    use stage_plan, only: stage_plan_type
-   use text_tools, only: clean, integer_text, plural, upper
+   use text_tools, only: clean, integer_text, plural, real_text, upper
    implicit none
    private
 
@@ -19,7 +19,6 @@ module listing_opening
 
    integer, parameter, public :: page_width = 132
    real(wp), parameter, public :: noise = 1.0e-9_wp !! of the largest number of its kind: below it only rounding is printed
-   character(6), parameter :: method_names(3) = [character(6) :: 'STEP', 'NEWTON', 'BACK']
 
    !> What the numbers of the listing are measured in, blank where the deck does not say.
    type, public :: label_type
@@ -67,7 +66,7 @@ contains
       character(*), intent(in)              :: words
 
       call file%put('')
-      call file%put(' '//words)
+      call file%put(' '//cut(words, page_width - 1))
       call file%put('')
    end subroutine heading
 
@@ -162,9 +161,15 @@ contains
       call count_line('   IN THE ORDER OF THE NODE NUMBERS', system%profile_as_numbered)
       call count_line('STAGES', size(deck%control%stages, kind=long))
       associate (control => deck%control)
-         call file%put('  METHOD '//trim(method_names(control%method))//'   PRESSURE '// &
-                       trim(merge('EQ10', 'SUMF', control%pressure == pressure_eq10))//'   CARRY '// &
-                       trim(merge('YES', 'NO ', control%carry))//'   SOLVER SKYLINE')
+         select case (control%method)
+         case (method_step)
+            call file%put('  METHOD STEP   PRESSURE '//trim(merge('EQ10', 'SUMF', control%pressure == pressure_eq10))// &
+                          '   CARRY '//trim(merge('YES', 'NO ', control%carry))//'   SOLVER SKYLINE')
+         case (method_newton)
+            call file%put('  METHOD NEWTON   TOL '//real_text(control%tolerance)//'   SOLVER SKYLINE')
+         case default
+            call file%put('  METHOD BACK   SOLVER SKYLINE')
+         end select
       end associate
       if (deck%control%length_unit /= '') call file%put('  UNITS, LABELS ONLY: LENGTH '// &
          trim(deck%control%length_unit)//', FORCE '//trim(deck%control%force_unit))

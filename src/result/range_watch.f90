@@ -1,15 +1,20 @@
-!> Shear laws used outside the range that they were tested in (departure 6): noted once an interface element and stage.
+!> Warnings: shear laws used outside their range (once an interface element and stage), and stages that end far from balance.
 module range_watch
-   use analysis_state, only: analysis_type
+   use analysis_state, only: analysis_type, free_norm
+   use joint_laws, only: friction_excess
    use kinds, only: wp
    use model_data, only: model_type
+   use normal_stiffness, only: branch_open
    use row_buffer, only: row_buffer_type
+   use shear_stiffness, only: shear_slope
    use stage_plan, only: stage_plan_type, where_in_plan
    use text_tools, only: integer_text, real_text, upper
    implicit none
    private
 
-   public :: watch_ranges
+   public :: watch_ranges, watch_balance
+
+   real(wp), parameter :: much = 0.01_wp ! of the largest load, or of the friction limits: what may be left without a warning
 
    type, public :: range_watch_type
       integer :: n_warnings = 0               !! in all
@@ -27,6 +32,7 @@ contains
       type(range_watch_type), intent(inout) :: watch
       real(wp) :: p, d
       integer  :: i, k
+      logical  :: steep
 
       if (.not. allocated(watch%stage)) allocate (watch%stage(size(model%interface)), source=0)
       do i = 1, size(model%interface)
@@ -35,16 +41,53 @@ contains
             associate (law => model%joints(model%interface(i)%joint)%law%shear(k))
                p = analysis%states(i)%normal%pressure
                d = abs(analysis%states(i)%shear(k)%delta)
-               if (.not. law%given .or. (p <= law%p_max .and. d <= law%d_max)) cycle
+               if (.not. law%given .or. analysis%states(i)%normal%branch == branch_open) cycle
+               steep = shear_slope(law, analysis%states(i)%shear(k)%branch, analysis%states(i)%shear(k)%sense &
+                                   *analysis%states(i)%shear(k)%delta, max(0.0_wp, p)) > 0.0_wp
+               if (p <= law%p_max .and. d <= law%d_max .and. steep) cycle
                watch%stage(i) = analysis%stage
                watch%n_warnings = watch%n_warnings + 1
                call watch%rows%add('  WARNING: NODE '//integer_text(model%node_id(model%interface(i)%nodes(1)))//', '// &
-                  upper(where_in_plan(plan, analysis%stage, analysis%increment))//': OUTSIDE THE TESTED RANGE OF THE SHEAR '// &
-                  'LAW, P = '//real_text(p)//', D = '//real_text(d))
+                  upper(where_in_plan(plan, analysis%stage, analysis%increment))// &
+                  trim(merge(': OUTSIDE THE TESTED RANGE OF', ': NO POSITIVE SLOPE IN       ', steep))// &
+                  ' THE SHEAR LAW, P = '//real_text(p)//', D = '//real_text(d))
                exit
             end associate
          end do
       end do
    end subroutine watch_ranges
+
+
+   !> At the end of a stage: what is unbalanced, and by how much friction limits are still exceeded.
+   subroutine watch_balance(model, plan, analysis, largest_force, watch)
+      type(model_type), intent(in)          :: model
+      type(stage_plan_type), intent(in)     :: plan
+      type(analysis_type), intent(in)       :: analysis
+      real(wp), intent(in)                  :: largest_force !! ever applied at a node
+      type(range_watch_type), intent(inout) :: watch
+      character(:), allocatable :: words
+      real(wp) :: excess, limit, unbalanced
+      integer  :: i
+
+      words = '  WARNING: '//upper(where_in_plan(plan, analysis%stage, analysis%increment))//': '
+      unbalanced = free_norm(model, analysis%unbalanced)
+      if (unbalanced > much*largest_force) then
+         watch%n_warnings = watch%n_warnings + 1
+         call watch%rows%add(words//real_text(unbalanced)//' OF FORCE ARE LEFT UNBALANCED BY REMOVED ELEMENTS: '// &
+                             'SEE CARRY = YES, METHOD = NEWTON')
+      end if
+      excess = 0.0_wp
+      limit = 0.0_wp
+      do i = 1, size(model%interface)
+         associate (law => model%joints(model%interface(i)%joint)%law, area => model%interface(i)%area)
+            excess = excess + norm2(friction_excess(law, area, analysis%states(i)))
+            limit = limit + law%mu*max(0.0_wp, analysis%states(i)%normal%pressure)*area
+         end associate
+      end do
+      if (excess > much*limit .and. excess > 0.0_wp) then
+         watch%n_warnings = watch%n_warnings + 1
+         call watch%rows%add(words//'FRICTION LIMITS ARE STILL EXCEEDED BY '//real_text(excess)//' IN ALL: SEE NREAN')
+      end if
+   end subroutine watch_balance
 
 end module range_watch

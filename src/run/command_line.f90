@@ -211,7 +211,7 @@ contains
          '   -o DIR        where the results go (default: here)'//nl// &
          '   --check       read and check the decks, solve nothing'//nl// &
          '   -q            no progress on the terminal'//nl// &
-         '   --threads N   at most N threads (default: all cores)'//nl// &
+         '   --threads N   at most N threads (the profile method runs on one)'//nl// &
          '   --version     print the version'//nl// &
          '   --help        print this'//nl// &
          ''//nl// &

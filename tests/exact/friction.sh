@@ -45,6 +45,37 @@ done
 pushed_block slides NEWTON 1 1.01 && run slides 3 && says '1.01 of the limit, NEWTON names a node' "$work/slides.log" 'node [0-9]'
 pushed_block slides STEP -1 1.01 && run slides 3 && says '1.01 of the limit, STEP to the end names a node' "$work/slides.log" 'node [0-9]'
 
+# No equilibrium at all: small blocks pushed beyond the limit or pulled off. Never a result.
+small_block() { # NAME METHOD ELEMENTS PRESS PUSH STATUS: pressed by 100, then PRESS and PUSH; all loads spread over the base or the top
+   awk -v method="$2" -v nx="$3" -v press="$4" -v push="$5" 'BEGIN {
+      print "METHOD = " method "\nSUBCASE 1\n  LOAD = 1\nSUBCASE 2\n  LOAD = 2\nBEGIN BULK"
+      print "BLOCK2,1,1," nx ",1,0.0,0.0\n+,10.0,10.0\n+,20\nPMARK,20\nPSHELL,1,1,10.0\nMAT1,1,9500.0,,0.0"
+      print "JOINT,1,1,20\nPJOINT,1,1,1,,0.2,-1\nJNORM,1,8.0-3,0.5,9500.0\nJSHEAR,1,100.0,300.0"
+      for (i = 0; i <= nx; i++) {
+         w = (i % nx ? 1 : 0.5) / nx
+         printf "FORCE,1,%d,,%.9f,0.0,-1.0\nFORCE,2,%d,,%.9f,0.0,-1.0\nFORCE,2,%d,,%.9f,1.0,0.0\n", 2 * i + 2, 100 * w, 2 * i + 2, press * w, 2 * i + 1, push * w
+      }
+      print "ENDDATA" }' > "$work/$1.bdf"
+   run "$1" $6
+}
+for method in NEWTON STEP; do
+   for elements in 1 2 5; do
+      for push in 20.2 30.0 60.0; do
+         name=pushed-$method-$elements-$push
+         small_block $name $method $elements 100.0 $push 3 &&
+            says "$elements elements pushed by $push of 20, $method: names a node" "$work/$name.log" 'node [0-9]'
+      done
+   done
+done
+for elements in 1 2 5; do
+   small_block pulled-$elements NEWTON $elements -1.0 0.0 3 && says "$elements elements pulled off, NEWTON: names a node" "$work/pulled-$elements.log" 'node [0-9]'
+   small_block sticks NEWTON $elements 100.0 19.8 0 &&
+      judge "$elements elements pushed by 0.99 of the limit, NEWTON" -F, '
+         FNR == 1 { for (k = 1; k <= NF; k++) at[$k] = k; next }
+         $1 == 2 { n++; push += $(at["tau_x"]) * $(at["area"]); slips += $(at["slip"]) }
+         END { if ((push - 19.8)^2 > 1e-14 || slips) print push, slips; print "checked " n }' "$work/sticks.joint.csv"
+done
+
 # One element beside a spring of 10000 kgf/mm: k_s = 25000, so a re-analysis removes 10000/35000 of the excess.
 spring() { # NAME METHOD NREAN FORCE
    cat > "$work/$1.bdf" <<DECK

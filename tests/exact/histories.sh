@@ -154,7 +154,10 @@ run range && {
 sed 's/^+,0.6,0.006/+,0.4,0.1/' "$work/range.bdf" > "$work/range_p.bdf"
 run range_p && says 'range of p left' "$work/range_p.out" 'WARNING: NODE 7, STAGE 1, INCREMENT 1'
 sed 's/^+,0.6,0.006/+,0.6,0.1/' "$work/range.bdf" > "$work/range_in.bdf"
-run range_in && same 'within the range no warning' "$(grep -c 'WARNING: NODE' "$work/range_in.out")" 0
+run range_in && {
+   same 'within the range no warning of it' "$(grep -c 'OUTSIDE THE TESTED RANGE' "$work/range_in.out")" 0
+   says 'but one that the slope is lost' "$work/range_in.out" 'NO POSITIVE SLOPE IN THE SHEAR LAW'
+}
 
 # Shear under a pressure that rises, one increment a curve (Fig. 4b), by hand: k_s of each increment at the pressure before it.
 run_input shear_pressure && judge 'shear under rising pressure, STEP' -F, '
@@ -168,3 +171,39 @@ run_input shear_pressure && judge 'shear under rising pressure, STEP' -F, '
       before = p
    }
    END { if (n != 10) print n " rows"; print "checked " n }' "$work/shear_pressure.joint.csv"
+
+# The first increment of an element is the first that reaches it: two elements with the same p, one loaded a stage later, and
+# a stage without load before all others.
+late() { # NAME STAGES-BEFORE
+   cat > "$work/$1.bdf" <<DECK
+$2SUBCASE 5
+  LOAD = 1
+  INCR = 1
+SUBCASE 6
+  LOAD = 2
+  INCR = 1
+BEGIN BULK
+GRID,1,,0.0,0.0,0.0,,1
+GRID,2,,10.0,0.0,0.0,,1
+CJOINT,1,1,1,,100.0,0.0,1.0,0.0
+CJOINT,2,2,2,,100.0,0.0,1.0,0.0
+PJOINT,1,1,,,,,0.1
+PJOINT,2,1,,,,,0.1
+JNORM,1,8.0-3,0.5,9500.0
+FORCE,1,1,,100.0,0.0,-1.0
+FORCE,2,1,,100.0,0.0,-1.0
+FORCE,2,2,,100.0,0.0,-1.0
+JINCR,1,10,ARITH,0.1
+ENDDATA
+DECK
+}
+for before in '' 'SUBCASE 1
+'; do
+   late late "$before"
+   run late && judge 'an element loaded a stage later goes the same way' -F, '
+      FNR == 1 { for (k = 1; k <= NF; k++) at[$k] = k; next }
+      $1 == 6 && $2 == 10 { lambda[$(at["node1"])] = $(at["lambda"]); n++ }
+      END { if (n != 2 || (lambda[1] / lambda[2] - 1)^2 > 1e-24 || (lambda[1] / 8.4809379e-3 - 1)^2 > 1e-12)
+               print n, lambda[1], lambda[2]
+            print "checked " n }' "$work/late.joint.csv"
+done

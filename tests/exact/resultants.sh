@@ -55,6 +55,7 @@ run_input cantilever && {
 # the upper part of the column at 30 degrees; by hand: normal force 600 cos 30, shear force 600 sin 30
 run_input joint30 && {
    loads='1 105 0 -50;1 110 0 -100;1 115 0 -100;1 120 0 -100;1 125 0 -100;1 130 0 -100;1 135 0 -50'
+   balance joint30 1 2 30 57.32050808 0 0 "$loads"
    read -r n_elements normal shear <<< "$(awk '/RESULTANTS/ { on = 1 } /ENERGY/ { on = 0 } on && NF == 7 && $1 == 5 { r = $3 " " $4 } / INTERFACE ELEMENTS   / { n = $3 } END { print n, r }' "$work/joint30.out")"
    near 'joint30: normal force' "$normal" 519.6152 2e-6
    near 'joint30: shear force' "${shear#-}" 300 4e-6
