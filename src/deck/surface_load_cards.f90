@@ -122,6 +122,8 @@ contains
       if (.not. allocated(table)) table = [integer_field('SID'), blank_field('CID'), real_field('A'), &
          real_field('N1', default=0.0_wp), real_field('N2', default=0.0_wp), real_field('N3', default=0.0_wp)]
       call decode_card(card, table, .false., values, errors)
+      if (values%ok .and. maxval(abs(values%reals(4:6))) <= 0.0_wp) &
+         call field_error(card, 4, 'N1: the acceleration has no direction, expected N1, N2, N3 not all zero', errors)
       bulk%n_gravity = bulk%n_gravity + 1
       associate (gravity => bulk%gravity(bulk%n_gravity))
          gravity%line = card%line
@@ -142,6 +144,8 @@ contains
       if (.not. allocated(table)) table = [integer_field('SID'), integer_field('G1'), component_field('C1'), real_field('D1'), &
          integer_field('G2', default=0), component_field('C2', default=0), real_field('D2', default=0.0_wp)]
       call decode_card(card, table, .false., values, errors)
+      if (any(values%given(5:7)) .and. .not. all(values%given(5:6))) &
+         call field_error(card, 5, 'G2: node, components C2 and displacement D2 go together', errors)
       call store(2)
       if (values%given(5)) call store(5)
 

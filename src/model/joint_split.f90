@@ -104,6 +104,7 @@ contains
       call add_twins(model, split)
       call move_other_surfaces(model, s)
       model%surfaces(s)%other = 0
+      model%surfaces(s)%was_split = .true.
    end subroutine split_surface
 
 

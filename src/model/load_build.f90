@@ -234,7 +234,8 @@ contains
                call add_field_error(deck%text, card%line, field, 'PID', 'there is no PMARK '//integer_text(card%surface), errors)
                cycle
             end if
-            if (card%is_pressure .and. any(model%surfaces(s)%other(:model%surfaces(s)%n) > 0)) call add_field_error(deck%text, &
+            if (card%is_pressure .and. (any(model%surfaces(s)%other(:model%surfaces(s)%n) > 0) .or. &
+                                        model%surfaces(s)%was_split)) call add_field_error(deck%text, &
                card%line, field, 'PID', 'bodies lie on both sides of surface '//integer_text(card%surface)// &
                ', so which one the pressure acts on is not known', errors)
             if (.not. card%is_pressure) call check_plane(deck, model, card%line, 5, 'N3', card%force, errors)

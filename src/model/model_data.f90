@@ -30,6 +30,7 @@ module model_data
       integer, allocatable :: nodes(:, :)    !! (most of any, n) its corners, 0 behind the last
       integer, allocatable :: element(:)     !! (n) the body element that the side belongs to
       integer, allocatable :: other(:)       !! (n) a body element behind the side, 0: none
+      logical :: was_split = .false.         !! a joint was made of it: the other body has the twins of its nodes
       integer, allocatable :: line(:)        !! (n) of its card in the deck text
    end type surface_type
 
