@@ -24,6 +24,7 @@ module card_fields
       real(wp)      :: most     = huge(1.0_wp)
       logical       :: above    = .false.      !! reals: LEAST itself is out
       logical       :: below    = .false.      !! reals: MOST itself is out
+      logical       :: whole    = .false.      !! reals: an integer is a number too
       character(48) :: words    = ''           !! of a word field: '|STEP|BACK|', the first is the default
    end type field_rule
 
@@ -56,10 +57,11 @@ contains
 
 
    !> Rule for a real; ABOVE and BELOW exclude the bound, LEAST and MOST include it.
-   pure function real_field(name, default, above, below, least, most) result(rule)
+   pure function real_field(name, default, above, below, least, most, whole) result(rule)
       character(*), intent(in)       :: name
       real(wp), intent(in), optional :: default !! none: the field must be filled
       real(wp), intent(in), optional :: above, below, least, most
+      logical, intent(in), optional  :: whole   !! true: an integer is taken too (default: NASTRAN's rule, it is not)
       type(field_rule) :: rule
 
       rule%name = name
@@ -71,6 +73,7 @@ contains
       if (present(above)) rule%least = above
       if (present(below)) rule%most = below
       rule%above = present(above)
+      if (present(whole)) rule%whole = whole
       rule%below = present(below)
    end function real_field
 
@@ -197,6 +200,11 @@ contains
             values%integers(k) = 0
          end if
       case (kind_real)
+         if (rule%whole) then
+            call parse_integer(card%fields(k)%text, values%integers(k), ok)
+            values%reals(k) = real(values%integers(k), wp)
+            if (ok) return
+         end if
          call decode_real(card, k, rule%name, expectation(rule), values%reals(k), ok, errors)
          if (ok .and. .not. in_range(rule, values%reals(k))) then
             call out_of_range(card, k, rule, errors)

@@ -15,6 +15,7 @@ module mesh_cards
 
 contains
 
+   !> GRID: a node. Gmsh writes whole coordinates without a decimal point in large field, so integers are taken here.
    subroutine read_grid(card, bulk, values, errors)
       type(card_type), intent(in)          :: card
       type(bulk_data_type), intent(inout)  :: bulk
@@ -23,7 +24,8 @@ contains
       type(field_rule), save, allocatable :: table(:)
 
       if (.not. allocated(table)) table = [integer_field('ID'), blank_field('CP'), &
-         real_field('X1', default=0.0_wp), real_field('X2', default=0.0_wp), real_field('X3', default=0.0_wp), &
+         real_field('X1', default=0.0_wp, whole=.true.), real_field('X2', default=0.0_wp, whole=.true.), &
+         real_field('X3', default=0.0_wp, whole=.true.), &
          blank_field('CD'), component_field('PS', default=0), blank_field('SEID')]
       call decode_card(card, table, .false., values, errors)
       bulk%n_grid = bulk%n_grid + 1
