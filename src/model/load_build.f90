@@ -238,10 +238,25 @@ contains
                                         model%surfaces(s)%was_split)) call add_field_error(deck%text, &
                card%line, field, 'PID', 'bodies lie on both sides of surface '//integer_text(card%surface)// &
                ', so which one the pressure acts on is not known', errors)
+            if (model%axisymmetric .and. on_axis(model, s)) call add_field_error(deck%text, card%line, field, 'PID', &
+               'surface '//integer_text(card%surface)//' lies on the axis and has no area', errors)
             if (.not. card%is_pressure) call check_plane(deck, model, card%line, 5, 'N3', card%force, errors)
          end associate
       end do
    end subroutine check_surface_loads
+
+
+   !> Whether all nodes of surface S have x = 0, the axis of a body of revolution.
+   pure logical function on_axis(model, s)
+      type(model_type), intent(in) :: model
+      integer, intent(in)          :: s
+      integer :: i
+
+      on_axis = model%surfaces(s)%n > 0
+      do i = 1, model%surfaces(s)%n
+         if (maxval(abs(model%x(1, model%surfaces(s)%nodes(:model%surfaces(s)%corners(i), i)))) > 0.0_wp) on_axis = .false.
+      end do
+   end function on_axis
 
 
    !> GRAV needs a mass to act on.
