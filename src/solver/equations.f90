@@ -36,22 +36,19 @@ contains
       type(equation_system), intent(out)   :: system
       type(failure_type), intent(inout)    :: failure
       type(node_graph)     :: graph
-      integer, allocatable :: order(:), first_row(:)
+      integer, allocatable :: order(:), first_row(:), first_row_as_numbered(:)
       integer :: i
       logical :: ok
 
       call build_node_graph(model, graph)
       call reverse_cuthill_mckee(graph, order)
+      call number_unknowns(model, [(i, i = 1, model%n_nodes)], system)
+      call lay_out_profile(model, system, first_row_as_numbered, system%profile_as_numbered)
       call number_unknowns(model, order, system)
       call lay_out_profile(model, system, first_row, system%profile)
-      order = [(i, i = 1, model%n_nodes)]
-      call number_unknowns(model, order, system)
-      call lay_out_profile(model, system, first_row, system%profile_as_numbered)
-      if (system%profile < system%profile_as_numbered) then
-         call reverse_cuthill_mckee(graph, order)
-         call number_unknowns(model, order, system)
-         call lay_out_profile(model, system, first_row, system%profile)
-      else
+      if (system%profile >= system%profile_as_numbered) then
+         call number_unknowns(model, [(i, i = 1, model%n_nodes)], system)
+         call move_alloc(first_row_as_numbered, first_row)
          system%profile = system%profile_as_numbered
       end if
       if (system%n == 0) then
