@@ -6,9 +6,9 @@ FC         = gfortran
 endif
 BUILD      = build
 WARNINGS   = -std=f2018 -Wall -Wextra
-FFLAGS     = -O2 $(WARNINGS)
-FFLAGS_CHECKED = -O1 -g $(WARNINGS) -fcheck=all,no-array-temps -ffpe-trap=invalid,zero
-LIBRARIES  = -lopenblas
+FFLAGS     = -O2 -fopenmp $(WARNINGS)
+FFLAGS_CHECKED = -O1 -g -fopenmp $(WARNINGS) -fcheck=all,no-array-temps -ffpe-trap=invalid,zero
+LIBRARIES  = -lmetis -lopenblas
 
 SOURCES    = $(sort $(wildcard src/*/*.f90))
 MODULES    = $(notdir $(SOURCES:.f90=))

@@ -1,8 +1,8 @@
 !> jointfem: structures with flexible joints by the step-wise tangent-stiffness method.
 !! The program is the flow chart of the method (Edelugo, Fig. 6a), one call a box.
 program jointfem
-   use analysis_state, only: analysis_type, interface_stiffness, note_largest, start_analysis, start_increment, &
-                             start_stage
+   use analysis_state, only: analysis_type, interface_stiffness, note_largest, recover_bodies, start_analysis, &
+                             start_increment, start_stage
    use back_method, only: back_increment
    use bolt_locking, only: lock_bolts
    use case_control, only: method_back, method_newton
@@ -19,7 +19,7 @@ program jointfem
    use results, only: finish_results, print_increment, print_stage, results_type, start_results
    use run_control, only: end_program, overwrites_input, report_checked, report_errors, report_failure, &
                           report_unreadable, report_unwritten, report_warnings
-   use stage_plan, only: stage_plan_type
+   use stage_plan, only: factorisations_of, shows_bodies, stage_plan_type
    use step_method, only: accumulate, limit_friction, solve_increment, structure_stiffness
    implicit none
    type(command_type) :: command
@@ -70,12 +70,12 @@ contains
       end if
 
       ! ------------------------------------------------------------------ [k_b] OF THE BODIES, ONCE
-      call start_equations(model, system, failure)
+      call start_equations(model, system, failure, deck%control%solver, factorisations_of(plan, deck%control%method))
+      if (.not. failure%raised) call form_body_stiffness(model, system, failure)
       if (failure%raised) then
          call report_failure(argument, failure, results)
          return
       end if
-      call form_body_stiffness(model, system)
       call start_results(argument%listing, argument%history, deck, model, plan, system, results, ok)
       if (.not. ok) then
          call report_unwritten(argument, results)
@@ -83,14 +83,14 @@ contains
       end if
 
       ! ------------------------------------------------------------------ NORM, SHEAR: FIRST STIFFNESS OF THE JOINTS
-      call start_analysis(model, deck%control%carry, deck%control%tolerance, analysis)
-      call interface_stiffness(model, analysis)
+      call start_analysis(model, system, deck%control%carry, deck%control%tolerance, analysis)
+      call interface_stiffness(model, system, analysis)
       call progress%start(argument%name, plan, command%quiet)
 
       do stage = 1, size(plan%stages)
          ! --------------------------------------------------------------- BOLTS OF THE STAGE BEFORE LOCKED, NEXT STAGE
          call lock_bolts(stage, model, system, analysis)
-         call start_stage(model, stage, analysis)
+         call start_stage(model, system, stage, analysis)
          do increment = 1, size(plan%stages(stage)%shares)
 
             ! ------------------------------------------------------------ NEXT INCREMENT OF THE LOAD
@@ -119,7 +119,7 @@ contains
                call limit_friction(model, plan, system, analysis, failure)
 
                ! --------------------------------------------------------- NORM, SHEAR: BRANCHES, NEXT STIFFNESS
-               call interface_stiffness(model, analysis)
+               call interface_stiffness(model, system, analysis)
             end select
             if (failure%raised) then
                call report_failure(argument, failure, results)
@@ -128,6 +128,7 @@ contains
 
             ! ------------------------------------------------------------ PRINT
             call note_largest(analysis)
+            if (analysis%moves .or. shows_bodies(plan, stage, increment)) call recover_bodies(model, system, analysis)
             call print_increment(model, plan, analysis, results)
             call progress%advance(stage, increment, size(plan%stages(stage)%shares))
          end do

@@ -14,6 +14,8 @@ module case_control
    integer, parameter, public :: pressure_sumf = 1, pressure_eq10 = 2                      !! PRESSURE =
    integer, parameter, public :: output_none = 0, output_last = 1, output_joint = 2, output_all = 3 !! OUTPUT =
 
+   integer, parameter, public :: solver_auto = 0, solver_skyline = 1, solver_tree = 2      !! SOLVER =
+
    character(*), parameter :: known_keys = '|SOL|TITLE|UNITS|METHOD|TOL|PRESSURE|CARRY|SOLVER|ECHO|SPC|LABEL|LOAD|INCR|OUTPUT|'
 
    !> A key with a number, and the line it stands on (0: not given).
@@ -41,6 +43,7 @@ module case_control
       integer :: method = method_step
       integer :: pressure = pressure_sumf
       logical :: carry = .false.
+      integer :: solver = solver_auto
       real(wp) :: tolerance = 1.0e-10_wp                 !! NEWTON: unbalanced share of the largest load
       logical :: echo  = .true.
       type(stage_type), allocatable :: stages(:)
@@ -205,7 +208,9 @@ contains
          call choose(entry, '|NO|YES|', errors)
          control%carry = upper(entry%value) == 'YES'
       case ('SOLVER')
-         call choose(entry, '|AUTO|SKYLINE|', errors)
+         call choose(entry, '|AUTO|SKYLINE|TREE|', errors)
+         if (upper(entry%value) == 'SKYLINE') control%solver = solver_skyline
+         if (upper(entry%value) == 'TREE') control%solver = solver_tree
       case ('ECHO')
          call choose(entry, '|YES|NO|', errors)
          control%echo = upper(entry%value) /= 'NO'

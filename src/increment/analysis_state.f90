@@ -2,6 +2,7 @@
 module analysis_state
    use bar_elements, only: add_pull
    use body_elements, only: internal_forces
+   use equations, only: body_forces, condense_load, equation_system, recover_displacements
    use joint_laws, only: element_state, element_stiffness_of
    use kinds, only: wp
    use model_data, only: joint_movement, model_type, n_bars
@@ -11,7 +12,7 @@ module analysis_state
    private
 
    public :: start_analysis, start_stage, start_increment, interface_stiffness, find_unbalanced, element_force, &
-             tally_work, record_pass, note_largest, free_norm
+             recover_bodies, tally_work, record_pass, note_largest, free_norm
 
    !> Work done on one joint in the present stage [force x length].
    type, public :: joint_energy
@@ -27,7 +28,8 @@ module analysis_state
       integer  :: part = 0                          !! NEWTON: which part of a divided increment; BACK: -1
    end type pass_record
 
-   !> Arrays over nodes are (dimension, n_nodes).
+   !> Arrays over nodes are (dimension, n_nodes). In the increments displacements and unbalanced forces are those of the nodes that
+   !! the equations retain; recover_bodies completes them.
    type, public :: analysis_type
       integer  :: stage = 0, increment = 0
       real(wp) :: share = 0.0_wp                    !! of the stage's load change, this increment
@@ -38,7 +40,11 @@ module analysis_state
       real(wp), allocatable :: load_before(:, :)    !! at the start of the stage [force]
       real(wp), allocatable :: load_after(:, :)     !! at its end; what is not elastic in bolts included
       real(wp), allocatable :: applied(:, :)        !! now
-      real(wp), allocatable :: change(:, :)         !! load of this increment
+      real(wp), allocatable :: felt_before(:, :)    !! the same loads as retained nodes feel them: what acts on the others
+      real(wp), allocatable :: felt_after(:, :)     !! condensed, and what moved supports push included
+      real(wp), allocatable :: felt(:, :)
+      real(wp), allocatable :: change(:, :)         !! of that in this increment
+      integer, allocatable  :: retained(:)          !! the nodes that the equations retain
       logical  :: moves = .false.                   !! whether supports are moved in this increment
       real(wp), allocatable :: moved_before(:, :)   !! displacements of held components at the start of the stage [length]
       real(wp), allocatable :: moved_after(:, :)    !! at its end
@@ -61,16 +67,18 @@ module analysis_state
 contains
 
    !> A structure at rest without load.
-   subroutine start_analysis(model, carry, tolerance, analysis)
-      type(model_type), intent(in)     :: model
-      logical, intent(in)              :: carry
-      real(wp), intent(in)             :: tolerance !! of NEWTON [-]
-      type(analysis_type), intent(out) :: analysis
+   subroutine start_analysis(model, system, carry, tolerance, analysis)
+      type(model_type), intent(in)      :: model
+      type(equation_system), intent(in) :: system
+      logical, intent(in)               :: carry
+      real(wp), intent(in)              :: tolerance !! of NEWTON [-]
+      type(analysis_type), intent(out)  :: analysis
 
       allocate (analysis%applied(model%dimension, model%n_nodes), source=0.0_wp)
-      allocate (analysis%load_before, analysis%load_after, analysis%change, analysis%u, analysis%du, analysis%unbalanced, &
-                source=analysis%applied)
-      allocate (analysis%moved_before, analysis%moved_after, analysis%moved, analysis%move, source=analysis%applied)
+      allocate (analysis%load_before, analysis%load_after, analysis%u, analysis%du, analysis%unbalanced, analysis%felt_before, &
+                analysis%felt_after, analysis%felt, analysis%change, analysis%moved_before, analysis%moved_after, analysis%moved, &
+                analysis%move, source=analysis%applied)
+      allocate (analysis%retained, source=system%retained)
       allocate (analysis%pull(n_bars(model)), source=0.0_wp)
       analysis%carry = carry
       analysis%load_tolerance = tolerance
@@ -80,8 +88,9 @@ contains
 
 
    !> The next stage begins where the last one ended; the joint remembers.
-   subroutine start_stage(model, stage, analysis)
+   subroutine start_stage(model, system, stage, analysis)
       type(model_type), intent(in)       :: model
+      type(equation_system), intent(in)  :: system
       integer, intent(in)                :: stage
       type(analysis_type), intent(inout) :: analysis
       integer :: i
@@ -104,42 +113,77 @@ contains
          if (model%bars(i)%stage == stage) analysis%pull(i) = model%bars(i)%preload
          call add_pull(model, i, analysis%pull(i), analysis%load_after)
       end do
+      if (stage > 1) call condense(model, system, analysis%load_before, analysis%moved_before, analysis%felt_before)
+      call condense(model, system, analysis%load_after, analysis%moved_after, analysis%felt_after)
+      analysis%felt = analysis%felt_before
    end subroutine start_stage
+
+
+   !> What retained nodes feel of LOAD on all nodes where held components are MOVED.
+   subroutine condense(model, system, load, moved, felt)
+      type(model_type), intent(in)      :: model
+      type(equation_system), intent(in) :: system
+      real(wp), intent(in)              :: load(:, :), moved(:, :)
+      real(wp), intent(out)             :: felt(:, :)
+
+      call condense_load(system, load - forces_of(model, moved), felt)
+   end subroutine condense
+
+
+   !> Forces that the bodies need to have their held components MOVED, the others at rest.
+   function forces_of(model, moved) result(f)
+      type(model_type), intent(in) :: model
+      real(wp), intent(in)         :: moved(:, :)
+      real(wp), allocatable :: f(:, :)
+
+      allocate (f, mold=moved)
+      f = 0.0_wp
+      if (any(abs(moved) > 0.0_wp)) call internal_forces(model, moved, f)
+   end function forces_of
 
 
    !> {dF} of the next increment: its share of the stage's load change, and what is unbalanced where CARRY asks for it.
    subroutine start_increment(plan, analysis)
       type(stage_plan_type), intent(in)  :: plan
       type(analysis_type), intent(inout) :: analysis
-      real(wp), allocatable :: target(:, :), moved(:, :)
+      real(wp), allocatable :: moved(:, :)
 
       associate (shares => plan%stages(analysis%stage)%shares)
          analysis%increment = analysis%increment + 1
          analysis%share = shares(analysis%increment)
          analysis%fraction = sum(shares(:analysis%increment))
-         if (analysis%increment == size(shares)) then
-            analysis%fraction = 1.0_wp
-            target = analysis%load_after
-            moved = analysis%moved_after
-         else
-            target = analysis%load_before + analysis%fraction*(analysis%load_after - analysis%load_before)
-            moved = analysis%moved_before + analysis%fraction*(analysis%moved_after - analysis%moved_before)
-         end if
+         if (analysis%increment == size(shares)) analysis%fraction = 1.0_wp
       end associate
-      analysis%change = target - analysis%applied
-      analysis%applied = target
+      analysis%applied = between(analysis%load_before, analysis%load_after)
+      allocate (moved, source=between(analysis%moved_before, analysis%moved_after))
       analysis%move = moved - analysis%moved
       analysis%moved = moved
       analysis%moves = any(abs(analysis%move) > 0.0_wp)
-      if (analysis%carry) analysis%change = analysis%change + analysis%unbalanced
+      associate (r => analysis%retained)
+         analysis%change(:, r) = between(analysis%felt_before(:, r), analysis%felt_after(:, r)) - analysis%felt(:, r)
+         analysis%felt(:, r) = analysis%felt(:, r) + analysis%change(:, r)
+         if (analysis%carry) analysis%change(:, r) = analysis%change(:, r) + analysis%unbalanced(:, r)
+      end associate
       analysis%n_passes = 0
       analysis%n_parts = 1
+
+   contains
+
+      !> BEFORE at the beginning of the stage, AFTER at its end.
+      elemental real(wp) function between(before, after)
+         real(wp), intent(in) :: before, after
+
+         between = before + analysis%fraction*(after - before)
+         if (analysis%fraction >= 1.0_wp) between = after
+      end function between
+
    end subroutine start_increment
 
 
    !> NORM and SHEAR for every interface element: its branches after the last increment, its stiffness for the next one.
-   subroutine interface_stiffness(model, analysis)
+   subroutine interface_stiffness(model, system, analysis)
       type(model_type), intent(in)       :: model
+      type(equation_system), intent(in)  :: system
       type(analysis_type), intent(inout) :: analysis
       integer :: before, i
 
@@ -151,7 +195,7 @@ contains
          if (analysis%states(i)%normal%branch == branch_open .and. before /= branch_open) &
             analysis%n_removed = analysis%n_removed + 1
       end do
-      call find_unbalanced(model, analysis)
+      call find_unbalanced(model, system, analysis)
    end subroutine interface_stiffness
 
 
@@ -168,16 +212,27 @@ contains
    end function element_force
 
 
-   !> Applied load minus the forces in bodies and joints: what the increment leaves unbalanced, and on held components
-   !! minus the reaction.
-   subroutine find_unbalanced(model, analysis)
+   !> Load minus the forces in bodies and joints on retained nodes: what the increment leaves unbalanced.
+   subroutine find_unbalanced(model, system, analysis)
+      type(model_type), intent(in)       :: model
+      type(equation_system), intent(in)  :: system
+      type(analysis_type), intent(inout) :: analysis
+
+      call body_forces(system, analysis%u, analysis%unbalanced)
+      associate (r => analysis%retained)
+         analysis%unbalanced(:, r) = analysis%felt(:, r) - analysis%unbalanced(:, r)
+      end associate
+      call subtract_joint_forces(model, analysis)
+   end subroutine find_unbalanced
+
+
+   !> Take the forces in joints from the unbalanced ones.
+   subroutine subtract_joint_forces(model, analysis)
       type(model_type), intent(in)       :: model
       type(analysis_type), intent(inout) :: analysis
       real(wp) :: force(3)
       integer  :: i
 
-      call internal_forces(model, analysis%u, analysis%unbalanced)
-      analysis%unbalanced = analysis%applied - analysis%unbalanced
       do i = 1, size(model%interface)
          force = element_force(model, analysis, i)
          associate (nodes => model%interface(i)%nodes, d => model%dimension)
@@ -185,15 +240,41 @@ contains
             if (nodes(2) > 0) analysis%unbalanced(:, nodes(2)) = analysis%unbalanced(:, nodes(2)) + force(:d)
          end associate
       end do
-   end subroutine find_unbalanced
+   end subroutine subtract_joint_forces
 
 
-   !> Euclidean norm of nodal forces over the free components [force].
-   pure real(wp) function free_norm(model, f)
+   !> Displacements of all nodes; unbalanced forces likewise, from the elements themselves: on held components minus the reaction.
+   subroutine recover_bodies(model, system, analysis)
+      type(model_type), intent(in)       :: model
+      type(equation_system), intent(in)  :: system
+      type(analysis_type), intent(inout) :: analysis
+
+      call recover_displacements(system, analysis%applied - forces_of(model, analysis%moved), analysis%u)
+      where (system%number == 0) analysis%u = analysis%moved
+      call internal_forces(model, analysis%u, analysis%unbalanced)
+      analysis%unbalanced = analysis%applied - analysis%unbalanced
+      call subtract_joint_forces(model, analysis)
+   end subroutine recover_bodies
+
+
+   !> Euclidean norm of nodal forces over the free components of NODES [force].
+   pure real(wp) function free_norm(model, f, nodes) result(norm)
       type(model_type), intent(in) :: model
-      real(wp), intent(in)         :: f(:, :)
+      real(wp), intent(in)         :: f(:, :)  !! (dimension, n_nodes)
+      integer, intent(in)          :: nodes(:)
+      real(wp) :: largest
+      integer  :: i
 
-      free_norm = norm2(merge(0.0_wp, f, model%held))
+      largest = 0.0_wp
+      do i = 1, size(nodes)
+         largest = max(largest, maxval(abs(f(:, nodes(i))), mask=.not. model%held(:, nodes(i))))
+      end do
+      norm = 0.0_wp
+      if (largest <= 0.0_wp) return
+      do i = 1, size(nodes)
+         norm = norm + sum((f(:, nodes(i))/largest)**2, mask=.not. model%held(:, nodes(i)))
+      end do
+      norm = largest*sqrt(norm)
    end function free_norm
 
 

@@ -45,9 +45,9 @@ contains
          call form_structure_stiffness(model, k_int, where_in_plan(plan, analysis%stage, analysis%increment), system, failure)
          if (failure%raised) return
          if (analysis%moves) then
-            call solve_moved(model, system, k_int, analysis%applied, analysis%moved, analysis%u)
+            call solve_moved(model, system, k_int, analysis%felt, analysis%moved, analysis%u)
          else
-            call solve_equations(system, analysis%applied, analysis%u)
+            call solve_equations(system, analysis%felt, analysis%u)
          end if
          do i = 1, n
             movement(:, i) = joint_movement(model, analysis%u, i)
@@ -137,7 +137,7 @@ contains
                end associate
             end associate
          end do
-         call find_unbalanced(model, analysis)
+         call find_unbalanced(model, system, analysis)
       end subroutine store
 
    end subroutine back_increment

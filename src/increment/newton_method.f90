@@ -1,10 +1,9 @@
 !> METHOD = NEWTON: every increment iterated to equilibrium with the exact branch laws, consistent tangent and line search; the
 !! states of the joints are committed only at equilibrium. An increment that does not converge is divided.
 module newton_method
-   use analysis_state, only: analysis_type, free_norm, pass_record, record_pass, tally_work
-   use body_elements, only: internal_forces
+   use analysis_state, only: analysis_type, free_norm, pass_record, record_pass, recover_bodies, tally_work
    use coupled_solution, only: solve_coupled, solve_moved
-   use equations, only: equation_system, form_structure_stiffness, solve_equations
+   use equations, only: body_forces, equation_system, form_structure_stiffness, solve_equations
    use failures, only: failure_type
    use joint_laws, only: element_state, follow_element, rest_when_open
    use kinds, only: wp
@@ -22,7 +21,7 @@ module newton_method
    real(wp), parameter :: little = 1.0e-7_wp          ! of the elastic stiffness: what the matrix has where an element has none
    real(wp), parameter :: enough = 0.8_wp             ! line search: the unbalanced work falls to this share or is searched
 
-   !> A trial: displacements, the joints that follow from them, and what is out of balance.
+   !> A trial: displacements, the joints that follow from them, and what is out of balance. Arrays over nodes hold retained nodes.
    type :: trial_type
       real(wp), allocatable :: u(:, :), body(:, :)    ! (dimension, n_nodes) displacements, forces in the bodies
       type(element_state), allocatable :: states(:)
@@ -41,15 +40,14 @@ contains
       type(analysis_type), intent(inout)   :: analysis !! applied is the load at the end of the increment
       type(equation_system), intent(inout) :: system
       type(failure_type), intent(inout)    :: failure
-      real(wp), allocatable :: load_start(:, :), load_end(:, :), u_start(:, :), load(:, :), moved(:, :)
+      real(wp), allocatable :: load(:, :), u_start(:, :), moved(:, :)
       integer, allocatable  :: flips(:)
       real(wp) :: done, part
       logical  :: converged, imprecise
       type(failure_type) :: trouble
-      integer  :: before_open, loose
+      integer  :: before_open, i, loose
 
-      allocate (load_end, load, source=analysis%applied)
-      allocate (load_start, source=analysis%applied - analysis%change)
+      allocate (load, source=analysis%felt)
       allocate (u_start, source=analysis%u)
       allocate (moved, source=analysis%moved)
       before_open = count(analysis%states%normal%branch == branch_open)
@@ -57,12 +55,14 @@ contains
       done = 0.0_wp
       part = 1.0_wp
       analysis%n_parts = 0
+      analysis%tolerance = max(analysis%tolerance, analysis%load_tolerance*free_norm(model, analysis%applied, &
+                                                                         [(i, i=1, model%n_nodes)]), tiny(1.0_wp))
       do while (done < 1.0_wp)
          part = min(part, 1.0_wp - done)
-         load = load_end
-         if (done + part < 1.0_wp) load = load_start + (done + part)*(load_end - load_start)
-         moved = analysis%moved
-         if (done + part < 1.0_wp) moved = analysis%moved - (1.0_wp - done - part)*analysis%move
+         associate (r => analysis%retained, left => merge(1.0_wp - done - part, 0.0_wp, done + part < 1.0_wp))
+            load(:, r) = analysis%felt(:, r) - left*analysis%change(:, r)
+            moved(:, r) = analysis%moved(:, r) - left*analysis%move(:, r)
+         end associate
          call iterate(model, load, moved, where_in_plan(plan, analysis%stage, analysis%increment), analysis, system, flips, &
                       loose, imprecise, trouble, converged)
          if (converged) then
@@ -80,7 +80,9 @@ contains
             return
          end if
       end do
-      analysis%du = analysis%u - u_start
+      associate (r => analysis%retained)
+         analysis%du(:, r) = analysis%u(:, r) - u_start(:, r)
+      end associate
       analysis%n_removed = max(0, count(analysis%states%normal%branch == branch_open) - before_open)
    end subroutine newton_increment
 
@@ -100,38 +102,37 @@ contains
       logical, intent(out)                 :: converged
       type(trial_type)      :: now, next
       real(wp), allocatable :: direction(:, :), move(:, :)
-      real(wp) :: load_size, noise, step, stiffest
+      real(wp) :: load_size, noise, step
       integer  :: iteration, changes
       logical  :: moves
 
       allocate (direction, mold=load)
-      allocate (move, source=merge(moved - analysis%u, 0.0_wp, model%held))
+      allocate (move, source=merge(moved - analysis%u, 0.0_wp, system%number == 0))
       moves = any(abs(move) > 0.0_wp)
       converged = .false.
       flips = 0
-      call start_trial(model, analysis, now)
+      call start_trial(model, system, analysis, now)
+      call start_trial(model, system, analysis, next)
       call evaluate(model, load, analysis, now)
-      analysis%tolerance = max(analysis%tolerance, analysis%load_tolerance*free_norm(model, load), tiny(1.0_wp))
       load_size = analysis%tolerance/analysis%load_tolerance ! the largest so far
-      stiffest = maxval(system%body%values(system%body%diagonal(1:)))
       do iteration = 0, most_iterations
          ! forces in the bodies are differences of large numbers: what rounding leaves of them is no residual, and where it is no
          ! small part of the load, a body has moved away and nothing is in equilibrium
-         noise = 10.0_wp*epsilon(1.0_wp)*stiffest*maxval(abs(now%u))
+         noise = 10.0_wp*epsilon(1.0_wp)*system%stiffest*maxval(abs(now%u(:, analysis%retained)))
          converged = now%size <= max(analysis%tolerance, 0.1_wp*noise) .and. noise <= 1.0e-5_wp*load_size .and. &
                      .not. moves
          if (converged .or. iteration == most_iterations .or. noise > load_size) exit
          call find_direction(model, now, analysis, iteration == 0, move, place, system, direction, trouble)
          if (trouble%raised) exit
          if (moves) then
-            call take_whole_step(model, load, analysis, now, direction, next)
+            call take_whole_step(model, system, load, analysis, now, direction, next)
             step = 1.0_wp
             moves = .false.
             move = 0.0_wp
-            analysis%tolerance = max(analysis%tolerance, analysis%load_tolerance*norm2(pack(next%residual, model%held)))
+            analysis%tolerance = max(analysis%tolerance, analysis%load_tolerance*support_force(model, system, analysis, next%u))
             load_size = analysis%tolerance/analysis%load_tolerance ! what the supports take is a load here
          else
-            call search(model, load, analysis, now, direction, next, step)
+            call search(model, system, load, analysis, now, direction, next, step)
          end if
          changes = count(next%states%normal%branch /= now%states%normal%branch .or. (next%states%slips .neqv. now%states%slips))
          where (next%states%normal%branch /= now%states%normal%branch .or. (next%states%slips .neqv. now%states%slips)) &
@@ -139,7 +140,7 @@ contains
          call record_pass(analysis, pass_record(before=now%size, after=next%size, step=step, changes=changes, &
                                            part=analysis%n_parts + 1))
          if (.not. next%size < huge(1.0_wp)) exit
-         now = next
+         call swap(now, next)
       end do
       imprecise = noise > 1.0e-5_wp*load_size
       loose = loose_joint(model, now)
@@ -162,17 +163,57 @@ contains
 
 
    !> The committed state as a trial.
-   subroutine start_trial(model, analysis, trial)
-      type(model_type), intent(in)    :: model
-      type(analysis_type), intent(in) :: analysis
-      type(trial_type), intent(out)   :: trial
+   subroutine start_trial(model, system, analysis, trial)
+      type(model_type), intent(in)      :: model
+      type(equation_system), intent(in) :: system
+      type(analysis_type), intent(in)   :: analysis
+      type(trial_type), intent(out)     :: trial
 
       trial%u = analysis%u
       allocate (trial%body, trial%residual, mold=analysis%u)
       allocate (trial%tangent(3, 3, size(model%interface)), trial%work(2, size(model%interface)))
       trial%states = analysis%states
-      call internal_forces(model, trial%u, trial%body)
+      call body_forces(system, trial%u, trial%body)
    end subroutine start_trial
+
+
+   !> Exchange two trials.
+   subroutine swap(a, b)
+      type(trial_type), intent(inout) :: a, b
+      type(trial_type) :: c
+
+      call hand_over(a, c)
+      call hand_over(b, a)
+      call hand_over(c, b)
+   end subroutine swap
+
+
+   subroutine hand_over(from, to)
+      type(trial_type), intent(inout) :: from, to
+
+      call move_alloc(from%u, to%u)
+      call move_alloc(from%body, to%body)
+      call move_alloc(from%states, to%states)
+      call move_alloc(from%tangent, to%tangent)
+      call move_alloc(from%work, to%work)
+      call move_alloc(from%residual, to%residual)
+      to%size = from%size
+   end subroutine hand_over
+
+
+   !> What the supports take under the displacements U of retained nodes [force].
+   real(wp) function support_force(model, system, analysis, u) result(force)
+      type(model_type), intent(in)      :: model
+      type(equation_system), intent(in) :: system
+      type(analysis_type), intent(in)   :: analysis
+      real(wp), intent(in)              :: u(:, :)
+      type(analysis_type) :: moved
+
+      moved = analysis
+      moved%u = u
+      call recover_bodies(model, system, moved)
+      force = norm2(pack(moved%unbalanced, model%held))
+   end function support_force
 
 
    !> Joints and residual of TRIAL, whose displacements and body forces are set.
@@ -184,7 +225,9 @@ contains
       real(wp) :: force(3)
       integer  :: i
 
-      trial%residual = load - trial%body
+      associate (r => analysis%retained)
+         trial%residual(:, r) = load(:, r) - trial%body(:, r)
+      end associate
       do i = 1, size(model%interface)
          associate (element => model%interface(i), state => trial%states(i), d => model%dimension)
             call follow_element(model%joints(element%joint)%law, element%area, analysis%states(i), &
@@ -195,7 +238,7 @@ contains
                trial%residual(:, element%nodes(2)) = trial%residual(:, element%nodes(2)) + force(:d)
          end associate
       end do
-      trial%size = free_norm(model, trial%residual)
+      trial%size = free_norm(model, trial%residual, analysis%retained)
    end subroutine evaluate
 
 
@@ -209,7 +252,7 @@ contains
       real(wp), intent(in)                 :: move(:, :) !! of held components, that is still to be made
       character(*), intent(in)             :: place !! stage and increment, for messages
       type(equation_system), intent(inout) :: system
-      real(wp), intent(out)                :: direction(:, :)
+      real(wp), intent(inout)              :: direction(:, :)
       type(failure_type), intent(inout)    :: failure
       real(wp), allocatable :: matrix(:, :, :), rest(:, :, :)
       real(wp) :: elastic(3)
@@ -241,7 +284,7 @@ contains
       end do
       call form_structure_stiffness(model, matrix, place, system, failure)
       if (failure%raised) return
-      if (any(abs(move) > 0.0_wp)) then
+      if (any(abs(move(:, analysis%retained)) > 0.0_wp)) then
          call solve_moved(model, system, matrix, now%residual, move, direction)
       else if (coupled) then
          call solve_coupled(model, system, rest, now%residual, 1.0e-4_wp, 25, direction)
@@ -252,38 +295,40 @@ contains
 
 
    !> The step that moves the supports: it cannot be shortened.
-   subroutine take_whole_step(model, load, analysis, now, direction, next)
-      type(model_type), intent(in)    :: model
-      real(wp), intent(in)            :: load(:, :)
-      type(analysis_type), intent(in) :: analysis
-      type(trial_type), intent(in)    :: now
-      real(wp), intent(in)            :: direction(:, :)
-      type(trial_type), intent(out)   :: next
+   subroutine take_whole_step(model, system, load, analysis, now, direction, next)
+      type(model_type), intent(in)      :: model
+      type(equation_system), intent(in) :: system
+      real(wp), intent(in)              :: load(:, :)
+      type(analysis_type), intent(in)   :: analysis
+      type(trial_type), intent(in)      :: now
+      real(wp), intent(in)              :: direction(:, :)
+      type(trial_type), intent(inout)   :: next
 
-      next = now
-      next%u = now%u + direction
-      call internal_forces(model, next%u, next%body)
+      associate (r => analysis%retained)
+         next%u(:, r) = now%u(:, r) + direction(:, r)
+      end associate
+      call body_forces(system, next%u, next%body)
       call evaluate(model, load, analysis, next)
    end subroutine take_whole_step
 
 
    !> Line search: the step along DIRECTION at which the unbalanced forces do (next to) no work on it any more.
-   subroutine search(model, load, analysis, now, direction, next, step)
-      type(model_type), intent(in)    :: model
-      real(wp), intent(in)            :: load(:, :)
-      type(analysis_type), intent(in) :: analysis
-      type(trial_type), intent(in)    :: now
-      real(wp), intent(in)            :: direction(:, :)
-      type(trial_type), intent(out)   :: next
-      real(wp), intent(out)           :: step
+   subroutine search(model, system, load, analysis, now, direction, next, step)
+      type(model_type), intent(in)      :: model
+      type(equation_system), intent(in) :: system
+      real(wp), intent(in)              :: load(:, :)
+      type(analysis_type), intent(in)   :: analysis
+      type(trial_type), intent(in)      :: now
+      real(wp), intent(in)              :: direction(:, :)
+      type(trial_type), intent(inout)   :: next
+      real(wp), intent(out)             :: step
       real(wp), allocatable :: body(:, :)
       real(wp) :: g_0, g, low, high, g_low, g_high
       integer  :: attempt
 
       allocate (body, mold=direction)
-      call internal_forces(model, direction, body)
-      next = now
-      g_0 = sum(now%residual*direction, mask=.not. model%held)
+      call body_forces(system, direction, body)
+      g_0 = work_on(now)
       step = 1.0_wp
       call try(step, g)
       if (next%size <= 0.5_wp*now%size .or. abs(g) <= enough*abs(g_0)) return
@@ -315,11 +360,22 @@ contains
          real(wp), intent(in)  :: alpha
          real(wp), intent(out) :: g_alpha
 
-         next%u = now%u + alpha*direction
-         next%body = now%body + alpha*body
+         associate (r => analysis%retained)
+            next%u(:, r) = now%u(:, r) + alpha*direction(:, r)
+            next%body(:, r) = now%body(:, r) + alpha*body(:, r)
+         end associate
          call evaluate(model, load, analysis, next)
-         g_alpha = sum(next%residual*direction, mask=.not. model%held)
+         g_alpha = work_on(next)
       end subroutine try
+
+      !> Work of the unbalanced forces of TRIAL on DIRECTION.
+      real(wp) function work_on(trial) result(work)
+         type(trial_type), intent(in) :: trial
+
+         associate (r => analysis%retained)
+            work = sum(trial%residual(:, r)*direction(:, r), mask=.not. model%held(:, r))
+         end associate
+      end function work_on
 
    end subroutine search
 
@@ -331,7 +387,9 @@ contains
       type(analysis_type), intent(inout) :: analysis
       integer :: i
 
-      analysis%u = trial%u
+      associate (r => analysis%retained)
+         analysis%u(:, r) = trial%u(:, r)
+      end associate
       do i = 1, size(model%interface)
          call tally_work(analysis%energy(model%interface(i)%joint), trial%work(:, i))
          analysis%states(i) = trial%states(i)
@@ -342,7 +400,9 @@ contains
             call rest_when_open(state, joint_movement(model, analysis%u, i))
          end associate
       end do
-      analysis%unbalanced = trial%residual
+      associate (r => analysis%retained)
+         analysis%unbalanced(:, r) = trial%residual(:, r)
+      end associate
    end subroutine commit
 
 

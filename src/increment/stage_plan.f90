@@ -1,6 +1,6 @@
 !> The stages of the load history and the shares of their increments, as case control and JINCR cards give them.
 module stage_plan
-   use case_control, only: method_back
+   use case_control, only: method_back, method_newton, output_all, output_last
    use deck_errors, only: deck_error_list
    use deck_input, only: deck_type
    use kinds, only: wp
@@ -8,7 +8,7 @@ module stage_plan
    implicit none
    private
 
-   public :: plan_stages, where_in_plan
+   public :: plan_stages, where_in_plan, factorisations_of, shows_bodies
 
    type, public :: planned_stage
       integer :: id = 0
@@ -61,5 +61,32 @@ contains
 
       words = 'stage '//integer_text(plan%stages(stage)%id)//', increment '//integer_text(increment)
    end function where_in_plan
+
+
+   !> How often the stiffness of the structure will be factorised, as a guess that orderings are chosen by.
+   pure integer function factorisations_of(plan, method) result(n)
+      type(stage_plan_type), intent(in) :: plan
+      integer, intent(in)               :: method !! of case control
+      integer :: s
+
+      n = 0
+      do s = 1, size(plan%stages)
+         n = n + size(plan%stages(s)%shares)
+      end do
+      if (method == method_newton) n = 6*n
+      if (method == method_back) n = 40*n
+   end function factorisations_of
+
+
+   !> Whether displacements, stresses or reactions of the bodies are printed after this increment.
+   pure logical function shows_bodies(plan, stage, increment)
+      type(stage_plan_type), intent(in) :: plan
+      integer, intent(in)               :: stage, increment
+
+      associate (planned => plan%stages(stage))
+         shows_bodies = planned%output == output_all
+         if (increment == size(planned%shares)) shows_bodies = shows_bodies .or. planned%output == output_last .or. planned%vtu
+      end associate
+   end function shows_bodies
 
 end module stage_plan

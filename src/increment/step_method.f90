@@ -59,8 +59,9 @@ contains
       else
          call solve_equations(system, analysis%change, analysis%du)
       end if
-      if (.not. all(abs(analysis%du) <= largest_number)) call failure%raise(where_in_plan(plan, analysis%stage, &
-         analysis%increment)//': the displacements are beyond all numbers; are loads and stiffnesses in consistent units?')
+      if (all(abs(analysis%du(:, analysis%retained)) <= largest_number)) return
+      call failure%raise(where_in_plan(plan, analysis%stage, analysis%increment)// &
+                         ': the displacements are beyond all numbers; are loads and stiffnesses in consistent units?')
    end subroutine solve_increment
 
 
@@ -96,7 +97,9 @@ contains
       real(wp) :: movement(3), work(2), tau
       integer  :: i, k
 
-      analysis%u = analysis%u + analysis%du
+      associate (r => analysis%retained)
+         analysis%u(:, r) = analysis%u(:, r) + analysis%du(:, r)
+      end associate
       do i = 1, size(model%interface)
          movement = joint_movement(model, analysis%du, i)
          associate (state => analysis%states(i), area => model%interface(i)%area)

@@ -206,7 +206,7 @@ contains
       type(model_type), intent(in)    :: model
       type(analysis_type), intent(in) :: analysis
 
-      force = free_norm(model, analysis%unbalanced)
+      force = free_norm(model, analysis%unbalanced, analysis%retained)
    end function unbalanced_force
 
 

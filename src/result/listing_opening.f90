@@ -145,6 +145,7 @@ contains
       type(deck_type), intent(in)           :: deck
       type(model_type), intent(in)          :: model
       type(equation_system), intent(in)     :: system
+      character(:), allocatable :: solver
 
       call heading(file, 'MODEL SUMMARY')
       call count_line('NODES', int(model%n_nodes, long))
@@ -157,18 +158,26 @@ contains
       call count_line('INTERFACE ELEMENTS', size(model%interface, kind=long))
       call count_line('SUPPORTED COMPONENTS', count(model%held, kind=long))
       call count_line('UNKNOWNS', int(system%n, long))
-      call count_line('PROFILE OF THE STIFFNESS MATRIX, ENTRIES', system%profile)
-      call count_line('   IN THE ORDER OF THE NODE NUMBERS', system%profile_as_numbered)
+      if (system%is_tree) then
+         call count_line('FRONTS', size(system%tree%tree%fronts, kind=long))
+         call count_line('ENTRIES OF THE FACTOR', system%tree%factor_entries)
+         call count_line('UNKNOWNS THAT ARE LEFT WHEN THE BODIES ARE CONDENSED', size(system%equations, kind=long))
+         solver = 'TREE, JOINTS '//trim(merge('LAST  ', 'INSIDE', system%tree%joints_last))
+      else
+         call count_line('PROFILE OF THE STIFFNESS MATRIX, ENTRIES', system%skyline%profile)
+         call count_line('   IN THE ORDER OF THE NODE NUMBERS', system%skyline%profile_as_numbered)
+         solver = 'SKYLINE'
+      end if
       call count_line('STAGES', size(deck%control%stages, kind=long))
       associate (control => deck%control)
          select case (control%method)
          case (method_step)
             call file%put('  METHOD STEP   PRESSURE '//trim(merge('EQ10', 'SUMF', control%pressure == pressure_eq10))// &
-                          '   CARRY '//trim(merge('YES', 'NO ', control%carry))//'   SOLVER SKYLINE')
+                          '   CARRY '//trim(merge('YES', 'NO ', control%carry))//'   SOLVER '//solver)
          case (method_newton)
-            call file%put('  METHOD NEWTON   TOL '//real_text(control%tolerance)//'   SOLVER SKYLINE')
+            call file%put('  METHOD NEWTON   TOL '//real_text(control%tolerance)//'   SOLVER '//solver)
          case default
-            call file%put('  METHOD BACK   SOLVER SKYLINE')
+            call file%put('  METHOD BACK   SOLVER '//solver)
          end select
       end associate
       if (deck%control%length_unit /= '') call file%put('  UNITS, LABELS ONLY: LENGTH '// &

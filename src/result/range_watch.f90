@@ -70,7 +70,7 @@ contains
       integer  :: i
 
       words = '  WARNING: '//upper(where_in_plan(plan, analysis%stage, analysis%increment))//': '
-      unbalanced = free_norm(model, analysis%unbalanced)
+      unbalanced = free_norm(model, analysis%unbalanced, analysis%retained)
       if (unbalanced > much*largest_force) then
          watch%n_warnings = watch%n_warnings + 1
          call watch%rows%add(words//real_text(unbalanced)//' OF FORCE ARE LEFT UNBALANCED BY REMOVED ELEMENTS: '// &

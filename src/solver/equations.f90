@@ -1,164 +1,131 @@
-!> The equations of the structure by the SKYLINE method: numbered along a profile ordering, [k_b] of the bodies formed
-!! once, [k_s] = [k_b] + sum of [k_int] formed and factorised in every increment.
+!> The equations of the structure, whichever solver has them: SKYLINE or TREE. The increments see displacements and forces of
+!! nodes, and of these only the retained ones: all nodes with SKYLINE, with TREE those that are left when the bodies have been
+!! condensed. One order of use: start_equations, form_body_stiffness; condense_load for every load; in every increment
+!! form_structure_stiffness, then solve_equations and body_forces as often as needed; recover where all nodes are wanted.
 module equations
    use bar_elements, only: bar_stiffness
-   use body_elements, only: element_stiffness
-   use element_kinds, only: max_dofs
+   use case_control, only: solver_auto, solver_skyline, solver_tree
+   use equation_numbering, only: equation_numbers
    use failures, only: failure_type
-   use kinds, only: long, wp
-   use machine, only: available_memory
-   use model_data, only: corners_of, model_type, n_bars
-   use node_ordering, only: build_node_graph, node_graph, reverse_cuthill_mckee
-   use skyline, only: add_to_skyline, factorise_skyline, skyline_matrix, solve_skyline, start_skyline
+   use front_factor, only: add_to_moving, factorise_fixed, factorise_moving, no_memory
+   use front_solve, only: eliminate_fixed, moving_times_vector, recover_fixed, solve_moving
+   use kinds, only: wp
+   use model_data, only: model_type, n_bars
+   use node_graph, only: build_node_graph, node_graph_type
+   use skyline, only: skyline_times_vector, solve_skyline
+   use skyline_solver, only: form_skyline_bodies, form_skyline_structure, scatter, skyline_solver_type, start_skyline_solver
    use text_tools, only: integer_text
+   use tree_solver, only: start_tree_solver, tree_solver_type
    implicit none
    private
 
-   public :: add_bar, start_equations, form_body_stiffness, form_structure_stiffness, solve_equations
+   public :: start_equations, form_body_stiffness, add_bar, freeze_unknown, condense_load, form_structure_stiffness, &
+             solve_equations, body_forces, recover_displacements
 
-   real(wp), parameter :: pivot_tolerance = 1.0e-12_wp ! of the diagonal entry: below it there is no stiffness
+   integer, parameter :: most_by_skyline = 1200 !! unknowns up to which AUTO takes SKYLINE: it is not slower there, and can be read
 
-   type, public :: equation_system
-      integer :: n = 0                              !! unknowns
-      integer, allocatable :: number(:, :)          !! (dimension, n_nodes) equation, 0: held or without element
-      integer, allocatable :: node(:), direction(:) !! (n) what an equation belongs to
-      integer(long) :: profile = 0                  !! entries in the skyline
-      integer(long) :: profile_as_numbered = 0      !! what they would be in the order of the node numbers
-      type(skyline_matrix) :: body                  !! [k_b]
-      type(skyline_matrix) :: structure             !! [k_s], then its factor
+   type, extends(equation_numbers), public :: equation_system
+      logical :: is_tree = .false.              !! which of the two
+      type(skyline_solver_type) :: skyline
+      type(tree_solver_type)    :: tree
+      integer, allocatable  :: retained(:)      !! nodes that the increments see, ascending
+      integer, allocatable  :: equations(:)     !! their equations
+      integer, allocatable  :: frozen(:)        !! equations whose unknowns do not change any more
+      integer, allocatable  :: joint_equations(:, :) !! (6, n) of interface elements: of node 1, of node 2; 0: held, base
+      real(wp) :: stiffest = 0.0_wp             !! largest diagonal entry of [k_b] [force/length]
    end type equation_system
 
 contains
 
-   !> Number the unknowns and lay out the profile: reverse Cuthill-McKee, or the nodes' own order where that is tighter.
-   subroutine start_equations(model, system, failure)
+   !> Choose the solver, order and number the unknowns. SOLVER as in case control; so many FACTORISATIONS are to be expected.
+   subroutine start_equations(model, system, failure, solver, factorisations)
       type(model_type), intent(in)         :: model
       type(equation_system), intent(out)   :: system
       type(failure_type), intent(inout)    :: failure
-      type(node_graph)     :: graph
-      integer, allocatable :: order(:), first_row(:), first_row_as_numbered(:)
-      integer :: i
-      logical :: ok
+      integer, intent(in), optional        :: solver         !! AUTO
+      integer, intent(in), optional        :: factorisations !! 20
+      type(node_graph_type) :: graph
+      logical, allocatable  :: in_joint(:)
+      integer :: d, i, n, repeated, wanted
 
-      call build_node_graph(model, graph)
-      call reverse_cuthill_mckee(graph, order)
-      call number_unknowns(model, [(i, i = 1, model%n_nodes)], system)
-      call lay_out_profile(model, system, first_row_as_numbered, system%profile_as_numbered)
-      call number_unknowns(model, order, system)
-      call lay_out_profile(model, system, first_row, system%profile)
-      if (system%profile >= system%profile_as_numbered) then
-         call number_unknowns(model, [(i, i = 1, model%n_nodes)], system)
-         call move_alloc(first_row_as_numbered, first_row)
-         system%profile = system%profile_as_numbered
-      end if
-      if (system%n == 0) then
+      wanted = solver_auto
+      if (present(solver)) wanted = solver
+      repeated = 20
+      if (present(factorisations)) repeated = factorisations
+      n = 0
+      do i = 1, model%n_nodes
+         if (model%used(i)) n = n + count(.not. model%held(:, i))
+      end do
+      allocate (system%frozen(0))
+      if (n == 0) then
          call failure%raise('nothing to solve: all components of all nodes are supported')
-      else if (16*system%profile > available_memory()) then
-         call failure%raise('the skyline of '//integer_text(system%n)//' equations needs '// &
-                            integer_text(int(16*system%profile/1048576))//' MiB, and the machine has '// &
-                            integer_text(int(available_memory()/1048576))//' MiB to give')
-      else
-         call start_skyline(first_row, system%body, ok)
-         if (.not. ok) call failure%raise('no memory for the skyline of '//integer_text(system%n)//' equations')
+         return
       end if
+      call build_node_graph(model, graph)
+      system%is_tree = wanted == solver_tree .or. (wanted == solver_auto .and. n > most_by_skyline)
+      if (system%is_tree) then
+         call mark_joints(model, in_joint)
+         call start_tree_solver(model, graph, in_joint, repeated, system, system%tree, failure)
+         if (failure%raised) return
+         system%equations = system%tree%moving
+         in_joint(system%node(system%equations)) = .true.
+         system%retained = pack([(i, i = 1, model%n_nodes)], in_joint)
+      else
+         call start_skyline_solver(model, graph, system, system%skyline, failure)
+         system%equations = [(i, i = 1, system%n)]
+         system%retained = pack([(i, i = 1, model%n_nodes)], model%used)
+      end if
+      d = model%dimension
+      allocate (system%joint_equations(6, size(model%interface)), source=0)
+      do i = 1, size(model%interface)
+         associate (nodes => model%interface(i)%nodes)
+            system%joint_equations(:d, i) = system%number(:, nodes(1))
+            if (nodes(2) > 0) system%joint_equations(4:3 + d, i) = system%number(:, nodes(2))
+         end associate
+      end do
    end subroutine start_equations
 
 
-   !> Number the free components, node after node in ORDER.
-   subroutine number_unknowns(model, order, system)
-      type(model_type), intent(in)         :: model
-      integer, intent(in)                  :: order(:)
-      type(equation_system), intent(inout) :: system
-      integer :: d, i, n
-
-      n = 0
-      if (.not. allocated(system%number)) allocate (system%number(model%dimension, model%n_nodes))
-      system%number = 0
-      do i = 1, size(order)
-         if (.not. model%used(order(i))) cycle
-         do d = 1, model%dimension
-            if (model%held(d, order(i))) cycle
-            n = n + 1
-            system%number(d, order(i)) = n
-         end do
-      end do
-      system%n = n
-      if (.not. allocated(system%node)) allocate (system%node(n), system%direction(n))
-      do i = 1, model%n_nodes
-         do d = 1, model%dimension
-            if (system%number(d, i) == 0) cycle
-            system%node(system%number(d, i)) = i
-            system%direction(system%number(d, i)) = d
-         end do
-      end do
-   end subroutine number_unknowns
-
-
-   !> First row of every column: the lowest equation that shares an element or interface element.
-   subroutine lay_out_profile(model, system, first_row, profile)
+   !> The nodes whose stiffness changes in the run: those of interface elements, and of bolts.
+   subroutine mark_joints(model, in_joint)
       type(model_type), intent(in)      :: model
-      type(equation_system), intent(in) :: system
-      integer, allocatable, intent(out) :: first_row(:)
-      integer(long), intent(out)        :: profile
-      integer :: e, i
+      logical, allocatable, intent(out) :: in_joint(:) !! (n_nodes)
+      integer :: i, k
 
-      allocate (first_row, source=[(i, i = 1, system%n)])
-      do e = 1, model%n_elements
-         call couple(corners_of(model, e))
-      end do
+      allocate (in_joint(model%n_nodes), source=.false.)
       do i = 1, size(model%interface)
-         call couple(pack(model%interface(i)%nodes, model%interface(i)%nodes > 0))
+         do k = 1, 2
+            if (model%interface(i)%nodes(k) > 0) in_joint(model%interface(i)%nodes(k)) = .true.
+         end do
       end do
       do i = 1, n_bars(model)
-         call couple(model%bars(i)%nodes)
+         in_joint(model%bars(i)%nodes) = .true.
       end do
-      profile = 0
-      do i = 1, system%n
-         profile = profile + i - first_row(i) + 1
-      end do
-
-   contains
-
-      subroutine couple(nodes)
-         integer, intent(in) :: nodes(:)
-         integer :: d, k, equation, lowest
-
-         lowest = huge(lowest)
-         do k = 1, size(nodes)
-            do d = 1, model%dimension
-               equation = system%number(d, nodes(k))
-               if (equation > 0) lowest = min(lowest, equation)
-            end do
-         end do
-         do k = 1, size(nodes)
-            do d = 1, model%dimension
-               equation = system%number(d, nodes(k))
-               if (equation > 0) first_row(equation) = min(first_row(equation), lowest)
-            end do
-         end do
-      end subroutine couple
-
-   end subroutine lay_out_profile
+   end subroutine mark_joints
 
 
-   !> [k_b]: the stiffness of all bodies, bars included.
-   subroutine form_body_stiffness(model, system)
+   !> [k_b] of all bodies, bars included; TREE eliminates of it what no joint moves.
+   subroutine form_body_stiffness(model, system, failure)
       type(model_type), intent(in)         :: model
       type(equation_system), intent(inout) :: system
-      real(wp) :: k(max_dofs, max_dofs)
-      integer  :: d, e, i, n, rows(max_dofs)
+      type(failure_type), intent(inout)    :: failure
+      integer :: f, fault, i
 
-      d = model%dimension
-      do e = 1, model%n_elements
-         call element_stiffness(model, e, k)
-         associate (nodes => corners_of(model, e))
-            n = d*size(nodes)
-            do i = 1, size(nodes)
-               rows(d*(i - 1) + 1:d*i) = system%number(:, nodes(i))
-            end do
+      if (system%is_tree) then
+         call factorise_fixed(model, system%tree%tree, fault)
+         call report(model, system, fault, '', failure)
+         if (failure%raised) return
+         do f = 1, size(system%tree%tree%fronts)
+            associate (front => system%tree%tree%fronts(f))
+               if (front%p > 0) system%stiffest = max(system%stiffest, maxval(front%diagonal(:front%p)))
+            end associate
+         end do
+      else
+         call form_skyline_bodies(model, system, system%skyline)
+         associate (body => system%skyline%body)
+            system%stiffest = maxval(body%values(body%diagonal(1:)))
          end associate
-         call scatter(system%body, rows(:n), k(:n, :n))
-      end do
+      end if
       do i = 1, n_bars(model)
          if (model%bars(i)%is_elastic) call add_bar(model, i, system)
       end do
@@ -172,9 +139,46 @@ contains
       type(equation_system), intent(inout) :: system
 
       associate (nodes => model%bars(i)%nodes)
-         call scatter(system%body, [system%number(:, nodes(1)), system%number(:, nodes(2))], bar_stiffness(model, i))
+         associate (equations => [system%number(:, nodes(1)), system%number(:, nodes(2))])
+            if (system%is_tree) then
+               call add_to_moving(system%tree%tree, equations, bar_stiffness(model, i))
+            else
+               call scatter(system%skyline%body, equations, bar_stiffness(model, i))
+            end if
+         end associate
+         system%stiffest = max(system%stiffest, model%bars(i)%stiffness)
       end associate
    end subroutine add_bar
+
+
+   !> The unknown of NODE (retained) in DIRECTION does not change any more: a support from now on, which keeps its equation number.
+   subroutine freeze_unknown(system, node, direction)
+      type(equation_system), intent(inout) :: system
+      integer, intent(in)                  :: node, direction
+
+      if (system%number(direction, node) == 0) return
+      system%frozen = [system%frozen, system%number(direction, node)]
+      if (system%is_tree) system%tree%tree%frozen(system%number(direction, node)) = .true.
+   end subroutine freeze_unknown
+
+
+   !> G: what retained nodes feel of the nodal forces F on all nodes; zero elsewhere.
+   subroutine condense_load(system, f, g)
+      type(equation_system), intent(in) :: system
+      real(wp), intent(in)              :: f(:, :) !! (dimension, n_nodes) [force]
+      real(wp), intent(out)             :: g(:, :) !! likewise
+      real(wp), allocatable :: x(:)
+
+      if (.not. system%is_tree) then
+         g = f
+         return
+      end if
+      allocate (x(system%n))
+      call gather(system, f, x)
+      call eliminate_fixed(system%tree%tree, x)
+      g = 0.0_wp
+      call put(system, system%equations, x, g)
+   end subroutine condense_load
 
 
    !> [k_s] = [k_b] + sum of [k_int], Eq. (8), factorised. A structure without stiffness in some direction is a failure
@@ -185,66 +189,133 @@ contains
       character(*), intent(in)             :: where
       type(equation_system), intent(inout) :: system
       type(failure_type), intent(inout)    :: failure
-      character(1), parameter :: direction_name(3) = ['X', 'Y', 'Z']
-      real(wp) :: k(6, 6), k_global(3, 3)
-      integer  :: d, fault, i, rows(6)
+      real(wp), allocatable :: k(:, :, :)
+      real(wp) :: k_global(3, 3)
+      integer  :: fault, i
 
-      system%structure = system%body
-      d = model%dimension
+      allocate (k(6, 6, size(model%interface)))
       do i = 1, size(model%interface)
-         associate (nodes => model%interface(i)%nodes)
-            k_global = matmul(model%interface(i)%axes, matmul(k_int(:, :, i), transpose(model%interface(i)%axes)))
-            k(:d, :d) = k_global(:d, :d)
-            k(d + 1:2*d, d + 1:2*d) = k(:d, :d)
-            k(:d, d + 1:2*d) = -k(:d, :d)
-            k(d + 1:2*d, :d) = -k(:d, :d)
-            rows(:d) = system%number(:, nodes(1))
-            rows(d + 1:2*d) = 0
-            if (nodes(2) > 0) rows(d + 1:2*d) = system%number(:, nodes(2))
-            call scatter(system%structure, rows(:2*d), k(:2*d, :2*d))
-         end associate
+         k_global = matmul(model%interface(i)%axes, matmul(k_int(:, :, i), transpose(model%interface(i)%axes)))
+         k(:3, :3, i) = k_global
+         k(4:, 4:, i) = k_global
+         k(:3, 4:, i) = -k_global
+         k(4:, :3, i) = -k_global
       end do
-      call factorise_skyline(system%structure, pivot_tolerance, fault)
-      if (fault > 0) call failure%raise(where//': the structure is a mechanism: node '// &
-         integer_text(model%node_id(system%node(fault)))//' has no stiffness in direction '// &
-         direction_name(system%direction(fault))//' (not supported there, or every joint that held it is open)')
+      if (system%is_tree) then
+         call factorise_moving(system%tree%tree, k, fault)
+      else
+         call form_skyline_structure(k, system%joint_equations, system%frozen, system%skyline, fault)
+      end if
+      call report(model, system, fault, where//': ', failure)
    end subroutine form_structure_stiffness
 
 
-   !> Add an element matrix to the upper triangle; row 0 is a held component.
-   pure subroutine scatter(matrix, rows, k)
-      type(skyline_matrix), intent(inout) :: matrix
-      integer, intent(in)                 :: rows(:)
-      real(wp), intent(in)                :: k(:, :)
-      integer :: i, j
+   !> FAULT, an equation without stiffness or no_memory, in words.
+   subroutine report(model, system, fault, where, failure)
+      type(model_type), intent(in)      :: model
+      type(equation_system), intent(in) :: system
+      integer, intent(in)               :: fault
+      character(*), intent(in)          :: where
+      type(failure_type), intent(inout) :: failure
+      character(1), parameter :: direction_name(3) = ['X', 'Y', 'Z']
 
-      do j = 1, size(rows)
-         if (rows(j) == 0) cycle
-         do i = 1, size(rows)
-            if (rows(i) == 0 .or. rows(i) > rows(j)) cycle
-            call add_to_skyline(matrix, rows(i), rows(j), k(i, j))
-         end do
-      end do
-   end subroutine scatter
+      if (fault == no_memory) then
+         call failure%raise(where//'no memory for the factor of '//integer_text(system%n)//' equations')
+      else if (fault > 0) then
+         call failure%raise(where//'the structure is a mechanism: node '// &
+            integer_text(model%node_id(system%node(fault)))//' has no stiffness in direction '// &
+            direction_name(system%direction(fault))//' (not supported there, or every joint that held it is open)')
+      end if
+   end subroutine report
 
 
-   !> Displacements U of all nodes under the nodal forces F; held components stay zero.
+   !> Displacements U of the retained nodes under the forces F on them; held components, and what is frozen, stay zero.
    subroutine solve_equations(system, f, u)
       type(equation_system), intent(in) :: system
       real(wp), intent(in)              :: f(:, :) !! (dimension, n_nodes) [force]
-      real(wp), intent(out)             :: u(:, :) !! (dimension, n_nodes) [length]
+      real(wp), intent(inout)           :: u(:, :) !! (dimension, n_nodes), set where retained [length]
+      real(wp), allocatable :: x(:)
+
+      allocate (x(system%n))
+      call gather(system, f, x)
+      x(system%frozen) = 0.0_wp
+      if (system%is_tree) then
+         call solve_moving(system%tree%tree, x)
+      else
+         call solve_skyline(system%skyline%structure, x)
+      end if
+      u(:, system%retained) = 0.0_wp
+      call put(system, system%equations, x, u)
+   end subroutine solve_equations
+
+
+   !> F = [k_b] {U} on the free components of retained nodes, the others condensed into it.
+   subroutine body_forces(system, u, f)
+      type(equation_system), intent(in) :: system
+      real(wp), intent(in)              :: u(:, :) !! (dimension, n_nodes) [length]
+      real(wp), intent(inout)           :: f(:, :) !! (dimension, n_nodes), set where retained; zero on held components [force]
+      real(wp), allocatable :: x(:), y(:)
+
+      allocate (x(system%n), y(system%n))
+      call gather(system, u, x)
+      if (system%is_tree) then
+         call moving_times_vector(system%tree%tree, x, y)
+      else
+         call skyline_times_vector(system%skyline%body, x, y)
+      end if
+      f(:, system%retained) = 0.0_wp
+      call put(system, system%equations, y, f)
+   end subroutine body_forces
+
+
+   !> Displacements of all nodes from those of the retained ones and the forces F on all nodes. Held components are left as they are.
+   subroutine recover_displacements(system, f, u)
+      type(equation_system), intent(in) :: system
+      real(wp), intent(in)              :: f(:, :) !! (dimension, n_nodes) [force]
+      real(wp), intent(inout)           :: u(:, :) !! (dimension, n_nodes), of retained nodes; set for the others [length]
       real(wp), allocatable :: x(:)
       integer :: i
 
+      if (.not. system%is_tree) return
       allocate (x(system%n))
-      do i = 1, system%n
-         x(i) = f(system%direction(i), system%node(i))
+      call gather(system, f, x)
+      call eliminate_fixed(system%tree%tree, x)
+      do i = 1, size(system%equations)
+         associate (k => system%equations(i))
+            x(k) = u(system%direction(k), system%node(k))
+         end associate
       end do
-      call solve_skyline(system%structure, x)
-      u = 0.0_wp
+      call recover_fixed(system%tree%tree, x)
+      call put(system, [(i, i = 1, system%n)], x, u)
+   end subroutine recover_displacements
+
+
+   !> X(equation) from an array over nodes: all that are retained.
+   subroutine gather(system, array, x)
+      type(equation_system), intent(in) :: system
+      real(wp), intent(in)              :: array(:, :) !! (dimension, n_nodes)
+      real(wp), intent(out)             :: x(:)        !! (n)
+      integer :: i
+
       do i = 1, system%n
-         u(system%direction(i), system%node(i)) = x(i)
+         x(i) = array(system%direction(i), system%node(i))
       end do
-   end subroutine solve_equations
+   end subroutine gather
+
+
+   !> An array over nodes from X(equation), of the EQUATIONS.
+   subroutine put(system, equations, x, array)
+      type(equation_system), intent(in) :: system
+      integer, intent(in)               :: equations(:)
+      real(wp), intent(in)              :: x(:)        !! (n)
+      real(wp), intent(inout)           :: array(:, :) !! (dimension, n_nodes)
+      integer :: i
+
+      do i = 1, size(equations)
+         associate (k => equations(i))
+            array(system%direction(k), system%node(k)) = x(k)
+         end associate
+      end do
+   end subroutine put
 
 end module equations

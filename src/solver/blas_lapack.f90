@@ -1,0 +1,85 @@
+!> The routines of BLAS and LAPACK that the solvers call (reference: netlib.org/lapack). Arrays are of assumed size, so that an
+!! element passes the block that begins there.
+module blas_lapack
+   use kinds, only: wp
+   implicit none
+   private
+
+   public :: ddot, dgemm, dgemv, dpotrf, dsymv, dsyrk, dtrsm, dtrsv
+
+   interface
+
+      !> x.y
+      pure function ddot(n, x, incx, y, incy) result(product)
+         import :: wp
+         integer, intent(in)  :: n, incx, incy
+         real(wp), intent(in) :: x(*), y(*)
+         real(wp) :: product
+      end function ddot
+
+      !> C = alpha op(A) op(B) + beta C
+      pure subroutine dgemm(transa, transb, m, n, k, alpha, a, lda, b, ldb, beta, c, ldc)
+         import :: wp
+         character, intent(in)   :: transa, transb
+         integer, intent(in)     :: m, n, k, lda, ldb, ldc
+         real(wp), intent(in)    :: alpha, beta, a(lda, *), b(ldb, *)
+         real(wp), intent(inout) :: c(ldc, *)
+      end subroutine dgemm
+
+      !> y = alpha op(A) x + beta y
+      pure subroutine dgemv(trans, m, n, alpha, a, lda, x, incx, beta, y, incy)
+         import :: wp
+         character, intent(in)   :: trans
+         integer, intent(in)     :: m, n, lda, incx, incy
+         real(wp), intent(in)    :: alpha, beta, a(lda, *), x(*)
+         real(wp), intent(inout) :: y(*)
+      end subroutine dgemv
+
+      !> A = L L^T in place; INFO > 0: the leading minor of that order is not positive.
+      pure subroutine dpotrf(uplo, n, a, lda, info)
+         import :: wp
+         character, intent(in)   :: uplo
+         integer, intent(in)     :: n, lda
+         real(wp), intent(inout) :: a(lda, *)
+         integer, intent(out)    :: info
+      end subroutine dpotrf
+
+      !> y = alpha A x + beta y, A symmetric
+      pure subroutine dsymv(uplo, n, alpha, a, lda, x, incx, beta, y, incy)
+         import :: wp
+         character, intent(in)   :: uplo
+         integer, intent(in)     :: n, lda, incx, incy
+         real(wp), intent(in)    :: alpha, beta, a(lda, *), x(*)
+         real(wp), intent(inout) :: y(*)
+      end subroutine dsymv
+
+      !> C = alpha A A^T + beta C in one triangle
+      pure subroutine dsyrk(uplo, trans, n, k, alpha, a, lda, beta, c, ldc)
+         import :: wp
+         character, intent(in)   :: uplo, trans
+         integer, intent(in)     :: n, k, lda, ldc
+         real(wp), intent(in)    :: alpha, beta, a(lda, *)
+         real(wp), intent(inout) :: c(ldc, *)
+      end subroutine dsyrk
+
+      !> B = alpha op(inv(A)) B or alpha B op(inv(A)), A triangular
+      pure subroutine dtrsm(side, uplo, transa, diag, m, n, alpha, a, lda, b, ldb)
+         import :: wp
+         character, intent(in)   :: side, uplo, transa, diag
+         integer, intent(in)     :: m, n, lda, ldb
+         real(wp), intent(in)    :: alpha, a(lda, *)
+         real(wp), intent(inout) :: b(ldb, *)
+      end subroutine dtrsm
+
+      !> x = op(inv(A)) x, A triangular
+      pure subroutine dtrsv(uplo, trans, diag, n, a, lda, x, incx)
+         import :: wp
+         character, intent(in)   :: uplo, trans, diag
+         integer, intent(in)     :: n, lda, incx
+         real(wp), intent(in)    :: a(lda, *)
+         real(wp), intent(inout) :: x(*)
+      end subroutine dtrsv
+
+   end interface
+
+end module blas_lapack

@@ -1,0 +1,262 @@
+!> Factorisation in a tree of fronts: once for those that do not move, in every increment for the others. Independent subtrees
+!! are tasks of OpenMP; every addition has its place in one order, whatever the number of threads.
+module front_factor
+   use front_blocks, only: add_to_block, keep_block, restore_block
+   use front_kernel, only: eliminate
+   use front_tree, only: add_elements, add_matrix, add_update, front_of, front_tree_type, front_type, place_in
+   use kinds, only: wp
+   use model_data, only: model_type
+   implicit none
+   private
+
+   public :: factorise_fixed, factorise_moving, add_to_moving
+
+   integer, parameter, public :: no_memory = -1 !! as FAULT: an allocation failed
+   real(wp), parameter :: pivot_tolerance = 1.0e-12_wp ! of the diagonal entry: below it there is no stiffness
+   real(wp), parameter :: task_work = 2.0e6_wp         ! operations of a subtree that is worth a task
+
+contains
+
+   !> Eliminate all fronts that do not move, and keep what the others begin with. FAULT is 0, no_memory, or the first equation
+   !! without stiffness.
+   subroutine factorise_fixed(model, tree, fault)
+      type(model_type), intent(in)         :: model
+      type(front_tree_type), intent(inout) :: tree
+      integer, intent(out)                 :: fault
+      integer, allocatable :: faults(:)
+      integer :: f
+
+      allocate (faults(size(tree%fronts)), source=0)
+      !$omp parallel default(shared) if(tree%is_parallel)
+      !$omp single
+      do f = 1, size(tree%fronts)
+         if (tree%fronts(f)%moves) cycle
+         if (tree%fronts(f)%parent > 0) then
+            if (.not. tree%fronts(tree%fronts(f)%parent)%moves) cycle
+         end if
+         !$omp task default(shared) firstprivate(f) if(tree%fronts(f)%work > task_work)
+         call fixed_subtree(model, tree, f, faults)
+         !$omp end task
+      end do
+      !$omp end single
+      !$omp end parallel
+      fault = first_fault(faults)
+      if (fault /= 0) return
+      !$omp parallel do schedule(dynamic, 8) default(shared) if(tree%is_parallel)
+      do f = 1, size(tree%fronts)
+         if (tree%fronts(f)%moves) call keep_start(model, tree, tree%fronts(f), faults(f))
+      end do
+      !$omp end parallel do
+      fault = first_fault(faults)
+   end subroutine factorise_fixed
+
+
+   !> What went wrong first in the order of elimination, 0: nothing.
+   pure integer function first_fault(faults) result(fault)
+      integer, intent(in) :: faults(:)
+
+      fault = 0
+      if (any(faults == no_memory)) then
+         fault = no_memory
+      else if (any(faults > 0)) then
+         fault = minval(faults, mask=faults > 0)
+      end if
+   end function first_fault
+
+
+   !> Eliminate front F after its subtree.
+   recursive subroutine fixed_subtree(model, tree, f, faults)
+      type(model_type), intent(in)         :: model
+      type(front_tree_type), intent(inout) :: tree
+      integer, intent(in)                  :: f
+      integer, intent(inout)               :: faults(:)
+      integer :: c, k, status
+
+      do k = 1, size(tree%fronts(f)%children)
+         c = tree%fronts(f)%children(k)
+         !$omp task default(shared) firstprivate(c) if(tree%fronts(c)%work > task_work)
+         call fixed_subtree(model, tree, c, faults)
+         !$omp end task
+      end do
+      !$omp taskwait
+      if (any(faults(tree%fronts(f)%children) /= 0)) then
+         faults(f) = first_fault(faults(tree%fronts(f)%children))
+         return
+      end if
+      associate (front => tree%fronts(f))
+         allocate (front%panel(front%p + front%r, front%p), front%update(front%r, front%r), &
+                   front%diagonal(front%p + front%r), stat=status)
+         if (status /= 0) then
+            faults(f) = no_memory
+            return
+         end if
+         front%panel = 0.0_wp
+         front%update = 0.0_wp
+         front%diagonal = 0.0_wp
+         call add_elements(model, tree, front)
+         do k = 1, size(front%children)
+            c = front%children(k)
+            call add_update(tree%fronts(c), front)
+            deallocate (tree%fronts(c)%update)
+         end do
+         call eliminate_front(front, faults(f))
+      end associate
+   end subroutine fixed_subtree
+
+
+   subroutine eliminate_front(front, fault)
+      type(front_type), intent(inout) :: front
+      integer, intent(out)            :: fault
+
+      call eliminate(front%p, front%r, front%panel, front%update, front%diagonal, pivot_tolerance, fault)
+      if (fault > 0) fault = front%first + fault - 1
+   end subroutine eliminate_front
+
+
+   !> What moving FRONT begins with: its elements, and what its children that do not move leave.
+   subroutine keep_start(model, tree, front, fault)
+      type(model_type), intent(in)         :: model
+      type(front_tree_type), intent(inout) :: tree
+      type(front_type), intent(inout)      :: front
+      integer, intent(out)                 :: fault
+      integer :: c, k, status
+
+      fault = no_memory
+      allocate (front%panel(front%p + front%r, front%p), front%update(front%r, front%r), &
+                front%diagonal(front%p + front%r), stat=status)
+      if (status /= 0) return
+      front%panel = 0.0_wp
+      front%update = 0.0_wp
+      front%diagonal = 0.0_wp
+      call add_elements(model, tree, front)
+      do k = 1, size(front%children)
+         c = front%children(k)
+         if (tree%fronts(c)%moves) cycle
+         call add_update(tree%fronts(c), front)
+         deallocate (tree%fronts(c)%update)
+      end do
+      call keep_block(front%panel, front%kept_panel)
+      call keep_block(front%update, front%kept_update)
+      front%kept_diagonal = front%diagonal
+      deallocate (front%update)
+      fault = 0
+   end subroutine keep_start
+
+
+   !> Eliminate all fronts that move, with the matrices K of the interface elements between their equations. FAULT as above.
+   subroutine factorise_moving(tree, k, fault)
+      type(front_tree_type), intent(inout) :: tree
+      real(wp), intent(in)                 :: k(:, :, :) !! (6, 6, n), rows as in tree%joint_equations
+      integer, intent(out)                 :: fault
+      integer, allocatable :: faults(:)
+      integer :: f
+
+      allocate (faults(size(tree%fronts)), source=0)
+      !$omp parallel default(shared) if(tree%is_parallel)
+      !$omp single
+      do f = 1, size(tree%fronts)
+         if (.not. tree%fronts(f)%moves .or. tree%fronts(f)%parent > 0) cycle
+         !$omp task default(shared) firstprivate(f) if(tree%fronts(f)%work > task_work)
+         call moving_subtree(tree, f, k, faults)
+         !$omp end task
+      end do
+      !$omp end single
+      !$omp end parallel
+      fault = first_fault(faults)
+      do f = 1, size(tree%fronts) ! what a failure leaves
+         if (fault /= 0 .and. tree%fronts(f)%moves .and. allocated(tree%fronts(f)%update)) deallocate (tree%fronts(f)%update)
+      end do
+   end subroutine factorise_moving
+
+
+   !> Assemble and eliminate front F after the moving fronts of its subtree.
+   recursive subroutine moving_subtree(tree, f, k, faults)
+      type(front_tree_type), intent(inout) :: tree
+      integer, intent(in)                  :: f
+      real(wp), intent(in)                 :: k(:, :, :)
+      integer, intent(inout)               :: faults(:)
+      integer :: c, i, status
+
+      do i = 1, size(tree%fronts(f)%children)
+         c = tree%fronts(f)%children(i)
+         if (.not. tree%fronts(c)%moves) cycle
+         !$omp task default(shared) firstprivate(c) if(tree%fronts(c)%work > task_work)
+         call moving_subtree(tree, c, k, faults)
+         !$omp end task
+      end do
+      !$omp taskwait
+      if (any(faults(tree%fronts(f)%children) /= 0)) then
+         faults(f) = first_fault(faults(tree%fronts(f)%children))
+         return
+      end if
+      associate (front => tree%fronts(f))
+         allocate (front%update(front%r, front%r), stat=status)
+         if (status /= 0) then
+            faults(f) = no_memory
+            return
+         end if
+         call restore_block(front%kept_panel, front%panel)
+         call restore_block(front%kept_update, front%update)
+         front%diagonal = front%kept_diagonal
+         do i = 1, size(front%springs)
+            c = front%springs(i)
+            call add_matrix(front, tree%joint_equations(:, c), k(:, :, c))
+         end do
+         do i = 1, size(front%children)
+            c = front%children(i)
+            if (.not. tree%fronts(c)%moves) cycle
+            call add_update(tree%fronts(c), front)
+            deallocate (tree%fronts(c)%update)
+         end do
+         call freeze(tree%frozen(front%first:front%first + front%p - 1), front)
+         call eliminate_front(front, faults(f))
+         if (front%parent == 0) deallocate (front%update)
+      end associate
+   end subroutine moving_subtree
+
+
+   !> The rows and columns of FROZEN pivots become those of the identity.
+   subroutine freeze(frozen, front)
+      logical, intent(in)             :: frozen(:) !! (p)
+      type(front_type), intent(inout) :: front
+      integer :: j
+
+      do j = 1, front%p
+         if (.not. frozen(j)) cycle
+         front%panel(j, :j - 1) = 0.0_wp
+         front%panel(j:, j) = 0.0_wp
+         front%panel(j, j) = 1.0_wp
+         front%diagonal(j) = 1.0_wp
+      end do
+   end subroutine freeze
+
+
+   !> Add the symmetric matrix K of the EQUATIONS (0: held), all of fronts that move, for good.
+   subroutine add_to_moving(tree, equations, k)
+      type(front_tree_type), intent(inout) :: tree
+      integer, intent(in)                  :: equations(:)
+      real(wp), intent(in)                 :: k(:, :)
+      integer :: f, i, j, places(size(equations))
+
+      f = front_of(tree, equations)
+      if (f == 0) return
+      do i = 1, size(equations)
+         places(i) = place_in(tree%fronts(f), equations(i))
+      end do
+      associate (front => tree%fronts(f))
+         do j = 1, size(equations)
+            if (places(j) == 0) cycle
+            front%kept_diagonal(places(j)) = front%kept_diagonal(places(j)) + k(j, j)
+            do i = 1, size(equations)
+               if (places(i) < places(j)) cycle
+               if (places(j) <= front%p) then
+                  call add_to_block(front%kept_panel, places(i), places(j), k(i, j))
+               else
+                  call add_to_block(front%kept_update, places(i) - front%p, places(j) - front%p, k(i, j))
+               end if
+            end do
+         end do
+      end associate
+   end subroutine add_to_moving
+
+end module front_factor

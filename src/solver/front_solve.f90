@@ -1,0 +1,106 @@
+!> Right-hand sides and solutions in a tree of fronts, factorised by front_factor: L y = b, L^T x = y, in the two parts that the
+!! increments need, the fronts that do not move and those that do.
+module front_solve
+   use blas_lapack, only: dgemv, dtrsv
+   use front_blocks, only: block_times_vector
+   use front_tree, only: front_tree_type
+   use kinds, only: wp
+   implicit none
+   private
+
+   public :: eliminate_fixed, recover_fixed, solve_moving, moving_times_vector
+
+contains
+
+   !> Carry X, loads on all equations, over to the equations that move: L y = x on the fronts that do not move. On them X is y then.
+   subroutine eliminate_fixed(tree, x)
+      type(front_tree_type), intent(in) :: tree
+      real(wp), intent(inout)           :: x(tree%n)
+      integer :: f
+
+      do f = 1, size(tree%fronts)
+         if (.not. tree%fronts(f)%moves) call forward(tree, f, x)
+      end do
+   end subroutine eliminate_fixed
+
+
+   !> The other way: X holds y of eliminate_fixed on the fronts that do not move and the solution on those that do; it is the
+   !! solution everywhere then.
+   subroutine recover_fixed(tree, x)
+      type(front_tree_type), intent(in) :: tree
+      real(wp), intent(inout)           :: x(tree%n)
+      integer :: f
+
+      do f = size(tree%fronts), 1, -1
+         if (.not. tree%fronts(f)%moves) call backward(tree, f, x)
+      end do
+   end subroutine recover_fixed
+
+
+   !> Solve for the equations that move; X holds zeros on the others, and is not changed there.
+   subroutine solve_moving(tree, x)
+      type(front_tree_type), intent(in) :: tree
+      real(wp), intent(inout)           :: x(tree%n)
+      integer :: f
+
+      do f = 1, size(tree%fronts)
+         if (tree%fronts(f)%moves) call forward(tree, f, x)
+      end do
+      do f = size(tree%fronts), 1, -1
+         if (tree%fronts(f)%moves) call backward(tree, f, x)
+      end do
+   end subroutine solve_moving
+
+
+   subroutine forward(tree, f, x)
+      type(front_tree_type), intent(in) :: tree
+      integer, intent(in)               :: f
+      real(wp), intent(inout)           :: x(tree%n)
+      real(wp), allocatable :: beyond(:)
+
+      associate (front => tree%fronts(f), p => tree%fronts(f)%p, r => tree%fronts(f)%r, first => tree%fronts(f)%first)
+         where (tree%frozen(first:first + p - 1)) x(first:first + p - 1) = 0.0_wp
+         call dtrsv('L', 'N', 'N', p, front%panel, p + r, x(first), 1)
+         if (r == 0) return
+         allocate (beyond(r))
+         call dgemv('N', r, p, -1.0_wp, front%panel(p + 1, 1), p + r, x(first), 1, 0.0_wp, beyond, 1)
+         x(front%rows) = x(front%rows) + beyond
+      end associate
+   end subroutine forward
+
+
+   subroutine backward(tree, f, x)
+      type(front_tree_type), intent(in) :: tree
+      integer, intent(in)               :: f
+      real(wp), intent(inout)           :: x(tree%n)
+
+      associate (front => tree%fronts(f), p => tree%fronts(f)%p, r => tree%fronts(f)%r, first => tree%fronts(f)%first)
+         if (r > 0) call dgemv('T', r, p, -1.0_wp, front%panel(p + 1, 1), p + r, x(front%rows), 1, 1.0_wp, x(first), 1)
+         call dtrsv('L', 'T', 'N', p, front%panel, p + r, x(first), 1)
+      end associate
+   end subroutine backward
+
+
+   !> Y = [k_b] X on the equations that move, the others condensed into it, interface elements left out.
+   subroutine moving_times_vector(tree, x, y)
+      type(front_tree_type), intent(in) :: tree
+      real(wp), intent(in)              :: x(tree%n)
+      real(wp), intent(out)             :: y(tree%n) !! zero on equations that do not move
+      real(wp), allocatable :: x_f(:), y_f(:)
+      integer :: f
+
+      y = 0.0_wp
+      do f = 1, size(tree%fronts)
+         associate (front => tree%fronts(f), p => tree%fronts(f)%p, last => tree%fronts(f)%first + tree%fronts(f)%p - 1)
+            if (.not. front%moves) cycle
+            x_f = [x(front%first:last), x(front%rows)]
+            y_f = 0.0_wp*x_f
+            call block_times_vector(front%kept_panel, x_f, y_f)
+            call block_times_vector(front%kept_update, x_f(p + 1:), y_f(p + 1:))
+            y(front%first:last) = y(front%first:last) + y_f(:p)
+            y(front%rows) = y(front%rows) + y_f(p + 1:)
+         end associate
+      end do
+   end subroutine moving_times_vector
+
+end module front_solve

@@ -1,0 +1,297 @@
+!> The tree of dense fronts of a multifrontal factorisation, and how matrices of elements come into it. Fronts that do not move
+!! have no unknown of a joint in their subtree; they are eliminated once. The others are assembled and eliminated in every increment.
+!! Sources: Duff, Reid, ACM Trans. Math. Softw. 9 (1983) 302-325; Liu, SIAM Review 34 (1992) 82-109.
+module front_tree
+   use body_elements, only: element_stiffness
+   use element_kinds, only: max_dofs
+   use front_blocks, only: kept_block
+   use front_layout, only: front_layout_type, front_operations
+   use kinds, only: wp
+   use model_data, only: corners_of, model_type
+   implicit none
+   private
+
+   public :: start_front_tree, add_elements, add_matrix, add_update, front_of, place_in
+
+   real(wp), parameter :: parallel_work = 5.0e7_wp  ! operations of a factorisation that is worth more than one thread
+
+   type, public :: front_type
+      integer :: first = 0                        !! equation of its first pivot
+      integer :: p = 0, r = 0                     !! pivots, rows beyond them
+      integer :: parent = 0                       !! 0: none
+      logical :: moves = .false.
+      integer, allocatable  :: children(:)
+      integer, allocatable  :: rows(:)            !! (r) equations beyond the pivots, ascending
+      integer, allocatable  :: in_parent(:)       !! (r) their places in the front of the parent
+      integer, allocatable  :: elements(:)        !! whose first equation it eliminates
+      integer, allocatable  :: springs(:)         !! interface elements likewise
+      real(wp), allocatable :: panel(:, :)        !! (p + r, p), then the columns of the factor
+      real(wp), allocatable :: update(:, :)       !! (r, r) what is left for the parent; gone once that has it
+      real(wp), allocatable :: diagonal(:)        !! (p + r) of the matrix before any elimination, as far as the subtree knows it
+      type(kept_block) :: kept_panel, kept_update !! of a front that moves, without what moves
+      real(wp), allocatable :: kept_diagonal(:)
+      real(wp) :: work = 0.0_wp                   !! operations of its subtree
+   end type front_type
+
+   type, public :: front_tree_type
+      integer :: n = 0                            !! equations
+      integer, allocatable :: number(:, :)        !! (dimension, n_nodes) equation of a component, 0: held
+      integer, allocatable :: of_equation(:)      !! (n) front that eliminates it
+      integer, allocatable :: joint_equations(:, :) !! (6, n) of interface elements: components of node 1, of node 2; 0: held
+      logical, allocatable :: frozen(:)           !! (n) unknowns that do not change any more; of fronts that move
+      type(front_type), allocatable :: fronts(:)  !! children before parents
+      logical :: is_parallel = .false.            !! whether the model is worth more than one thread
+   end type front_tree_type
+
+contains
+
+   !> The tree of LAYOUT with the equations NUMBER: no matrix yet. IN_JOINT(node) as the layout was made with.
+   subroutine start_front_tree(model, number, layout, tree)
+      type(model_type), intent(in)        :: model
+      integer, intent(in)                 :: number(:, :)   !! numbered along layout%order
+      type(front_layout_type), intent(in) :: layout
+      type(front_tree_type), intent(out)  :: tree
+      integer, allocatable :: first(:), weight(:), n_children(:)
+      integer :: d, f, i, k, node, n_rows
+
+      tree%number = number
+      allocate (tree%fronts(layout%n), n_children(layout%n))
+      allocate (first(size(layout%order)), weight(size(layout%order)))
+      tree%n = 0
+      do k = 1, size(layout%order)
+         first(k) = tree%n + 1
+         weight(k) = count(number(:, layout%order(k)) > 0)
+         tree%n = tree%n + weight(k)
+      end do
+      allocate (tree%of_equation(tree%n))
+      allocate (tree%frozen(tree%n), source=.false.)
+      n_children = 0
+      do f = 1, layout%n
+         associate (front => tree%fronts(f), low => layout%first_pivot(f), high => layout%first_pivot(f + 1) - 1, &
+                    rows => layout%rows(layout%first_row(f):layout%first_row(f + 1) - 1))
+            front%first = first(low)
+            front%p = sum(weight(low:high))
+            front%moves = layout%moves(f)
+            front%parent = layout%parent(f)
+            if (front%parent > 0) n_children(front%parent) = n_children(front%parent) + 1
+            front%r = sum(weight(rows))
+            allocate (front%rows(front%r))
+            n_rows = 0
+            do i = 1, size(rows)
+               node = rows(i)
+               do d = 0, weight(node) - 1
+                  n_rows = n_rows + 1
+                  front%rows(n_rows) = first(node) + d
+               end do
+            end do
+            tree%of_equation(front%first:front%first + front%p - 1) = f
+         end associate
+      end do
+      do f = 1, layout%n
+         allocate (tree%fronts(f)%children(n_children(f)))
+      end do
+      n_children = 0
+      do f = 1, layout%n
+         if (tree%fronts(f)%parent == 0) cycle
+         associate (front => tree%fronts(f), parent => tree%fronts(tree%fronts(f)%parent))
+            n_children(front%parent) = n_children(front%parent) + 1
+            parent%children(n_children(front%parent)) = f
+            allocate (front%in_parent(front%r))
+            k = 0
+            do i = 1, front%r
+               if (front%rows(i) < parent%first + parent%p) then
+                  front%in_parent(i) = front%rows(i) - parent%first + 1
+               else
+                  do
+                     k = k + 1
+                     if (parent%rows(k) == front%rows(i)) exit
+                  end do
+                  front%in_parent(i) = parent%p + k
+               end if
+            end do
+         end associate
+      end do
+      call hand_out_elements(model, tree)
+      do f = 1, layout%n
+         associate (front => tree%fronts(f))
+            front%work = front%work + front_operations(real(front%p, wp), real(front%r, wp))
+            if (front%parent > 0) tree%fronts(front%parent)%work = tree%fronts(front%parent)%work + front%work
+         end associate
+      end do
+      tree%is_parallel = layout%fixed_operations + layout%moving_operations > parallel_work
+   end subroutine start_front_tree
+
+
+   !> Every element, and every interface element, to the front that eliminates its first equation: all others of it are rows there.
+   subroutine hand_out_elements(model, tree)
+      type(model_type), intent(in)         :: model
+      type(front_tree_type), intent(inout) :: tree
+      integer, allocatable :: front(:)
+      integer :: d, e
+
+      allocate (front(model%n_elements))
+      do e = 1, model%n_elements
+         front(e) = front_of(tree, pack(tree%number(:, corners_of(model, e)), .true.))
+      end do
+      call collect(front, tree, for_springs=.false.)
+      d = model%dimension
+      allocate (tree%joint_equations(6, size(model%interface)), source=0)
+      front = [(0, e = 1, size(model%interface))]
+      do e = 1, size(model%interface)
+         associate (nodes => model%interface(e)%nodes)
+            tree%joint_equations(:d, e) = tree%number(:, nodes(1))
+            if (nodes(2) > 0) tree%joint_equations(4:3 + d, e) = tree%number(:, nodes(2))
+         end associate
+         front(e) = front_of(tree, tree%joint_equations(:, e))
+      end do
+      call collect(front, tree, for_springs=.true.)
+   end subroutine hand_out_elements
+
+
+   !> Lists of what belongs to each front: number i to FRONT(i), to none where that is 0.
+   subroutine collect(front, tree, for_springs)
+      integer, intent(in)                  :: front(:)
+      type(front_tree_type), intent(inout) :: tree
+      logical, intent(in)                  :: for_springs
+      integer, allocatable :: first(:), list(:)
+      integer :: f, i
+
+      allocate (first(size(tree%fronts) + 1), source=0)
+      do i = 1, size(front)
+         if (front(i) > 0) first(front(i)) = first(front(i)) + 1
+      end do
+      first(1) = first(1) + 1
+      do f = 2, size(first)
+         first(f) = first(f - 1) + first(f)          ! one behind the last of f
+      end do
+      allocate (list(first(size(first)) - 1))
+      do i = size(front), 1, -1
+         if (front(i) == 0) cycle
+         first(front(i)) = first(front(i)) - 1
+         list(first(front(i))) = i
+      end do
+      do f = 1, size(tree%fronts)
+         associate (of_front => list(first(f):first(f + 1) - 1))
+            if (for_springs) then
+               tree%fronts(f)%springs = of_front
+            else
+               tree%fronts(f)%elements = of_front
+            end if
+         end associate
+      end do
+   end subroutine collect
+
+
+   !> The front that eliminates the first of EQUATIONS, 0 where all are 0.
+   pure integer function front_of(tree, equations) result(f)
+      type(front_tree_type), intent(in) :: tree
+      integer, intent(in)               :: equations(:)
+      integer :: first
+
+      first = minval(equations, mask=equations > 0)
+      f = 0
+      if (first <= tree%n) f = tree%of_equation(first)
+   end function front_of
+
+
+   !> Add the stiffness of the elements of FRONT to its matrix.
+   subroutine add_elements(model, tree, front)
+      type(model_type), intent(in)      :: model
+      type(front_tree_type), intent(in) :: tree
+      type(front_type), intent(inout)   :: front
+      real(wp) :: k(max_dofs, max_dofs)
+      integer  :: d, e, i, j, n, rows(max_dofs)
+
+      d = model%dimension
+      do j = 1, size(front%elements)
+         e = front%elements(j)
+         call element_stiffness(model, e, k)
+         associate (nodes => corners_of(model, e))
+            n = d*size(nodes)
+            do i = 1, size(nodes)
+               rows(d*(i - 1) + 1:d*i) = tree%number(:, nodes(i))
+            end do
+         end associate
+         call add_matrix(front, rows(:n), k(:n, :n))
+      end do
+   end subroutine add_elements
+
+
+   !> Add the symmetric matrix K of the EQUATIONS (0: held) to FRONT, of which all of them are rows.
+   pure subroutine add_matrix(front, equations, k)
+      type(front_type), intent(inout) :: front
+      integer, intent(in)             :: equations(:)
+      real(wp), intent(in)            :: k(:, :)
+      integer :: places(size(equations)), i, j, row, column
+
+      do i = 1, size(equations)
+         places(i) = place_in(front, equations(i))
+      end do
+      do j = 1, size(equations)
+         column = places(j)
+         if (column == 0) cycle
+         front%diagonal(column) = front%diagonal(column) + k(j, j)
+         if (column <= front%p) then
+            do i = 1, size(equations)
+               row = places(i)
+               if (row >= column) front%panel(row, column) = front%panel(row, column) + k(i, j)
+            end do
+         else
+            do i = 1, size(equations)
+               row = places(i)
+               if (row >= column) front%update(row - front%p, column - front%p) = &
+                  front%update(row - front%p, column - front%p) + k(i, j)
+            end do
+         end if
+      end do
+   end subroutine add_matrix
+
+
+   !> Row of EQUATION in FRONT, 0 for equation 0.
+   pure integer function place_in(front, equation) result(place)
+      type(front_type), intent(in) :: front
+      integer, intent(in)          :: equation
+      integer :: low, high, middle
+
+      place = 0
+      if (equation == 0) return
+      place = equation - front%first + 1
+      if (place <= front%p) return
+      low = 1
+      high = front%r
+      do while (low < high)
+         middle = (low + high)/2
+         if (front%rows(middle) < equation) then
+            low = middle + 1
+         else
+            high = middle
+         end if
+      end do
+      place = front%p + low
+   end function place_in
+
+
+   !> Add to FRONT what the elimination of CHILD left.
+   pure subroutine add_update(child, front)
+      type(front_type), intent(in)    :: child
+      type(front_type), intent(inout) :: front
+      integer :: i, j, column
+
+      do j = 1, child%r
+         column = child%in_parent(j)
+         front%diagonal(column) = front%diagonal(column) + child%diagonal(child%p + j)
+         if (column <= front%p) then
+            do i = j, child%r
+               front%panel(child%in_parent(i), column) = front%panel(child%in_parent(i), column) + child%update(i, j)
+            end do
+         else
+            column = column - front%p
+            do i = j, child%r
+               front%update(child%in_parent(i) - front%p, column) = front%update(child%in_parent(i) - front%p, column) &
+                                                                    + child%update(i, j)
+            end do
+         end if
+      end do
+   end subroutine add_update
+
+end module front_tree

@@ -1,0 +1,109 @@
+!> The solver TREE: the fronts of a nested dissection, of which only those on the way from the joints to the root move. Two ways
+!! to order the same structure are laid out, and the one with less work over all increments is taken:
+!! joints last: the bodies are condensed onto the joints, one dense front with all their unknowns is left;
+!! joints inside: they stay where the dissection puts them.
+module tree_solver
+   use equation_numbering, only: equation_numbers, number_unknowns
+   use failures, only: failure_type
+   use front_layout, only: front_layout_type, lay_out_fronts
+   use front_tree, only: front_tree_type, start_front_tree
+   use kinds, only: long, wp
+   use machine, only: available_memory
+   use model_data, only: model_type
+   use nested_dissection, only: dissect
+   use node_graph, only: node_graph_type
+   use text_tools, only: integer_text
+   implicit none
+   private
+
+   public :: start_tree_solver
+
+   real(wp), parameter :: entry_operations = 25.0_wp !! what it costs to move one entry of a front, in operations on it
+
+   type, public :: tree_solver_type
+      type(front_tree_type) :: tree
+      logical :: joints_last = .false.            !! which of the two ways
+      integer :: n_moving = 0                     !! unknowns of the fronts that move
+      integer(long) :: factor_entries = 0
+      real(wp) :: fixed_operations  = 0.0_wp      !! of one factorisation of the fronts that do not move
+      real(wp) :: moving_operations = 0.0_wp      !! of the others, in every increment
+      integer, allocatable :: moving(:)           !! (n_moving) equations that move
+   end type tree_solver_type
+
+contains
+
+   !> Order, number the unknowns, lay out the fronts for so many FACTORISATIONS with new stiffnesses of the joints.
+   subroutine start_tree_solver(model, graph, in_joint, factorisations, numbers, solver, failure)
+      type(model_type), intent(in)           :: model
+      type(node_graph_type), intent(in)      :: graph
+      logical, intent(in)                    :: in_joint(:) !! (n_nodes) whether joints or bolts act on a node
+      integer, intent(in)                    :: factorisations
+      class(equation_numbers), intent(inout) :: numbers
+      type(tree_solver_type), intent(out)    :: solver
+      type(failure_type), intent(inout)      :: failure
+      type(front_layout_type) :: inside, last
+      integer, allocatable    :: order(:), weight(:)
+      integer :: f, i, n
+      logical :: ok
+
+      allocate (weight(model%n_nodes))
+      do i = 1, model%n_nodes
+         weight(i) = merge(count(.not. model%held(:, i)), 0, model%used(i))
+      end do
+      call dissect(graph, weight > 0, order, ok)
+      if (.not. ok) then
+         call failure%raise('no memory to order '//integer_text(count(weight > 0))//' nodes')
+         return
+      end if
+      call lay_out_fronts(graph, order, weight, in_joint, .false., inside)
+      call lay_out_fronts(graph, order, weight, in_joint, .true., last)
+      solver%joints_last = total_work(last, factorisations) <= total_work(inside, factorisations)
+      if (solver%joints_last) inside = last
+      call check_memory(sum(weight), model%dimension, inside, failure)
+      if (failure%raised) return
+      call number_unknowns(model, inside%order, numbers)
+      call start_front_tree(model, numbers%number, inside, solver%tree)
+      solver%factor_entries = int(inside%factor_entries, long)
+      solver%fixed_operations = inside%fixed_operations
+      solver%moving_operations = inside%moving_operations
+      allocate (solver%moving(sum(solver%tree%fronts%p, mask=solver%tree%fronts%moves)))
+      n = 0
+      do f = 1, size(solver%tree%fronts)
+         associate (front => solver%tree%fronts(f))
+            if (.not. front%moves) cycle
+            solver%moving(n + 1:n + front%p) = [(i, i=front%first, front%first + front%p - 1)]
+            n = n + front%p
+         end associate
+      end do
+      solver%n_moving = n
+   end subroutine start_tree_solver
+
+
+   !> Operations of the whole run.
+   pure real(wp) function total_work(layout, factorisations)
+      type(front_layout_type), intent(in) :: layout
+      integer, intent(in)                 :: factorisations
+
+      total_work = layout%fixed_operations &
+                   + factorisations*(layout%moving_operations + entry_operations*layout%moving_entries)
+   end function total_work
+
+
+   !> Whether the factor, what the moving fronts begin with, and the update matrices on the way will fit.
+   subroutine check_memory(n, dimension, layout, failure)
+      integer, intent(in)                 :: n         !! unknowns
+      integer, intent(in)                 :: dimension
+      type(front_layout_type), intent(in) :: layout
+      type(failure_type), intent(inout)   :: failure
+      real(wp) :: needed, there, fits
+
+      needed = 8.0_wp*(layout%factor_entries + 2.0_wp*layout%moving_entries + layout%peak_entries)
+      there = real(available_memory(), wp)
+      if (needed <= there) return
+      fits = n*(there/needed)**merge(0.75_wp, 0.9_wp, dimension == 3) ! entries grow like n**(4/3), n log n
+      call failure%raise('the factor of '//integer_text(n)//' equations needs about '//integer_text(int(needed/1048576.0_wp))// &
+                         ' MiB, and the machine has '//integer_text(int(there/1048576.0_wp))// &
+                         ' MiB to give; of this shape about '//integer_text(int(fits))//' equations would fit')
+   end subroutine check_memory
+
+end module tree_solver
