@@ -6,7 +6,7 @@ program jointfem
    use back_method, only: back_increment
    use bolt_locking, only: lock_bolts
    use case_control, only: method_back, method_newton
-   use command_tools, only: use_one_thread
+   use command_tools, only: use_threads
    use command_line, only: command_type, deck_argument, read_command_line
    use deck_errors, only: deck_error_list
    use deck_input, only: deck_type, read_deck
@@ -15,7 +15,7 @@ program jointfem
    use model_build, only: build_model
    use model_data, only: model_type
    use newton_method, only: newton_increment
-   use progress, only: progress_type
+   use progress, only: phase_build, phase_factor, phase_increments, phase_order, phase_recover, phase_write, progress_type
    use results, only: finish_results, print_increment, print_stage, results_type, start_results
    use run_control, only: end_program, overwrites_input, report_checked, report_errors, report_failure, &
                           report_unreadable, report_unwritten, report_warnings
@@ -28,7 +28,7 @@ program jointfem
 
    call read_command_line(command, finished, status)
    if (finished) call end_program(status)
-   call use_one_thread()   ! the profile method: one order of additions, the same digits everywhere
+   call use_threads(command%threads)
    do i = 1, size(command%decks)
       call analyse(command%decks(i))
    end do
@@ -51,6 +51,7 @@ contains
       logical :: readable, ok
 
       ! ------------------------------------------------------------------ READ THE DATA
+      call progress%start(argument%name, command%quiet, command%times)
       call read_deck(argument%path, deck, errors, readable)
       if (.not. readable) then
          call report_unreadable(argument)
@@ -60,6 +61,7 @@ contains
       end if
 
       ! ------------------------------------------------------------------ BODIES, JOINTS, LOADS
+      call progress%enter(phase_build)
       call build_model(deck, model, plan, errors)
       if (errors%any()) then
          call report_errors(command, argument, deck, errors)
@@ -70,12 +72,15 @@ contains
       end if
 
       ! ------------------------------------------------------------------ [k_b] OF THE BODIES, ONCE
+      call progress%enter(phase_order)
       call start_equations(model, system, failure, deck%control%solver, factorisations_of(plan, deck%control%method))
+      call progress%enter(phase_factor)
       if (.not. failure%raised) call form_body_stiffness(model, system, failure)
       if (failure%raised) then
          call report_failure(argument, failure, results)
          return
       end if
+      call progress%enter(phase_write)
       call start_results(argument%listing, argument%history, deck, model, plan, system, results, ok)
       if (.not. ok) then
          call report_unwritten(argument, results)
@@ -85,15 +90,17 @@ contains
       ! ------------------------------------------------------------------ NORM, SHEAR: FIRST STIFFNESS OF THE JOINTS
       call start_analysis(model, system, deck%control%carry, deck%control%tolerance, analysis)
       call interface_stiffness(model, system, analysis)
-      call progress%start(argument%name, plan, command%quiet)
+      call progress%expect(plan)
 
       do stage = 1, size(plan%stages)
          ! --------------------------------------------------------------- BOLTS OF THE STAGE BEFORE LOCKED, NEXT STAGE
+         call progress%enter(phase_increments)
          call lock_bolts(stage, model, system, analysis)
          call start_stage(model, system, stage, analysis)
          do increment = 1, size(plan%stages(stage)%shares)
 
             ! ------------------------------------------------------------ NEXT INCREMENT OF THE LOAD
+            call progress%enter(phase_increments)
             call start_increment(plan, analysis)
 
             select case (deck%control%method)
@@ -128,15 +135,16 @@ contains
 
             ! ------------------------------------------------------------ PRINT
             call note_largest(analysis)
+            call progress%enter(phase_recover)
             if (analysis%moves .or. shows_bodies(plan, stage, increment)) call recover_bodies(model, system, analysis)
+            call progress%enter(phase_write)
             call print_increment(model, plan, analysis, results)
             call progress%advance(stage, increment, size(plan%stages(stage)%shares))
          end do
          call print_stage(model, plan, analysis, results)
       end do
-      call progress%finish()
-
       call finish_results(plan, results, ok)
+      call progress%finish()
       call report_warnings(argument, results)
       if (.not. ok) call report_unwritten(argument, results)
    end subroutine analyse

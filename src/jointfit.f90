@@ -1,6 +1,6 @@
 !> jointfit: the cards of a joint's laws, JNORM and JSHEAR, from test data.
 program jointfit
-   use command_tools, only: use_one_thread
+   use command_tools, only: use_threads
    use deck_errors, only: deck_error_list
    use fit_command, only: fit_command_type, read_fit_command
    use fit_comments, only: write_cards
@@ -17,7 +17,7 @@ program jointfit
 
    call read_fit_command(command, finished, status)
    if (finished) call end_fit(status)
-   call use_one_thread()
+   call use_threads(1)
    call out%start('')
    do i = 1, size(command%files)
       call fit_file(i)

@@ -1,12 +1,13 @@
 !> What the command lines of the programs have in common: arguments, version, the standard output, why a file cannot be read,
-!! one thread for BLAS.
+!! threads.
 module command_tools
    use, intrinsic :: iso_c_binding, only: c_int
    use c_library, only: write_bytes
+   use omp_lib, only: omp_set_num_threads
    implicit none
    private
 
-   public :: argument_text, say, why_unreadable, use_one_thread
+   public :: argument_text, say, why_unreadable, use_threads
 
    character(*), parameter, public :: version = '0.1.0'
    character(*), parameter, public :: standard_input = '/dev/stdin' !! the file that `-` means
@@ -63,10 +64,12 @@ contains
    end function why_unreadable
 
 
-   !> One order of additions, the same digits everywhere.
-   subroutine use_one_thread()
+   !> N threads at most, 0: as many as there are cores. BLAS has one in each: one order of additions, the same digits everywhere.
+   subroutine use_threads(n)
+      integer, intent(in) :: n
 
       call openblas_set_num_threads(1_c_int)
-   end subroutine use_one_thread
+      if (n > 0) call omp_set_num_threads(n)
+   end subroutine use_threads
 
 end module command_tools

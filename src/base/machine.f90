@@ -1,32 +1,49 @@
-!> What the machine has.
+!> What the machine has, and what the program has taken of it.
 module machine
    use kinds, only: long
    implicit none
    private
 
-   public :: available_memory
+   public :: available_memory, peak_memory
 
 contains
 
-   !> Memory that a program can still take [bytes], from /proc/meminfo; huge where that cannot be read.
+   !> Memory that a program can still take [bytes]; huge where that cannot be read.
    function available_memory() result(bytes)
+      integer(long) :: bytes
+
+      bytes = kernel_figure('/proc/meminfo', 'MemAvailable:')
+   end function available_memory
+
+
+   !> The most memory that this program has had [bytes]; huge where that cannot be read.
+   function peak_memory() result(bytes)
+      integer(long) :: bytes
+
+      bytes = kernel_figure('/proc/self/status', 'VmHWM:')
+   end function peak_memory
+
+
+   !> The figure that stands behind NAME in a file of the kernel, kibibytes there [bytes].
+   function kernel_figure(path, name) result(bytes)
+      character(*), intent(in) :: path, name
       integer(long) :: bytes
       character(80) :: line
       integer :: unit, status
 
       bytes = huge(bytes)
-      open (newunit=unit, file='/proc/meminfo', action='read', status='old', iostat=status)
+      open (newunit=unit, file=path, action='read', status='old', iostat=status)
       if (status /= 0) return
       do
          read (unit, '(a)', iostat=status) line
          if (status /= 0) exit
-         if (index(line, 'MemAvailable:') == 1) then
-            read (line(14:), *, iostat=status) bytes
+         if (index(line, name) == 1) then
+            read (line(len(name) + 1:), *, iostat=status) bytes
             if (status == 0) bytes = 1024*bytes
             exit
          end if
       end do
       close (unit)
-   end function available_memory
+   end function kernel_figure
 
 end module machine

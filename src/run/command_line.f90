@@ -21,6 +21,7 @@ module command_line
    type, public :: command_type
       logical :: check_only = .false.       !! --check
       logical :: quiet      = .false.       !! -q
+      logical :: times      = .false.       !! --times
       integer :: threads    = 0             !! --threads, 0: all cores
       character(:), allocatable :: folder   !! -o, with a slash at its end, empty: here
       type(deck_argument), allocatable :: decks(:)
@@ -68,6 +69,8 @@ contains
             command%check_only = .true.
          case ('-q')
             command%quiet = .true.
+         case ('--times')
+            command%times = .true.
          case ('-o', '--threads')
             if (i == n) then
                call complain(argument//' needs a value behind it')
@@ -211,7 +214,8 @@ contains
          '   -o DIR        where the results go (default: here)'//nl// &
          '   --check       read and check the decks, solve nothing'//nl// &
          '   -q            no progress on the terminal'//nl// &
-         '   --threads N   at most N threads (the profile method runs on one)'//nl// &
+         '   --threads N   at most N threads (default: all cores; the results do not depend on it)'//nl// &
+         '   --times       print the seconds of each phase of the run, and the memory it took'//nl// &
          '   --version     print the version'//nl// &
          '   --help        print this'//nl// &
          ''//nl// &

@@ -1,42 +1,81 @@
-!> Progress on the terminal: stage, increment of how many, time left. Nothing where the standard error is no terminal.
+!> Progress on the terminal: the phase of the run, increment of how many, time left. Nothing where the standard error is no terminal.
+!! With --times, at the end, the seconds that each phase took.
 module progress
    use, intrinsic :: iso_fortran_env, only: error_unit
    use c_library, only: is_terminal
    use kinds, only: long, wp
+   use machine, only: peak_memory
    use stage_plan, only: stage_plan_type
    use text_tools, only: integer_text
    implicit none
    private
 
+   integer, parameter, public :: phase_read = 1, phase_build = 2, phase_order = 3, phase_factor = 4, phase_increments = 5, &
+                                 phase_recover = 6, phase_write = 7
+   character(10), parameter :: phase_name(7) = [character(10) :: 'read', 'build', 'order', 'factor', 'increments', 'recover', &
+                                                'write']
+
    type, public :: progress_type
       private
-      logical :: shown = .false.
+      logical :: shown = .false., timed = .false.
+      integer :: phase = 0
       integer :: done  = 0, total = 0
-      integer(long) :: started = 0, last = 0, rate = 1
+      integer(long) :: entered = 0, increments_began = 0, last = 0, rate = 1
+      integer(long) :: ticks(size(phase_name)) = 0
       character(:), allocatable :: deck
    contains
       procedure :: start
+      procedure :: enter
+      procedure :: expect
       procedure :: advance
       procedure :: finish
    end type progress_type
 
 contains
 
-   subroutine start(self, deck, plan, quiet)
+   !> A run of DECK begins, by reading it.
+   subroutine start(self, deck, quiet, timed)
       class(progress_type), intent(inout) :: self
       character(*), intent(in)            :: deck
-      type(stage_plan_type), intent(in)   :: plan
       logical, intent(in)                 :: quiet
-      integer :: s
+      logical, intent(in)                 :: timed !! print the seconds of the phases at the end
 
       self%shown = .false.
       if (.not. quiet) self%shown = is_terminal(2)
+      self%timed = timed
       self%deck = deck
+      self%ticks = 0
+      call system_clock(self%entered, self%rate)
+      self%last = self%entered
+      self%phase = phase_read
+   end subroutine start
+
+
+   !> The next PHASE begins.
+   subroutine enter(self, phase)
+      class(progress_type), intent(inout) :: self
+      integer, intent(in)                 :: phase
+      integer(long) :: now
+
+      call system_clock(now)
+      self%ticks(self%phase) = self%ticks(self%phase) + now - self%entered
+      self%entered = now
+      self%phase = phase
+      if (self%shown .and. phase < phase_increments) call show(self, trim(phase_name(phase)))
+   end subroutine enter
+
+
+   !> From now on increments are counted, those of PLAN.
+   subroutine expect(self, plan)
+      class(progress_type), intent(inout) :: self
+      type(stage_plan_type), intent(in)   :: plan
+      integer :: s
+
       self%done = 0
       self%total = sum([(size(plan%stages(s)%shares), s = 1, size(plan%stages))])
-      call system_clock(self%started, self%rate)
-      self%last = self%started
-   end subroutine start
+      call system_clock(self%increments_began)
+      self%last = self%increments_began
+   end subroutine expect
 
 
    !> One more increment is done; say so five times a second at most.
@@ -51,19 +90,36 @@ contains
       call system_clock(now)
       if (5*(now - self%last) < self%rate) return
       self%last = now
-      left = real(now - self%started, wp)/self%rate*(self%total - self%done)/self%done
-      write (error_unit, '(a)', advance='no') achar(13)//self%deck//': stage '//integer_text(stage)//', increment '// &
-         integer_text(increment)//' of '//integer_text(increments)//', '//integer_text(nint(left))//' s left    '
-      flush (error_unit)
+      left = real(now - self%increments_began, wp)/self%rate*(self%total - self%done)/self%done
+      call show(self, 'stage '//integer_text(stage)//', increment '//integer_text(increment)//' of '//integer_text(increments)// &
+                ', '//integer_text(nint(left))//' s left')
    end subroutine advance
 
 
+   !> WORDS behind the name of the deck, over what stood there.
+   subroutine show(self, words)
+      class(progress_type), intent(in) :: self
+      character(*), intent(in)         :: words
+      integer, parameter :: room = 60
+
+      write (error_unit, '(a)', advance='no') achar(13)//self%deck//': '//words//repeat(' ', max(0, room - len(words)))
+      flush (error_unit)
+   end subroutine show
+
+
+   !> The run is over: clear the line, print the times.
    subroutine finish(self)
       class(progress_type), intent(inout) :: self
+      integer :: i
 
-      if (self%shown .and. self%last > self%started) write (error_unit, '(a)', advance='no') &
-         achar(13)//repeat(' ', len(self%deck) + 60)//achar(13)
+      call self%enter(phase_write)
+      if (self%shown) write (error_unit, '(a)', advance='no') achar(13)//repeat(' ', len(self%deck) + 62)//achar(13)
       self%shown = .false.
+      if (.not. self%timed) return
+      do i = 1, size(phase_name)
+         write (error_unit, '(3a, f12.4, a)') self%deck, ': ', phase_name(i), real(self%ticks(i), wp)/self%rate, ' s'
+      end do
+      write (error_unit, '(3a, i12, a)') self%deck, ': ', 'memory    ', nint(peak_memory()/1048576.0_wp), ' MiB'
    end subroutine finish
 
 end module progress
