@@ -28,7 +28,8 @@ for word; do
    all)   wanted="$wanted $small $large $wide friction threads crossing" ;;
    small) wanted="$wanted $small friction crossing" ;;
    q4_*|hex8_*|friction|threads|crossing) wanted="$wanted $word" ;;
-   *) echo "bench: '$word' is neither all, small, friction, threads, crossing nor a shape (q4_100x20, hex8_20x20x20)" >&2; exit 1 ;;
+   *) echo "bench: '$word' is neither all, small, friction, threads, crossing nor a shape like q4_100x20, hex8_20x20x20" >&2
+      exit 1 ;;
    esac
 done
 
@@ -42,20 +43,22 @@ record() {
    sed "s/^/$1 $2 /" "$3" >> "$measured"
 }
 
-# Of the files $1 and $2, sums of seconds in their first lines, keep the faster in $2.
+# Of the files $1 and $2, what counts in their first lines, keep the faster in $2.
 keep_faster() {
    if [ ! -f "$2" ] || awk 'FNR == 1 { s[NR > 1] = $2 } END { exit !(s[0] < s[1]) }' "$1" "$2"; then
       mv "$1" "$2"
    fi
 }
 
-# Run decks on $1 threads; of each file of figures: the sum of seconds, then `phase seconds` and what else --times prints.
-# figures DECK: what --times printed of it, without its name.
+# Run decks on $1 threads.
 run_program() {
    local threads=$1
    shift
    "$program" --times -q --threads "$threads" -o "$work" "$@" > "$work/said" 2>&1 || { cat "$work/said" >&2; fail "$* failed"; }
 }
+
+# What --times printed of the deck $1, `phase seconds` a line; above it the seconds of the solution, by which runs are compared,
+# and of everything.
 figures() {
    awk -v prefix="$1: " 'index($0, prefix) == 1 {
          words = substr($0, length(prefix) + 1)
@@ -64,9 +67,11 @@ figures() {
          for (i = 1; i <= n && w[i] !~ /^[0-9.]/; i++) name = name (i > 1 ? "_" : "") w[i]
          if (name == "") next
          line[++lines] = name " " w[i]
-         if (w[n] == "s") sum += w[i]
+         if (w[n] != "s") next
+         all += w[i]
+         if (name ~ /^(order|factor|increments|recover)$/) solution += w[i]
       }
-      END { print "all", sum; for (i = 1; i <= lines; i++) print line[i] }' "$work/said"
+      END { print "solution", solution; print "all", all; for (i = 1; i <= lines; i++) print line[i] }' "$work/said"
 }
 
 # The figures of a listing that the tables need.
@@ -74,7 +79,7 @@ of_listing() {
    awk '$1 == "UNKNOWNS" && NF == 2               { print "unknowns", $2 }
         /^ *UNKNOWNS THAT ARE LEFT WHEN/          { print "left", $NF }
         /^ *ENTRIES OF THE FACTOR/                { print "entries", $NF }
-        /^ *METHOD .* SOLVER/                     { sub(/.* SOLVER /, ""); gsub(/ +/, "_"); print "solver", $0 }
+        /^ *METHOD .* SOLVER/                     { sub(/.* SOLVER [A-Z]*,? */, ""); gsub(/ +/, "_"); print "ordering", $0 }
         /^  INCR +SHARE +LOAD/                    { getline; if ($1 == "") getline; if ($1 == 1) print "deflection", $6 }' "$1"
 }
 
@@ -98,7 +103,7 @@ measure_model() {
       [ "$turn" = 1 ] || order=default
       "$work/cholmod_once" "$work/$shape.matrix" $order > "$work/said" || fail "CHOLMOD failed on $shape"
       awk '{ line[NR] = $0 } $1 ~ /^(analyse|factor|solve)$/ { sum += $2 }
-           END { print "all", sum; for (i = 1; i <= NR; i++) print line[i] }' "$work/said" > "$work/one"
+           END { print "solution", sum; for (i = 1; i <= NR; i++) print line[i] }' "$work/said" > "$work/one"
       keep_faster "$work/one" "$work/theirs"
       enough "$work/ours" && break
    done
@@ -170,7 +175,7 @@ measure_crossing() {
             for copy in 1 2 3 4 5; do "$here/make_deck.sh" "$shape" $solver NONE > "$work/copy_$copy.bdf"; done
             run_program 1 "$work"/copy_[1-5].bdf
             for copy in 1 2 3 4 5; do
-               figures "$work/copy_$copy.bdf" | awk '$1 ~ /^(order|factor|increments)$/ { s += $2 } END { print "all", s }' > "$work/one"
+               figures "$work/copy_$copy.bdf" > "$work/one"
                keep_faster "$work/one" "$work/$solver"
             done
             of_listing "$work/copy_1.out" >> "$work/$solver"

@@ -47,7 +47,8 @@ program write_matrix
    call first_load(load)
    call closing_displacements(closing_row, closing)
 
-   open (newunit=unit, file=argument_text(2), form='unformatted', access='stream', action='write', status='replace', iostat=status)
+   open (newunit=unit, file=argument_text(2), form='unformatted', access='stream', action='write', status='replace', &
+         iostat=status)
    if (status == 0) write (unit, iostat=status) numbers%n, size(row), size(model%interface), start, row - 1, value, load, &
       closing_row - 1, closing
    if (status == 0) close (unit, iostat=status)
