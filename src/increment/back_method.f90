@@ -3,7 +3,7 @@
 module back_method
    use analysis_state, only: analysis_type, find_unbalanced, record_pass, pass_record, tally_work
    use coupled_solution, only: solve_moved
-   use equations, only: equation_system, form_structure_stiffness, solve_equations
+   use equations, only: check_solution, equation_system, form_structure_stiffness, solve_equations
    use failures, only: failure_type
    use joint_laws, only: element_state, joint_law
    use kinds, only: wp
@@ -42,13 +42,16 @@ contains
          do i = 1, n
             call secants(i)
          end do
-         call form_structure_stiffness(model, k_int, where_in_plan(plan, analysis%stage, analysis%increment), system, failure)
+         call form_structure_stiffness(model, k_int, where_in_plan(plan, analysis%stage, analysis%increment), system, failure, &
+                                       many_solutions=.false.)
          if (failure%raised) return
          if (analysis%moves) then
             call solve_moved(model, system, k_int, analysis%felt, analysis%moved, analysis%u)
          else
             call solve_equations(system, analysis%felt, analysis%u)
          end if
+         call check_solution(model, system, failure)
+         if (failure%raised) return
          do i = 1, n
             movement(:, i) = joint_movement(model, analysis%u, i)
             p_new(i) = max(0.0_wp, k_int(3, 3, i)*movement(3, i)/model%interface(i)%area)

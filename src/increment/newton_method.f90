@@ -3,7 +3,7 @@
 module newton_method
    use analysis_state, only: analysis_type, free_norm, pass_record, record_pass, recover_bodies, tally_work
    use coupled_solution, only: solve_coupled, solve_moved
-   use equations, only: body_forces, equation_system, form_structure_stiffness, solve_equations
+   use equations, only: body_forces, check_solution, equation_system, form_structure_stiffness, solve_equations
    use failures, only: failure_type
    use joint_laws, only: element_state, follow_element, rest_when_open
    use kinds, only: wp
@@ -282,7 +282,7 @@ contains
             if (any(abs(now%tangent(:2, 3, i)) > 0.0_wp)) coupled = .true.
          end associate
       end do
-      call form_structure_stiffness(model, matrix, place, system, failure)
+      call form_structure_stiffness(model, matrix, place, system, failure, many_solutions=coupled)
       if (failure%raised) return
       if (any(abs(move(:, analysis%retained)) > 0.0_wp)) then
          call solve_moved(model, system, matrix, now%residual, move, direction)
@@ -291,6 +291,7 @@ contains
       else
          call solve_equations(system, now%residual, direction)
       end if
+      call check_solution(model, system, failure)
    end subroutine find_direction
 
 

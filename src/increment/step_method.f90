@@ -2,7 +2,7 @@
 module step_method
    use analysis_state, only: analysis_type, pass_record, record_pass, tally_work
    use coupled_solution, only: solve_moved
-   use equations, only: equation_system, form_structure_stiffness, solve_equations
+   use equations, only: check_solution, equation_system, form_structure_stiffness, solve_equations
    use failures, only: failure_type
    use joint_laws, only: exceeds_limit, friction_excess
    use kinds, only: wp
@@ -28,7 +28,7 @@ contains
       type(failure_type), intent(inout)    :: failure
 
       call form_structure_stiffness(model, diagonal(analysis%k), where_in_plan(plan, analysis%stage, analysis%increment), &
-                                    system, failure)
+                                    system, failure, many_solutions=any(model%joints%law%has_friction))
    end subroutine structure_stiffness
 
 
@@ -49,7 +49,7 @@ contains
    subroutine solve_increment(model, plan, system, analysis, failure)
       type(model_type), intent(in)       :: model
       type(stage_plan_type), intent(in)  :: plan
-      type(equation_system), intent(in)  :: system
+      type(equation_system), intent(inout) :: system
       type(analysis_type), intent(inout) :: analysis
       type(failure_type), intent(inout)  :: failure
 
@@ -59,6 +59,8 @@ contains
       else
          call solve_equations(system, analysis%change, analysis%du)
       end if
+      call check_solution(model, system, failure)
+      if (failure%raised) return
       if (all(abs(analysis%du(:, analysis%retained)) <= largest_number)) return
       call failure%raise(where_in_plan(plan, analysis%stage, analysis%increment)// &
                          ': the displacements are beyond all numbers; are loads and stiffnesses in consistent units?')
@@ -125,7 +127,7 @@ contains
    subroutine limit_friction(model, plan, system, analysis, failure)
       type(model_type), intent(in)       :: model
       type(stage_plan_type), intent(in)  :: plan
-      type(equation_system), intent(in)  :: system
+      type(equation_system), intent(inout) :: system
       type(analysis_type), intent(inout) :: analysis
       type(failure_type), intent(inout)  :: failure
       real(wp), allocatable :: excess(:, :), relief(:, :)

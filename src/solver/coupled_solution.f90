@@ -17,7 +17,7 @@ contains
    !! brought below TOLERANCE times that of U = 0, or as far as MOST_STEPS steps go: the caller iterates anyway.
    subroutine solve_coupled(model, system, rest, f, tolerance, most_steps, u)
       type(model_type), intent(in)      :: model
-      type(equation_system), intent(in) :: system
+      type(equation_system), intent(inout) :: system
       real(wp), intent(in)              :: rest(:, :, :) !! (3, 3, n) of the interface elements, in their axes [force/length]
       real(wp), intent(in)              :: f(:, :)   !! (dimension, n_nodes) [force]
       real(wp), intent(in)              :: tolerance
@@ -82,7 +82,7 @@ contains
    !! in the interface elements act on the others; those that it takes in the bodies are in F already.
    subroutine solve_moved(model, system, k_int, f, moved, u)
       type(model_type), intent(in)      :: model
-      type(equation_system), intent(in) :: system
+      type(equation_system), intent(inout) :: system
       real(wp), intent(in)              :: k_int(:, :, :) !! (3, 3, n) as in the factor in SYSTEM [force/length]
       real(wp), intent(in)              :: f(:, :)        !! (dimension, n_nodes) [force]
       real(wp), intent(in)              :: moved(:, :)    !! (dimension, n_nodes), zero on free components [length]

@@ -4,8 +4,10 @@
 !! form_structure_stiffness, then solve_equations and body_forces as often as needed; recover where all nodes are wanted.
 module equations
    use bar_elements, only: bar_stiffness
+   use conjugate_gradients, only: iterate_moving
    use case_control, only: solver_auto, solver_skyline, solver_tree
    use equation_numbering, only: equation_numbers
+   use factor_reuse, only: factor_reuse_type, forget_factor, may_reuse, note_factor, note_failure, note_steps
    use failures, only: failure_type
    use front_factor, only: add_to_moving, factorise_fixed, factorise_moving, no_memory
    use front_solve, only: eliminate_fixed, moving_times_vector, recover_fixed, solve_moving
@@ -20,9 +22,11 @@ module equations
    private
 
    public :: start_equations, form_body_stiffness, add_bar, freeze_unknown, condense_load, form_structure_stiffness, &
-             solve_equations, body_forces, recover_displacements
+             solve_equations, check_solution, body_forces, recover_displacements
 
    integer, parameter :: most_by_skyline = 1200 !! unknowns up to which AUTO takes SKYLINE: it is not slower there, and can be read
+
+   real(wp), parameter :: step_tolerance = 1.0e-13_wp    !! of conjugate gradients: share of the energy of the solution, as a length
 
    type, extends(equation_numbers), public :: equation_system
       logical :: is_tree = .false.              !! which of the two
@@ -33,6 +37,11 @@ module equations
       integer, allocatable  :: frozen(:)        !! equations whose unknowns do not change any more
       integer, allocatable  :: joint_equations(:, :) !! (6, n) of interface elements: of node 1, of node 2; 0: held, base
       real(wp) :: stiffest = 0.0_wp             !! largest diagonal entry of [k_b] [force/length]
+      real(wp), allocatable :: k_int(:, :, :)   !! (6, 6, n) of the interface elements now, global axes [force/length]
+      logical :: is_factor = .false.            !! whether the factor is that of k_int; else it is of an earlier one
+      type(factor_reuse_type) :: reuse          !! of the factor, by conjugate gradients
+      integer :: fault = 0                      !! of the last factorisation, as in front_factor
+      character(:), allocatable :: where        !! stage and increment, for messages
    end type equation_system
 
 contains
@@ -68,6 +77,7 @@ contains
          call start_tree_solver(model, graph, in_joint, repeated, system, system%tree, failure)
          if (failure%raised) return
          system%equations = system%tree%moving
+         call system%reuse%set_costs(system%tree%moving_operations, system%tree%moving_entries)
          in_joint(system%node(system%equations)) = .true.
          system%retained = pack([(i, i = 1, model%n_nodes)], in_joint)
       else
@@ -147,6 +157,7 @@ contains
             end if
          end associate
          system%stiffest = max(system%stiffest, model%bars(i)%stiffness)
+         call forget_factor(system%reuse)
       end associate
    end subroutine add_bar
 
@@ -158,6 +169,7 @@ contains
 
       if (system%number(direction, node) == 0) return
       system%frozen = [system%frozen, system%number(direction, node)]
+      call forget_factor(system%reuse)
       if (system%is_tree) system%tree%tree%frozen(system%number(direction, node)) = .true.
    end subroutine freeze_unknown
 
@@ -168,46 +180,79 @@ contains
       real(wp), intent(in)              :: f(:, :) !! (dimension, n_nodes) [force]
       real(wp), intent(out)             :: g(:, :) !! likewise
       real(wp), allocatable :: x(:)
+      integer :: i
 
       if (.not. system%is_tree) then
          g = f
          return
       end if
       allocate (x(system%n))
-      call gather(system, f, x)
+      call gather(system, [(i, i = 1, system%n)], f, x)
       call eliminate_fixed(system%tree%tree, x)
       g = 0.0_wp
       call put(system, system%equations, x, g)
    end subroutine condense_load
 
 
-   !> [k_s] = [k_b] + sum of [k_int], Eq. (8), factorised. A structure without stiffness in some direction is a failure
-   !! that names the node; WHERE says in which increment.
-   subroutine form_structure_stiffness(model, k_int, where, system, failure)
+   !> [k_s] = [k_b] + sum of [k_int], Eq. (8), factorised; with TREE, and where one solution is all that is wanted, the last factor
+   !! may do for that instead. A structure without stiffness in some direction is a failure that names the node; WHERE says in
+   !! which increment.
+   subroutine form_structure_stiffness(model, k_int, where, system, failure, many_solutions)
       type(model_type), intent(in)         :: model
       real(wp), intent(in)                 :: k_int(:, :, :) !! (3, 3, n) of interface elements, in their axes [force/length]
       character(*), intent(in)             :: where
       type(equation_system), intent(inout) :: system
       type(failure_type), intent(inout)    :: failure
-      real(wp), allocatable :: k(:, :, :)
+      logical, intent(in), optional        :: many_solutions !! true
       real(wp) :: k_global(3, 3)
-      integer  :: fault, i
+      integer  :: i
+      logical  :: reuse
 
-      allocate (k(6, 6, size(model%interface)))
+      reuse = .false.
+      if (present(many_solutions)) then
+         if (.not. many_solutions) call may_reuse(system%reuse, reuse)
+      end if
+      system%where = where
+      if (.not. allocated(system%k_int)) allocate (system%k_int(6, 6, size(model%interface)))
       do i = 1, size(model%interface)
          k_global = matmul(model%interface(i)%axes, matmul(k_int(:, :, i), transpose(model%interface(i)%axes)))
-         k(:3, :3, i) = k_global
-         k(4:, 4:, i) = k_global
-         k(:3, 4:, i) = -k_global
-         k(4:, :3, i) = -k_global
+         system%k_int(:3, :3, i) = k_global
+         system%k_int(4:, 4:, i) = k_global
+         system%k_int(:3, 4:, i) = -k_global
+         system%k_int(4:, :3, i) = -k_global
       end do
-      if (system%is_tree) then
-         call factorise_moving(system%tree%tree, k, fault)
-      else
-         call form_skyline_structure(k, system%joint_equations, system%frozen, system%skyline, fault)
-      end if
-      call report(model, system, fault, where//': ', failure)
+      system%is_factor = .false.
+      if (.not. reuse) call factorise(system)
+      call check_solution(model, system, failure)
    end subroutine form_structure_stiffness
+
+
+   !> Factorise the stiffness of the structure as it is now.
+   subroutine factorise(system)
+      type(equation_system), intent(inout) :: system
+
+      if (system%is_tree) then
+         call factorise_moving(system%tree%tree, system%k_int, system%fault)
+      else
+         call form_skyline_structure(system%k_int, system%joint_equations, system%frozen, system%skyline, system%fault)
+      end if
+      system%is_factor = system%fault == 0
+      if (system%is_factor) then
+         call note_factor(system%reuse)
+      else
+         call forget_factor(system%reuse)
+      end if
+   end subroutine factorise
+
+
+   !> A factorisation that failed, in form_structure_stiffness or since then in solve_equations, as a failure.
+   subroutine check_solution(model, system, failure)
+      type(model_type), intent(in)      :: model
+      type(equation_system), intent(in) :: system
+      type(failure_type), intent(inout) :: failure
+
+      call report(model, system, system%fault, system%where//': ', failure)
+   end subroutine check_solution
 
 
    !> FAULT, an equation without stiffness or no_memory, in words.
@@ -229,20 +274,35 @@ contains
    end subroutine report
 
 
-   !> Displacements U of the retained nodes under the forces F on them; held components, and what is frozen, stay zero.
+   !> Displacements U of the retained nodes under the forces F on them; held components, and what is frozen, stay zero. Where only
+   !! now the stiffness had to be factorised, that may have failed: check_solution says so.
    subroutine solve_equations(system, f, u)
-      type(equation_system), intent(in) :: system
-      real(wp), intent(in)              :: f(:, :) !! (dimension, n_nodes) [force]
-      real(wp), intent(inout)           :: u(:, :) !! (dimension, n_nodes), set where retained [length]
+      type(equation_system), intent(inout) :: system
+      real(wp), intent(in)                 :: f(:, :) !! (dimension, n_nodes) [force]
+      real(wp), intent(inout)              :: u(:, :) !! (dimension, n_nodes), set where retained [length]
       real(wp), allocatable :: x(:)
+      integer :: steps
 
       allocate (x(system%n))
-      call gather(system, f, x)
-      x(system%frozen) = 0.0_wp
-      if (system%is_tree) then
-         call solve_moving(system%tree%tree, x)
-      else
-         call solve_skyline(system%skyline%structure, x)
+      call gather(system, system%equations, f, x)
+      if (.not. system%is_factor) then
+         call iterate_moving(system%tree%tree, system%equations, system%k_int, step_tolerance, system%reuse%most_steps, x, steps)
+         if (steps <= system%reuse%most_steps) then
+            call note_steps(system%reuse, steps)
+         else
+            call note_failure(system%reuse)
+            call factorise(system)
+            call gather(system, system%equations, f, x)
+         end if
+      end if
+      if (system%fault /= 0) return
+      if (system%is_factor) then
+         x(system%frozen) = 0.0_wp
+         if (system%is_tree) then
+            call solve_moving(system%tree%tree, x)
+         else
+            call solve_skyline(system%skyline%structure, x)
+         end if
       end if
       u(:, system%retained) = 0.0_wp
       call put(system, system%equations, x, u)
@@ -257,7 +317,7 @@ contains
       real(wp), allocatable :: x(:), y(:)
 
       allocate (x(system%n), y(system%n))
-      call gather(system, u, x)
+      call gather(system, system%equations, u, x)
       if (system%is_tree) then
          call moving_times_vector(system%tree%tree, x, y)
       else
@@ -278,7 +338,7 @@ contains
 
       if (.not. system%is_tree) return
       allocate (x(system%n))
-      call gather(system, f, x)
+      call gather(system, [(i, i = 1, system%n)], f, x)
       call eliminate_fixed(system%tree%tree, x)
       do i = 1, size(system%equations)
          associate (k => system%equations(i))
@@ -290,15 +350,18 @@ contains
    end subroutine recover_displacements
 
 
-   !> X(equation) from an array over nodes: all that are retained.
-   subroutine gather(system, array, x)
+   !> X(equation) from an array over nodes, for the EQUATIONS.
+   subroutine gather(system, equations, array, x)
       type(equation_system), intent(in) :: system
+      integer, intent(in)               :: equations(:)
       real(wp), intent(in)              :: array(:, :) !! (dimension, n_nodes)
-      real(wp), intent(out)             :: x(:)        !! (n)
+      real(wp), intent(inout)           :: x(:)        !! (n), not touched for others
       integer :: i
 
-      do i = 1, system%n
-         x(i) = array(system%direction(i), system%node(i))
+      do i = 1, size(equations)
+         associate (k => equations(i))
+            x(k) = array(system%direction(k), system%node(k))
+         end associate
       end do
    end subroutine gather
 

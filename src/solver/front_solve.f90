@@ -37,7 +37,7 @@ contains
    end subroutine recover_fixed
 
 
-   !> Solve for the equations that move; X holds zeros on the others, and is not changed there.
+   !> Solve for the equations that move; X is not touched on the others.
    subroutine solve_moving(tree, x)
       type(front_tree_type), intent(in) :: tree
       real(wp), intent(inout)           :: x(tree%n)
@@ -81,15 +81,19 @@ contains
    end subroutine backward
 
 
-   !> Y = [k_b] X on the equations that move, the others condensed into it, interface elements left out.
+   !> Y = [k_b] X on the equations that move, the others condensed into it, interface elements left out; Y is not touched on them.
    subroutine moving_times_vector(tree, x, y)
       type(front_tree_type), intent(in) :: tree
       real(wp), intent(in)              :: x(tree%n)
-      real(wp), intent(out)             :: y(tree%n) !! zero on equations that do not move
+      real(wp), intent(inout)           :: y(tree%n)
       real(wp), allocatable :: x_f(:), y_f(:)
       integer :: f
 
-      y = 0.0_wp
+      do f = 1, size(tree%fronts)
+         associate (front => tree%fronts(f))
+            if (front%moves) y(front%first:front%first + front%p - 1) = 0.0_wp
+         end associate
+      end do
       do f = 1, size(tree%fronts)
          associate (front => tree%fronts(f), p => tree%fronts(f)%p, last => tree%fronts(f)%first + tree%fronts(f)%p - 1)
             if (.not. front%moves) cycle

@@ -27,6 +27,7 @@ module tree_solver
       integer(long) :: factor_entries = 0
       real(wp) :: fixed_operations  = 0.0_wp      !! of one factorisation of the fronts that do not move
       real(wp) :: moving_operations = 0.0_wp      !! of the others, in every increment
+      real(wp) :: moving_entries = 0.0_wp         !! of the fronts that move
       integer, allocatable :: moving(:)           !! (n_moving) equations that move
    end type tree_solver_type
 
@@ -66,6 +67,7 @@ contains
       solver%factor_entries = int(inside%factor_entries, long)
       solver%fixed_operations = inside%fixed_operations
       solver%moving_operations = inside%moving_operations
+      solver%moving_entries = inside%moving_entries
       allocate (solver%moving(sum(solver%tree%fronts%p, mask=solver%tree%fronts%moves)))
       n = 0
       do f = 1, size(solver%tree%fronts)
