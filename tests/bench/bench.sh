@@ -79,6 +79,7 @@ of_listing() {
    awk '$1 == "UNKNOWNS" && NF == 2               { print "unknowns", $2 }
         /^ *UNKNOWNS THAT ARE LEFT WHEN/          { print "left", $NF }
         /^ *ENTRIES OF THE FACTOR/                { print "entries", $NF }
+        $1 == "PROFILE"                           { print "entries", $NF }
         /^ *METHOD .* SOLVER/                     { sub(/.* SOLVER [A-Z]*,? */, ""); gsub(/ +/, "_"); print "ordering", $0 }
         /^  INCR +SHARE +LOAD/                    { getline; if ($1 == "") getline; if ($1 == 1) print "deflection", $6 }' "$1"
 }

@@ -125,12 +125,13 @@ function threads(    i, k, m, names, n) {
 function crossing(    i, m, s, t) {
    if (!rows["crossing_TREE"]) return
    title("SKYLINE against TREE: order, factor and " increments " increments")
-   head("model;unknowns;SKYLINE ms;TREE ms;SKYLINE/TREE")
+   head("model;unknowns;profile;factor of TREE;SKYLINE ms;TREE ms;SKYLINE/TREE")
    for (i = 1; i <= rows["crossing_TREE"]; i++) {
       m = row["crossing_TREE", i]
       s = v["crossing_SKYLINE", m, "solution"]
       t = v["crossing_TREE", m, "solution"]
-      cells(label(m) ";" v["crossing_TREE", m, "unknowns"] ";" milliseconds(s) ";" milliseconds(t) ";" ratio(s, t))
+      cells(label(m) ";" v["crossing_TREE", m, "unknowns"] ";" either(v["crossing_SKYLINE", m, "entries"]) ";" \
+         either(v["crossing_TREE", m, "entries"]) ";" milliseconds(s) ";" milliseconds(t) ";" ratio(s, t))
    }
    put()
 }
