@@ -128,8 +128,8 @@ measure_friction() {
    local shape=$1 nrean turn
    echo "bench: friction, $shape" >&2
    rm -f "$work"/with_*
-   for turn in 1 2; do
-      for nrean in 0 10; do
+   for turn in 1 2 3; do
+      for nrean in 0 20; do
          "$here/make_deck.sh" "$shape" TREE NONE $nrean > "$work/$shape.bdf" || exit 1
          run_program 1 "$work/$shape.bdf"
          figures "$work/$shape.bdf" | awk '$1 == "increments" { print; exit }' > "$work/one"
@@ -138,7 +138,7 @@ measure_friction() {
          keep_faster "$work/one" "$work/with_$nrean"
       done
    done
-   for nrean in 0 10; do record "friction_$nrean" "$shape" "$work/with_$nrean"; done
+   for nrean in 0 20; do record "friction_$nrean" "$shape" "$work/with_$nrean"; done
    remove_results "$shape"
 }
 

@@ -34,10 +34,10 @@ function machine() {
 function phases(    i, m, d) {
    if (!rows["ours"]) return
    title("Seconds of the phases, " increments " increments, one thread")
-   head("model;unknowns;on the joint;read;build;order;factor;increments;recover;write;all;peak MiB")
+   head("model;unknowns;left;read;build;order;factor;increments;recover;write;all;peak MiB")
    for (i = 1; i <= rows["ours"]; i++) {
       m = row["ours", i]
-      cells(label(m) ";" of(m, "unknowns") ";" on_joint(m) ";" seconds(of(m, "read")) ";" seconds(of(m, "build")) ";" \
+      cells(label(m) ";" of(m, "unknowns") ";" left(m) ";" seconds(of(m, "read")) ";" seconds(of(m, "build")) ";" \
          seconds(of(m, "order")) ";" seconds(of(m, "factor")) ";" seconds(of(m, "increments")) ";" seconds(of(m, "recover")) ";" \
          seconds(of(m, "write")) ";" seconds(of(m, "all")) ";" of(m, "memory"))
    }
@@ -95,14 +95,14 @@ function rates(    i, m) {
 }
 
 function friction(    again, i, m, one, passes) {
-   if (!rows["friction_10"]) return
+   if (!rows["friction_20"]) return
    title("A re-analysis after the Coulomb check")
    head("model;an increment ms;a re-analysis ms;share")
-   for (i = 1; i <= rows["friction_10"]; i++) {
-      m = row["friction_10", i]
-      passes = v["friction_10", m, "passes"]
+   for (i = 1; i <= rows["friction_20"]; i++) {
+      m = row["friction_20", i]
+      passes = v["friction_20", m, "passes"]
       one = v["friction_0", m, "increments"]/increments
-      again = passes > 0 ? (v["friction_10", m, "increments"] - v["friction_0", m, "increments"])/passes : ""
+      again = passes > 0 ? (v["friction_20", m, "increments"] - v["friction_0", m, "increments"])/passes : ""
       cells(label(m) ";" milliseconds(one) ";" milliseconds(again) ";" part(again, one))
    }
    put()
@@ -140,7 +140,7 @@ function crossing(    i, m, s, t) {
 function of(m, name) { return v["ours", m, name] }
 function their(m, name) { return v["cholmod", m, name] }
 function either(x) { return x == "" ? "-" : x }
-function on_joint(m) { return either(of(m, "left")) }
+function left(m) { return either(of(m, "left")) }
 function ordering(m,    w) { w = tolower(of(m, "ordering")); gsub(/_/, " ", w); sub(/^joints /, "", w); return either(w) }
 
 function seconds(x) {

@@ -50,8 +50,8 @@ cholmod q4_20x4 solution 1.3
 cholmod q4_20x4 factor 1.0
 cholmod q4_20x4 operations 5e9
 friction_0 q4_20x4 increments 0.4
-friction_10 q4_20x4 increments 0.5
-friction_10 q4_20x4 passes 200
+friction_20 q4_20x4 increments 0.5
+friction_20 q4_20x4 passes 200
 threads_1 q4_20x4 factor 3.0
 threads_2 q4_20x4 factor 2.0
 crossing_SKYLINE q4_20x4 solution 0.03
@@ -98,7 +98,7 @@ factor=0.5
 for deck; do
    increments=0.4
    ! grep -q SKYLINE "$deck" || increments=0.9
-   ! grep -q '1.0-3,10$' "$deck" || increments=0.6
+   ! grep -q '1.0-3,20$' "$deck" || increments=0.6
    [ "$threads" = 1 ] || increments=0.2
    printf "$deck: %s\\n" 'order 0.1 s' "factor $factor s" "increments $increments s" 'operations fixed 2.0E+09' \
       'operations moving 1.0E+08' 'memory 7 MiB' 'other 3 words' >&2
