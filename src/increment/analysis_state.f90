@@ -4,7 +4,7 @@ module analysis_state
    use body_elements, only: internal_forces
    use joint_laws, only: element_state, element_stiffness_of
    use kinds, only: wp
-   use model_data, only: joint_movement, model_type, n_bars
+   use model_data, only: joint_movement, model_type, n_bars, n_sections
    use normal_stiffness, only: branch_open
    use stage_plan, only: stage_plan_type
    implicit none
@@ -103,6 +103,14 @@ contains
       do i = 1, n_bars(model)
          if (model%bars(i)%stage == stage) analysis%pull(i) = model%bars(i)%preload
          call add_pull(model, i, analysis%pull(i), analysis%load_after)
+      end do
+      do i = 1, n_sections(model)
+         associate (section => model%sections(i))
+            associate (load => analysis%load_after(1, section%node))
+               if (section%stage == stage) load = load + section%preload
+            end associate
+            if (section%is_locked) analysis%moved_after(1, section%node) = analysis%moved_before(1, section%node)
+         end associate
       end do
    end subroutine start_stage
 

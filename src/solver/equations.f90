@@ -2,26 +2,29 @@
 !! once, [k_s] = [k_b] + sum of [k_int] formed and factorised in every increment.
 module equations
    use bar_elements, only: bar_stiffness
-   use body_elements, only: element_stiffness
-   use element_kinds, only: max_dofs
+   use body_elements, only: coupled_stiffness
+   use element_kinds, only: max_coupled_dofs
    use failures, only: failure_type
    use kinds, only: long, wp
    use machine, only: available_memory
-   use model_data, only: corners_of, model_type, n_bars
+   use model_data, only: model_type, n_bars, n_points
    use node_ordering, only: build_node_graph, node_graph, reverse_cuthill_mckee
+   use section_coupling, only: coupled_nodes
    use skyline, only: add_to_skyline, factorise_skyline, skyline_matrix, solve_skyline, start_skyline
    use text_tools, only: integer_text
    implicit none
    private
 
-   public :: add_bar, start_equations, form_body_stiffness, form_structure_stiffness, solve_equations
+   public :: add_bar, lock_unknown, start_equations, form_body_stiffness, form_structure_stiffness, solve_equations
 
    real(wp), parameter :: pivot_tolerance = 1.0e-12_wp ! of the diagonal entry: below it there is no stiffness
+   real(wp), parameter :: locked_stiffness = 1.0e20_wp ! times the diagonal entry: what the others feel is lost in rounding
 
    type, public :: equation_system
       integer :: n = 0                              !! unknowns
       integer, allocatable :: number(:, :)          !! (dimension, n_nodes) equation, 0: held or without element
       integer, allocatable :: node(:), direction(:) !! (n) what an equation belongs to
+      integer, allocatable :: locked(:)             !! equations whose unknowns have been held since they were numbered
       integer(long) :: profile = 0                  !! entries in the skyline
       integer(long) :: profile_as_numbered = 0      !! what they would be in the order of the node numbers
       type(skyline_matrix) :: body                  !! [k_b]
@@ -40,6 +43,7 @@ contains
       integer :: i
       logical :: ok
 
+      allocate (system%locked(0))
       call build_node_graph(model, graph)
       call reverse_cuthill_mckee(graph, order)
       call number_unknowns(model, [(i, i = 1, model%n_nodes)], system)
@@ -104,7 +108,7 @@ contains
 
       allocate (first_row, source=[(i, i = 1, system%n)])
       do e = 1, model%n_elements
-         call couple(corners_of(model, e))
+         call couple(coupled_nodes(model, e))
       end do
       do i = 1, size(model%interface)
          call couple(pack(model%interface(i)%nodes, model%interface(i)%nodes > 0))
@@ -145,13 +149,13 @@ contains
    subroutine form_body_stiffness(model, system)
       type(model_type), intent(in)         :: model
       type(equation_system), intent(inout) :: system
-      real(wp) :: k(max_dofs, max_dofs)
-      integer  :: d, e, i, n, rows(max_dofs)
+      real(wp) :: k(max_coupled_dofs, max_coupled_dofs)
+      integer  :: d, e, i, n, rows(max_coupled_dofs)
 
       d = model%dimension
       do e = 1, model%n_elements
-         call element_stiffness(model, e, k)
-         associate (nodes => corners_of(model, e))
+         call coupled_stiffness(model, e, k)
+         associate (nodes => coupled_nodes(model, e))
             n = d*size(nodes)
             do i = 1, size(nodes)
                rows(d*(i - 1) + 1:d*i) = system%number(:, nodes(i))
@@ -177,6 +181,15 @@ contains
    end subroutine add_bar
 
 
+   !> Hold component D of NODE from now on: it keeps its equation, and every solution has zero there.
+   subroutine lock_unknown(node, d, system)
+      integer, intent(in)                  :: node, d
+      type(equation_system), intent(inout) :: system
+
+      if (system%number(d, node) > 0) system%locked = [system%locked, system%number(d, node)]
+   end subroutine lock_unknown
+
+
    !> [k_s] = [k_b] + sum of [k_int], Eq. (8), factorised. A structure without stiffness in some direction is a failure
    !! that names the node; WHERE says in which increment.
    subroutine form_structure_stiffness(model, k_int, where, system, failure)
@@ -185,7 +198,6 @@ contains
       character(*), intent(in)             :: where
       type(equation_system), intent(inout) :: system
       type(failure_type), intent(inout)    :: failure
-      character(1), parameter :: direction_name(3) = ['X', 'Y', 'Z']
       real(wp) :: k(6, 6), k_global(3, 3)
       integer  :: d, fault, i, rows(6)
 
@@ -204,11 +216,31 @@ contains
             call scatter(system%structure, rows(:2*d), k(:2*d, :2*d))
          end associate
       end do
+      do i = 1, size(system%locked)
+         associate (diagonal => system%structure%values(system%structure%diagonal(system%locked(i))))
+            diagonal = locked_stiffness*diagonal
+         end associate
+      end do
       call factorise_skyline(system%structure, pivot_tolerance, fault)
-      if (fault > 0) call failure%raise(where//': the structure is a mechanism: node '// &
-         integer_text(model%node_id(system%node(fault)))//' has no stiffness in direction '// &
-         direction_name(system%direction(fault))//' (not supported there, or every joint that held it is open)')
+      if (fault > 0) call failure%raise(where//': the structure is a mechanism: '// &
+         what_is_loose(model, system%node(fault), system%direction(fault))// &
+         ' (not supported there, or every joint that held it is open)')
    end subroutine form_structure_stiffness
+
+
+   !> What has no stiffness, in words.
+   pure function what_is_loose(model, node, d) result(words)
+      type(model_type), intent(in) :: model
+      integer, intent(in)          :: node, d
+      character(:), allocatable    :: words
+      character(1), parameter :: direction_name(3) = ['X', 'Y', 'Z']
+
+      if (node <= n_points(model)) then
+         words = 'node '//integer_text(model%node_id(node))//' has no stiffness in direction '//direction_name(d)
+      else
+         words = 'nothing holds BOLT '//integer_text(model%sections(node - n_points(model))%bolt)//' together at its section'
+      end if
+   end function what_is_loose
 
 
    !> Add an element matrix to the upper triangle; row 0 is a held component.
@@ -228,7 +260,7 @@ contains
    end subroutine scatter
 
 
-   !> Displacements U of all nodes under the nodal forces F; held components stay zero.
+   !> Displacements U of all nodes under the nodal forces F; held components, locked ones too, stay zero.
    subroutine solve_equations(system, f, u)
       type(equation_system), intent(in) :: system
       real(wp), intent(in)              :: f(:, :) !! (dimension, n_nodes) [force]
@@ -240,7 +272,9 @@ contains
       do i = 1, system%n
          x(i) = f(system%direction(i), system%node(i))
       end do
+      x(system%locked) = 0.0_wp
       call solve_skyline(system%structure, x)
+      x(system%locked) = 0.0_wp
       u = 0.0_wp
       do i = 1, system%n
          u(system%direction(i), system%node(i)) = x(i)
