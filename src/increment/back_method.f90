@@ -44,7 +44,7 @@ contains
          end do
          call form_structure_stiffness(model, k_int, where_in_plan(plan, analysis%stage, analysis%increment), system, failure)
          if (failure%raised) return
-         if (any(abs(analysis%moved) > 0.0_wp)) then ! all of it: every stage begins at rest
+         if (analysis%moves) then
             call solve_moved(model, system, k_int, analysis%applied, analysis%moved, analysis%u)
          else
             call solve_equations(system, analysis%applied, analysis%u)
