@@ -104,3 +104,11 @@ bolted discs NEWTON 103,106 && {
 for section in 106,103 102,105 105,102 152,155; do
    bolted moved NEWTON $section && same_states "section $section: the same joints" discs moved 1e-8
 done
+
+# a bolt through two plates, in space
+run_input solid_bolt && {
+   for joint in 1 2 3; do near "plates: joint $joint bears the preload" "$(force solid_bolt 1 $joint)" 6000 1e-8; done
+   near 'plates: the bolt has its preload' "$(tension solid_bolt 1)" 6000 1e-5
+   near 'plates: bolt force less joint force is the load' "$(awk -v b="$(force solid_bolt 2 2)" -v j="$(force solid_bolt 2 1)" 'BEGIN { printf "%.15g", b - j }')" 3000 1e-8
+   near 'plates: the head bears the bolt force' "$(tension solid_bolt 2)" "$(force solid_bolt 2 2)" 1e-5
+}
