@@ -1,6 +1,6 @@
 !> Bolts. A CROD in the stage that tightens it is its preload, a pair of forces that grows with the increments; from the end of
-!! that stage on it is an elastic bar, locked at the length that it then has. In a solid bolt the preload is a force on the overlap
-!! g at its section; from the end of that stage on g is held as it then is.
+!! that stage on it is an elastic bar, locked at the length that it then has. In a solid bolt the preload is a force on the
+!! overlap g at its section; from the end of that stage on g is held as it then is.
 module bolt_locking
    use analysis_state, only: analysis_type
    use bar_elements, only: add_pull, bar_elongation

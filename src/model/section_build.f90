@@ -38,7 +38,7 @@ contains
          k = k + 1
          call build_section(deck, deck%bulk%bolt(i), k, model, errors)
       end do
-      call append_section_nodes(model)
+      if (all(model%sections%point > 0)) call append_section_nodes(model) ! if not, there are errors
    end subroutine build_sections
 
 
@@ -68,6 +68,7 @@ contains
       fault = not_inside(model, s)
       if (fault == '') then
          call face_as_the_first(model, s, model%sections(k))
+         if (model%sections(k)%area <= 0.0_wp) return ! a body without its property: said already
          call surface_nodes(model, model%surfaces(s), list)
          allocate (centroid, source=matmul(model%x(:, list%node), list%area)/sum(list%area))
          fault = not_flat(model, model%sections(k), list, centroid)
@@ -203,7 +204,7 @@ contains
       do k = 1, size(model%sections)
          behind = pack([(e, e = 1, model%n_elements)], model%element_section == k)
          model%sections(k)%node = n + k
-         model%x = reshape([model%x, model%x(:, max(1, model%sections(k)%point))], [3, n + k])
+         model%x = reshape([model%x, model%x(:, model%sections(k)%point)], [3, n + k])
          model%elements_at = [model%elements_at, behind]
          model%first_at = [model%first_at, size(model%elements_at) + 1]
       end do
