@@ -86,9 +86,10 @@ module bulk_data
       real(wp) :: value = 0.0_wp
    end type displacement_card
 
-   !> BOLT: a bolt tightened to PRELOAD in the stage of SUBCASE STAGE, locked afterwards. ELEMENT is a CROD.
+   !> BOLT: a bolt tightened to PRELOAD in the stage of SUBCASE STAGE, locked afterwards: the CROD ELEMENT, or a solid cut at
+   !! the marked SURFACE.
    type, public :: bolt_card
-      integer  :: line = 0, id = 0, element = 0, stage = 0
+      integer  :: line = 0, id = 0, element = 0, stage = 0, surface = 0
       real(wp) :: preload = 0.0_wp
    end type bolt_card
 

@@ -168,7 +168,8 @@ contains
    end subroutine read_spcd
 
 
-   !> BOLT: the CROD EID tightened to PRELOAD in SUBCASE STAGE and locked in the later ones.
+   !> BOLT: the CROD EID, or the solid cut at the surface PMARK, tightened to PRELOAD in SUBCASE STAGE and locked in the later
+   !! ones.
    subroutine read_bolt(card, bulk, values, errors)
       type(card_type), intent(in)          :: card
       type(bulk_data_type), intent(inout)  :: bulk
@@ -176,9 +177,14 @@ contains
       type(deck_error_list), intent(inout) :: errors
       type(field_rule), save, allocatable :: table(:)
 
-      if (.not. allocated(table)) table = [integer_field('BID'), integer_field('EID'), real_field('PRELOAD', above=0.0_wp), &
-         integer_field('STAGE', default=1)]
+      if (.not. allocated(table)) table = [integer_field('BID'), integer_field('EID', default=0), &
+         real_field('PRELOAD', above=0.0_wp), integer_field('STAGE', default=1), integer_field('PMARK', default=0)]
       call decode_card(card, table, .false., values, errors)
+      if (values%given(2) .and. values%given(5)) then
+         call field_error(card, 5, 'PMARK: a bolt is a CROD, EID, or a solid cut at a surface, PMARK, not both', errors)
+      else if (.not. (values%given(2) .or. values%given(5))) then
+         call field_error(card, 2, 'EID: blank, expected a CROD, or in field 6 the PMARK at which a solid is cut', errors)
+      end if
       bulk%n_bolt = bulk%n_bolt + 1
       associate (bolt => bulk%bolt(bulk%n_bolt))
          bolt%line = card%line
@@ -186,6 +192,7 @@ contains
          bolt%element = values%integers(2)
          bolt%preload = values%reals(3)
          bolt%stage = values%integers(4)
+         bolt%surface = values%integers(5)
       end associate
    end subroutine read_bolt
 

@@ -10,6 +10,7 @@ module load_build
    use id_table, only: id_table_type
    use kinds, only: wp
    use model_data, only: corners_of, model_type, stage_load_type, surface_type
+   use section_coupling, only: add_section_share
    use surface_build, only: side_influence
    use text_tools, only: integer_text
    implicit none
@@ -455,6 +456,7 @@ contains
                     property => model%properties(max(1, model%element_property(e))))
             call side_forces(property%state, property%thickness, model%x(:model%dimension, nodes), spread(p, 1, size(nodes)), f)
             force(:model%dimension, nodes) = force(:model%dimension, nodes) + f(:, :size(nodes))
+            call add_section_share(model, e, nodes, f, force)
          end associate
       end associate
    end subroutine add_pressure
@@ -474,6 +476,7 @@ contains
          do k = 1, surface%corners(s)
             force(:, surface%nodes(k, s)) = force(:, surface%nodes(k, s)) - p*normal(:, k)
          end do
+         call add_section_share(model, surface%element(s), surface%nodes(:surface%corners(s), s), -p*normal, force)
       end do
    end subroutine add_surface_pressure
 
@@ -498,6 +501,8 @@ contains
             do k = 1, surface%corners(s)
                force(:, surface%nodes(k, s)) = force(:, surface%nodes(k, s)) + area(k)/sum_of_areas*total
             end do
+            call add_section_share(model, surface%element(s), surface%nodes(:surface%corners(s), s), &
+                                   spread(total/sum_of_areas, 2, max_side_nodes)*spread(area, 1, 3), force)
          end do
          if (sum_of_areas <= 0.0_wp) return
       end do
@@ -517,6 +522,7 @@ contains
             if (any(nodes == 0) .or. model%element_property(e) == 0) cycle
             call element_weight(model, e, acceleration(:d), f)
             force(:d, nodes) = force(:d, nodes) + f(:, :size(nodes))
+            call add_section_share(model, e, nodes, f, force)
          end associate
       end do
    end subroutine add_gravity
