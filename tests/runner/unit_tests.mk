@@ -51,6 +51,9 @@ unit-test: $(UNIT_PROGRAM)
 $(UNIT_FOLDER):
 	@mkdir -p $@
 
+# What reads .vtu files back is written once.
+$(UNIT_FOLDER)/test_vtu_results.o: $(UNIT_FOLDER)/test_vtu_file.o
+
 ifeq ($(RUNNER),fallback)
 
 # A refused file leaves no Fortran behind.
