@@ -68,7 +68,7 @@ contains
          do i = 1, bulk%n_displacement
             if (bulk%displacement(i)%set == set) call add_displacement(i)
          end do
-         if (.not. (any(bulk%pressure%set == set) .or. any(bulk%surface_load%set == set) .or. any(bulk%gravity%set == set))) return
+         if (all(bulk%pressure%set /= set) .and. all(bulk%surface_load%set /= set) .and. all(bulk%gravity%set /= set)) return
          allocate (spread_out(3, model%n_nodes), source=0.0_wp)
          do i = 1, bulk%n_pressure
             if (bulk%pressure(i)%set == set .and. pressed(i)%element > 0) &
