@@ -62,7 +62,7 @@ module bulk_data
       integer  :: line = 0, set = 0, first = 0
       logical  :: on_face = .false.                     ! PLOAD4
       integer  :: corners(2) = 0
-      real(wp) :: pressure = 0.0_wp                     ! positive into the body
+      real(wp) :: pressure(4) = 0.0_wp                  ! positive into the body, at the corners from G1 on
    end type pressure_card
 
    !> PLOADM and FORCEM: pressure, or a total force spread evenly, on a marked surface.

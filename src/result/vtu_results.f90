@@ -17,7 +17,7 @@ module vtu_results
    implicit none
    private
 
-   public :: start_vtu, write_vtu, finish_vtu, discard_vtu, remove_old_vtu
+   public :: start_vtu, write_vtu, finish_vtu, discard_vtu, remove_old_vtu, is_vtu_ending
 
    integer, parameter :: most_old = 999 ! stages whose old files are looked for
 
@@ -217,6 +217,20 @@ contains
       end if
       results%n = 0
    end subroutine discard_vtu
+
+
+   !> Whether a file of a deck may end so, behind the name of the deck: .vtu, .joint.vtu, both with the number of a stage before
+   !! them, .pvd.
+   pure logical function is_vtu_ending(ending)
+      character(*), intent(in) :: ending
+      integer :: first
+
+      is_vtu_ending = ending == '.vtu' .or. ending == '.joint.vtu' .or. ending == '.pvd'
+      if (is_vtu_ending .or. len(ending) < 2) return
+      if (ending(1:1) /= '.') return
+      first = verify(ending(2:), '0123456789') + 1
+      if (first > 2) is_vtu_ending = ending(first:) == '.vtu' .or. ending(first:) == '.joint.vtu'
+   end function is_vtu_ending
 
 
    !> Remove what an earlier run left.
