@@ -108,7 +108,9 @@ check: bin/jointfem $(COMPARE)
 accept: bin/jointfem
 	@test -n '$(CASE)' || { echo 'usage: make accept CASE=name, for input/name.bdf'; exit 1; }
 	@test -f 'input/$(CASE).bdf' || { echo 'there is no deck input/$(CASE).bdf'; exit 1; }
-	bin/jointfem -q -o reference_output 'input/$(CASE).bdf'
+	@mkdir -p $(BUILD)/accept
+	bin/jointfem -q -o $(BUILD)/accept 'input/$(CASE).bdf'
+	cp '$(BUILD)/accept/$(CASE).out' '$(BUILD)/accept/$(CASE).joint.csv' reference_output
 	@echo 'say in the commit message why the reference changed'
 
 # Speed and pictures ----------------------------------------------------------------------------------------------

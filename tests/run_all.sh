@@ -34,6 +34,7 @@ part 'decks against their references' tests/check.sh "$program" "$compare" "$bui
 part 'decks through the program with run-time checks' tests/check.sh "$checked" "$compare" "$build/check-checked"
 part 'what the paper says of the prism' tests/prism_findings.sh "$build/check"
 part 'exact answers and independent computations' tests/exact/run.sh "$program" "$build/exact"
+part 'linear decks against CalculiX' tests/calculix/run.sh "$program" "$build/calculix"
 part 'STEP tends to NEWTON' tests/convergence.sh "$program" "$build/convergence"
 part 'the comparison itself' tests/compare/test_compare.sh "$compare" reference_output tests/compare/tolerances.txt
 part 'from test data to cards' tests/fit/run.sh "$build/checked/jointfit" "$program"
@@ -41,7 +42,7 @@ part 'published surfaces' tests/fit/surfaces.sh "$program"
 mkdir -p "$build/vtu-deck"
 sed -E 's/^( *INCR = .*)/\1\n  OUTPUT = LAST, VTU/; /OUTPUT = (ALL|JOINT|LAST|NONE)$/d' input/prism_history.bdf > "$build/vtu-deck/history.bdf"
 "$program" -q -o "$build/vtu-deck" "$build/vtu-deck/history.bdf" 2> /dev/null
-part 'files for ParaView' tests/vtu/run.sh "$build/vtu" "$build/vtu-deck/history.pvd"
+part 'files for ParaView' tests/vtu/run.sh "$build/vtu" "$build/vtu-deck/history.pvd" "$build/check/post_on_plate.pvd"
 part 'meshes from Gmsh' tests/gmsh.sh "$program" "$build/gmsh"
 part 'the benchmark, without measuring' tests/bench/test_bench.sh "$program" "$build/test/bench"
 part 'bad decks and command lines' tests/bad/run.sh "$PWD/$checked"

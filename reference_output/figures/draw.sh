@@ -32,6 +32,16 @@ done
    awk 'BEGIN { print "coefficient,constant,slope" }
         $2 ~ /^a[123]$/ && $3 == "=" { print $2 "," $4 "," ($5 == "-" ? -$6 : $6) }' > "$work/sanad.csv"
 
+# how far the contact of the clamped flange pair reaches beside its bolt circle, radius 40, with rings of different thickness
+echo 'thickness,flexible,stiff' > "$work/flange.csv"
+for t in 2 3 4 5 6 7 8 9 10 11 12; do
+   for law in '1.0-3,0.5,2.0+5' '1.0-5,0.5,2.0+7'; do
+      awk -v t=$t -f tests/exact/flange_thickness.awk input/flange_pair.bdf | sed "s/^JNORM.*/JNORM,1,$law/" > "$work/flange.bdf"
+      "$program" -q -o "$work" "$work/flange.bdf"
+      awk -f tests/exact/contact_edges.awk "$work/flange.joint.csv"
+   done | awk -v t=$t '{ reach[NR] = $2 - 40 } END { print t "," reach[1] "," reach[2] }' >> "$work/flange.csv"
+done
+
 for script in "$here"/*.gp; do
    name=$(basename "$script" .gp)
    for terminal in 'pngcairo size 1000,700 font "Helvetica,14"' 'svg size 1000,700 font "Helvetica,14" background "white"'; do

@@ -62,7 +62,7 @@ module bulk_data
       integer  :: line = 0, set = 0, first = 0
       logical  :: on_face = .false.                     ! PLOAD4
       integer  :: corners(2) = 0
-      real(wp) :: pressure = 0.0_wp                     ! positive into the body
+      real(wp) :: pressure(4) = 0.0_wp                  ! positive into the body, at the corners from G1 on
    end type pressure_card
 
    !> PLOADM and FORCEM: pressure, or a total force spread evenly, on a marked surface.
@@ -86,9 +86,10 @@ module bulk_data
       real(wp) :: value = 0.0_wp
    end type displacement_card
 
-   !> BOLT: a bolt tightened to PRELOAD in the stage of SUBCASE STAGE, locked afterwards. ELEMENT is a CROD.
+   !> BOLT: a bolt tightened to PRELOAD in the stage of SUBCASE STAGE, locked afterwards: the CROD ELEMENT, or a solid cut at
+   !! the marked SURFACE.
    type, public :: bolt_card
-      integer  :: line = 0, id = 0, element = 0, stage = 0
+      integer  :: line = 0, id = 0, element = 0, stage = 0, surface = 0
       real(wp) :: preload = 0.0_wp
    end type bolt_card
 

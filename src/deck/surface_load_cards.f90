@@ -14,24 +14,20 @@ module surface_load_cards
 
 contains
 
-   !> PLOAD4: even pressure on a face of a solid, positive into it. The face is named by G1 and, for CHEXA and CPENTA, the
-   !! opposite corner G3; for CTETRA G4 is the corner that the face does not have.
+   !> PLOAD4: pressure on a face of a solid, positive into it: P1 at G1, P2 to P4 at the next corners as the right hand goes
+   !! about the outward normal, where blank as P1. The face is named by G1 and, for CHEXA and CPENTA, the opposite corner G3; for
+   !! CTETRA G4 is the corner that the face does not have.
    subroutine read_pload4(card, bulk, values, errors)
       type(card_type), intent(in)          :: card
       type(bulk_data_type), intent(inout)  :: bulk
       type(card_values), intent(inout)     :: values
       type(deck_error_list), intent(inout) :: errors
       type(field_rule), save, allocatable :: table(:)
-      integer :: k
 
       if (.not. allocated(table)) table = [integer_field('SID'), integer_field('EID'), real_field('P1'), &
          real_field('P2', default=0.0_wp), real_field('P3', default=0.0_wp), real_field('P4', default=0.0_wp), &
          integer_field('G1'), integer_field('G34', default=0)]
       call decode_card(card, table, .false., values, errors)
-      do k = 4, 6
-         if (values%ok .and. values%given(k) .and. abs(values%reals(k) - values%reals(3)) > 0.0_wp) call field_error(card, k, &
-            'P'//achar(iachar('0') + k - 2)//': not as P1; the pressure on a face is even here', errors)
-      end do
       bulk%n_pressure = bulk%n_pressure + 1
       associate (pressure => bulk%pressure(bulk%n_pressure))
          pressure%line = card%line
@@ -39,7 +35,7 @@ contains
          pressure%set = values%integers(1)
          pressure%first = values%integers(2)
          pressure%corners = values%integers(7:8)
-         pressure%pressure = values%reals(3)
+         pressure%pressure = merge(values%reals(3:6), values%reals(3), values%given(3:6))
       end associate
    end subroutine read_pload4
 
@@ -168,7 +164,8 @@ contains
    end subroutine read_spcd
 
 
-   !> BOLT: the CROD EID tightened to PRELOAD in SUBCASE STAGE and locked in the later ones.
+   !> BOLT: the CROD EID, or the solid cut at the surface PMARK, tightened to PRELOAD in SUBCASE STAGE and locked in the later
+   !! ones.
    subroutine read_bolt(card, bulk, values, errors)
       type(card_type), intent(in)          :: card
       type(bulk_data_type), intent(inout)  :: bulk
@@ -176,9 +173,14 @@ contains
       type(deck_error_list), intent(inout) :: errors
       type(field_rule), save, allocatable :: table(:)
 
-      if (.not. allocated(table)) table = [integer_field('BID'), integer_field('EID'), real_field('PRELOAD', above=0.0_wp), &
-         integer_field('STAGE', default=1)]
+      if (.not. allocated(table)) table = [integer_field('BID'), integer_field('EID', default=0), &
+         real_field('PRELOAD', above=0.0_wp), integer_field('STAGE', default=1), integer_field('PMARK', default=0)]
       call decode_card(card, table, .false., values, errors)
+      if (values%given(2) .and. values%given(5)) then
+         call field_error(card, 5, 'PMARK: a bolt is a CROD, EID, or a solid cut at a surface, PMARK, not both', errors)
+      else if (.not. (values%given(2) .or. values%given(5))) then
+         call field_error(card, 2, 'EID: blank, expected a CROD, or in field 6 the PMARK at which a solid is cut', errors)
+      end if
       bulk%n_bolt = bulk%n_bolt + 1
       associate (bolt => bulk%bolt(bulk%n_bolt))
          bolt%line = card%line
@@ -186,6 +188,7 @@ contains
          bolt%element = values%integers(2)
          bolt%preload = values%reals(3)
          bolt%stage = values%integers(4)
+         bolt%surface = values%integers(5)
       end associate
    end subroutine read_bolt
 

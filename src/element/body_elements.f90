@@ -2,17 +2,19 @@
 module body_elements
    use bar_elements, only: add_bar_forces
    use elasticity, only: max_stresses, n_stresses, plane_strain, solid
-   use element_kinds, only: max_dofs
+   use element_kinds, only: max_coupled_dofs
    use element_loads, only: body_forces
    use element_mapping, only: element_law, make_element_law
    use isoparametric, only: stiffness
    use kinds, only: wp
    use model_data, only: corners_of, model_type
+   use section_coupling, only: corner_displacements, coupled_nodes, extend_stiffness
    use stress_recovery, only: centre_stress, corner_stress
    implicit none
    private
 
-   public :: element_stiffness, element_stress, element_corner_stress, element_weight, internal_forces, law_of, full_stress
+   public :: element_stiffness, coupled_stiffness, element_stress, element_corner_stress, element_weight, &
+             internal_forces, law_of, full_stress
 
 contains
 
@@ -26,6 +28,17 @@ contains
    end subroutine element_stiffness
 
 
+   !> Stiffness between the coupled_nodes of element E, components of node 1 first [force/length].
+   pure subroutine coupled_stiffness(model, e, k)
+      type(model_type), intent(in) :: model
+      integer, intent(in)          :: e
+      real(wp), intent(inout)      :: k(:, :) !! dimension x coupled nodes rows and columns are set
+
+      call element_stiffness(model, e, k)
+      call extend_stiffness(model, e, k)
+   end subroutine coupled_stiffness
+
+
    !> Stress at the centre of element E under the displacements U: components as in elasticity [pressure].
    pure function element_stress(model, e, u) result(stress)
       type(model_type), intent(in) :: model
@@ -34,7 +47,7 @@ contains
       real(wp) :: stress(n_stresses(model%properties(model%element_property(e))%state))
 
       associate (nodes => corners_of(model, e))
-         call centre_stress(law_of(model, e), model%x(:model%dimension, nodes), u(:, nodes), stress)
+         call centre_stress(law_of(model, e), model%x(:model%dimension, nodes), corner_displacements(model, e, u), stress)
       end associate
    end function element_stress
 
@@ -47,7 +60,7 @@ contains
       real(wp), intent(inout)      :: stress(:, :) !! (components, corners) [pressure], set here
 
       associate (nodes => corners_of(model, e))
-         call corner_stress(law_of(model, e), model%x(:model%dimension, nodes), u(:, nodes), stress)
+         call corner_stress(law_of(model, e), model%x(:model%dimension, nodes), corner_displacements(model, e, u), stress)
       end associate
    end subroutine element_corner_stress
 
@@ -90,14 +103,14 @@ contains
       type(model_type), intent(in) :: model
       real(wp), intent(in)         :: u(:, :) !! (dimension, n_nodes) [length]
       real(wp), intent(out)        :: f(:, :) !! (dimension, n_nodes) [force]
-      real(wp) :: k(max_dofs, max_dofs), q(max_dofs), p(max_dofs)
+      real(wp) :: k(max_coupled_dofs, max_coupled_dofs), q(max_coupled_dofs), p(max_coupled_dofs)
       integer  :: d, e, i, n
 
       d = model%dimension
       f = 0.0_wp
       do e = 1, model%n_elements
-         call element_stiffness(model, e, k)
-         associate (nodes => corners_of(model, e))
+         call coupled_stiffness(model, e, k)
+         associate (nodes => coupled_nodes(model, e))
             n = d*size(nodes)
             do i = 1, size(nodes)
                q(d*(i - 1) + 1:d*i) = u(:, nodes(i))

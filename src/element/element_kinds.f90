@@ -11,6 +11,7 @@ module element_kinds
    integer, parameter, public :: n_kinds = 5
 
    integer, parameter, public :: max_nodes = 8, max_dofs = 24       !! of one element
+   integer, parameter, public :: max_coupled_dofs = max_dofs + 3    !! with the node of a section of a solid bolt
    integer, parameter, public :: max_sides = 6, max_side_nodes = 4
 
    !> What distinguishes one kind from another. Sides of plane elements are edges, run through with the body on the left;

@@ -5,7 +5,7 @@ module analysis_state
    use equations, only: body_forces, condense_load, equation_system, recover_displacements
    use joint_laws, only: element_state, element_stiffness_of
    use kinds, only: wp
-   use model_data, only: joint_movement, model_type, n_bars
+   use model_data, only: joint_movement, model_type, n_bars, n_sections
    use normal_stiffness, only: branch_open
    use stage_plan, only: stage_plan_type
    implicit none
@@ -113,6 +113,14 @@ contains
          if (model%bars(i)%stage == stage) analysis%pull(i) = model%bars(i)%preload
          call add_pull(model, i, analysis%pull(i), analysis%load_after)
       end do
+      do i = 1, n_sections(model)
+         associate (section => model%sections(i))
+            associate (load => analysis%load_after(1, section%node))
+               if (section%stage == stage) load = load + section%preload
+            end associate
+            if (section%is_locked) analysis%moved_after(1, section%node) = analysis%moved_before(1, section%node)
+         end associate
+      end do
       if (stage > 1) call condense(model, system, analysis%load_before, analysis%moved_before, analysis%felt_before)
       call condense(model, system, analysis%load_after, analysis%moved_after, analysis%felt_after)
       analysis%felt = analysis%felt_before
@@ -126,19 +134,23 @@ contains
       real(wp), intent(in)              :: load(:, :), moved(:, :)
       real(wp), intent(out)             :: felt(:, :)
 
-      call condense_load(system, load - forces_of(model, moved), felt)
+      call condense_load(system, load - forces_of(model, system, moved), felt)
    end subroutine condense
 
 
-   !> Forces that the bodies need to have their held components MOVED, the others at rest.
-   function forces_of(model, moved) result(f)
-      type(model_type), intent(in) :: model
-      real(wp), intent(in)         :: moved(:, :)
+   !> Forces that the bodies need to have MOVED what has no equation, the others at rest.
+   function forces_of(model, system, moved) result(f)
+      type(model_type), intent(in)      :: model
+      type(equation_system), intent(in) :: system
+      real(wp), intent(in)              :: moved(:, :)
       real(wp), allocatable :: f(:, :)
 
-      allocate (f, mold=moved)
-      f = 0.0_wp
-      if (any(abs(moved) > 0.0_wp)) call internal_forces(model, moved, f)
+      allocate (f, source=merge(moved, 0.0_wp, system%number == 0))
+      if (any(abs(f) > 0.0_wp)) then
+         call internal_forces(model, merge(moved, 0.0_wp, system%number == 0), f)
+      else
+         f = 0.0_wp
+      end if
    end function forces_of
 
 
@@ -249,7 +261,7 @@ contains
       type(equation_system), intent(in)  :: system
       type(analysis_type), intent(inout) :: analysis
 
-      call recover_displacements(system, analysis%applied - forces_of(model, analysis%moved), analysis%u)
+      call recover_displacements(system, analysis%applied - forces_of(model, system, analysis%moved), analysis%u)
       where (system%number == 0) analysis%u = analysis%moved
       call internal_forces(model, analysis%u, analysis%unbalanced)
       analysis%unbalanced = analysis%applied - analysis%unbalanced

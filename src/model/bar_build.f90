@@ -1,6 +1,6 @@
 !> Bars and bolts: CROD elements with a PROD, and the BOLT cards that tighten some of them.
 module bar_build
-   use bulk_data, only: element_card
+   use bulk_data, only: bolt_card, element_card
    use deck_cards, only: add_field_error, card_name
    use deck_errors, only: deck_error_list
    use deck_input, only: deck_type
@@ -10,7 +10,7 @@ module bar_build
    implicit none
    private
 
-   public :: build_bars, is_bar
+   public :: build_bars, is_bar, find_stage
 
 contains
 
@@ -90,12 +90,11 @@ contains
 
       do i = 1, deck%bulk%n_bolt
          associate (card => deck%bulk%bolt(i))
+            if (card%element == 0) cycle ! a solid bolt
             k = findloc(model%bars%id, card%element, dim=1)
-            stage = findloc(deck%control%stages%id, card%stage, dim=1)
-            if (k == 0 .and. card%element > 0) call add_field_error(deck%text, card%line, 2, 'EID', 'there is no CROD '// &
+            call find_stage(deck, card, stage, errors)
+            if (k == 0) call add_field_error(deck%text, card%line, 2, 'EID', 'there is no CROD '// &
                integer_text(card%element)//' with a PROD', errors)
-            if (stage == 0 .and. card%stage > 0) call add_field_error(deck%text, card%line, 4, 'STAGE', &
-               'there is no SUBCASE '//integer_text(card%stage), errors)
             if (k == 0 .or. stage == 0) cycle
             if (model%bars(k)%bolt > 0) then
                call add_field_error(deck%text, card%line, 2, 'EID', 'CROD '//integer_text(card%element)//' is BOLT '// &
@@ -109,5 +108,18 @@ contains
          end associate
       end do
    end subroutine tighten
+
+
+   !> Position of the STAGE in which the bolt of CARD is tightened; 0: it is not there.
+   subroutine find_stage(deck, card, stage, errors)
+      type(deck_type), intent(in)          :: deck
+      type(bolt_card), intent(in)          :: card
+      integer, intent(out)                 :: stage
+      type(deck_error_list), intent(inout) :: errors
+
+      stage = findloc(deck%control%stages%id, card%stage, dim=1)
+      if (stage == 0 .and. card%stage > 0) call add_field_error(deck%text, card%line, 4, 'STAGE', &
+         'there is no SUBCASE '//integer_text(card%stage), errors)
+   end subroutine find_stage
 
 end module bar_build

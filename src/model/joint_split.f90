@@ -11,7 +11,7 @@ module joint_split
    implicit none
    private
 
-   public :: split_shared_surfaces
+   public :: split_shared_surfaces, list_sides_of_nodes, right_of
 
    !> The nodes of a surface that was split, and the new node on the other side of each.
    type :: split_type
@@ -19,7 +19,7 @@ module joint_split
    end type split_type
 
    !> side(first(i):first(i+1)-1) are the sides of a surface at node i.
-   type :: side_list
+   type, public :: side_list
       integer, allocatable :: first(:), side(:)
    end type side_list
 

@@ -3,7 +3,8 @@
 module joint_statics
    use deck_errors, only: deck_error_list
    use kinds, only: wp
-   use model_data, only: joint_type, model_type, n_bars, stage_load_type
+   use model_data, only: joint_type, model_type, n_bars, n_points, n_sections, stage_load_type
+   use section_coupling, only: section_node
    use text_tools, only: integer_text, real_text
    implicit none
    private
@@ -12,23 +13,30 @@ module joint_statics
 
 contains
 
-   !> Number the connected bodies (a node without a body is a part of its own).
+   !> Number the connected bodies (a node without a body is a part of its own). Behind the section of a solid bolt the node of the
+   !! section stands for those that it cuts.
    pure subroutine find_parts(model, with_bolts)
       type(model_type), intent(inout) :: model
       logical, intent(in)             :: with_bolts !! whether bolts connect bodies as other bars do
       integer, allocatable :: parent(:)
-      integer :: e, k, node, root
+      integer :: e, first, k, node, root
 
       allocate (parent(model%n_nodes))
       parent = [(node, node = 1, model%n_nodes)]
       do e = 1, model%n_elements
+         first = uncut(e, 1)
          do k = 2, size(model%element_nodes, 1)
-            call join(parent, model%element_nodes(1, e), model%element_nodes(k, e))
+            call join(parent, first, uncut(e, k))
          end do
       end do
       do k = 1, n_bars(model)
          if (with_bolts .or. model%bars(k)%bolt == 0) call join(parent, model%bars(k)%nodes(1), model%bars(k)%nodes(2))
       end do
+      if (with_bolts) then
+         do k = 1, n_sections(model)
+            call join(parent, model%sections(k)%node, model%sections(k)%point)
+         end do
+      end if
       if (allocated(model%part)) deallocate (model%part)
       allocate (model%part(model%n_nodes), source=0)
       model%n_parts = 0
@@ -40,6 +48,18 @@ contains
          end if
          model%part(node) = model%part(root)
       end do
+
+   contains
+
+      !> Corner I of element J, or what stands for it behind a section.
+      pure integer function uncut(j, i) result(corner)
+         integer, intent(in) :: j, i
+
+         corner = model%element_nodes(i, j)
+         if (corner == 0 .or. section_node(model, j) == 0) return
+         if (model%node_section(corner) == model%element_section(j)) corner = section_node(model, j)
+      end function uncut
+
    end subroutine find_parts
 
 
@@ -64,9 +84,15 @@ contains
             do i = 1, size(model%interface)
                if (model%interface(i)%joint /= j) call join(group, part_of(model, i, 1), part_of(model, i, 2))
             end do
+            do i = 1, n_sections(model) ! bolts that are being tightened hold across their axis
+               associate (section => model%sections(i))
+                  if (abs(dot_product(section%direction, joint%normal)) < 1.0_wp - 1.0e-9_wp) &
+                     call join(group, model%part(section%node), model%part(section%point))
+               end associate
+            end do
             grounded = .false.
             grounded(root_of(group, base)) = .true.
-            do node = 1, model%n_nodes
+            do node = 1, n_points(model)
                do k = 1, model%dimension
                   if (model%held(k, node) .and. abs(joint%normal(k)) > 1.0e-9_wp) &
                      grounded(root_of(group, model%part(node))) = .true.
@@ -109,13 +135,29 @@ contains
       type(model_type), intent(in)      :: model
       type(joint_type), intent(in)      :: joint
       type(stage_load_type), intent(in) :: loads
-      integer :: i
+      integer :: i, node
 
       resultant = 0.0_wp
       do i = 1, loads%n
-         if (joint%carries(model%part(loads%node(i)))) &
-            resultant = resultant + joint%direction*dot_product(loads%force(:, i), joint%normal)
+         node = loads%node(i)
+         if (node > n_points(model)) then  ! a pair of forces that shortens a solid bolt
+            associate (section => model%sections(node - n_points(model)))
+               if (joint%carries(model%part(node))) call add(loads%force(1, i)*section%direction)
+               if (joint%carries(model%part(section%point))) call add(-loads%force(1, i)*section%direction)
+            end associate
+         else if (joint%carries(model%part(node))) then
+            call add(loads%force(:, i))
+         end if
       end do
+
+   contains
+
+      pure subroutine add(force)
+         real(wp), intent(in) :: force(3)
+
+         resultant = resultant + joint%direction*dot_product(force, joint%normal)
+      end subroutine add
+
    end function carried_resultant
 
 
@@ -169,7 +211,8 @@ contains
       integer :: i, k, n
 
       n = model%stage_loads(1)%n
-      allocate (loads%node(n + 2*n_bars(model)), loads%force(3, n + 2*n_bars(model)))
+      allocate (loads%node(n + 2*n_bars(model) + n_sections(model)))
+      allocate (loads%force(3, size(loads%node)))
       loads%node(:n) = model%stage_loads(1)%node(:n)
       loads%force(:, :n) = model%stage_loads(1)%force(:, :n)
       do i = 1, n_bars(model)
@@ -181,6 +224,12 @@ contains
                loads%force(:, n) = merge(1.0_wp, -1.0_wp, k == 1)*bar%preload*bar%direction
             end do
          end associate
+      end do
+      do i = 1, n_sections(model)
+         if (model%sections(i)%stage /= 1) cycle
+         n = n + 1
+         loads%node(n) = model%sections(i)%node
+         loads%force(:, n) = [model%sections(i)%preload, 0.0_wp, 0.0_wp]
       end do
       loads%n = n
    end subroutine first_loads

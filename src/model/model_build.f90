@@ -10,7 +10,8 @@ module model_build
    use joint_statics, only: find_determinate_joints, find_first_pressures, find_parts
    use load_build, only: build_loads
    use mesh_build, only: build_mesh, marked_sides
-   use model_data, only: model_type
+   use model_data, only: model_type, n_sections
+   use section_build, only: build_sections
    use stage_plan, only: plan_stages, stage_plan_type
    use surface_build, only: build_surfaces
    implicit none
@@ -37,6 +38,7 @@ contains
       call build_joints(deck, model, errors)
       call build_bars(deck, model, errors)
       call build_supports(deck, model, errors)
+      call build_sections(deck, model, errors)
       call build_loads(deck, model, errors)
       call plan_stages(deck, plan, errors)
       if (.not. any(model%used)) call errors%add(0, 'nothing to solve: expected body elements or interface elements')
@@ -44,7 +46,7 @@ contains
       call find_parts(model, .false.)          ! bolts that are being tightened connect nothing yet
       call find_determinate_joints(model)
       call find_first_pressures(plan%stages(1)%shares(1), model, errors)
-      if (all(model%bars%bolt == 0)) return
+      if (all(model%bars%bolt == 0) .and. n_sections(model) == 0) return
       call find_parts(model, .true.)
       call find_determinate_joints(model)
    end subroutine build_model

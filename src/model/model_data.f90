@@ -9,7 +9,7 @@ module model_data
    implicit none
    private
 
-   public :: joint_movement, corners_of, n_bars
+   public :: joint_movement, corners_of, n_bars, n_sections, n_points
 
    !> Section and material of body elements.
    type, public :: property_type
@@ -78,11 +78,25 @@ module model_data
       logical  :: is_elastic = .true.        !! a bolt is from the end of that stage on: the one thing that changes in a model
    end type bar_type
 
+   !> The section at which a solid bolt is cut. Its nodes move with the marked side; for the elements behind it they are where
+   !! they would be with the overlap g along DIRECTION on top: u + g direction. g is component 1 of a node of its own.
+   type, public :: section_type
+      integer  :: bolt = 0                   !! BOLT id
+      integer  :: surface = 0                !! PMARK id
+      integer  :: node = 0                   !! position of the node of g; its other components are held
+      integer  :: point = 0                  !! a node of the section
+      real(wp) :: direction(3) = 0.0_wp      !! unit, from the side behind to the marked side: g > 0 shortens the bolt
+      real(wp) :: area = 0.0_wp              !! [length^2]
+      real(wp) :: preload = 0.0_wp           !! tension [force]
+      integer  :: stage = 0                  !! position of the stage that tightens it
+      logical  :: is_locked = .false.        !! from the end of that stage on: g is held, as it then is
+   end type section_type
+
    type, public :: model_type
       integer :: dimension = 2               !! degrees of freedom a node
       logical :: axisymmetric = .false.      !! about y; loads, areas and forces are those of the whole ring
       integer :: n_nodes = 0
-      integer, allocatable  :: node_id(:)    !! ascending
+      integer, allocatable  :: node_id(:)    !! ascending; behind the last the nodes of sections, 0
       real(wp), allocatable :: x(:, :)       !! (3, n_nodes) [length]
       integer, allocatable  :: twin(:)       !! (n_nodes) the node that a split surface put opposite, 0: none
       logical, allocatable  :: used(:)       !! (n_nodes) whether any element holds the node
@@ -101,6 +115,9 @@ module model_data
       type(joint_type), allocatable    :: joints(:)
       type(interface_element), allocatable :: interface(:)
       type(bar_type), allocatable          :: bars(:)
+      type(section_type), allocatable      :: sections(:)
+      integer, allocatable  :: node_section(:)       !! (n_nodes) the section that a node lies in, 0: none; where there are any
+      integer, allocatable  :: element_section(:)    !! (n_elements) the section that an element touches from behind, likewise
       type(stage_load_type), allocatable   :: stage_loads(:)
       integer, allocatable  :: part(:)       !! (n_nodes) which connected body a node belongs to
       integer :: n_parts = 0
@@ -132,6 +149,23 @@ contains
       n_bars = 0
       if (allocated(model%bars)) n_bars = size(model%bars)
    end function n_bars
+
+
+   !> How many sections of solid bolts there are.
+   pure integer function n_sections(model)
+      type(model_type), intent(in) :: model
+
+      n_sections = 0
+      if (allocated(model%sections)) n_sections = size(model%sections)
+   end function n_sections
+
+
+   !> How many nodes are points of the structure; the nodes of sections follow.
+   pure integer function n_points(model)
+      type(model_type), intent(in) :: model
+
+      n_points = model%n_nodes - n_sections(model)
+   end function n_points
 
 
    !> The corners of element E.

@@ -5,7 +5,7 @@ module listing
    use equations, only: equation_system
    use joint_statics, only: carried_resultant
    use kinds, only: wp
-   use listing_bars, only: list_bars, note_bars
+   use listing_bars, only: list_bars, list_sections, note_bars, note_sections
    use listing_bodies, only: list_bodies
    use listing_joints, only: list_energy, list_interface, list_passes, list_resultants, note_passes, note_resultants
    use listing_opening, only: heading, label_type, noise, page_width, unit_labels, write_opening
@@ -27,7 +27,7 @@ module listing
       type(output_file_type) :: file
       type(label_type) :: labels
       integer :: method = 0
-      type(row_buffer_type) :: increments, resultants, passes, bars ! of the stage so far
+      type(row_buffer_type) :: increments, resultants, passes, bars, sections ! of the stage so far
       integer  :: n_increments = 0, n_removed = 0
       type(range_watch_type) :: watch
       real(wp) :: largest_force = 0.0_wp            ! ever applied, for the noise
@@ -71,6 +71,7 @@ contains
       call note_resultants(model, analysis, listing%largest_force, listing%resultants)
       call note_passes(analysis, listing%passes)
       call note_bars(model, analysis, listing%largest_force, listing%bars)
+      call note_sections(model, analysis, listing%largest_force, listing%sections)
       call watch_ranges(model, plan, analysis, listing%watch)
       associate (stage => plan%stages(analysis%stage))
          if (analysis%increment == size(stage%shares)) return ! the tables of the end of the stage follow
@@ -115,6 +116,7 @@ contains
          call list_passes_of_method(listing, words)
          call list_resultants(file, listing%labels, words, model%dimension, listing%resultants)
          call list_bars(file, listing%labels, words, listing%bars)
+         call list_sections(file, listing%labels, words, listing%sections)
          call list_energy(file, listing%labels, words, model, analysis)
          if (stage%output >= output_last) call list_interface(file, listing%labels, model, plan, analysis)
          if (stage%plot) call plot_joints(file, listing%labels, model, plan, analysis)

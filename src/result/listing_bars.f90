@@ -1,18 +1,20 @@
-!> The table of bars and bolts: their forces after every increment.
+!> The tables of bars and bolts: their forces after every increment.
 module listing_bars
    use analysis_state, only: analysis_type
    use bar_elements, only: bar_elongation
-   use bolt_locking, only: bar_tension
+   use bolt_locking, only: bar_tension, section_tension
    use kinds, only: wp
    use listing_opening, only: heading, label_type, noise, page_width
-   use model_data, only: model_type, n_bars
+   use model_data, only: model_type, n_bars, n_points, n_sections
    use output_file, only: output_file_type
    use row_buffer, only: row_buffer_type
    use text_tools, only: clean
    implicit none
    private
 
-   public :: note_bars, list_bars
+   public :: note_bars, note_sections, list_bars, list_sections
+
+   integer, parameter :: state_column = 82
 
 contains
 
@@ -29,11 +31,10 @@ contains
          associate (bar => model%bars(i))
             write (row, '(i6, 11x, 3i11, 2es15.5)') analysis%increment, bar%id, model%node_id(bar%nodes), &
                clean(bar_tension(model, analysis, i), noise*largest_force), &
-               clean(bar_elongation(model, analysis%u, i), noise*maxval(abs(analysis%u)))
+               clean(bar_elongation(model, analysis%u, i), noise*maxval(abs(analysis%u(:, :n_points(model)))))
             if (bar%bolt > 0) then
                write (row(7:17), '(i11)') bar%bolt
-               if (bar%stage == analysis%stage) row(82:) = 'TIGHTENED'
-               if (bar%is_elastic) row(82:) = 'LOCKED'
+               row(state_column:) = state_of_bolt(bar%stage == analysis%stage, bar%is_elastic)
             end if
             call rows%add(row)
          end associate
@@ -41,16 +42,70 @@ contains
    end subroutine note_bars
 
 
+   !> Note the forces of all solid bolts after the increment just completed, and how much each was shortened at its section.
+   subroutine note_sections(model, analysis, largest_force, rows)
+      type(model_type), intent(in)         :: model
+      type(analysis_type), intent(in)      :: analysis
+      real(wp), intent(in)                 :: largest_force !! ever applied, for the noise
+      type(row_buffer_type), intent(inout) :: rows
+      character(page_width) :: row
+      integer :: i
+
+      do i = 1, n_sections(model)
+         associate (section => model%sections(i))
+            write (row, '(i6, 2i11, 22x, 2es15.5)') analysis%increment, section%bolt, section%surface, &
+               clean(section_tension(model, analysis, i), noise*largest_force), &
+               clean(analysis%u(1, section%node), noise*maxval(abs(analysis%u)))
+            row(state_column:) = state_of_bolt(section%stage == analysis%stage, section%is_locked)
+            call rows%add(row)
+         end associate
+      end do
+   end subroutine note_sections
+
+
+   pure function state_of_bolt(is_tightened, is_locked) result(word)
+      logical, intent(in) :: is_tightened, is_locked
+      character(9) :: word
+
+      word = ''
+      if (is_tightened) word = 'TIGHTENED'
+      if (is_locked) word = 'LOCKED'
+   end function state_of_bolt
+
+
    subroutine list_bars(file, labels, stage, rows)
       type(output_file_type), intent(inout) :: file
       type(label_type), intent(in)          :: labels
       character(*), intent(in)              :: stage
       type(row_buffer_type), intent(inout)  :: rows
+
+      call list_forces(file, labels, 'BOLT FORCES, AND FORCES OF OTHER BARS (TENSION POSITIVE), '//stage, &
+                       '  INCR       BOLT    ELEMENT     NODE 1     NODE 2          FORCE     ELONGATION', rows)
+   end subroutine list_bars
+
+
+   subroutine list_sections(file, labels, stage, rows)
+      type(output_file_type), intent(inout) :: file
+      type(label_type), intent(in)          :: labels
+      character(*), intent(in)              :: stage
+      type(row_buffer_type), intent(inout)  :: rows
+
+      call list_forces(file, labels, 'BOLT FORCES, SOLID BOLTS (TENSION POSITIVE), '//stage, &
+                       '  INCR       BOLT    SURFACE                                FORCE   SHORTENED BY', rows)
+   end subroutine list_sections
+
+
+   !> A table of forces and lengths, where there are ROWS.
+   subroutine list_forces(file, labels, title, columns, rows)
+      type(output_file_type), intent(inout) :: file
+      type(label_type), intent(in)          :: labels
+      character(*), intent(in)              :: title, columns
+      type(row_buffer_type), intent(inout)  :: rows
       character(page_width) :: line
 
       if (rows%n == 0) return
-      call heading(file, 'BOLT FORCES, AND FORCES OF OTHER BARS (TENSION POSITIVE), '//stage)
-      call file%put('  INCR       BOLT    ELEMENT     NODE 1     NODE 2          FORCE     ELONGATION')
+      call heading(file, title)
+      call file%put(columns)
       if (labels%force /= '') then
          line = ''
          line(51:) = adjustr(labels%force(:15))
@@ -58,6 +113,6 @@ contains
          call file%put(line)
       end if
       call rows%flush(file)
-   end subroutine list_bars
+   end subroutine list_forces
 
 end module listing_bars

@@ -5,7 +5,7 @@ module listing_bodies
    use elasticity, only: max_stresses, n_stresses
    use kinds, only: wp
    use listing_opening, only: heading, in_units, label_type, noise, page_width, where_now
-   use model_data, only: corners_of, model_type
+   use model_data, only: corners_of, model_type, n_points
    use output_file, only: output_file_type
    use stage_plan, only: stage_plan_type
    use stress_measures, only: principal_stresses, von_mises
@@ -48,8 +48,8 @@ contains
       else
          call file%put('       NODE            X            Y           UX           UY')
       end if
-      floor = noise*maxval(abs(analysis%u))
-      do node = 1, model%n_nodes
+      floor = noise*maxval(abs(analysis%u(:, :n_points(model))))
+      do node = 1, n_points(model)
          if (.not. model%used(node)) cycle
          write (line, '(i11, 6es13.5)') model%node_id(node), clean(model%x(:model%dimension, node)), &
             clean(analysis%u(:, node), floor)
@@ -152,7 +152,7 @@ contains
          call file%put('       NODE            X            Y           RX           RY')
       end if
       supports = 0.0_wp
-      do node = 1, model%n_nodes
+      do node = 1, n_points(model)
          if (.not. any(model%held(:, node)) .or. .not. model%used(node)) cycle
          reaction = merge(-analysis%unbalanced(:, node), 0.0_wp, model%held(:, node))
          supports = supports + reaction
@@ -165,7 +165,7 @@ contains
          force = element_force(model, analysis, i)
          base = base - force(:model%dimension)
       end do
-      loads = sum(analysis%applied, dim=2)
+      loads = sum(analysis%applied(:, :n_points(model)), dim=2)
       call heading(file, 'BALANCE OF FORCES'//where_now(plan, analysis)//in_units(labels%force))
       if (model%dimension == 3) then
          call file%put('                                               X            Y            Z')

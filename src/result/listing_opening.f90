@@ -7,7 +7,7 @@ module listing_opening
    use deck_text, only: is_include
    use equations, only: equation_system
    use kinds, only: long, wp
-   use model_data, only: model_type, n_bars
+   use model_data, only: model_type, n_bars, n_points, n_sections
    use normal_stiffness, only: branch_load, branch_name, branch_reload, branch_unload, pressure_floor
    use output_file, only: output_file_type
    use stage_plan, only: stage_plan_type
@@ -148,20 +148,21 @@ contains
       character(:), allocatable :: solver
 
       call heading(file, 'MODEL SUMMARY')
-      call count_line('NODES', int(model%n_nodes, long))
+      call count_line('NODES', int(n_points(model), long))
       if (.not. all(model%used)) call count_line('   OF THESE WITHOUT AN ELEMENT, LEFT OUT', &
                                                  count(.not. model%used, kind=long))
       if (any(model%twin > 0)) call count_line('   OF THESE DOUBLED AT SPLIT SURFACES', count(model%twin > 0, kind=long))
       call count_line('BODY ELEMENTS', int(model%n_elements, long))
       if (n_bars(model) > 0) call count_line('BARS, BOLTS INCLUDED', size(model%bars, kind=long))
+      if (n_sections(model) > 0) call count_line('SOLID BOLTS', size(model%sections, kind=long))
       call count_line('JOINTS', size(model%joints, kind=long))
       call count_line('INTERFACE ELEMENTS', size(model%interface, kind=long))
-      call count_line('SUPPORTED COMPONENTS', count(model%held, kind=long))
+      call count_line('SUPPORTED COMPONENTS', count(model%held(:, :n_points(model)), kind=long))
       call count_line('UNKNOWNS', int(system%n, long))
       if (system%is_tree) then
          call count_line('FRONTS', size(system%tree%tree%fronts, kind=long))
          call count_line('ENTRIES OF THE FACTOR', system%tree%factor_entries)
-         call count_line('UNKNOWNS THAT ARE LEFT WHEN THE BODIES ARE CONDENSED', size(system%equations, kind=long))
+         call count_line('UNKNOWNS LEFT AFTER CONDENSATION', size(system%equations, kind=long))
          solver = 'TREE, JOINTS '//trim(merge('LAST  ', 'INSIDE', system%tree%joints_last))
       else
          call count_line('PROFILE OF THE STIFFNESS MATRIX, ENTRIES', system%skyline%profile)

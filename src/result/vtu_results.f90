@@ -8,7 +8,7 @@ module vtu_results
    use element_kinds, only: element_table, kind_penta6, max_nodes
    use elasticity, only: max_stresses, n_stresses
    use kinds, only: wp
-   use model_data, only: corners_of, model_type
+   use model_data, only: corners_of, model_type, n_points
    use pvd_file, only: pvd_file_type
    use stage_plan, only: stage_plan_type
    use stress_measures, only: principal_stresses, von_mises
@@ -17,7 +17,7 @@ module vtu_results
    implicit none
    private
 
-   public :: start_vtu, write_vtu, finish_vtu, discard_vtu, remove_old_vtu
+   public :: start_vtu, write_vtu, finish_vtu, discard_vtu, remove_old_vtu, is_vtu_ending
 
    integer, parameter :: most_old = 999 ! stages whose old files are looked for
 
@@ -93,12 +93,13 @@ contains
       real(wp) :: corner(max_stresses, max_nodes)
       integer, allocatable       :: corners(:), ends(:), properties(:)
       integer(int8), allocatable :: types(:)
-      integer :: c, e, i, k, n
+      integer :: c, e, i, k, m, n
 
-      allocate (u(3, model%n_nodes), at_node(6, model%n_nodes), source=0.0_wp)
+      m = n_points(model)
+      allocate (u(3, m), at_node(6, m), source=0.0_wp)
       allocate (at_centre(6, model%n_elements), principal(3, model%n_elements))
       allocate (corners(count(model%element_nodes > 0)), ends(model%n_elements), types(model%n_elements))
-      u(:model%dimension, :) = analysis%u
+      u(:model%dimension, :) = analysis%u(:, :m)
       n = 0
       do e = 1, model%n_elements
          associate (nodes => corners_of(model, e))
@@ -124,12 +125,12 @@ contains
       do e = 1, model%n_elements
          properties(e) = model%properties(model%element_property(e))%id
       end do
-      call file%points(model%x)
+      call file%points(model%x(:, :m))
       call file%cells(corners, ends, types)
-      call file%point_data('node', model%node_id)
+      call file%point_data('node', model%node_id(:m))
       call file%point_data('displacement', u)
       call file%point_data('stress', at_node)
-      call file%point_data('von_mises', [(von_mises(at_node(:, i)), i = 1, model%n_nodes)])
+      call file%point_data('von_mises', [(von_mises(at_node(:, i)), i = 1, m)])
       call file%cell_data('element', model%element_id)
       call file%cell_data('property', properties)
       call file%cell_data('stress_at_centre', at_centre)
@@ -216,6 +217,20 @@ contains
       end if
       results%n = 0
    end subroutine discard_vtu
+
+
+   !> Whether a file of a deck may end so, behind the name of the deck: .vtu, .joint.vtu, both with the number of a stage before
+   !! them, .pvd.
+   pure logical function is_vtu_ending(ending)
+      character(*), intent(in) :: ending
+      integer :: first
+
+      is_vtu_ending = ending == '.vtu' .or. ending == '.joint.vtu' .or. ending == '.pvd'
+      if (is_vtu_ending .or. len(ending) < 2) return
+      if (ending(1:1) /= '.') return
+      first = verify(ending(2:), '0123456789') + 1
+      if (first > 2) is_vtu_ending = ending(first:) == '.vtu' .or. ending(first:) == '.joint.vtu'
+   end function is_vtu_ending
 
 
    !> Remove what an earlier run left.

@@ -5,6 +5,7 @@ module command_line
    use command_tools, only: argument_text, say, standard_input, version
    use deck_numbers, only: parse_integer
    use text_tools, only: integer_text
+   use vtu_results, only: is_vtu_ending
    implicit none
    private
 
@@ -14,6 +15,7 @@ module command_line
    type, public :: deck_argument
       character(:), allocatable :: path     !! to read; /dev/stdin for `-`
       character(:), allocatable :: name     !! as the user wrote it
+      character(:), allocatable :: base     !! what the names of the results begin with, folder included; empty: none
       character(:), allocatable :: listing  !! file, empty: standard output
       character(:), allocatable :: history  !! file, empty: none
    end type deck_argument
@@ -114,6 +116,7 @@ contains
          deck%name = 'standard input'
          deck%path = standard_input
       end if
+      deck%base = ''
       deck%listing = ''
       deck%history = ''
       command%decks = [command%decks, deck]
@@ -130,13 +133,16 @@ contains
       do i = 1, size(command%decks)
          associate (deck => command%decks(i))
             if (deck%path == standard_input) cycle
-            deck%listing = command%folder//base_name(deck%path)//'.out'
-            deck%history = command%folder//base_name(deck%path)//'.joint.csv'
+            deck%base = command%folder//base_name(deck%path)
+            deck%listing = deck%base//'.out'
+            deck%history = deck%base//'.joint.csv'
             do k = 1, i - 1
                if (command%decks(k)%listing == deck%listing) then
                   call complain(command%decks(k)%name//' and '//deck%name//' would both write '//deck%listing)
                   return
                end if
+               if (share_vtu(command%decks(k), deck)) return
+               if (share_vtu(deck, command%decks(k))) return
             end do
          end associate
       end do
@@ -152,10 +158,24 @@ contains
    end subroutine name_results
 
 
+   !> With OUTPUT = VTU the stage 1 of A writes A.1.vtu, which the deck A.1 may write too; likewise A.joint. It is refused
+   !! whether or not they ask for VTU: each would also remove that file as its own of an earlier run.
+   logical function share_vtu(a, b)
+      type(deck_argument), intent(in) :: a, b
+
+      share_vtu = .false.
+      if (a%base == '' .or. len(b%base) <= len(a%base)) return
+      if (b%base(:len(a%base)) /= a%base) return
+      share_vtu = is_vtu_ending(b%base(len(a%base) + 1:)//'.vtu')
+      if (share_vtu) call complain(a%name//' and '//b%name//' could both write '//b%base//'.vtu')
+   end function share_vtu
+
+
    !> Whether the file with the true path FILE is one that the results of DECK would be written to, however it is named.
    logical function is_result_of(file, deck)
       character(*), intent(in)        :: file
       type(deck_argument), intent(in) :: deck
+      character(:), allocatable :: base
 
       is_result_of = .false.
       if (deck%listing == '') return
@@ -163,6 +183,9 @@ contains
       if (file == in_true_folder(deck%history)) is_result_of = .true.
       if (file == true_path(deck%listing)) is_result_of = .true.
       if (file == true_path(deck%history)) is_result_of = .true.
+      base = in_true_folder(deck%base)
+      if (len(file) <= len(base)) return
+      if (file(:len(base)) == base .and. is_vtu_ending(file(len(base) + 1:))) is_result_of = .true.
    end function is_result_of
 
 

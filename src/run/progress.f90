@@ -22,8 +22,10 @@ module progress
       integer :: done  = 0, total = 0
       integer(long) :: entered = 0, increments_began = 0, last = 0, rate = 1
       integer(long) :: ticks(size(phase_name)) = 0
+      real(wp) :: fixed_operations = 0.0_wp, moving_operations = 0.0_wp
       character(:), allocatable :: deck
    contains
+      procedure :: count_operations
       procedure :: start
       procedure :: enter
       procedure :: expect
@@ -63,6 +65,16 @@ contains
       self%phase = phase
       if (self%shown .and. phase < phase_increments) call show(self, trim(phase_name(phase)))
    end subroutine enter
+
+
+   !> Operations, multiplications and additions taken together, of what is factorised once, and in an increment.
+   subroutine count_operations(self, fixed, moving)
+      class(progress_type), intent(inout) :: self
+      real(wp), intent(in)                :: fixed, moving
+
+      self%fixed_operations = fixed
+      self%moving_operations = moving
+   end subroutine count_operations
 
 
    !> From now on increments are counted, those of PLAN.
@@ -119,6 +131,8 @@ contains
       do i = 1, size(phase_name)
          write (error_unit, '(3a, f12.4, a)') self%deck, ': ', phase_name(i), real(self%ticks(i), wp)/self%rate, ' s'
       end do
+      write (error_unit, '(3a, es12.4)') self%deck, ': ', 'operations fixed  ', self%fixed_operations, &
+         self%deck, ': ', 'operations moving ', self%moving_operations
       write (error_unit, '(3a, i12, a)') self%deck, ': ', 'memory    ', nint(peak_memory()/1048576.0_wp), ' MiB'
    end subroutine finish
 

@@ -8,7 +8,7 @@ module run_control
    use deck_input, only: deck_type
    use error_report, only: print_errors
    use failures, only: failure_type
-   use model_data, only: model_type
+   use model_data, only: model_type, n_points
    use results, only: discard_results, remove_old_results, results_type
    use stage_plan, only: stage_plan_type
    use text_tools, only: plural
@@ -117,7 +117,7 @@ contains
       type(stage_plan_type), intent(in) :: plan
       logical :: ok
 
-      call write_bytes(1, argument%name//': no errors; '//plural(model%n_nodes, 'node')//', '// &
+      call write_bytes(1, argument%name//': no errors; '//plural(n_points(model), 'node')//', '// &
                        plural(model%n_elements, 'body element')//', '//plural(size(model%interface), 'interface element')// &
                        ', '//plural(size(plan%stages), 'stage')//new_line('a'), ok)
       if (.not. ok) call raise_status(status_unwritten)

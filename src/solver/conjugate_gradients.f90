@@ -30,7 +30,7 @@ contains
 
       allocate (residual(tree%n), z(tree%n), direction(tree%n), product(tree%n), u(tree%n))
       associate (e => equations)
-         residual(e) = merge(0.0_wp, x(e), tree%frozen(e))
+         residual(e) = merge(0.0_wp, x(e), tree%locked(e))
          u(e) = 0.0_wp
          z(e) = residual(e)
          call solve_moving(tree, z)
@@ -40,7 +40,7 @@ contains
          do steps = 1, most_steps
             call moving_times_vector(tree, direction, product)
             call add_joints(tree, k_int, direction, product)
-            product(e) = merge(0.0_wp, product(e), tree%frozen(e))
+            product(e) = merge(0.0_wp, product(e), tree%locked(e))
             alpha = dot_product(direction(e), product(e))
             if (.not. alpha > 0.0_wp) exit
             alpha = now/alpha

@@ -12,7 +12,7 @@ module equations
    use front_factor, only: add_to_moving, factorise_fixed, factorise_moving, no_memory
    use front_solve, only: eliminate_fixed, moving_times_vector, recover_fixed, solve_moving
    use kinds, only: wp
-   use model_data, only: model_type, n_bars
+   use model_data, only: model_type, n_bars, n_points, n_sections
    use node_graph, only: build_node_graph, node_graph_type
    use skyline, only: skyline_times_vector, solve_skyline
    use skyline_solver, only: form_skyline_bodies, form_skyline_structure, scatter, skyline_solver_type, start_skyline_solver
@@ -21,7 +21,7 @@ module equations
    implicit none
    private
 
-   public :: start_equations, form_body_stiffness, add_bar, freeze_unknown, condense_load, form_structure_stiffness, &
+   public :: start_equations, form_body_stiffness, add_bar, lock_unknown, condense_load, form_structure_stiffness, &
              solve_equations, check_solution, body_forces, recover_displacements
 
    integer, parameter :: most_by_skyline = 1200 !! unknowns up to which AUTO takes SKYLINE: it is not slower there, and can be read
@@ -34,7 +34,7 @@ module equations
       type(tree_solver_type)    :: tree
       integer, allocatable  :: retained(:)      !! nodes that the increments see, ascending
       integer, allocatable  :: equations(:)     !! their equations
-      integer, allocatable  :: frozen(:)        !! equations whose unknowns do not change any more
+      integer, allocatable  :: locked(:)        !! equations whose unknowns have been held since they were numbered
       integer, allocatable  :: joint_equations(:, :) !! (6, n) of interface elements: of node 1, of node 2; 0: held, base
       real(wp) :: stiffest = 0.0_wp             !! largest diagonal entry of [k_b] [force/length]
       real(wp), allocatable :: k_int(:, :, :)   !! (6, 6, n) of the interface elements now, global axes [force/length]
@@ -65,7 +65,7 @@ contains
       do i = 1, model%n_nodes
          if (model%used(i)) n = n + count(.not. model%held(:, i))
       end do
-      allocate (system%frozen(0))
+      allocate (system%locked(0))
       if (n == 0) then
          call failure%raise('nothing to solve: all components of all nodes are supported')
          return
@@ -110,6 +110,9 @@ contains
       end do
       do i = 1, n_bars(model)
          in_joint(model%bars(i)%nodes) = .true.
+      end do
+      do i = 1, n_sections(model)
+         in_joint(model%sections(i)%node) = .true.
       end do
    end subroutine mark_joints
 
@@ -162,16 +165,16 @@ contains
    end subroutine add_bar
 
 
-   !> The unknown of NODE (retained) in DIRECTION does not change any more: a support from now on, which keeps its equation number.
-   subroutine freeze_unknown(system, node, direction)
+   !> Hold component D of NODE, a retained one, from now on: it keeps its equation, and every solution has zero there.
+   subroutine lock_unknown(node, d, system)
+      integer, intent(in)                  :: node, d
       type(equation_system), intent(inout) :: system
-      integer, intent(in)                  :: node, direction
 
-      if (system%number(direction, node) == 0) return
-      system%frozen = [system%frozen, system%number(direction, node)]
+      if (system%number(d, node) == 0) return
+      system%locked = [system%locked, system%number(d, node)]
       call forget_factor(system%reuse)
-      if (system%is_tree) system%tree%tree%frozen(system%number(direction, node)) = .true.
-   end subroutine freeze_unknown
+      if (system%is_tree) system%tree%tree%locked(system%number(d, node)) = .true.
+   end subroutine lock_unknown
 
 
    !> G: what retained nodes feel of the nodal forces F on all nodes; zero elsewhere.
@@ -234,7 +237,7 @@ contains
       if (system%is_tree) then
          call factorise_moving(system%tree%tree, system%k_int, system%fault)
       else
-         call form_skyline_structure(system%k_int, system%joint_equations, system%frozen, system%skyline, system%fault)
+         call form_skyline_structure(system%k_int, system%joint_equations, system%locked, system%skyline, system%fault)
       end if
       system%is_factor = system%fault == 0
       if (system%is_factor) then
@@ -262,19 +265,33 @@ contains
       integer, intent(in)               :: fault
       character(*), intent(in)          :: where
       type(failure_type), intent(inout) :: failure
-      character(1), parameter :: direction_name(3) = ['X', 'Y', 'Z']
 
       if (fault == no_memory) then
          call failure%raise(where//'no memory for the factor of '//integer_text(system%n)//' equations')
       else if (fault > 0) then
-         call failure%raise(where//'the structure is a mechanism: node '// &
-            integer_text(model%node_id(system%node(fault)))//' has no stiffness in direction '// &
-            direction_name(system%direction(fault))//' (not supported there, or every joint that held it is open)')
+         call failure%raise(where//'the structure is a mechanism: '// &
+            what_is_loose(model, system%node(fault), system%direction(fault))// &
+            ' (not supported there, or every joint that held it is open)')
       end if
    end subroutine report
 
 
-   !> Displacements U of the retained nodes under the forces F on them; held components, and what is frozen, stay zero. Where only
+   !> What has no stiffness, in words.
+   pure function what_is_loose(model, node, d) result(words)
+      type(model_type), intent(in) :: model
+      integer, intent(in)          :: node, d
+      character(:), allocatable    :: words
+      character(1), parameter :: direction_name(3) = ['X', 'Y', 'Z']
+
+      if (node <= n_points(model)) then
+         words = 'node '//integer_text(model%node_id(node))//' has no stiffness in direction '//direction_name(d)
+      else
+         words = 'nothing holds BOLT '//integer_text(model%sections(node - n_points(model))%bolt)//' together at its section'
+      end if
+   end function what_is_loose
+
+
+   !> Displacements U of the retained nodes under the forces F on them; held components, locked ones too, stay zero. Where only
    !! now the stiffness had to be factorised, that may have failed: check_solution says so.
    subroutine solve_equations(system, f, u)
       type(equation_system), intent(inout) :: system
@@ -297,7 +314,7 @@ contains
       end if
       if (system%fault /= 0) return
       if (system%is_factor) then
-         x(system%frozen) = 0.0_wp
+         x(system%locked) = 0.0_wp
          if (system%is_tree) then
             call solve_moving(system%tree%tree, x)
          else

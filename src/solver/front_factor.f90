@@ -208,27 +208,27 @@ contains
             call add_update(tree%fronts(c), front)
             deallocate (tree%fronts(c)%update)
          end do
-         call freeze(tree%frozen(front%first:front%first + front%p - 1), front)
+         call lock(tree%locked(front%first:front%first + front%p - 1), front)
          call eliminate_front(front, faults(f))
          if (front%parent == 0) deallocate (front%update)
       end associate
    end subroutine moving_subtree
 
 
-   !> The rows and columns of FROZEN pivots become those of the identity.
-   subroutine freeze(frozen, front)
-      logical, intent(in)             :: frozen(:) !! (p)
+   !> The rows and columns of LOCKED pivots become those of the identity.
+   subroutine lock(locked, front)
+      logical, intent(in)             :: locked(:) !! (p)
       type(front_type), intent(inout) :: front
       integer :: j
 
       do j = 1, front%p
-         if (.not. frozen(j)) cycle
+         if (.not. locked(j)) cycle
          front%panel(j, :j - 1) = 0.0_wp
          front%panel(j:, j) = 0.0_wp
          front%panel(j, j) = 1.0_wp
          front%diagonal(j) = 1.0_wp
       end do
-   end subroutine freeze
+   end subroutine lock
 
 
    !> Add the symmetric matrix K of the EQUATIONS (0: held), all of fronts that move, for good.

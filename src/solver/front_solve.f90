@@ -59,7 +59,7 @@ contains
       real(wp), allocatable :: beyond(:)
 
       associate (front => tree%fronts(f), p => tree%fronts(f)%p, r => tree%fronts(f)%r, first => tree%fronts(f)%first)
-         where (tree%frozen(first:first + p - 1)) x(first:first + p - 1) = 0.0_wp
+         where (tree%locked(first:first + p - 1)) x(first:first + p - 1) = 0.0_wp
          call dtrsv('L', 'N', 'N', p, front%panel, p + r, x(first), 1)
          if (r == 0) return
          allocate (beyond(r))

@@ -2,12 +2,13 @@
 !! have no unknown of a joint in their subtree; they are eliminated once. The others are assembled and eliminated in every increment.
 !! Sources: Duff, Reid, ACM Trans. Math. Softw. 9 (1983) 302-325; Liu, SIAM Review 34 (1992) 82-109.
 module front_tree
-   use body_elements, only: element_stiffness
-   use element_kinds, only: max_dofs
+   use body_elements, only: coupled_stiffness
+   use element_kinds, only: max_coupled_dofs
    use front_blocks, only: kept_block
    use front_layout, only: front_layout_type, front_operations
    use kinds, only: wp
-   use model_data, only: corners_of, model_type
+   use model_data, only: model_type
+   use section_coupling, only: coupled_nodes
    implicit none
    private
 
@@ -38,7 +39,7 @@ module front_tree
       integer, allocatable :: number(:, :)        !! (dimension, n_nodes) equation of a component, 0: held
       integer, allocatable :: of_equation(:)      !! (n) front that eliminates it
       integer, allocatable :: joint_equations(:, :) !! (6, n) of interface elements: components of node 1, of node 2; 0: held
-      logical, allocatable :: frozen(:)           !! (n) unknowns that do not change any more; of fronts that move
+      logical, allocatable :: locked(:)           !! (n) unknowns that do not change any more; of fronts that move
       type(front_type), allocatable :: fronts(:)  !! children before parents
       logical :: is_parallel = .false.            !! whether the model is worth more than one thread
    end type front_tree_type
@@ -64,7 +65,7 @@ contains
          tree%n = tree%n + weight(k)
       end do
       allocate (tree%of_equation(tree%n))
-      allocate (tree%frozen(tree%n), source=.false.)
+      allocate (tree%locked(tree%n), source=.false.)
       n_children = 0
       do f = 1, layout%n
          associate (front => tree%fronts(f), low => layout%first_pivot(f), high => layout%first_pivot(f + 1) - 1, &
@@ -131,7 +132,7 @@ contains
 
       allocate (front(model%n_elements))
       do e = 1, model%n_elements
-         front(e) = front_of(tree, pack(tree%number(:, corners_of(model, e)), .true.))
+         front(e) = front_of(tree, pack(tree%number(:, coupled_nodes(model, e)), .true.))
       end do
       call collect(front, tree, for_springs=.false.)
       d = model%dimension
@@ -199,14 +200,14 @@ contains
       type(model_type), intent(in)      :: model
       type(front_tree_type), intent(in) :: tree
       type(front_type), intent(inout)   :: front
-      real(wp) :: k(max_dofs, max_dofs)
-      integer  :: d, e, i, j, n, rows(max_dofs)
+      real(wp) :: k(max_coupled_dofs, max_coupled_dofs)
+      integer  :: d, e, i, j, n, rows(max_coupled_dofs)
 
       d = model%dimension
       do j = 1, size(front%elements)
          e = front%elements(j)
-         call element_stiffness(model, e, k)
-         associate (nodes => corners_of(model, e))
+         call coupled_stiffness(model, e, k)
+         associate (nodes => coupled_nodes(model, e))
             n = d*size(nodes)
             do i = 1, size(nodes)
                rows(d*(i - 1) + 1:d*i) = tree%number(:, nodes(i))

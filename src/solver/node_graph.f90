@@ -1,6 +1,7 @@
 !> Which nodes share an element: the graph that orderings work on.
 module node_graph
    use model_data, only: model_type, n_bars
+   use section_coupling, only: section_node
    implicit none
    private
 
@@ -36,6 +37,7 @@ contains
                do k = 1, size(model%element_nodes, 1)
                   call visit(model%element_nodes(k, e))
                end do
+               call visit(section_node(model, e))
             end do
             do i = partner_first(node), partner_first(node + 1) - 1
                call visit(partners(i))
@@ -51,7 +53,7 @@ contains
          integer, intent(in) :: candidate
 
          other = candidate
-         if (other == 0) return ! behind the last corner
+         if (other == 0) return ! behind the last corner, or no section
          if (mark(other) == node) return
          mark(other) = node
          n = n + 1

@@ -1,13 +1,14 @@
 !> The solver SKYLINE, the method of the period: [k_b] of the bodies formed once in a profile; in every increment
 !! [k_s] = [k_b] + sum of [k_int] formed and factorised, all of it.
 module skyline_solver
-   use body_elements, only: element_stiffness
-   use element_kinds, only: max_dofs
+   use body_elements, only: coupled_stiffness
+   use element_kinds, only: max_coupled_dofs
    use equation_numbering, only: equation_numbers, number_unknowns
    use failures, only: failure_type
    use kinds, only: long, wp
    use machine, only: available_memory
-   use model_data, only: corners_of, model_type, n_bars
+   use model_data, only: model_type, n_bars
+   use section_coupling, only: coupled_nodes
    use node_graph, only: node_graph_type
    use profile_ordering, only: reverse_cuthill_mckee
    use skyline, only: add_to_skyline, factorise_skyline, skyline_matrix, start_skyline
@@ -70,7 +71,7 @@ contains
 
       allocate (first_row, source=[(i, i = 1, numbers%n)])
       do e = 1, model%n_elements
-         call couple(corners_of(model, e))
+         call couple(coupled_nodes(model, e))
       end do
       do i = 1, size(model%interface)
          call couple(pack(model%interface(i)%nodes, model%interface(i)%nodes > 0))
@@ -112,13 +113,13 @@ contains
       type(model_type), intent(in)             :: model
       class(equation_numbers), intent(in)      :: numbers
       type(skyline_solver_type), intent(inout) :: solver
-      real(wp) :: k(max_dofs, max_dofs)
-      integer  :: d, e, i, n, rows(max_dofs)
+      real(wp) :: k(max_coupled_dofs, max_coupled_dofs)
+      integer  :: d, e, i, n, rows(max_coupled_dofs)
 
       d = model%dimension
       do e = 1, model%n_elements
-         call element_stiffness(model, e, k)
-         associate (nodes => corners_of(model, e))
+         call coupled_stiffness(model, e, k)
+         associate (nodes => coupled_nodes(model, e))
             n = d*size(nodes)
             do i = 1, size(nodes)
                rows(d*(i - 1) + 1:d*i) = numbers%number(:, nodes(i))
@@ -129,12 +130,12 @@ contains
    end subroutine form_skyline_bodies
 
 
-   !> [k_s] = [k_b] + sum of [k_int], Eq. (8), factorised. The FROZEN equations take no part. FAULT is 0 or the first equation
+   !> [k_s] = [k_b] + sum of [k_int], Eq. (8), factorised. The LOCKED equations take no part. FAULT is 0 or the first equation
    !! without stiffness.
-   subroutine form_skyline_structure(k_int, equations, frozen, solver, fault)
+   subroutine form_skyline_structure(k_int, equations, locked, solver, fault)
       real(wp), intent(in)                     :: k_int(:, :, :)  !! (6, 6, n) of interface elements [force/length]
       integer, intent(in)                      :: equations(:, :) !! (6, n) their equations, 0: held
-      integer, intent(in)                      :: frozen(:)
+      integer, intent(in)                      :: locked(:)
       type(skyline_solver_type), intent(inout) :: solver
       integer, intent(out)                     :: fault
       integer :: i, j
@@ -145,13 +146,13 @@ contains
          do i = 1, size(equations, 2)
             call scatter(matrix, equations(:, i), k_int(:, :, i))
          end do
-         do i = 1, size(frozen)
-            do j = frozen(i), matrix%n
-               place = matrix%diagonal(j) - (j - frozen(i))
+         do i = 1, size(locked)
+            do j = locked(i), matrix%n
+               place = matrix%diagonal(j) - (j - locked(i))
                if (place > matrix%diagonal(j - 1)) matrix%values(place) = 0.0_wp
             end do
-            matrix%values(matrix%diagonal(frozen(i) - 1) + 1:matrix%diagonal(frozen(i))) = 0.0_wp
-            matrix%values(matrix%diagonal(frozen(i))) = 1.0_wp
+            matrix%values(matrix%diagonal(locked(i) - 1) + 1:matrix%diagonal(locked(i))) = 0.0_wp
+            matrix%values(matrix%diagonal(locked(i))) = 1.0_wp
          end do
          call factorise_skyline(matrix, pivot_tolerance, fault)
       end associate

@@ -188,7 +188,13 @@ cp good.bdf one/beam.bdf; cp good.bdf two/beam.bdf; cp good.bdf one/beam.dat
 run -o results one/beam.bdf two/beam.bdf; check 'two decks of one name' 1 'one/beam.bdf' 'two/beam.bdf'
 run -o results one/beam.bdf one/beam.dat; check 'two decks that differ in the extension' 1 'one/beam.dat'
 run -o results good.bdf good.bdf;     check 'the same deck twice' 1 'good.bdf'
+cp good.bdf one/beam.1.bdf; cp good.bdf two/beam.12.joint.bdf; cp good.bdf one/beam.joint.bdf; cp good.bdf one/beam.1a.bdf
+run -o results one/beam.bdf one/beam.1.bdf; check 'a deck named as a stage of another' 1 'one/beam.bdf and one/beam.1.bdf could both write results/beam.1.vtu'
+run -o results two/beam.12.joint.bdf good.bdf one/beam.bdf; check 'a deck named as the joint of a stage' 1 'both write results/beam.12.joint.vtu'
+run -o results one/beam.bdf one/beam.joint.bdf; check 'a deck named as the joint of another' 1 'both write results/beam.joint.vtu'
 holds results 'no file after decks of one name'
+run -o results one/beam.bdf one/beam.1a.bdf good.bdf; check 'decks named nearly as a stage' 0
+fresh results
 
 # unharmed WHAT DECK ARGUMENTS: a command whose results would go over the file DECK is refused and DECK stays as it is
 unharmed() {
@@ -212,19 +218,22 @@ unharmed '-o . beam.out' beam.out -o . beam.out
 unharmed 'a deck link/beam.out' beam.out link/beam.out
 unharmed '-o link beam.out' beam.out -o link beam.out
 unharmed 'a deck good.out beside good.bdf' good.out good.bdf ./good.out
+unharmed 'a deck beam.vtu' beam.vtu beam.vtu
+unharmed 'a deck good.2.joint.vtu beside good.bdf' good.2.joint.vtu good.bdf good.2.joint.vtu
+unharmed 'a deck beam.pvd' beam.pvd -o link ./beam.pvd
 from=faulty.bdf unharmed 'a faulty deck ./beam.out' beam.out ./beam.out
-fresh over
-cp good.bdf over/mesh.bdf
-grep GRID good.bdf > over/mesh.out
-sed "s/^GRID    1 .*/INCLUDE 'mesh.out'/; /^GRID/d" good.bdf > over/mesh.bdf
-cp over/mesh.out over.copy
-cd over || exit 2
-run mesh.bdf
-cd ..
-if ! cmp -s over.copy over/mesh.out; then fail 'an INCLUDE file mesh.out: it is destroyed'
-elif [ "$status" -eq 0 ]; then fail 'an INCLUDE file mesh.out: exit status 0'
-else pass
-fi
+for included in mesh.1.vtu mesh.out; do
+   fresh over
+   grep GRID good.bdf > over/$included
+   sed "s/^GRID    1 .*/INCLUDE '$included'/; /^GRID/d" good.bdf > over/mesh.bdf
+   cp over/$included over.copy
+   cd over || exit 2
+   run mesh.bdf
+   cd ..
+   if ! cmp -s over.copy over/$included; then fail "an INCLUDE file $included: it is destroyed"
+   else check "an INCLUDE file $included" 1 "would overwrite the INCLUDE file $included"
+   fi
+done
 
 # ---- what an earlier run left ----
 

@@ -77,7 +77,7 @@ figures() {
 # The figures of a listing that the tables need.
 of_listing() {
    awk '$1 == "UNKNOWNS" && NF == 2               { print "unknowns", $2 }
-        /^ *UNKNOWNS THAT ARE LEFT WHEN/          { print "left", $NF }
+        /^ *UNKNOWNS LEFT AFTER CONDENSATION/     { print "left", $NF }
         /^ *ENTRIES OF THE FACTOR/                { print "entries", $NF }
         $1 == "PROFILE"                           { print "entries", $NF }
         /^ *METHOD .* SOLVER/                     { sub(/.* SOLVER [A-Z]*,? */, ""); gsub(/ +/, "_"); print "ordering", $0 }

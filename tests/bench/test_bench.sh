@@ -125,6 +125,15 @@ DEFLECTION=1.00005E-03 "$here/bench.sh" "$work/stand-in/program" "$work/stand-in
 [ $? -eq 1 ] && grep -q 'CHOLMOD finds another answer' "$work/said"
 count 'bench.sh takes an answer of CHOLMOD that is not ours' $?
 
+# ------------------------------------------------------------------ the program itself: what the script reads of it is there
+mkdir -p "$work/itself"
+cp "$work/stand-in/dgemm_rate" "$work/itself"
+"$here/bench.sh" "$program" "$work/itself" q4_6x3 > "$work/tables" 2> "$work/said"
+count 'bench.sh on a small plate' $?
+row '^\| Q4 6 x 3 \| 52 \| 13 \|( [0-9.]+ \|){9}$' # 7 nodes on the joint, x held on one
+row '^\| Q4 6 x 3 \| last \|( [0-9.]+ \|){3}( - \|){6}$'
+row '^\| Q4 6 x 3 \| [0-9.e-]+ \| [0-9.-]+ \| [0-9.e-]+ \| [0-9.]+ \| - \| - \| [0-9]+ \| - \| - \|$'
+
 # ------------------------------------------------------------------ a word that it does not know
 "$here/bench.sh" "$program" "$work" q5 > "$work/said" 2>&1
 [ $? -eq 1 ] && grep -q "'q5' is neither" "$work/said"

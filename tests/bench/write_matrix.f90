@@ -24,7 +24,7 @@ program write_matrix
    use joint_laws, only: element_state, element_stiffness_of
    use kinds, only: wp
    use model_build, only: build_model
-   use model_data, only: corners_of, model_type, n_bars
+   use model_data, only: corners_of, model_type, n_bars, n_sections
    use stage_plan, only: stage_plan_type
    implicit none
    type(deck_type)        :: deck
@@ -41,7 +41,8 @@ program write_matrix
    if (.not. readable) call stop_with('cannot be read')
    call build_model(deck, model, plan, errors)
    if (errors%any()) call stop_with('has errors')
-   if (n_bars(model) > 0 .or. allocated(model%stage_loads(1)%moved)) call stop_with('has bars or moved supports')
+   if (n_bars(model) > 0 .or. n_sections(model) > 0) call stop_with('has bars or bolts')
+   if (allocated(model%stage_loads(1)%moved)) call stop_with('has moved supports')
    call number_unknowns(model, [(i, i = 1, model%n_nodes)], numbers)
    call assemble(start, row, value)
    call first_load(load)
@@ -205,7 +206,7 @@ contains
       character(*), intent(in) :: words
 
       write (error_unit, '(4a)') 'write_matrix: ', argument_text(1), ': ', words
-      error stop 1, quiet=.true.
+      stop 1, quiet=.true.
    end subroutine stop_with
 
 end program write_matrix

@@ -51,6 +51,10 @@ unit-test: $(UNIT_PROGRAM)
 $(UNIT_FOLDER):
 	@mkdir -p $@
 
+# What reads .vtu files back and what solves a model are written once.
+$(UNIT_FOLDER)/test_vtu_results.o: $(UNIT_FOLDER)/test_vtu_file.o
+$(UNIT_FOLDER)/test_patch_decks.o $(UNIT_FOLDER)/test_bolted_decks.o: $(UNIT_FOLDER)/test_solid_model.o
+
 ifeq ($(RUNNER),fallback)
 
 # A refused file leaves no Fortran behind.
