@@ -30,7 +30,7 @@ help:
 	@echo 'make test       unit tests, every deck of input against reference_output, bad decks'
 	@echo 'make check      only the decks against reference_output'
 	@echo 'make accept CASE=name    take the results of input/name.bdf as the new reference'
-	@echo 'make bench      speed and memory'
+	@echo 'make bench      speed and memory, MODELS=small: only of small models'
 	@echo 'make figures    the pictures, from the CSV files of the decks'
 	@echo 'make clean'
 
@@ -115,9 +115,7 @@ accept: bin/jointfem
 
 # Speed and pictures ----------------------------------------------------------------------------------------------
 
-.PHONY: bench
-bench: bin/jointfem
-	@tests/bench/bench.sh bin/jointfem $(BUILD)/bench
+include tests/bench/bench.mk
 
 .PHONY: figures
 figures: bin/jointfem bin/jointfit

@@ -1,46 +1,214 @@
 #!/usr/bin/env bash
-# Speed on the prism of the worked example with finer and finer meshes, 20 increments each, all in one run: what counts are
-# the ratios, the seconds are this machine's.
+# Speed and memory: the phases of a run, shares of the DGEMM rate, growth, CHOLMOD beside it, friction, threads, SKYLINE against
+# TREE. `make bench` builds what this needs and calls it; README.md beside this file says how the tables are read.
 #
-#    bench.sh PROGRAM WORK_FOLDER
+#    bench.sh PROGRAM FOLDER [WHAT...]
 #
-# Columns: unknowns; entries of the profile; seconds for reading and checking alone; seconds for the whole run; seconds an
-# increment; its growth exponent in the number of unknowns since the line before; peak memory where GNU time is installed.
-set -eu
+# FOLDER  where the programs of the benchmark are and its files go; FOLDER/measured holds every figure, FOLDER/tables the tables
+# WHAT    all (if nothing is said), small, or any of: shapes as make_deck.sh has them, friction, threads, crossing
+#
+# Programs run one after another, on one thread unless said otherwise, ours and CHOLMOD in turn; of two runs the faster one
+# counts, runs above 10 s are not repeated. Status 1 where a run fails or CHOLMOD finds another answer.
+set -u
 program=$1 work=$2
+shift 2
+here=$(dirname "$0")
+export LC_ALL=C OPENBLAS_NUM_THREADS=1
 mkdir -p "$work"
-export LC_ALL=C TIMEFORMAT=%R
+measured=$work/measured
+: > "$measured"
 
-deck() {
-   sed -E "s/^BLOCK2 .*/BLOCK2,1,1,$1,$2,0.0,0.0/; s/^\\+ +150.0.*/+,150.0,100.0/; s/^\\+ +20 .*/+,20,21/
-           s/^FORCE .*/FORCE,10,$((($1 + 1) * ($2 + 1))),,800.0,0.0,-1.0/; s/^(JINCR.*)/JINCR,20,20,ARITH,0.02/
-           s/^( *INCR =).*/\\1 20/; s/^TITLE.*/TITLE = PRISM $1 X $2\\n ECHO = NO/; s/^( *INCR.*)/\\1\\n OUTPUT = NONE/" \
-      input/prism05.bdf > "$work/prism_$1x$2.bdf"
+small='q4_100x20 q4_400x80 hex8_20x20x20'
+large='q4_1000x200 q4_2000x400 hex8_30x30x30 hex8_40x40x40'
+wide='q4_4000x20 hex8_58x58x3 hex8_58x58x10'
+[ $# -gt 0 ] || set -- all
+wanted=
+for word; do
+   case $word in
+   all)   wanted="$wanted $small $large $wide friction threads crossing" ;;
+   small) wanted="$wanted $small friction crossing" ;;
+   q4_*|hex8_*|friction|threads|crossing) wanted="$wanted $word" ;;
+   *) echo "bench: '$word' is neither all, small, friction, threads, crossing nor a shape like q4_100x20, hex8_20x20x20" >&2
+      exit 1 ;;
+   esac
+done
+
+fail() {
+   echo "bench: $*" >&2
+   exit 1
 }
 
-printf '%10s %10s %12s %9s %9s %12s %8s %10s\n' mesh unknowns profile check_s run_s increment_s growth peak_MiB
-before_n= before_t=
-for mesh in '50 10' '100 20' '200 40' '400 80'; do
-   set -- $mesh
-   deck "$1" "$2"
-   file=$work/prism_$1x$2
-   check=$( { time "$program" --check "$file.bdf" > /dev/null; } 2>&1 )
-   memory=-
-   if [ -x /usr/bin/time ]; then
-      { time /usr/bin/time -f '%M' -o "$work/memory" "$program" -q -o "$work" "$file.bdf"; } 2> "$work/seconds"
-      memory=$(awk '{ printf "%.0f", $1 / 1024 }' "$work/memory")
-   else
-      { time "$program" -q -o "$work" "$file.bdf"; } 2> "$work/seconds"
+# All figures of the file $3 under the name of a table and a row.
+record() {
+   sed "s/^/$1 $2 /" "$3" >> "$measured"
+}
+
+# Of the files $1 and $2, what counts in their first lines, keep the faster in $2.
+keep_faster() {
+   if [ ! -f "$2" ] || awk 'FNR == 1 { s[NR > 1] = $2 } END { exit !(s[0] < s[1]) }' "$1" "$2"; then
+      mv "$1" "$2"
    fi
-   run=$(tail -n 1 "$work/seconds")
-   unknowns=$(awk '$1 == "UNKNOWNS" { print $2 }' "$file.out")
-   profile=$(awk '$1 == "PROFILE" { print $NF }' "$file.out")
-   awk -v mesh="$1x$2" -v n="$unknowns" -v profile="$profile" -v check="$check" -v run="$run" -v memory="$memory" \
-      -v n0="$before_n" -v t0="$before_t" 'BEGIN {
-         t = (run - check) / 20; if (t < 5e-5) t = 5e-5
-         growth = n0 == "" ? "-" : sprintf("%.2f", log(t / t0) / log(n / n0))
-         printf "%10s %10d %12d %9.3f %9.3f %12.5f %8s %10s\n", mesh, n, profile, check, run, t, growth, memory
-      }'
-   before_n=$unknowns
-   before_t=$(awk -v a="$run" -v b="$check" 'BEGIN { t = (a - b) / 20; if (t < 5e-5) t = 5e-5; print t }')
+}
+
+# Run decks on $1 threads.
+run_program() {
+   local threads=$1
+   shift
+   "$program" --times -q --threads "$threads" -o "$work" "$@" > "$work/said" 2>&1 || { cat "$work/said" >&2; fail "$* failed"; }
+}
+
+# What --times printed of the deck $1, `phase seconds` a line; above it the seconds of the solution, by which runs are compared,
+# and of everything.
+figures() {
+   awk -v prefix="$1: " 'index($0, prefix) == 1 {
+         words = substr($0, length(prefix) + 1)
+         n = split(words, w, " ")
+         name = ""
+         for (i = 1; i <= n && w[i] !~ /^[0-9.]/; i++) name = name (i > 1 ? "_" : "") w[i]
+         if (name == "") next
+         line[++lines] = name " " w[i]
+         if (w[n] != "s") next
+         all += w[i]
+         if (name ~ /^(order|factor|increments|recover)$/) solution += w[i]
+      }
+      END { print "solution", solution; print "all", all; for (i = 1; i <= lines; i++) print line[i] }' "$work/said"
+}
+
+# The figures of a listing that the tables need.
+of_listing() {
+   awk '$1 == "UNKNOWNS" && NF == 2               { print "unknowns", $2 }
+        /^ *UNKNOWNS LEFT AFTER CONDENSATION/     { print "left", $NF }
+        /^ *ENTRIES OF THE FACTOR/                { print "entries", $NF }
+        $1 == "PROFILE"                           { print "entries", $NF }
+        /^ *METHOD .* SOLVER/                     { sub(/.* SOLVER [A-Z]*,? */, ""); gsub(/ +/, "_"); print "ordering", $0 }
+        /^  INCR +SHARE +LOAD/                    { getline; if ($1 == "") getline; if ($1 == 1) print "deflection", $6 }' "$1"
+}
+
+remove_results() {
+   rm -f "$work/$1".out "$work/$1".joint.csv "$work/$1".matrix
+}
+
+# ------------------------------------------------------------------ one model: its phases, CHOLMOD on the same equations
+measure_model() {
+   local shape=$1 deck=$work/$1.bdf turn order
+   echo "bench: $shape" >&2
+   rm -f "$work/ours" "$work/theirs"
+   "$here/make_deck.sh" "$shape" TREE LAST > "$deck" || exit 1
+   for turn in 1 2; do
+      run_program 1 "$deck"
+      { figures "$deck"; of_listing "$work/$shape.out"; } > "$work/one"
+      keep_faster "$work/one" "$work/ours"
+      [ -x "$work/cholmod_once" ] || { enough "$work/ours" && break; continue; }
+      [ "$turn" = 2 ] || "$work/write_matrix" "$deck" "$work/$shape.matrix" || exit 1
+      order=
+      [ "$turn" = 1 ] || order=default
+      "$work/cholmod_once" "$work/$shape.matrix" $order > "$work/said" || fail "CHOLMOD failed on $shape"
+      awk '{ line[NR] = $0 } $1 ~ /^(analyse|factor|solve)$/ { sum += $2 }
+           END { print "solution", sum; for (i = 1; i <= NR; i++) print line[i] }' "$work/said" > "$work/one"
+      keep_faster "$work/one" "$work/theirs"
+      enough "$work/ours" && break
+   done
+   record ours "$shape" "$work/ours"
+   if [ -f "$work/theirs" ]; then
+      record cholmod "$shape" "$work/theirs"
+      awk '$1 == "deflection" { u[FILENAME] = $2 } $1 == "unknowns" { n[FILENAME] = $2 } $1 == "residual" { r = $2 }
+           END { ours = ARGV[1]; theirs = ARGV[2]; difference = u[ours] - u[theirs]; if (difference < 0) difference = -difference
+                 exit !(n[ours] == n[theirs] && u[ours] > 0 && difference <= 2e-5*u[ours] && r < 1e-8) }' \
+         "$work/ours" "$work/theirs" || fail "$shape: CHOLMOD finds another answer: see deflection, residual in $measured"
+   fi
+   remove_results "$shape"
+}
+
+enough() {
+   awk 'NR == 1 { exit !($2 > 10) }' "$1"
+}
+
+# ------------------------------------------------------------------ what a re-analysis costs: the same deck without and with
+measure_friction() {
+   local shape=$1 nrean turn
+   echo "bench: friction, $shape" >&2
+   rm -f "$work"/with_*
+   for turn in 1 2 3; do
+      for nrean in 0 20; do
+         "$here/make_deck.sh" "$shape" TREE NONE $nrean > "$work/$shape.bdf" || exit 1
+         run_program 1 "$work/$shape.bdf"
+         figures "$work/$shape.bdf" | awk '$1 == "increments" { print; exit }' > "$work/one"
+         awk '/^ RE-ANALYSES AFTER THE COULOMB CHECK/ { inside = 1; next } inside && /^ [A-Z]/ { exit }
+              inside && NF == 6 && $1 > 0 { n++ } END { print "passes", n + 0 }' "$work/$shape.out" >> "$work/one"
+         keep_faster "$work/one" "$work/with_$nrean"
+      done
+   done
+   for nrean in 0 20; do record "friction_$nrean" "$shape" "$work/with_$nrean"; done
+   remove_results "$shape"
+}
+
+# ------------------------------------------------------------------ one thread against two
+measure_threads() {
+   local shape=$1 threads turn same=yes
+   [ "$(nproc)" -gt 1 ] || { echo 'bench: one core, threads are not measured' >&2; return; }
+   rm -f "$work"/threads_*
+   "$here/make_deck.sh" "$shape" TREE LAST > "$work/$shape.bdf" || exit 1
+   for turn in 1 2; do
+      for threads in 1 2; do
+         echo "bench: $shape, threads: $threads" >&2
+         run_program $threads "$work/$shape.bdf"
+         figures "$work/$shape.bdf" > "$work/one"
+         keep_faster "$work/one" "$work/threads_$threads"
+         cat "$work/$shape.out" "$work/$shape.joint.csv" | cksum > "$work/sum_$threads"
+      done
+      cmp -s "$work/sum_1" "$work/sum_2" || same=no
+      enough "$work/threads_1" && break
+   done
+   for threads in 1 2; do record "threads_$threads" "$shape" "$work/threads_$threads"; done
+   echo "threads_2 $shape same $same" >> "$measured"
+   remove_results "$shape"
+}
+
+# ------------------------------------------------------------------ where TREE overtakes SKYLINE
+measure_crossing() {
+   local shape solver copy turn
+   for shape in q4_10x4 q4_20x4 q4_30x6 q4_40x8 q4_60x12 q4_100x20 q4_400x4 hex8_3x3x3 hex8_4x4x4 hex8_5x5x5 hex8_6x6x6 \
+                hex8_8x8x8 hex8_10x10x10; do
+      echo "bench: SKYLINE against TREE, $shape" >&2
+      rm -f "$work/SKYLINE" "$work/TREE"
+      for turn in 1 2; do
+         for solver in SKYLINE TREE; do
+            for copy in 1 2 3 4 5; do "$here/make_deck.sh" "$shape" $solver NONE > "$work/copy_$copy.bdf"; done
+            run_program 1 "$work"/copy_[1-5].bdf
+            for copy in 1 2 3 4 5; do
+               figures "$work/copy_$copy.bdf" > "$work/one"
+               keep_faster "$work/one" "$work/$solver"
+            done
+            of_listing "$work/copy_1.out" >> "$work/$solver"
+         done
+      done
+      for solver in SKYLINE TREE; do record "crossing_$solver" "$shape" "$work/$solver"; done
+   done
+   rm -f "$work"/copy_*
+}
+
+# ------------------------------------------------------------------ the machine
+dgemm_rate() {
+   echo 'bench: DGEMM' >&2
+   "$work/dgemm_rate" > "$work/one" || fail 'DGEMM failed'
+   record machine "$1" "$work/one"
+}
+{
+   echo "machine - processor $(sed -n 's/^model name[^:]*: //p' /proc/cpuinfo | head -n 1)"
+   echo "machine - cores $(nproc)"
+   echo "machine - memory $(awk '$1 == "MemTotal:" { printf "%.0f GiB", $2/1048576 }' /proc/meminfo)"
+   echo "machine - date $(date +%Y-%m-%d)"
+   echo "machine - load $(cut -d ' ' -f 1 /proc/loadavg)"
+} >> "$measured"
+dgemm_rate before
+[ -x "$work/cholmod_once" ] || echo 'bench: no cholmod.h (Debian: libsuitesparse-dev): CHOLMOD is left out' >&2
+for what in $wanted; do
+   case $what in
+   friction) measure_friction q4_400x80; measure_friction hex8_20x20x20 ;;
+   threads)  measure_threads hex8_30x30x30 ;;
+   crossing) measure_crossing ;;
+   *)        measure_model "$what" ;;
+   esac
 done
+dgemm_rate after
+awk -f "$here/tables.awk" "$measured" | tee "$work/tables"

@@ -1,0 +1,20 @@
+# The programs of the benchmark, and `make bench`. CHOLMOD is measured where its header is installed (libsuitesparse-dev).
+#
+# The including makefile sets CC, FC, FFLAGS, BUILD, RELEASE_OBJECTS and LIBRARIES, and has a rule for bin/jointfem.
+
+BENCH_FOLDER   := $(BUILD)/bench
+BENCH_CHOLMOD  := $(wildcard /usr/include/suitesparse/cholmod.h /usr/local/include/suitesparse/cholmod.h)
+BENCH_PROGRAMS := $(BENCH_FOLDER)/dgemm_rate \
+                  $(if $(BENCH_CHOLMOD),$(BENCH_FOLDER)/write_matrix $(BENCH_FOLDER)/cholmod_once)
+
+.PHONY: bench
+bench: bin/jointfem $(BENCH_PROGRAMS)
+	@tests/bench/bench.sh bin/jointfem $(BENCH_FOLDER) $(MODELS)
+
+$(BENCH_FOLDER)/dgemm_rate $(BENCH_FOLDER)/write_matrix: $(BENCH_FOLDER)/%: tests/bench/%.f90 $(RELEASE_OBJECTS)
+	@mkdir -p $(@D)
+	$(FC) $(FFLAGS) -I$(BUILD)/release -o $@ $< $(RELEASE_OBJECTS) $(LIBRARIES)
+
+$(BENCH_FOLDER)/cholmod_once: tests/bench/cholmod_once.c
+	@mkdir -p $(@D)
+	$(CC) -O2 -std=c11 -Wall -Wextra -o $@ $< -Wl,--no-as-needed -lopenblas -lcholmod -ldl -lm

@@ -1,0 +1,215 @@
+# The tables of the benchmark, aligned and in Markdown, from the figures that bench.sh has measured, `table row name value` a
+# line.
+
+{
+   if (!(($1, $2) in met)) { met[$1, $2] = 1; row[$1, ++rows[$1]] = $2 }
+   name = $3
+   value = $0
+   sub(/^[^ ]+ [^ ]+ [^ ]+ /, "", value)
+   v[$1, $2, name] = value
+}
+
+END {
+   increments = 20
+   dgemm = v["machine", "before", "rate"]
+   if (v["machine", "after", "rate"] + 0 > dgemm + 0) dgemm = v["machine", "after", "rate"]
+   machine()
+   phases()
+   growth()
+   beside()
+   rates()
+   friction()
+   threads()
+   crossing()
+}
+
+function machine() {
+   print v["machine", "-", "processor"] ", " v["machine", "-", "cores"] " cores, " v["machine", "-", "memory"] ", " \
+      v["machine", "-", "date"] "; load at the start " v["machine", "-", "load"]
+   print v["machine", "before", "library"]
+   printf "DGEMM, one thread, kernel %s: %.1f GFlop/s before, %.1f after; shares are of the greater\n", \
+      v["machine", "before", "kernel"], v["machine", "before", "rate"], v["machine", "after", "rate"]
+}
+
+function phases(    i, m, d) {
+   if (!rows["ours"]) return
+   title("Seconds of the phases, " increments " increments, one thread")
+   head("model;unknowns;left;read;build;order;factor;increments;recover;write;all;peak MiB")
+   for (i = 1; i <= rows["ours"]; i++) {
+      m = row["ours", i]
+      cells(label(m) ";" of(m, "unknowns") ";" left(m) ";" seconds(of(m, "read")) ";" seconds(of(m, "build")) ";" \
+         seconds(of(m, "order")) ";" seconds(of(m, "factor")) ";" seconds(of(m, "increments")) ";" seconds(of(m, "recover")) ";" \
+         seconds(of(m, "write")) ";" seconds(of(m, "all")) ";" of(m, "memory"))
+   }
+   put()
+}
+
+# The exponent of the unknowns with which a figure grows from one model to the next of the same proportions.
+function growth(    i, j, k, m, last, names, n, line, shown) {
+   n = split("build order factor increments recover write all memory", names, " ")
+   line = "from;to"
+   for (k = 1; k <= n; k++) line = line ";" names[k]
+   head(line)
+   for (i = 1; i <= rows["ours"]; i++) {
+      m = row["ours", i]
+      last = ""
+      for (j = 1; j < i; j++) if (proportions(row["ours", j]) == proportions(m)) last = row["ours", j]
+      if (last == "" || of(last, "unknowns") == of(m, "unknowns")) continue
+      line = label(last) ";" label(m)
+      for (k = 1; k <= n; k++)
+         line = line ";" exponent(of(last, names[k]), of(m, names[k]), of(last, "unknowns"), of(m, "unknowns"))
+      cells(line)
+      shown = 1
+   }
+   if (!shown) return
+   title("Growth: exponent in the number of unknowns")
+   put()
+}
+
+function beside(    i, m) {
+   if (!rows["ours"]) return
+   title("The solution, beside CHOLMOD, which analyses, factorises and solves the equations of the first increment once")
+   head("model;joints;order + factor s;an increment ms;run s;CHOLMOD by;analyse s;factorise s;solve s;once s;run/once")
+   for (i = 1; i <= rows["ours"]; i++) {
+      m = row["ours", i]
+      cells(label(m) ";" ordering(m) ";" seconds(of(m, "order") + of(m, "factor")) ";" \
+         milliseconds(of(m, "increments")/increments) ";" seconds(of(m, "solution")) ";" either(their(m, "ordering")) ";" \
+         seconds(their(m, "analyse")) ";" seconds(their(m, "factor")) ";" seconds(their(m, "solve")) ";" \
+         seconds(their(m, "solution")) ";" ratio(of(m, "solution"), their(m, "solution")))
+   }
+   put()
+}
+
+function rates(    i, m) {
+   if (!rows["ours"]) return
+   title("Operations [1E9], rates as shares of DGEMM, memory [MiB], residual of CHOLMOD")
+   head("model;factor;rate;an increment;rate;CHOLMOD;rate;MiB;CHOLMOD MiB;residual")
+   for (i = 1; i <= rows["ours"]; i++) {
+      m = row["ours", i]
+      cells(label(m) ";" billions(of(m, "operations_fixed")) ";" share(of(m, "operations_fixed"), of(m, "factor")) ";" \
+         billions(of(m, "operations_moving")) ";" share(of(m, "operations_moving")*increments, of(m, "increments")) ";" \
+         billions(their(m, "operations")) ";" share(their(m, "operations"), their(m, "factor")) ";" \
+         of(m, "memory") ";" either(their(m, "memory")) ";" either(their(m, "residual")))
+   }
+   put()
+}
+
+function friction(    again, i, m, one, passes) {
+   if (!rows["friction_20"]) return
+   title("A re-analysis after the Coulomb check")
+   head("model;an increment ms;a re-analysis ms;share")
+   for (i = 1; i <= rows["friction_20"]; i++) {
+      m = row["friction_20", i]
+      passes = v["friction_20", m, "passes"]
+      one = v["friction_0", m, "increments"]/increments
+      again = passes > 0 ? (v["friction_20", m, "increments"] - v["friction_0", m, "increments"])/passes : ""
+      cells(label(m) ";" milliseconds(one) ";" milliseconds(again) ";" part(again, one))
+   }
+   put()
+}
+
+function threads(    i, k, m, names, n) {
+   if (!rows["threads_2"]) return
+   n = split("order factor increments recover solution all", names, " ")
+   for (i = 1; i <= rows["threads_2"]; i++) {
+      m = row["threads_2", i]
+      title("One thread and two, " label(m) "; results with the same digits: " v["threads_2", m, "same"])
+      head("phase;one s;two s;one/two")
+      for (k = 1; k <= n; k++)
+         cells(names[k] ";" seconds(v["threads_1", m, names[k]]) ";" seconds(v["threads_2", m, names[k]]) ";" \
+            ratio(v["threads_1", m, names[k]], v["threads_2", m, names[k]]))
+      put()
+   }
+}
+
+function crossing(    i, m, s, t) {
+   if (!rows["crossing_TREE"]) return
+   title("SKYLINE against TREE: order, factor and " increments " increments")
+   head("model;unknowns;profile;factor of TREE;SKYLINE ms;TREE ms;SKYLINE/TREE")
+   for (i = 1; i <= rows["crossing_TREE"]; i++) {
+      m = row["crossing_TREE", i]
+      s = v["crossing_SKYLINE", m, "solution"]
+      t = v["crossing_TREE", m, "solution"]
+      cells(label(m) ";" v["crossing_TREE", m, "unknowns"] ";" either(v["crossing_SKYLINE", m, "entries"]) ";" \
+         either(v["crossing_TREE", m, "entries"]) ";" milliseconds(s) ";" milliseconds(t) ";" ratio(s, t))
+   }
+   put()
+}
+
+# ------------------------------------------------------------------ figures
+function of(m, name) { return v["ours", m, name] }
+function their(m, name) { return v["cholmod", m, name] }
+function either(x) { return x == "" ? "-" : x }
+function left(m) { return either(of(m, "left")) }
+function ordering(m,    w) { w = tolower(of(m, "ordering")); gsub(/_/, " ", w); sub(/^joints /, "", w); return either(w) }
+
+function seconds(x) {
+   if (x == "") return "-"
+   return sprintf(x < 0.0995 ? "%.4f" : x < 9.95 ? "%.2f" : "%.1f", x)
+}
+
+function milliseconds(x) {
+   if (x == "") return "-"
+   x *= 1000
+   return sprintf(x < 0.995 ? "%.3f" : x < 99.5 ? "%.1f" : "%.0f", x)
+}
+
+function billions(x) { return x + 0 <= 0 ? "-" : sprintf(1e-9*x < 9.95 ? "%.3g" : "%.0f", 1e-9*x) }
+function ratio(a, b) { return a == "" || b + 0 <= 0 ? "-" : sprintf("%.2f", a/b) }
+function part(a, b)  { return a == "" || b + 0 <= 0 ? "-" : sprintf("%.3f", a/b) }
+
+# The rate of so many operations in S seconds, as a share of DGEMM.
+function share(operations, s) {
+   return operations + 0 <= 0 || s + 0 <= 0 || dgemm + 0 <= 0 ? "-" : sprintf("%.2f", 1e-9*operations/s/dgemm)
+}
+
+# Times below a millisecond are noise.
+function exponent(a, b, n, m) {
+   return a < 1e-3 || b < 1e-3 ? "-" : sprintf("%.2f", log(b/a)/log(m/n))
+}
+
+function label(m,    sizes) {
+   sizes = substr(m, index(m, "_") + 1)
+   gsub(/x/, " x ", sizes)
+   return (m ~ /^q4/ ? "Q4 " : "hex8 ") sizes
+}
+
+function proportions(m,    d, n) {
+   n = split(substr(m, index(m, "_") + 1), d, "x")
+   return n " " sprintf("%.3f %.3f", d[1]/d[2], n > 2 ? d[1]/d[3] : 0)
+}
+
+# ------------------------------------------------------------------ a table: head, cells a row, put
+function title(words) { print ""; print words; print "" }
+
+function head(line) {
+   table_rows = 0
+   delete cell
+   delete width
+   columns = cells(line)
+}
+
+function cells(line,    c, n, w) {
+   n = split(line, w, ";")
+   table_rows++
+   for (c = 1; c <= n; c++) {
+      cell[table_rows, c] = w[c]
+      if (length(w[c]) > width[c]) width[c] = length(w[c])
+   }
+   return n
+}
+
+function put(    c, dashes, i, line, rule) {
+   for (i = 1; i <= table_rows; i++) {
+      line = "|"
+      rule = "|"
+      for (c = 1; c <= columns; c++) {
+         line = line sprintf(c == 1 ? " %-" width[c] "s |" : " %" width[c] "s |", cell[i, c])
+         dashes = sprintf("%" (width[c] + (c == 1 ? 2 : 1)) "s", "")
+         gsub(/ /, "-", dashes)
+         rule = rule dashes (c == 1 ? "|" : ":|")
+      }
+      print line
+      if (i == 1) print rule
+   }
+}

@@ -1,0 +1,143 @@
+#!/usr/bin/env bash
+# What of the benchmark can be tested without measuring: its decks, its tables from made-up figures, its script with stand-ins.
+#
+#    test_bench.sh PROGRAM FOLDER
+set -u
+program=$1 work=$2
+here=$(dirname "$0")
+export LC_ALL=C
+mkdir -p "$work"
+passed=0 failed=0
+
+count() {
+   if [ "$2" -eq 0 ]; then passed=$((passed + 1)); else failed=$((failed + 1)); echo "FAILED: $1"; fi
+}
+
+# ------------------------------------------------------------------ decks: whole, and as large as they say
+deck() {
+   local shape=$1 nrean=$2 unknowns=$3 passes=$4 got
+   rm -f "$work/$shape.out"
+   "$here/make_deck.sh" "$shape" AUTO NONE $nrean > "$work/$shape.bdf"
+   "$program" -q -o "$work" "$work/$shape.bdf" 2> "$work/said"
+   got=$(awk '$1 == "UNKNOWNS" && NF == 2 { n = $2 } /^ *1 +20 / { increments = 20 }
+              /^ RE-ANALYSES AFTER THE COULOMB CHECK/ { inside = 1; next } inside && /^ [A-Z]/ { inside = 0 }
+              inside && NF == 6 && $1 > 0 { passes++ } END { print n, increments, passes + 0 }' "$work/$shape.out")
+   [ "$got" = "$unknowns 20 $passes" ]
+   count "deck $shape $nrean: unknowns, increments, re-analyses are $got, expected $unknowns 20 $passes" $?
+}
+deck q4_6x3 '' 52 0           # 7 x 4 nodes, x held on 4 of them
+deck q4_6x3 3 52 60
+deck hex8_3x2x4 '' 145 0      # 4 x 3 x 5 nodes, x held on 3 x 5 of them, z on 4 x 5 of them: 180 - 15 - 20 = 145
+deck hex8_3x2x4 3 145 60
+
+# ------------------------------------------------------------------ tables: exponents, shares, ratios by hand
+cat > "$work/measured" <<'END'
+machine before rate 20.0
+machine after rate 10.0
+ours q4_10x2 order 0.1
+ours q4_10x2 factor 0.1
+ours q4_10x2 increments 0.4
+ours q4_10x2 solution 0.6
+ours q4_10x2 unknowns 100
+ours q4_20x4 order 0.2
+ours q4_20x4 factor 0.8
+ours q4_20x4 increments 1.6
+ours q4_20x4 solution 2.6
+ours q4_20x4 unknowns 400
+ours q4_20x4 operations_fixed 8e9
+ours q4_20x4 operations_moving 0.4e9
+cholmod q4_20x4 solution 1.3
+cholmod q4_20x4 factor 1.0
+cholmod q4_20x4 operations 5e9
+friction_0 q4_20x4 increments 0.4
+friction_20 q4_20x4 increments 0.5
+friction_20 q4_20x4 passes 200
+threads_1 q4_20x4 factor 3.0
+threads_2 q4_20x4 factor 2.0
+crossing_SKYLINE q4_20x4 solution 0.03
+crossing_SKYLINE q4_20x4 entries 900
+crossing_TREE q4_20x4 solution 0.02
+crossing_TREE q4_20x4 unknowns 400
+END
+awk -f "$here/tables.awk" "$work/measured" > "$work/tables"
+
+# A row must hold these words in this order: row PATTERN.
+row() {
+   tr -s ' -' < "$work/tables" | grep -qE "$1"
+   count "no row in $work/tables is like $1" $?
+}
+row '^\| Q4 10 x 2 \| Q4 20 x 4 \| - \| 0.50 \| 1.50 \| 1.00 \| - '       # order x 2, factor x 8, increments x 4, unknowns x 4
+row '^\| Q4 20 x 4 \| - \| 1.00 \| 80.0 \| 2.60 \| .*\| 1.30 \| 2.00 \|$' # 1.6 s of 20 increments; run/once
+row '^\| Q4 20 x 4 \| 8 \| 0.50 \| 0.4 \| 0.25 \| 5 \| 0.25 \|'           # of the greater rate, 20
+row '^\| Q4 20 x 4 \| 20.0 \| 0.500 \| 0.025 \|$'                         # 0.1 s of 200 re-analyses
+row '^\| factor \| 3.00 \| 2.00 \| 1.50 \|$'
+row '^\| Q4 20 x 4 \| 400 \| 900 \| - \| 30.0 \| 20.0 \| 1.50 \|$'
+
+# ------------------------------------------------------------------ the script, with programs that always take as long
+rm -rf "$work/stand-in" && mkdir "$work/stand-in"
+stand_in() {
+   { echo '#!/usr/bin/env bash'; cat; } > "$work/stand-in/$1"
+   chmod +x "$work/stand-in/$1"
+}
+stand_in dgemm_rate << 'END'
+echo 'rate 10.0'
+END
+stand_in write_matrix << 'END'
+END
+stand_in cholmod_once << 'END'
+printf '%s\n' 'ordering METIS' 'unknowns 66' 'operations 1e9' 'analyse 0.1' 'factor 0.2' 'solve 0.1' 'residual 1e-13' \
+   "deflection ${DEFLECTION:-1.00001E-03}"
+END
+# its second run is the faster one; SKYLINE takes longer, and so do re-analyses, two in all; it writes the same on two threads
+stand_in program << 'END'
+threads=$4 folder=$6
+shift 6
+factor=0.5
+[ -f "$folder/before" ] || factor=0.9
+: > "$folder/before"
+for deck; do
+   increments=0.4
+   ! grep -q SKYLINE "$deck" || increments=0.9
+   ! grep -q '1.0-3,20$' "$deck" || increments=0.6
+   [ "$threads" = 1 ] || increments=0.2
+   printf "$deck: %s\\n" 'order 0.1 s' "factor $factor s" "increments $increments s" 'operations fixed 2.0E+09' \
+      'operations moving 1.0E+08' 'memory 7 MiB' 'other 3 words' >&2
+   {
+      printf '%s\n' '  UNKNOWNS    66' '  METHOD STEP   SOLVER TREE, JOINTS LAST' '  INCR   SHARE   LOAD  JOINT OPEN  LAMBDA' \
+         '  1 0.02 0.02  1  0  1.00000E-03 5' ' RE-ANALYSES AFTER THE COULOMB CHECK' \
+         '  1 1 2.0 1.0 50.00 3' '  1 2 1.0 0.5 50.00 3' ' END'
+   } > "$folder/$(basename "$deck" .bdf).out"
+   : > "$folder/$(basename "$deck" .bdf).joint.csv"
+done
+END
+"$here/bench.sh" "$work/stand-in/program" "$work/stand-in" q4_10x2 friction threads crossing > "$work/tables" 2> "$work/said"
+count 'bench.sh with stand-ins' $?
+row '^\| Q4 10 x 2 \| 66 \| - \| - \| - \| 0.10 \| 0.50 \| 0.40 \| - \| - \| 1.00 \| 7 \|$'
+row '^\| Q4 10 x 2 \| last \| 0.60 \| 20.0 \| 1.00 \| METIS \| 0.10 \| 0.20 \| 0.10 \| 0.40 \| 2.50 \|$'
+row '^\| Q4 10 x 2 \| 2 \| 0.40 \| 0.1 \| 0.50 \| 1 \| 0.50 \| 7 \| - \| 1e-13 \|$'
+row '^\| Q4 400 x 80 \| 20.0 \| 100 \| 5.000 \|$'
+row '^\| Q4 10 x 4 \| 66 \| - \| - \| 1500 \| 1000 \| 1.50 \|$'
+if [ "$(nproc)" -gt 1 ]; then
+   row '^One thread and two, hex8 30 x 30 x 30; results with the same digits: yes$'
+   row '^\| increments \| 0.40 \| 0.20 \| 2.00 \|$'
+fi
+DEFLECTION=1.00005E-03 "$here/bench.sh" "$work/stand-in/program" "$work/stand-in" q4_10x2 > /dev/null 2> "$work/said"
+[ $? -eq 1 ] && grep -q 'CHOLMOD finds another answer' "$work/said"
+count 'bench.sh takes an answer of CHOLMOD that is not ours' $?
+
+# ------------------------------------------------------------------ the program itself: what the script reads of it is there
+mkdir -p "$work/itself"
+cp "$work/stand-in/dgemm_rate" "$work/itself"
+"$here/bench.sh" "$program" "$work/itself" q4_6x3 > "$work/tables" 2> "$work/said"
+count 'bench.sh on a small plate' $?
+row '^\| Q4 6 x 3 \| 52 \| 13 \|( [0-9.]+ \|){9}$' # 7 nodes on the joint, x held on one
+row '^\| Q4 6 x 3 \| last \|( [0-9.]+ \|){3}( - \|){6}$'
+row '^\| Q4 6 x 3 \| [0-9.e-]+ \| [0-9.-]+ \| [0-9.e-]+ \| [0-9.]+ \| - \| - \| [0-9]+ \| - \| - \|$'
+
+# ------------------------------------------------------------------ a word that it does not know
+"$here/bench.sh" "$program" "$work" q5 > "$work/said" 2>&1
+[ $? -eq 1 ] && grep -q "'q5' is neither" "$work/said"
+count 'bench.sh takes q5 for a model' $?
+
+echo "$passed passed, $failed failed"
+[ $failed -eq 0 ]
