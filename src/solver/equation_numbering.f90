@@ -1,10 +1,11 @@
 !> Which unknown is which equation.
 module equation_numbering
+   use kinds, only: wp
    use model_data, only: model_type
    implicit none
    private
 
-   public :: number_unknowns
+   public :: number_unknowns, gather, put
 
    type, public :: equation_numbers
       integer :: n = 0                              !! unknowns
@@ -42,5 +43,37 @@ contains
          end do
       end do
    end subroutine number_unknowns
+
+
+   !> X(equation) from an array over nodes, for the EQUATIONS.
+   subroutine gather(numbers, equations, array, x)
+      class(equation_numbers), intent(in) :: numbers
+      integer, intent(in)               :: equations(:)
+      real(wp), intent(in)              :: array(:, :) !! (dimension, n_nodes)
+      real(wp), intent(inout)           :: x(:)        !! (n), not touched for others
+      integer :: i
+
+      do i = 1, size(equations)
+         associate (k => equations(i))
+            x(k) = array(numbers%direction(k), numbers%node(k))
+         end associate
+      end do
+   end subroutine gather
+
+
+   !> An array over nodes from X(equation), of the EQUATIONS.
+   subroutine put(numbers, equations, x, array)
+      class(equation_numbers), intent(in) :: numbers
+      integer, intent(in)               :: equations(:)
+      real(wp), intent(in)              :: x(:)        !! (n)
+      real(wp), intent(inout)           :: array(:, :) !! (dimension, n_nodes)
+      integer :: i
+
+      do i = 1, size(equations)
+         associate (k => equations(i))
+            array(numbers%direction(k), numbers%node(k)) = x(k)
+         end associate
+      end do
+   end subroutine put
 
 end module equation_numbering

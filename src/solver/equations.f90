@@ -6,17 +6,17 @@ module equations
    use bar_elements, only: bar_stiffness
    use conjugate_gradients, only: iterate_moving
    use case_control, only: solver_auto, solver_skyline, solver_tree
-   use equation_numbering, only: equation_numbers
+   use equation_numbering, only: equation_numbers, gather, put
+   use fault_report, only: report_fault
    use factor_reuse, only: factor_reuse_type, forget_factor, may_reuse, note_factor, note_failure, note_steps
    use failures, only: failure_type
-   use front_factor, only: add_to_moving, factorise_fixed, factorise_moving, no_memory
+   use front_factor, only: add_to_moving, factorise_fixed, factorise_moving
    use front_solve, only: eliminate_fixed, moving_times_vector, recover_fixed, solve_moving
    use kinds, only: wp
-   use model_data, only: model_type, n_bars, n_points, n_sections
+   use model_data, only: model_type, n_bars, n_sections
    use node_graph, only: build_node_graph, node_graph_type
    use skyline, only: skyline_times_vector, solve_skyline
    use skyline_solver, only: form_skyline_bodies, form_skyline_structure, scatter, skyline_solver_type, start_skyline_solver
-   use text_tools, only: integer_text
    use tree_solver, only: start_tree_solver, tree_solver_type
    implicit none
    private
@@ -126,7 +126,7 @@ contains
 
       if (system%is_tree) then
          call factorise_fixed(model, system%tree%tree, fault)
-         call report(model, system, fault, '', failure)
+         call report_fault(model, system, fault, '', failure)
          if (failure%raised) return
          do f = 1, size(system%tree%tree%fronts)
             associate (front => system%tree%tree%fronts(f))
@@ -254,41 +254,8 @@ contains
       type(equation_system), intent(in) :: system
       type(failure_type), intent(inout) :: failure
 
-      call report(model, system, system%fault, system%where//': ', failure)
+      call report_fault(model, system, system%fault, system%where//': ', failure)
    end subroutine check_solution
-
-
-   !> FAULT, an equation without stiffness or no_memory, in words.
-   subroutine report(model, system, fault, where, failure)
-      type(model_type), intent(in)      :: model
-      type(equation_system), intent(in) :: system
-      integer, intent(in)               :: fault
-      character(*), intent(in)          :: where
-      type(failure_type), intent(inout) :: failure
-
-      if (fault == no_memory) then
-         call failure%raise(where//'no memory for the factor of '//integer_text(system%n)//' equations')
-      else if (fault > 0) then
-         call failure%raise(where//'the structure is a mechanism: '// &
-            what_is_loose(model, system%node(fault), system%direction(fault))// &
-            ' (not supported there, or every joint that held it is open)')
-      end if
-   end subroutine report
-
-
-   !> What has no stiffness, in words.
-   pure function what_is_loose(model, node, d) result(words)
-      type(model_type), intent(in) :: model
-      integer, intent(in)          :: node, d
-      character(:), allocatable    :: words
-      character(1), parameter :: direction_name(3) = ['X', 'Y', 'Z']
-
-      if (node <= n_points(model)) then
-         words = 'node '//integer_text(model%node_id(node))//' has no stiffness in direction '//direction_name(d)
-      else
-         words = 'nothing holds BOLT '//integer_text(model%sections(node - n_points(model))%bolt)//' together at its section'
-      end if
-   end function what_is_loose
 
 
    !> Displacements U of the retained nodes under the forces F on them; held components, locked ones too, stay zero. Where only
@@ -365,37 +332,5 @@ contains
       call recover_fixed(system%tree%tree, x)
       call put(system, [(i, i = 1, system%n)], x, u)
    end subroutine recover_displacements
-
-
-   !> X(equation) from an array over nodes, for the EQUATIONS.
-   subroutine gather(system, equations, array, x)
-      type(equation_system), intent(in) :: system
-      integer, intent(in)               :: equations(:)
-      real(wp), intent(in)              :: array(:, :) !! (dimension, n_nodes)
-      real(wp), intent(inout)           :: x(:)        !! (n), not touched for others
-      integer :: i
-
-      do i = 1, size(equations)
-         associate (k => equations(i))
-            x(k) = array(system%direction(k), system%node(k))
-         end associate
-      end do
-   end subroutine gather
-
-
-   !> An array over nodes from X(equation), of the EQUATIONS.
-   subroutine put(system, equations, x, array)
-      type(equation_system), intent(in) :: system
-      integer, intent(in)               :: equations(:)
-      real(wp), intent(in)              :: x(:)        !! (n)
-      real(wp), intent(inout)           :: array(:, :) !! (dimension, n_nodes)
-      integer :: i
-
-      do i = 1, size(equations)
-         associate (k => equations(i))
-            array(system%direction(k), system%node(k)) = x(k)
-         end associate
-      end do
-   end subroutine put
 
 end module equations
