@@ -1,8 +1,9 @@
 !> Numbers as text, character by character what the edit descriptors es13.5, es24.16e3 and i0 give, many times faster: tables of
 !! a million lines and histories in full precision are written at the speed of the disk.
 !!
-!! A real is scaled by a power of ten to an integer of 6 or 17 digits. Where what is cut off lies so near to one half that the
-!! error of the scaling could decide how it is rounded, the run-time library, which is exact, writes the number.
+!! A real is scaled by a power of ten to an integer of 6 or 17 digits. Where what is cut off lies near to one half, an exact
+!! product decides how it is rounded (coordinates are often such ties); where there is none, the run-time library, which is
+!! exact too, writes the number.
 !! Source of the exact product: Dekker, A floating-point technique for extending the available precision, Numer. Math. 18
 !! (1971) 224-242.
 module number_text
@@ -18,6 +19,7 @@ module number_text
 
    integer, parameter  :: quad = selected_real_kind(30)
    integer, parameter  :: reach = 260                        ! of the decimal exponents that are scaled here
+   integer, parameter  :: last_exact = 22                    ! 10**22 is the last power of ten that is a real
    real(wp), parameter :: least = 10.0_wp**(-reach), most = 10.0_wp**reach
    real(wp), parameter :: log10_of_2 = log10(2.0_wp)
    real(wp), parameter :: splitter = 2.0_wp**27 + 1.0_wp     ! halves the 53 bits of a real
@@ -46,13 +48,9 @@ contains
       if (abs(value) >= least .and. abs(value) <= most) then
          exponent10 = decimal_exponent(abs(value))
          scaled = abs(value)*ten(5 - exponent10)
-         if (scaled < 1.0e5_wp) then ! by rounding of the power of ten
-            exponent10 = exponent10 - 1
-            scaled = abs(value)*ten(5 - exponent10)
-         end if
          n = int(scaled)
          if (abs(scaled - n - 0.5_wp) < safe) then
-            n = 0
+            call round_tie(abs(value), 5 - exponent10, n)
          else if (scaled - n > 0.5_wp) then
             n = n + 1
          end if
@@ -80,6 +78,24 @@ contains
       text(10:10) = text(11:11)
       text(11:11) = achar(48 + n/100)
    end subroutine write_short
+
+
+   !> Round VALUE 10**K, which lies between N and N + 1 near the middle, to the nearest N, of a tie to the even one; 0 where the
+   !! power of ten is not exact.
+   pure subroutine round_tie(value, k, n)
+      real(wp), intent(in)   :: value
+      integer, intent(in)    :: k
+      integer, intent(inout) :: n
+      real(wp) :: product, error, above
+
+      if (k < 0 .or. k > last_exact) then
+         n = 0
+         return
+      end if
+      call exact_product(value, k, product, error)
+      above = (product - n - 0.5_wp) + error
+      if (above > 0.0_wp .or. (above >= 0.0_wp .and. modulo(n, 2) == 1)) n = n + 1
+   end subroutine round_tie
 
 
    !> VALUE as es24.16e3 without the blanks before it: the 17 digits that make it come back the same.
@@ -149,7 +165,23 @@ contains
       integer, intent(in)        :: k
       integer(long), intent(out) :: whole
       real(wp), intent(out)      :: rest
-      real(wp) :: product, high, low, ten_high, ten_low, cut
+      real(wp) :: product
+
+      call exact_product(value, k, product, rest)
+      rest = rest + value*ten_rest(k)
+      whole = int(product, long)
+      rest = rest + (product - real(whole, wp))
+      whole = whole + floor(rest, long)
+      rest = rest - real(floor(rest, long), wp)
+   end subroutine multiply
+
+
+   !> VALUE ten(K) = PRODUCT + ERROR, exactly (Dekker).
+   pure subroutine exact_product(value, k, product, error)
+      real(wp), intent(in)  :: value
+      integer, intent(in)   :: k
+      real(wp), intent(out) :: product, error
+      real(wp) :: high, low, ten_high, ten_low, cut
 
       cut = splitter*value
       high = cut - (cut - value)
@@ -158,12 +190,8 @@ contains
       ten_high = cut - (cut - ten(k))
       ten_low = ten(k) - ten_high
       product = value*ten(k)
-      rest = ((high*ten_high - product) + high*ten_low + low*ten_high) + low*ten_low + value*ten_rest(k)
-      whole = int(product, long)
-      rest = rest + (product - real(whole, wp))
-      whole = whole + floor(rest, long)
-      rest = rest - real(floor(rest, long), wp)
-   end subroutine multiply
+      error = ((high*ten_high - product) + high*ten_low + low*ten_high) + low*ten_low
+   end subroutine exact_product
 
 
    !> The e with 10**e <= VALUE < 10**(e + 1), the powers of ten rounded to the nearest real.
