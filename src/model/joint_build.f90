@@ -184,14 +184,14 @@ contains
          end do
          tolerance = card%tolerance
          if (tolerance <= 0.0_wp) tolerance = default_tolerance*shortest
-         call search%build(model%x(:, side2%node), tolerance)
+         call search%build(model%x(:, side2%node))
          allocate (taken(side2%n), source=.false.)
          lonely = 0; turned = 0; shared = 0; worst = 0.0_wp; worst_node = 0
          do k = 1, side1%n
             call search%nearest(model%x(:, side1%node(k)), tolerance, found, distance)
             if (found == 0) then
                lonely = lonely + 1
-               distance = minval(norm2(model%x(:, side2%node) - spread(model%x(:, side1%node(k)), 2, side2%n), dim=1))
+               call search%nearest(model%x(:, side1%node(k)), huge(1.0_wp), found, distance)
                if (distance > worst) then
                   worst = distance
                   worst_node = side1%node(k)

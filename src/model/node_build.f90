@@ -94,7 +94,7 @@ contains
       integer, intent(inout)               :: places(:)
       type(deck_error_list), intent(inout) :: errors
       type(position_search_type) :: search
-      integer, allocatable :: others(:)
+      integer, allocatable :: near_this(:), near_other(:)
       real(wp) :: reach, distance
       integer  :: k, other, found
 
@@ -111,17 +111,40 @@ contains
             return
          end if
       end associate
-      others = raw%place(raw%block_start(other) + 1:raw%block_start(other + 1))
       reach = 1.0e-6_wp*maxval(maxval(blocks(b)%x, dim=2) - minval(blocks(b)%x, dim=2))
-      call search%build(raw%x(:, others), reach)
-      do k = 1, size(places)
-         call search%nearest(blocks(b)%x(:, k), reach, found, distance)
-         if (found > 0) places(k) = others(found)
+      call nodes_near(blocks(other)%x, blocks(b)%x, reach, near_this)
+      call nodes_near(blocks(b)%x, blocks(other)%x, reach, near_other)
+      call search%build(blocks(other)%x(:, near_this))
+      do k = 1, size(near_other)
+         call search%nearest(blocks(b)%x(:, near_other(k)), reach, found, distance)
+         if (found > 0) places(near_other(k)) = raw%place(raw%block_start(other) + near_this(found))
       end do
       if (all(places == 0)) call add_field_error(deck%text, blocks(b)%line, &
          weld_field(blocks(b)), 'WELD', &
          'the two blocks have no node in common', errors)
    end subroutine weld_block
+
+
+   !> The NODES of X that lie within REACH of the box round OTHERS: of two blocks side by side those of one face alone.
+   pure subroutine nodes_near(x, others, reach, nodes)
+      real(wp), intent(in)              :: x(:, :), others(:, :) !! (3, n) [length]
+      real(wp), intent(in)              :: reach                 !! [length]
+      integer, allocatable, intent(out) :: nodes(:)
+      real(wp) :: low(3), high(3)
+      integer, allocatable :: found(:)
+      integer  :: k, n
+
+      low = minval(others, dim=2) - reach
+      high = maxval(others, dim=2) + reach
+      allocate (found(size(x, 2)))
+      n = 0
+      do k = 1, size(x, 2)
+         if (any(x(:, k) < low .or. x(:, k) > high)) cycle
+         n = n + 1
+         found(n) = k
+      end do
+      nodes = found(:n)
+   end subroutine nodes_near
 
 
    !> The data field of WELD on the card of BLOCK.
