@@ -13,7 +13,7 @@ module node_build
    implicit none
    private
 
-   public :: generate_blocks, collect_nodes, order_nodes, report_repeated
+   public :: generate_blocks, collect_nodes, order_nodes, report_missing, report_repeated
 
    !> Nodes as they come, before they are put in order, and which of them a block's places are.
    type, public :: raw_nodes
@@ -171,6 +171,17 @@ contains
       model%x = raw%x(:, order)
       call model%node_table%build(model%node_id)
    end subroutine order_nodes
+
+
+   !> Say that there is no node ID, which data field K, NAME, of the card on LINE names; not where the field could not be read.
+   subroutine report_missing(deck, line, k, name, id, errors)
+      type(deck_type), intent(in)          :: deck
+      integer, intent(in)                  :: line, k, id
+      character(*), intent(in)             :: name
+      type(deck_error_list), intent(inout) :: errors
+
+      if (id > 0) call add_field_error(deck%text, line, k, name, 'there is no GRID '//integer_text(id), errors)
+   end subroutine report_missing
 
 
    !> Say which of the numbers ID(n), given on the cards of LINE(n), are given twice; a card that gives many is named once.

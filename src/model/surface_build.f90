@@ -7,8 +7,8 @@ module surface_build
    use element_loads, only: side_areas, side_forces
    use id_table, only: id_table_type, sorted_order
    use kinds, only: wp
-   use mesh_build, only: marked_sides
    use model_data, only: model_type, surface_type
+   use side_build, only: marked_sides
    use text_tools, only: integer_text
    implicit none
    private
