@@ -4,7 +4,7 @@ module id_table
    implicit none
    private
 
-   public :: sorted_order
+   public :: sorted_order, distinct
 
    !> A set of identification numbers in ascending order with the position of each.
    type, public :: id_table_type
@@ -122,5 +122,20 @@ contains
          byte = byte + 1
       end do
    end subroutine sorted_order
+
+
+   !> The numbers among KEYS, each once, in ascending order.
+   pure subroutine distinct(keys, values)
+      integer, intent(in)               :: keys(:)
+      integer, allocatable, intent(out) :: values(:)
+      integer, allocatable :: order(:)
+      logical, allocatable :: is_new(:)
+
+      call sorted_order(keys, order)
+      values = keys(order)
+      allocate (is_new(size(values)), source=.true.)
+      is_new(2:) = values(2:) /= values(:size(values) - 1)
+      values = pack(values, is_new)
+   end subroutine distinct
 
 end module id_table
