@@ -9,8 +9,8 @@ module behind_surface
 
 contains
 
-   !> The elements behind surface S at node K of it: those that hang together with the back of one of its sides there without crossing
-   !! the surface. None where they hang together with the front too.
+   !> The elements BEHIND surface S at node K of it: those that hang together with the back of one of its sides there without
+   !! crossing the surface. None where they hang together with the front too.
    pure subroutine elements_behind(model, s, at, k, behind)
       type(model_type), intent(in)      :: model
       integer, intent(in)               :: s

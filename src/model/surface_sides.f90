@@ -85,8 +85,8 @@ contains
    end subroutine face_one_way
 
 
-   !> How side OTHER shares what begins at corner K of SIDE (in the plane this node, of a face the rim to the next corner): 0 not at
-   !! all, 1 in the same sense, which is wrong for neighbours, -1 in the opposite one.
+   !> How side OTHER shares what begins at corner K of SIDE (in the plane this node, of a face the rim to the next corner): 0 not
+   !! at all, 1 in the same sense, which is wrong for neighbours, -1 in the opposite one.
    pure integer function common_sense(surface, side, k, other) result(sense)
       type(surface_type), intent(in) :: surface
       integer, intent(in)            :: side, k, other
