@@ -1,20 +1,24 @@
 !> Numbers that users give to things (nodes, elements, properties), and where each thing is stored.
 module id_table
+   use kinds, only: long
    implicit none
    private
 
-   public :: sorted_order
+   public :: sorted_order, distinct
 
    !> A set of identification numbers in ascending order with the position of each.
    type, public :: id_table_type
       private
       integer, allocatable :: ids(:)       ! ascending
       integer, allocatable :: positions(:) ! positions(k) is where ids(k) stood
+      integer, allocatable :: direct(:)    ! direct(id) is the position of id, 0: none; where the numbers lie close enough
    contains
       procedure :: build
       procedure :: find
       procedure :: list_repeated
    end type id_table_type
+
+   integer, parameter :: sparsest = 8 ! numbers between the least and the largest for each in a table that is looked up directly
 
 contains
 
@@ -22,9 +26,18 @@ contains
    pure subroutine build(self, ids)
       class(id_table_type), intent(inout) :: self
       integer, intent(in)                 :: ids(:)
+      integer :: k, n
 
+      n = size(ids)
       call sorted_order(ids, self%positions)
       self%ids = ids(self%positions)
+      if (allocated(self%direct)) deallocate (self%direct)
+      if (n == 0) return
+      if (int(self%ids(n), long) - self%ids(1) >= int(sparsest, long)*n) return
+      allocate (self%direct(self%ids(1):self%ids(n)), source=0)
+      do k = n, 1, -1
+         self%direct(ids(k)) = k
+      end do
    end subroutine build
 
 
@@ -36,6 +49,10 @@ contains
 
       position = 0
       if (.not. allocated(self%ids)) return
+      if (allocated(self%direct)) then
+         if (id >= lbound(self%direct, 1) .and. id <= ubound(self%direct, 1)) position = self%direct(id)
+         return
+      end if
       low = 1
       high = size(self%ids)
       do while (low < high)
@@ -67,41 +84,58 @@ contains
    end subroutine list_repeated
 
 
-   !> The permutation that puts KEYS(n) in ascending order; equal keys keep their order (merge sort).
+   !> The permutation that puts KEYS(n) in ascending order; equal keys keep their order.
+   !! Source: radix sort by bytes, the least significant first; Knuth, The Art of Computer Programming 3, section 5.2.5.
    pure subroutine sorted_order(keys, order)
       integer, intent(in)               :: keys(:)
       integer, allocatable, intent(out) :: order(:)
-      integer, allocatable :: merged(:)
-      integer :: n, width, left, middle, right, i, j, k
+      integer, allocatable :: before(:)
+      integer(long) :: above, least
+      integer :: byte, digit, first(0:256), i, n
 
       n = size(keys)
-      allocate (order(n), merged(n))
-      order = [(i, i = 1, n)]
-      if (n > 1) then
-         if (all(keys(2:) >= keys(:n - 1))) return
-      end if
-      width = 1
-      do while (width < n)
-         do left = 1, n, 2*width
-            middle = min(left + width, n + 1)
-            right = min(left + 2*width, n + 1)
-            i = left
-            j = middle
-            do k = left, right - 1
-               if (j >= right) then
-                  merged(k) = order(i); i = i + 1
-               else if (i >= middle) then
-                  merged(k) = order(j); j = j + 1
-               else if (keys(order(j)) < keys(order(i))) then
-                  merged(k) = order(j); j = j + 1
-               else
-                  merged(k) = order(i); i = i + 1
-               end if
-            end do
+      allocate (order(n), before(n))
+      do i = 1, n
+         order(i) = i
+      end do
+      if (n < 2) return
+      if (all(keys(2:) >= keys(:n - 1))) return
+      least = minval(keys)
+      above = maxval(keys) - least
+      byte = 0
+      do while (shiftr(above, 8*byte) > 0)
+         call move_alloc(order, before)
+         allocate (order(n))
+         first = 0
+         do i = 1, n
+            digit = int(ibits(keys(i) - least, 8*byte, 8)) + 1
+            first(digit) = first(digit) + 1
          end do
-         order = merged
-         width = 2*width
+         do digit = 1, 256
+            first(digit) = first(digit - 1) + first(digit) ! where the keys with this byte end
+         end do
+         do i = 1, n
+            digit = int(ibits(keys(before(i)) - least, 8*byte, 8))
+            first(digit) = first(digit) + 1
+            order(first(digit)) = before(i)
+         end do
+         byte = byte + 1
       end do
    end subroutine sorted_order
+
+
+   !> The numbers among KEYS, each once, in ascending order.
+   pure subroutine distinct(keys, values)
+      integer, intent(in)               :: keys(:)
+      integer, allocatable, intent(out) :: values(:)
+      integer, allocatable :: order(:)
+      logical, allocatable :: is_new(:)
+
+      call sorted_order(keys, order)
+      values = keys(order)
+      allocate (is_new(size(values)), source=.true.)
+      is_new(2:) = values(2:) /= values(:size(values) - 1)
+      values = pack(values, is_new)
+   end subroutine distinct
 
 end module id_table

@@ -1,6 +1,7 @@
 !> Small services for text: case, numbers as words, clean zeros.
 module text_tools
    use kinds, only: wp
+   use number_text, only: integer_width, write_integer
    implicit none
    private
 
@@ -26,10 +27,11 @@ contains
    pure function integer_text(value) result(text)
       integer, intent(in)       :: value
       character(:), allocatable :: text
-      character(12) :: buffer
+      character(integer_width) :: digits
+      integer :: length
 
-      write (buffer, '(i0)') value
-      text = trim(buffer)
+      call write_integer(value, digits, length)
+      text = digits(:length)
    end function integer_text
 
 

@@ -153,19 +153,21 @@ contains
       real(wp), intent(in)    :: x(3, max_nodes), dn(3, max_nodes)
       real(wp), intent(inout) :: j(3, 3)
       real(wp), intent(out)   :: jacobian
-      integer :: a, b, i
+      integer :: i
 
       j = 0.0_wp
-      do i = 1, n
-         do a = 1, dimension
-            do b = 1, dimension
-               j(b, a) = j(b, a) + dn(a, i)*x(b, i)
-            end do
-         end do
-      end do
       if (dimension == 2) then
+         do i = 1, n
+            j(:2, 1) = j(:2, 1) + dn(1, i)*x(:2, i)
+            j(:2, 2) = j(:2, 2) + dn(2, i)*x(:2, i)
+         end do
          jacobian = j(1, 1)*j(2, 2) - j(1, 2)*j(2, 1)
       else
+         do i = 1, n
+            j(:, 1) = j(:, 1) + dn(1, i)*x(:, i)
+            j(:, 2) = j(:, 2) + dn(2, i)*x(:, i)
+            j(:, 3) = j(:, 3) + dn(3, i)*x(:, i)
+         end do
          jacobian = dot_product(j(:, 1), cross(j(:, 2), j(:, 3)))
       end if
    end subroutine jacobian_matrix

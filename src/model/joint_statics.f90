@@ -68,11 +68,17 @@ contains
    pure subroutine find_determinate_joints(model)
       type(model_type), intent(inout) :: model
       integer, allocatable :: group(:)              ! parts joined by all the other joints; the base is the last one
-      logical, allocatable :: grounded(:), on_side(:, :)
+      integer, allocatable :: pair(:, :)            ! (3, pairs) two parts and the joint between them, each once
+      logical, allocatable :: grounded(:), on_side(:, :), held(:, :)
       integer :: base, i, j, k, node, side
 
       base = model%n_parts + 1
       allocate (group(base), grounded(base), on_side(base, 2))
+      call list_pairs(model, pair)
+      allocate (held(model%dimension, model%n_parts), source=.false.)
+      do node = 1, n_points(model)
+         held(:, model%part(node)) = held(:, model%part(node)) .or. model%held(:, node)
+      end do
       do j = 1, size(model%joints)
          associate (joint => model%joints(j))
             if (allocated(joint%carries)) deallocate (joint%carries)
@@ -81,8 +87,8 @@ contains
             if (norm2(joint%normal) <= 0.0_wp) cycle
             if (model%axisymmetric .and. abs(joint%normal(1)) > 1.0e-9_wp) cycle ! hoop stresses carry the rest
             group = [(k, k = 1, base)]
-            do i = 1, size(model%interface)
-               if (model%interface(i)%joint /= j) call join(group, part_of(model, i, 1), part_of(model, i, 2))
+            do i = 1, size(pair, 2)
+               if (pair(3, i) /= j) call join(group, pair(1, i), pair(2, i))
             end do
             do i = 1, n_sections(model) ! bolts that are being tightened hold across their axis
                associate (section => model%sections(i))
@@ -92,11 +98,8 @@ contains
             end do
             grounded = .false.
             grounded(root_of(group, base)) = .true.
-            do node = 1, n_points(model)
-               do k = 1, model%dimension
-                  if (model%held(k, node) .and. abs(joint%normal(k)) > 1.0e-9_wp) &
-                     grounded(root_of(group, model%part(node))) = .true.
-               end do
+            do k = 1, model%n_parts
+               if (any(held(:, k) .and. abs(joint%normal(:model%dimension)) > 1.0e-9_wp)) grounded(root_of(group, k)) = .true.
             end do
             on_side = .false.
             do i = joint%first, joint%last
@@ -116,8 +119,29 @@ contains
             end do
          end associate
       end do
-
    end subroutine find_determinate_joints
+
+
+   !> Which parts the joints connect: PAIR(:, i) are two of them, or one and the base behind the last, and the joint. Neighbouring
+   !! interface elements mostly connect the same parts: these count once.
+   pure subroutine list_pairs(model, pair)
+      type(model_type), intent(in)      :: model
+      integer, allocatable, intent(out) :: pair(:, :) !! (3, pairs)
+      integer, allocatable :: all_pairs(:, :)
+      integer :: i, n, this(3)
+
+      allocate (all_pairs(3, size(model%interface)))
+      n = 0
+      do i = 1, size(model%interface)
+         this = [part_of(model, i, 1), part_of(model, i, 2), model%interface(i)%joint]
+         if (n > 0) then
+            if (all(this == all_pairs(:, n))) cycle
+         end if
+         n = n + 1
+         all_pairs(:, n) = this
+      end do
+      allocate (pair, source=all_pairs(:, :n))
+   end subroutine list_pairs
 
 
    !> The part at end SIDE of interface element I; the rigid base is the part behind the last.

@@ -9,9 +9,10 @@ module model_build
    use joint_split, only: split_shared_surfaces
    use joint_statics, only: find_determinate_joints, find_first_pressures, find_parts
    use load_build, only: build_loads
-   use mesh_build, only: build_mesh, marked_sides
+   use mesh_build, only: build_mesh
    use model_data, only: model_type, n_sections
    use section_build, only: build_sections
+   use side_build, only: marked_sides
    use stage_plan, only: plan_stages, stage_plan_type
    use surface_build, only: build_surfaces
    implicit none

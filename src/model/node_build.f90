@@ -13,7 +13,7 @@ module node_build
    implicit none
    private
 
-   public :: generate_blocks, collect_nodes, order_nodes, report_repeated
+   public :: generate_blocks, collect_nodes, order_nodes, report_missing, report_repeated
 
    !> Nodes as they come, before they are put in order, and which of them a block's places are.
    type, public :: raw_nodes
@@ -94,7 +94,7 @@ contains
       integer, intent(inout)               :: places(:)
       type(deck_error_list), intent(inout) :: errors
       type(position_search_type) :: search
-      integer, allocatable :: others(:)
+      integer, allocatable :: near_this(:), near_other(:)
       real(wp) :: reach, distance
       integer  :: k, other, found
 
@@ -111,17 +111,40 @@ contains
             return
          end if
       end associate
-      others = raw%place(raw%block_start(other) + 1:raw%block_start(other + 1))
       reach = 1.0e-6_wp*maxval(maxval(blocks(b)%x, dim=2) - minval(blocks(b)%x, dim=2))
-      call search%build(raw%x(:, others), reach)
-      do k = 1, size(places)
-         call search%nearest(blocks(b)%x(:, k), reach, found, distance)
-         if (found > 0) places(k) = others(found)
+      call nodes_near(blocks(other)%x, blocks(b)%x, reach, near_this)
+      call nodes_near(blocks(b)%x, blocks(other)%x, reach, near_other)
+      call search%build(blocks(other)%x(:, near_this))
+      do k = 1, size(near_other)
+         call search%nearest(blocks(b)%x(:, near_other(k)), reach, found, distance)
+         if (found > 0) places(near_other(k)) = raw%place(raw%block_start(other) + near_this(found))
       end do
       if (all(places == 0)) call add_field_error(deck%text, blocks(b)%line, &
          weld_field(blocks(b)), 'WELD', &
          'the two blocks have no node in common', errors)
    end subroutine weld_block
+
+
+   !> The NODES of X that lie within REACH of the box round OTHERS: of two blocks side by side those of one face alone.
+   pure subroutine nodes_near(x, others, reach, nodes)
+      real(wp), intent(in)              :: x(:, :), others(:, :) !! (3, n) [length]
+      real(wp), intent(in)              :: reach                 !! [length]
+      integer, allocatable, intent(out) :: nodes(:)
+      real(wp) :: low(3), high(3)
+      integer, allocatable :: found(:)
+      integer  :: k, n
+
+      low = minval(others, dim=2) - reach
+      high = maxval(others, dim=2) + reach
+      allocate (found(size(x, 2)))
+      n = 0
+      do k = 1, size(x, 2)
+         if (any(x(:, k) < low .or. x(:, k) > high)) cycle
+         n = n + 1
+         found(n) = k
+      end do
+      nodes = found(:n)
+   end subroutine nodes_near
 
 
    !> The data field of WELD on the card of BLOCK.
@@ -148,6 +171,17 @@ contains
       model%x = raw%x(:, order)
       call model%node_table%build(model%node_id)
    end subroutine order_nodes
+
+
+   !> Say that there is no node ID, which data field K, NAME, of the card on LINE names; not where the field could not be read.
+   subroutine report_missing(deck, line, k, name, id, errors)
+      type(deck_type), intent(in)          :: deck
+      integer, intent(in)                  :: line, k, id
+      character(*), intent(in)             :: name
+      type(deck_error_list), intent(inout) :: errors
+
+      if (id > 0) call add_field_error(deck%text, line, k, name, 'there is no GRID '//integer_text(id), errors)
+   end subroutine report_missing
 
 
    !> Say which of the numbers ID(n), given on the cards of LINE(n), are given twice; a card that gives many is named once.

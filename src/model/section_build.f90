@@ -1,15 +1,16 @@
 !> Solid bolts: BOLT cards that name a marked surface inside a body, the section at which it is cut.
 module section_build
    use bar_build, only: find_stage
+   use behind_surface, only: elements_behind
    use bulk_data, only: bolt_card
    use deck_cards, only: add_field_error
    use deck_errors, only: deck_error_list
    use deck_input, only: deck_type
    use element_kinds, only: max_side_nodes
-   use joint_split, only: list_sides_of_nodes, right_of, side_list
    use kinds, only: wp
    use model_data, only: model_type, section_type
    use surface_build, only: side_influence, surface_node_list, surface_nodes
+   use surface_sides, only: list_sides, side_list
    use text_tools, only: integer_text
    implicit none
    private
@@ -73,7 +74,7 @@ contains
          allocate (centroid, source=matmul(model%x(:, list%node), list%area)/sum(list%area))
          fault = not_flat(model, model%sections(k), list, centroid)
       end if
-      if (fault == '') call find_elements_behind(model, s, k, list, fault)
+      if (fault == '') call find_elements_behind(model, s, k, fault)
       if (fault /= '') call add_field_error(deck%text, card%line, pmark_field, 'PMARK', 'surface '// &
                                             integer_text(card%surface)//' '//fault, errors)
    end subroutine build_section
@@ -148,22 +149,21 @@ contains
    end function not_flat
 
 
-   !> The elements behind section K, which is surface S with the nodes of LIST: at each node those that hang together with the
+   !> The elements behind section K, which is surface S: at each node those that hang together with the
    !! back of a side without crossing the surface.
-   subroutine find_elements_behind(model, s, k, list, fault)
+   subroutine find_elements_behind(model, s, k, fault)
       type(model_type), intent(inout)        :: model
       integer, intent(in)                    :: s, k
-      type(surface_node_list), intent(in)    :: list
       character(:), allocatable, intent(out) :: fault !! empty: none
       type(side_list)      :: at
       integer, allocatable :: behind(:)
       integer :: i
 
       fault = ''
-      call list_sides_of_nodes(model, s, at)
-      do i = 1, list%n
-         associate (node => list%node(i))
-            call right_of(model, s, at, node, behind)
+      call list_sides(model%surfaces(s), at)
+      do i = 1, at%n
+         associate (node => at%node(i))
+            call elements_behind(model, s, at, i, behind)
             if (size(behind) == 0) then
                fault = 'ends inside the body at node '//integer_text(model%node_id(node))// &
                        ': expected its border on the outside of the body, which is not cut through'
@@ -178,7 +178,7 @@ contains
             model%element_section(behind) = k
          end associate
       end do
-      model%sections(k)%point = list%node(1)
+      model%sections(k)%point = at%node(1)
    end subroutine find_elements_behind
 
 

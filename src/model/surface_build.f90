@@ -5,10 +5,10 @@ module surface_build
    use deck_input, only: deck_type
    use element_kinds, only: element_table, max_side_nodes
    use element_loads, only: side_areas, side_forces
-   use id_table, only: id_table_type, sorted_order
+   use id_table, only: distinct, id_table_type, sorted_order
    use kinds, only: wp
-   use mesh_build, only: marked_sides
    use model_data, only: model_type, surface_type
+   use side_build, only: marked_sides
    use text_tools, only: integer_text
    implicit none
    private
@@ -249,33 +249,21 @@ contains
       type(model_type), intent(in)         :: model
       type(surface_type), intent(in)       :: surface
       type(surface_node_list), intent(out) :: list
-      integer, allocatable :: place(:)
+      type(id_table_type) :: place
       real(wp) :: area(max_side_nodes), normal(3, max_side_nodes)
-      integer  :: s, k, lowest, highest, node
+      integer  :: s, k, node
 
-      if (surface%n == 0) then
-         allocate (list%node(0), list%area(0), list%normal(3, 0))
-         return
-      end if
-      lowest = minval(surface%nodes(:, :surface%n), mask=surface%nodes(:, :surface%n) > 0)
-      highest = maxval(surface%nodes(:, :surface%n))
-      allocate (place(lowest:highest), source=0)
-      do s = 1, surface%n
-         place(surface%nodes(:surface%corners(s), s)) = 1
-      end do
-      do node = lowest, highest
-         if (place(node) == 0) cycle
-         list%n = list%n + 1
-         place(node) = list%n
-      end do
-      allocate (list%node(list%n), source=0)
+      associate (nodes => surface%nodes(:, :surface%n))
+         call distinct(pack(nodes, nodes > 0), list%node)
+      end associate
+      list%n = size(list%node)
+      call place%build(list%node)
       allocate (list%area(list%n), source=0.0_wp)
       allocate (list%normal(3, list%n), source=0.0_wp)
       do s = 1, surface%n
          call side_influence(model, surface, s, area, normal)
          do k = 1, surface%corners(s)
-            node = place(surface%nodes(k, s))
-            list%node(node) = surface%nodes(k, s)
+            node = place%find(surface%nodes(k, s))
             list%area(node) = list%area(node) + area(k)
             list%normal(:, node) = list%normal(:, node) + normal(:, k)
          end do

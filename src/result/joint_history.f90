@@ -6,7 +6,8 @@ module joint_history
    use output_file, only: output_file_type
    use stage_plan, only: stage_plan_type
    use analysis_state, only: analysis_type
-   use text_tools, only: clean, integer_text
+   use text_line, only: text_line_type
+   use text_tools, only: clean
    implicit none
    private
 
@@ -29,54 +30,79 @@ contains
       type(model_type), intent(in)          :: model
       type(stage_plan_type), intent(in)     :: plan
       type(analysis_type), intent(in)       :: analysis
-      character(:), allocatable :: now
-      integer  :: i, node2
+      type(text_line_type) :: line
+      integer :: i, k, node2, same
 
-      now = integer_text(plan%stages(analysis%stage)%id)//','//integer_text(analysis%increment)//','// &
-            full(analysis%fraction)
+      call line%clear()                   ! the columns that all rows have in common
+      call line%add_integer(plan%stages(analysis%stage)%id)
+      call add_number(analysis%increment)
+      call add_real(analysis%fraction)
+      same = line%length
       do i = 1, size(model%interface)
+         line%length = same
          associate (element => model%interface(i), state => analysis%states(i)%normal)
             node2 = 0
             if (element%nodes(2) > 0) node2 = model%node_id(element%nodes(2))
-            call file%put(now//','//integer_text(model%joints(element%joint)%id)//','//integer_text(element%id)//','// &
-                          integer_text(model%node_id(element%nodes(1)))//','//integer_text(node2)//','// &
-                          full(model%x(1, element%nodes(1)))//','//full(model%x(2, element%nodes(1)))//','// &
-                          full(model%x(3, element%nodes(1)))//','//full(element%area)//','//branch_name(state%branch)//','// &
-                          full(state%lambda)//','//full(state%pressure)//','//full(state%sumf)//','//full(state%k_n)// &
-                          shear_columns(model, analysis, i, 1)//shear_columns(model, analysis, i, 2)//','// &
-                          merge('1', '0', analysis%states(i)%slips))
+            call add_number(model%joints(element%joint)%id)
+            call add_number(element%id)
+            call add_number(model%node_id(element%nodes(1)))
+            call add_number(node2)
+            do k = 1, 3
+               call add_real(model%x(k, element%nodes(1)))
+            end do
+            call add_real(element%area)
+            call line%add(','//branch_name(state%branch))
+            call add_real(state%lambda)
+            call add_real(state%pressure)
+            call add_real(state%sumf)
+            call add_real(state%k_n)
+            call add_shear(1)
+            call add_shear(2)
+            call line%add(merge(',1', ',0', analysis%states(i)%slips))
+            call file%put(line%text(:line%length))
          end associate
       end do
+
+   contains
+
+      subroutine add_number(value)
+         integer, intent(in) :: value
+
+         call line%add(',')
+         call line%add_integer(value)
+      end subroutine add_number
+
+
+      !> A number with the 17 digits that make it come back the same.
+      subroutine add_real(value)
+         real(wp), intent(in) :: value
+
+         call line%add(',')
+         call line%add_full(clean(value))
+      end subroutine add_real
+
+
+      !> branch, delta, tau, k_s of element I in direction K. Without a shear law the movement alone is a result.
+      subroutine add_shear(direction)
+         integer, intent(in) :: direction
+         real(wp) :: movement(3)
+
+         associate (state => analysis%states(i)%shear(direction))
+            if (model%joints(model%interface(i)%joint)%law%shear(direction)%given) then
+               call line%add(','//branch_name(state%branch))
+               call add_real(state%delta)
+               call add_real(state%tau)
+               call add_real(state%k_s)
+            else
+               movement = joint_movement(model, analysis%u, i)
+               call line%add(',')
+               call add_real(movement(direction))
+               call add_real(0.0_wp)
+               call add_real(0.0_wp)
+            end if
+         end associate
+      end subroutine add_shear
+
    end subroutine write_history
-
-
-   !> branch, delta, tau, k_s of element I in direction K. Without a shear law the movement alone is a result.
-   function shear_columns(model, analysis, i, k) result(columns)
-      type(model_type), intent(in)    :: model
-      type(analysis_type), intent(in) :: analysis
-      integer, intent(in)             :: i, k
-      character(:), allocatable       :: columns
-      real(wp) :: movement(3)
-
-      associate (state => analysis%states(i)%shear(k))
-         if (model%joints(model%interface(i)%joint)%law%shear(k)%given) then
-            columns = ','//branch_name(state%branch)//','//full(state%delta)//','//full(state%tau)//','//full(state%k_s)
-         else
-            movement = joint_movement(model, analysis%u, i)
-            columns = ',,'//full(movement(k))//','//full(0.0_wp)//','//full(0.0_wp)
-         end if
-      end associate
-   end function shear_columns
-
-
-   !> A number with the 17 digits that make it come back the same.
-   pure function full(value) result(text)
-      real(wp), intent(in)      :: value
-      character(:), allocatable :: text
-      character(24) :: buffer
-
-      write (buffer, '(es24.16e3)') clean(value)
-      text = trim(adjustl(buffer))
-   end function full
 
 end module joint_history

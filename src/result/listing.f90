@@ -57,17 +57,21 @@ contains
       type(model_type), intent(in)      :: model
       type(stage_plan_type), intent(in) :: plan
       type(analysis_type), intent(in)   :: analysis
-      integer :: j
+      type(stage_load_type) :: now
+      real(wp) :: unbalanced
+      integer  :: j
 
       listing%n_increments = listing%n_increments + 1
       listing%n_removed = listing%n_removed + analysis%n_removed
       listing%largest_force = max(listing%largest_force, maxval(abs(analysis%applied)))
       if (any(abs(analysis%moved) > 0.0_wp)) listing%largest_force = &
          max(listing%largest_force, maxval(abs(analysis%unbalanced), mask=model%held)) ! what moves the supports
+      call current_load(model, analysis, now)
+      unbalanced = free_norm(model, analysis%unbalanced, analysis%retained)
       do j = 1, size(model%joints)
-         call listing%increments%add(increment_row(listing, model, analysis, j))
+         call listing%increments%add(increment_row(listing, model, analysis, now, unbalanced, j))
       end do
-      if (size(model%joints) == 0) call listing%increments%add(increment_row(listing, model, analysis, 0))
+      if (size(model%joints) == 0) call listing%increments%add(increment_row(listing, model, analysis, now, unbalanced, 0))
       call note_resultants(model, analysis, listing%largest_force, listing%resultants)
       call note_passes(analysis, listing%passes)
       call note_bars(model, analysis, listing%largest_force, listing%bars)
@@ -146,13 +150,14 @@ contains
 
 
    !> One line of the table of increments: joint J after the increment just completed (J = 0: no joints).
-   function increment_row(listing, model, analysis, j) result(row)
-      type(listing_type), intent(in)  :: listing
-      type(model_type), intent(in)    :: model
-      type(analysis_type), intent(in) :: analysis
-      integer, intent(in)             :: j
+   function increment_row(listing, model, analysis, now, unbalanced, j) result(row)
+      type(listing_type), intent(in)    :: listing
+      type(model_type), intent(in)      :: model
+      type(analysis_type), intent(in)   :: analysis
+      type(stage_load_type), intent(in) :: now        !! the load that acts
+      real(wp), intent(in)              :: unbalanced !! norm of what is unbalanced on the free components [force]
+      integer, intent(in)               :: j
       character(page_width) :: row
-      type(stage_load_type) :: now
       real(wp) :: force, applied, floor
       integer  :: i, at_lambda, at_p, n_open
 
@@ -175,13 +180,12 @@ contains
                clean(state(at_p)%pressure, noise*analysis%largest_p), model%node_id(model%interface(at_p)%nodes(1)), &
                clean(force, floor)
             if (joint%determinate) then
-               call current_load(model, analysis, now)
                applied = carried_resultant(model, joint, now)
                write (row(99:), '(es12.5, es11.3)') clean(applied, floor), clean(force - applied, floor)
             end if
          end associate
       end if
-      write (row(122:), '(es11.3)') clean(unbalanced_force(model, analysis), floor)
+      write (row(122:), '(es11.3)') clean(unbalanced, floor)
    end function increment_row
 
 
@@ -203,15 +207,6 @@ contains
    end subroutine current_load
 
 
-   !> Euclidean norm of what is unbalanced on the free components [force].
-   pure real(wp) function unbalanced_force(model, analysis) result(force)
-      type(model_type), intent(in)    :: model
-      type(analysis_type), intent(in) :: analysis
-
-      force = free_norm(model, analysis%unbalanced, analysis%retained)
-   end function unbalanced_force
-
-
    !> Close the listing under its name.
    subroutine finish_listing(listing, plan, ok)
       type(listing_type), intent(inout) :: listing
@@ -224,6 +219,5 @@ contains
          upper(plural(listing%watch%n_warnings, 'warning')))
       call listing%file%finish(ok)
    end subroutine finish_listing
-
 
 end module listing

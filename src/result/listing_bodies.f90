@@ -9,6 +9,7 @@ module listing_bodies
    use output_file, only: output_file_type
    use stage_plan, only: stage_plan_type
    use stress_measures, only: principal_stresses, von_mises
+   use text_line, only: text_line_type
    use text_tools, only: clean
    implicit none
    private
@@ -38,7 +39,7 @@ contains
       type(model_type), intent(in)      :: model
       type(stage_plan_type), intent(in) :: plan
       type(analysis_type), intent(in)   :: analysis
-      character(page_width) :: line
+      type(text_line_type) :: line
       real(wp) :: floor
       integer  :: node
 
@@ -51,9 +52,11 @@ contains
       floor = noise*maxval(abs(analysis%u(:, :n_points(model))))
       do node = 1, n_points(model)
          if (.not. model%used(node)) cycle
-         write (line, '(i11, 6es13.5)') model%node_id(node), clean(model%x(:model%dimension, node)), &
-            clean(analysis%u(:, node), floor)
-         call file%put(line)
+         call line%clear()
+         call line%add_integer(model%node_id(node), 11)
+         call line%add_short(clean(model%x(:model%dimension, node)))
+         call line%add_short(clean(analysis%u(:, node), floor))
+         call file%put(line%text(:line%length))
       end do
    end subroutine list_displacements
 
@@ -64,7 +67,7 @@ contains
       type(model_type), intent(in)      :: model
       type(stage_plan_type), intent(in) :: plan
       type(analysis_type), intent(in)   :: analysis
-      character(page_width) :: line
+      type(text_line_type) :: line
       real(wp), allocatable :: stress(:, :)
       real(wp) :: floor
       integer  :: e, n
@@ -88,8 +91,11 @@ contains
          call file%put('    ELEMENT     CENTRE X     CENTRE Y      SIGMA X      SIGMA Y       TAU XY')
       end if
       do e = 1, model%n_elements
-         write (line, '(i11, 9es13.5)') model%element_id(e), clean(centre(model, e)), clean(stress(:n, e), floor)
-         call file%put(line)
+         call line%clear()
+         call line%add_integer(model%element_id(e), 11)
+         call line%add_short(clean(centre(model, e)))
+         call line%add_short(clean(stress(:n, e), floor))
+         call file%put(line%text(:line%length))
       end do
       if (plan%stages(analysis%stage)%stress) call list_principal(file, labels, model, plan, analysis, stress(:n, :), floor)
    end subroutine list_stresses
@@ -104,7 +110,7 @@ contains
       type(analysis_type), intent(in)   :: analysis
       real(wp), intent(in)              :: stress(:, :)
       real(wp), intent(in)              :: floor
-      character(page_width) :: line
+      type(text_line_type) :: line
       real(wp) :: full(max_stresses)
       integer  :: e
 
@@ -112,9 +118,11 @@ contains
       call file%put('    ELEMENT      SIGMA 1      SIGMA 2      SIGMA 3    VON MISES')
       do e = 1, model%n_elements
          full = full_stress(model, e, stress(:, e))
-         write (line, '(i11, 4es13.5)') model%element_id(e), clean(principal_stresses(full), floor), &
-            clean(von_mises(full), floor)
-         call file%put(line)
+         call line%clear()
+         call line%add_integer(model%element_id(e), 11)
+         call line%add_short(clean(principal_stresses(full), floor))
+         call line%add_short([clean(von_mises(full), floor)])
+         call file%put(line%text(:line%length))
       end do
    end subroutine list_principal
 
@@ -139,7 +147,7 @@ contains
       type(model_type), intent(in)      :: model
       type(stage_plan_type), intent(in) :: plan
       type(analysis_type), intent(in)   :: analysis
-      character(page_width) :: line
+      type(text_line_type) :: line
       real(wp), dimension(model%dimension) :: reaction, supports, base, loads
       real(wp) :: floor, force(3)
       integer  :: i, node
@@ -156,8 +164,11 @@ contains
          if (.not. any(model%held(:, node)) .or. .not. model%used(node)) cycle
          reaction = merge(-analysis%unbalanced(:, node), 0.0_wp, model%held(:, node))
          supports = supports + reaction
-         write (line, '(i11, 6es13.5)') model%node_id(node), clean(model%x(:model%dimension, node)), clean(reaction, floor)
-         call file%put(line)
+         call line%clear()
+         call line%add_integer(model%node_id(node), 11)
+         call line%add_short(clean(model%x(:model%dimension, node)))
+         call line%add_short(clean(reaction, floor))
+         call file%put(line%text(:line%length))
       end do
       base = 0.0_wp
       do i = 1, size(model%interface)
@@ -184,9 +195,10 @@ contains
       subroutine balance_line(words, resultant)
          character(*), intent(in) :: words
          real(wp), intent(in)     :: resultant(:)
+         character(page_width) :: row
 
-         write (line, '(2x, a, t36, 3es13.5)') words, clean(resultant(merge(2, 1, model%axisymmetric):), floor)
-         call file%put(line)
+         write (row, '(2x, a, t36, 3es13.5)') words, clean(resultant(merge(2, 1, model%axisymmetric):), floor)
+         call file%put(row)
       end subroutine balance_line
 
    end subroutine list_reactions

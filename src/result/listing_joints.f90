@@ -8,6 +8,7 @@ module listing_joints
    use output_file, only: output_file_type
    use row_buffer, only: row_buffer_type
    use stage_plan, only: stage_plan_type
+   use text_line, only: text_line_type
    use text_tools, only: clean, integer_text
    implicit none
    private
@@ -24,6 +25,7 @@ contains
       type(stage_plan_type), intent(in) :: plan
       type(analysis_type), intent(in)   :: analysis
       character(page_width) :: line
+      type(text_line_type)  :: row
       real(wp) :: lambda_floor, p_floor, force_floor
       integer  :: i, j, node2
 
@@ -56,24 +58,32 @@ contains
                associate (element => model%interface(i))
                   node2 = 0
                   if (element%nodes(2) > 0) node2 = model%node_id(element%nodes(2))
-                  if (model%dimension == 3) then ! K_N is in the joint history
-                     write (line, '(3i11, 4es13.5, 2x, a6, 3es13.5)') element%id, model%node_id(element%nodes(1)), &
-                        node2, clean(model%x(:, element%nodes(1))), element%area, branch_name(state(i)%branch), &
-                        clean(state(i)%lambda, lambda_floor), clean(state(i)%pressure, p_floor), &
-                        clean(state(i)%sumf, force_floor)
-                  else
-                     write (line, '(3i11, 3es13.5, 2x, a6, 4es13.5)') element%id, model%node_id(element%nodes(1)), &
-                        node2, clean(model%x(:2, element%nodes(1))), element%area, branch_name(state(i)%branch), &
-                        clean(state(i)%lambda, lambda_floor), clean(state(i)%pressure, p_floor), &
-                        clean(state(i)%sumf, force_floor), clean(state(i)%k_n)
-                  end if
-                  call file%put(line)
+                  call row%clear()
+                  call row%add_integer(element%id, 11)
+                  call row%add_integer(model%node_id(element%nodes(1)), 11)
+                  call row%add_integer(node2, 11)
+                  call row%add_short(clean(model%x(:model%dimension, element%nodes(1))))
+                  call row%add_short([element%area])
+                  call row%add(branch_field(state(i)%branch))
+                  call row%add_short([clean(state(i)%lambda, lambda_floor), clean(state(i)%pressure, p_floor), &
+                                      clean(state(i)%sumf, force_floor)])
+                  if (model%dimension == 2) call row%add_short([clean(state(i)%k_n)]) ! in space only in the joint history
+                  call file%put(row%text(:row%length))
                end associate
             end do
             if (any(joint%law%shear%given)) call list_shear(file, labels, model, plan, analysis, j)
          end associate
       end do
    end subroutine list_interface
+
+
+   !> A branch in its column, as 2x, a6.
+   pure function branch_field(branch) result(field)
+      integer, intent(in) :: branch
+      character(8) :: field
+
+      field = repeat(' ', 8 - len(branch_name(branch)))//branch_name(branch)
+   end function branch_field
 
 
    !> Shear of the interface elements of joint J. LIMIT is mu p.
@@ -85,6 +95,7 @@ contains
       type(analysis_type), intent(in)   :: analysis
       integer, intent(in)               :: j
       character(page_width) :: line
+      type(text_line_type)  :: row
       real(wp) :: delta_floor, tau_floor
       integer  :: i, k
 
@@ -107,13 +118,16 @@ contains
             end if
             do i = joint%first, joint%last
                associate (state => analysis%states(i)%shear(k), element => model%interface(i))
-                  write (line, '(2i11, 2x, a6, 4es13.5)') element%id, model%node_id(element%nodes(1)), &
-                     branch_name(state%branch), clean(state%delta, delta_floor), clean(state%tau, tau_floor), &
-                     clean(state%tau*element%area, tau_floor*element%area), clean(state%k_s)
-                  if (joint%law%has_friction) write (line(83:), '(es13.5)') &
-                     clean(joint%law%mu*max(0.0_wp, analysis%states(i)%normal%pressure), tau_floor)
-                  if (analysis%states(i)%slips) line(98:) = 'SLIPS'
-                  call file%put(line)
+                  call row%clear()
+                  call row%add_integer(element%id, 11)
+                  call row%add_integer(model%node_id(element%nodes(1)), 11)
+                  call row%add(branch_field(state%branch))
+                  call row%add_short([clean(state%delta, delta_floor), clean(state%tau, tau_floor), &
+                                      clean(state%tau*element%area, tau_floor*element%area), clean(state%k_s)])
+                  if (joint%law%has_friction) call row%add_short( &
+                     [clean(joint%law%mu*max(0.0_wp, analysis%states(i)%normal%pressure), tau_floor)])
+                  if (analysis%states(i)%slips) call row%add(repeat(' ', 97 - row%length)//'SLIPS')
+                  call file%put(row%text(:row%length))
                end associate
             end do
          end do

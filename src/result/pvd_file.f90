@@ -10,7 +10,7 @@ module pvd_file
    use c_library, only: remove_file
    use output_file, only: output_file_type
    use text_tools, only: integer_text
-   use vtu_file, only: xml_text
+   use vtu_header, only: xml_text
    implicit none
    private
 

@@ -24,26 +24,15 @@
 module vtu_file
    use, intrinsic :: iso_fortran_env, only: int8, int32, int64, real64
    use c_library, only: remove_file, rename_file
+   use vtu_header, only: array_type, closing, data_start, header_text, in_cell_data, in_cells, in_point_data, in_points
    implicit none
    private
-
-   public :: xml_text
 
    ! Types of cell, with the nodes in the order of CTRIA3, CQUAD4, CTETRA and CHEXA. The normal of the first triangle of
    ! a wedge points outward, that of CPENTA inward: a CPENTA goes in as G1 G3 G2 G4 G6 G5.
    integer(int8), parameter, public :: vtk_vertex = 1_int8, vtk_line = 3_int8, vtk_triangle = 5_int8, &
                                        vtk_quad = 9_int8, vtk_tetra = 10_int8, vtk_hexahedron = 12_int8, &
                                        vtk_wedge = 13_int8
-
-   integer, parameter, public :: data_start = 16384 !! length of the header [bytes]: enough for a hundred arrays
-
-   type :: array_type
-      character(:), allocatable :: name
-      character(:), allocatable :: number      ! VTK's word for the kind: Float64, Int32, UInt8
-      integer :: section    = 0                ! where it stands in the header
-      integer :: components = 1
-      integer(int64) :: offset = 0             ! of its length, from data_start [bytes]
-   end type array_type
 
    type, public :: vtu_file_type
       private
@@ -69,12 +58,8 @@ module vtu_file
    end type vtu_file_type
 
    character(*), parameter :: suffix = '.part'
-   character(*), parameter :: newline = new_line('a')
-   character(*), parameter :: closing = newline//'  </AppendedData>'//newline//'</VTKFile>'//newline
 
    integer, parameter :: wrong_call = -huge(0) ! a status of our own
-   integer, parameter :: in_points = 1, in_cells = 2, in_point_data = 3, in_cell_data = 4
-   character(*), parameter :: section_tags(4) = [character(9) :: 'Points', 'Cells', 'PointData', 'CellData']
 
 contains
 
@@ -254,7 +239,7 @@ contains
       if (.not. self%is_open) return
       if (self%n_cells < 0) call refuse(self)
       if (self%status == 0) then
-         header = header_text(self)
+         header = header_text(self%n_points, self%n_cells, self%arrays(:self%n_arrays))
          if (len(header) > data_start) call refuse(self)
       end if
       if (self%status == 0) write (self%unit, iostat=self%status) closing
@@ -341,82 +326,5 @@ contains
       call begin_array(self, section, name, 'Int32', components, 4*n)
       if (self%status == 0) write (self%unit, iostat=self%status) values
    end subroutine put_integers
-
-
-   !> The header, at least data_start bytes long: longer where the arrays are too many.
-   function header_text(self) result(text)
-      type(vtu_file_type), intent(in) :: self
-      character(:), allocatable       :: text
-      character(*), parameter :: last = '  <AppendedData encoding="raw">'//newline//'_'
-      integer :: section, i
-
-      text = '<?xml version="1.0"?>'//newline// &
-             '<VTKFile type="UnstructuredGrid" version="1.0" byte_order="'//byte_order()//'" header_type="UInt64">'// &
-             newline//'  <UnstructuredGrid>'//newline//'    <Piece NumberOfPoints="'//decimal(self%n_points)// &
-             '" NumberOfCells="'//decimal(self%n_cells)//'">'//newline
-      do section = 1, size(section_tags)
-         text = text//'      <'//trim(section_tags(section))//'>'//newline
-         do i = 1, self%n_arrays
-            associate (array => self%arrays(i))
-               if (array%section /= section) cycle
-               text = text//'        <DataArray type="'//array%number//'" Name="'//xml_text(array%name)//'"'
-               if (array%components > 1) & ! some readers make a matrix of one column where the 1 is spelled out
-                  text = text//' NumberOfComponents="'//decimal(int(array%components, int64))//'"'
-               text = text//' format="appended" offset="'//decimal(array%offset)//'"/>'//newline
-            end associate
-         end do
-         text = text//'      </'//trim(section_tags(section))//'>'//newline
-      end do
-      text = text//'    </Piece>'//newline//'  </UnstructuredGrid>'//newline
-      text = text//repeat(' ', max(0, data_start - len(text) - len(last)))//last
-   end function header_text
-
-
-   !> How the bytes of a number lie in memory, in VTK's words.
-   pure function byte_order() result(word)
-      character(:), allocatable :: word
-      integer(int8) :: bytes(4)
-
-      bytes = transfer(1_int32, bytes)
-      if (bytes(1) == 1_int8) then
-         word = 'LittleEndian'
-      else
-         word = 'BigEndian'
-      end if
-   end function byte_order
-
-
-   pure function decimal(value) result(text)
-      integer(int64), intent(in) :: value
-      character(:), allocatable  :: text
-      character(20) :: buffer
-
-      write (buffer, '(i0)') value
-      text = trim(buffer)
-   end function decimal
-
-
-   !> TEXT as it may stand between the quotes of an XML attribute.
-   pure function xml_text(text) result(escaped)
-      character(*), intent(in)  :: text
-      character(:), allocatable :: escaped
-      integer :: i
-
-      escaped = ''
-      do i = 1, len(text)
-         select case (text(i:i))
-         case ('&')
-            escaped = escaped//'&amp;'
-         case ('<')
-            escaped = escaped//'&lt;'
-         case ('>')
-            escaped = escaped//'&gt;'
-         case ('"')
-            escaped = escaped//'&quot;'
-         case default
-            escaped = escaped//text(i:i)
-         end select
-      end do
-   end function xml_text
 
 end module vtu_file
