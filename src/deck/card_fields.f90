@@ -126,7 +126,7 @@ contains
       do k = 1, size(rules)
          if (k > card%n) then
             call take_default(card, k, rules(k), values, errors)
-         else if (card%fields(k)%text == '') then
+         else if (card%fields(k)%length == 0) then
             call take_default(card, k, rules(k), values, errors)
          else
             values%given(k) = .true.
@@ -188,13 +188,13 @@ contains
 
       select case (rule%kind)
       case (kind_integer)
-         call decode_integer(card, k, rule%name, expectation(rule), values%integers(k), ok, errors)
+         call integer_by_rule(card, k, rule, values%integers(k), ok, errors)
          if (ok .and. (values%integers(k) < rule%least .or. values%integers(k) > rule%most)) then
             call out_of_range(card, k, rule, errors)
             values%integers(k) = 0
          end if
       case (kind_components)
-         call decode_integer(card, k, rule%name, expectation(rule), values%integers(k), ok, errors)
+         call integer_by_rule(card, k, rule, values%integers(k), ok, errors)
          if (ok .and. .not. is_component_list(values%integers(k))) then
             call out_of_range(card, k, rule, errors)
             values%integers(k) = 0
@@ -205,7 +205,8 @@ contains
             values%reals(k) = real(values%integers(k), wp)
             if (ok) return
          end if
-         call decode_real(card, k, rule%name, expectation(rule), values%reals(k), ok, errors)
+         call parse_real(card%fields(k)%text(:card%fields(k)%length), values%reals(k), ok)
+         if (.not. ok) call decode_real(card, k, rule%name, expectation(rule), values%reals(k), ok, errors)
          if (ok .and. .not. in_range(rule, values%reals(k))) then
             call out_of_range(card, k, rule, errors)
             values%reals(k) = rule%default
@@ -222,6 +223,20 @@ contains
          end if
       end select
    end subroutine decode_field
+
+
+   !> The integer in data field K of CARD by its RULE; the words for an error are made only where there is one.
+   subroutine integer_by_rule(card, k, rule, value, ok, errors)
+      type(card_type), intent(in)          :: card
+      integer, intent(in)                  :: k
+      type(field_rule), intent(in)         :: rule
+      integer, intent(out)                 :: value
+      logical, intent(out)                 :: ok
+      type(deck_error_list), intent(inout) :: errors
+
+      call parse_integer(card%fields(k)%text(:card%fields(k)%length), value, ok)
+      if (.not. ok) call decode_integer(card, k, rule%name, expectation(rule), value, ok, errors)
+   end subroutine integer_by_rule
 
 
    subroutine out_of_range(card, k, rule, errors)

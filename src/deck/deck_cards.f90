@@ -1,18 +1,21 @@
 !> Bulk data lines cut into cards: small field (8 columns), large field (16), free field (commas), continuations.
 module deck_cards
+   use card_names, only: card_name, check_first_field, check_marker, is_continuation
    use deck_errors, only: deck_error_list
    use deck_text, only: deck_text_type
-   use text_tools, only: integer_text, upper
+   use kinds, only: long
+   use text_tools, only: integer_text
    implicit none
    private
 
-   public :: read_card, card_name, is_continuation, add_field_error
+   public :: read_card, add_field_error
 
    integer, parameter, public :: field_width = 32 !! longest entry of a field (free field only)
 
    !> One entry of a card and where it stands.
    type, public :: card_field
       character(field_width) :: text = ''  ! raised to capitals, left-justified
+      integer :: length = 0                ! of the text
       integer :: line  = 0                 ! index in the deck text
       integer :: first = 0, last = 0       ! columns of the field
    end type card_field
@@ -30,42 +33,6 @@ module deck_cards
 
 contains
 
-   !> The name in field 1 of LINE (its card part), without the * of large field; blank for a continuation.
-   pure function card_name(line) result(name)
-      character(*), intent(in) :: line
-      character(8) :: name
-      integer :: comma, star
-
-      comma = index(line, ',')
-      if (comma == 0) comma = len(line) + 1
-      name = upper(adjustl(line(:min(8, comma - 1))))
-      if (comma <= 8 .or. index(line, ',') > 0) name = upper(adjustl(line(:comma - 1)))
-      star = index(name, '*')
-      if (star > 1) name(star:) = ''
-      if (is_continuation(line)) name = ''
-   end function card_name
-
-
-   !> Whether LINE carries on the card before it: +, * or blank in field 1.
-   pure logical function is_continuation(line)
-      character(*), intent(in) :: line
-      integer :: comma
-
-      is_continuation = .false.
-      if (len_trim(line) == 0) return
-      if (line(1:1) == '+' .or. line(1:1) == '*') then
-         is_continuation = .true.
-         return
-      end if
-      comma = index(line, ',')
-      if (comma > 0) then
-         is_continuation = len_trim(line(:comma - 1)) == 0
-      else
-         is_continuation = len_trim(line(:min(8, len(line)))) == 0
-      end if
-   end function is_continuation
-
-
    !> Read the card that begins on line CURSOR of TEXT (a line that is no continuation) with all its continuations;
    !! CURSOR is left on the line behind it. Faults of form go to ERRORS.
    subroutine read_card(text, cursor, card, errors)
@@ -73,79 +40,69 @@ contains
       integer, intent(inout)               :: cursor
       type(card_type), intent(inout)       :: card
       type(deck_error_list), intent(inout) :: errors
-      character(:), allocatable :: line
       character(8) :: marker
-      integer :: errors_before
-      logical :: half  ! the first line of a large-field pair has been read
+      integer(long) :: first, last
+      integer :: file, comma
+      logical :: half, carries_on  ! HALF: the first line of a large-field pair has been read
 
-      line = text%card_part(cursor)
-      card%name = card_name(line)
       card%line = cursor
       card%n = 0
       half = .false.
       marker = ''
-      errors_before = errors%n
-      call check_first_field(line, cursor, errors)
-      if (errors%n > errors_before) card%name = '' ! not to be understood
       if (.not. allocated(card%fields)) allocate (card%fields(64))
-      call cut_line(line, cursor, card, half, marker, errors)
+      call text%find(cursor, file, first, last, comma)
+      call first_line(text%files(file)%bytes(first:last), comma, cursor, text%has_tabs, card, half, marker, errors)
       do
          cursor = cursor + 1
          if (cursor > text%n) exit
-         line = text%card_part(cursor)
-         if (len(line) == 0) cycle
-         if (.not. is_continuation(line)) exit
-         call check_marker(line, cursor, marker, errors)
-         call cut_line(line, cursor, card, half, marker, errors)
+         call text%find(cursor, file, first, last, comma)
+         if (last < first) cycle
+         call next_line(text%files(file)%bytes(first:last), comma, cursor, text%has_tabs, card, half, marker, carries_on, errors)
+         if (.not. carries_on) exit
       end do
       do while (card%n > 0)
-         if (card%fields(card%n)%text /= '') exit
+         if (card%fields(card%n)%length > 0) exit
          card%n = card%n - 1
       end do
    end subroutine read_card
 
 
-   !> The name that the user gave a continuation (`+AB`) must be the one in field 10 of the line before.
-   subroutine check_marker(line, at, marker, errors)
+   !> The line that a card begins with. LINE (its card part) stands at index AT and has its first comma in column COMMA; it may
+   !! hold a tab only where the deck HAS_TABS.
+   subroutine first_line(line, comma, at, has_tabs, card, half, marker, errors)
       character(*), intent(in)             :: line
-      integer, intent(in)                  :: at
-      character(8), intent(in)             :: marker
+      integer, intent(in)                  :: comma, at
+      logical, intent(in)                  :: has_tabs
+      type(card_type), intent(inout)       :: card
+      logical, intent(inout)               :: half
+      character(8), intent(inout)          :: marker
       type(deck_error_list), intent(inout) :: errors
-      character(8) :: given
-      integer :: comma
+      integer :: errors_before
 
-      comma = index(line, ',')
-      if (comma == 0) comma = 9
-      given = line(:min(8, comma - 1, len(line)))
-      if (given(2:) == '' .or. upper(given(2:)) == upper(marker(2:))) return
-      if (marker(2:) == '') then
-         call errors%add(at, 'continuation '''//trim(given)//''': the line before it has no such mark in its last field; '// &
-                         'expected '//given(1:1)//' alone, or the same mark there', 1, len_trim(given))
-      else
-         call errors%add(at, 'continuation '''//trim(given)//''' does not follow its card: the line before it ends in '''// &
-                         trim(marker)//'''', 1, len_trim(given))
-      end if
-   end subroutine check_marker
+      card%name = card_name(line, comma)
+      errors_before = errors%n
+      call check_first_field(line, comma, at, errors)
+      if (errors%n > errors_before) card%name = '' ! not to be understood
+      call cut_line(line, comma, at, has_tabs, card, half, marker, errors)
+   end subroutine first_line
 
 
-   !> Nothing but the name, and perhaps the * of large field, may stand in field 1.
-   subroutine check_first_field(line, at, errors)
+   !> A line behind it: CARRIES_ON tells whether it belongs to the card.
+   subroutine next_line(line, comma, at, has_tabs, card, half, marker, carries_on, errors)
       character(*), intent(in)             :: line
-      integer, intent(in)                  :: at
+      integer, intent(in)                  :: comma, at
+      logical, intent(in)                  :: has_tabs
+      type(card_type), intent(inout)       :: card
+      logical, intent(inout)               :: half
+      character(8), intent(inout)          :: marker
+      logical, intent(out)                 :: carries_on
       type(deck_error_list), intent(inout) :: errors
-      character(:), allocatable :: entry
-      integer :: comma, last, star
 
-      comma = index(line, ',')
-      last = merge(comma - 1, min(8, len(line)), comma > 0)
-      entry = trim(adjustl(line(:last)))
-      star = index(entry, '*')
-      if (star > 1 .and. star < len(entry)) then
-         call errors%add(at, '''*'' inside field 1, expected it behind the name', 1, last)
-      else if (len(entry) > 8 .or. index(entry, ' ') > 0) then
-         call errors%add(at, ''''//entry(:min(len(entry), 40))//''' in field 1: expected the name of a card alone', 1, last)
-      end if
-   end subroutine check_first_field
+      carries_on = is_continuation(line, comma)
+      if (.not. carries_on) return
+      call check_marker(line, comma, at, marker, errors)
+      call cut_line(line, comma, at, has_tabs, card, half, marker, errors)
+   end subroutine next_line
 
 
    !> TEXT with its tabs as blanks up to the next field, so that one tab makes one error.
@@ -168,37 +125,49 @@ contains
 
    !> Cut one line into fields and put them at the end of CARD. HALF says whether a large-field line before this one
    !! waits for its second half; MARKER returns what stands in field 10.
-   subroutine cut_line(raw_line, at, card, half, marker, errors)
-      character(*), intent(in)             :: raw_line
-      integer, intent(in)                  :: at
+   subroutine cut_line(line, comma, at, has_tabs, card, half, marker, errors)
+      character(*), intent(in)             :: line
+      integer, intent(in)                  :: comma, at
+      logical, intent(in)                  :: has_tabs
       type(card_type), intent(inout)       :: card
       logical, intent(inout)               :: half
       character(8), intent(out)            :: marker
       type(deck_error_list), intent(inout) :: errors
-      character(:), allocatable :: line
-      logical :: large
+      character(:), allocatable :: plain
       integer :: tab
 
-      marker = ''
-      line = raw_line
-      tab = index(line, achar(9))
-      if (tab > 0) then
-         call errors%add(at, 'a tab in column '//integer_text(tab)//': expected blanks, fields are columns of eight', tab, tab)
-         line = without_tabs(raw_line)
-      end if
-      if (index(line, ',') > 0) then
-         large = index(line(:index(line, ',') - 1), '*') > 0
+      tab = 0
+      if (has_tabs) tab = index(line, achar(9))
+      if (tab == 0) then
+         call cut_plain_line(line, comma, at, card, half, marker, errors)
       else
-         large = index(line(:min(8, len(line))), '*') > 0
+         call errors%add(at, 'a tab in column '//integer_text(tab)//': expected blanks, fields are columns of eight', tab, tab)
+         plain = without_tabs(line)
+         call cut_plain_line(plain, index(plain, ','), at, card, half, marker, errors)
       end if
+   end subroutine cut_line
+
+
+   !> The same for a line without tabs.
+   subroutine cut_plain_line(line, comma, at, card, half, marker, errors)
+      character(*), intent(in)             :: line
+      integer, intent(in)                  :: comma, at
+      type(card_type), intent(inout)       :: card
+      logical, intent(inout)               :: half
+      character(8), intent(out)            :: marker
+      type(deck_error_list), intent(inout) :: errors
+      logical :: large
+
+      marker = ''
+      large = index(line(:merge(comma - 1, min(8, len(line)), comma > 0)), '*') > 0
       if (half .and. .not. large) call pad_to_line(card, at)
-      if (index(line, ',') > 0) then
-         call cut_free(line, at, card, large, marker, errors)
+      if (comma > 0) then
+         call cut_free(line, comma, at, card, large, marker, errors)
       else
          call cut_fixed(line, at, card, large, marker, errors)
       end if
       half = large .and. modulo(card%n, 8) == 4
-   end subroutine cut_line
+   end subroutine cut_plain_line
 
 
    !> Fixed fields: eight of 8 columns, or four of 16, behind the name; columns 73-80 are the continuation mark.
@@ -231,21 +200,23 @@ contains
 
 
    !> Free field: entries between commas, eight (large: four) of them, and one more for the continuation mark.
-   subroutine cut_free(line, at, card, large, marker, errors)
+   subroutine cut_free(line, comma, at, card, large, marker, errors)
       character(*), intent(in)             :: line
-      integer, intent(in)                  :: at
+      integer, intent(in)                  :: comma, at
       type(card_type), intent(inout)       :: card
       logical, intent(in)                  :: large
       character(8), intent(inout)          :: marker
       type(deck_error_list), intent(inout) :: errors
-      integer :: k, first, last, comma, most
+      integer :: k, first, last, most
 
       most = merge(4, 8, large)
-      first = index(line, ',') + 1
+      first = comma + 1
       do k = 1, most
-         comma = 0
-         if (first <= len(line)) comma = index(line(first:), ',')
-         last = merge(first + comma - 2, len(line), comma > 0)
+         last = first - 1
+         do while (last < len(line))
+            if (line(last + 1:last + 1) == ',') exit
+            last = last + 1
+         end do
          call push(card, line(first:last), at, first, max(first, last), errors)
          first = last + 2
       end do
@@ -258,12 +229,14 @@ contains
    end subroutine cut_free
 
 
+   !> One more field: ENTRY without the blanks around it, in capitals.
    subroutine push(card, entry, at, first, last, errors)
       type(card_type), intent(inout)       :: card
       character(*), intent(in)             :: entry
       integer, intent(in)                  :: at, first, last
       type(deck_error_list), intent(inout) :: errors
       type(card_field), allocatable :: wider(:)
+      integer :: from, to, i, code
 
       if (card%n == size(card%fields)) then
          allocate (wider(2*card%n))
@@ -271,16 +244,32 @@ contains
          call move_alloc(wider, card%fields)
       end if
       card%n = card%n + 1
+      from = 1
+      do while (from <= len(entry))
+         if (entry(from:from) /= ' ') exit
+         from = from + 1
+      end do
+      to = len(entry)
+      do while (to >= from)
+         if (entry(to:to) /= ' ') exit
+         to = to - 1
+      end do
       associate (field => card%fields(card%n))
          field%line = at
          field%first = first
          field%last = last
-         field%text = upper(adjustl(entry))
-         if (len_trim(adjustl(entry)) > field_width) then
-            call errors%add(at, card%where_is(card%n)//': an entry of more than '//integer_text(field_width)// &
-                            ' characters', first, last)
-         end if
+         field%length = min(to - from + 1, field_width)
+         field%text = ''
+         do i = 1, field%length
+            code = iachar(entry(from + i - 1:from + i - 1))
+            if (code >= iachar('a') .and. code <= iachar('z')) code = code - 32
+            field%text(i:i) = achar(code)
+         end do
       end associate
+      if (to - from + 1 > field_width) then
+         call errors%add(at, card%where_is(card%n)//': an entry of more than '//integer_text(field_width)// &
+                         ' characters', first, last)
+      end if
    end subroutine push
 
 

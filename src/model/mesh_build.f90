@@ -3,7 +3,8 @@ module mesh_build
    use bar_build, only: is_bar
    use block_mesh, only: block_type
    use bulk_data, only: element_card
-   use deck_cards, only: add_field_error, card_name
+   use card_names, only: card_name
+   use deck_cards, only: add_field_error
    use deck_errors, only: deck_error_list
    use deck_input, only: deck_type
    use elasticity, only: axisymmetric, plane_strain, plane_stress, solid
