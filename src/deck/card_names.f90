@@ -14,7 +14,7 @@ contains
       character(*), intent(in)      :: line
       integer, intent(in), optional :: comma !! column of the first comma, 0: none; left out, it is looked for
       character(8) :: name
-      integer :: i, first, last, n
+      integer :: i, first, last, n, code
 
       name = ''
       if (present(comma)) then
@@ -32,13 +32,11 @@ contains
       end do
       n = min(8, last - first + 1)
       do i = 1, n
-         name(i:i) = line(first + i - 1:first + i - 1)
-         if (name(i:i) == '*' .and. name(1:1) /= '*') then
-            name(i:) = ''
-            exit
-         end if
+         code = iachar(line(first + i - 1:first + i - 1))
+         if (code == iachar('*') .and. name(1:1) /= '*') exit
+         if (code >= iachar('a') .and. code <= iachar('z')) code = code - 32
+         name(i:i) = achar(code)
       end do
-      name = upper(name)
    end function card_name
 
 
@@ -49,7 +47,7 @@ contains
       integer :: last
 
       is_continuation = .false.
-      if (len_trim(line) == 0) return
+      if (len(line) == 0) return
       select case (line(1:1))
       case ('+', '*', ',')
          is_continuation = .true.
@@ -60,7 +58,7 @@ contains
             last = index(line, ',') - 1
          end if
          if (last < 0) last = min(8, len(line))
-         is_continuation = len_trim(line(:last)) == 0
+         is_continuation = len_trim(line(:last)) == 0 .and. len_trim(line) > 0
       end select
    end function is_continuation
 

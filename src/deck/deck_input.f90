@@ -33,6 +33,7 @@ module deck_input
       'CQUAD4', 'CROD', 'CTETRA', 'CTRIA3', 'FORCE', 'FORCEM', 'GRAV', 'GRID', 'JINCR', 'JNORM', 'JOINT', 'JSHEAR', 'LOAD', &
       'MAT1', 'PAXIS', 'PJOINT', 'PLOAD4', 'PLOADE', 'PLOADM', 'PMARK', 'PROD', 'PSHELL', 'PSOLID', 'SPC', 'SPC1', 'SPCD', 'SPCM']
 
+   character(8), parameter :: end_of_data = 'ENDDATA'
    integer, parameter :: line_is_card = 0, line_continues = 1, line_includes = 2, line_ends = 3
 
 contains
@@ -68,11 +69,17 @@ contains
       type(bulk_data_type), intent(inout) :: bulk
       integer(long) :: first, last
       integer :: counts(size(known_cards)), i, k, file, comma
+      character(8) :: name, name_before
 
       counts = 0
+      k = 0
+      name_before = ''
       do i = first_line, text%n
          call text%find(i, file, first, last, comma)
-         k = card_number(card_name(text%files(file)%bytes(first:last), comma))
+         name = card_name(text%files(file)%bytes(first:last), comma)
+         if (name == '        ') cycle
+         if (name /= name_before) k = card_number(name) ! cards of a kind mostly stand together
+         name_before = name
          if (k > 0) counts(k) = counts(k) + 1
       end do
       allocate (bulk%block2(number_of('BLOCK2')), bulk%cjoint(number_of('CJOINT')), bulk%block3(number_of('BLOCK3')))
@@ -175,7 +182,7 @@ contains
          meaning = line_continues
       else if (is_include(line)) then
          meaning = line_includes
-      else if (card_name(line, comma) == 'ENDDATA') then
+      else if (card_name(line, comma) == end_of_data) then
          meaning = line_ends
       else
          meaning = line_is_card

@@ -26,7 +26,7 @@ contains
 
       value = 0
       ok = .false.
-      length = len_trim(text)
+      length = filled_length(text)
       if (length == 0) return
       first = 1
       if (text(1:1) == '+' .or. text(1:1) == '-') first = 2
@@ -58,7 +58,7 @@ contains
 
       value = 0.0_wp
       ok = .false.
-      length = len_trim(text)
+      length = filled_length(text)
       if (length == 0 .or. length > 32) return
       i = 1
       if (text(1:1) == '+' .or. text(1:1) == '-') i = 2
@@ -111,7 +111,8 @@ contains
       integer, intent(in)       :: exponent !! -48 to 48
       real(wp), intent(out)     :: value
       logical, intent(out)      :: ok
-      real(quad) :: wide, off ! OFF: from VALUE, in units of its last place
+      real(quad) :: wide
+      real(wp)   :: off ! how far VALUE is from it
 
       if (exponent >= 0) then
          wide = real(mantissa, quad)*power_of_ten_quad(exponent)
@@ -119,8 +120,8 @@ contains
          wide = real(mantissa, quad)/power_of_ten_quad(-exponent)
       end if
       value = real(wide, wp)
-      off = abs(wide - real(value, quad))/real(spacing(value), quad)
-      ok = abs(off - 0.5_quad) > 0.0_quad .and. abs(off - 0.25_quad) > 0.0_quad ! 1/4: below a power of two
+      off = abs(real(wide - real(value, quad), wp))
+      ok = abs(off - 0.5_wp*spacing(value)) > 0.0_wp .and. abs(off - 0.25_wp*spacing(value)) > 0.0_wp ! 1/4: below a power of two
    end subroutine round_once
 
 
@@ -141,5 +142,17 @@ contains
       end select
       ok = ok .and. abs(exponent) < 10000
    end subroutine parse_exponent
+
+
+   !> len_trim(TEXT), without a call of the library.
+   pure integer function filled_length(text) result(length)
+      character(*), intent(in) :: text
+
+      length = len(text)
+      do while (length > 0)
+         if (text(length:length) /= ' ') exit
+         length = length - 1
+      end do
+   end function filled_length
 
 end module deck_numbers
