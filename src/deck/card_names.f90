@@ -33,7 +33,7 @@ contains
       n = min(8, last - first + 1)
       do i = 1, n
          code = iachar(line(first + i - 1:first + i - 1))
-         if (code == iachar('*') .and. name(1:1) /= '*') exit
+         if (code == iachar('*') .and. i > 1 .and. name(1:1) /= '*') exit
          if (code >= iachar('a') .and. code <= iachar('z')) code = code - 32
          name(i:i) = achar(code)
       end do

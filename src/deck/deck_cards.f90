@@ -212,7 +212,7 @@ contains
       most = merge(4, 8, large)
       first = comma + 1
       do k = 1, most
-         last = first - 1
+         last = min(first - 1, len(line))
          do while (last < len(line))
             if (line(last + 1:last + 1) == ',') exit
             last = last + 1
