@@ -2,9 +2,10 @@
 module deck_input
    use bulk_data, only: bulk_data_type
    use card_fields, only: card_values
+   use card_lines, only: card_type
    use case_control, only: case_control_type, read_case_control
    use card_names, only: card_name, is_continuation
-   use deck_cards, only: card_type, read_card
+   use deck_cards, only: read_card
    use deck_errors, only: deck_error_list
    use deck_text, only: deck_text_type, read_deck_text
    use element_cards, only: read_element
@@ -28,11 +29,11 @@ module deck_input
       logical :: is_whole = .false. !! false: a part of the deck is missing, what refers to it cannot be checked
    end type deck_type
 
-   ! every card, in alphabetical order; a new one is added here, to the select case below and to the room
-   character(8), parameter :: known_cards(34) = [character(8) :: 'BLOCK2', 'BLOCK3', 'BOLT', 'CBAR', 'CHEXA', 'CJOINT', 'CPENTA', &
-      'CQUAD4', 'CROD', 'CTETRA', 'CTRIA3', 'FORCE', 'FORCEM', 'GRAV', 'GRID', 'JINCR', 'JNORM', 'JOINT', 'JSHEAR', 'LOAD', &
-      'MAT1', 'PAXIS', 'PJOINT', 'PLOAD4', 'PLOADE', 'PLOADM', 'PMARK', 'PROD', 'PSHELL', 'PSOLID', 'SPC', 'SPC1', 'SPCD', 'SPCM']
-
+   ! every card, in alphabetical order (it is searched by halves); a new one is added here, to the select case below and to the room
+   character(8), parameter :: known_cards(34) = [character(8) :: 'BLOCK2', 'BLOCK3', 'BOLT', 'CBAR', 'CHEXA', 'CJOINT', &
+      'CPENTA', 'CQUAD4', 'CROD', 'CTETRA', 'CTRIA3', 'FORCE', 'FORCEM', 'GRAV', 'GRID', 'JINCR', 'JNORM', 'JOINT', 'JSHEAR', &
+      'LOAD', 'MAT1', 'PAXIS', 'PJOINT', 'PLOAD4', 'PLOADE', 'PLOADM', 'PMARK', 'PROD', 'PSHELL', 'PSOLID', 'SPC', 'SPC1', &
+      'SPCD', 'SPCM']
    character(8), parameter :: end_of_data = 'ENDDATA'
    integer, parameter :: line_is_card = 0, line_continues = 1, line_includes = 2, line_ends = 3
 

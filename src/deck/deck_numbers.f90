@@ -8,8 +8,8 @@ module deck_numbers
    public :: parse_integer, parse_real
 
    integer, parameter :: quad = selected_real_kind(33)
-   integer, parameter :: most_digits = 15, most_digits_quad = 18 ! a whole number of so many is exact in real(wp), in integer(long)
-   integer, parameter :: max_exact = 22, max_exact_quad = 48     ! the largest power of ten that is exact in real(wp), real(quad)
+   integer, parameter :: most_digits = 15, max_exact = 22           ! so many digits and 10**22 are exact in real(wp),
+   integer, parameter :: most_digits_quad = 18, max_exact_quad = 48 ! these in integer(long) and real(quad)
    integer :: k
    real(wp), parameter :: power_of_ten(0:max_exact) = [(10.0_wp**k, k = 0, max_exact)]
    real(quad), parameter :: power_of_ten_quad(0:max_exact_quad) = [(10.0_quad**k, k = 0, max_exact_quad)]
@@ -107,7 +107,7 @@ contains
    !> VALUE = MANTISSA*10**EXPONENT by one operation of quadruple precision on exact operands, which is then rounded again. The
    !! second rounding errs only where the first ended in the middle between two reals: OK is false there.
    pure subroutine round_once(mantissa, exponent, value, ok)
-      integer(long), intent(in) :: mantissa !! 1 to 10**18
+      integer(long), intent(in) :: mantissa !! 0 to 10**18
       integer, intent(in)       :: exponent !! -48 to 48
       real(wp), intent(out)     :: value
       logical, intent(out)      :: ok
