@@ -106,22 +106,29 @@ contains
       character(*), intent(in)               :: path
       character(:), allocatable, intent(out) :: bytes
       logical, intent(out)                   :: ok
-      integer(c_size_t), parameter :: first_room = 1048576
+      integer(c_size_t), parameter :: first_room = 1048576 ! where the size of the file is not known
       character(:), allocatable :: wider
-      integer(c_size_t) :: used, got
+      character(1)      :: one_more
+      integer(c_size_t) :: used, got, room
       integer(c_int)    :: status
       type(c_ptr)       :: stream
 
       ok = .false.
       stream = c_fopen(path//c_null_char, 'rb'//c_null_char)
       if (.not. c_associated(stream)) return
-      allocate (character(first_room) :: bytes)
+      inquire (file=path, size=room)
+      if (room <= 0) room = first_room
+      allocate (character(room) :: bytes)
       used = 0
       do
-         if (used == len(bytes, c_size_t)) then
+         if (used == len(bytes, c_size_t)) then ! at the end, or larger than it was said to be
+            got = c_fread(one_more, 1_c_size_t, 1_c_size_t, stream)
+            if (got == 0) exit
             allocate (character(2*used) :: wider)
             wider(:used) = bytes
+            wider(used + 1:used + 1) = one_more
             call move_alloc(wider, bytes)
+            used = used + 1
          end if
          got = c_fread(bytes(used + 1:), 1_c_size_t, len(bytes, c_size_t) - used, stream)
          if (got == 0) exit
@@ -129,7 +136,7 @@ contains
       end do
       ok = c_ferror(stream) == 0
       status = c_fclose(stream)
-      bytes = bytes(:used)
+      if (used < len(bytes, c_size_t)) bytes = bytes(:used)
    end subroutine read_all_bytes
 
 

@@ -1,32 +1,15 @@
-!> The table of a card: one rule a field, and the one routine that reads a card by its table.
+!> The one routine that reads a card by its table, and what it says of fields that do not keep to it.
 module card_fields
-   use deck_cards, only: card_type
+   use card_lines, only: card_type
    use deck_errors, only: deck_error_list
    use deck_numbers, only: parse_integer, parse_real
+   use field_rules, only: expectation, field_rule, in_range, is_component_list, kind_blank, kind_components, kind_integer, &
+                          kind_real, kind_word
    use kinds, only: wp
-   use text_tools, only: integer_text, real_text
    implicit none
    private
 
-   public :: integer_field, real_field, word_field, blank_field, component_field, &
-             decode_card, decode_integer, decode_real, field_error
-
-   integer, parameter :: kind_integer = 1, kind_real = 2, kind_word = 3, kind_blank = 4, &
-                         kind_components = 5
-
-   !> What a field may hold.
-   type, public :: field_rule
-      character(8)  :: name     = ''           !! as in the card manual
-      integer       :: kind     = kind_blank
-      logical       :: required = .false.
-      real(wp)      :: default  = 0.0_wp       !! of integer and real fields left blank
-      real(wp)      :: least    = -huge(1.0_wp)
-      real(wp)      :: most     = huge(1.0_wp)
-      logical       :: above    = .false.      !! reals: LEAST itself is out
-      logical       :: below    = .false.      !! reals: MOST itself is out
-      logical       :: whole    = .false.      !! reals: an integer is a number too
-      character(48) :: words    = ''           !! of a word field: '|STEP|BACK|', the first is the default
-   end type field_rule
+   public :: decode_card, decode_integer, decode_real, field_error
 
    !> The fields of one card, decoded. Field k is in INTEGERS(k) or REALS(k) or WORDS(k) by its rule.
    type, public :: card_values
@@ -38,77 +21,6 @@ module card_fields
    end type card_values
 
 contains
-
-   !> Rule for an integer: an id by default (1 and up).
-   pure function integer_field(name, default, least, most) result(rule)
-      character(*), intent(in)      :: name
-      integer, intent(in), optional :: default !! none: the field must be filled
-      integer, intent(in), optional :: least, most
-      type(field_rule) :: rule
-
-      rule%name = name
-      rule%kind = kind_integer
-      rule%required = .not. present(default)
-      rule%least = 1.0_wp
-      if (present(default)) rule%default = real(default, wp)
-      if (present(least)) rule%least = real(least, wp)
-      if (present(most)) rule%most = real(most, wp)
-   end function integer_field
-
-
-   !> Rule for a real; ABOVE and BELOW exclude the bound, LEAST and MOST include it.
-   pure function real_field(name, default, above, below, least, most, whole) result(rule)
-      character(*), intent(in)       :: name
-      real(wp), intent(in), optional :: default !! none: the field must be filled
-      real(wp), intent(in), optional :: above, below, least, most
-      logical, intent(in), optional  :: whole   !! true: an integer is taken too (default: NASTRAN's rule, it is not)
-      type(field_rule) :: rule
-
-      rule%name = name
-      rule%kind = kind_real
-      rule%required = .not. present(default)
-      if (present(default)) rule%default = default
-      if (present(least)) rule%least = least
-      if (present(most)) rule%most = most
-      if (present(above)) rule%least = above
-      if (present(below)) rule%most = below
-      rule%above = present(above)
-      if (present(whole)) rule%whole = whole
-      rule%below = present(below)
-   end function real_field
-
-
-   !> Rule for a word out of a list, WORDS = '|ARITH|GEOM|LIST|'; a blank field takes the first.
-   pure function word_field(name, words) result(rule)
-      character(*), intent(in) :: name, words
-      type(field_rule) :: rule
-
-      rule%name = name
-      rule%kind = kind_word
-      rule%words = words
-   end function word_field
-
-
-   !> Rule for a list of NASTRAN's components: different digits of 1 to 6.
-   pure function component_field(name, default) result(rule)
-      character(*), intent(in)      :: name
-      integer, intent(in), optional :: default !! none: the field must be filled
-      type(field_rule) :: rule
-
-      rule = integer_field(name, default, least=1, most=654321)
-      rule%kind = kind_components
-   end function component_field
-
-
-   !> Rule for a field that must stay blank (NAME says what NASTRAN has there); a zero is a blank too.
-   pure function blank_field(name) result(rule)
-      character(*), intent(in) :: name
-      type(field_rule) :: rule
-
-      rule%name = name
-      rule%kind = kind_blank
-   end function blank_field
-
 
    !> Decode CARD by its table RULES. Behind the last rule the card must be blank, unless OPEN_ENDED: then what
    !! follows is left to the card's own routine. All that is wrong goes to ERRORS.
@@ -126,7 +38,7 @@ contains
       do k = 1, size(rules)
          if (k > card%n) then
             call take_default(card, k, rules(k), values, errors)
-         else if (card%fields(k)%text == '') then
+         else if (card%fields(k)%length == 0) then
             call take_default(card, k, rules(k), values, errors)
          else
             values%given(k) = .true.
@@ -135,7 +47,7 @@ contains
       end do
       if (.not. open_ended) then
          do k = size(rules) + 1, card%n
-            if (card%fields(k)%text /= '') then
+            if (card%fields(k)%length > 0) then
                call field_error(card, k, ''''//trim(card%fields(k)%text)//''' where the field must be blank', errors)
             end if
          end do
@@ -188,13 +100,13 @@ contains
 
       select case (rule%kind)
       case (kind_integer)
-         call decode_integer(card, k, rule%name, expectation(rule), values%integers(k), ok, errors)
+         call integer_by_rule(card, k, rule, values%integers(k), ok, errors)
          if (ok .and. (values%integers(k) < rule%least .or. values%integers(k) > rule%most)) then
             call out_of_range(card, k, rule, errors)
             values%integers(k) = 0
          end if
       case (kind_components)
-         call decode_integer(card, k, rule%name, expectation(rule), values%integers(k), ok, errors)
+         call integer_by_rule(card, k, rule, values%integers(k), ok, errors)
          if (ok .and. .not. is_component_list(values%integers(k))) then
             call out_of_range(card, k, rule, errors)
             values%integers(k) = 0
@@ -205,7 +117,8 @@ contains
             values%reals(k) = real(values%integers(k), wp)
             if (ok) return
          end if
-         call decode_real(card, k, rule%name, expectation(rule), values%reals(k), ok, errors)
+         call parse_real(card%fields(k)%text(:card%fields(k)%length), values%reals(k), ok)
+         if (.not. ok) call decode_real(card, k, rule%name, expectation(rule), values%reals(k), ok, errors)
          if (ok .and. .not. in_range(rule, values%reals(k))) then
             call out_of_range(card, k, rule, errors)
             values%reals(k) = rule%default
@@ -222,6 +135,20 @@ contains
          end if
       end select
    end subroutine decode_field
+
+
+   !> The integer in data field K of CARD by its RULE; the words for an error are made only where there is one.
+   subroutine integer_by_rule(card, k, rule, value, ok, errors)
+      type(card_type), intent(in)          :: card
+      integer, intent(in)                  :: k
+      type(field_rule), intent(in)         :: rule
+      integer, intent(out)                 :: value
+      logical, intent(out)                 :: ok
+      type(deck_error_list), intent(inout) :: errors
+
+      call parse_integer(card%fields(k)%text(:card%fields(k)%length), value, ok)
+      if (.not. ok) call decode_integer(card, k, rule%name, expectation(rule), value, ok, errors)
+   end subroutine integer_by_rule
 
 
    subroutine out_of_range(card, k, rule, errors)
@@ -314,105 +241,10 @@ contains
    end subroutine field_error
 
 
-   pure logical function in_range(rule, value)
-      type(field_rule), intent(in) :: rule
-      real(wp), intent(in)         :: value
-
-      in_range = value >= rule%least .and. value <= rule%most
-      if (rule%above) in_range = in_range .and. value > rule%least
-      if (rule%below) in_range = in_range .and. value < rule%most
-   end function in_range
-
-
-   !> What a rule wants, in words.
-   pure function expectation(rule) result(words)
-      type(field_rule), intent(in) :: rule
-      character(:), allocatable    :: words
-      logical :: has_least, has_most
-
-      has_least = rule%least > -huge(1.0_wp)
-      has_most = rule%most < huge(1.0_wp)
-      select case (rule%kind)
-      case (kind_integer)
-         words = 'an integer'
-         if (has_least .and. has_most .and. nint(rule%least) == nint(rule%most)) then
-            words = integer_text(nint(rule%least))
-         else if (has_least .and. has_most) then
-            words = words//' from '//integer_text(int(rule%least))//' to '//integer_text(int(rule%most))
-         else if (has_least) then
-            words = words//' of '//integer_text(int(rule%least))//' or more'
-         end if
-      case (kind_components)
-         words = 'a list of components, different digits of 1 to 6'
-      case (kind_real)
-         words = 'a real number'
-         if (has_least) words = words//' '//bound('above', 'of at least', rule%least, rule%above)
-         if (has_least .and. has_most) words = words//' and'
-         if (has_most) words = words//' '//bound('below', 'at most', rule%most, rule%below)
-      case (kind_word)
-         words = 'one of '//list_of(trim(rule%words))
-      case default
-         words = 'blank'
-      end select
-      if (.not. rule%required .and. rule%kind /= kind_blank .and. rule%kind /= kind_word) words = words//', or blank'
-   end function expectation
-
-
-   !> 'above 0', 'of at least 0': a bound that is out or in.
-   pure function bound(out, in, value, is_out) result(words)
-      character(*), intent(in)  :: out, in
-      real(wp), intent(in)      :: value
-      logical, intent(in)       :: is_out
-      character(:), allocatable :: words
-
-      words = in
-      if (is_out) words = out
-      words = words//' '//real_text(value)
-   end function bound
-
-
-   !> '|STEP|BACK|' as 'STEP, BACK'.
-   pure function list_of(words) result(list)
-      character(*), intent(in)  :: words
-      character(:), allocatable :: list
-      integer :: i
-
-      list = ''
-      do i = 2, len(words) - 1
-         if (words(i:i) == '|') then
-            list = list//', '
-         else
-            list = list//words(i:i)
-         end if
-      end do
-   end function list_of
-
-
    pure logical function is_zero(text)
       character(*), intent(in) :: text
 
       is_zero = verify(trim(text), '0.+-') == 0 .and. index(text, '0') > 0
    end function is_zero
-
-
-   !> Whether COMPONENTS is a list of NASTRAN's degrees of freedom: different digits of 1 to 6.
-   pure logical function is_component_list(components)
-      integer, intent(in) :: components
-      integer :: rest, digit
-      logical :: seen(6)
-
-      seen = .false.
-      is_component_list = .false.
-      rest = components
-      if (rest <= 0) return
-      do while (rest > 0)
-         digit = modulo(rest, 10)
-         if (digit < 1 .or. digit > 6) return
-         if (seen(digit)) return
-         seen(digit) = .true.
-         rest = rest/10
-      end do
-      is_component_list = .true.
-   end function is_component_list
 
 end module card_fields

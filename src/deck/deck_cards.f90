@@ -1,70 +1,16 @@
-!> Bulk data lines cut into cards: small field (8 columns), large field (16), free field (commas), continuations.
+!> Cards put together from their lines: the first one and its continuations.
 module deck_cards
+   use card_lines, only: card_type, cut_line
+   use card_names, only: card_name, check_first_field, check_marker, is_continuation
    use deck_errors, only: deck_error_list
    use deck_text, only: deck_text_type
-   use text_tools, only: integer_text, upper
+   use kinds, only: long
    implicit none
    private
 
-   public :: read_card, card_name, is_continuation, add_field_error
-
-   integer, parameter, public :: field_width = 32 !! longest entry of a field (free field only)
-
-   !> One entry of a card and where it stands.
-   type, public :: card_field
-      character(field_width) :: text = ''  ! raised to capitals, left-justified
-      integer :: line  = 0                 ! index in the deck text
-      integer :: first = 0, last = 0       ! columns of the field
-   end type card_field
-
-   !> One card: its name and its data fields 1..n, field 1 being NASTRAN's field 2; each line of a card (each pair
-   !! of lines in large field) gives eight, blank ones included up to the last entry.
-   type, public :: card_type
-      character(8) :: name = ''
-      integer :: line = 0                    !! index of its first line
-      integer :: n    = 0
-      type(card_field), allocatable :: fields(:)
-   contains
-      procedure :: where_is
-   end type card_type
+   public :: read_card, add_field_error
 
 contains
-
-   !> The name in field 1 of LINE (its card part), without the * of large field; blank for a continuation.
-   pure function card_name(line) result(name)
-      character(*), intent(in) :: line
-      character(8) :: name
-      integer :: comma, star
-
-      comma = index(line, ',')
-      if (comma == 0) comma = len(line) + 1
-      name = upper(adjustl(line(:min(8, comma - 1))))
-      if (comma <= 8 .or. index(line, ',') > 0) name = upper(adjustl(line(:comma - 1)))
-      star = index(name, '*')
-      if (star > 1) name(star:) = ''
-      if (is_continuation(line)) name = ''
-   end function card_name
-
-
-   !> Whether LINE carries on the card before it: +, * or blank in field 1.
-   pure logical function is_continuation(line)
-      character(*), intent(in) :: line
-      integer :: comma
-
-      is_continuation = .false.
-      if (len_trim(line) == 0) return
-      if (line(1:1) == '+' .or. line(1:1) == '*') then
-         is_continuation = .true.
-         return
-      end if
-      comma = index(line, ',')
-      if (comma > 0) then
-         is_continuation = len_trim(line(:comma - 1)) == 0
-      else
-         is_continuation = len_trim(line(:min(8, len(line)))) == 0
-      end if
-   end function is_continuation
-
 
    !> Read the card that begins on line CURSOR of TEXT (a line that is no continuation) with all its continuations;
    !! CURSOR is left on the line behind it. Faults of form go to ERRORS.
@@ -73,238 +19,69 @@ contains
       integer, intent(inout)               :: cursor
       type(card_type), intent(inout)       :: card
       type(deck_error_list), intent(inout) :: errors
-      character(:), allocatable :: line
       character(8) :: marker
-      integer :: errors_before
-      logical :: half  ! the first line of a large-field pair has been read
+      integer(long) :: first, last
+      integer :: file, comma
+      logical :: half, carries_on  ! HALF: the first line of a large-field pair has been read
 
-      line = text%card_part(cursor)
-      card%name = card_name(line)
       card%line = cursor
       card%n = 0
       half = .false.
       marker = ''
-      errors_before = errors%n
-      call check_first_field(line, cursor, errors)
-      if (errors%n > errors_before) card%name = '' ! not to be understood
       if (.not. allocated(card%fields)) allocate (card%fields(64))
-      call cut_line(line, cursor, card, half, marker, errors)
+      call text%find(cursor, file, first, last, comma)
+      call first_line(text%files(file)%bytes(first:last), comma, cursor, text%has_tabs, card, half, marker, errors)
       do
          cursor = cursor + 1
          if (cursor > text%n) exit
-         line = text%card_part(cursor)
-         if (len(line) == 0) cycle
-         if (.not. is_continuation(line)) exit
-         call check_marker(line, cursor, marker, errors)
-         call cut_line(line, cursor, card, half, marker, errors)
+         call text%find(cursor, file, first, last, comma)
+         if (last < first) cycle
+         call next_line(text%files(file)%bytes(first:last), comma, cursor, text%has_tabs, card, half, marker, carries_on, errors)
+         if (.not. carries_on) exit
       end do
       do while (card%n > 0)
-         if (card%fields(card%n)%text /= '') exit
+         if (card%fields(card%n)%length > 0) exit
          card%n = card%n - 1
       end do
    end subroutine read_card
 
 
-   !> The name that the user gave a continuation (`+AB`) must be the one in field 10 of the line before.
-   subroutine check_marker(line, at, marker, errors)
+   !> The line that a card begins with. LINE (its card part) stands at index AT and has its first comma in column COMMA; it may
+   !! hold a tab only where the deck HAS_TABS.
+   subroutine first_line(line, comma, at, has_tabs, card, half, marker, errors)
       character(*), intent(in)             :: line
-      integer, intent(in)                  :: at
-      character(8), intent(in)             :: marker
-      type(deck_error_list), intent(inout) :: errors
-      character(8) :: given
-      integer :: comma
-
-      comma = index(line, ',')
-      if (comma == 0) comma = 9
-      given = line(:min(8, comma - 1, len(line)))
-      if (given(2:) == '' .or. upper(given(2:)) == upper(marker(2:))) return
-      if (marker(2:) == '') then
-         call errors%add(at, 'continuation '''//trim(given)//''': the line before it has no such mark in its last field; '// &
-                         'expected '//given(1:1)//' alone, or the same mark there', 1, len_trim(given))
-      else
-         call errors%add(at, 'continuation '''//trim(given)//''' does not follow its card: the line before it ends in '''// &
-                         trim(marker)//'''', 1, len_trim(given))
-      end if
-   end subroutine check_marker
-
-
-   !> Nothing but the name, and perhaps the * of large field, may stand in field 1.
-   subroutine check_first_field(line, at, errors)
-      character(*), intent(in)             :: line
-      integer, intent(in)                  :: at
-      type(deck_error_list), intent(inout) :: errors
-      character(:), allocatable :: entry
-      integer :: comma, last, star
-
-      comma = index(line, ',')
-      last = merge(comma - 1, min(8, len(line)), comma > 0)
-      entry = trim(adjustl(line(:last)))
-      star = index(entry, '*')
-      if (star > 1 .and. star < len(entry)) then
-         call errors%add(at, '''*'' inside field 1, expected it behind the name', 1, last)
-      else if (len(entry) > 8 .or. index(entry, ' ') > 0) then
-         call errors%add(at, ''''//entry(:min(len(entry), 40))//''' in field 1: expected the name of a card alone', 1, last)
-      end if
-   end subroutine check_first_field
-
-
-   !> TEXT with its tabs as blanks up to the next field, so that one tab makes one error.
-   pure function without_tabs(text) result(plain)
-      character(*), intent(in)  :: text
-      character(:), allocatable :: plain
-      integer :: i
-
-      plain = ''
-      do i = 1, len(text)
-         if (text(i:i) == achar(9)) then
-            plain = plain//repeat(' ', 8 - modulo(len(plain), 8))
-         else
-            plain = plain//text(i:i)
-         end if
-         if (len(plain) > 1000) return
-      end do
-   end function without_tabs
-
-
-   !> Cut one line into fields and put them at the end of CARD. HALF says whether a large-field line before this one
-   !! waits for its second half; MARKER returns what stands in field 10.
-   subroutine cut_line(raw_line, at, card, half, marker, errors)
-      character(*), intent(in)             :: raw_line
-      integer, intent(in)                  :: at
+      integer, intent(in)                  :: comma, at
+      logical, intent(in)                  :: has_tabs
       type(card_type), intent(inout)       :: card
       logical, intent(inout)               :: half
-      character(8), intent(out)            :: marker
-      type(deck_error_list), intent(inout) :: errors
-      character(:), allocatable :: line
-      logical :: large
-      integer :: tab
-
-      marker = ''
-      line = raw_line
-      tab = index(line, achar(9))
-      if (tab > 0) then
-         call errors%add(at, 'a tab in column '//integer_text(tab)//': expected blanks, fields are columns of eight', tab, tab)
-         line = without_tabs(raw_line)
-      end if
-      if (index(line, ',') > 0) then
-         large = index(line(:index(line, ',') - 1), '*') > 0
-      else
-         large = index(line(:min(8, len(line))), '*') > 0
-      end if
-      if (half .and. .not. large) call pad_to_line(card, at)
-      if (index(line, ',') > 0) then
-         call cut_free(line, at, card, large, marker, errors)
-      else
-         call cut_fixed(line, at, card, large, marker, errors)
-      end if
-      half = large .and. modulo(card%n, 8) == 4
-   end subroutine cut_line
-
-
-   !> Fixed fields: eight of 8 columns, or four of 16, behind the name; columns 73-80 are the continuation mark.
-   subroutine cut_fixed(line, at, card, large, marker, errors)
-      character(*), intent(in)             :: line
-      integer, intent(in)                  :: at
-      type(card_type), intent(inout)       :: card
-      logical, intent(in)                  :: large
       character(8), intent(inout)          :: marker
       type(deck_error_list), intent(inout) :: errors
-      integer :: width, k, first, last
+      integer :: errors_before
 
-      if (len(line) > 80) then
-         call errors%add(at, 'text past column 80: expected at most ten fields of eight columns', 81, len(line))
-      end if
-      width = merge(16, 8, large)
-      do k = 1, 64/width
-         first = 9 + (k - 1)*width
-         last = first + width - 1
-         if (first <= len(line)) then
-            call push(card, line(first:min(last, len(line))), at, first, last, errors)
-         else
-            call push(card, '', at, first, last, errors)
-         end if
-      end do
-      if (len(line) > 72) marker = adjustl(line(73:min(80, len(line))))
-      if (marker /= '' .and. scan(marker(1:1), '+*') == 0) call errors%add(at, ''''//trim(marker)// &
-         ''' in columns 73 to 80: expected a continuation mark that begins with + or *, or blanks', 73, min(80, len(line)))
-   end subroutine cut_fixed
+      card%name = card_name(line, comma)
+      errors_before = errors%n
+      call check_first_field(line, comma, at, errors)
+      if (errors%n > errors_before) card%name = '' ! not to be understood
+      call cut_line(line, comma, at, has_tabs, card, half, marker, errors)
+   end subroutine first_line
 
 
-   !> Free field: entries between commas, eight (large: four) of them, and one more for the continuation mark.
-   subroutine cut_free(line, at, card, large, marker, errors)
+   !> A line behind it: CARRIES_ON tells whether it belongs to the card.
+   subroutine next_line(line, comma, at, has_tabs, card, half, marker, carries_on, errors)
       character(*), intent(in)             :: line
-      integer, intent(in)                  :: at
+      integer, intent(in)                  :: comma, at
+      logical, intent(in)                  :: has_tabs
       type(card_type), intent(inout)       :: card
-      logical, intent(in)                  :: large
+      logical, intent(inout)               :: half
       character(8), intent(inout)          :: marker
+      logical, intent(out)                 :: carries_on
       type(deck_error_list), intent(inout) :: errors
-      integer :: k, first, last, comma, most
 
-      most = merge(4, 8, large)
-      first = index(line, ',') + 1
-      do k = 1, most
-         comma = 0
-         if (first <= len(line)) comma = index(line(first:), ',')
-         last = merge(first + comma - 2, len(line), comma > 0)
-         call push(card, line(first:last), at, first, max(first, last), errors)
-         first = last + 2
-      end do
-      if (first > len(line)) return
-      marker = adjustl(line(first:))
-      if (index(line(first:), ',') > 0 .or. .not. (marker(1:1) == '+' .or. marker(1:1) == '*')) then
-         call errors%add(at, 'more than '//integer_text(most)//' entries behind the name: go on in a continuation line', &
-                         first, len(line))
-      end if
-   end subroutine cut_free
-
-
-   subroutine push(card, entry, at, first, last, errors)
-      type(card_type), intent(inout)       :: card
-      character(*), intent(in)             :: entry
-      integer, intent(in)                  :: at, first, last
-      type(deck_error_list), intent(inout) :: errors
-      type(card_field), allocatable :: wider(:)
-
-      if (card%n == size(card%fields)) then
-         allocate (wider(2*card%n))
-         wider(:card%n) = card%fields
-         call move_alloc(wider, card%fields)
-      end if
-      card%n = card%n + 1
-      associate (field => card%fields(card%n))
-         field%line = at
-         field%first = first
-         field%last = last
-         field%text = upper(adjustl(entry))
-         if (len_trim(adjustl(entry)) > field_width) then
-            call errors%add(at, card%where_is(card%n)//': an entry of more than '//integer_text(field_width)// &
-                            ' characters', first, last)
-         end if
-      end associate
-   end subroutine push
-
-
-   !> Blank fields up to the end of the eight that a line of a card gives.
-   subroutine pad_to_line(card, at)
-      type(card_type), intent(inout) :: card
-      integer, intent(in)            :: at
-      type(deck_error_list) :: nothing_to_say
-
-      do while (modulo(card%n, 8) /= 0)
-         call push(card, '', at, 0, 0, nothing_to_say)
-      end do
-   end subroutine pad_to_line
-
-
-   !> Words for data field K: 'CQUAD4, field 7'; NASTRAN counts 2 to 9 on every line of a card.
-   pure function where_is(self, k) result(words)
-      class(card_type), intent(in) :: self
-      integer, intent(in)          :: k
-      character(:), allocatable    :: words
-
-      words = trim(self%name)//', field '//integer_text(modulo(k - 1, 8) + 2)
-      if (k > 8) words = words//' of continuation '//integer_text((k - 1)/8)
-   end function where_is
+      carries_on = is_continuation(line, comma)
+      if (.not. carries_on) return
+      call check_marker(line, comma, at, marker, errors)
+      call cut_line(line, comma, at, has_tabs, card, half, marker, errors)
+   end subroutine next_line
 
 
    !> Add an error about data field K of the card that begins on line LINE, found long after it was read: the card is

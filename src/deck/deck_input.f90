@@ -2,13 +2,17 @@
 module deck_input
    use bulk_data, only: bulk_data_type
    use card_fields, only: card_values
+   use card_lines, only: card_type
    use case_control, only: case_control_type, read_case_control
-   use deck_cards, only: card_name, card_type, is_continuation, read_card
+   use card_names, only: card_name, is_continuation
+   use deck_cards, only: read_card
    use deck_errors, only: deck_error_list
-   use deck_text, only: deck_text_type, is_include, read_deck_text
+   use deck_text, only: deck_text_type, read_deck_text
    use element_cards, only: read_element
    use element_kinds, only: kind_hexa8, kind_penta6, kind_quad4, kind_tetra4, kind_tria3
+   use include_lines, only: is_include
    use joint_cards, only: read_cjoint, read_jincr, read_jnorm, read_joint, read_jshear, read_pjoint
+   use kinds, only: long
    use load_cards, only: read_force, read_load, read_spc, read_spc1, read_spcm
    use mesh_cards, only: read_block2, read_block3, read_cbar, read_crod, read_grid, read_pmark
    use property_cards, only: read_mat1, read_paxis, read_prod, read_pshell, read_psolid
@@ -25,10 +29,13 @@ module deck_input
       logical :: is_whole = .false. !! false: a part of the deck is missing, what refers to it cannot be checked
    end type deck_type
 
-   ! every card, in alphabetical order; a new one is added here, to the select case below and to the room
-   character(8), parameter :: known_cards(34) = [character(8) :: 'BLOCK2', 'BLOCK3', 'BOLT', 'CBAR', 'CHEXA', 'CJOINT', 'CPENTA', &
-      'CQUAD4', 'CROD', 'CTETRA', 'CTRIA3', 'FORCE', 'FORCEM', 'GRAV', 'GRID', 'JINCR', 'JNORM', 'JOINT', 'JSHEAR', 'LOAD', &
-      'MAT1', 'PAXIS', 'PJOINT', 'PLOAD4', 'PLOADE', 'PLOADM', 'PMARK', 'PROD', 'PSHELL', 'PSOLID', 'SPC', 'SPC1', 'SPCD', 'SPCM']
+   ! every card, in alphabetical order (it is searched by halves); a new one is added here, to the select case below and to the room
+   character(8), parameter :: known_cards(34) = [character(8) :: 'BLOCK2', 'BLOCK3', 'BOLT', 'CBAR', 'CHEXA', 'CJOINT', &
+      'CPENTA', 'CQUAD4', 'CROD', 'CTETRA', 'CTRIA3', 'FORCE', 'FORCEM', 'GRAV', 'GRID', 'JINCR', 'JNORM', 'JOINT', 'JSHEAR', &
+      'LOAD', 'MAT1', 'PAXIS', 'PJOINT', 'PLOAD4', 'PLOADE', 'PLOADM', 'PMARK', 'PROD', 'PSHELL', 'PSOLID', 'SPC', 'SPC1', &
+      'SPCD', 'SPCM']
+   character(8), parameter :: end_of_data = 'ENDDATA'
+   integer, parameter :: line_is_card = 0, line_continues = 1, line_includes = 2, line_ends = 3
 
 contains
 
@@ -61,11 +68,19 @@ contains
       type(deck_text_type), intent(in)    :: text
       integer, intent(in)                 :: first_line
       type(bulk_data_type), intent(inout) :: bulk
-      integer :: counts(size(known_cards)), i, k
+      integer(long) :: first, last
+      integer :: counts(size(known_cards)), i, k, file, comma
+      character(8) :: name, name_before
 
       counts = 0
+      k = 0
+      name_before = ''
       do i = first_line, text%n
-         k = card_number(card_name(text%card_part(i)))
+         call text%find(i, file, first, last, comma)
+         name = card_name(text%files(file)%bytes(first:last), comma)
+         if (name == '        ') cycle
+         if (name /= name_before) k = card_number(name) ! cards of a kind mostly stand together
+         name_before = name
          if (k > 0) counts(k) = counts(k) + 1
       end do
       allocate (bulk%block2(number_of('BLOCK2')), bulk%cjoint(number_of('CJOINT')), bulk%block3(number_of('BLOCK3')))
@@ -97,9 +112,19 @@ contains
    pure integer function card_number(name) result(k)
       character(*), intent(in) :: name
 
-      do k = size(known_cards), 1, -1
-         if (known_cards(k) == name) return
+      integer :: behind, middle
+
+      k = 1
+      behind = size(known_cards) + 1
+      do while (behind - k > 1)
+         middle = (k + behind)/2
+         if (known_cards(middle) <= name) then
+            k = middle
+         else
+            behind = middle
+         end if
       end do
+      if (known_cards(k) /= name) k = 0
    end function card_number
 
 
@@ -111,42 +136,59 @@ contains
       type(deck_error_list), intent(inout) :: errors
       type(card_type)   :: card
       type(card_values) :: values
-      character(:), allocatable :: line
-      character(8) :: name
+      integer(long) :: first, last
+      integer :: file, comma
       integer :: ended_file ! the file whose ENDDATA was read last, 1 the deck itself
 
       ended_file = 0
       do while (cursor <= text%n)
-         line = text%card_part(cursor)
-         if (line == '') then
+         call text%find(cursor, file, first, last, comma)
+         if (last < first) then
             cursor = cursor + 1
-            cycle
-         end if
-         name = card_name(line)
-         if (ended_file == 1 .or. text%file_number(cursor) == ended_file) then
+         else if (ended_file == 1 .or. file == ended_file) then
             call errors%add(cursor, 'text after ENDDATA')
             if (ended_file == 1) return
             do while (cursor <= text%n) ! the rest of this file cannot be meant
                if (text%file_number(cursor) /= ended_file) exit
                cursor = cursor + 1
             end do
-         else if (is_continuation(line)) then
-            call errors%add(cursor, 'a continuation line without a card before it')
-            cursor = cursor + 1
-         else if (is_include(line)) then
-            cursor = cursor + 1     ! its lines follow in the deck text
-         else if (name == 'ENDDATA') then
-            ended_file = text%file_number(cursor)
-            call check_rest_of_line(line, cursor, errors)
-            cursor = cursor + 1
          else
-            call read_card(text, cursor, card, errors)
-            bulk%n_cards = bulk%n_cards + 1
-            call dispatch(card, bulk, values, errors)
+            select case (meaning(text%files(file)%bytes(first:last), comma))
+            case (line_continues)
+               call errors%add(cursor, 'a continuation line without a card before it')
+               cursor = cursor + 1
+            case (line_includes)
+               cursor = cursor + 1     ! its lines follow in the deck text
+            case (line_ends)
+               ended_file = file
+               call check_rest_of_line(text%card_part(cursor), cursor, errors)
+               cursor = cursor + 1
+            case default
+               call read_card(text, cursor, card, errors)
+               bulk%n_cards = bulk%n_cards + 1
+               call dispatch(card, bulk, values, errors)
+            end select
          end if
       end do
       if (ended_file /= 1) call errors%add(0, 'no ENDDATA: the deck ends before its end, is it whole?')
    end subroutine read_bulk_data
+
+
+   !> What LINE is, as a card may begin there; its first comma is in column COMMA.
+   pure integer function meaning(line, comma)
+      character(*), intent(in) :: line
+      integer, intent(in)      :: comma
+
+      if (is_continuation(line, comma)) then
+         meaning = line_continues
+      else if (is_include(line)) then
+         meaning = line_includes
+      else if (card_name(line, comma) == end_of_data) then
+         meaning = line_ends
+      else
+         meaning = line_is_card
+      end if
+   end function meaning
 
 
    subroutine check_rest_of_line(line, at, errors)

@@ -7,9 +7,12 @@ module deck_numbers
 
    public :: parse_integer, parse_real
 
-   integer, parameter :: max_exact = 22 ! 10**22 is the largest power of ten that a real64 holds exactly
+   integer, parameter :: quad = selected_real_kind(33)
+   integer, parameter :: most_digits = 15, max_exact = 22           ! so many digits and 10**22 are exact in real(wp),
+   integer, parameter :: most_digits_quad = 18, max_exact_quad = 48 ! these in integer(long) and real(quad)
    integer :: k
    real(wp), parameter :: power_of_ten(0:max_exact) = [(10.0_wp**k, k = 0, max_exact)]
+   real(quad), parameter :: power_of_ten_quad(0:max_exact_quad) = [(10.0_quad**k, k = 0, max_exact_quad)]
 
 contains
 
@@ -23,10 +26,10 @@ contains
 
       value = 0
       ok = .false.
-      length = len_trim(text)
+      length = filled_length(text)
       if (length == 0) return
       first = 1
-      if (scan(text(1:1), '+-') == 1) first = 2
+      if (text(1:1) == '+' .or. text(1:1) == '-') first = 2
       if (first > length) return
       total = 0
       do i = first, length
@@ -50,23 +53,23 @@ contains
       logical, intent(out)     :: ok
       integer(long) :: mantissa
       integer :: i, length, digits, decimals, exponent, digit, status
-      logical :: point, any_digit, exact
+      logical :: point, any_digit
       character(48) :: plain
 
       value = 0.0_wp
       ok = .false.
-      length = len_trim(text)
+      length = filled_length(text)
       if (length == 0 .or. length > 32) return
       i = 1
-      if (scan(text(1:1), '+-') == 1) i = 2
+      if (text(1:1) == '+' .or. text(1:1) == '-') i = 2
       mantissa = 0; digits = 0; decimals = 0
-      point = .false.; any_digit = .false.; exact = .true.
+      point = .false.; any_digit = .false.
       do while (i <= length)
          digit = iachar(text(i:i)) - iachar('0')
          if (digit >= 0 .and. digit <= 9) then
             any_digit = .true.
             if (digits > 0 .or. digit > 0) digits = digits + 1
-            if (digits <= 15) mantissa = 10*mantissa + digit
+            if (digits <= most_digits_quad) mantissa = 10*mantissa + digit
             if (point) decimals = decimals + 1
          else if (text(i:i) == '.' .and. .not. point) then
             point = .true.
@@ -76,11 +79,11 @@ contains
          i = i + 1
       end do
       if (.not. any_digit) return
-      exact = digits <= 15
-      plain = text(:i - 1)
-      call parse_exponent(text(i:length), point, exponent, ok)
+      exponent = 0
+      ok = point
+      if (i <= length) call parse_exponent(text(i:length), point, exponent, ok)
       if (.not. ok) return
-      if (exact .and. abs(exponent - decimals) <= max_exact) then
+      if (digits <= most_digits .and. abs(exponent - decimals) <= max_exact) then
          if (exponent >= decimals) then
             value = real(mantissa, wp)*power_of_ten(exponent - decimals)
          else
@@ -88,7 +91,12 @@ contains
          end if
          if (text(1:1) == '-') value = -value
          return
+      else if (digits <= most_digits_quad .and. abs(exponent - decimals) <= max_exact_quad) then
+         call round_once(mantissa, exponent - decimals, value, ok)
+         if (text(1:1) == '-') value = -value
+         if (ok) return
       end if
+      plain = text(:i - 1)
       write (plain(i:), '(a, i0)') 'E', exponent
       read (plain, *, iostat=status) value
       ok = status == 0
@@ -96,7 +104,28 @@ contains
    end subroutine parse_real
 
 
-   !> What stands behind the mantissa: nothing, E or D and an integer, or a signed integer alone.
+   !> VALUE = MANTISSA*10**EXPONENT by one operation of quadruple precision on exact operands, which is then rounded again. The
+   !! second rounding errs only where the first ended in the middle between two reals: OK is false there.
+   pure subroutine round_once(mantissa, exponent, value, ok)
+      integer(long), intent(in) :: mantissa !! 0 to 10**18
+      integer, intent(in)       :: exponent !! -48 to 48
+      real(wp), intent(out)     :: value
+      logical, intent(out)      :: ok
+      real(quad) :: wide
+      real(wp)   :: off ! how far VALUE is from it
+
+      if (exponent >= 0) then
+         wide = real(mantissa, quad)*power_of_ten_quad(exponent)
+      else
+         wide = real(mantissa, quad)/power_of_ten_quad(-exponent)
+      end if
+      value = real(wide, wp)
+      off = abs(real(wide - real(value, quad), wp))
+      ok = abs(off - 0.5_wp*spacing(value)) > 0.0_wp .and. abs(off - 0.25_wp*spacing(value)) > 0.0_wp ! 1/4: below a power of two
+   end subroutine round_once
+
+
+   !> What stands behind the mantissa: E or D and an integer, or a signed integer alone.
    pure subroutine parse_exponent(text, point, exponent, ok)
       character(*), intent(in) :: text
       logical, intent(in)      :: point !! whether the mantissa has a decimal point
@@ -104,16 +133,26 @@ contains
       logical, intent(out)     :: ok
 
       exponent = 0
-      ok = point
-      if (len(text) == 0) return
-      if (scan(text(1:1), 'EDed') == 1) then
+      ok = .false.
+      select case (text(1:1))
+      case ('E', 'D', 'e', 'd')
          call parse_integer(text(2:), exponent, ok)
-      else if (scan(text(1:1), '+-') == 1 .and. point) then
-         call parse_integer(text, exponent, ok)
-      else
-         ok = .false.
-      end if
+      case ('+', '-')
+         if (point) call parse_integer(text, exponent, ok)
+      end select
       ok = ok .and. abs(exponent) < 10000
    end subroutine parse_exponent
+
+
+   !> len_trim(TEXT), without a call of the library.
+   pure integer function filled_length(text) result(length)
+      character(*), intent(in) :: text
+
+      length = len(text)
+      do while (length > 0)
+         if (text(length:length) /= ' ') exit
+         length = length - 1
+      end do
+   end function filled_length
 
 end module deck_numbers

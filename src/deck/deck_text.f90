@@ -1,18 +1,19 @@
 !> The lines of a deck in the order in which they count, INCLUDE files opened in their place.
 module deck_text
+   use include_lines, only: folder, included_path, is_include
    use kinds, only: long
+   use line_scan, only: line_place, scan_line
    use c_library, only: read_all_bytes, true_path
    use command_tools, only: standard_input
    use deck_errors, only: deck_error_list
-   use text_tools, only: integer_text, upper
+   use text_tools, only: integer_text
    implicit none
    private
 
-   public :: read_deck_text, is_include
+   public :: read_deck_text
 
    integer, parameter :: max_files = 500 ! a deck and its INCLUDE files
    integer, parameter :: max_depth = 20  ! of INCLUDE in INCLUDE
-   integer, parameter :: longest_include = 10000 ! characters; no path is longer
 
    type :: source_file
       character(:), allocatable :: path      ! as the user wrote it
@@ -21,22 +22,29 @@ module deck_text
       integer :: parent = 0                  ! the file that holds the INCLUDE; 0: the deck itself
    end type source_file
 
-   !> All lines of a deck. Line i is bytes start(i) to start(i)+length(i)-1 of its file; comments and blanks at
-   !! the end are part of the line.
+   !> Lines FIRST and on, up to the next part, stand in FILE, the first of them as its line NUMBER.
+   type :: part_type
+      integer :: first = 0, file = 0, number = 0
+   end type part_type
+
+   !> All lines of a deck, found once and never copied: line i is some bytes of the file that its part names.
    type, public :: deck_text_type
       integer :: n = 0       !! number of lines
       integer :: n_files = 0
-      logical :: is_text = .true. !! false: some file holds bytes that are no text, or the deck is empty
-      type(source_file), allocatable     :: files(:)
-      integer, allocatable, private      :: file(:)   ! which file line i stands in
-      integer, allocatable, private      :: number(:) ! its number there, from 1
-      integer, allocatable, private      :: length(:)
-      integer(long), allocatable, private :: start(:)
+      logical :: is_text = .true.  !! false: some file holds bytes that are no text, or the deck is empty
+      logical :: has_tabs = .false. !! some line has a tab outside of comments
+      type(source_file), allocatable         :: files(:)
+      type(line_place), allocatable, private :: lines(:)
+      type(part_type), allocatable, private  :: parts(:)
+      integer, private                       :: n_parts = 0
    contains
       procedure :: line => whole_line
       procedure :: card_part
+      procedure :: find
       procedure :: place
       procedure :: file_number
+      procedure, private :: part_of
+      procedure, private :: start_part
       procedure, private :: push_line
    end type deck_text_type
 
@@ -51,7 +59,7 @@ contains
       logical, intent(out)                 :: readable
 
       allocate (text%files(max_files))
-      allocate (text%file(1024), text%number(1024), text%length(1024), text%start(1024))
+      allocate (text%lines(1024), text%parts(2*max_files))
       call add_file(text, path, 0, 0, errors, readable)
       if (.not. readable) return
       if (len_trim(text%files(1)%bytes) == 0) then
@@ -67,22 +75,47 @@ contains
       integer, intent(in)               :: i
       character(:), allocatable         :: line
 
-      line = self%files(self%file(i))%bytes(self%start(i):self%start(i) + self%length(i) - 1)
+      integer(long) :: finish, next
+      integer :: file
+
+      file = self%parts(self%part_of(i))%file
+      associate (start => self%lines(i)%start)
+         next = index(self%files(file)%bytes(start:), achar(10), kind=long)
+         finish = merge(start + next - 2, len(self%files(file)%bytes, long), next > 0)
+         if (finish >= start) then
+            if (self%files(file)%bytes(finish:finish) == achar(13)) finish = finish - 1
+         end if
+         line = self%files(file)%bytes(start:finish)
+      end associate
    end function whole_line
 
 
-   !> Line I without its comment ($ to the end) and without blanks at its end.
+   !> Line I without its comment ($ to the end) and without blanks at its end: a copy. See FIND.
    function card_part(self, i) result(line)
       class(deck_text_type), intent(in) :: self
       integer, intent(in)               :: i
       character(:), allocatable         :: line
-      integer :: dollar
+      integer(long) :: first, last
+      integer :: file, comma
 
-      line = self%line(i)
-      dollar = index(line, '$')
-      if (dollar > 0) line = line(:dollar - 1)
-      line = trim(line)
+      call self%find(i, file, first, last, comma)
+      line = self%files(file)%bytes(first:last)
    end function card_part
+
+
+   !> Where the card part of line I stands: FILES(FILE)%BYTES(FIRST:LAST), to be handed on as it is. COMMA is the column of
+   !! the first comma in it, 0 where there is none.
+   pure subroutine find(self, i, file, first, last, comma)
+      class(deck_text_type), intent(in) :: self
+      integer, intent(in)               :: i
+      integer, intent(out)              :: file, comma
+      integer(long), intent(out)        :: first, last
+
+      file = self%parts(self%part_of(i))%file
+      first = self%lines(i)%start
+      last = first + self%lines(i)%length - 1
+      comma = self%lines(i)%comma
+   end subroutine find
 
 
    !> Where line I stands, for a message: 'beam.bdf, line 14'.
@@ -94,7 +127,9 @@ contains
       if (i == 0) then
          words = self%files(1)%path
       else
-         words = self%files(self%file(i))%path//', line '//integer_text(self%number(i))
+         associate (part => self%parts(self%part_of(i)))
+            words = self%files(part%file)%path//', line '//integer_text(part%number + i - part%first)
+         end associate
       end if
    end function place
 
@@ -104,8 +139,27 @@ contains
       class(deck_text_type), intent(in) :: self
       integer, intent(in)               :: i
 
-      file_number = self%file(i)
+      file_number = self%parts(self%part_of(i))%file
    end function file_number
+
+
+   !> The part that holds line I.
+   pure integer function part_of(self, i) result(part)
+      class(deck_text_type), intent(in) :: self
+      integer, intent(in)               :: i
+      integer :: behind, middle
+
+      part = 1
+      behind = self%n_parts + 1
+      do while (behind - part > 1)
+         middle = (part + behind)/2
+         if (self%parts(middle)%first <= i) then
+            part = middle
+         else
+            behind = middle
+         end if
+      end do
+   end function part_of
 
 
    !> Read one file and add its lines; an INCLUDE line is added and then followed.
@@ -116,7 +170,9 @@ contains
       type(deck_error_list), intent(inout) :: errors
       logical, intent(out)                 :: readable
       integer :: me, number, bad
-      integer(long) :: start, finish, next, length
+      integer(long) :: start, next, length
+      type(line_place) :: line
+      logical :: has_tab, followed
 
       me = text%n_files + 1
       text%files(me)%path = path
@@ -128,91 +184,68 @@ contains
       text%n_files = me
       length = len(text%files(me)%bytes, long)
       start = 1
-      number = 0
       if (length >= 3) then
          if (text%files(me)%bytes(1:3) == char(239)//char(187)//char(191)) start = 4 ! UTF-8 byte order mark
       end if
+      number = 1
+      call text%start_part(me, number)
       do while (start <= length)
-         next = scan_line_end(text%files(me)%bytes, start, length)
-         finish = next - 1
-         if (finish >= start) then
-            if (text%files(me)%bytes(finish:finish) == achar(13)) finish = finish - 1
-         end if
-         number = number + 1
-         call text%push_line(me, number, start, finish)
-         bad = control_byte(text%files(me)%bytes(start:finish))
+         call scan_line(text%files(me)%bytes, start, line, next, has_tab, bad)
+         call text%push_line(line)
+         text%has_tabs = text%has_tabs .or. has_tab
          if (bad >= 0) then
             call errors%add(text%n, 'byte '//integer_text(bad)//' on this line is no text: a deck is a text file')
             text%is_text = .false.
             return
          end if
-         call follow_include(text, me, depth, errors)
-         start = next + 1
+         number = number + 1
+         call follow_include(text, me, depth, followed, errors)
+         if (followed) call text%start_part(me, number)
+         start = next
       end do
    end subroutine add_file
 
 
-   !> Position of the line feed at or after START, LENGTH + 1 where there is none.
-   pure integer(long) function scan_line_end(bytes, start, length) result(position)
-      character(*), intent(in)  :: bytes
-      integer(long), intent(in) :: start, length
-
-      position = index(bytes(start:), achar(10), kind=long)
-      if (position == 0) then
-         position = length + 1
-      else
-         position = start + position - 1
-      end if
-   end function scan_line_end
-
-
-   !> The first byte of LINE that no text file holds (a control character other than a tab), -1 for none.
-   pure integer function control_byte(line) result(code)
-      character(*), intent(in) :: line
-      integer(long) :: i
-
-      do i = 1, len(line, long)
-         code = iachar(line(i:i))
-         if ((code < 32 .and. code /= 9) .or. code == 127) return
-      end do
-      code = -1
-   end function control_byte
-
-
-   subroutine push_line(self, file, number, start, finish)
+   !> The lines pushed from now on stand in FILE, the first of them as its line NUMBER.
+   subroutine start_part(self, file, number)
       class(deck_text_type), intent(inout) :: self
       integer, intent(in)                  :: file, number
-      integer(long), intent(in)            :: start, finish
-      integer :: room
 
-      if (self%n == size(self%file)) then
-         room = 2*self%n
-         self%file = [self%file, spread(0, 1, room - self%n)]
-         self%number = [self%number, spread(0, 1, room - self%n)]
-         self%length = [self%length, spread(0, 1, room - self%n)]
-         self%start = [self%start, spread(0_long, 1, room - self%n)]
+      self%n_parts = self%n_parts + 1
+      self%parts(self%n_parts) = part_type(self%n + 1, file, number)
+   end subroutine start_part
+
+
+   subroutine push_line(self, line)
+      class(deck_text_type), intent(inout) :: self
+      type(line_place), intent(in)         :: line
+      type(line_place), allocatable :: wider(:)
+
+      if (self%n == size(self%lines)) then
+         allocate (wider(2*self%n))
+         wider(:self%n) = self%lines
+         call move_alloc(wider, self%lines)
       end if
       self%n = self%n + 1
-      self%file(self%n) = file
-      self%number(self%n) = number
-      self%start(self%n) = start
-      self%length(self%n) = int(finish - start + 1)
+      self%lines(self%n) = line
    end subroutine push_line
 
 
    !> Where the last line read is an INCLUDE, read that file here and now.
-   recursive subroutine follow_include(text, me, depth, errors)
+   recursive subroutine follow_include(text, me, depth, followed, errors)
       type(deck_text_type), intent(inout)  :: text
       integer, intent(in)                  :: me, depth
+      logical, intent(out)                 :: followed !! lines of another file were added
       type(deck_error_list), intent(inout) :: errors
       character(:), allocatable :: line, path, resolved
-      integer :: here, ancestor
-      logical :: readable
+      integer(long) :: first, last
+      integer :: here, ancestor, file, comma
 
       here = text%n
-      if (text%length(here) < 7 .or. text%length(here) > longest_include) return
+      followed = .false.
+      call text%find(here, file, first, last, comma)
+      if (.not. is_include(text%files(file)%bytes(first:last))) return
       line = adjustl(text%card_part(here))
-      if (.not. is_include(line)) return
       path = included_path(line(8:))
       if (path == '') then
          call errors%add(here, 'INCLUDE: expected a file name, INCLUDE ''mesh.bdf''')
@@ -233,55 +266,8 @@ contains
                          integer_text(max_files)//' files in all')
          return
       end if
-      call add_file(text, path, me, depth + 1, errors, readable)
-      if (.not. readable) call errors%add(here, 'INCLUDE: '''//path//''' cannot be read: no such file, or not a file')
+      call add_file(text, path, me, depth + 1, errors, followed)
+      if (.not. followed) call errors%add(here, 'INCLUDE: '''//path//''' cannot be read: no such file, or not a file')
    end subroutine follow_include
-
-
-   !> Whether LINE (its card part) is an INCLUDE: the word, then a blank, a quote or an equals sign.
-   pure logical function is_include(line)
-      character(*), intent(in) :: line
-      integer :: first
-
-      is_include = .false.
-      first = verify(line, ' ')
-      if (first == 0 .or. len(line) > longest_include) return
-      if (len(line) < first + 6) return
-      if (upper(line(first:first + 6)) /= 'INCLUDE') return
-      is_include = .true.
-      if (len(line) > first + 6) is_include = scan(line(first + 7:first + 7), ' ''"=') == 1
-   end function is_include
-
-
-   !> The file name in what follows the word INCLUDE: in quotes of either kind, or bare.
-   pure function included_path(words) result(path)
-      character(*), intent(in)  :: words
-      character(:), allocatable :: path
-      integer :: closing
-
-      path = trim(adjustl(words))
-      if (path == '') return
-      if (path(1:1) == '=') path = trim(adjustl(path(2:)))
-      if (path == '') return
-      if (path(1:1) == '''' .or. path(1:1) == '"') then
-         closing = index(path(2:), path(1:1))
-         if (closing == 0) then
-            path = ''
-         else if (len_trim(path) > closing + 1) then
-            path = ''
-         else
-            path = path(2:closing)
-         end if
-      end if
-   end function included_path
-
-
-   !> The folder part of PATH with its slash, empty for the current folder.
-   pure function folder(path) result(part)
-      character(*), intent(in)  :: path
-      character(:), allocatable :: part
-
-      part = path(:index(path, '/', back=.true.))
-   end function folder
 
 end module deck_text

@@ -2,10 +2,11 @@
 !! marked surfaces are CQUAD4 and CTRIA3 too.
 module element_cards
    use bulk_data, only: bulk_data_type
-   use card_fields, only: blank_field, card_values, decode_card, field_rule, integer_field
-   use deck_cards, only: card_type
+   use card_fields, only: card_values, decode_card
+   use card_lines, only: card_type
    use deck_errors, only: deck_error_list
    use element_kinds, only: kind_hexa8, kind_penta6, kind_quad4, kind_tetra4, kind_tria3
+   use field_rules, only: blank_field, field_rule, integer_field
    implicit none
    private
 

@@ -1,10 +1,10 @@
 !> The cards of the joint: JOINT, CJOINT, PJOINT, JNORM, JSHEAR, JINCR. A table and a routine each.
 module joint_cards
    use bulk_data, only: bulk_data_type, jincr_card
-   use card_fields, only: blank_field, card_values, decode_card, decode_real, field_error, field_rule, integer_field, &
-                          real_field, word_field
-   use deck_cards, only: card_type
+   use card_fields, only: card_values, decode_card, decode_real, field_error
+   use card_lines, only: card_type
    use deck_errors, only: deck_error_list
+   use field_rules, only: blank_field, field_rule, integer_field, real_field, word_field
    use kinds, only: wp
    use load_shares, only: arithmetic_shares, geometric_shares
    use normal_stiffness, only: branch_load, branch_reload, branch_unload

@@ -1,10 +1,10 @@
 !> The cards of supports and loads: SPC, SPC1, SPCM, FORCE, LOAD. A table and a routine each.
 module load_cards
    use bulk_data, only: bulk_data_type, support_card
-   use card_fields, only: blank_field, card_values, component_field, decode_card, decode_integer, decode_real, &
-                          field_error, field_rule, integer_field, real_field
-   use deck_cards, only: card_type
+   use card_fields, only: card_values, decode_card, decode_integer, decode_real, field_error
+   use card_lines, only: card_type
    use deck_errors, only: deck_error_list
+   use field_rules, only: blank_field, component_field, field_rule, integer_field, real_field
    use kinds, only: wp
    use text_tools, only: integer_text
    implicit none

@@ -1,9 +1,10 @@
 !> The cards of properties and materials: PSHELL, PAXIS, PSOLID, PROD, MAT1. A table and a routine each.
 module property_cards
    use bulk_data, only: bulk_data_type
-   use card_fields, only: blank_field, card_values, decode_card, field_error, field_rule, integer_field, real_field, word_field
-   use deck_cards, only: card_type
+   use card_fields, only: card_values, decode_card, field_error
+   use card_lines, only: card_type
    use deck_errors, only: deck_error_list
+   use field_rules, only: blank_field, field_rule, integer_field, real_field, word_field
    use kinds, only: wp
    use text_tools, only: real_text
    implicit none

@@ -1,7 +1,8 @@
 !> Bars and bolts: CROD elements with a PROD, and the BOLT cards that tighten some of them.
 module bar_build
    use bulk_data, only: bolt_card, element_card
-   use deck_cards, only: add_field_error, card_name
+   use card_names, only: card_name
+   use deck_cards, only: add_field_error
    use deck_errors, only: deck_error_list
    use deck_input, only: deck_type
    use kinds, only: wp

@@ -2,7 +2,7 @@
 module side_build
    use bar_build, only: is_bar
    use block_mesh, only: block_type
-   use deck_cards, only: card_name
+   use card_names, only: card_name
    use deck_errors, only: deck_error_list
    use deck_input, only: deck_type
    use element_build, only: is_face

@@ -5,7 +5,7 @@ module listing_bars
    use bolt_locking, only: bar_tension, section_tension
    use kinds, only: wp
    use listing_opening, only: heading, label_type, noise, page_width
-   use model_data, only: model_type, n_bars, n_points, n_sections
+   use model_data, only: model_type, n_bars, n_sections
    use output_file, only: output_file_type
    use row_buffer, only: row_buffer_type
    use text_tools, only: clean
@@ -25,13 +25,16 @@ contains
       real(wp), intent(in)                 :: largest_force !! ever applied, for the noise
       type(row_buffer_type), intent(inout) :: rows
       character(page_width) :: row
-      integer :: i
+      real(wp) :: floor
+      integer  :: i
 
+      if (n_bars(model) == 0) return
+      floor = noise*maxval(abs(analysis%u(:, analysis%retained)))
       do i = 1, n_bars(model)
          associate (bar => model%bars(i))
             write (row, '(i6, 11x, 3i11, 2es15.5)') analysis%increment, bar%id, model%node_id(bar%nodes), &
                clean(bar_tension(model, analysis, i), noise*largest_force), &
-               clean(bar_elongation(model, analysis%u, i), noise*maxval(abs(analysis%u(:, :n_points(model)))))
+               clean(bar_elongation(model, analysis%u, i), floor)
             if (bar%bolt > 0) then
                write (row(7:17), '(i11)') bar%bolt
                row(state_column:) = state_of_bolt(bar%stage == analysis%stage, bar%is_elastic)
@@ -49,13 +52,16 @@ contains
       real(wp), intent(in)                 :: largest_force !! ever applied, for the noise
       type(row_buffer_type), intent(inout) :: rows
       character(page_width) :: row
-      integer :: i
+      real(wp) :: floor
+      integer  :: i
 
+      if (n_sections(model) == 0) return
+      floor = noise*maxval(abs(analysis%u(:, analysis%retained)))
       do i = 1, n_sections(model)
          associate (section => model%sections(i))
             write (row, '(i6, 2i11, 22x, 2es15.5)') analysis%increment, section%bolt, section%surface, &
                clean(section_tension(model, analysis, i), noise*largest_force), &
-               clean(analysis%u(1, section%node), noise*maxval(abs(analysis%u)))
+               clean(analysis%u(1, section%node), floor)
             row(state_column:) = state_of_bolt(section%stage == analysis%stage, section%is_locked)
             call rows%add(row)
          end associate

@@ -1,11 +1,11 @@
 !> The first pages of the listing: heading, deck echo, summary of the model, joints and stages.
 module listing_opening
    use analysis_state, only: analysis_type
+   use card_names, only: card_name, is_continuation
    use case_control, only: case_control_type, method_newton, method_step, pressure_eq10
-   use deck_cards, only: card_name, is_continuation
    use deck_input, only: deck_type
-   use deck_text, only: is_include
    use equations, only: equation_system
+   use include_lines, only: is_include
    use kinds, only: long, wp
    use model_data, only: model_type, n_bars, n_points, n_sections
    use normal_stiffness, only: branch_load, branch_name, branch_reload, branch_unload, pressure_floor

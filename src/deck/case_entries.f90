@@ -1,0 +1,129 @@
+!> One line of case control: its key, its value, and what a value may be.
+module case_entries
+   use deck_errors, only: deck_error_list
+   use deck_numbers, only: parse_integer
+   use text_tools, only: upper
+   implicit none
+   private
+
+   public :: cut_entry, check_repeated, choose, read_number, value_error
+
+   character(*), parameter :: known_keys = '|SOL|TITLE|UNITS|METHOD|TOL|PRESSURE|CARRY|SOLVER|ECHO|SPC|LABEL|LOAD|INCR|OUTPUT|'
+
+   !> A key with a number, and the line it stands on (0: not given).
+   type, public :: set_reference
+      integer :: id   = 0
+      integer :: line = 0
+   end type set_reference
+
+   !> The line as it is being read, cut into key and value.
+   type, public :: entry_type
+      integer :: line = 0
+      character(:), allocatable :: key, value
+      integer :: first = 0, last = 0  !! columns of the value
+   end type entry_type
+
+contains
+
+   !> 'UNITS = MM, KGF' into key and value; a blank serves for the equals sign.
+   subroutine cut_entry(line, at, entry)
+      character(*), intent(in)      :: line
+      integer, intent(in)           :: at
+      type(entry_type), intent(out) :: entry
+      integer :: first, last
+
+      entry%line = at
+      first = verify(line, ' ')
+      last = scan(line(first:), ' =,')
+      last = merge(len(line), first + last - 2, last == 0)
+      entry%key = upper(line(first:last))
+      entry%first = last + 1
+      first = verify(line(last + 1:), ' ')
+      if (first > 0) then
+         first = last + first
+         if (line(first:first) == '=') then
+            entry%first = first
+            first = first + max(1, verify(line(first + 1:), ' '))
+         end if
+         entry%first = min(first, len(line))
+         entry%value = line(min(first, len(line) + 1):)
+      else
+         entry%value = ''
+      end if
+      if (entry%value == '=') entry%value = ''
+      entry%last = len(line)
+      entry%first = min(entry%first, entry%last)
+   end subroutine cut_entry
+
+
+   !> No key twice in the same place (above the stages, or in the same stage).
+   subroutine check_repeated(entry, keys_seen, errors)
+      type(entry_type), intent(in)             :: entry
+      character(:), allocatable, intent(inout) :: keys_seen
+      type(deck_error_list), intent(inout)     :: errors
+
+      if (entry%key == 'SUBCASE') then
+         keys_seen = '|'
+      else if (index(known_keys, '|'//entry%key//'|') == 0) then
+         return ! INCLUDE, and what is said elsewhere to be no key
+      else if (index(keys_seen, '|'//entry%key//'|') > 0) then
+         call errors%add(entry%line, entry%key//': given twice in the same place')
+      else
+         keys_seen = keys_seen//entry%key//'|'
+      end if
+   end subroutine check_repeated
+
+
+   !> The value must be one of WORDS, '|A|B|'.
+   subroutine choose(entry, words, errors)
+      type(entry_type), intent(in)         :: entry
+      character(*), intent(in)             :: words
+      type(deck_error_list), intent(inout) :: errors
+
+      if (entry%value /= '' .and. index(words, '|'//upper(entry%value)//'|') > 0 .and. index(entry%value, '|') == 0) return
+      call value_error(entry, words(2:len(words) - 1), errors)
+   end subroutine choose
+
+
+   !> The value of ENTRY is not what was EXPECTED, words with | for 'or'.
+   subroutine value_error(entry, expected, errors)
+      type(entry_type), intent(in)         :: entry
+      character(*), intent(in)             :: expected
+      type(deck_error_list), intent(inout) :: errors
+      character(:), allocatable :: words
+      integer :: i
+
+      words = ''
+      do i = 1, len(expected)
+         if (expected(i:i) == '|') then
+            words = words//' or '
+         else
+            words = words//expected(i:i)
+         end if
+      end do
+      if (entry%value == '') then
+         call errors%add(entry%line, entry%key//': no value, expected '//words)
+      else
+         call errors%add(entry%line, entry%key//': '''//entry%value(:min(60, len(entry%value)))//''', expected '//words, &
+                         entry%first, entry%last)
+      end if
+   end subroutine value_error
+
+
+   !> The value of ENTRY as the number of a set or a stage, 1 and up.
+   subroutine read_number(entry, reference, errors)
+      type(entry_type), intent(in)         :: entry
+      type(set_reference), intent(out)     :: reference
+      type(deck_error_list), intent(inout) :: errors
+      logical :: ok
+
+      call parse_integer(entry%value, reference%id, ok)
+      if (.not. ok .or. reference%id < 1) then
+         call value_error(entry, 'an integer of 1 or more', errors)
+         reference%id = 0
+      else
+         reference%line = entry%line
+      end if
+   end subroutine read_number
+
+end module case_entries
