@@ -12,6 +12,7 @@ program jointfem
    use deck_input, only: deck_type, read_deck
    use equations, only: equation_system, form_body_stiffness, start_equations
    use failures, only: failure_type
+   use machine, only: keep_memory
    use model_build, only: build_model
    use model_data, only: model_type
    use newton_method, only: newton_increment
@@ -29,6 +30,7 @@ program jointfem
    call read_command_line(command, finished, status)
    if (finished) call end_program(status)
    call use_threads(command%threads)
+   call keep_memory()
    do i = 1, size(command%decks)
       call analyse(command%decks(i))
    end do

@@ -12,11 +12,12 @@ module equations
    use failures, only: failure_type
    use front_factor, only: add_to_moving, factorise_fixed, factorise_moving
    use front_solve, only: eliminate_fixed, moving_times_vector, recover_fixed, solve_moving
-   use kinds, only: wp
+   use kinds, only: long, wp
    use model_data, only: model_type, n_bars, n_sections
    use node_graph, only: build_node_graph, node_graph_type
    use skyline, only: skyline_times_vector, solve_skyline
-   use skyline_solver, only: form_skyline_bodies, form_skyline_structure, scatter, skyline_solver_type, start_skyline_solver
+   use skyline_solver, only: form_skyline_bodies, form_skyline_structure, lay_out_skyline, scatter, skyline_solver_type, &
+                             start_skyline_solver
    use tree_solver, only: start_tree_solver, tree_solver_type
    implicit none
    private
@@ -24,7 +25,11 @@ module equations
    public :: start_equations, form_body_stiffness, add_bar, lock_unknown, condense_load, form_structure_stiffness, &
              solve_equations, check_solution, body_forces, recover_displacements
 
-   integer, parameter :: most_by_skyline = 1200 !! unknowns up to which AUTO takes SKYLINE: it is not slower there, and can be read
+   ! AUTO takes SKYLINE for small structures, where the time does not matter and the method can be read, and for narrow ones, where
+   ! it is the faster:
+   integer, parameter :: small = 1000           ! unknowns
+   integer, parameter :: narrow = 16            ! entries in a column, on the average
+   integer, parameter :: most_tried = 100000    ! unknowns up to which the profile is looked at
 
    real(wp), parameter :: step_tolerance = 1.0e-13_wp    !! of conjugate gradients: share of the energy of the solution, as a length
 
@@ -71,7 +76,11 @@ contains
          return
       end if
       call build_node_graph(model, graph)
-      system%is_tree = wanted == solver_tree .or. (wanted == solver_auto .and. n > most_by_skyline)
+      system%is_tree = wanted == solver_tree .or. (wanted == solver_auto .and. n > small)
+      if (.not. system%is_tree .or. (wanted == solver_auto .and. n <= most_tried)) then
+         call lay_out_skyline(model, graph, system, system%skyline)
+         if (wanted == solver_auto .and. system%skyline%profile <= int(narrow, long)*n) system%is_tree = .false.
+      end if
       if (system%is_tree) then
          call mark_joints(model, in_joint)
          call start_tree_solver(model, graph, in_joint, repeated, system, system%tree, failure)
@@ -81,7 +90,7 @@ contains
          in_joint(system%node(system%equations)) = .true.
          system%retained = pack([(i, i = 1, model%n_nodes)], in_joint)
       else
-         call start_skyline_solver(model, graph, system, system%skyline, failure)
+         call start_skyline_solver(system%skyline, failure)
          system%equations = [(i, i = 1, system%n)]
          system%retained = pack([(i, i = 1, model%n_nodes)], model%used)
       end if

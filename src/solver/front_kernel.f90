@@ -6,17 +6,17 @@
 !! panel = (A11 over A21), (P + R, P); update = A22, (R, R); lower triangles throughout. The blocks are the same for any number
 !! of threads, and each is the work of one: so are the digits.
 module front_kernel
-   use blas_lapack, only: dgemm, dpotrf, dsyrk, dtrsm
+   use blas_lapack, only: dgemm, dpotrf, dtrsm
    use kinds, only: wp
    implicit none
    private
 
    public :: eliminate
 
-   integer, parameter :: block = 192     ! columns of the panel that are eliminated together
-   integer, parameter :: strip = 512     ! rows of a strip that is one task
-   integer, parameter :: tile  = 384     ! columns of the update matrix that are one task
-   integer, parameter :: alone = 300     ! rows up to which a front is not worth tasks
+   integer, parameter :: wide   = 384    ! columns of the update matrix that are one task
+   integer, parameter :: narrow = 96     ! columns that are eliminated together
+   integer, parameter :: strip  = 768    ! rows that are one task
+   integer, parameter :: alone  = 300    ! rows up to which a front is not worth tasks
 
 contains
 
@@ -29,44 +29,76 @@ contains
       real(wp), intent(in)    :: diagonal(p)     !! of the matrix before any elimination
       real(wp), intent(in)    :: tolerance
       integer, intent(out)    :: fault
-      integer :: i, info, j, k, kb, m, n
+      integer :: j, k, n
 
       n = p + r
-      do k = 1, p, block
-         kb = min(block, p - k + 1)
-         if (k > 1) then ! all that the columns before do to these
-            do i = k, n, strip
-               m = min(strip, n - i + 1)
-               !$omp task default(shared) firstprivate(i, m) if(n > alone)
-               call dgemm('N', 'T', m, kb, k - 1, -1.0_wp, panel(i, 1), n, panel(k, 1), n, 1.0_wp, panel(i, k), n)
-               !$omp end task
-            end do
-            !$omp taskwait
-         end if
-         call dpotrf('L', kb, panel(k, k), n, info)
-         do j = k, merge(k + info - 1, k + kb - 1, info > 0)
-            if (panel(j, j)**2 > tolerance*diagonal(j) .and. j /= k + info - 1) cycle
-            fault = j
-            return
-         end do
-         do i = k + kb, n, strip
-            m = min(strip, n - i + 1)
-            !$omp task default(shared) firstprivate(i, m) if(n > alone)
-            call dtrsm('R', 'L', 'T', 'N', m, kb, 1.0_wp, panel(k, k), n, panel(i, k), n)
-            !$omp end task
-         end do
-         !$omp taskwait
+      do k = 1, p, narrow
+         call subtract_products(k, min(p, k + narrow - 1))
+         call eliminate_block(k, min(p, k + narrow - 1), fault)
+         if (fault > 0) return
       end do
       fault = 0
-      do j = 1, r, tile
-         m = min(tile, r - j + 1)
-         !$omp task default(shared) firstprivate(j, m) if(n > alone)
-         call dsyrk('L', 'N', m, p, -1.0_wp, panel(p + j, 1), n, 1.0_wp, update(j, j), r)
-         if (j + m <= r) call dgemm('N', 'T', r - j - m + 1, m, p, -1.0_wp, panel(p + j + m, 1), n, panel(p + j, 1), n, &
-                                    1.0_wp, update(j + m, j), r)
+      do j = 1, r, wide
+         !$omp task default(shared) firstprivate(j) if(n > alone)
+         call update_columns(j, min(r, j + wide - 1))
          !$omp end task
       end do
       !$omp taskwait
+
+   contains
+
+      !> Take from the columns FIRST to LAST of the panel what the columns before do to them.
+      subroutine subtract_products(first, last)
+         integer, intent(in) :: first, last
+         integer :: i, m
+
+         if (first == 1) return
+         do i = first, n, strip
+            m = min(strip, n - i + 1)
+            !$omp task default(shared) firstprivate(i, m) if(n > alone)
+            call dgemm('N', 'T', m, last - first + 1, first - 1, -1.0_wp, panel(i, 1), n, panel(first, 1), n, 1.0_wp, &
+                       panel(i, first), n)
+            !$omp end task
+         end do
+         !$omp taskwait
+      end subroutine subtract_products
+
+      !> L in the columns FIRST to LAST.
+      subroutine eliminate_block(first, last, fault)
+         integer, intent(in)  :: first, last
+         integer, intent(out) :: fault
+         integer :: column, i, info, m
+
+         call dpotrf('L', last - first + 1, panel(first, first), n, info)
+         do column = first, merge(first + info - 1, last, info > 0)
+            fault = column
+            if (.not. panel(column, column)**2 > tolerance*diagonal(column) .or. column == first + info - 1) return
+         end do
+         fault = 0
+         do i = last + 1, n, strip
+            m = min(strip, n - i + 1)
+            !$omp task default(shared) firstprivate(i, m) if(n > alone)
+            call dtrsm('R', 'L', 'T', 'N', m, last - first + 1, 1.0_wp, panel(first, first), n, panel(i, first), n)
+            !$omp end task
+         end do
+         !$omp taskwait
+      end subroutine eliminate_block
+
+      !> A22 - L21 L21^T in columns FIRST to LAST: what lies below the square on the diagonal as one block, the square in narrow
+      !! ones, which DGEMM does faster than DSYRK although it fills the upper triangle in vain.
+      subroutine update_columns(first, last)
+         integer, intent(in) :: first, last
+         integer :: column, width
+
+         if (last < r) call dgemm('N', 'T', r - last, last - first + 1, p, -1.0_wp, panel(p + last + 1, 1), n, &
+                                  panel(p + first, 1), n, 1.0_wp, update(last + 1, first), r)
+         do column = first, last, narrow
+            width = min(narrow, last - column + 1)
+            call dgemm('N', 'T', last - column + 1, width, p, -1.0_wp, panel(p + column, 1), n, panel(p + column, 1), n, &
+                       1.0_wp, update(column, column), r)
+         end do
+      end subroutine update_columns
+
    end subroutine eliminate
 
 end module front_kernel

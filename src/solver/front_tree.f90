@@ -24,6 +24,7 @@ module front_tree
       integer, allocatable  :: children(:)
       integer, allocatable  :: rows(:)            !! (r) equations beyond the pivots, ascending
       integer, allocatable  :: in_parent(:)       !! (r) their places in the front of the parent
+      integer, allocatable  :: run(:)             !! where runs of places without gaps begin, and r + 1
       integer, allocatable  :: elements(:)        !! whose first equation it eliminates
       integer, allocatable  :: springs(:)         !! interface elements likewise
       real(wp), allocatable :: panel(:, :)        !! (p + r, p), then the columns of the factor
@@ -110,6 +111,7 @@ contains
                   front%in_parent(i) = parent%p + k
                end if
             end do
+            front%run = [pack([(i, i=1, front%r)], [(is_gap(front, parent%p, i), i=1, front%r)]), front%r + 1]
          end associate
       end do
       call hand_out_elements(model, tree)
@@ -121,6 +123,16 @@ contains
       end do
       tree%is_parallel = layout%fixed_operations + layout%moving_operations > parallel_work
    end subroutine start_front_tree
+
+
+   !> Whether row I has its place in the parent's front not right behind that of the row before, or not in the same part of it.
+   pure logical function is_gap(front, parent_pivots, i)
+      type(front_type), intent(in) :: front
+      integer, intent(in)          :: parent_pivots, i
+
+      is_gap = i == 1
+      if (.not. is_gap) is_gap = front%in_parent(i) /= front%in_parent(i - 1) + 1 .or. front%in_parent(i) == parent_pivots + 1
+   end function is_gap
 
 
    !> Every element, and every interface element, to the front that eliminates its first equation: all others of it are rows there.
@@ -276,22 +288,26 @@ contains
    pure subroutine add_update(child, front)
       type(front_type), intent(in)    :: child
       type(front_type), intent(inout) :: front
-      integer :: i, j, column
+      integer :: column, first, j, k, last, row, this
 
+      this = 1                                       ! the run that column J is in
       do j = 1, child%r
+         if (j == child%run(this + 1)) this = this + 1
          column = child%in_parent(j)
          front%diagonal(column) = front%diagonal(column) + child%diagonal(child%p + j)
-         if (column <= front%p) then
-            do i = j, child%r
-               front%panel(child%in_parent(i), column) = front%panel(child%in_parent(i), column) + child%update(i, j)
-            end do
-         else
-            column = column - front%p
-            do i = j, child%r
-               front%update(child%in_parent(i) - front%p, column) = front%update(child%in_parent(i) - front%p, column) &
-                                                                    + child%update(i, j)
-            end do
-         end if
+         do k = this, size(child%run) - 1
+            first = max(j, child%run(k))
+            last = child%run(k + 1) - 1
+            row = child%in_parent(first)
+            if (column <= front%p) then
+               front%panel(row:row + last - first, column) = front%panel(row:row + last - first, column) &
+                                                             + child%update(first:last, j)
+            else
+               associate (below => front%update(row - front%p:row - front%p + last - first, column - front%p))
+                  below = below + child%update(first:last, j)
+               end associate
+            end if
+         end do
       end do
    end subroutine add_update
 

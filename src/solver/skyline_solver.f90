@@ -16,13 +16,14 @@ module skyline_solver
    implicit none
    private
 
-   public :: start_skyline_solver, form_skyline_bodies, form_skyline_structure, scatter
+   public :: lay_out_skyline, start_skyline_solver, form_skyline_bodies, form_skyline_structure, scatter
 
    real(wp), parameter :: pivot_tolerance = 1.0e-12_wp ! of the diagonal entry: below it there is no stiffness
 
    type, public :: skyline_solver_type
       integer(long) :: profile = 0                  !! entries in the skyline
       integer(long) :: profile_as_numbered = 0      !! what they would be in the order of the node numbers
+      integer, allocatable :: first_row(:)          !! (n) of every column
       type(skyline_matrix) :: body                  !! [k_b]
       type(skyline_matrix) :: structure             !! [k_s], then its factor
    end type skyline_solver_type
@@ -30,34 +31,42 @@ module skyline_solver
 contains
 
    !> Number the unknowns and lay out the profile: reverse Cuthill-McKee, or the nodes' own order where that is tighter.
-   subroutine start_skyline_solver(model, graph, numbers, solver, failure)
+   subroutine lay_out_skyline(model, graph, numbers, solver)
       type(model_type), intent(in)             :: model
       type(node_graph_type), intent(in)        :: graph
       class(equation_numbers), intent(inout)   :: numbers
       type(skyline_solver_type), intent(inout) :: solver
-      type(failure_type), intent(inout)        :: failure
-      integer, allocatable :: order(:), first_row(:), first_row_as_numbered(:)
+      integer, allocatable :: order(:), first_row_as_numbered(:)
       integer :: i
-      logical :: ok
 
       call reverse_cuthill_mckee(graph, order)
       call number_unknowns(model, [(i, i = 1, model%n_nodes)], numbers)
       call lay_out_profile(model, numbers, first_row_as_numbered, solver%profile_as_numbered)
       call number_unknowns(model, order, numbers)
-      call lay_out_profile(model, numbers, first_row, solver%profile)
-      if (solver%profile >= solver%profile_as_numbered) then
-         call number_unknowns(model, [(i, i = 1, model%n_nodes)], numbers)
-         call move_alloc(first_row_as_numbered, first_row)
-         solver%profile = solver%profile_as_numbered
-      end if
-      if (16*solver%profile > available_memory()) then
-         call failure%raise('the skyline of '//integer_text(numbers%n)//' equations needs '// &
-                            integer_text(int(16*solver%profile/1048576))//' MiB, and the machine has '// &
-                            integer_text(int(available_memory()/1048576))//' MiB to give; SOLVER = TREE needs less')
-      else
-         call start_skyline(first_row, solver%body, ok)
-         if (.not. ok) call failure%raise('no memory for the skyline of '//integer_text(numbers%n)//' equations')
-      end if
+      call lay_out_profile(model, numbers, solver%first_row, solver%profile)
+      if (solver%profile < solver%profile_as_numbered) return
+      call number_unknowns(model, [(i, i = 1, model%n_nodes)], numbers)
+      call move_alloc(first_row_as_numbered, solver%first_row)
+      solver%profile = solver%profile_as_numbered
+   end subroutine lay_out_skyline
+
+
+   !> Make room for the matrix that is laid out.
+   subroutine start_skyline_solver(solver, failure)
+      type(skyline_solver_type), intent(inout) :: solver
+      type(failure_type), intent(inout)        :: failure
+      logical :: ok
+
+      associate (n => size(solver%first_row))
+         if (16*solver%profile > available_memory()) then
+            call failure%raise('the skyline of '//integer_text(n)//' equations needs '// &
+                               integer_text(int(16*solver%profile/1048576))//' MiB, and the machine has '// &
+                               integer_text(int(available_memory()/1048576))//' MiB to give; SOLVER = TREE needs less')
+         else
+            call start_skyline(solver%first_row, solver%body, ok)
+            if (.not. ok) call failure%raise('no memory for the skyline of '//integer_text(n)//' equations')
+         end if
+      end associate
    end subroutine start_skyline_solver
 
 
