@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Every deck of input/, and one large enough for several threads, by SOLVER = TREE and by SOLVER = SKYLINE: the same results.
-# By TREE with one thread and with several: the same bytes.
+# Every deck of input/, and those beside this script, moved supports and one large enough for several threads, by SOLVER = TREE and
+# by SOLVER = SKYLINE: the same results. By TREE with one thread and with several: the same bytes.
 #
 #    run.sh PROGRAM WORK_FOLDER
 set -u
@@ -10,7 +10,7 @@ passed=0 failed=0
 rm -rf "$work"
 mkdir -p "$work/tree" "$work/skyline" "$work/threads"
 for kind in tree skyline; do
-   for folder in input/*/; do ln -s "$PWD/${folder%/}" "$work/$kind/"; done # INCLUDE looks beside the deck
+   for included in input/*/ $here/*.inc; do ln -s "$PWD/${included%/}" "$work/$kind/"; done # INCLUDE looks beside the deck
 done
 
 # with_solver DECK SOLVER: the deck with SOLVER above its other case control. NEWTON stops where its tolerance is met, not at the
