@@ -1,8 +1,8 @@
 # Two runs of one deck: awk -f compare.awk EXPECTED.joint.csv EXPECTED.out ACTUAL.joint.csv ACTUAL.out
 #
-# A number of the history may be off by 1E-9 of the largest in its column, or of a thousandth of the largest of its kind where that
-# is more: the columns of a direction in which nothing happens hold rounding alone. A number in the tables of displacements and
-# reactions of the listing may besides be off by a unit of its last digit. Words, and numbers of something, must be the same.
+# A number of the history may be off by 1E-9 of the largest in its column, or of a thousandth of the largest of its kind where
+# that is more: the columns of a direction in which nothing happens hold rounding alone. A number in the tables of displacements
+# and reactions of the listing may besides be off by a unit of its last digit. Words, and numbers of something, must be the same.
 # Prints the largest difference of the history as a share of what it is measured by, or the first that is too large; the exit
 # status tells which.
 

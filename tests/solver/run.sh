@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Every deck of input/, and those beside this script, moved supports and one large enough for several threads, by SOLVER = TREE and
-# by SOLVER = SKYLINE: the same results. By TREE with one thread and with several: the same bytes.
+# Every deck of input/, and those beside this script, moved supports and one large enough for several threads, by SOLVER = TREE
+# and by SOLVER = SKYLINE: the same results. By TREE with one thread and with several: the same bytes.
 #
 #    run.sh PROGRAM WORK_FOLDER
 set -u
@@ -19,7 +19,11 @@ with_solver() {
    awk -v solver="$2" '
       toupper($0) ~ /^ *BEGIN +BULK/ { bulk = 1 }
       !bulk && toupper($0) ~ /^ *(SOLVER|TOL) *=/ { next }
-      !bulk && !done && toupper($0) ~ /^ *(TITLE|UNITS|METHOD|SPC|SUBCASE)/ { print "SOLVER = " solver; print "TOL = 1.E-13"; done = 1 }
+      !bulk && !done && toupper($0) ~ /^ *(TITLE|UNITS|METHOD|SPC|SUBCASE)/ {
+         print "SOLVER = " solver
+         print "TOL = 1.E-13"
+         done = 1
+      }
       { print }' "$1"
 }
 
