@@ -16,6 +16,7 @@ UNIT_FOLDER  := $(BUILD)/unit-$(RUNNER)
 UNIT_PROGRAM := $(UNIT_FOLDER)/unit_tests
 UNIT_NAMES   := $(notdir $(basename $(PF_FILES)))
 UNIT_OBJECTS := $(UNIT_NAMES:%=$(UNIT_FOLDER)/%.o)
+UNIT_HELPERS := $(patsubst tests/unit/%.f90,$(UNIT_FOLDER)/%.o,$(sort $(wildcard tests/unit/*.f90)))
 UNIT_COMPILE  = $(FC) $(FFLAGS_CHECKED) -ffree-line-length-none -J$(UNIT_FOLDER)
 UNIT_CHECK    = $(AWK) -f $(UNIT_RUNNER)/pf_to_fortran.awk
 
@@ -51,6 +52,11 @@ unit-test: $(UNIT_PROGRAM)
 $(UNIT_FOLDER):
 	@mkdir -p $@
 
+# Modules that several test files use; none uses another.
+$(UNIT_HELPERS): $(UNIT_FOLDER)/%.o: tests/unit/%.f90 $(CHECKED_LIBRARY) | $(UNIT_FOLDER)
+	$(UNIT_COMPILE) -I$(CHECKED_MODULES) -c $< -o $@
+
+$(UNIT_OBJECTS): $(UNIT_HELPERS)
 # What reads .vtu files back and what solves a model are written once.
 $(UNIT_FOLDER)/test_vtu_results.o: $(UNIT_FOLDER)/test_vtu_file.o
 $(UNIT_FOLDER)/test_patch_decks.o $(UNIT_FOLDER)/test_bolted_decks.o: $(UNIT_FOLDER)/test_solid_model.o
@@ -75,7 +81,7 @@ $(UNIT_FOLDER)/driver.f90: unit-force | $(UNIT_FOLDER)
 $(UNIT_FOLDER)/driver.o: $(UNIT_FOLDER)/driver.f90 $(UNIT_FOLDER)/funit.o
 	$(UNIT_COMPILE) -c $< -o $@
 
-$(UNIT_PROGRAM): $(UNIT_FOLDER)/driver.o $(UNIT_OBJECTS) $(UNIT_FOLDER)/funit.o $(CHECKED_LIBRARY)
+$(UNIT_PROGRAM): $(UNIT_FOLDER)/driver.o $(UNIT_OBJECTS) $(UNIT_HELPERS) $(UNIT_FOLDER)/funit.o $(CHECKED_LIBRARY)
 	$(FC) $(FFLAGS_CHECKED) -o $@ $^ $(LIBRARIES)
 
 else ifeq ($(RUNNER),pfunit)
@@ -107,7 +113,7 @@ $(UNIT_FOLDER)/suites.inc: unit-force | $(UNIT_FOLDER)
 $(UNIT_FOLDER)/driver.o: $(PFUNIT_INCLUDE_DIR)/driver.F90 $(UNIT_FOLDER)/suites.inc
 	$(filter-out -ffpe-trap=%,$(UNIT_COMPILE)) $(PFUNIT_EXTRA_FFLAGS) -I$(UNIT_FOLDER) -D_TEST_SUITES='"suites.inc"' -c $< -o $@
 
-$(UNIT_PROGRAM): $(UNIT_FOLDER)/driver.o $(UNIT_OBJECTS) $(CHECKED_LIBRARY)
+$(UNIT_PROGRAM): $(UNIT_FOLDER)/driver.o $(UNIT_OBJECTS) $(UNIT_HELPERS) $(CHECKED_LIBRARY)
 	$(FC) $(FFLAGS_CHECKED) -o $@ $^ $(LIBRARIES) $(PFUNIT_LIBRARIES)
 
 endif

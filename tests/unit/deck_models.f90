@@ -1,0 +1,98 @@
+!> Models for tests of the solvers, built from cards.
+module deck_models
+   use c_library, only: remove_file
+   use deck_errors, only: deck_error_list
+   use deck_input, only: deck_type, read_deck
+   use kinds, only: wp
+   use model_build, only: build_model
+   use model_data, only: model_type
+   use stage_plan, only: stage_plan_type
+   implicit none
+   private
+
+   public :: model_of_cards, some_forces, some_stiffnesses
+
+   character(*), parameter, public :: plane_laws = 'MAT1,1,9500.,,.25;PSHELL,1,1,20.;PJOINT,1,3,,,,,.1;JNORM,3,8.-3,.5,50.;'
+   character(*), parameter, public :: solid_laws = 'MAT1,1,9500.,,.25;PSOLID,1,1;PJOINT,1,3,,,,,.1;JNORM,3,8.-3,.5,50.;'
+
+   !> Two blocks on an inclined joint, the lower one held at two nodes, a second joint to the base on the right; 180 nodes.
+   character(*), parameter, public :: two_plane_blocks = plane_laws//'SPC1,1,12,103;SPC1,1,1,101;'// &
+      'BLOCK2,1,1,11,7,0.,0.,3.,0.;+,3.,2.,0.,1.,,,101,101;+,,,21;PMARK,21;'// &
+      'BLOCK2,2,1,11,6,0.,1.,3.,2.;+,3.,3.,0.,3.,,,1,1;+,20,22;PMARK,20;PMARK,22;JOINT,8,1,22;JOINT,7,1,20,21'
+
+   !> Two boxes on each other and on the base, held by these joints alone, two bars through them; 195 nodes.
+   character(*), parameter, public :: two_floating_boxes = solid_laws// &
+      'BLOCK3,1,1,4,3,4,0.,0.,0.;+,40.,30.,20.,,,,1001,1001;+,,,,,20,21;BLOCK3,2,1,4,3,4,0.,0.,20.;+,40.,30.,50.;+,,,,,22;'// &
+      'PMARK,20;PMARK,21;PMARK,22;JOINT,8,1,20;JOINT,7,1,21,22;CROD,3001,9,1023,25;CROD,3002,9,1083,88;PROD,9,1,30.'
+
+   !> A box on the base, a part of it held so that elements have no free component at all, one marked side moved sideways.
+   character(*), parameter, public :: box_partly_held = solid_laws//'BLOCK3,1,1,5,3,3,0.,0.,0.;+,50.,30.,30.;+,23,24,,,20;'// &
+      'PMARK,20;PMARK,23;PMARK,24;JOINT,8,1,20;SPC1,1,123,1,THRU,40;SPCM,1,2,24'
+
+   !> A plate without a joint.
+   character(*), parameter, public :: plate = plane_laws//'BLOCK2,1,1,12,9,0.,0.;+,12.,5.;+,20;PMARK,20;SPCM,1,2,20;SPC1,1,1,3'
+
+contains
+
+   !> The model with these CARDS; a semicolon ends a line. PROBLEM: the first error, '' where there is none.
+   subroutine model_of_cards(cards, model, problem)
+      character(*), intent(in)               :: cards
+      type(model_type), intent(out)          :: model
+      character(:), allocatable, intent(out) :: problem
+      type(deck_error_list) :: errors
+      type(deck_type)       :: deck
+      type(stage_plan_type) :: plan
+      character(1000) :: path
+      integer :: first, last, unit
+      logical :: readable
+
+      call get_command_argument(0, path)
+      path(index(path, '/', back=.true.) + 1:) = 'deck_models.bdf'
+      open (newunit=unit, file=path, status='replace', action='write')
+      if (index(cards, 'SPC') > 0) write (unit, '(a)') 'SPC=1'
+      write (unit, '(a)') 'SUBCASE 1', 'BEGIN BULK'
+      first = 1
+      do while (first <= len(cards))
+         last = index(cards(first:)//';', ';') + first - 2
+         write (unit, '(a)') cards(first:last)
+         first = last + 2
+      end do
+      write (unit, '(a)') 'ENDDATA'
+      close (unit)
+      call read_deck(trim(path), deck, errors, readable)
+      call remove_file(trim(path))
+      call build_model(deck, model, plan, errors)
+      problem = ''
+      if (errors%n > 0) problem = errors%items(1)%message
+      if (.not. readable) problem = 'unreadable'
+   end subroutine model_of_cards
+
+
+   !> Forces on every component of every node, between -1/2 and 1/2 times 1000.
+   pure function some_forces(model) result(f)
+      type(model_type), intent(in) :: model
+      real(wp) :: f(model%dimension, model%n_nodes)
+      integer  :: d, i
+
+      do i = 1, model%n_nodes
+         do d = 1, model%dimension
+            f(d, i) = 1000.0_wp*(modulo(0.37_wp*(3*i + d)**2, 1.0_wp) - 0.5_wp)
+         end do
+      end do
+   end function some_forces
+
+
+   !> Stiffnesses of all interface elements, positive definite, the directions coupled; another set for every SEED.
+   pure function some_stiffnesses(model, seed) result(k_int)
+      type(model_type), intent(in) :: model
+      integer, intent(in)          :: seed
+      real(wp) :: k_int(3, 3, size(model%interface))
+      integer  :: i
+
+      do i = 1, size(model%interface)
+         k_int(:, :, i) = reshape([3.0_wp, 0.5_wp, -0.7_wp, 0.5_wp, 2.0_wp, 0.4_wp, -0.7_wp, 0.4_wp, 5.0_wp], [3, 3]) &
+                          *1.0e3_wp*(1 + modulo(3*i + seed, 5))
+      end do
+   end function some_stiffnesses
+
+end module deck_models

@@ -1,0 +1,147 @@
+!> The stiffness of a whole structure as one dense matrix, solved and condensed by LAPACK: what the solvers are compared with.
+!! Row (node - 1) dimension + direction, held components and all.
+module dense_structure
+   use body_elements, only: element_stiffness
+   use element_kinds, only: max_dofs
+   use kinds, only: wp
+   use model_data, only: corners_of, model_type, n_bars
+   implicit none
+   private
+
+   public :: dense_bodies, dense_joints, free_rows, solve_dense, condense_dense
+
+   interface
+      subroutine dposv(uplo, n, nrhs, a, lda, b, ldb, info)
+         import :: wp
+         character(1), intent(in) :: uplo
+         integer, intent(in)      :: n, nrhs, lda, ldb
+         real(wp), intent(inout)  :: a(lda, *), b(ldb, *)
+         integer, intent(out)     :: info
+      end subroutine dposv
+   end interface
+
+contains
+
+   !> Elements, and bars that are elastic.
+   function dense_bodies(model) result(k)
+      type(model_type), intent(in) :: model
+      real(wp), allocatable :: k(:, :)
+      real(wp) :: k_e(max_dofs, max_dofs), pull(2*model%dimension)
+      integer  :: e, i
+
+      allocate (k(model%dimension*model%n_nodes, model%dimension*model%n_nodes), source=0.0_wp)
+      do e = 1, model%n_elements
+         call element_stiffness(model, e, k_e)
+         call add(rows_of(model, corners_of(model, e)), k_e)
+      end do
+      do i = 1, n_bars(model)
+         if (.not. model%bars(i)%is_elastic) cycle
+         associate (d => model%dimension, bar => model%bars(i))
+            pull(:d) = bar%direction(:d)
+            pull(d + 1:) = -bar%direction(:d)
+            call add(rows_of(model, bar%nodes), bar%stiffness*matmul(reshape(pull, [2*d, 1]), reshape(pull, [1, 2*d])))
+         end associate
+      end do
+
+   contains
+
+      subroutine add(rows, part)
+         integer, intent(in)  :: rows(:)
+         real(wp), intent(in) :: part(:, :)
+         integer :: j, m
+
+         m = size(rows)
+         do j = 1, m
+            k(rows, rows(j)) = k(rows, rows(j)) + part(:m, j)
+         end do
+      end subroutine add
+
+   end function dense_bodies
+
+
+   !> Interface elements with the stiffnesses K_INT in their axes.
+   function dense_joints(model, k_int) result(k)
+      type(model_type), intent(in) :: model
+      real(wp), intent(in)         :: k_int(:, :, :) !! (3, 3, n)
+      real(wp), allocatable :: k(:, :)
+      real(wp) :: movement(3, 2*model%dimension) ! in the axes, of the nodes' displacements
+      integer  :: i, m
+      integer, allocatable :: rows(:)
+
+      allocate (k(model%dimension*model%n_nodes, model%dimension*model%n_nodes), source=0.0_wp)
+      do i = 1, size(model%interface)
+         associate (d => model%dimension, element => model%interface(i))
+            movement(:, :d) = transpose(element%axes(:d, :))
+            movement(:, d + 1:) = -movement(:, :d)
+            rows = rows_of(model, pack(element%nodes, element%nodes > 0))
+            m = size(rows)
+            k(rows, rows) = k(rows, rows) + matmul(transpose(movement(:, :m)), matmul(k_int(:, :, i), movement(:, :m)))
+         end associate
+      end do
+   end function dense_joints
+
+
+   pure function rows_of(model, nodes) result(rows)
+      type(model_type), intent(in) :: model
+      integer, intent(in)          :: nodes(:)
+      integer :: rows(model%dimension*size(nodes)), d, i
+
+      do i = 1, size(nodes)
+         rows(model%dimension*(i - 1) + 1:model%dimension*i) = [(model%dimension*(nodes(i) - 1) + d, d = 1, model%dimension)]
+      end do
+   end function rows_of
+
+
+   !> The rows of components that are neither held nor without an element.
+   pure function free_rows(model) result(rows)
+      type(model_type), intent(in) :: model
+      integer, allocatable :: rows(:)
+      logical :: is_free(model%dimension, model%n_nodes)
+      integer :: i
+
+      do i = 1, model%n_nodes
+         is_free(:, i) = .not. model%held(:, i) .and. model%used(i)
+      end do
+      allocate (rows, source=pack([(i, i = 1, size(is_free))], reshape(is_free, [size(is_free)])))
+   end function free_rows
+
+
+   !> X: K(ROWS, ROWS) X(ROWS) = F(ROWS), zero elsewhere.
+   function solve_dense(k, rows, f) result(x)
+      real(wp), intent(in) :: k(:, :), f(:)
+      integer, intent(in)  :: rows(:)
+      real(wp), allocatable :: x(:), a(:, :), b(:, :)
+      integer :: info
+
+      allocate (a, source=k(rows, rows))
+      allocate (b, source=reshape(f(rows), [size(rows), 1]))
+      info = 0
+      if (size(rows) > 0) call dposv('U', size(rows), 1, a, size(rows), b, size(rows), info)
+      if (info /= 0) b = huge(b)
+      allocate (x(size(f)), source=0.0_wp)
+      x(rows) = b(:, 1)
+   end function solve_dense
+
+
+   !> A(:, :n): K(KEPT, KEPT) - K(KEPT, GONE) K(GONE, GONE)^-1 K(GONE, KEPT); A(:, n + 1): F condensed likewise.
+   function condense_dense(k, kept, gone, f) result(a)
+      real(wp), intent(in) :: k(:, :), f(:)
+      integer, intent(in)  :: kept(:), gone(:)
+      real(wp), allocatable :: a(:, :), square(:, :), b(:, :)
+      integer :: info, n
+
+      n = size(kept)
+      allocate (a(n, n + 1))
+      a(:, :n) = k(kept, kept)
+      a(:, n + 1) = f(kept)
+      if (size(gone) == 0) return
+      allocate (square, source=k(gone, gone))
+      allocate (b(size(gone), n + 1))
+      b(:, :n) = k(gone, kept)
+      b(:, n + 1) = f(gone)
+      call dposv('U', size(gone), n + 1, square, size(gone), b, size(gone), info)
+      if (info /= 0) b = huge(b)
+      a = a - matmul(k(kept, gone), b)
+   end function condense_dense
+
+end module dense_structure
