@@ -92,7 +92,7 @@ contains
 
       ! ------------------------------------------------------------------ NORM, SHEAR: FIRST STIFFNESS OF THE JOINTS
       call start_analysis(model, system, deck%control%carry, deck%control%tolerance, analysis)
-      call interface_stiffness(model, system, analysis)
+      call interface_stiffness(model, analysis)
       call progress%expect(plan)
 
       do stage = 1, size(plan%stages)
@@ -123,13 +123,13 @@ contains
                call solve_increment(model, plan, system, analysis, failure)
 
                ! --------------------------------------------------------- ACCUMULATE {u}, DEFLECTIONS, FORCES
-               call accumulate(model, analysis, failure)
+               call accumulate(model, system, analysis, failure)
 
                ! --------------------------------------------------------- COULOMB LIMIT EXCEEDED: RE-ANALYSE
                call limit_friction(model, plan, system, analysis, failure)
 
                ! --------------------------------------------------------- NORM, SHEAR: BRANCHES, NEXT STIFFNESS
-               call interface_stiffness(model, system, analysis)
+               call interface_stiffness(model, analysis)
             end select
             if (failure%raised) then
                call report_failure(argument, failure, results)

@@ -45,11 +45,14 @@ module analysis_state
       real(wp), allocatable :: felt(:, :)
       real(wp), allocatable :: change(:, :)         !! of that in this increment
       integer, allocatable  :: retained(:)          !! the nodes that the equations retain
-      logical  :: moves = .false.                   !! whether supports are moved in this increment
+      integer, allocatable  :: loaded(:)            !! nodes on which loads act in this stage
+      logical  :: is_moved = .false.                !! whether supports are out of their places in this stage
+      logical  :: moves = .false.                   !! whether they are moved in this increment
       real(wp), allocatable :: moved_before(:, :)   !! displacements of held components at the start of the stage [length]
       real(wp), allocatable :: moved_after(:, :)    !! at its end
       real(wp), allocatable :: moved(:, :)          !! now
       real(wp), allocatable :: move(:, :)           !! in this increment
+      real(wp), allocatable :: body(:, :)           !! [k_b] {u} as retained nodes feel it
       real(wp), allocatable :: u(:, :), du(:, :)    !! displacements, and of this increment [length]
       real(wp), allocatable :: unbalanced(:, :)     !! applied - internal forces; on held components minus the reaction
       real(wp), allocatable :: pull(:)              !! of locked bolts: tension at the lengths of the model at rest [force]
@@ -75,9 +78,10 @@ contains
       type(analysis_type), intent(out)  :: analysis
 
       allocate (analysis%applied(model%dimension, model%n_nodes), source=0.0_wp)
-      allocate (analysis%load_before, analysis%load_after, analysis%u, analysis%du, analysis%unbalanced, analysis%felt_before, &
-                analysis%felt_after, analysis%felt, analysis%change, analysis%moved_before, analysis%moved_after, analysis%moved, &
-                analysis%move, source=analysis%applied)
+      allocate (analysis%load_before, analysis%load_after, analysis%u, analysis%du, analysis%body, analysis%unbalanced, &
+                source=analysis%applied)
+      allocate (analysis%felt_before, analysis%felt_after, analysis%felt, analysis%change, source=analysis%applied)
+      allocate (analysis%moved_before, analysis%moved_after, analysis%moved, analysis%move, source=analysis%applied)
       allocate (analysis%retained, source=system%retained)
       allocate (analysis%pull(n_bars(model)), source=0.0_wp)
       analysis%carry = carry
@@ -121,9 +125,13 @@ contains
             if (section%is_locked) analysis%moved_after(1, section%node) = analysis%moved_before(1, section%node)
          end associate
       end do
+      analysis%loaded = pack([(i, i = 1, model%n_nodes)], &
+                             any(abs(analysis%load_before) > 0.0_wp .or. abs(analysis%load_after) > 0.0_wp, dim=1))
+      analysis%is_moved = any(abs(analysis%moved_before) > 0.0_wp .or. abs(analysis%moved_after) > 0.0_wp)
       if (stage > 1) call condense(model, system, analysis%load_before, analysis%moved_before, analysis%felt_before)
       call condense(model, system, analysis%load_after, analysis%moved_after, analysis%felt_after)
       analysis%felt = analysis%felt_before
+      call body_forces(system, analysis%u, analysis%body)
    end subroutine start_stage
 
 
@@ -166,11 +174,16 @@ contains
          analysis%fraction = sum(shares(:analysis%increment))
          if (analysis%increment == size(shares)) analysis%fraction = 1.0_wp
       end associate
-      analysis%applied = between(analysis%load_before, analysis%load_after)
-      allocate (moved, source=between(analysis%moved_before, analysis%moved_after))
-      analysis%move = moved - analysis%moved
-      analysis%moved = moved
-      analysis%moves = any(abs(analysis%move) > 0.0_wp)
+      associate (nodes => analysis%loaded)
+         analysis%applied(:, nodes) = between(analysis%load_before(:, nodes), analysis%load_after(:, nodes))
+      end associate
+      analysis%moves = .false.
+      if (analysis%is_moved) then
+         allocate (moved, source=between(analysis%moved_before, analysis%moved_after))
+         analysis%move = moved - analysis%moved
+         analysis%moved = moved
+         analysis%moves = any(abs(analysis%move) > 0.0_wp)
+      end if
       associate (r => analysis%retained)
          analysis%change(:, r) = between(analysis%felt_before(:, r), analysis%felt_after(:, r)) - analysis%felt(:, r)
          analysis%felt(:, r) = analysis%felt(:, r) + analysis%change(:, r)
@@ -193,9 +206,8 @@ contains
 
 
    !> NORM and SHEAR for every interface element: its branches after the last increment, its stiffness for the next one.
-   subroutine interface_stiffness(model, system, analysis)
+   subroutine interface_stiffness(model, analysis)
       type(model_type), intent(in)       :: model
-      type(equation_system), intent(in)  :: system
       type(analysis_type), intent(inout) :: analysis
       integer :: before, i
 
@@ -207,7 +219,7 @@ contains
          if (analysis%states(i)%normal%branch == branch_open .and. before /= branch_open) &
             analysis%n_removed = analysis%n_removed + 1
       end do
-      call find_unbalanced(model, system, analysis)
+      call find_unbalanced(model, analysis)
    end subroutine interface_stiffness
 
 
@@ -225,14 +237,12 @@ contains
 
 
    !> Load minus the forces in bodies and joints on retained nodes: what the increment leaves unbalanced.
-   subroutine find_unbalanced(model, system, analysis)
+   subroutine find_unbalanced(model, analysis)
       type(model_type), intent(in)       :: model
-      type(equation_system), intent(in)  :: system
       type(analysis_type), intent(inout) :: analysis
 
-      call body_forces(system, analysis%u, analysis%unbalanced)
       associate (r => analysis%retained)
-         analysis%unbalanced(:, r) = analysis%felt(:, r) - analysis%unbalanced(:, r)
+         analysis%unbalanced(:, r) = analysis%felt(:, r) - analysis%body(:, r)
       end associate
       call subtract_joint_forces(model, analysis)
    end subroutine find_unbalanced

@@ -3,7 +3,7 @@
 module back_method
    use analysis_state, only: analysis_type, find_unbalanced, record_pass, pass_record, tally_work
    use coupled_solution, only: solve_moved
-   use equations, only: check_solution, equation_system, form_structure_stiffness, solve_equations
+   use equations, only: body_forces, check_solution, equation_system, form_structure_stiffness, solve_equations
    use failures, only: failure_type
    use joint_laws, only: element_state, joint_law
    use kinds, only: wp
@@ -140,7 +140,8 @@ contains
                end associate
             end associate
          end do
-         call find_unbalanced(model, system, analysis)
+         call body_forces(system, analysis%u, analysis%body)
+         call find_unbalanced(model, analysis)
       end subroutine store
 
    end subroutine back_increment

@@ -2,7 +2,7 @@
 module step_method
    use analysis_state, only: analysis_type, pass_record, record_pass, tally_work
    use coupled_solution, only: solve_moved
-   use equations, only: check_solution, equation_system, form_structure_stiffness, solve_equations
+   use equations, only: body_forces, check_solution, equation_system, form_structure_stiffness, solve_equations
    use failures, only: failure_type
    use joint_laws, only: exceeds_limit, friction_excess
    use kinds, only: wp
@@ -68,8 +68,9 @@ contains
 
 
    !> Add the increment's displacements, deflections and forces to their sums.
-   subroutine accumulate(model, analysis, failure)
+   subroutine accumulate(model, system, analysis, failure)
       type(model_type), intent(in)       :: model
+      type(equation_system), intent(in)  :: system
       type(analysis_type), intent(inout) :: analysis
       type(failure_type), intent(in)     :: failure
       integer :: i, k
@@ -88,19 +89,23 @@ contains
             state%slips = .false.
          end associate
       end do
-      call add_displacements(model, analysis)
+      call add_displacements(model, system, analysis%change, analysis)
    end subroutine accumulate
 
 
-   !> Add {du}, and what it does to the interface elements at the stiffness of this increment.
-   subroutine add_displacements(model, analysis)
+   !> Add {du}, the answer of the structure to the forces F, and what it does to the interface elements at the stiffness of this
+   !! increment. Of F the bodies take what these do not: [k_b] {du} = F - sum of [k_int] {du}.
+   subroutine add_displacements(model, system, f, analysis)
       type(model_type), intent(in)       :: model
+      type(equation_system), intent(in)  :: system
+      real(wp), intent(in)               :: f(:, :) !! (dimension, n_nodes), on retained nodes [force]
       type(analysis_type), intent(inout) :: analysis
-      real(wp) :: movement(3), work(2), tau
+      real(wp) :: force(3), movement(3), work(2), tau
       integer  :: i, k
 
       associate (r => analysis%retained)
          analysis%u(:, r) = analysis%u(:, r) + analysis%du(:, r)
+         analysis%body(:, r) = analysis%body(:, r) + f(:, r)
       end associate
       do i = 1, size(model%interface)
          movement = joint_movement(model, analysis%du, i)
@@ -118,7 +123,13 @@ contains
             state%normal%pressure = state%normal%sumf/area
          end associate
          call tally_work(analysis%energy(model%interface(i)%joint), work)
+         force = matmul(model%interface(i)%axes, analysis%k(:, i)*movement)
+         associate (nodes => model%interface(i)%nodes, d => model%dimension)
+            analysis%body(:, nodes(1)) = analysis%body(:, nodes(1)) - force(:d)
+            if (nodes(2) > 0) analysis%body(:, nodes(2)) = analysis%body(:, nodes(2)) + force(:d)
+         end associate
       end do
+      if (size(system%locked) > 0) call body_forces(system, analysis%u, analysis%body) ! a locked unknown takes more than F
    end subroutine add_displacements
 
 
@@ -143,7 +154,7 @@ contains
          call release(model, pass, excess, analysis, relief, again)
          if (.not. again) return
          call solve_equations(system, relief, analysis%du)
-         call add_displacements(model, analysis)
+         call add_displacements(model, system, relief, analysis)
          call find_excess(model, analysis, excess, total_after)
          call record_pass(analysis, pass_record(before=total, after=total_after, changes=count(analysis%states%slips)))
          total = total_after

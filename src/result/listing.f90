@@ -63,8 +63,8 @@ contains
 
       listing%n_increments = listing%n_increments + 1
       listing%n_removed = listing%n_removed + analysis%n_removed
-      listing%largest_force = max(listing%largest_force, maxval(abs(analysis%applied)))
-      if (any(abs(analysis%moved) > 0.0_wp)) listing%largest_force = &
+      listing%largest_force = max(listing%largest_force, maxval(abs(analysis%applied(:, analysis%loaded))))
+      if (analysis%is_moved) listing%largest_force = &
          max(listing%largest_force, maxval(abs(analysis%unbalanced), mask=model%held)) ! what moves the supports
       call current_load(model, analysis, now)
       unbalanced = free_norm(model, analysis%unbalanced, analysis%retained)
@@ -194,15 +194,13 @@ contains
       type(model_type), intent(in)       :: model
       type(analysis_type), intent(in)    :: analysis
       type(stage_load_type), intent(out) :: now
-      integer :: node
+      integer :: i
 
-      allocate (now%node(model%n_nodes), now%force(3, model%n_nodes))
-      do node = 1, model%n_nodes
-         if (maxval(abs(analysis%applied(:, node))) <= 0.0_wp) cycle
-         now%n = now%n + 1
-         now%node(now%n) = node
-         now%force(:, now%n) = 0.0_wp
-         now%force(:model%dimension, now%n) = analysis%applied(:, node)
+      now%n = size(analysis%loaded)
+      allocate (now%node, source=analysis%loaded)
+      allocate (now%force(3, now%n), source=0.0_wp)
+      do i = 1, now%n
+         now%force(:model%dimension, i) = analysis%applied(:, now%node(i))
       end do
    end subroutine current_load
 

@@ -10,8 +10,7 @@ module conjugate_gradients
 
    public :: iterate_moving
 
-   integer, parameter  :: few  = 4         ! steps after which it can be told how many there will be
-   real(wp), parameter :: hope = 1.2_wp    ! the residual falls faster and faster
+   integer, parameter :: few = 3   ! steps after which it can be told how many there will be
 
 contains
 
@@ -54,7 +53,7 @@ contains
                x(e) = u(e)
                return
             end if
-            if (steps >= few .and. log(now/first)*most_steps > 2.0_wp*log(tolerance)*steps/hope) exit ! that will take too long
+            if (steps >= few .and. log(now/first)*most_steps > 2.0_wp*log(tolerance)*steps) exit ! that will take too long
             direction(e) = z(e) + now/before*direction(e)
          end do
          steps = most_steps + 1

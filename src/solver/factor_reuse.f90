@@ -13,7 +13,7 @@ module factor_reuse
       integer :: most_steps = 0                     !! that cost what a factorisation does; 0: it is always cheaper
       integer, private :: spent = 0, solved = 0     ! since the last factorisation, that included
       integer, private :: last = 0                  ! steps of the last solution
-      integer, private :: pause = 0, wait = 1       ! how often not to try after steps were in vain
+      integer, private :: pause = 0, wait = 4       ! how often not to try after steps were in vain
       logical, private :: is_there = .false.        ! a factor
    contains
       procedure :: set_costs
@@ -60,7 +60,7 @@ contains
       self%spent = self%spent + steps
       self%solved = self%solved + 1
       self%last = steps
-      self%wait = 1
+      self%wait = 4
    end subroutine note_steps
 
 

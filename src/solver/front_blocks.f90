@@ -48,21 +48,28 @@ contains
 
 
    !> A = BLOCK, its lower part.
-   subroutine restore_block(block, a)
+   pure subroutine restore_block(block, a)
       type(kept_block), intent(in) :: block
-      real(wp), intent(inout)      :: a(:, :)
-      integer :: j, k
+      real(wp), intent(inout)      :: a(block%n_rows, block%n_columns)
+      integer :: i, j, k
 
-      if (allocated(block%whole)) then
-         do j = 1, block%n_columns
-            a(j:, j) = block%whole(j:, j)
-         end do
-      else
-         a = 0.0_wp
-         do k = 1, size(block%values)
-            a(block%row(k), block%column(k)) = block%values(k)
-         end do
-      end if
+      do j = 1, block%n_columns
+         if (allocated(block%whole)) then
+            !$omp simd
+            do i = j, block%n_rows
+               a(i, j) = block%whole(i, j)
+            end do
+         else
+            !$omp simd
+            do i = j, block%n_rows
+               a(i, j) = 0.0_wp
+            end do
+         end if
+      end do
+      if (allocated(block%whole)) return
+      do k = 1, size(block%values)
+         a(block%row(k), block%column(k)) = block%values(k)
+      end do
    end subroutine restore_block
 
 

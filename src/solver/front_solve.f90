@@ -16,10 +16,11 @@ contains
    subroutine eliminate_fixed(tree, x)
       type(front_tree_type), intent(in) :: tree
       real(wp), intent(inout)           :: x(tree%n)
-      integer :: f
+      real(wp) :: work(most_rows(tree))
+      integer  :: f
 
       do f = 1, size(tree%fronts)
-         if (.not. tree%fronts(f)%moves) call forward(tree, f, x)
+         if (.not. tree%fronts(f)%moves) call forward(tree, f, x, work)
       end do
    end subroutine eliminate_fixed
 
@@ -29,10 +30,11 @@ contains
    subroutine recover_fixed(tree, x)
       type(front_tree_type), intent(in) :: tree
       real(wp), intent(inout)           :: x(tree%n)
-      integer :: f
+      real(wp) :: work(most_rows(tree))
+      integer  :: f
 
       do f = size(tree%fronts), 1, -1
-         if (.not. tree%fronts(f)%moves) call backward(tree, f, x)
+         if (.not. tree%fronts(f)%moves) call backward(tree, f, x, work)
       end do
    end subroutine recover_fixed
 
@@ -41,41 +43,58 @@ contains
    subroutine solve_moving(tree, x)
       type(front_tree_type), intent(in) :: tree
       real(wp), intent(inout)           :: x(tree%n)
-      integer :: f
+      real(wp) :: work(most_rows(tree))
+      integer  :: f
 
       do f = 1, size(tree%fronts)
-         if (tree%fronts(f)%moves) call forward(tree, f, x)
+         if (tree%fronts(f)%moves) call forward(tree, f, x, work)
       end do
       do f = size(tree%fronts), 1, -1
-         if (tree%fronts(f)%moves) call backward(tree, f, x)
+         if (tree%fronts(f)%moves) call backward(tree, f, x, work)
       end do
    end subroutine solve_moving
 
 
-   subroutine forward(tree, f, x)
+   pure integer function most_rows(tree)
+      type(front_tree_type), intent(in) :: tree
+
+      most_rows = maxval(tree%fronts%p + tree%fronts%r)
+   end function most_rows
+
+
+   !> L y = x in front F, and what y does to the rows beyond.
+   subroutine forward(tree, f, x, work)
       type(front_tree_type), intent(in) :: tree
       integer, intent(in)               :: f
       real(wp), intent(inout)           :: x(tree%n)
-      real(wp), allocatable :: beyond(:)
+      real(wp), intent(out)             :: work(:)
+      integer :: i
 
       associate (front => tree%fronts(f), p => tree%fronts(f)%p, r => tree%fronts(f)%r, first => tree%fronts(f)%first)
          where (tree%locked(first:first + p - 1)) x(first:first + p - 1) = 0.0_wp
          call dtrsv('L', 'N', 'N', p, front%panel, p + r, x(first), 1)
          if (r == 0) return
-         allocate (beyond(r))
-         call dgemv('N', r, p, -1.0_wp, front%panel(p + 1, 1), p + r, x(first), 1, 0.0_wp, beyond, 1)
-         x(front%rows) = x(front%rows) + beyond
+         call dgemv('N', r, p, -1.0_wp, front%panel(p + 1, 1), p + r, x(first), 1, 0.0_wp, work, 1)
+         do i = 1, r
+            x(front%rows(i)) = x(front%rows(i)) + work(i)
+         end do
       end associate
    end subroutine forward
 
 
-   subroutine backward(tree, f, x)
+   !> L^T x = y in front F, x known in the rows beyond.
+   subroutine backward(tree, f, x, work)
       type(front_tree_type), intent(in) :: tree
       integer, intent(in)               :: f
       real(wp), intent(inout)           :: x(tree%n)
+      real(wp), intent(out)             :: work(:)
+      integer :: i
 
       associate (front => tree%fronts(f), p => tree%fronts(f)%p, r => tree%fronts(f)%r, first => tree%fronts(f)%first)
-         if (r > 0) call dgemv('T', r, p, -1.0_wp, front%panel(p + 1, 1), p + r, x(front%rows), 1, 1.0_wp, x(first), 1)
+         do i = 1, r
+            work(i) = x(front%rows(i))
+         end do
+         if (r > 0) call dgemv('T', r, p, -1.0_wp, front%panel(p + 1, 1), p + r, work, 1, 1.0_wp, x(first), 1)
          call dtrsv('L', 'T', 'N', p, front%panel, p + r, x(first), 1)
       end associate
    end subroutine backward
@@ -86,8 +105,8 @@ contains
       type(front_tree_type), intent(in) :: tree
       real(wp), intent(in)              :: x(tree%n)
       real(wp), intent(inout)           :: y(tree%n)
-      real(wp), allocatable :: x_f(:), y_f(:)
-      integer :: f
+      real(wp) :: x_f(most_rows(tree)), y_f(most_rows(tree))
+      integer  :: f, i
 
       do f = 1, size(tree%fronts)
          associate (front => tree%fronts(f))
@@ -97,12 +116,17 @@ contains
       do f = 1, size(tree%fronts)
          associate (front => tree%fronts(f), p => tree%fronts(f)%p, last => tree%fronts(f)%first + tree%fronts(f)%p - 1)
             if (.not. front%moves) cycle
-            x_f = [x(front%first:last), x(front%rows)]
-            y_f = 0.0_wp*x_f
+            x_f(:p) = x(front%first:last)
+            do i = 1, front%r
+               x_f(p + i) = x(front%rows(i))
+            end do
+            y_f(:p + front%r) = 0.0_wp
             call block_times_vector(front%kept_panel, x_f, y_f)
             call block_times_vector(front%kept_update, x_f(p + 1:), y_f(p + 1:))
             y(front%first:last) = y(front%first:last) + y_f(:p)
-            y(front%rows) = y(front%rows) + y_f(p + 1:)
+            do i = 1, front%r
+               y(front%rows(i)) = y(front%rows(i)) + y_f(p + i)
+            end do
          end associate
       end do
    end subroutine moving_times_vector

@@ -288,7 +288,7 @@ contains
    pure subroutine add_update(child, front)
       type(front_type), intent(in)    :: child
       type(front_type), intent(inout) :: front
-      integer :: column, first, j, k, last, row, this
+      integer :: column, first, i, j, k, last, row, this
 
       this = 1                                       ! the run that column J is in
       do j = 1, child%r
@@ -300,12 +300,16 @@ contains
             last = child%run(k + 1) - 1
             row = child%in_parent(first)
             if (column <= front%p) then
-               front%panel(row:row + last - first, column) = front%panel(row:row + last - first, column) &
-                                                             + child%update(first:last, j)
+               !$omp simd
+               do i = 0, last - first
+                  front%panel(row + i, column) = front%panel(row + i, column) + child%update(first + i, j)
+               end do
             else
-               associate (below => front%update(row - front%p:row - front%p + last - first, column - front%p))
-                  below = below + child%update(first:last, j)
-               end associate
+               row = row - front%p
+               !$omp simd
+               do i = 0, last - first
+                  front%update(row + i, column - front%p) = front%update(row + i, column - front%p) + child%update(first + i, j)
+               end do
             end if
          end do
       end do

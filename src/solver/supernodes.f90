@@ -25,7 +25,7 @@ module supernodes
 
    ! A child goes into its parent where no larger share of the front that results is zeros.
    integer, parameter  :: merged_pivots(4) = [16, 48, 96, huge(1)]
-   real(wp), parameter :: merged_zeros(4) = [1.0_wp, 0.5_wp, 0.2_wp, 0.05_wp]
+   real(wp), parameter :: merged_zeros(4) = [1.0_wp, 0.3_wp, 0.1_wp, 0.02_wp]
 
 contains
 
