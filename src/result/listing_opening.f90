@@ -163,7 +163,7 @@ contains
          call count_line('FRONTS', size(system%tree%tree%fronts, kind=long))
          call count_line('ENTRIES OF THE FACTOR', system%tree%factor_entries)
          call count_line('UNKNOWNS LEFT AFTER CONDENSATION', size(system%equations, kind=long))
-         solver = 'TREE, JOINTS '//trim(merge('LAST  ', 'INSIDE', system%tree%joints_last))
+         solver = 'TREE, JOINTS '//system%tree%way
       else
          call count_line('PROFILE OF THE STIFFNESS MATRIX, ENTRIES', system%skyline%profile)
          call count_line('   IN THE ORDER OF THE NODE NUMBERS', system%skyline%profile_as_numbered)

@@ -9,7 +9,7 @@ module front_layout
    implicit none
    private
 
-   public :: lay_out_fronts, front_operations
+   public :: lay_out_fronts, postpone_joints, front_operations
 
    !> Fronts stand in the order of elimination: children before parents, a subtree without gaps.
    type, public :: front_layout_type
@@ -58,6 +58,37 @@ contains
       call merge_supernodes(supers, joints_last)
       call number_fronts(supers, layout)
    end subroutine lay_out_fronts
+
+
+   !> In every subtree of at most LARGEST nodes the nodes with IN_JOINT go to the end of ORDER: what is behind them is condensed
+   !! onto them, as joints last do it for whole bodies.
+   subroutine postpone_joints(graph, in_joint, largest, order)
+      type(node_graph_type), intent(in) :: graph
+      logical, intent(in)               :: in_joint(:) !! (graph%n)
+      integer, intent(in)               :: largest
+      integer, intent(inout)            :: order(:)
+      integer, allocatable :: place(:), parent(:), nodes(:)
+      integer :: first, j, root
+
+      call number_places(graph, order, place)
+      call find_parents(graph, order, place, size(order), parent)
+      call order_depth_first(parent, order)
+      allocate (nodes(size(order)), source=1)      ! of the subtree
+      do j = 1, size(order)
+         if (parent(j) > 0) nodes(parent(j)) = nodes(parent(j)) + nodes(j)
+      end do
+      root = size(order)
+      do while (root > 0)
+         first = root - nodes(root) + 1
+         if (nodes(root) <= largest) then
+            order(first:root) = [pack(order(first:root), .not. in_joint(order(first:root))), &
+                                 pack(order(first:root), in_joint(order(first:root)))]
+            root = first - 1
+         else
+            root = root - 1
+         end if
+      end do
+   end subroutine postpone_joints
 
 
    !> Multiplications and additions, taken together, of the elimination of P of P + R unknowns in a dense front.

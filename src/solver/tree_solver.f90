@@ -1,11 +1,12 @@
-!> The solver TREE: the fronts of a nested dissection, of which only those on the way from the joints to the root move. Two ways
-!! to order the same structure are laid out, and the one with less work over all increments is taken:
+!> The solver TREE: the fronts of a nested dissection, of which only those on the way from the joints to the root move. The same
+!! dissection is laid out in several ways, and the one with least work over all increments is taken:
 !! joints last: the bodies are condensed onto the joints, one dense front with all their unknowns is left;
-!! joints inside: they stay where the dissection puts them.
+!! joints inside: they stay where the dissection puts them;
+!! joints last in parts: in every subtree up to some size they come last, the bodies are condensed piece by piece.
 module tree_solver
    use equation_numbering, only: equation_numbers, number_unknowns
    use failures, only: failure_type
-   use front_layout, only: front_layout_type, lay_out_fronts
+   use front_layout, only: front_layout_type, lay_out_fronts, postpone_joints
    use front_tree, only: front_tree_type, start_front_tree
    use kinds, only: long, wp
    use machine, only: available_memory
@@ -20,9 +21,11 @@ module tree_solver
 
    real(wp), parameter :: entry_operations = 25.0_wp !! what it costs to move one entry of a front, in operations on it
 
+   integer, parameter :: part_nodes(3) = [200, 800, 3200] ! sizes of subtrees that are tried
+
    type, public :: tree_solver_type
       type(front_tree_type) :: tree
-      logical :: joints_last = .false.            !! which of the two ways
+      character(:), allocatable :: way            !! in which the joints are laid out
       integer :: n_moving = 0                     !! unknowns of the fronts that move
       integer(long) :: factor_entries = 0
       real(wp) :: fixed_operations  = 0.0_wp      !! of one factorisation of the fronts that do not move
@@ -42,7 +45,7 @@ contains
       class(equation_numbers), intent(inout) :: numbers
       type(tree_solver_type), intent(out)    :: solver
       type(failure_type), intent(inout)      :: failure
-      type(front_layout_type) :: inside, last
+      type(front_layout_type) :: layout
       integer, allocatable    :: order(:), weight(:)
       integer :: f, i, n
       logical :: ok
@@ -56,18 +59,15 @@ contains
          call failure%raise('no memory to order '//integer_text(count(weight > 0))//' nodes')
          return
       end if
-      call lay_out_fronts(graph, order, weight, in_joint, .false., inside)
-      call lay_out_fronts(graph, order, weight, in_joint, .true., last)
-      solver%joints_last = total_work(last, factorisations) <= total_work(inside, factorisations)
-      if (solver%joints_last) inside = last
-      call check_memory(sum(weight), model%dimension, inside, failure)
+      call choose_layout(graph, order, weight, in_joint, factorisations, layout, solver%way)
+      call check_memory(sum(weight), model%dimension, layout, failure)
       if (failure%raised) return
-      call number_unknowns(model, inside%order, numbers)
-      call start_front_tree(model, numbers%number, inside, solver%tree)
-      solver%factor_entries = int(inside%factor_entries, long)
-      solver%fixed_operations = inside%fixed_operations
-      solver%moving_operations = inside%moving_operations
-      solver%moving_entries = inside%moving_entries
+      call number_unknowns(model, layout%order, numbers)
+      call start_front_tree(model, numbers%number, layout, solver%tree)
+      solver%factor_entries = int(layout%factor_entries, long)
+      solver%fixed_operations = layout%fixed_operations
+      solver%moving_operations = layout%moving_operations
+      solver%moving_entries = layout%moving_entries
       allocate (solver%moving(sum(solver%tree%fronts%p, mask=solver%tree%fronts%moves)))
       n = 0
       do f = 1, size(solver%tree%fronts)
@@ -79,6 +79,42 @@ contains
       end do
       solver%n_moving = n
    end subroutine start_tree_solver
+
+
+   !> The LAYOUT with least work for so many FACTORISATIONS, and in words which WAY it has with the joints.
+   subroutine choose_layout(graph, order, weight, in_joint, factorisations, layout, way)
+      type(node_graph_type), intent(in)      :: graph
+      integer, intent(in)                    :: order(:), weight(:), factorisations
+      logical, intent(in)                    :: in_joint(:)
+      type(front_layout_type), intent(inout) :: layout
+      character(:), allocatable, intent(out) :: way
+      integer, allocatable :: postponed(:)
+      integer :: i
+
+      way = 'LAST'
+      call lay_out_fronts(graph, order, weight, in_joint, .true., layout)
+      call compare_with(order, 'INSIDE')
+      if (way == 'LAST') return
+      do i = 1, size(part_nodes)
+         postponed = order
+         call postpone_joints(graph, in_joint, part_nodes(i), postponed)
+         call compare_with(postponed, 'LAST IN PARTS')
+      end do
+
+   contains
+
+      subroutine compare_with(other, its_way)
+         integer, intent(in)      :: other(:)
+         character(*), intent(in) :: its_way
+         type(front_layout_type)  :: candidate
+
+         call lay_out_fronts(graph, other, weight, in_joint, .false., candidate)
+         if (total_work(candidate, factorisations) >= total_work(layout, factorisations)) return
+         layout = candidate
+         way = its_way
+      end subroutine compare_with
+
+   end subroutine choose_layout
 
 
    !> Operations of the whole run.
