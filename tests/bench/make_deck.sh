@@ -4,7 +4,8 @@
 #    make_deck.sh SHAPE SOLVER OUTPUT [NREAN]
 #
 # SHAPE  q4_100x20: a plate of 100 x 20 CQUAD4, the second number its height; hex8_20x20x10: a block of 20 x 20 x 10 CHEXA, the
-#        last number its height. The whole bottom stands on a rigid base by a joint, 20 increments press on the top out of centre.
+#        last number its height. The whole bottom stands on a rigid base by a joint. 20 increments press on the whole top, and out
+#        of centre on one node: the pressure is uneven, and the joint stays closed.
 # SOLVER, OUTPUT  as in case control
 # NREAN  given: the joint has shear laws and a friction limit that it exceeds in every increment, and so many re-analyses
 set -eu
@@ -17,25 +18,21 @@ JSHEAR,1,100.0,300.0"
 
 case $shape in
 q4_*)
-   top=$(( (nx + 1)*(n2 + 1) ))
    mesh="BLOCK2,1,1,$nx,$n2,0.0,0.0
 +,300.0,100.0
-+,20,21
++,20,21,23
 PSHELL,1,1,20.0"
    supports='SPCM,1,1,21'
-   loads="FORCE,10,$(( top - nx/3 )),,800.0,0.0,-1.0
-FORCE,10,$(( top - nx + nx/5 - 1 )),,800.0,0.0,-1.0" ;;
+   loads="FORCE,10,$(( (2*nx/3 + 1)*(n2 + 1) )),,200.0,0.0,-1.0" ;;
 hex8_*)
-   top=$(( (nx + 1)*(n2 + 1)*(n3 + 1) ))
    mesh="BLOCK3,1,1,$nx,$n3,$n2,0.0,0.0,0.0
 +,150.0,150.0,150.0,,,,1,1
-+,,21,20,,22
++,,21,20,23,22
 PMARK,22
 PSOLID,1,1"
    supports='SPCM,1,1,21
 SPCM,1,3,22'
-   loads="FORCE,10,$top,,800.0,0.0,-1.0
-FORCE,10,$(( top - nx/3 )),,800.0,0.0,-1.0" ;;
+   loads="FORCE,10,$(( (nx + 1)*(n2 + 1)*(n3 + 1) )),,100.0,0.0,-1.0" ;;
 *)
    echo "make_deck.sh: '$shape' is no shape, expected q4_NxM or hex8_NxMxK" >&2
    exit 1 ;;
@@ -55,10 +52,12 @@ $mesh
 MAT1,1,9500.0,,0.25
 PMARK,20
 PMARK,21
+PMARK,23
 JOINT,1,1,20
 $laws
 JNORM,1,8.0-3,0.5
 $supports
+FORCEM,10,1600.0,0.0,-1.0,0.0,23
 $loads
 JINCR,5,20,ARITH,0.02
 ENDDATA
