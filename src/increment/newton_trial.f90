@@ -1,0 +1,218 @@
+!> A trial of METHOD = NEWTON: displacements, joints, what is unbalanced; the step along a direction, and how it becomes the state.
+module newton_trial
+   use analysis_state, only: analysis_type, free_norm, recover_bodies, tally_work
+   use equations, only: body_forces, equation_system
+   use joint_laws, only: element_state, follow_element, rest_when_open
+   use kinds, only: wp
+   use model_data, only: joint_movement, model_type
+   implicit none
+   private
+
+   public :: start_trial, evaluate, swap, take_whole_step, search, commit, support_force
+
+   real(wp), parameter :: enough = 0.8_wp             ! line search: the unbalanced work falls to this share or is searched
+
+   !> A trial: displacements, the joints that follow from them, and what is out of balance. Arrays over nodes hold retained nodes.
+   type, public :: trial_type
+      real(wp), allocatable :: u(:, :), body(:, :)    ! (dimension, n_nodes) displacements, forces in the bodies
+      type(element_state), allocatable :: states(:)
+      real(wp), allocatable :: tangent(:, :, :)       ! (3, 3, n) in joint axes
+      real(wp), allocatable :: work(:, :)             ! (2, n) since the committed state
+      real(wp), allocatable :: residual(:, :)
+      real(wp) :: size = 0.0_wp                       ! of the residual on free components [force]
+   end type trial_type
+
+contains
+
+   !> The committed state as a trial.
+   subroutine start_trial(model, system, analysis, trial)
+      type(model_type), intent(in)      :: model
+      type(equation_system), intent(in) :: system
+      type(analysis_type), intent(in)   :: analysis
+      type(trial_type), intent(out)     :: trial
+
+      trial%u = analysis%u
+      allocate (trial%body, trial%residual, mold=analysis%u)
+      allocate (trial%tangent(3, 3, size(model%interface)), trial%work(2, size(model%interface)))
+      trial%states = analysis%states
+      call body_forces(system, trial%u, trial%body)
+   end subroutine start_trial
+
+
+   !> Exchange two trials.
+   subroutine swap(a, b)
+      type(trial_type), intent(inout) :: a, b
+      type(trial_type) :: c
+
+      call hand_over(a, c)
+      call hand_over(b, a)
+      call hand_over(c, b)
+   end subroutine swap
+
+
+   subroutine hand_over(from, to)
+      type(trial_type), intent(inout) :: from, to
+
+      call move_alloc(from%u, to%u)
+      call move_alloc(from%body, to%body)
+      call move_alloc(from%states, to%states)
+      call move_alloc(from%tangent, to%tangent)
+      call move_alloc(from%work, to%work)
+      call move_alloc(from%residual, to%residual)
+      to%size = from%size
+   end subroutine hand_over
+
+
+   !> What the supports take under the displacements U of retained nodes [force].
+   real(wp) function support_force(model, system, analysis, u) result(force)
+      type(model_type), intent(in)      :: model
+      type(equation_system), intent(in) :: system
+      type(analysis_type), intent(in)   :: analysis
+      real(wp), intent(in)              :: u(:, :)
+      type(analysis_type) :: moved
+
+      moved = analysis
+      moved%u = u
+      call recover_bodies(model, system, moved)
+      force = norm2(pack(moved%unbalanced, model%held))
+   end function support_force
+
+
+   !> Joints and residual of TRIAL, whose displacements and body forces are set.
+   subroutine evaluate(model, load, analysis, trial)
+      type(model_type), intent(in)    :: model
+      real(wp), intent(in)            :: load(:, :)
+      type(analysis_type), intent(in) :: analysis
+      type(trial_type), intent(inout) :: trial
+      real(wp) :: force(3)
+      integer  :: i
+
+      associate (r => analysis%retained)
+         trial%residual(:, r) = load(:, r) - trial%body(:, r)
+      end associate
+      do i = 1, size(model%interface)
+         associate (element => model%interface(i), state => trial%states(i), d => model%dimension)
+            call follow_element(model%joints(element%joint)%law, element%area, analysis%states(i), &
+                                joint_movement(model, trial%u, i), state, trial%tangent(:, :, i), trial%work(:, i))
+            force = matmul(element%axes, [state%shear%tau*element%area, state%normal%sumf])
+            trial%residual(:, element%nodes(1)) = trial%residual(:, element%nodes(1)) - force(:d)
+            if (element%nodes(2) > 0) &
+               trial%residual(:, element%nodes(2)) = trial%residual(:, element%nodes(2)) + force(:d)
+         end associate
+      end do
+      trial%size = free_norm(model, trial%residual, analysis%retained)
+   end subroutine evaluate
+
+
+   !> The step that moves the supports: it cannot be shortened.
+   subroutine take_whole_step(model, system, load, analysis, now, direction, next)
+      type(model_type), intent(in)      :: model
+      type(equation_system), intent(in) :: system
+      real(wp), intent(in)              :: load(:, :)
+      type(analysis_type), intent(in)   :: analysis
+      type(trial_type), intent(in)      :: now
+      real(wp), intent(in)              :: direction(:, :)
+      type(trial_type), intent(inout)   :: next
+
+      associate (r => analysis%retained)
+         next%u(:, r) = now%u(:, r) + direction(:, r)
+      end associate
+      call body_forces(system, next%u, next%body)
+      call evaluate(model, load, analysis, next)
+   end subroutine take_whole_step
+
+
+   !> Line search: the step along DIRECTION at which the unbalanced forces do (next to) no work on it any more.
+   subroutine search(model, system, load, analysis, now, direction, next, step)
+      type(model_type), intent(in)      :: model
+      type(equation_system), intent(in) :: system
+      real(wp), intent(in)              :: load(:, :)
+      type(analysis_type), intent(in)   :: analysis
+      type(trial_type), intent(in)      :: now
+      real(wp), intent(in)              :: direction(:, :)
+      type(trial_type), intent(inout)   :: next
+      real(wp), intent(out)             :: step
+      real(wp), allocatable :: body(:, :)
+      real(wp) :: g_0, g, low, high, g_low, g_high
+      integer  :: attempt
+
+      allocate (body, mold=direction)
+      call body_forces(system, direction, body)
+      g_0 = work_on(now)
+      step = 1.0_wp
+      call try(step, g)
+      if (next%size <= 0.5_wp*now%size .or. abs(g) <= enough*abs(g_0)) return
+      low = 0.0_wp
+      g_low = g_0
+      high = 1.0_wp
+      g_high = g
+      do attempt = 1, 12
+         if (g_low*g_high > 0.0_wp) then                   ! the work does not change sign: only shorter steps help
+            step = 0.5_wp*step
+         else
+            step = (low*g_high - high*g_low)/(g_high - g_low)
+            step = min(max(step, low + 0.05_wp*(high - low)), high - 0.05_wp*(high - low))
+         end if
+         call try(step, g)
+         if (abs(g) <= 0.5_wp*abs(g_0) .or. next%size <= 0.5_wp*now%size) return
+         if (g_low*g > 0.0_wp .and. g_low*g_high <= 0.0_wp) then
+            low = step
+            g_low = g
+         else
+            high = step
+            g_high = g
+         end if
+      end do
+
+   contains
+
+      subroutine try(alpha, g_alpha)
+         real(wp), intent(in)  :: alpha
+         real(wp), intent(out) :: g_alpha
+
+         associate (r => analysis%retained)
+            next%u(:, r) = now%u(:, r) + alpha*direction(:, r)
+            next%body(:, r) = now%body(:, r) + alpha*body(:, r)
+         end associate
+         call evaluate(model, load, analysis, next)
+         g_alpha = work_on(next)
+      end subroutine try
+
+      !> Work of the unbalanced forces of TRIAL on DIRECTION.
+      real(wp) function work_on(trial) result(work)
+         type(trial_type), intent(in) :: trial
+
+         associate (r => analysis%retained)
+            work = sum(trial%residual(:, r)*direction(:, r), mask=.not. model%held(:, r))
+         end associate
+      end function work_on
+
+   end subroutine search
+
+
+   !> The trial is in equilibrium: it becomes the state of the structure.
+   subroutine commit(model, trial, analysis)
+      type(model_type), intent(in)       :: model
+      type(trial_type), intent(in)       :: trial
+      type(analysis_type), intent(inout) :: analysis
+      integer :: i
+
+      associate (r => analysis%retained)
+         analysis%u(:, r) = trial%u(:, r)
+      end associate
+      do i = 1, size(model%interface)
+         call tally_work(analysis%energy(model%interface(i)%joint), trial%work(:, i))
+         analysis%states(i) = trial%states(i)
+         associate (state => analysis%states(i))
+            state%normal%k_n = trial%tangent(3, 3, i)
+            state%shear(1)%k_s = trial%tangent(1, 1, i)
+            state%shear(2)%k_s = trial%tangent(2, 2, i)
+            call rest_when_open(state, joint_movement(model, analysis%u, i))
+         end associate
+      end do
+      associate (r => analysis%retained)
+         analysis%unbalanced(:, r) = trial%residual(:, r)
+      end associate
+   end subroutine commit
+
+end module newton_trial
