@@ -1,8 +1,7 @@
 !> The equations of the structure, whichever solver has them: SKYLINE or TREE. The increments see displacements and forces of
 !! nodes, and of these only the retained ones: all nodes with SKYLINE, with TREE those that are left when the bodies have been
 !! condensed. One order of use: start_equations, form_body_stiffness; condense_load for every load; in every increment
-!! form_structure_stiffness, then solve_equations and body_forces as often as needed; recover_displacements where all nodes are
-!! wanted.
+!! form_structure_stiffness, then solve_equations and body_forces as often as needed; recover_displacements for all nodes.
 module equations
    use bar_elements, only: bar_stiffness
    use conjugate_gradients, only: iterate_moving
@@ -322,8 +321,7 @@ contains
    end subroutine body_forces
 
 
-   !> Displacements of all nodes from those of the retained ones and the forces F on all nodes. Held components are left as they
-   !! are.
+   !> Displacements of all nodes from those of the retained ones and the forces F on all nodes. Held components are not touched.
    subroutine recover_displacements(system, f, u)
       type(equation_system), intent(in) :: system
       real(wp), intent(in)              :: f(:, :) !! (dimension, n_nodes) [force]
