@@ -29,7 +29,8 @@ module deck_input
       logical :: is_whole = .false. !! false: a part of the deck is missing, what refers to it cannot be checked
    end type deck_type
 
-   ! every card, in alphabetical order (it is searched by halves); a new one is added here, to the select case below and to the room
+   ! every card, in alphabetical order (it is searched by halves); a new one is added here, to the select case below and to the
+   ! room
    character(8), parameter :: known_cards(34) = [character(8) :: 'BLOCK2', 'BLOCK3', 'BOLT', 'CBAR', 'CHEXA', 'CJOINT', &
       'CPENTA', 'CQUAD4', 'CROD', 'CTETRA', 'CTRIA3', 'FORCE', 'FORCEM', 'GRAV', 'GRID', 'JINCR', 'JNORM', 'JOINT', 'JSHEAR', &
       'LOAD', 'MAT1', 'PAXIS', 'PJOINT', 'PLOAD4', 'PLOADE', 'PLOADM', 'PMARK', 'PROD', 'PSHELL', 'PSOLID', 'SPC', 'SPC1', &

@@ -28,8 +28,8 @@ module analysis_state
       integer  :: part = 0                          !! NEWTON: which part of a divided increment; BACK: -1
    end type pass_record
 
-   !> Arrays over nodes are (dimension, n_nodes). In the increments displacements and unbalanced forces are those of the nodes that
-   !! the equations retain; recover_bodies completes them.
+   !> Arrays over nodes are (dimension, n_nodes). In the increments displacements and unbalanced forces are those of the nodes
+   !! that the equations retain; recover_bodies completes them.
    type, public :: analysis_type
       integer  :: stage = 0, increment = 0
       real(wp) :: share = 0.0_wp                    !! of the stage's load change, this increment

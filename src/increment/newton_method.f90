@@ -204,7 +204,123 @@ contains
    end subroutine find_direction
 
 
+<<<<<<< HEAD
    !> No part of the increment is small enough: say why, as far as it can be told, and which element changed its branch most often.
+=======
+   !> The step that moves the supports: it cannot be shortened.
+   subroutine take_whole_step(model, system, load, analysis, now, direction, next)
+      type(model_type), intent(in)      :: model
+      type(equation_system), intent(in) :: system
+      real(wp), intent(in)              :: load(:, :)
+      type(analysis_type), intent(in)   :: analysis
+      type(trial_type), intent(in)      :: now
+      real(wp), intent(in)              :: direction(:, :)
+      type(trial_type), intent(inout)   :: next
+
+      associate (r => analysis%retained)
+         next%u(:, r) = now%u(:, r) + direction(:, r)
+      end associate
+      call body_forces(system, next%u, next%body)
+      call evaluate(model, load, analysis, next)
+   end subroutine take_whole_step
+
+
+   !> Line search: the step along DIRECTION at which the unbalanced forces do (next to) no work on it any more.
+   subroutine search(model, system, load, analysis, now, direction, next, step)
+      type(model_type), intent(in)      :: model
+      type(equation_system), intent(in) :: system
+      real(wp), intent(in)              :: load(:, :)
+      type(analysis_type), intent(in)   :: analysis
+      type(trial_type), intent(in)      :: now
+      real(wp), intent(in)              :: direction(:, :)
+      type(trial_type), intent(inout)   :: next
+      real(wp), intent(out)             :: step
+      real(wp), allocatable :: body(:, :)
+      real(wp) :: g_0, g, low, high, g_low, g_high
+      integer  :: attempt
+
+      allocate (body, mold=direction)
+      call body_forces(system, direction, body)
+      g_0 = work_on(now)
+      step = 1.0_wp
+      call try(step, g)
+      if (next%size <= 0.5_wp*now%size .or. abs(g) <= enough*abs(g_0)) return
+      low = 0.0_wp
+      g_low = g_0
+      high = 1.0_wp
+      g_high = g
+      do attempt = 1, 12
+         if (g_low*g_high > 0.0_wp) then                   ! the work does not change sign: only shorter steps help
+            step = 0.5_wp*step
+         else
+            step = (low*g_high - high*g_low)/(g_high - g_low)
+            step = min(max(step, low + 0.05_wp*(high - low)), high - 0.05_wp*(high - low))
+         end if
+         call try(step, g)
+         if (abs(g) <= 0.5_wp*abs(g_0) .or. next%size <= 0.5_wp*now%size) return
+         if (g_low*g > 0.0_wp .and. g_low*g_high <= 0.0_wp) then
+            low = step
+            g_low = g
+         else
+            high = step
+            g_high = g
+         end if
+      end do
+
+   contains
+
+      subroutine try(alpha, g_alpha)
+         real(wp), intent(in)  :: alpha
+         real(wp), intent(out) :: g_alpha
+
+         associate (r => analysis%retained)
+            next%u(:, r) = now%u(:, r) + alpha*direction(:, r)
+            next%body(:, r) = now%body(:, r) + alpha*body(:, r)
+         end associate
+         call evaluate(model, load, analysis, next)
+         g_alpha = work_on(next)
+      end subroutine try
+
+      !> Work of the unbalanced forces of TRIAL on DIRECTION.
+      real(wp) function work_on(trial) result(work)
+         type(trial_type), intent(in) :: trial
+
+         associate (r => analysis%retained)
+            work = sum(trial%residual(:, r)*direction(:, r), mask=.not. model%held(:, r))
+         end associate
+      end function work_on
+
+   end subroutine search
+
+
+   !> The trial is in equilibrium: it becomes the state of the structure.
+   subroutine commit(model, trial, analysis)
+      type(model_type), intent(in)       :: model
+      type(trial_type), intent(in)       :: trial
+      type(analysis_type), intent(inout) :: analysis
+      integer :: i
+
+      associate (r => analysis%retained)
+         analysis%u(:, r) = trial%u(:, r)
+      end associate
+      do i = 1, size(model%interface)
+         call tally_work(analysis%energy(model%interface(i)%joint), trial%work(:, i))
+         analysis%states(i) = trial%states(i)
+         associate (state => analysis%states(i))
+            state%normal%k_n = trial%tangent(3, 3, i)
+            state%shear(1)%k_s = trial%tangent(1, 1, i)
+            state%shear(2)%k_s = trial%tangent(2, 2, i)
+            call rest_when_open(state, joint_movement(model, analysis%u, i))
+         end associate
+      end do
+      associate (r => analysis%retained)
+         analysis%unbalanced(:, r) = trial%residual(:, r)
+      end associate
+   end subroutine commit
+
+
+   !> No part of the increment is small enough: say why, as far as it can be told, and which element changed branch most often.
+>>>>>>> h_docs
    subroutine give_up(model, plan, analysis, flips, loose, imprecise, failure)
       type(model_type), intent(in)       :: model
       type(stage_plan_type), intent(in)  :: plan

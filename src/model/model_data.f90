@@ -63,7 +63,7 @@ module model_data
       integer :: n = 0
       integer, allocatable  :: node(:)       !! (n), a node may stand here more than once
       real(wp), allocatable :: force(:, :)   !! (3, n)
-      real(wp), allocatable :: moved(:, :)   !! (dimension, n_nodes) displacements of held components [length]; where there are any
+      real(wp), allocatable :: moved(:, :)   !! (dimension, n_nodes) of held components [length]; where any move
    end type stage_load_type
 
    !> A bar, which may be a bolt.

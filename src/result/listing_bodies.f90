@@ -83,8 +83,8 @@ contains
       call heading(file, 'STRESSES AT THE CENTRES OF ELEMENTS'//where_now(plan, analysis)// &
                    in_units(labels%pressure))
       if (model%dimension == 3) then
-         call file%put('    ELEMENT     CENTRE X     CENTRE Y     CENTRE Z      SIGMA X      SIGMA Y      SIGMA Z       TAU XY'// &
-                       '       TAU YZ       TAU ZX')
+         call file%put('    ELEMENT     CENTRE X     CENTRE Y     CENTRE Z      SIGMA X      SIGMA Y      SIGMA Z'// &
+                       '       TAU XY       TAU YZ       TAU ZX')
       else if (model%axisymmetric) then
          call file%put('    ELEMENT     CENTRE X     CENTRE Y      SIGMA X      SIGMA Y   SIGMA HOOP       TAU XY')
       else

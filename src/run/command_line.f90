@@ -238,7 +238,7 @@ contains
          '   --check       read and check the decks, solve nothing'//nl// &
          '   -q            no progress on the terminal'//nl// &
          '   --threads N   at most N threads (default: all cores; the results do not depend on it)'//nl// &
-         '   --times       print the seconds of each phase of the run, and the memory it took'//nl// &
+         '   --times       print seconds of each phase, operations and memory, on the standard error'//nl// &
          '   --version     print the version'//nl// &
          '   --help        print this'//nl// &
          ''//nl// &

@@ -1,5 +1,5 @@
-!> Progress on the terminal: the phase of the run, increment of how many, time left. Nothing where the standard error is no terminal.
-!! With --times, at the end, the seconds that each phase took.
+!> Progress on the terminal: the phase of the run, increment of how many, time left. Nothing where the standard error is no
+!! terminal. With --times, at the end: the seconds that each phase took, operations, memory.
 module progress
    use, intrinsic :: iso_fortran_env, only: error_unit
    use c_library, only: is_terminal

@@ -5,7 +5,7 @@ module blas_lapack
    implicit none
    private
 
-   public :: ddot, dgemm, dgemv, dpotrf, dsymv, dsyrk, dtrsm, dtrsv
+   public :: ddot, dgemm, dgemv, dpotrf, dsymv, dtrsm, dtrsv
 
    interface
 
@@ -52,15 +52,6 @@ module blas_lapack
          real(wp), intent(in)    :: alpha, beta, a(lda, *), x(*)
          real(wp), intent(inout) :: y(*)
       end subroutine dsymv
-
-      !> C = alpha A A^T + beta C in one triangle
-      pure subroutine dsyrk(uplo, trans, n, k, alpha, a, lda, beta, c, ldc)
-         import :: wp
-         character, intent(in)   :: uplo, trans
-         integer, intent(in)     :: n, k, lda, ldc
-         real(wp), intent(in)    :: alpha, beta, a(lda, *)
-         real(wp), intent(inout) :: c(ldc, *)
-      end subroutine dsyrk
 
       !> B = alpha op(inv(A)) B or alpha B op(inv(A)), A triangular
       pure subroutine dtrsm(side, uplo, transa, diag, m, n, alpha, a, lda, b, ldb)

@@ -22,7 +22,7 @@ contains
       real(wp), intent(in)              :: k_int(:, :, :) !! (6, 6, n) of interface elements
       real(wp), intent(in)              :: tolerance
       integer, intent(in)               :: most_steps
-      real(wp), intent(inout)           :: x(:)           !! (n) b on entry, the solution on return; other equations are not touched
+      real(wp), intent(inout)           :: x(:)           !! (n) b on entry, the solution on return; untouched elsewhere
       integer, intent(out)              :: steps
       real(wp), allocatable :: residual(:), z(:), direction(:), product(:), u(:)
       real(wp) :: alpha, before, first, now

@@ -13,8 +13,8 @@ module coupled_solution
 
 contains
 
-   !> Displacements U of the retained nodes with ([k] + [r]) U = F on the free components; [k] is the factor in SYSTEM. The residual is
-   !! brought below TOLERANCE times that of U = 0, or as far as MOST_STEPS steps go: the caller iterates anyway.
+   !> Displacements U of the retained nodes with ([k] + [r]) U = F on the free components; [k] is the stiffness in SYSTEM. The
+   !! residual is brought below TOLERANCE times that of U = 0, or as far as MOST_STEPS steps go: the caller iterates anyway.
    subroutine solve_coupled(model, system, rest, f, tolerance, most_steps, u)
       type(model_type), intent(in)      :: model
       type(equation_system), intent(inout) :: system
@@ -83,7 +83,7 @@ contains
    subroutine solve_moved(model, system, k_int, f, moved, u)
       type(model_type), intent(in)      :: model
       type(equation_system), intent(inout) :: system
-      real(wp), intent(in)              :: k_int(:, :, :) !! (3, 3, n) as in the factor in SYSTEM [force/length]
+      real(wp), intent(in)              :: k_int(:, :, :) !! (3, 3, n) as in the stiffness in SYSTEM [force/length]
       real(wp), intent(in)              :: f(:, :)        !! (dimension, n_nodes) [force]
       real(wp), intent(in)              :: moved(:, :)    !! (dimension, n_nodes), zero on free components [length]
       real(wp), intent(inout)           :: u(:, :)        !! (dimension, n_nodes), set where retained [length]

@@ -1,7 +1,7 @@
 !> The equations of the structure, whichever solver has them: SKYLINE or TREE. The increments see displacements and forces of
 !! nodes, and of these only the retained ones: all nodes with SKYLINE, with TREE those that are left when the bodies have been
 !! condensed. One order of use: start_equations, form_body_stiffness; condense_load for every load; in every increment
-!! form_structure_stiffness, then solve_equations and body_forces as often as needed; recover where all nodes are wanted.
+!! form_structure_stiffness, then solve_equations and body_forces as often as needed; recover_displacements for all nodes.
 module equations
    use bar_elements, only: bar_stiffness
    use conjugate_gradients, only: iterate_moving
@@ -25,13 +25,13 @@ module equations
    public :: start_equations, form_body_stiffness, add_bar, lock_unknown, condense_load, form_structure_stiffness, &
              solve_equations, check_solution, body_forces, recover_displacements
 
-   ! AUTO takes SKYLINE for small structures, where the time does not matter and the method can be read, and for narrow ones, where
-   ! it is the faster:
+   ! AUTO takes SKYLINE for small structures, where the time does not matter and the method can be read, and for narrow ones,
+   ! where it is the faster:
    integer, parameter :: small = 1000           ! unknowns
    integer, parameter :: narrow = 16            ! entries in a column, on the average
    integer, parameter :: most_tried = 100000    ! unknowns up to which the profile is looked at
 
-   real(wp), parameter :: step_tolerance = 1.0e-13_wp    !! of conjugate gradients: share of the energy of the solution, as a length
+   real(wp), parameter :: step_tolerance = 1.0e-13_wp !! of conjugate gradients: share of the energy of the solution, as a length
 
    type, extends(equation_numbers), public :: equation_system
       logical :: is_tree = .false.              !! which of the two
@@ -206,9 +206,9 @@ contains
    end subroutine condense_load
 
 
-   !> [k_s] = [k_b] + sum of [k_int], Eq. (8), factorised; with TREE, and where one solution is all that is wanted, the last factor
-   !! may do for that instead. A structure without stiffness in some direction is a failure that names the node; WHERE says in
-   !! which increment.
+   !> [k_s] = [k_b] + sum of [k_int], Eq. (8), factorised; with TREE, and where one solution is all that is wanted, an earlier
+   !! factor may do for that instead. A structure without stiffness in some direction is a failure that names the node; WHERE
+   !! says in which increment.
    subroutine form_structure_stiffness(model, k_int, where, system, failure, many_solutions)
       type(model_type), intent(in)         :: model
       real(wp), intent(in)                 :: k_int(:, :, :) !! (3, 3, n) of interface elements, in their axes [force/length]
@@ -321,7 +321,7 @@ contains
    end subroutine body_forces
 
 
-   !> Displacements of all nodes from those of the retained ones and the forces F on all nodes. Held components are left as they are.
+   !> Displacements of all nodes from those of the retained ones and the forces F on all nodes. Held components are not touched.
    subroutine recover_displacements(system, f, u)
       type(equation_system), intent(in) :: system
       real(wp), intent(in)              :: f(:, :) !! (dimension, n_nodes) [force]

@@ -29,7 +29,8 @@ module front_layout
 
 contains
 
-   !> Lay out the fronts of GRAPH eliminated along ORDER. With JOINTS_LAST the nodes with IN_JOINT go to the end, all into one front.
+   !> Lay out the fronts of GRAPH eliminated along ORDER. With JOINTS_LAST the nodes with IN_JOINT go to the end, all into one
+   !! front.
    subroutine lay_out_fronts(graph, order, weight, in_joint, joints_last, layout)
       type(node_graph_type), intent(in)    :: graph
       integer, intent(in)                  :: order(:)     !! nodes; those that it leaves out are no part of the matrix

@@ -12,7 +12,7 @@ module front_solve
 
 contains
 
-   !> Carry X, loads on all equations, over to the equations that move: L y = x on the fronts that do not move. On them X is y then.
+   !> Carry X, loads on all equations, over to the equations that move: L y = x on the fronts that do not move. There X is y then.
    subroutine eliminate_fixed(tree, x)
       type(front_tree_type), intent(in) :: tree
       real(wp), intent(inout)           :: x(tree%n)

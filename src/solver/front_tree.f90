@@ -1,5 +1,5 @@
 !> The tree of dense fronts of a multifrontal factorisation, and how matrices of elements come into it. Fronts that do not move
-!! have no unknown of a joint in their subtree; they are eliminated once. The others are assembled and eliminated in every increment.
+!! have no unknown of a joint in their subtree; they are eliminated once. The others are assembled and eliminated again and again.
 !! Sources: Duff, Reid, ACM Trans. Math. Softw. 9 (1983) 302-325; Liu, SIAM Review 34 (1992) 82-109.
 module front_tree
    use body_elements, only: coupled_stiffness
@@ -47,7 +47,7 @@ module front_tree
 
 contains
 
-   !> The tree of LAYOUT with the equations NUMBER: no matrix yet. IN_JOINT(node) as the layout was made with.
+   !> The tree of LAYOUT with the equations NUMBER: no matrix yet.
    subroutine start_front_tree(model, number, layout, tree)
       type(model_type), intent(in)        :: model
       integer, intent(in)                 :: number(:, :)   !! numbered along layout%order
@@ -135,7 +135,7 @@ contains
    end function is_gap
 
 
-   !> Every element, and every interface element, to the front that eliminates its first equation: all others of it are rows there.
+   !> Every element, and every interface element, to the front that eliminates its first equation: the others are rows there.
    subroutine hand_out_elements(model, tree)
       type(model_type), intent(in)         :: model
       type(front_tree_type), intent(inout) :: tree

@@ -9,6 +9,7 @@
 !!
 !! Source: Bathe, Finite Element Procedures, 2nd ed., section 8.2.3 (the active column solution).
 module skyline
+   use blas_lapack, only: ddot
    use kinds, only: long, wp
    implicit none
    private
@@ -20,15 +21,6 @@ module skyline
       integer(long), allocatable :: diagonal(:)     !! (0:n) place of a_jj in values; diagonal(0) = 0
       real(wp), allocatable      :: values(:)       !! (diagonal(n))
    end type skyline_matrix
-
-   interface
-      pure function ddot(n, x, incx, y, incy) result(product)
-         import :: wp
-         integer, intent(in)  :: n, incx, incy
-         real(wp), intent(in) :: x(*), y(*)
-         real(wp) :: product
-      end function ddot
-   end interface
 
 contains
 

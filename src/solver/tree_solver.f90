@@ -1,5 +1,5 @@
 !> The solver TREE: the fronts of a nested dissection, of which only those on the way from the joints to the root move. The same
-!! dissection is laid out in several ways, and the one with least work over all increments is taken:
+!! dissection is laid out in up to three ways, and the one with least work over all increments is taken:
 !! joints last: the bodies are condensed onto the joints, one dense front with all their unknowns is left;
 !! joints inside: they stay where the dissection puts them;
 !! joints last in parts: in every subtree up to some size they come last, the bodies are condensed piece by piece.
@@ -29,7 +29,7 @@ module tree_solver
       integer :: n_moving = 0                     !! unknowns of the fronts that move
       integer(long) :: factor_entries = 0
       real(wp) :: fixed_operations  = 0.0_wp      !! of one factorisation of the fronts that do not move
-      real(wp) :: moving_operations = 0.0_wp      !! of the others, in every increment
+      real(wp) :: moving_operations = 0.0_wp      !! of the others, in every increment that factorises
       real(wp) :: moving_entries = 0.0_wp         !! of the fronts that move
       integer, allocatable :: moving(:)           !! (n_moving) equations that move
    end type tree_solver_type
@@ -81,7 +81,8 @@ contains
    end subroutine start_tree_solver
 
 
-   !> The LAYOUT with least work for so many FACTORISATIONS, and in words which WAY it has with the joints.
+   !> The LAYOUT with least work for so many FACTORISATIONS, and in words which WAY it has with the joints. Parts are tried only
+   !! where joints inside take less than joints last.
    subroutine choose_layout(graph, order, weight, in_joint, factorisations, layout, way)
       type(node_graph_type), intent(in)      :: graph
       integer, intent(in)                    :: order(:), weight(:), factorisations
