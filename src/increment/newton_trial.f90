@@ -1,4 +1,4 @@
-!> A trial of METHOD = NEWTON: displacements, joints, what is unbalanced; the step along a direction, and how it becomes the state.
+!> A trial of METHOD = NEWTON: displacements, joints, what is unbalanced; the step along a direction; how it becomes the state.
 module newton_trial
    use analysis_state, only: analysis_type, free_norm, recover_bodies, tally_work
    use equations, only: body_forces, equation_system
