@@ -1,8 +1,7 @@
 !> jointfem: structures with flexible joints by the step-wise tangent-stiffness method.
 !! The program is the flow chart of the method (Edelugo, Fig. 6a), one call a box.
 program jointfem
-   use analysis_state, only: analysis_type, interface_stiffness, note_largest, recover_bodies, start_analysis, &
-                             start_increment, start_stage
+   use analysis_state, only: analysis_type, interface_stiffness, note_largest, start_analysis
    use back_method, only: back_increment
    use bolt_locking, only: lock_bolts
    use case_control, only: method_back, method_newton
@@ -12,6 +11,7 @@ program jointfem
    use deck_input, only: deck_type, read_deck
    use equations, only: equation_system, form_body_stiffness, start_equations
    use failures, only: failure_type
+   use load_path, only: recover_bodies, start_increment, start_stage
    use machine, only: keep_memory
    use model_build, only: build_model
    use model_data, only: model_type

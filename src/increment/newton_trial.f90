@@ -1,6 +1,7 @@
 !> A trial of METHOD = NEWTON: displacements, joints, what is unbalanced; the step along a direction; how it becomes the state.
 module newton_trial
-   use analysis_state, only: analysis_type, free_norm, recover_bodies, tally_work
+   use analysis_state, only: analysis_type, free_norm, tally_work
+   use load_path, only: recover_bodies
    use equations, only: body_forces, equation_system
    use joint_laws, only: element_state, follow_element, rest_when_open
    use kinds, only: wp
