@@ -56,6 +56,7 @@ contains
       call progress%start(argument%name, command%quiet, command%times)
       call read_deck(argument%path, deck, errors, readable)
       if (.not. readable) then
+         call progress%clear()
          call report_unreadable(argument)
          return
       else if (overwrites_input(argument, deck)) then
@@ -66,9 +67,11 @@ contains
       call progress%enter(phase_build)
       call build_model(deck, model, plan, errors)
       if (errors%any()) then
+         call progress%clear()
          call report_errors(command, argument, deck, errors)
          return
       else if (command%check_only) then
+         call progress%clear()
          call report_checked(argument, model, plan)
          return
       end if
@@ -79,6 +82,7 @@ contains
       call progress%enter(phase_factor)
       if (.not. failure%raised) call form_body_stiffness(model, system, failure)
       if (failure%raised) then
+         call progress%clear()
          call report_failure(argument, failure, results)
          return
       end if
@@ -132,6 +136,7 @@ contains
                call interface_stiffness(model, analysis)
             end select
             if (failure%raised) then
+               call progress%clear()
                call report_failure(argument, failure, results)
                return
             end if

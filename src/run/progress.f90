@@ -30,6 +30,7 @@ module progress
       procedure :: enter
       procedure :: expect
       procedure :: advance
+      procedure :: clear
       procedure :: finish
    end type progress_type
 
@@ -119,14 +120,22 @@ contains
    end subroutine show
 
 
+   !> Clear the line; nothing more is shown.
+   subroutine clear(self)
+      class(progress_type), intent(inout) :: self
+
+      if (self%shown) write (error_unit, '(a)', advance='no') achar(13)//repeat(' ', len(self%deck) + 62)//achar(13)
+      self%shown = .false.
+   end subroutine clear
+
+
    !> The run is over: clear the line, print the times.
    subroutine finish(self)
       class(progress_type), intent(inout) :: self
       integer :: i
 
       call self%enter(phase_write)
-      if (self%shown) write (error_unit, '(a)', advance='no') achar(13)//repeat(' ', len(self%deck) + 62)//achar(13)
-      self%shown = .false.
+      call self%clear()
       if (.not. self%timed) return
       do i = 1, size(phase_name)
          write (error_unit, '(3a, f12.4, a)') self%deck, ': ', phase_name(i), real(self%ticks(i), wp)/self%rate, ' s'
