@@ -12,6 +12,7 @@ module equations
    use failures, only: failure_type
    use front_factor, only: add_to_moving, factorise_fixed, factorise_moving
    use front_solve, only: eliminate_fixed, moving_times_vector, recover_fixed, solve_moving
+   use front_tree, only: largest_diagonal
    use kinds, only: long, wp
    use model_data, only: model_type, n_bars, n_sections
    use node_graph, only: build_node_graph, node_graph_type
@@ -131,17 +132,13 @@ contains
       type(model_type), intent(in)         :: model
       type(equation_system), intent(inout) :: system
       type(failure_type), intent(inout)    :: failure
-      integer :: f, fault, i
+      integer :: fault, i
 
       if (system%is_tree) then
          call factorise_fixed(model, system%tree%tree, fault)
          call report_fault(model, system, fault, '', failure)
          if (failure%raised) return
-         do f = 1, size(system%tree%tree%fronts)
-            associate (front => system%tree%tree%fronts(f))
-               if (front%p > 0) system%stiffest = max(system%stiffest, maxval(front%diagonal(:front%p)))
-            end associate
-         end do
+         system%stiffest = largest_diagonal(system%tree%tree)
       else
          call form_skyline_bodies(model, system, system%skyline)
          associate (body => system%skyline%body)

@@ -12,7 +12,7 @@ module front_tree
    implicit none
    private
 
-   public :: start_front_tree, add_elements, add_matrix, add_update, front_of, place_in
+   public :: start_front_tree, add_elements, add_matrix, add_update, front_of, place_in, largest_diagonal
 
    real(wp), parameter :: parallel_work = 5.0e7_wp  ! operations of a factorisation that is worth more than one thread
 
@@ -314,5 +314,26 @@ contains
          end do
       end do
    end subroutine add_update
+
+
+   !> The largest diagonal entry of the matrix without what moves, when the fronts that do not move have been eliminated.
+   pure real(wp) function largest_diagonal(tree) result(largest)
+      type(front_tree_type), intent(in) :: tree
+      real(wp), allocatable :: diagonal(:)
+      integer :: f
+
+      allocate (diagonal(tree%n), source=0.0_wp)
+      do f = 1, size(tree%fronts)
+         associate (front => tree%fronts(f), first => tree%fronts(f)%first, last => tree%fronts(f)%first + tree%fronts(f)%p - 1)
+            if (front%moves) then
+               diagonal(first:last) = diagonal(first:last) + front%kept_diagonal(:front%p)
+               diagonal(front%rows) = diagonal(front%rows) + front%kept_diagonal(front%p + 1:)
+            else
+               diagonal(first:last) = front%diagonal(:front%p)
+            end if
+         end associate
+      end do
+      largest = maxval(diagonal)
+   end function largest_diagonal
 
 end module front_tree
