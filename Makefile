@@ -6,7 +6,7 @@ FC         = gfortran
 endif
 BUILD      = build
 WARNINGS   = -std=f2018 -Wall -Wextra
-FFLAGS     = -O2 -fopenmp $(WARNINGS)
+FFLAGS     = -O2 -fopenmp -fno-backtrace $(WARNINGS)
 # the check of recursion would take another thread in the same routine for one
 FFLAGS_CHECKED = -O1 -g -fopenmp $(WARNINGS) -fcheck=all,no-array-temps,no-recursion -ffpe-trap=invalid,zero
 LIBRARIES  = -lmetis -lopenblas

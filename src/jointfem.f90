@@ -3,6 +3,7 @@
 program jointfem
    use analysis_state, only: analysis_type, interface_stiffness, note_largest, start_analysis
    use back_method, only: back_increment
+   use block_size, only: check_block_size
    use bolt_locking, only: lock_bolts
    use case_control, only: method_back, method_newton
    use command_tools, only: use_threads
@@ -10,6 +11,7 @@ program jointfem
    use deck_errors, only: deck_error_list
    use deck_input, only: deck_type, read_deck
    use equations, only: equation_system, form_body_stiffness, start_equations
+   use failed_allocation, only: watch_allocations
    use failures, only: failure_type
    use load_path, only: recover_bodies, start_increment, start_stage
    use machine, only: keep_memory
@@ -31,6 +33,7 @@ program jointfem
    if (finished) call end_program(status)
    call use_threads(command%threads)
    call keep_memory()
+   call watch_allocations()
    do i = 1, size(command%decks)
       call analyse(command%decks(i))
    end do
@@ -65,6 +68,11 @@ contains
 
       ! ------------------------------------------------------------------ BODIES, JOINTS, LOADS
       call progress%enter(phase_build)
+      if (.not. (command%check_only .or. errors%any())) call check_block_size(deck, failure)
+      if (failure%raised) then
+         call report_failure(argument, failure, results)
+         return
+      end if
       call build_model(deck, model, plan, errors)
       if (errors%any()) then
          call progress%clear()

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # The examples from Gmsh: their joints carry the load, and where gmsh is installed meshes built anew, finer and in every field
-# format, do so too.
+# format, do so too, and one of 50,000 nodes.
 #
 #    gmsh.sh PROGRAM WORK_FOLDER
 set -u
@@ -58,6 +58,11 @@ for example in two_blocks post_on_plate; do carries "$example: the mesh as shipp
 if command -v gmsh > /dev/null; then
    anew two_blocks 's/MeshSize {:} = .*;/MeshSize {:} = 9;/'
    anew post_on_plate 's/^size = .*;/size = 6;/'
+   tests/gmsh_fine.sh "$work"
+   carries 'two_blocks: 50,000 nodes' two_blocks "$work/two_blocks_fine.bdf"
+   if ! grep -q 'SOLVER TREE' "$work/two_blocks_fine.out"; then
+      failed=$((failed + 1)); echo 'FAILED two_blocks, 50,000 nodes: AUTO did not take TREE'
+   fi
 else
    echo 'gmsh is not installed: the meshes are not built anew'
 fi

@@ -35,6 +35,7 @@ part 'decks through the program with run-time checks' tests/check.sh "$checked" 
 part 'what the paper says of the prism' tests/prism_findings.sh "$build/check"
 part 'exact answers and independent computations' tests/exact/run.sh "$program" "$build/exact"
 part 'TREE and SKYLINE, one thread and several' tests/solver/run.sh "$program" "$build/solver"
+part 'models that do not fit into the memory' tests/memory.sh "$program" "$build/memory"
 part 'linear decks against CalculiX' tests/calculix/run.sh "$program" "$build/calculix"
 part 'STEP tends to NEWTON' tests/convergence.sh "$program" "$build/convergence"
 part 'the comparison itself' tests/compare/test_compare.sh "$compare" reference_output tests/compare/tolerances.txt

@@ -8,6 +8,8 @@ module c_library
 
    public :: read_all_bytes, create_file, write_bytes, close_file, rename_file, remove_file, true_path, is_terminal, end_run
 
+   logical, public, protected :: has_ended = .false. !! by end_run
+
    interface
       function c_fopen(path, mode) bind(c, name='fopen') result(stream)
          import :: c_char, c_ptr
@@ -233,6 +235,7 @@ contains
    subroutine end_run(status)
       integer, intent(in) :: status
 
+      has_ended = .true.
       call c_exit(int(status, c_int))
    end subroutine end_run
 

@@ -17,11 +17,12 @@ module front_blocks
 
 contains
 
-   !> Keep A.
-   subroutine keep_block(a, block)
+   !> Keep A. OK is false where there is no memory for it.
+   subroutine keep_block(a, block, ok)
       real(wp), intent(in)          :: a(:, :)
       type(kept_block), intent(out) :: block
-      integer :: i, j, k
+      logical, intent(out)          :: ok
+      integer :: i, j, k, status
 
       block%n_rows = size(a, 1)
       block%n_columns = size(a, 2)
@@ -30,10 +31,13 @@ contains
          k = k + count(abs(a(j:, j)) > 0.0_wp)
       end do
       if (2*int(k, long) > int(block%n_rows, long)*block%n_columns/2) then
-         block%whole = a
+         allocate (block%whole, source=a, stat=status)
+         ok = status == 0
          return
       end if
-      allocate (block%values(k), block%row(k), block%column(k))
+      allocate (block%values(k), block%row(k), block%column(k), stat=status)
+      ok = status == 0
+      if (.not. ok) return
       k = 0
       do j = 1, block%n_columns
          do i = j, block%n_rows

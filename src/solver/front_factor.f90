@@ -120,6 +120,7 @@ contains
       type(front_type), intent(inout)      :: front
       integer, intent(out)                 :: fault
       integer :: c, k, status
+      logical :: ok
 
       fault = no_memory
       allocate (front%panel(front%p + front%r, front%p), front%update(front%r, front%r), &
@@ -135,8 +136,9 @@ contains
          call add_update(tree%fronts(c), front)
          deallocate (tree%fronts(c)%update)
       end do
-      call keep_block(front%panel, front%kept_panel)
-      call keep_block(front%update, front%kept_update)
+      call keep_block(front%panel, front%kept_panel, ok)
+      if (ok) call keep_block(front%update, front%kept_update, ok)
+      if (.not. ok) return
       front%kept_diagonal = front%diagonal
       deallocate (front%update)
       fault = 0

@@ -9,7 +9,7 @@ module tree_solver
    use front_layout, only: front_layout_type, lay_out_fronts, postpone_joints
    use front_tree, only: front_tree_type, start_front_tree
    use kinds, only: long, wp
-   use machine, only: available_memory
+   use memory_need, only: check_memory
    use model_data, only: model_type
    use nested_dissection, only: dissect
    use node_graph, only: node_graph_type
@@ -60,7 +60,7 @@ contains
          return
       end if
       call choose_layout(graph, order, weight, in_joint, factorisations, layout, solver%way)
-      call check_memory(sum(weight), model%dimension, layout, failure)
+      call check_memory(sum(weight), model%dimension, 'about', bytes_needed(layout), failure)
       if (failure%raised) return
       call number_unknowns(model, layout%order, numbers)
       call start_front_tree(model, numbers%number, layout, solver%tree)
@@ -128,21 +128,11 @@ contains
    end function total_work
 
 
-   !> Whether the factor, what the moving fronts begin with, and the update matrices on the way will fit.
-   subroutine check_memory(n, dimension, layout, failure)
-      integer, intent(in)                 :: n         !! unknowns
-      integer, intent(in)                 :: dimension
+   !> The factor, what the moving fronts begin with, and the update matrices on the way.
+   pure real(wp) function bytes_needed(layout)
       type(front_layout_type), intent(in) :: layout
-      type(failure_type), intent(inout)   :: failure
-      real(wp) :: needed, there, fits
 
-      needed = 8.0_wp*(layout%factor_entries + 2.0_wp*layout%moving_entries + layout%peak_entries)
-      there = real(available_memory(), wp)
-      if (needed <= there) return
-      fits = n*(there/needed)**merge(0.75_wp, 0.9_wp, dimension == 3) ! entries grow like n**(4/3), n log n
-      call failure%raise('the factor of '//integer_text(n)//' equations needs about '//integer_text(int(needed/1048576.0_wp))// &
-                         ' MiB, and the machine has '//integer_text(int(there/1048576.0_wp))// &
-                         ' MiB to give; of this shape about '//integer_text(int(fits))//' equations would fit')
-   end subroutine check_memory
+      bytes_needed = 8.0_wp*(layout%factor_entries + 2.0_wp*layout%moving_entries + layout%peak_entries)
+   end function bytes_needed
 
 end module tree_solver

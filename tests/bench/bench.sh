@@ -5,7 +5,7 @@
 #    bench.sh PROGRAM FOLDER [WHAT...]
 #
 # FOLDER  where the programs of the benchmark are and its files go; FOLDER/measured holds every figure, FOLDER/tables the tables
-# WHAT    all (if nothing is said), small, or any of: shapes as make_deck.sh has them, friction, threads, crossing
+# WHAT    all (if nothing is said), small, or any of: shapes as make_deck.sh has them, friction, threads, crossing, gmsh
 #
 # Programs run one after another, on one thread unless said otherwise, ours and CHOLMOD in turn; of two runs the faster one
 # counts, runs above 10 s are not repeated. Status 1 where a run fails or CHOLMOD finds another answer.
@@ -25,10 +25,10 @@ wide='q4_4000x20 hex8_58x58x3 hex8_58x58x10'
 wanted=
 for word; do
    case $word in
-   all)   wanted="$wanted $small $large $wide friction threads crossing" ;;
+   all)   wanted="$wanted $small $large $wide gmsh friction threads crossing" ;;
    small) wanted="$wanted $small friction crossing" ;;
-   q4_*|hex8_*|friction|threads|crossing) wanted="$wanted $word" ;;
-   *) echo "bench: '$word' is neither all, small, friction, threads, crossing nor a shape like q4_100x20, hex8_20x20x20" >&2
+   q4_*|hex8_*|friction|threads|crossing|gmsh) wanted="$wanted $word" ;;
+   *) echo "bench: '$word' is neither all, small, friction, threads, crossing, gmsh nor a shape like q4_100x20, hex8_20x20x20" >&2
       exit 1 ;;
    esac
 done
@@ -187,6 +187,24 @@ measure_crossing() {
    rm -f "$work"/copy_*
 }
 
+# ------------------------------------------------------------------ a mesh from Gmsh: two blocks of tetrahedra
+measure_gmsh() {
+   local turn
+   command -v gmsh > /dev/null || { echo 'bench: gmsh is not installed, its mesh is left out' >&2; return; }
+   echo 'bench: two blocks from Gmsh' >&2
+   rm -f "$work/ours"
+   "$here/../gmsh_fine.sh" "$work" || fail 'no mesh from gmsh'
+   for turn in 1 2; do
+      run_program 1 "$work/two_blocks_fine.bdf"
+      { figures "$work/two_blocks_fine.bdf"; of_listing "$work/two_blocks_fine.out"; } > "$work/one"
+      keep_faster "$work/one" "$work/ours"
+      enough "$work/ours" && break
+   done
+   awk '/^GRID/ { n++ } END { print "nodes", n }' "$work/gmsh/two_blocks_fine_mesh.bdf" >> "$work/ours"
+   record gmsh two_blocks "$work/ours"
+   remove_results two_blocks_fine
+}
+
 # ------------------------------------------------------------------ the machine
 dgemm_rate() {
    echo 'bench: DGEMM' >&2
@@ -207,6 +225,7 @@ for what in $wanted; do
    friction) measure_friction q4_400x80; measure_friction hex8_20x20x20 ;;
    threads)  measure_threads hex8_30x30x30 ;;
    crossing) measure_crossing ;;
+   gmsh)     measure_gmsh ;;
    *)        measure_model "$what" ;;
    esac
 done

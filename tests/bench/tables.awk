@@ -18,6 +18,7 @@ END {
    growth()
    beside()
    rates()
+   gmsh()
    friction()
    threads()
    crossing()
@@ -94,6 +95,21 @@ function rates(    i, m) {
    put()
 }
 
+function gmsh(    i, k, m, n, names, line) {
+   if (!rows["gmsh"]) return
+   title("Two blocks from Gmsh, tetrahedra: seconds of the phases, 2 increments, one thread")
+   n = split("read build order factor increments recover write all", names, " ")
+   head("nodes;unknowns;left;joints;read;build;order;factor;increments;recover;write;all;peak MiB")
+   for (i = 1; i <= rows["gmsh"]; i++) {
+      m = row["gmsh", i]
+      line = v["gmsh", m, "nodes"] ";" either(v["gmsh", m, "unknowns"]) ";" either(v["gmsh", m, "left"]) ";" \
+         words_of(v["gmsh", m, "ordering"])
+      for (k = 1; k <= n; k++) line = line ";" seconds(v["gmsh", m, names[k]])
+      cells(line ";" either(v["gmsh", m, "memory"]))
+   }
+   put()
+}
+
 function friction(    again, i, m, one, passes) {
    if (!rows["friction_20"]) return
    title("A re-analysis after the Coulomb check")
@@ -141,7 +157,8 @@ function of(m, name) { return v["ours", m, name] }
 function their(m, name) { return v["cholmod", m, name] }
 function either(x) { return x == "" ? "-" : x }
 function left(m) { return either(of(m, "left")) }
-function ordering(m,    w) { w = tolower(of(m, "ordering")); gsub(/_/, " ", w); sub(/^joints /, "", w); return either(w) }
+function ordering(m) { return words_of(of(m, "ordering")) }
+function words_of(w) { w = tolower(w); gsub(/_/, " ", w); sub(/^joints /, "", w); return either(w) }
 
 function seconds(x) {
    if (x == "") return "-"

@@ -49,6 +49,9 @@ ours q4_20x4 operations_moving 0.4e9
 cholmod q4_20x4 solution 1.3
 cholmod q4_20x4 factor 1.0
 cholmod q4_20x4 operations 5e9
+gmsh two_blocks read 0.7
+gmsh two_blocks nodes 50000
+gmsh two_blocks ordering JOINTS_LAST_IN_PARTS
 friction_0 q4_20x4 increments 0.4
 friction_20 q4_20x4 increments 0.5
 friction_20 q4_20x4 passes 200
@@ -70,6 +73,7 @@ row '^\| Q4 10 x 2 \| Q4 20 x 4 \| - \| 0.50 \| 1.50 \| 1.00 \| - '       # orde
 row '^\| Q4 20 x 4 \| - \| 1.00 \| 80.0 \| 2.60 \| .*\| 1.30 \| 2.00 \|$' # 1.6 s of 20 increments; run/once
 row '^\| Q4 20 x 4 \| 8 \| 0.50 \| 0.4 \| 0.25 \| 5 \| 0.25 \|'           # of the greater rate, 20
 row '^\| Q4 20 x 4 \| 20.0 \| 0.500 \| 0.025 \|$'                         # 0.1 s of 200 re-analyses
+row '^\| 50000 \| - \| - \| last in parts \| 0.70 \|( - \|){8}$'
 row '^\| factor \| 3.00 \| 2.00 \| 1.50 \|$'
 row '^\| Q4 20 x 4 \| 400 \| 900 \| - \| 30.0 \| 20.0 \| 1.50 \|$'
 

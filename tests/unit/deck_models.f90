@@ -32,6 +32,10 @@ module deck_models
    !> A plate without a joint.
    character(*), parameter, public :: plate = plane_laws//'BLOCK2,1,1,12,9,0.,0.;+,12.,5.;+,20;PMARK,20;SPCM,1,2,20;SPC1,1,1,3'
 
+   !> A long low plate with its bottom on the base: joints last in parts; 305 nodes.
+   character(*), parameter, public :: low_plate = plane_laws//'BLOCK2,1,1,60,4,0.,0.;+,300.,100.;+,20;PMARK,20;'// &
+      'JOINT,8,1,20;SPC1,1,1,1'
+
 contains
 
    !> The model with these CARDS; a semicolon ends a line. PROBLEM: the first error, '' where there is none.

@@ -1,0 +1,42 @@
+!> What a factor needs against what the machine has: the message, before anything is started.
+module memory_need
+   use failures, only: failure_type
+   use kinds, only: wp
+   use machine, only: available_memory
+   use text_tools, only: integer_text
+   implicit none
+   private
+
+   public :: check_memory
+
+contains
+
+   !> A failure where so many BYTES for the factor of N equations are more than can be had; its message says what would fit.
+   subroutine check_memory(n, dimension, how, bytes, failure)
+      integer, intent(in)               :: n          !! unknowns
+      integer, intent(in)               :: dimension  !! of the model
+      character(*), intent(in)          :: how        !! 'about', 'at least'
+      real(wp), intent(in)              :: bytes
+      type(failure_type), intent(inout) :: failure
+      character(:), allocatable :: at_most
+      real(wp) :: there, fits
+
+      there = real(available_memory(), wp)
+      if (bytes <= there) return
+      fits = n*(there/bytes)**merge(0.75_wp, 0.9_wp, dimension == 3) ! bytes grow like n**(4/3), n log n
+      at_most = how
+      if (how == 'at least') at_most = 'at most'
+      call failure%raise('the factor of '//integer_text(n)//' equations needs '//how//' '// &
+                         mebibytes(bytes)//' MiB, and the machine has '//mebibytes(there)// &
+                         ' MiB to give; of this shape '//at_most//' '//integer_text(int(fits))//' equations would fit')
+   end subroutine check_memory
+
+
+   pure function mebibytes(bytes) result(text)
+      real(wp), intent(in)      :: bytes
+      character(:), allocatable :: text
+
+      text = integer_text(int(min(bytes/1048576.0_wp, real(huge(1), wp))))
+   end function mebibytes
+
+end module memory_need

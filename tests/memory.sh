@@ -1,0 +1,83 @@
+#!/usr/bin/env bash
+# Decks that do not fit into the memory there is, limited here by `ulimit -v`, so that the machine does not matter: refused with
+# what they need and what would fit, and wherever an allocation fails, a message, status 3 and no results.
+#
+#    memory.sh PROGRAM WORK_FOLDER
+set -u
+program=$1 work=$2
+passed=0 failed=0
+rm -rf "$work"
+mkdir -p "$work"
+
+deck() { # SHAPE SOLVER
+   tests/bench/make_deck.sh "$1" "$2" NONE > "$work/$1.bdf"
+}
+
+# limited MIB DECK...: status, words, and the results that are there
+limited() {
+   local mib=$1
+   shift
+   rm -f "$work"/*.out "$work"/*.joint.csv
+   ( ulimit -v $((mib*1024)) && OPENBLAS_NUM_THREADS=1 timeout 60 "$program" -q --threads 1 -o "$work" "$@" ) > "$work/said" 2>&1
+   status=$?
+   results=$(find "$work" -name '*.out' -o -name '*.joint.csv' | wc -l)
+}
+
+# check WHAT STATUS RESULTS WORDS...
+check() {
+   local what=$1 wanted="$2 $3" word
+   shift 3
+   for word; do
+      grep -qE "$word" "$work/said" || { wanted="words '$word'"; break; }
+   done
+   if [ "$status $results" = "$wanted" ] && ! grep -qi 'backtrace' "$work/said"; then
+      passed=$((passed + 1))
+   else
+      failed=$((failed + 1)); echo "FAILED $what: status $status, $results results, expected $wanted"
+      head -n 5 "$work/said"
+   fi
+}
+
+# ------------------------------------------------------------------ told from the blocks, before a node is made
+for solver in AUTO SKYLINE; do
+   deck hex8_250x250x250 $solver
+   limited 300 "$work/hex8_250x250x250.bdf"
+   check "250 x 250 x 250 by $solver" 3 0 'factor of 47439753 equations needs at least [0-9]{7} MiB' 'has [0-9]{2,3} MiB to give' \
+      'at most [0-9]{4,5} equations would fit'
+done
+deck q4_4000x4000 TREE
+limited 300 "$work/q4_4000x4000.bdf"
+check 'a plate of 4000 x 4000' 3 0 'factor of 32016002 equations needs at least [0-9]{5} MiB'
+
+# ------------------------------------------------------------------ nothing is told, an allocation fails while the model is built
+limited 200 --check "$work/hex8_250x250x250.bdf"
+check '250 x 250 x 250, --check' 3 0 'the memory of the machine, or what is allowed of it, does not suffice; no results'
+
+# ------------------------------------------------------------------ told from the fronts, and from the skyline
+deck hex8_20x20x20 TREE
+limited 384 "$work/hex8_20x20x20.bdf"
+check '20 x 20 x 20 in 384 MiB' 3 0 'factor of 26901 equations needs about 2[0-9]{2} MiB' 'about [0-9]{5} equations would fit'
+limited 1024 "$work/hex8_20x20x20.bdf"
+check '20 x 20 x 20 in 1024 MiB' 0 2
+deck hex8_20x20x19 TREE
+limited 576 "$work/hex8_20x20x20.bdf" "$work/hex8_20x20x19.bdf"
+check 'one after the other in 576 MiB' 0 4
+deck hex8_20x20x20 SKYLINE
+limited 576 "$work/hex8_20x20x20.bdf"
+check '20 x 20 x 20 by SKYLINE in 576 MiB' 3 0 'skyline of 26901 equations needs [0-9]{3,4} MiB' 'SOLVER = TREE needs less'
+
+# ------------------------------------------------------------------ an allocation that fails: wherever that is, no other end
+deck hex8_16x16x16 TREE
+few=0
+for ((mib = 64; mib <= 400; mib += 16)); do
+   limited $mib "$work/hex8_16x16x16.bdf"
+   if [ "$status" -eq 0 ]; then
+      check "16 x 16 x 16 in $mib MiB" 0 2
+   else
+      few=$((few + 1))
+      check "16 x 16 x 16 in $mib MiB" 3 0 'MiB|memory'
+   fi
+done
+echo "$few runs did not fit"
+echo "$passed passed, $failed failed"
+[ $failed -eq 0 ]
