@@ -11,7 +11,7 @@ module block_size
 
    !> The factor of a nested dissection has d**2 N m entries times these, N nodes, m as in dissected_entries: half of what was
    !! measured, because supports may take much away.
-   real(wp), parameter :: plane_share = 3.7_wp, solid_share = 10.0_wp
+   real(wp), parameter :: plane_share = 3.7_wp, solid_share = 8.0_wp
    real(wp), parameter :: model_bytes = 500.0_wp   ! of a node, its elements and the graph
 
 contains

@@ -24,6 +24,7 @@ module front_layout
       real(wp) :: moving_operations = 0.0_wp    !! of the others
       real(wp) :: factor_entries = 0.0_wp       !! of all panels, as stored
       real(wp) :: moving_entries = 0.0_wp       !! entries of the moving fronts, whole lower triangles
+      real(wp) :: kept_entries   = 0.0_wp       !! lower triangles that fronts which do not move leave to those that do
       real(wp) :: peak_entries   = 0.0_wp       !! most that stand in update matrices at once, one subtree after the other
    end type front_layout_type
 
@@ -150,6 +151,7 @@ contains
       allocate (layout%rows(layout%first_row(layout%n + 1) - 1), front_of(supers%n))
       layout%parent = 0
       layout%peak_entries = 0.0_wp
+      layout%kept_entries = 0.0_wp
       do f = 1, layout%n
          s = sequence(f)
          layout%rows(layout%first_row(f):layout%first_row(f + 1) - 1) = &
@@ -161,6 +163,9 @@ contains
             s = supers%top(s)
          end do
          layout%parent(f) = number(s)
+         rows = supers%beyond(sequence(f))
+         if (layout%moves(number(s)) .and. .not. layout%moves(f)) &
+            layout%kept_entries = layout%kept_entries + 0.5_wp*rows*(rows + 1.0_wp)
       end do
 
    contains

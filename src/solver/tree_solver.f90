@@ -60,7 +60,7 @@ contains
          return
       end if
       call choose_layout(graph, order, weight, in_joint, factorisations, layout, solver%way)
-      call check_memory(sum(weight), model%dimension, 'about', bytes_needed(layout), failure)
+      call check_memory(sum(weight), model%dimension, 'about', bytes_needed(layout, sum(weight), model%dimension), failure)
       if (failure%raised) return
       call number_unknowns(model, layout%order, numbers)
       call start_front_tree(model, numbers%number, layout, solver%tree)
@@ -128,11 +128,16 @@ contains
    end function total_work
 
 
-   !> The factor, what the moving fronts begin with, and the update matrices on the way.
-   pure real(wp) function bytes_needed(layout)
+   !> The factor; what moving fronts begin with: what is left to them, and elements, which are kept entry by entry and with two
+   !! indices, those of a regular mesh; the update matrices on the way.
+   pure real(wp) function bytes_needed(layout, n, dimension)
       type(front_layout_type), intent(in) :: layout
+      integer, intent(in)                 :: n         !! unknowns
+      integer, intent(in)                 :: dimension
+      real(wp) :: of_elements
 
-      bytes_needed = 8.0_wp*(layout%factor_entries + 2.0_wp*layout%moving_entries + layout%peak_entries)
+      of_elements = 0.5_wp*dimension*3**dimension*n
+      bytes_needed = 8.0_wp*(layout%factor_entries + layout%peak_entries) + 16.0_wp*(layout%kept_entries + of_elements)
    end function bytes_needed
 
 end module tree_solver
