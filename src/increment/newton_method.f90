@@ -204,7 +204,8 @@ contains
    end subroutine find_direction
 
 
-   !> No part of the increment is small enough: say why, as far as it can be told, and which element changed its branch most often.
+   !> No part of the increment is small enough: say why, as far as it can be told, and which element changed its branch most
+   !! often.
    subroutine give_up(model, plan, analysis, flips, loose, imprecise, failure)
       type(model_type), intent(in)       :: model
       type(stage_plan_type), intent(in)  :: plan
