@@ -95,7 +95,8 @@ contains
          return
       end if
       call progress%enter(phase_write)
-      call progress%count_operations(system%tree%fixed_operations, system%tree%moving_operations)
+      call progress%count_operations(system%tree%fixed_operations, system%tree%moving_operations, &
+                                     system%tree%tree%assembly_time)
       call start_results(argument%listing, argument%history, deck, model, plan, system, results, ok)
       if (.not. ok) then
          call report_unwritten(argument, results)

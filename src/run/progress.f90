@@ -22,7 +22,7 @@ module progress
       integer :: done  = 0, total = 0
       integer(long) :: entered = 0, increments_began = 0, last = 0, rate = 1
       integer(long) :: ticks(size(phase_name)) = 0
-      real(wp) :: fixed_operations = 0.0_wp, moving_operations = 0.0_wp
+      real(wp) :: fixed_operations = 0.0_wp, moving_operations = 0.0_wp, assembly_time = 0.0_wp
       character(:), allocatable :: deck
    contains
       procedure :: count_operations
@@ -68,13 +68,15 @@ contains
    end subroutine enter
 
 
-   !> Operations, multiplications and additions taken together, of what is factorised once, and in an increment.
-   subroutine count_operations(self, fixed, moving)
+   !> Operations, multiplications and additions taken together, of what is factorised once, and in an increment; and the seconds
+   !! that the elements took, within the phase of the factor.
+   subroutine count_operations(self, fixed, moving, assembly_time)
       class(progress_type), intent(inout) :: self
-      real(wp), intent(in)                :: fixed, moving
+      real(wp), intent(in)                :: fixed, moving, assembly_time
 
       self%fixed_operations = fixed
       self%moving_operations = moving
+      self%assembly_time = assembly_time
    end subroutine count_operations
 
 
@@ -140,6 +142,7 @@ contains
       do i = 1, size(phase_name)
          write (error_unit, '(3a, f12.4, a)') self%deck, ': ', phase_name(i), real(self%ticks(i), wp)/self%rate, ' s'
       end do
+      write (error_unit, '(3a, f12.4, a)') self%deck, ': ', 'elements  ', self%assembly_time, ' s of factor'
       write (error_unit, '(3a, es12.4)') self%deck, ': ', 'operations fixed  ', self%fixed_operations, &
          self%deck, ': ', 'operations moving ', self%moving_operations
       write (error_unit, '(3a, i12, a)') self%deck, ': ', 'memory    ', nint(peak_memory()/1048576.0_wp), ' MiB'

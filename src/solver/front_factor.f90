@@ -6,6 +6,7 @@ module front_factor
    use front_tree, only: add_elements, add_matrix, add_update, front_of, front_tree_type, front_type, place_in
    use kinds, only: wp
    use model_data, only: model_type
+   use omp_lib, only: omp_get_wtime
    implicit none
    private
 
@@ -93,7 +94,7 @@ contains
          front%panel = 0.0_wp
          front%update = 0.0_wp
          front%diagonal = 0.0_wp
-         call add_elements(model, tree, front)
+         call assemble(model, tree, front)
          do k = 1, size(front%children)
             c = front%children(k)
             call add_update(tree%fronts(c), front)
@@ -113,6 +114,21 @@ contains
    end subroutine eliminate_front
 
 
+   !> Add the elements of FRONT; the time that takes is kept.
+   subroutine assemble(model, tree, front)
+      type(model_type), intent(in)         :: model
+      type(front_tree_type), intent(inout) :: tree
+      type(front_type), intent(inout)      :: front
+      real(wp) :: time
+
+      time = omp_get_wtime()
+      call add_elements(model, tree, front)
+      time = omp_get_wtime() - time
+      !$omp atomic
+      tree%assembly_time = tree%assembly_time + time
+   end subroutine assemble
+
+
    !> What moving FRONT begins with: its elements, and what its children that do not move leave.
    subroutine keep_start(model, tree, front, fault)
       type(model_type), intent(in)         :: model
@@ -129,7 +145,7 @@ contains
       front%panel = 0.0_wp
       front%update = 0.0_wp
       front%diagonal = 0.0_wp
-      call add_elements(model, tree, front)
+      call assemble(model, tree, front)
       do k = 1, size(front%children)
          c = front%children(k)
          if (tree%fronts(c)%moves) cycle

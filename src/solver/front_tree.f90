@@ -43,6 +43,7 @@ module front_tree
       logical, allocatable :: locked(:)           !! (n) unknowns that do not change any more; of fronts that move
       type(front_type), allocatable :: fronts(:)  !! children before parents
       logical :: is_parallel = .false.            !! whether the model is worth more than one thread
+      real(wp) :: assembly_time = 0.0_wp          !! of the elements, all threads together [s]
    end type front_tree_type
 
 contains
