@@ -29,7 +29,7 @@ contains
 
       allocate (residual(tree%n), z(tree%n), direction(tree%n), product(tree%n), u(tree%n))
       associate (e => equations)
-         residual(e) = merge(0.0_wp, x(e), tree%locked(e))
+         residual(e) = x(e)                ! what stands at locked equations meets zeros: solve_moving leaves none else there
          u(e) = 0.0_wp
          z(e) = residual(e)
          call solve_moving(tree, z)
@@ -39,7 +39,6 @@ contains
          do steps = 1, most_steps
             call moving_times_vector(tree, direction, product)
             call add_joints(tree, k_int, direction, product)
-            product(e) = merge(0.0_wp, product(e), tree%locked(e))
             alpha = dot_product(direction(e), product(e))
             if (.not. alpha > 0.0_wp) exit
             alpha = now/alpha

@@ -5,7 +5,7 @@ module equation_numbering
    implicit none
    private
 
-   public :: number_unknowns, gather, put
+   public :: number_unknowns, number_joints, gather, put
 
    type, public :: equation_numbers
       integer :: n = 0                              !! unknowns
@@ -43,6 +43,24 @@ contains
          end do
       end do
    end subroutine number_unknowns
+
+
+   !> The EQUATIONS of the interface elements: components of node 1, of node 2 from the fourth on; 0: held, none such, base.
+   subroutine number_joints(model, number, equations)
+      type(model_type), intent(in)      :: model
+      integer, intent(in)               :: number(:, :)    !! (dimension, n_nodes) as in equation_numbers
+      integer, allocatable, intent(out) :: equations(:, :) !! (6, n)
+      integer :: d, i
+
+      d = model%dimension
+      allocate (equations(6, size(model%interface)), source=0)
+      do i = 1, size(model%interface)
+         associate (nodes => model%interface(i)%nodes)
+            equations(:d, i) = number(:, nodes(1))
+            if (nodes(2) > 0) equations(4:3 + d, i) = number(:, nodes(2))
+         end associate
+      end do
+   end subroutine number_joints
 
 
    !> X(equation) from an array over nodes, for the EQUATIONS.

@@ -6,7 +6,7 @@ module equations
    use bar_elements, only: bar_stiffness
    use conjugate_gradients, only: iterate_moving
    use case_control, only: solver_auto, solver_skyline, solver_tree
-   use equation_numbering, only: equation_numbers, gather, put
+   use equation_numbering, only: equation_numbers, gather, number_joints, put
    use fault_report, only: report_fault
    use factor_reuse, only: factor_reuse_type, forget_factor, may_reuse, note_factor, note_failure, note_steps
    use failures, only: failure_type
@@ -41,7 +41,7 @@ module equations
       integer, allocatable  :: retained(:)      !! nodes that the increments see, ascending
       integer, allocatable  :: equations(:)     !! their equations
       integer, allocatable  :: locked(:)        !! equations whose unknowns have been held since they were numbered
-      integer, allocatable  :: joint_equations(:, :) !! (6, n) of interface elements: of node 1, of node 2; 0: held, base
+      integer, allocatable  :: joint_equations(:, :) !! (6, n) of interface elements, with SKYLINE
       real(wp) :: stiffest = 0.0_wp             !! largest diagonal entry of [k_b] [force/length]
       real(wp), allocatable :: k_int(:, :, :)   !! (6, 6, n) of the interface elements now, global axes [force/length]
       logical :: is_factor = .false.            !! whether the factor is that of k_int; else it is of an earlier one
@@ -61,7 +61,7 @@ contains
       integer, intent(in), optional        :: factorisations !! 20
       type(node_graph_type) :: graph
       logical, allocatable  :: in_joint(:)
-      integer :: d, i, n, repeated, wanted
+      integer :: i, n, repeated, wanted
 
       wanted = solver_auto
       if (present(solver)) wanted = solver
@@ -94,15 +94,8 @@ contains
          call start_skyline_solver(system%skyline, failure)
          system%equations = [(i, i = 1, system%n)]
          system%retained = pack([(i, i = 1, model%n_nodes)], model%used)
+         call number_joints(model, system%number, system%joint_equations)
       end if
-      d = model%dimension
-      allocate (system%joint_equations(6, size(model%interface)), source=0)
-      do i = 1, size(model%interface)
-         associate (nodes => model%interface(i)%nodes)
-            system%joint_equations(:d, i) = system%number(:, nodes(1))
-            if (nodes(2) > 0) system%joint_equations(4:3 + d, i) = system%number(:, nodes(2))
-         end associate
-      end do
    end subroutine start_equations
 
 

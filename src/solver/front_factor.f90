@@ -71,7 +71,7 @@ contains
       type(front_tree_type), intent(inout) :: tree
       integer, intent(in)                  :: f
       integer, intent(inout)               :: faults(:)
-      integer :: c, k, status
+      integer :: c, k
 
       do k = 1, size(tree%fronts(f)%children)
          c = tree%fronts(f)%children(k)
@@ -84,24 +84,8 @@ contains
          faults(f) = first_fault(faults(tree%fronts(f)%children))
          return
       end if
-      associate (front => tree%fronts(f))
-         allocate (front%panel(front%p + front%r, front%p), front%update(front%r, front%r), &
-                   front%diagonal(front%p + front%r), stat=status)
-         if (status /= 0) then
-            faults(f) = no_memory
-            return
-         end if
-         front%panel = 0.0_wp
-         front%update = 0.0_wp
-         front%diagonal = 0.0_wp
-         call assemble(model, tree, front)
-         do k = 1, size(front%children)
-            c = front%children(k)
-            call add_update(tree%fronts(c), front)
-            deallocate (tree%fronts(c)%update)
-         end do
-         call eliminate_front(front, faults(f))
-      end associate
+      call start_front(model, tree, tree%fronts(f), faults(f))
+      if (faults(f) == 0) call eliminate_front(tree%fronts(f), faults(f))
    end subroutine fixed_subtree
 
 
@@ -129,14 +113,13 @@ contains
    end subroutine assemble
 
 
-   !> What moving FRONT begins with: its elements, and what its children that do not move leave.
-   subroutine keep_start(model, tree, front, fault)
+   !> What FRONT begins with: its elements, and what its children that do not move leave.
+   subroutine start_front(model, tree, front, fault)
       type(model_type), intent(in)         :: model
       type(front_tree_type), intent(inout) :: tree
       type(front_type), intent(inout)      :: front
-      integer, intent(out)                 :: fault
+      integer, intent(out)                 :: fault !! 0, or no_memory
       integer :: c, k, status
-      logical :: ok
 
       fault = no_memory
       allocate (front%panel(front%p + front%r, front%p), front%update(front%r, front%r), &
@@ -152,12 +135,26 @@ contains
          call add_update(tree%fronts(c), front)
          deallocate (tree%fronts(c)%update)
       end do
+      fault = 0
+   end subroutine start_front
+
+
+   !> Keep what moving FRONT begins with.
+   subroutine keep_start(model, tree, front, fault)
+      type(model_type), intent(in)         :: model
+      type(front_tree_type), intent(inout) :: tree
+      type(front_type), intent(inout)      :: front
+      integer, intent(out)                 :: fault
+      logical :: ok
+
+      call start_front(model, tree, front, fault)
+      if (fault /= 0) return
       call keep_block(front%panel, front%kept_panel, ok)
       if (ok) call keep_block(front%update, front%kept_update, ok)
+      if (.not. ok) fault = no_memory
       if (.not. ok) return
       front%kept_diagonal = front%diagonal
       deallocate (front%update)
-      fault = 0
    end subroutine keep_start
 
 

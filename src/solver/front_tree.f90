@@ -4,10 +4,12 @@
 module front_tree
    use body_elements, only: coupled_stiffness
    use element_kinds, only: max_coupled_dofs
+   use equation_numbering, only: number_joints
    use front_blocks, only: kept_block
    use front_layout, only: front_layout_type, front_operations
    use kinds, only: wp
    use model_data, only: model_type
+   use reverse_lists, only: list_owners
    use section_coupling, only: coupled_nodes
    implicit none
    private
@@ -141,23 +143,15 @@ contains
       type(model_type), intent(in)         :: model
       type(front_tree_type), intent(inout) :: tree
       integer, allocatable :: front(:)
-      integer :: d, e
+      integer :: e
 
       allocate (front(model%n_elements))
       do e = 1, model%n_elements
          front(e) = front_of(tree, pack(tree%number(:, coupled_nodes(model, e)), .true.))
       end do
       call collect(front, tree, for_springs=.false.)
-      d = model%dimension
-      allocate (tree%joint_equations(6, size(model%interface)), source=0)
-      front = [(0, e = 1, size(model%interface))]
-      do e = 1, size(model%interface)
-         associate (nodes => model%interface(e)%nodes)
-            tree%joint_equations(:d, e) = tree%number(:, nodes(1))
-            if (nodes(2) > 0) tree%joint_equations(4:3 + d, e) = tree%number(:, nodes(2))
-         end associate
-         front(e) = front_of(tree, tree%joint_equations(:, e))
-      end do
+      call number_joints(model, tree%number, tree%joint_equations)
+      front = [(front_of(tree, tree%joint_equations(:, e)), e = 1, size(model%interface))]
       call collect(front, tree, for_springs=.true.)
    end subroutine hand_out_elements
 
@@ -168,22 +162,9 @@ contains
       type(front_tree_type), intent(inout) :: tree
       logical, intent(in)                  :: for_springs
       integer, allocatable :: first(:), list(:)
-      integer :: f, i
+      integer :: f
 
-      allocate (first(size(tree%fronts) + 1), source=0)
-      do i = 1, size(front)
-         if (front(i) > 0) first(front(i)) = first(front(i)) + 1
-      end do
-      first(1) = first(1) + 1
-      do f = 2, size(first)
-         first(f) = first(f - 1) + first(f)          ! one behind the last of f
-      end do
-      allocate (list(first(size(first)) - 1))
-      do i = size(front), 1, -1
-         if (front(i) == 0) cycle
-         first(front(i)) = first(front(i)) - 1
-         list(first(front(i))) = i
-      end do
+      call list_owners(size(tree%fronts), reshape(front, [1, size(front)]), first, list)
       do f = 1, size(tree%fronts)
          associate (of_front => list(first(f):first(f + 1) - 1))
             if (for_springs) then
@@ -214,7 +195,7 @@ contains
       type(front_tree_type), intent(in) :: tree
       type(front_type), intent(inout)   :: front
       real(wp) :: k(max_coupled_dofs, max_coupled_dofs)
-      integer  :: d, e, i, j, n, rows(max_coupled_dofs)
+      integer  :: d, e, j, n, rows(max_coupled_dofs)
 
       d = model%dimension
       do j = 1, size(front%elements)
@@ -222,9 +203,7 @@ contains
          call coupled_stiffness(model, e, k)
          associate (nodes => coupled_nodes(model, e))
             n = d*size(nodes)
-            do i = 1, size(nodes)
-               rows(d*(i - 1) + 1:d*i) = tree%number(:, nodes(i))
-            end do
+            rows(:n) = [tree%number(:, nodes)]
          end associate
          call add_matrix(front, rows(:n), k(:n, :n))
       end do

@@ -1,6 +1,7 @@
 !> Which nodes share an element: the graph that orderings work on.
 module node_graph
    use model_data, only: model_type, n_bars
+   use reverse_lists, only: list_owners
    use section_coupling, only: section_node
    implicit none
    private
@@ -20,11 +21,12 @@ contains
    subroutine build_node_graph(model, graph)
       type(model_type), intent(in)  :: model
       type(node_graph_type), intent(out) :: graph
-      integer, allocatable :: mark(:), partner_first(:), partners(:)
+      integer, allocatable :: mark(:), ends(:, :), first_end(:), ends_at(:)
       integer :: e, i, k, node, other, pass, n
 
-      call list_partners(model, partner_first, partners)
       graph%n = model%n_nodes
+      call list_ends(model, ends)
+      call list_owners(graph%n, ends, first_end, ends_at)
       allocate (graph%first(graph%n + 1), mark(graph%n))
       do pass = 1, 2 ! count, then fill
          mark = 0
@@ -39,8 +41,9 @@ contains
                end do
                call visit(section_node(model, e))
             end do
-            do i = partner_first(node), partner_first(node + 1) - 1
-               call visit(partners(i))
+            do i = first_end(node), first_end(node + 1) - 1
+               call visit(ends(1, ends_at(i)))   ! of the two one is the node itself, which is marked
+               call visit(ends(2, ends_at(i)))
             end do
          end do
          graph%first(graph%n + 1) = n + 1
@@ -63,42 +66,24 @@ contains
    end subroutine build_node_graph
 
 
-   !> The nodes at the other ends of the interface elements and bars of every node.
-   pure subroutine list_partners(model, first, partners)
+   !> ENDS(2, n): the nodes of interface elements that have two, and of bars.
+   pure subroutine list_ends(model, ends)
       type(model_type), intent(in)      :: model
-      integer, allocatable, intent(out) :: first(:), partners(:)
-      integer, allocatable :: filled(:)
-      integer :: i, node, side
+      integer, allocatable, intent(out) :: ends(:, :)
+      integer :: i, n
 
-      allocate (first(model%n_nodes + 1), source=0)
+      allocate (ends(2, size(model%interface) + n_bars(model)))
+      n = 0
       do i = 1, size(model%interface)
          if (model%interface(i)%nodes(2) == 0) cycle
-         first(model%interface(i)%nodes + 1) = first(model%interface(i)%nodes + 1) + 1
+         n = n + 1
+         ends(:, n) = model%interface(i)%nodes
       end do
       do i = 1, n_bars(model)
-         first(model%bars(i)%nodes + 1) = first(model%bars(i)%nodes + 1) + 1
+         n = n + 1
+         ends(:, n) = model%bars(i)%nodes
       end do
-      first(1) = 1
-      do node = 1, model%n_nodes
-         first(node + 1) = first(node) + first(node + 1)
-      end do
-      allocate (partners(first(model%n_nodes + 1) - 1))
-      allocate (filled, source=first)
-      do i = 1, size(model%interface)
-         if (model%interface(i)%nodes(2) == 0) cycle
-         do side = 1, 2
-            node = model%interface(i)%nodes(side)
-            partners(filled(node)) = model%interface(i)%nodes(3 - side)
-            filled(node) = filled(node) + 1
-         end do
-      end do
-      do i = 1, n_bars(model)
-         do side = 1, 2
-            node = model%bars(i)%nodes(side)
-            partners(filled(node)) = model%bars(i)%nodes(3 - side)
-            filled(node) = filled(node) + 1
-         end do
-      end do
-   end subroutine list_partners
+      ends = ends(:, :n)
+   end subroutine list_ends
 
 end module node_graph

@@ -123,16 +123,14 @@ contains
       class(equation_numbers), intent(in)      :: numbers
       type(skyline_solver_type), intent(inout) :: solver
       real(wp) :: k(max_coupled_dofs, max_coupled_dofs)
-      integer  :: d, e, i, n, rows(max_coupled_dofs)
+      integer  :: d, e, n, rows(max_coupled_dofs)
 
       d = model%dimension
       do e = 1, model%n_elements
          call coupled_stiffness(model, e, k)
          associate (nodes => coupled_nodes(model, e))
             n = d*size(nodes)
-            do i = 1, size(nodes)
-               rows(d*(i - 1) + 1:d*i) = numbers%number(:, nodes(i))
-            end do
+            rows(:n) = [numbers%number(:, nodes)]
          end associate
          call scatter(solver%body, rows(:n), k(:n, :n))
       end do

@@ -26,12 +26,11 @@ module tree_solver
    type, public :: tree_solver_type
       type(front_tree_type) :: tree
       character(:), allocatable :: way            !! in which the joints are laid out
-      integer :: n_moving = 0                     !! unknowns of the fronts that move
       integer(long) :: factor_entries = 0
       real(wp) :: fixed_operations  = 0.0_wp      !! of one factorisation of the fronts that do not move
       real(wp) :: moving_operations = 0.0_wp      !! of the others, in every increment that factorises
       real(wp) :: moving_entries = 0.0_wp         !! of the fronts that move
-      integer, allocatable :: moving(:)           !! (n_moving) equations that move
+      integer, allocatable :: moving(:)           !! equations of the fronts that move
    end type tree_solver_type
 
 contains
@@ -77,7 +76,6 @@ contains
             n = n + front%p
          end associate
       end do
-      solver%n_moving = n
    end subroutine start_tree_solver
 
 
