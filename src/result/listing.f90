@@ -2,13 +2,14 @@
 module listing
    use case_control, only: method_back, method_newton, output_all, output_joint, output_last
    use deck_input, only: deck_type
+   use determinate_joints, only: carried_resultant
    use equations, only: equation_system
-   use joint_statics, only: carried_resultant
    use kinds, only: wp
    use listing_bars, only: list_bars, list_sections, note_bars, note_sections
    use listing_bodies, only: list_bodies
    use listing_joints, only: list_energy, list_interface, list_passes, list_resultants, note_passes, note_resultants
-   use listing_opening, only: heading, label_type, noise, page_width, unit_labels, write_opening
+   use listing_opening, only: write_opening
+   use listing_page, only: heading, label_type, noise, page_width, unit_labels
    use listing_plot, only: plot_joints
    use model_data, only: model_type, stage_load_type
    use normal_stiffness, only: branch_open

@@ -4,7 +4,7 @@ module listing_bars
    use bar_elements, only: bar_elongation
    use bolt_locking, only: bar_tension, section_tension
    use kinds, only: wp
-   use listing_opening, only: heading, label_type, noise, page_width
+   use listing_page, only: heading, label_type, noise, page_width
    use model_data, only: model_type, n_bars, n_sections
    use output_file, only: output_file_type
    use row_buffer, only: row_buffer_type

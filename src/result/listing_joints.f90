@@ -2,7 +2,7 @@
 module listing_joints
    use analysis_state, only: analysis_type, element_force
    use kinds, only: wp
-   use listing_opening, only: heading, label_type, noise, page_width, where_now
+   use listing_page, only: heading, label_type, noise, page_width, where_now
    use model_data, only: model_type
    use normal_stiffness, only: branch_name
    use output_file, only: output_file_type
