@@ -4,7 +4,7 @@ module listing_bars
    use bar_elements, only: bar_elongation
    use bolt_locking, only: bar_tension, section_tension
    use kinds, only: wp
-   use listing_page, only: heading, label_type, noise, page_width
+   use listing_page, only: heading, in_column, label_type, noise, page_width
    use model_data, only: model_type, n_bars, n_sections
    use output_file, only: output_file_type
    use row_buffer, only: row_buffer_type
@@ -129,8 +129,8 @@ contains
       call file%put(columns)
       if (labels%force /= '') then
          line = ''
-         line(51:) = adjustr(labels%force(:15))
-         line(66:) = adjustr(labels%length(:15))
+         line(51:) = in_column(labels%force, 15)
+         line(66:) = in_column(labels%length, 15)
          call file%put(line)
       end if
       call rows%flush(file)

@@ -5,7 +5,7 @@ module listing_opening
    use equations, only: equation_system
    use kinds, only: long, wp
    use listing_echo, only: write_echo
-   use listing_page, only: cut, heading, label_type, page_width, unit_labels
+   use listing_page, only: cut, heading, in_column, label_type, page_width, unit_labels
    use model_data, only: model_type, n_bars, n_points, n_sections
    use normal_stiffness, only: branch_load, branch_name, branch_reload, branch_unload, pressure_floor
    use output_file, only: output_file_type
@@ -110,16 +110,17 @@ contains
       call heading(file, 'JOINTS')
       if (model%dimension == 3) then
          call file%put('      JOINT ELEMENTS        A_INT            C      M            E_U   FIRST P (EQ.9)  LEAST P ON'// &
-                       ' LOAD NORMAL X Y Z')
+                       ' LOAD  NORMAL X  NORMAL Y  NORMAL Z')
       else
          call file%put('      JOINT ELEMENTS        A_INT            C      M            E_U   FIRST P (EQ.9)  LEAST P ON'// &
                        ' LOAD   NORMAL X   NORMAL Y')
       end if
       if (control%length_unit /= '') then
-         write (line, '(28x, a)') trim(labels%area)
-         line(58:) = trim(labels%pressure)//'/'//trim(labels%length)
-         line(79:) = labels%pressure
-         line(96:) = labels%pressure
+         line = ''
+         line(21:) = in_column(labels%area, 13)
+         line(54:) = in_column(trim(labels%pressure)//'/'//labels%length, 15)
+         line(69:) = in_column(labels%pressure, 17)
+         line(86:) = in_column(labels%pressure, 17)
          call file%put(line)
       end if
       do j = 1, size(model%joints)
@@ -198,9 +199,9 @@ contains
       end if
       if (labels%force /= '') then
          line = ''
-         line(54:) = labels%force
-         line(69:) = labels%force
-         if (model%dimension == 3) line(84:) = labels%force
+         line(51:) = in_column(labels%force, 15)
+         line(66:) = in_column(labels%force, 15)
+         if (model%dimension == 3) line(81:) = in_column(labels%force, 15)
          call file%put(line)
       end if
       do s = 1, size(plan%stages)

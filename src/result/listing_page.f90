@@ -9,7 +9,7 @@ module listing_page
    implicit none
    private
 
-   public :: heading, cut, unit_labels, in_units, where_now
+   public :: heading, cut, unit_labels, in_units, in_column, where_now
 
    integer, parameter, public :: page_width = 132
    real(wp), parameter, public :: noise = 1.0e-9_wp !! of the largest number of its kind: below it only rounding is printed
@@ -69,6 +69,17 @@ contains
       words = ''
       if (label /= '') words = '   ('//trim(label)//')'
    end function in_units
+
+
+   !> A unit as it stands under the heading of a column of WIDTH characters: at its right end, cut where it is longer.
+   pure function in_column(label, width) result(words)
+      character(*), intent(in) :: label
+      integer, intent(in)      :: width
+      character(width)         :: words
+
+      words = label
+      words = adjustr(words)
+   end function in_column
 
 
    !> Stage and increment behind a heading.
