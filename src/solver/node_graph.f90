@@ -6,7 +6,7 @@ module node_graph
    implicit none
    private
 
-   public :: build_node_graph
+   public :: build_node_graph, part_of_graph
 
    !> Nodes and their neighbours: neighbours(first(i):first(i+1)-1) share an element or interface element with node i.
    type, public :: node_graph_type
@@ -85,5 +85,34 @@ contains
       end do
       ends = ends(:, :n)
    end subroutine list_ends
+
+
+   !> The PART of GRAPH with NODES alone, numbered in their sequence.
+   pure subroutine part_of_graph(graph, nodes, number, part)
+      type(node_graph_type), intent(in)  :: graph
+      integer, intent(in)                :: nodes(:)
+      integer, intent(inout)             :: number(:) !! (graph%n) room to work in: zero, and zero again on return
+      type(node_graph_type), intent(out) :: part
+      integer :: i, k, m
+
+      part%n = size(nodes)
+      m = 0
+      do i = 1, part%n
+         number(nodes(i)) = i
+         m = m + graph%first(nodes(i) + 1) - graph%first(nodes(i))
+      end do
+      allocate (part%first(part%n + 1), part%neighbours(m))
+      m = 0
+      do i = 1, part%n
+         part%first(i) = m + 1
+         do k = graph%first(nodes(i)), graph%first(nodes(i) + 1) - 1
+            if (number(graph%neighbours(k)) == 0) cycle
+            m = m + 1
+            part%neighbours(m) = number(graph%neighbours(k))
+         end do
+      end do
+      part%first(part%n + 1) = m + 1
+      number(nodes) = 0
+   end subroutine part_of_graph
 
 end module node_graph

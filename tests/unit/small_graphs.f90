@@ -6,7 +6,7 @@ module small_graphs
    implicit none
    private
 
-   public :: graph_of, grid, join, mixed, eliminated
+   public :: graph_of, grid, wide_grid, join, mixed, eliminated, are_in_line
 
 contains
 
@@ -41,6 +41,52 @@ contains
       end do
       call graph_of(edges, graph)
    end subroutine grid
+
+
+   !> The same in linear time.
+   subroutine wide_grid(m, n, graph)
+      integer, intent(in)                :: m, n
+      type(node_graph_type), intent(out) :: graph
+      integer :: i, j, k, l, links
+
+      graph%n = m*n
+      allocate (graph%first(m*n + 1), graph%neighbours(8*m*n))
+      links = 0
+      do j = 1, n
+         do i = 1, m
+            graph%first(i + m*(j - 1)) = links + 1
+            do l = max(1, j - 1), min(n, j + 1)
+               do k = max(1, i - 1), min(m, i + 1)
+                  if (k == i .and. l == j) cycle
+                  links = links + 1
+                  graph%neighbours(links) = k + m*(l - 1)
+               end do
+            end do
+         end do
+      end do
+      graph%first(m*n + 1) = links + 1
+      graph%neighbours = graph%neighbours(:links)
+   end subroutine wide_grid
+
+
+   !> Whether of the places of any two neighbours in a binary tree one is above the other, or the same: what separators are for.
+   pure logical function are_in_line(graph, place)
+      type(node_graph_type), intent(in) :: graph
+      integer, intent(in)               :: place(:)
+      integer :: i, k, low, high
+
+      are_in_line = .true.
+      do i = 1, graph%n
+         do k = graph%first(i), graph%first(i + 1) - 1
+            high = min(place(i), place(graph%neighbours(k)))
+            low = max(place(i), place(graph%neighbours(k)))
+            do while (low > high)
+               low = low/2
+            end do
+            are_in_line = are_in_line .and. low == high
+         end do
+      end do
+   end function are_in_line
 
 
    !> An edge between ENDS(k) and OTHERS(k).
