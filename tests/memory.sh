@@ -57,6 +57,22 @@ limited 200 --check "$work/hex8_250x250x250.bdf"
 check '250 x 250 x 250, --check, which leaves older results alone' 3 1 \
    'the memory of the machine, or what is allowed of it, does not suffice; no results'
 
+# ------------------------------------------------------------------ GRID and CHEXA: told from the graph, before it is ordered
+awk -v n=45 'BEGIN {
+   m = n + 1
+   print "SPC = 1\nECHO = NO\nSOLVER = TREE\nSUBCASE 1\nLOAD = 10\nINCR = 5\nOUTPUT = NONE\nBEGIN BULK"
+   for (k = 0; k < m^3; k++) printf "GRID,%d,,%.1f,%.1f,%.1f\n", k + 1, k%m, int(k/m)%m, int(k/m^2)
+   for (k = 0; k < n^3; k++) {
+      a = 1 + k%n + m*(int(k/n)%n) + m^2*int(k/n^2)
+      b = a + m^2
+      printf "CHEXA,%d,1,%d,%d,%d,%d,%d,%d\n,%d,%d\n", k + 1, a, a + 1, a + 1 + m, a + m, b, b + 1, b + 1 + m, b + m
+   }
+   print "PSOLID,1,1\nMAT1,1,9500.0,,0.25\nFORCE,10," m^3 ",,1.0,0.0,0.0,1.0\nJINCR,5,1"
+   for (k = 1; k <= m^2; k++) print "SPC1,1,123," k
+   print "ENDDATA" }' > "$work/grid.bdf"
+limited 264 "$work/grid.bdf"
+check '45 x 45 x 45 from GRID cards' 3 0 'factor of 285660 equations needs at least 85 MiB' 'at most [0-9]+ equations would fit'
+
 # ------------------------------------------------------------------ told from the fronts, and from the skyline
 deck hex8_20x20x20 TREE
 limited 384 "$work/hex8_20x20x20.bdf"
