@@ -1,16 +1,17 @@
-!> What the command lines of the programs have in common: arguments, version, the standard output, why a file cannot be read,
-!! threads.
+!> What the command lines of the programs have in common: arguments, version, the standard output, complaints, why a file cannot
+!! be read, threads.
 module command_tools
    use, intrinsic :: iso_c_binding, only: c_int
+   use, intrinsic :: iso_fortran_env, only: error_unit
    use c_library, only: write_bytes
    use omp_lib, only: omp_set_num_threads
    implicit none
    private
 
-   public :: argument_text, say, why_unreadable, use_threads
+   public :: argument_text, is_option, name_input, say, complain, why_unreadable, use_threads
 
    character(*), parameter, public :: version = '0.1.0'
-   character(*), parameter, public :: standard_input = '/dev/stdin' !! the file that `-` means
+   character(*), parameter, public :: standard_input = '/dev/stdin' !! the path of the file that `-` means
 
    interface
       subroutine openblas_set_num_threads(n) bind(c, name='openblas_set_num_threads')
@@ -34,6 +35,30 @@ contains
    end function argument_text
 
 
+   !> Whether ARGUMENT is an option and no file: it begins with a dash, is not the `-` of the standard input, and stands before
+   !! the `--` that ends the options.
+   pure logical function is_option(argument, before_dashes)
+      character(*), intent(in) :: argument
+      logical, intent(in)      :: before_dashes
+
+      is_option = before_dashes .and. argument /= '-' .and. index(argument, '-') == 1
+   end function is_option
+
+
+   !> The file that ARGUMENT means: NAME as the user is told of it, PATH to read.
+   pure subroutine name_input(argument, name, path)
+      character(*), intent(in)               :: argument
+      character(:), allocatable, intent(out) :: name, path
+
+      name = argument
+      path = argument
+      if (argument == '-') then
+         name = 'standard input'
+         path = standard_input
+      end if
+   end subroutine name_input
+
+
    !> Write TEXT and a line end on the standard output; STATUS is 0, or 4 where it cannot be written.
    subroutine say(text, status)
       character(*), intent(in) :: text
@@ -43,6 +68,14 @@ contains
       call write_bytes(1, text//new_line('a'), ok)
       status = merge(0, 4, ok)
    end subroutine say
+
+
+   !> Say on the standard error what is wrong with the command of PROGRAM.
+   subroutine complain(program, message)
+      character(*), intent(in) :: program, message
+
+      write (error_unit, '(a)') program//': '//message, program//' --help shows the usage'
+   end subroutine complain
 
 
    !> Words for a file that cannot be read; EXPECTED is what it should have been, 'a deck'.

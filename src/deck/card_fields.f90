@@ -9,7 +9,7 @@ module card_fields
    implicit none
    private
 
-   public :: decode_card, decode_integer, decode_real, field_error
+   public :: decode_card, decode_integer, decode_real, check_direction, field_error
 
    !> The fields of one card, decoded. Field k is in INTEGERS(k) or REALS(k) or WORDS(k) by its rule.
    type, public :: card_values
@@ -212,6 +212,22 @@ contains
                           ''' is not a real number, expected '//expected, errors)
       end if
    end subroutine decode_real
+
+
+   !> The direction of WHAT in three data fields from FIRST on must not be zero. RULES is the table that CARD was decoded by.
+   subroutine check_direction(card, rules, first, what, values, errors)
+      type(card_type), intent(in)          :: card
+      type(field_rule), intent(in)         :: rules(:)
+      integer, intent(in)                  :: first
+      character(*), intent(in)             :: what
+      type(card_values), intent(in)        :: values
+      type(deck_error_list), intent(inout) :: errors
+
+      if (.not. values%ok .or. maxval(abs(values%reals(first:first + 2))) > 0.0_wp) return
+      call field_error(card, first, trim(rules(first)%name)//': '//what//' has no direction, expected '// &
+                       trim(rules(first)%name)//', '//trim(rules(first + 1)%name)//', '//trim(rules(first + 2)%name)// &
+                       ' not all zero', errors)
+   end subroutine check_direction
 
 
    !> Whether TEXT consists of LETTERS only, begins and ends like a number.

@@ -1,7 +1,7 @@
 !> The cards of the joint: JOINT, CJOINT, PJOINT, JNORM, JSHEAR, JINCR. A table and a routine each.
 module joint_cards
    use bulk_data, only: bulk_data_type, jincr_card
-   use card_fields, only: card_values, decode_card, decode_real, field_error
+   use card_fields, only: card_values, check_direction, decode_card, decode_real, field_error
    use card_lines, only: card_type
    use deck_errors, only: deck_error_list
    use field_rules, only: blank_field, field_rule, integer_field, real_field, word_field
@@ -57,9 +57,7 @@ contains
          integer_field('G2', default=0), real_field('AREA', above=0.0_wp), real_field('NX', default=0.0_wp), &
          real_field('NY', default=0.0_wp), real_field('NZ', default=0.0_wp)]
       call decode_card(card, table, .false., values, errors)
-      if (values%ok .and. norm2(values%reals(6:8)) <= 0.0_wp) then
-         call field_error(card, 6, 'NX: the normal has no direction, expected NX, NY, NZ not all zero', errors)
-      end if
+      call check_direction(card, table, 6, 'the normal', values, errors)
       if (values%integers(4) == values%integers(3) .and. values%integers(3) > 0) then
          call field_error(card, 4, 'G2: the same node as G1', errors)
       end if

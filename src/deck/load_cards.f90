@@ -1,7 +1,7 @@
 !> The cards of supports and loads: SPC, SPC1, SPCM, FORCE, LOAD. A table and a routine each.
 module load_cards
    use bulk_data, only: bulk_data_type, support_card
-   use card_fields, only: card_values, decode_card, decode_integer, decode_real, field_error
+   use card_fields, only: card_values, check_direction, decode_card, decode_integer, decode_real, field_error
    use card_lines, only: card_type
    use deck_errors, only: deck_error_list
    use field_rules, only: blank_field, component_field, field_rule, integer_field, real_field
@@ -131,9 +131,7 @@ contains
       if (.not. allocated(table)) table = [integer_field('SID'), integer_field('G'), blank_field('CID'), real_field('F'), &
          real_field('N1', default=0.0_wp), real_field('N2', default=0.0_wp), real_field('N3', default=0.0_wp)]
       call decode_card(card, table, .false., values, errors)
-      if (values%ok .and. maxval(abs(values%reals(5:7))) <= 0.0_wp) then
-         call field_error(card, 5, 'N1: the force has no direction, expected N1, N2, N3 not all zero', errors)
-      end if
+      call check_direction(card, table, 5, 'the force', values, errors)
       bulk%n_force = bulk%n_force + 1
       associate (force => bulk%force(bulk%n_force))
          force%line = card%line

@@ -11,7 +11,8 @@ module mesh_cards
 
    public :: read_grid, read_cbar, read_crod, read_pmark, read_block2, read_block3
 
-   integer, parameter :: largest = huge(1)
+   real(wp), parameter :: most_elements = 2.0e7_wp         ! of a block
+   integer, parameter  :: most_first = huge(1) - 200000000 ! N1 and E1: the numbers of a block have room behind them
 
 contains
 
@@ -125,16 +126,7 @@ contains
          call field_error(card, 7, 'X2: corners 2 and 4 must both be given (X2, Y2, X4, Y4), or all four '// &
                               'left blank for a rectangle', errors)
       end if
-      if (real(values%integers(3), wp)*values%integers(4) > 2.0e7_wp) then
-         call field_error(card, 3, 'NX: more than 2E7 elements in one block', errors)
-         values%integers(3:4) = 1
-      end if
-      if (values%integers(15) > largest - 200000000) then
-         call field_error(card, 15, 'N1: the last node number would pass 2147483647', errors)
-      end if
-      if (values%integers(16) > largest - 200000000) then
-         call field_error(card, 16, 'E1: the last element number would pass 2147483647', errors)
-      end if
+      call check_block(card, 4, values, errors)
       bulk%n_block2 = bulk%n_block2 + 1
       associate (block2 => bulk%block2(bulk%n_block2), x => values%reals)
          block2%line = card%line
@@ -178,14 +170,8 @@ contains
          integer_field('S4', default=0), integer_field('S5', default=0), integer_field('S6', default=0), &
          integer_field('WELD', default=0)]
       call decode_card(card, table, .false., values, errors)
-      if (product(real(values%integers(3:5), wp)) > 2.0e7_wp) then
-         call field_error(card, 3, 'NX: more than 2E7 elements in one block', errors)
-         values%integers(3:5) = 1
-      end if
-      if (max(values%integers(15), values%integers(16)) > largest - 200000000) then
-         call field_error(card, 15, 'N1: the last node or element number would pass 2147483647', errors)
-         values%integers(15:16) = 1
-      end if
+      call check_block(card, 5, values, errors)
+      where (values%integers(15:16) > most_first) values%integers(15:16) = 1 ! what the cards of most decks count on
       if (values%ok .and. any(values%reals(9:11) <= values%reals(6:8))) call field_error(card, 9, &
          'X2: the second corner must lie beyond the first in x, y and z', errors)
       bulk%n_block3 = bulk%n_block3 + 1
@@ -203,5 +189,24 @@ contains
          block3%doubtful = errors%n > errors_before
       end associate
    end subroutine read_block3
+
+
+   !> Size and numbers of a block, whose divisions are data fields 3 to LAST and whose N1 and E1 are 15 and 16. Of too many
+   !! elements one is left, so that the rest of the deck can be checked.
+   subroutine check_block(card, last, values, errors)
+      type(card_type), intent(in)          :: card
+      integer, intent(in)                  :: last
+      type(card_values), intent(inout)     :: values
+      type(deck_error_list), intent(inout) :: errors
+
+      if (product(real(values%integers(3:last), wp)) > most_elements) then
+         call field_error(card, 3, 'NX: more than 2E7 elements in one block', errors)
+         values%integers(3:last) = 1
+      end if
+      if (values%integers(15) > most_first) &
+         call field_error(card, 15, 'N1: the last node number would pass 2147483647', errors)
+      if (values%integers(16) > most_first) &
+         call field_error(card, 16, 'E1: the last element number would pass 2147483647', errors)
+   end subroutine check_block
 
 end module mesh_cards

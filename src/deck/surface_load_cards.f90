@@ -2,7 +2,7 @@
 !! A table and a routine each.
 module surface_load_cards
    use bulk_data, only: bulk_data_type
-   use card_fields, only: card_values, decode_card, field_error
+   use card_fields, only: card_values, check_direction, decode_card, field_error
    use card_lines, only: card_type
    use deck_errors, only: deck_error_list
    use field_rules, only: blank_field, component_field, field_rule, integer_field, real_field
@@ -94,9 +94,7 @@ contains
       if (.not. allocated(table)) table = [integer_field('SID'), real_field('F'), real_field('N1', default=0.0_wp), &
          real_field('N2', default=0.0_wp), real_field('N3', default=0.0_wp), integer_field('PID')]
       call decode_card(card, table, .false., values, errors)
-      if (values%ok .and. maxval(abs(values%reals(3:5))) <= 0.0_wp) then
-         call field_error(card, 3, 'N1: the force has no direction, expected N1, N2, N3 not all zero', errors)
-      end if
+      call check_direction(card, table, 3, 'the force', values, errors)
       bulk%n_surface_load = bulk%n_surface_load + 1
       associate (load => bulk%surface_load(bulk%n_surface_load))
          load%line = card%line
@@ -118,8 +116,7 @@ contains
       if (.not. allocated(table)) table = [integer_field('SID'), blank_field('CID'), real_field('A'), &
          real_field('N1', default=0.0_wp), real_field('N2', default=0.0_wp), real_field('N3', default=0.0_wp)]
       call decode_card(card, table, .false., values, errors)
-      if (values%ok .and. maxval(abs(values%reals(4:6))) <= 0.0_wp) &
-         call field_error(card, 4, 'N1: the acceleration has no direction, expected N1, N2, N3 not all zero', errors)
+      call check_direction(card, table, 4, 'the acceleration', values, errors)
       bulk%n_gravity = bulk%n_gravity + 1
       associate (gravity => bulk%gravity(bulk%n_gravity))
          gravity%line = card%line

@@ -1,7 +1,6 @@
 !> The command line of jointfit: options and data files.
 module fit_command
-   use, intrinsic :: iso_fortran_env, only: error_unit
-   use command_tools, only: argument_text, say, standard_input, version
+   use command_tools, only: argument_text, complain, is_option, name_input, say, version
    use deck_numbers, only: parse_integer, parse_real
    use fit_branches, only: branch_number
    use kinds, only: wp
@@ -11,6 +10,7 @@ module fit_command
 
    public :: read_fit_command
 
+   character(*), parameter :: program = 'jointfit'
 
    !> One data file of the command.
    type, public :: data_argument
@@ -49,7 +49,7 @@ contains
       do while (i < command_argument_count())
          i = i + 1
          argument = argument_text(i)
-         if (.not. options .or. argument == '-' .or. index(argument, '-') /= 1) then
+         if (.not. is_option(argument, options)) then
             call add_file(command, argument)
             cycle
          end if
@@ -60,7 +60,7 @@ contains
             call print_help(status)
             return
          case ('--version')
-            call say('jointfit '//version, status)
+            call say(program//' '//version, status)
             return
          case ('--joint-fit')
             command%joint_fit = .true.
@@ -73,14 +73,14 @@ contains
             call read_value(argument, argument_text(i), command, ok)
             if (.not. ok) return
          case default
-            call complain('there is no option '//argument)
+            call complain(program, 'there is no option '//argument)
             return
          end select
       end do
       if (size(command%files) == 0) then
-         call complain('no data file given')
+         call complain(program, 'no data file given')
       else if (command%as > 0 .and. command%only == 0) then
-         call complain('--as needs --branch: which branch of the data is meant?')
+         call complain(program, '--as needs --branch: which branch of the data is meant?')
       else
          if (command%as == 0) command%as = command%only
          finished = .false.
@@ -100,7 +100,7 @@ contains
       case ('--id')
          call parse_integer(value, command%id, ok)
          ok = ok .and. command%id > 0
-         if (.not. ok) call complain('--id '//value//': expected a number of 1 or more')
+         if (.not. ok) call complain(program, '--id '//value//': expected a number of 1 or more')
       case ('--branch', '--as')
          if (option == '--as') then
             command%as = branch_number(upper(value))
@@ -109,15 +109,15 @@ contains
             command%only = branch_number(upper(value))
             ok = command%only > 0
          end if
-         if (.not. ok) call complain(option//' '//value//': expected LOAD, UNLOAD or RELOAD')
+         if (.not. ok) call complain(program, option//' '//value//': expected LOAD, UNLOAD or RELOAD')
       case ('--p-tolerance')
          call read_real(value, command%p_tolerance, ok)
          ok = ok .and. command%p_tolerance >= 0.0_wp .and. command%p_tolerance < 1.0_wp
-         if (.not. ok) call complain('--p-tolerance '//value//': expected a number from 0 to below 1, as 0.01')
+         if (.not. ok) call complain(program, '--p-tolerance '//value//': expected a number from 0 to below 1, as 0.01')
       case ('--dmax')
          call read_real(value, command%d_max, ok)
          ok = ok .and. command%d_max > 0.0_wp
-         if (.not. ok) call complain('--dmax '//value//': expected a number above 0')
+         if (.not. ok) call complain(program, '--dmax '//value//': expected a number above 0')
       end select
    end subroutine read_value
 
@@ -133,27 +133,14 @@ contains
    end subroutine read_real
 
 
-
-   subroutine add_file(command, name)
+   subroutine add_file(command, argument)
       type(fit_command_type), intent(inout) :: command
-      character(*), intent(in)              :: name
+      character(*), intent(in)              :: argument
       type(data_argument) :: file
 
-      file%name = name
-      file%path = name
-      if (name == '-') then
-         file%name = 'standard input'
-         file%path = standard_input
-      end if
+      call name_input(argument, file%name, file%path)
       command%files = [command%files, file]
    end subroutine add_file
-
-
-   subroutine complain(message)
-      character(*), intent(in) :: message
-
-      write (error_unit, '(a)') 'jointfit: '//message, 'jointfit --help shows the usage'
-   end subroutine complain
 
 
    subroutine print_help(status)

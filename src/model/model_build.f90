@@ -2,12 +2,14 @@
 module model_build
    use bar_build, only: build_bars
    use condition_build, only: build_supports
+   use connected_parts, only: find_parts
    use deck_errors, only: deck_error_list
    use deck_input, only: deck_type
+   use determinate_joints, only: find_determinate_joints
+   use first_pressures, only: find_first_pressures
    use id_checks, only: check_ids
    use joint_build, only: build_joints
    use joint_split, only: split_shared_surfaces
-   use joint_statics, only: find_determinate_joints, find_first_pressures, find_parts
    use load_build, only: build_loads
    use mesh_build, only: build_mesh
    use model_data, only: model_type, n_sections

@@ -2,13 +2,14 @@
 module listing
    use case_control, only: method_back, method_newton, output_all, output_joint, output_last
    use deck_input, only: deck_type
+   use determinate_joints, only: carried_resultant
    use equations, only: equation_system
-   use joint_statics, only: carried_resultant
    use kinds, only: wp
    use listing_bars, only: list_bars, list_sections, note_bars, note_sections
    use listing_bodies, only: list_bodies
    use listing_joints, only: list_energy, list_interface, list_passes, list_resultants, note_passes, note_resultants
-   use listing_opening, only: heading, label_type, noise, page_width, unit_labels, write_opening
+   use listing_opening, only: write_opening
+   use listing_page, only: heading, in_column, label_type, noise, page_width, unit_labels
    use listing_plot, only: plot_joints
    use model_data, only: model_type, stage_load_type
    use normal_stiffness, only: branch_open
@@ -103,12 +104,12 @@ contains
                        '  APPLIED TO DIFFERENCE UNBALANCED')
          if (listing%labels%force /= '') then
             line = ''
-            line(44:) = adjustr(listing%labels%length(:9))
-            line(62:) = adjustr(listing%labels%pressure(:13))
-            line(90:) = adjustr(listing%labels%force(:9))
-            line(102:) = adjustr(listing%labels%force(:9))
-            line(113:) = adjustr(listing%labels%force(:9))
-            line(124:) = adjustr(listing%labels%force(:9))
+            line(44:) = in_column(listing%labels%length, 9)
+            line(62:) = in_column(listing%labels%pressure, 13)
+            line(90:) = in_column(listing%labels%force, 9)
+            line(102:) = in_column(listing%labels%force, 9)
+            line(113:) = in_column(listing%labels%force, 9)
+            line(124:) = in_column(listing%labels%force, 9)
             call file%put(line)
          end if
          call listing%increments%flush(file)

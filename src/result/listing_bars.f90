@@ -4,7 +4,7 @@ module listing_bars
    use bar_elements, only: bar_elongation
    use bolt_locking, only: bar_tension, section_tension
    use kinds, only: wp
-   use listing_opening, only: heading, label_type, noise, page_width
+   use listing_page, only: heading, in_column, label_type, noise, page_width
    use model_data, only: model_type, n_bars, n_sections
    use output_file, only: output_file_type
    use row_buffer, only: row_buffer_type
@@ -24,7 +24,8 @@ contains
       type(analysis_type), intent(in)      :: analysis
       real(wp), intent(in)                 :: largest_force !! ever applied, for the noise
       type(row_buffer_type), intent(inout) :: rows
-      character(page_width) :: row
+      character(44) :: who
+      character(9)  :: state
       real(wp) :: floor
       integer  :: i
 
@@ -32,14 +33,14 @@ contains
       floor = noise*maxval(abs(analysis%u(:, analysis%retained)))
       do i = 1, n_bars(model)
          associate (bar => model%bars(i))
-            write (row, '(i6, 11x, 3i11, 2es15.5)') analysis%increment, bar%id, model%node_id(bar%nodes), &
-               clean(bar_tension(model, analysis, i), noise*largest_force), &
-               clean(bar_elongation(model, analysis%u, i), floor)
+            write (who, '(11x, 3i11)') bar%id, model%node_id(bar%nodes)
+            state = ''
             if (bar%bolt > 0) then
-               write (row(7:17), '(i11)') bar%bolt
-               row(state_column:) = state_of_bolt(bar%stage == analysis%stage, bar%is_elastic)
+               write (who(:11), '(i11)') bar%bolt
+               state = state_of_bolt(bar%stage == analysis%stage, bar%is_elastic)
             end if
-            call rows%add(row)
+            call note(analysis%increment, who, clean(bar_tension(model, analysis, i), noise*largest_force), &
+                      clean(bar_elongation(model, analysis%u, i), floor), state, rows)
          end associate
       end do
    end subroutine note_bars
@@ -51,7 +52,7 @@ contains
       type(analysis_type), intent(in)      :: analysis
       real(wp), intent(in)                 :: largest_force !! ever applied, for the noise
       type(row_buffer_type), intent(inout) :: rows
-      character(page_width) :: row
+      character(44) :: who
       real(wp) :: floor
       integer  :: i
 
@@ -59,14 +60,28 @@ contains
       floor = noise*maxval(abs(analysis%u(:, analysis%retained)))
       do i = 1, n_sections(model)
          associate (section => model%sections(i))
-            write (row, '(i6, 2i11, 22x, 2es15.5)') analysis%increment, section%bolt, section%surface, &
-               clean(section_tension(model, analysis, i), noise*largest_force), &
-               clean(analysis%u(1, section%node), floor)
-            row(state_column:) = state_of_bolt(section%stage == analysis%stage, section%is_locked)
-            call rows%add(row)
+            write (who, '(2i11)') section%bolt, section%surface
+            call note(analysis%increment, who, clean(section_tension(model, analysis, i), noise*largest_force), &
+                      clean(analysis%u(1, section%node), floor), &
+                      state_of_bolt(section%stage == analysis%stage, section%is_locked), rows)
          end associate
       end do
    end subroutine note_sections
+
+
+   !> A row of either table: whose force it is (BOLT ELEMENT NODE NODE, or BOLT SURFACE), the force, the length, the bolt's state.
+   subroutine note(increment, who, tension, length, state, rows)
+      integer, intent(in)                  :: increment
+      character(44), intent(in)            :: who
+      real(wp), intent(in)                 :: tension, length
+      character(9), intent(in)             :: state
+      type(row_buffer_type), intent(inout) :: rows
+      character(page_width) :: row
+
+      write (row, '(i6, a44, 2es15.5)') increment, who, tension, length
+      row(state_column:) = state
+      call rows%add(row)
+   end subroutine note
 
 
    pure function state_of_bolt(is_tightened, is_locked) result(word)
@@ -114,8 +129,8 @@ contains
       call file%put(columns)
       if (labels%force /= '') then
          line = ''
-         line(51:) = adjustr(labels%force(:15))
-         line(66:) = adjustr(labels%length(:15))
+         line(51:) = in_column(labels%force, 15)
+         line(66:) = in_column(labels%length, 15)
          call file%put(line)
       end if
       call rows%flush(file)

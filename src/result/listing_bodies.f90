@@ -4,7 +4,7 @@ module listing_bodies
    use body_elements, only: element_stress, full_stress
    use elasticity, only: max_stresses, n_stresses
    use kinds, only: wp
-   use listing_opening, only: heading, in_units, label_type, noise, page_width, where_now
+   use listing_page, only: heading, in_units, label_type, noise, page_width, where_now
    use model_data, only: corners_of, model_type, n_points
    use output_file, only: output_file_type
    use stage_plan, only: stage_plan_type

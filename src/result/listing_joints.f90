@@ -2,7 +2,7 @@
 module listing_joints
    use analysis_state, only: analysis_type, element_force
    use kinds, only: wp
-   use listing_opening, only: heading, label_type, noise, page_width, where_now
+   use listing_page, only: heading, in_column, label_type, noise, page_width, where_now
    use model_data, only: model_type
    use normal_stiffness, only: branch_name
    use output_file, only: output_file_type
@@ -41,14 +41,14 @@ contains
             end if
             if (labels%force /= '') then
                line = ''
-               line(37:) = adjustr(labels%length(:10))
-               line(50:) = adjustr(labels%length(:10))
-               line(63:) = adjustr(labels%area(:10))
-               line(84:) = adjustr(labels%length(:10))
-               line(94:) = adjustr(labels%pressure(:13))
-               line(110:) = adjustr(labels%force(:10))
-               line(121:) = adjustr(labels%stiffness(:12))
-               if (model%dimension == 3) line = line(:62)//adjustr(labels%length(:10))//'   '//line(63:119)
+               line(37:) = in_column(labels%length, 10)
+               line(50:) = in_column(labels%length, 10)
+               line(63:) = in_column(labels%area, 10)
+               line(84:) = in_column(labels%length, 10)
+               line(94:) = in_column(labels%pressure, 13)
+               line(110:) = in_column(labels%force, 10)
+               line(121:) = in_column(labels%stiffness, 12)
+               if (model%dimension == 3) line = line(:62)//in_column(labels%length, 10)//'   '//line(63:119)
                call file%put(line)
             end if
             lambda_floor = noise*analysis%largest_lambda
@@ -109,11 +109,11 @@ contains
             call file%put('    ELEMENT     NODE 1  BRANCH        DELTA          TAU        FORCE    K_S, USED        LIMIT')
             if (labels%force /= '') then
                line = ''
-               line(32:) = adjustr(labels%length(:13))
-               line(45:) = adjustr(labels%pressure(:13))
-               line(58:) = adjustr(labels%force(:13))
-               line(71:) = adjustr(labels%stiffness(:13))
-               line(84:) = adjustr(labels%pressure(:13))
+               line(32:) = in_column(labels%length, 13)
+               line(45:) = in_column(labels%pressure, 13)
+               line(58:) = in_column(labels%force, 13)
+               line(71:) = in_column(labels%stiffness, 13)
+               line(84:) = in_column(labels%pressure, 13)
                call file%put(line)
             end if
             do i = joint%first, joint%last
@@ -196,11 +196,11 @@ contains
       end if
       if (labels%force /= '') then
          line = ''
-         line(18:) = adjustr(labels%force(:15))
-         line(33:) = adjustr(labels%force(:15))
-         line(48:) = adjustr(labels%force(:15))
-         line(63:) = adjustr(labels%force(:15))
-         line(78:) = adjustr(trim(labels%force(:7))//' '//labels%length(:7))
+         line(18:) = in_column(labels%force, 15)
+         line(33:) = in_column(labels%force, 15)
+         line(48:) = in_column(labels%force, 15)
+         line(63:) = in_column(labels%force, 15)
+         line(78:) = in_column(trim(labels%force)//' '//labels%length, 15)
          if (dimension == 3) then
             line(93:) = line(78:92)
             line(108:) = line(78:92)

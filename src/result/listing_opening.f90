@@ -1,29 +1,20 @@
 !> The first pages of the listing: heading, deck echo, summary of the model, joints and stages.
 module listing_opening
-   use analysis_state, only: analysis_type
-   use card_names, only: card_name, is_continuation
    use case_control, only: case_control_type, method_newton, method_step, pressure_eq10
    use deck_input, only: deck_type
    use equations, only: equation_system
-   use include_lines, only: is_include
    use kinds, only: long, wp
+   use listing_echo, only: write_echo
+   use listing_page, only: cut, heading, in_column, label_type, page_width, unit_labels
    use model_data, only: model_type, n_bars, n_points, n_sections
    use normal_stiffness, only: branch_load, branch_name, branch_reload, branch_unload, pressure_floor
    use output_file, only: output_file_type
    use stage_plan, only: stage_plan_type
-   use text_tools, only: clean, integer_text, plural, real_text, upper
+   use text_tools, only: clean, real_text
    implicit none
    private
 
-   public :: write_opening, unit_labels, heading, where_now, in_units
-
-   integer, parameter, public :: page_width = 132
-   real(wp), parameter, public :: noise = 1.0e-9_wp !! of the largest number of its kind: below it only rounding is printed
-
-   !> What the numbers of the listing are measured in, blank where the deck does not say.
-   type, public :: label_type
-      character(20) :: length = '', force = '', pressure = '', area = '', stiffness = ''
-   end type label_type
+   public :: write_opening
 
 contains
 
@@ -46,100 +37,7 @@ contains
    end subroutine write_opening
 
 
-   !> Labels out of UNITS = length, force.
-   pure function unit_labels(control) result(labels)
-      type(case_control_type), intent(in) :: control
-      type(label_type) :: labels
-
-      if (control%length_unit == '') return
-      labels%length = control%length_unit
-      labels%force = control%force_unit
-      labels%pressure = trim(control%force_unit)//'/'//trim(control%length_unit)//'2'
-      labels%area = trim(control%length_unit)//'2'
-      labels%stiffness = trim(control%force_unit)//'/'//trim(control%length_unit)
-   end function unit_labels
-
-
-   !> A heading of a table, with an empty line before it.
-   subroutine heading(file, words)
-      type(output_file_type), intent(inout) :: file
-      character(*), intent(in)              :: words
-
-      call file%put('')
-      call file%put(' '//cut(words, page_width - 1))
-      call file%put('')
-   end subroutine heading
-
-
-   !> The deck as read, cards counted, under a field ruler. INCLUDE files are counted, not shown.
-   subroutine write_echo(file, deck)
-      type(output_file_type), intent(inout) :: file
-      type(deck_type), intent(in)           :: deck
-      character(:), allocatable :: line
-      character(10) :: counter
-      integer :: i, cards, hidden
-      logical :: in_bulk
-
-      if (.not. deck%control%echo) then
-         call heading(file, 'DECK: '//integer_text(deck%bulk%n_cards)//' CARDS, NOT ECHOED')
-         return
-      end if
-      call heading(file, 'DECK ECHO')
-      cards = 0
-      hidden = 0
-      in_bulk = .false.
-      do i = 1, deck%text%n
-         line = deck%text%card_part(i)
-         counter = ''
-         if (in_bulk .and. line /= '' .and. .not. is_continuation(line)) then
-            if (card_name(line) /= 'ENDDATA' .and. .not. is_include(line)) then
-               cards = cards + 1
-               write (counter, '(i9, a)') cards, '-'
-            end if
-         end if
-         if (deck%text%file_number(i) > 1) then
-            hidden = hidden + 1
-         else
-            call count_hidden(file, hidden)
-            call file%put(' '//counter//' '//cut(deck%text%line(i), page_width - 13))
-         end if
-         if (.not. in_bulk .and. index(adjustl(upper(line)), 'BEGIN') == 1) then
-            in_bulk = .true.
-            call file%put('   CARD')
-            call file%put('  COUNT-    .   1  ..   2  ..   3  ..   4  ..   5  ..   6  ..   7  ..   8  ..   9  ..  10  .')
-         end if
-      end do
-      call count_hidden(file, hidden)
-      call file%put('')
-      call file%put('  TOTAL COUNT '//integer_text(cards)//' CARDS')
-   end subroutine write_echo
-
-
-   subroutine count_hidden(file, hidden)
-      type(output_file_type), intent(inout) :: file
-      integer, intent(inout)                :: hidden
-
-      if (hidden > 0) call file%put('            ('//upper(plural(hidden, 'line'))// &
-                                          ' OF INCLUDE FILES, NOT ECHOED)')
-      hidden = 0
-   end subroutine count_hidden
-
-
-   !> At most WIDTH characters of LINE, tabs and other controls as blanks.
-   pure function cut(line, width) result(part)
-      character(*), intent(in)  :: line
-      integer, intent(in)       :: width
-      character(:), allocatable :: part
-      integer :: i
-
-      part = line(:min(len(line), width))
-      if (len(line) > width) part(width - 2:) = '...'
-      do i = 1, len(part)
-         if (iachar(part(i:i)) < 32) part(i:i) = ' '
-      end do
-   end function cut
-
-
+   !> What the model has of everything, and how it is solved.
    subroutine write_summary(file, deck, model, system)
       type(output_file_type), intent(inout) :: file
       type(deck_type), intent(in)           :: deck
@@ -212,16 +110,17 @@ contains
       call heading(file, 'JOINTS')
       if (model%dimension == 3) then
          call file%put('      JOINT ELEMENTS        A_INT            C      M            E_U   FIRST P (EQ.9)  LEAST P ON'// &
-                       ' LOAD NORMAL X Y Z')
+                       ' LOAD  NORMAL X  NORMAL Y  NORMAL Z')
       else
          call file%put('      JOINT ELEMENTS        A_INT            C      M            E_U   FIRST P (EQ.9)  LEAST P ON'// &
                        ' LOAD   NORMAL X   NORMAL Y')
       end if
       if (control%length_unit /= '') then
-         write (line, '(28x, a)') trim(labels%area)
-         line(58:) = trim(labels%pressure)//'/'//trim(labels%length)
-         line(79:) = labels%pressure
-         line(96:) = labels%pressure
+         line = ''
+         line(21:) = in_column(labels%area, 13)
+         line(54:) = in_column(trim(labels%pressure)//'/'//labels%length, 15)
+         line(69:) = in_column(labels%pressure, 17)
+         line(86:) = in_column(labels%pressure, 17)
          call file%put(line)
       end if
       do j = 1, size(model%joints)
@@ -300,9 +199,9 @@ contains
       end if
       if (labels%force /= '') then
          line = ''
-         line(54:) = labels%force
-         line(69:) = labels%force
-         if (model%dimension == 3) line(84:) = labels%force
+         line(51:) = in_column(labels%force, 15)
+         line(66:) = in_column(labels%force, 15)
+         if (model%dimension == 3) line(81:) = in_column(labels%force, 15)
          call file%put(line)
       end if
       do s = 1, size(plan%stages)
@@ -317,22 +216,5 @@ contains
          end associate
       end do
    end subroutine write_stages
-
-   pure function where_now(plan, analysis) result(words)
-      type(stage_plan_type), intent(in) :: plan
-      type(analysis_type), intent(in)   :: analysis
-      character(:), allocatable         :: words
-
-      words = ', STAGE '//integer_text(plan%stages(analysis%stage)%id)//', INCREMENT '//integer_text(analysis%increment)
-   end function where_now
-
-
-   pure function in_units(label) result(words)
-      character(*), intent(in)  :: label
-      character(:), allocatable :: words
-
-      words = ''
-      if (label /= '') words = '   ('//trim(label)//')'
-   end function in_units
 
 end module listing_opening

@@ -2,7 +2,7 @@
 module listing_plot
    use analysis_state, only: analysis_type
    use kinds, only: wp
-   use listing_opening, only: heading, label_type, page_width, where_now
+   use listing_page, only: heading, label_type, page_width, where_now
    use model_data, only: model_type
    use output_file, only: output_file_type
    use stage_plan, only: stage_plan_type

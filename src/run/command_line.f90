@@ -1,8 +1,7 @@
 !> The command line: options and decks.
 module command_line
-   use, intrinsic :: iso_fortran_env, only: error_unit
    use c_library, only: true_path
-   use command_tools, only: argument_text, say, standard_input, version
+   use command_tools, only: argument_text, complain, is_option, name_input, say, standard_input, version
    use deck_numbers, only: parse_integer
    use text_tools, only: integer_text
    use vtu_results, only: is_vtu_ending
@@ -10,6 +9,8 @@ module command_line
    private
 
    public :: read_command_line, is_result_of
+
+   character(*), parameter :: program = 'jointfem'
 
    !> One deck of the command and the files that its results go to.
    type, public :: deck_argument
@@ -51,10 +52,7 @@ contains
       do while (i < n)
          i = i + 1
          argument = argument_text(i)
-         if (.not. options .or. argument == '-' .or. len(argument) == 0) then
-            call add_deck(command, argument)
-            cycle
-         else if (argument(1:1) /= '-') then
+         if (.not. is_option(argument, options)) then
             call add_deck(command, argument)
             cycle
          end if
@@ -65,7 +63,7 @@ contains
             call print_help(status)
             return
          case ('--version')
-            call say('jointfem '//version, status)
+            call say(program//' '//version, status)
             return
          case ('--check')
             command%check_only = .true.
@@ -75,7 +73,7 @@ contains
             command%times = .true.
          case ('-o', '--threads')
             if (i == n) then
-               call complain(argument//' needs a value behind it')
+               call complain(program, argument//' needs a value behind it')
                return
             end if
             i = i + 1
@@ -85,17 +83,17 @@ contains
             else
                call parse_integer(argument_text(i), command%threads, ok)
                if (.not. ok .or. command%threads < 1) then
-                  call complain('--threads '//argument_text(i)//': expected a number of 1 or more')
+                  call complain(program, '--threads '//argument_text(i)//': expected a number of 1 or more')
                   return
                end if
             end if
          case default
-            call complain('there is no option '//argument)
+            call complain(program, 'there is no option '//argument)
             return
          end select
       end do
       if (size(command%decks) == 0) then
-         call complain('no deck given')
+         call complain(program, 'no deck given')
          return
       end if
       call name_results(command, ok)
@@ -105,17 +103,12 @@ contains
    end subroutine read_command_line
 
 
-   subroutine add_deck(command, name)
+   subroutine add_deck(command, argument)
       type(command_type), intent(inout) :: command
-      character(*), intent(in)          :: name
+      character(*), intent(in)          :: argument
       type(deck_argument) :: deck
 
-      deck%name = name
-      deck%path = name
-      if (name == '-') then
-         deck%name = 'standard input'
-         deck%path = standard_input
-      end if
+      call name_input(argument, deck%name, deck%path)
       deck%base = ''
       deck%listing = ''
       deck%history = ''
@@ -138,7 +131,7 @@ contains
             deck%history = deck%base//'.joint.csv'
             do k = 1, i - 1
                if (command%decks(k)%listing == deck%listing) then
-                  call complain(command%decks(k)%name//' and '//deck%name//' would both write '//deck%listing)
+                  call complain(program, command%decks(k)%name//' and '//deck%name//' would both write '//deck%listing)
                   return
                end if
                if (share_vtu(command%decks(k), deck)) return
@@ -149,7 +142,8 @@ contains
       do i = 1, size(command%decks)
          do k = 1, size(command%decks)
             if (is_result_of(true_path(command%decks(i)%path), command%decks(k))) then
-               call complain('the results of '//command%decks(k)%name//' would overwrite the deck '//command%decks(i)%name)
+               call complain(program, 'the results of '//command%decks(k)%name//' would overwrite the deck '// &
+                             command%decks(i)%name)
                return
             end if
          end do
@@ -167,7 +161,7 @@ contains
       if (a%base == '' .or. len(b%base) <= len(a%base)) return
       if (b%base(:len(a%base)) /= a%base) return
       share_vtu = is_vtu_ending(b%base(len(a%base) + 1:)//'.vtu')
-      if (share_vtu) call complain(a%name//' and '//b%name//' could both write '//b%base//'.vtu')
+      if (share_vtu) call complain(program, a%name//' and '//b%name//' could both write '//b%base//'.vtu')
    end function share_vtu
 
 
@@ -214,13 +208,6 @@ contains
       dot = index(name, '.', back=.true.)
       if (dot > 1) name = name(:dot - 1)
    end function base_name
-
-
-   subroutine complain(message)
-      character(*), intent(in) :: message
-
-      write (error_unit, '(a)') 'jointfem: '//message, 'jointfem --help shows the usage'
-   end subroutine complain
 
 
    subroutine print_help(status)

@@ -2,7 +2,7 @@
 !! have changed little since, a few steps cost less than a factorisation.
 !! Source: Hestenes, Stiefel, J. Res. NBS 49 (1952) 409-436, preconditioned as in Golub, Van Loan, Matrix Computations, 11.5.
 module conjugate_gradients
-   use front_solve, only: moving_times_vector, solve_moving
+   use front_solve, only: add_joints, solve_moving
    use front_tree, only: front_tree_type
    use kinds, only: wp
    implicit none
@@ -14,75 +14,53 @@ module conjugate_gradients
 
 contains
 
-   !> Solve ([k_b] + sum of [k_int]) x = b on the equations that move. STEPS is how many it took, more than MOST_STEPS where that
-   !! was not enough: X is of no use then. TOLERANCE is a share of the energy of the solution, as a length.
-   subroutine iterate_moving(tree, equations, k_int, tolerance, most_steps, x, steps)
+   !> Solve ([k] + sum of CHANGE) d = r on the equations that move, [k] what the tree has the factor of, and add d to X. Beside
+   !! r = [k] z, the product p = [k] d goes along with the direction d: no step multiplies by a matrix other than CHANGE. STEPS
+   !! is how many it took, more than MOST_STEPS where that was not enough: X is of no use then. Enough is where d leaves of the
+   !! ENERGY, of what X had, and of d, no more than the square of TOLERANCE, a share of a length.
+   subroutine iterate_moving(tree, equations, change, energy, tolerance, most_steps, r, x, steps)
       type(front_tree_type), intent(in) :: tree
-      integer, intent(in)               :: equations(:)   !! those that move
-      real(wp), intent(in)              :: k_int(:, :, :) !! (6, 6, n) of interface elements
+      integer, intent(in)               :: equations(:)    !! those that move
+      real(wp), intent(in)              :: change(:, :, :) !! (6, 6, n) of interface elements since [k] [force/length]
+      real(wp), intent(in)              :: energy          !! [force*length], twice the work
       real(wp), intent(in)              :: tolerance
       integer, intent(in)               :: most_steps
-      real(wp), intent(inout)           :: x(:)           !! (n) b on entry, the solution on return; untouched elsewhere
+      real(wp), intent(inout)           :: r(:)            !! (n) [force], what is left of it on return
+      real(wp), intent(inout)           :: x(:)            !! (n) [length], not touched elsewhere
       integer, intent(out)              :: steps
-      real(wp), allocatable :: residual(:), z(:), direction(:), product(:), u(:)
-      real(wp) :: alpha, before, first, now
+      real(wp), allocatable :: z(:), direction(:), of_factor(:), product(:)
+      real(wp) :: alpha, before, enough, now, start
 
-      allocate (residual(tree%n), z(tree%n), direction(tree%n), product(tree%n), u(tree%n))
+      allocate (z(tree%n), direction(tree%n), of_factor(tree%n), product(tree%n))
       associate (e => equations)
-         residual(e) = x(e)                ! what stands at locked equations meets zeros: solve_moving leaves none else there
-         u(e) = 0.0_wp
-         z(e) = residual(e)
+         z(e) = r(e)                ! what stands at locked equations meets zeros: solve_moving leaves none else there
          call solve_moving(tree, z)
+         now = dot_product(r(e), z(e))
+         start = now
+         enough = tolerance**2*(energy + start)
+         steps = 0
+         if (now <= enough) return
          direction(e) = z(e)
-         now = dot_product(residual(e), z(e))
-         first = now
+         of_factor(e) = r(e)
          do steps = 1, most_steps
-            call moving_times_vector(tree, direction, product)
-            call add_joints(tree, k_int, direction, product)
+            product(e) = of_factor(e)
+            call add_joints(tree, change, direction, product)
             alpha = dot_product(direction(e), product(e))
             if (.not. alpha > 0.0_wp) exit
             alpha = now/alpha
-            u(e) = u(e) + alpha*direction(e)
-            residual(e) = residual(e) - alpha*product(e)
-            z(e) = residual(e)
+            x(e) = x(e) + alpha*direction(e)
+            r(e) = r(e) - alpha*product(e)
+            z(e) = r(e)
             call solve_moving(tree, z)
             before = now
-            now = dot_product(residual(e), z(e))
-            if (now <= tolerance**2*first) then
-               x(e) = u(e)
-               return
-            end if
-            if (steps >= few .and. log(now/first)*most_steps > 2.0_wp*log(tolerance)*steps) exit ! that will take too long
+            now = dot_product(r(e), z(e))
+            if (now <= enough) return
+            if (steps >= few .and. log(start/enough)*steps > log(start/now)*most_steps) exit ! that will take too long
             direction(e) = z(e) + now/before*direction(e)
+            of_factor(e) = r(e) + now/before*of_factor(e)
          end do
          steps = most_steps + 1
-         if (first <= 0.0_wp) then ! no load
-            x(e) = 0.0_wp
-            steps = 0
-         end if
       end associate
    end subroutine iterate_moving
-
-
-   !> Y = Y + sum of [k_int] X.
-   pure subroutine add_joints(tree, k_int, x, y)
-      type(front_tree_type), intent(in) :: tree
-      real(wp), intent(in)              :: k_int(:, :, :)
-      real(wp), intent(in)              :: x(:)
-      real(wp), intent(inout)           :: y(:)
-      real(wp) :: u(6), f(6)
-      integer  :: i, j
-
-      do i = 1, size(k_int, 3)
-         u = 0.0_wp
-         do j = 1, 6
-            if (tree%joint_equations(j, i) > 0) u(j) = x(tree%joint_equations(j, i))
-         end do
-         f = matmul(k_int(:, :, i), u)
-         do j = 1, 6
-            if (tree%joint_equations(j, i) > 0) y(tree%joint_equations(j, i)) = y(tree%joint_equations(j, i)) + f(j)
-         end do
-      end do
-   end subroutine add_joints
 
 end module conjugate_gradients

@@ -5,6 +5,7 @@
 module equations
    use bar_elements, only: bar_stiffness
    use conjugate_gradients, only: iterate_moving
+   use earlier_solutions, only: earlier_solutions_type, forget_solutions, guess_solution, note_solution
    use case_control, only: solver_auto, solver_skyline, solver_tree
    use equation_numbering, only: equation_numbers, gather, number_joints, put
    use fault_report, only: report_fault
@@ -44,8 +45,11 @@ module equations
       integer, allocatable  :: joint_equations(:, :) !! (6, n) of interface elements, with SKYLINE
       real(wp) :: stiffest = 0.0_wp             !! largest diagonal entry of [k_b] [force/length]
       real(wp), allocatable :: k_int(:, :, :)   !! (6, 6, n) of the interface elements now, global axes [force/length]
-      logical :: is_factor = .false.            !! whether the factor is that of k_int; else it is of an earlier one
+      real(wp), allocatable :: k_factor(:, :, :) !! that the factor is of
+      logical :: is_factor = .false.            !! whether that is k_int; else it is an earlier one
+      logical :: is_solved = .false.            !! whether k_int has had a solution yet
       type(factor_reuse_type) :: reuse          !! of the factor, by conjugate gradients
+      type(earlier_solutions_type) :: earlier   !! with which they begin
       integer :: fault = 0                      !! of the last factorisation, as in front_factor
       character(:), allocatable :: where        !! stage and increment, for messages
    end type equation_system
@@ -159,7 +163,7 @@ contains
             end if
          end associate
          system%stiffest = max(system%stiffest, model%bars(i)%stiffness)
-         call forget_factor(system%reuse)
+         call forget_earlier(system)
       end associate
    end subroutine add_bar
 
@@ -171,9 +175,18 @@ contains
 
       if (system%number(d, node) == 0) return
       system%locked = [system%locked, system%number(d, node)]
-      call forget_factor(system%reuse)
+      call forget_earlier(system)
       if (system%is_tree) system%tree%tree%locked(system%number(d, node)) = .true.
    end subroutine lock_unknown
+
+
+   !> The equations are others now: neither the factor nor solutions are of use any more.
+   subroutine forget_earlier(system)
+      type(equation_system), intent(inout) :: system
+
+      call forget_factor(system%reuse)
+      call forget_solutions(system%earlier)
+   end subroutine forget_earlier
 
 
    !> G: what retained nodes feel of the nodal forces F on all nodes; zero elsewhere.
@@ -223,6 +236,7 @@ contains
          system%k_int(:3, 4:, i) = -k_global
          system%k_int(4:, :3, i) = -k_global
       end do
+      system%is_solved = .false.
       system%is_factor = .false.
       if (.not. reuse) call factorise(system)
       call check_solution(model, system, failure)
@@ -240,6 +254,7 @@ contains
       end if
       system%is_factor = system%fault == 0
       if (system%is_factor) then
+         system%k_factor = system%k_int
          call note_factor(system%reuse)
       else
          call forget_factor(system%reuse)
@@ -263,23 +278,28 @@ contains
       type(equation_system), intent(inout) :: system
       real(wp), intent(in)                 :: f(:, :) !! (dimension, n_nodes) [force]
       real(wp), intent(inout)              :: u(:, :) !! (dimension, n_nodes), set where retained [length]
-      real(wp), allocatable :: x(:)
-      integer :: steps
+      real(wp), allocatable :: b(:), r(:), x(:)
+      real(wp) :: work
+      integer  :: steps
 
-      allocate (x(system%n))
-      call gather(system, system%equations, f, x)
+      allocate (b(system%n), r(system%n), x(system%n))
+      call gather(system, system%equations, f, b)
       if (.not. system%is_factor) then
-         call iterate_moving(system%tree%tree, system%equations, system%k_int, step_tolerance, system%reuse%most_steps, x, steps)
+         associate (tree => system%tree%tree)
+            call guess_solution(tree, system%equations, system%k_int, system%earlier, b, x, r, work)
+            call iterate_moving(tree, system%equations, system%k_int - system%k_factor, work, step_tolerance, &
+                                system%reuse%most_steps, r, x, steps)
+         end associate
          if (steps <= system%reuse%most_steps) then
             call note_steps(system%reuse, steps)
          else
             call note_failure(system%reuse)
             call factorise(system)
-            call gather(system, system%equations, f, x)
          end if
       end if
       if (system%fault /= 0) return
       if (system%is_factor) then
+         x(system%equations) = b(system%equations)
          x(system%locked) = 0.0_wp
          if (system%is_tree) then
             call solve_moving(system%tree%tree, x)
@@ -287,6 +307,9 @@ contains
             call solve_skyline(system%skyline%structure, x)
          end if
       end if
+      if (.not. system%is_solved .and. system%reuse%most_steps > 0) &
+         call note_solution(system%tree%tree, system%equations, system%k_int, b, x, system%earlier)
+      system%is_solved = .true.
       u(:, system%retained) = 0.0_wp
       call put(system, system%equations, x, u)
    end subroutine solve_equations

@@ -1,6 +1,7 @@
 !> What a front that moves begins with in every increment: a block of a matrix, kept whole, or entry by entry where most are zero.
 module front_blocks
    use blas_lapack, only: dgemv, dsymv
+   use front_kernel, only: top_row
    use kinds, only: long, wp
    implicit none
    private
@@ -17,7 +18,7 @@ module front_blocks
 
 contains
 
-   !> Keep A. OK is false where there is no memory for it.
+   !> Keep A, set as the kernel wants it. OK is false where there is no memory for it.
    subroutine keep_block(a, block, ok)
       real(wp), intent(in)          :: a(:, :)
       type(kept_block), intent(out) :: block
@@ -31,8 +32,12 @@ contains
          k = k + count(abs(a(j:, j)) > 0.0_wp)
       end do
       if (2*int(k, long) > int(block%n_rows, long)*block%n_columns/2) then
-         allocate (block%whole, source=a, stat=status)
+         allocate (block%whole(block%n_rows, block%n_columns), stat=status)
          ok = status == 0
+         if (.not. ok) return
+         do j = 1, block%n_columns
+            block%whole(top_row(j):, j) = a(top_row(j):, j)
+         end do
          return
       end if
       allocate (block%values(k), block%row(k), block%column(k), stat=status)
@@ -51,7 +56,7 @@ contains
    end subroutine keep_block
 
 
-   !> A = BLOCK, its lower part.
+   !> A = BLOCK, as far as the kernel touches it.
    pure subroutine restore_block(block, a)
       type(kept_block), intent(in) :: block
       real(wp), intent(inout)      :: a(block%n_rows, block%n_columns)
@@ -60,12 +65,12 @@ contains
       do j = 1, block%n_columns
          if (allocated(block%whole)) then
             !$omp simd
-            do i = j, block%n_rows
+            do i = top_row(j), block%n_rows
                a(i, j) = block%whole(i, j)
             end do
          else
             !$omp simd
-            do i = j, block%n_rows
+            do i = top_row(j), block%n_rows
                a(i, j) = 0.0_wp
             end do
          end if

@@ -2,7 +2,7 @@
 !! are tasks of OpenMP; every addition has its place in one order, whatever the number of threads.
 module front_factor
    use front_blocks, only: add_to_block, keep_block, restore_block
-   use front_kernel, only: eliminate
+   use front_kernel, only: eliminate, top_row
    use front_tree, only: add_elements, add_matrix, add_update, front_of, front_tree_type, front_type, place_in
    use kinds, only: wp
    use model_data, only: model_type
@@ -25,7 +25,7 @@ contains
       type(front_tree_type), intent(inout) :: tree
       integer, intent(out)                 :: fault
       integer, allocatable :: faults(:)
-      integer :: f
+      integer :: f, k
 
       allocate (faults(size(tree%fronts)), source=0)
       !$omp parallel default(shared) if(tree%is_parallel)
@@ -44,8 +44,8 @@ contains
       fault = first_fault(faults)
       if (fault /= 0) return
       !$omp parallel do schedule(dynamic, 8) default(shared) if(tree%is_parallel)
-      do f = 1, size(tree%fronts)
-         if (tree%fronts(f)%moves) call keep_start(model, tree, tree%fronts(f), faults(f))
+      do k = 1, size(tree%moving)
+         call keep_start(model, tree, tree%fronts(tree%moving(k)), faults(tree%moving(k)))
       end do
       !$omp end parallel do
       fault = first_fault(faults)
@@ -85,7 +85,9 @@ contains
          return
       end if
       call start_front(model, tree, tree%fronts(f), faults(f))
-      if (faults(f) == 0) call eliminate_front(tree%fronts(f), faults(f))
+      if (faults(f) /= 0) return
+      tree%fronts(f)%largest = maxval(tree%fronts(f)%diagonal(:tree%fronts(f)%p))
+      call eliminate_front(tree%fronts(f), faults(f))
    end subroutine fixed_subtree
 
 
@@ -125,18 +127,30 @@ contains
       allocate (front%panel(front%p + front%r, front%p), front%update(front%r, front%r), &
                 front%diagonal(front%p + front%r), stat=status)
       if (status /= 0) return
-      front%panel = 0.0_wp
-      front%update = 0.0_wp
+      call set_to_zero(front%p + front%r, front%p, front%panel)
+      call set_to_zero(front%r, front%r, front%update)
       front%diagonal = 0.0_wp
       call assemble(model, tree, front)
       do k = 1, size(front%children)
          c = front%children(k)
          if (tree%fronts(c)%moves) cycle
          call add_update(tree%fronts(c), front)
-         deallocate (tree%fronts(c)%update)
+         deallocate (tree%fronts(c)%update, tree%fronts(c)%diagonal)
       end do
       fault = 0
    end subroutine start_front
+
+
+   !> Zero, as far as the kernel touches it.
+   pure subroutine set_to_zero(m, n, a)
+      integer, intent(in)     :: m, n
+      real(wp), intent(inout) :: a(m, n)
+      integer :: j
+
+      do j = 1, n
+         a(top_row(j):, j) = 0.0_wp
+      end do
+   end subroutine set_to_zero
 
 
    !> Keep what moving FRONT begins with.
@@ -149,11 +163,12 @@ contains
 
       call start_front(model, tree, front, fault)
       if (fault /= 0) return
-      call keep_block(front%panel, front%kept_panel, ok)
-      if (ok) call keep_block(front%update, front%kept_update, ok)
+      allocate (front%start)
+      call keep_block(front%panel, front%start%panel, ok)
+      if (ok) call keep_block(front%update, front%start%update, ok)
       if (.not. ok) fault = no_memory
       if (.not. ok) return
-      front%kept_diagonal = front%diagonal
+      front%start%diagonal = front%diagonal
       deallocate (front%update)
    end subroutine keep_start
 
@@ -164,13 +179,14 @@ contains
       real(wp), intent(in)                 :: k(:, :, :) !! (6, 6, n), rows as in tree%joint_equations
       integer, intent(out)                 :: fault
       integer, allocatable :: faults(:)
-      integer :: f
+      integer :: f, i
 
       allocate (faults(size(tree%fronts)), source=0)
       !$omp parallel default(shared) if(tree%is_parallel)
       !$omp single
-      do f = 1, size(tree%fronts)
-         if (.not. tree%fronts(f)%moves .or. tree%fronts(f)%parent > 0) cycle
+      do i = 1, size(tree%moving)
+         f = tree%moving(i)
+         if (tree%fronts(f)%parent > 0) cycle
          !$omp task default(shared) firstprivate(f) if(tree%fronts(f)%work > task_work)
          call moving_subtree(tree, f, k, faults)
          !$omp end task
@@ -178,8 +194,10 @@ contains
       !$omp end single
       !$omp end parallel
       fault = first_fault(faults)
-      do f = 1, size(tree%fronts) ! what a failure leaves
-         if (fault /= 0 .and. tree%fronts(f)%moves .and. allocated(tree%fronts(f)%update)) deallocate (tree%fronts(f)%update)
+      if (fault == 0) return
+      do i = 1, size(tree%moving)
+         f = tree%moving(i)
+         if (allocated(tree%fronts(f)%update)) deallocate (tree%fronts(f)%update)
       end do
    end subroutine factorise_moving
 
@@ -210,9 +228,9 @@ contains
             faults(f) = no_memory
             return
          end if
-         call restore_block(front%kept_panel, front%panel)
-         call restore_block(front%kept_update, front%update)
-         front%diagonal = front%kept_diagonal
+         call restore_block(front%start%panel, front%panel)
+         call restore_block(front%start%update, front%update)
+         front%diagonal = front%start%diagonal
          do i = 1, size(front%springs)
             c = front%springs(i)
             call add_matrix(front, tree%joint_equations(:, c), k(:, :, c))
@@ -261,13 +279,13 @@ contains
       associate (front => tree%fronts(f))
          do j = 1, size(equations)
             if (places(j) == 0) cycle
-            front%kept_diagonal(places(j)) = front%kept_diagonal(places(j)) + k(j, j)
+            front%start%diagonal(places(j)) = front%start%diagonal(places(j)) + k(j, j)
             do i = 1, size(equations)
                if (places(i) < places(j)) cycle
                if (places(j) <= front%p) then
-                  call add_to_block(front%kept_panel, places(i), places(j), k(i, j))
+                  call add_to_block(front%start%panel, places(i), places(j), k(i, j))
                else
-                  call add_to_block(front%kept_update, places(i) - front%p, places(j) - front%p, k(i, j))
+                  call add_to_block(front%start%update, places(i) - front%p, places(j) - front%p, k(i, j))
                end if
             end do
          end do

@@ -3,7 +3,8 @@
 !!        | A11      |      A11 = L11 L11^T,  L21 = A21 L11^-T,  A22 becomes A22 - L21 L21^T
 !!        | A21  A22 |
 !!
-!! panel = (A11 over A21), (P + R, P); update = A22, (R, R); lower triangles throughout. The blocks are the same for any number
+!! panel = (A11 over A21), (P + R, P); update = A22, (R, R); lower triangles throughout, with squares on the diagonal: what lies
+!! above them is neither read nor written, so that of large fronts it takes no memory. The blocks are the same for any number
 !! of threads, and each is the work of one: so are the digits.
 module front_kernel
    use blas_lapack, only: dgemm, dpotrf, dtrsm
@@ -11,7 +12,7 @@ module front_kernel
    implicit none
    private
 
-   public :: eliminate
+   public :: eliminate, top_row
 
    integer, parameter :: wide   = 384    ! columns of the update matrix that are one task
    integer, parameter :: narrow = 96     ! columns that are eliminated together
@@ -100,5 +101,13 @@ contains
       end subroutine update_columns
 
    end subroutine eliminate
+
+
+   !> The first row that is touched in column J of a panel or an update matrix; from there on it has to be set.
+   elemental integer function top_row(j)
+      integer, intent(in) :: j
+
+      top_row = j - mod(j - 1, narrow)
+   end function top_row
 
 end module front_kernel

@@ -8,7 +8,7 @@ module front_solve
    implicit none
    private
 
-   public :: eliminate_fixed, recover_fixed, solve_moving, moving_times_vector
+   public :: eliminate_fixed, recover_fixed, solve_moving, moving_times_vector, add_joints
 
 contains
 
@@ -16,7 +16,7 @@ contains
    subroutine eliminate_fixed(tree, x)
       type(front_tree_type), intent(in) :: tree
       real(wp), intent(inout)           :: x(tree%n)
-      real(wp) :: work(most_rows(tree))
+      real(wp) :: work(tree%most_rows)
       integer  :: f
 
       do f = 1, size(tree%fronts)
@@ -30,7 +30,7 @@ contains
    subroutine recover_fixed(tree, x)
       type(front_tree_type), intent(in) :: tree
       real(wp), intent(inout)           :: x(tree%n)
-      real(wp) :: work(most_rows(tree))
+      real(wp) :: work(tree%most_rows)
       integer  :: f
 
       do f = size(tree%fronts), 1, -1
@@ -43,23 +43,16 @@ contains
    subroutine solve_moving(tree, x)
       type(front_tree_type), intent(in) :: tree
       real(wp), intent(inout)           :: x(tree%n)
-      real(wp) :: work(most_rows(tree))
-      integer  :: f
+      real(wp) :: work(tree%most_rows)
+      integer  :: k
 
-      do f = 1, size(tree%fronts)
-         if (tree%fronts(f)%moves) call forward(tree, f, x, work)
+      do k = 1, size(tree%moving)
+         call forward(tree, tree%moving(k), x, work)
       end do
-      do f = size(tree%fronts), 1, -1
-         if (tree%fronts(f)%moves) call backward(tree, f, x, work)
+      do k = size(tree%moving), 1, -1
+         call backward(tree, tree%moving(k), x, work)
       end do
    end subroutine solve_moving
-
-
-   pure integer function most_rows(tree)
-      type(front_tree_type), intent(in) :: tree
-
-      most_rows = maxval(tree%fronts%p + tree%fronts%r)
-   end function most_rows
 
 
    !> L y = x in front F, and what y does to the rows beyond.
@@ -105,30 +98,52 @@ contains
       type(front_tree_type), intent(in) :: tree
       real(wp), intent(in)              :: x(tree%n)
       real(wp), intent(inout)           :: y(tree%n)
-      real(wp) :: x_f(most_rows(tree)), y_f(most_rows(tree))
-      integer  :: f, i
+      real(wp) :: x_f(tree%most_rows), y_f(tree%most_rows)
+      integer  :: i, k
 
-      do f = 1, size(tree%fronts)
-         associate (front => tree%fronts(f))
-            if (front%moves) y(front%first:front%first + front%p - 1) = 0.0_wp
+      do k = 1, size(tree%moving)
+         associate (front => tree%fronts(tree%moving(k)))
+            y(front%first:front%first + front%p - 1) = 0.0_wp
          end associate
       end do
-      do f = 1, size(tree%fronts)
-         associate (front => tree%fronts(f), p => tree%fronts(f)%p, last => tree%fronts(f)%first + tree%fronts(f)%p - 1)
-            if (.not. front%moves) cycle
-            x_f(:p) = x(front%first:last)
-            do i = 1, front%r
-               x_f(p + i) = x(front%rows(i))
-            end do
-            y_f(:p + front%r) = 0.0_wp
-            call block_times_vector(front%kept_panel, x_f, y_f)
-            call block_times_vector(front%kept_update, x_f(p + 1:), y_f(p + 1:))
-            y(front%first:last) = y(front%first:last) + y_f(:p)
-            do i = 1, front%r
-               y(front%rows(i)) = y(front%rows(i)) + y_f(p + i)
-            end do
+      do k = 1, size(tree%moving)
+         associate (front => tree%fronts(tree%moving(k)))
+            associate (p => front%p, last => front%first + front%p - 1)
+               x_f(:p) = x(front%first:last)
+               do i = 1, front%r
+                  x_f(p + i) = x(front%rows(i))
+               end do
+               y_f(:p + front%r) = 0.0_wp
+               call block_times_vector(front%start%panel, x_f, y_f)
+               call block_times_vector(front%start%update, x_f(p + 1:), y_f(p + 1:))
+               y(front%first:last) = y(front%first:last) + y_f(:p)
+               do i = 1, front%r
+                  y(front%rows(i)) = y(front%rows(i)) + y_f(p + i)
+               end do
+            end associate
          end associate
       end do
    end subroutine moving_times_vector
+
+   !> Y = Y + sum of [k_int] X.
+   pure subroutine add_joints(tree, k_int, x, y)
+      type(front_tree_type), intent(in) :: tree
+      real(wp), intent(in)              :: k_int(:, :, :)
+      real(wp), intent(in)              :: x(:)
+      real(wp), intent(inout)           :: y(:)
+      real(wp) :: u(6), f(6)
+      integer  :: i, j
+
+      do i = 1, size(k_int, 3)
+         u = 0.0_wp
+         do j = 1, 6
+            if (tree%joint_equations(j, i) > 0) u(j) = x(tree%joint_equations(j, i))
+         end do
+         f = matmul(k_int(:, :, i), u)
+         do j = 1, 6
+            if (tree%joint_equations(j, i) > 0) y(tree%joint_equations(j, i)) = y(tree%joint_equations(j, i)) + f(j)
+         end do
+      end do
+   end subroutine add_joints
 
 end module front_solve

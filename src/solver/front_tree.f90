@@ -18,6 +18,12 @@ module front_tree
 
    real(wp), parameter :: parallel_work = 5.0e7_wp  ! operations of a factorisation that is worth more than one thread
 
+   !> What a front that moves begins with in every increment: all that does not move.
+   type :: front_start
+      type(kept_block) :: panel, update
+      real(wp), allocatable :: diagonal(:)        ! (p + r)
+   end type front_start
+
    type, public :: front_type
       integer :: first = 0                        !! equation of its first pivot
       integer :: p = 0, r = 0                     !! pivots, rows beyond them
@@ -31,9 +37,10 @@ module front_tree
       integer, allocatable  :: springs(:)         !! interface elements likewise
       real(wp), allocatable :: panel(:, :)        !! (p + r, p), then the columns of the factor
       real(wp), allocatable :: update(:, :)       !! (r, r) what is left for the parent; gone once that has it
-      real(wp), allocatable :: diagonal(:)        !! (p + r) of the matrix before any elimination, as far as the subtree knows it
-      type(kept_block) :: kept_panel, kept_update !! of a front that moves, without what moves
-      real(wp), allocatable :: kept_diagonal(:)
+      real(wp), allocatable :: diagonal(:)        !! (p + r) of the matrix before any elimination, as far as the subtree knows it;
+                                                  !! gone likewise
+      real(wp) :: largest = 0.0_wp                !! of the pivots' diagonal, of a front that does not move
+      type(front_start), allocatable :: start     !! of a front that moves
       real(wp) :: work = 0.0_wp                   !! operations of its subtree
    end type front_type
 
@@ -44,6 +51,8 @@ module front_tree
       integer, allocatable :: joint_equations(:, :) !! (6, n) of interface elements: components of node 1, of node 2; 0: held
       logical, allocatable :: locked(:)           !! (n) unknowns that do not change any more; of fronts that move
       type(front_type), allocatable :: fronts(:)  !! children before parents
+      integer, allocatable :: moving(:)           !! those that move, ascending
+      integer :: most_rows = 0                    !! pivots and rows beyond them of the largest
       logical :: is_parallel = .false.            !! whether the model is worth more than one thread
       real(wp) :: assembly_time = 0.0_wp          !! of the elements, all threads together [s]
    end type front_tree_type
@@ -124,6 +133,8 @@ contains
             if (front%parent > 0) tree%fronts(front%parent)%work = tree%fronts(front%parent)%work + front%work
          end associate
       end do
+      tree%moving = pack([(f, f = 1, layout%n)], layout%moves(:layout%n))
+      tree%most_rows = maxval(tree%fronts%p + tree%fronts%r)
       tree%is_parallel = layout%fixed_operations + layout%moving_operations > parallel_work
    end subroutine start_front_tree
 
@@ -306,10 +317,10 @@ contains
       do f = 1, size(tree%fronts)
          associate (front => tree%fronts(f), first => tree%fronts(f)%first, last => tree%fronts(f)%first + tree%fronts(f)%p - 1)
             if (front%moves) then
-               diagonal(first:last) = diagonal(first:last) + front%kept_diagonal(:front%p)
-               diagonal(front%rows) = diagonal(front%rows) + front%kept_diagonal(front%p + 1:)
+               diagonal(first:last) = diagonal(first:last) + front%start%diagonal(:front%p)
+               diagonal(front%rows) = diagonal(front%rows) + front%start%diagonal(front%p + 1:)
             else
-               diagonal(first:last) = front%diagonal(:front%p)
+               diagonal(first) = front%largest
             end if
          end associate
       end do

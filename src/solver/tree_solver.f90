@@ -47,7 +47,7 @@ contains
       type(failure_type), intent(inout)      :: failure
       type(front_layout_type) :: layout
       integer, allocatable    :: order(:), weight(:)
-      integer :: f, i, n
+      integer :: i, k, n
       logical :: ok
 
       allocate (weight(model%n_nodes))
@@ -70,11 +70,10 @@ contains
       solver%fixed_operations = layout%fixed_operations
       solver%moving_operations = layout%moving_operations
       solver%moving_entries = layout%moving_entries
-      allocate (solver%moving(sum(solver%tree%fronts%p, mask=solver%tree%fronts%moves)))
+      allocate (solver%moving(sum(solver%tree%fronts(solver%tree%moving)%p)))
       n = 0
-      do f = 1, size(solver%tree%fronts)
-         associate (front => solver%tree%fronts(f))
-            if (.not. front%moves) cycle
+      do k = 1, size(solver%tree%moving)
+         associate (front => solver%tree%fronts(solver%tree%moving(k)))
             solver%moving(n + 1:n + front%p) = [(i, i=front%first, front%first + front%p - 1)]
             n = n + front%p
          end associate

@@ -7,8 +7,8 @@
 # FOLDER  where the programs of the benchmark are and its files go; FOLDER/measured holds every figure, FOLDER/tables the tables
 # WHAT    all (if nothing is said), small, or any of: shapes as make_deck.sh has them, friction, threads, crossing, gmsh
 #
-# Programs run one after another, on one thread unless said otherwise, ours and CHOLMOD in turn; of two runs the faster one
-# counts, runs above 10 s are not repeated. Status 1 where a run fails or CHOLMOD finds another answer.
+# Programs run one after another, on one thread unless said otherwise, ours and CHOLMOD in turn; of several runs the fastest
+# counts, long ones are not repeated. Status 1 where a run fails or CHOLMOD finds another answer.
 set -u
 program=$1 work=$2
 shift 2
@@ -50,11 +50,12 @@ keep_faster() {
    fi
 }
 
-# Run decks on $1 threads.
+# Run decks on $1 threads; FOLDER/clock holds user and system seconds of the whole program.
 run_program() {
-   local threads=$1
+   local threads=$1 TIMEFORMAT=$'user %3U\nsystem %3S'
    shift
-   "$program" --times -q --threads "$threads" -o "$work" "$@" > "$work/said" 2>&1 || { cat "$work/said" >&2; fail "$* failed"; }
+   { time "$program" --times -q --threads "$threads" -o "$work" "$@" > "$work/said" 2>&1; } 2> "$work/clock" ||
+      { cat "$work/said" >&2; fail "$* failed"; }
 }
 
 # What --times printed of the deck $1, `phase seconds` a line; above it the seconds of the solution, by which runs are compared,
@@ -88,39 +89,56 @@ remove_results() {
    rm -f "$work/$1".out "$work/$1".joint.csv "$work/$1".matrix
 }
 
+# CHOLMOD on the equations of the model $1: what cholmod_once prints, the seconds of the solution above it.
+run_cholmod() {
+   "$work/cholmod_once" "$work/$1.matrix" "$2" > "$work/said" || fail "CHOLMOD failed on $1"
+   awk '{ line[NR] = $0 } $1 ~ /^(analyse|factor|solve)$/ { sum += $2 }
+        END { print "solution", sum; for (i = 1; i <= NR; i++) print line[i] }' "$work/said" > "$work/one"
+}
+
+# The figures $2 of CHOLMOD for the model $1 under the table $3; it must have found our answer.
+record_cholmod() {
+   record "$3" "$1" "$2"
+   awk '$1 == "deflection" { u[FILENAME] = $2 } $1 == "unknowns" { n[FILENAME] = $2 } $1 == "residual" { r = $2 }
+        END { ours = ARGV[1]; theirs = ARGV[2]; difference = u[ours] - u[theirs]; if (difference < 0) difference = -difference
+              exit !(n[ours] == n[theirs] && u[ours] > 0 && difference <= 2e-5*u[ours] && r < 1e-8) }' \
+      "$work/ours" "$2" || fail "$1: CHOLMOD finds another answer: see deflection, residual in $measured"
+}
+
 # ------------------------------------------------------------------ one model: its phases, CHOLMOD on the same equations
 measure_model() {
-   local shape=$1 deck=$work/$1.bdf turn order
+   local shape=$1 deck=$work/$1.bdf turn choice=
    echo "bench: $shape" >&2
-   rm -f "$work/ours" "$work/theirs"
+   rm -f "$work/ours" "$work/metis" "$work/own"
    "$here/make_deck.sh" "$shape" TREE LAST > "$deck" || exit 1
-   for turn in 1 2; do
+   [ ! -x "$work/cholmod_once" ] || "$work/write_matrix" "$deck" "$work/$shape.matrix" || exit 1
+   for turn in 1 2 3; do
       run_program 1 "$deck"
-      { figures "$deck"; of_listing "$work/$shape.out"; } > "$work/one"
+      { figures "$deck"; of_listing "$work/$shape.out"; cat "$work/clock"; } > "$work/one"
       keep_faster "$work/one" "$work/ours"
-      [ -x "$work/cholmod_once" ] || { enough "$work/ours" && break; continue; }
-      [ "$turn" = 2 ] || "$work/write_matrix" "$deck" "$work/$shape.matrix" || exit 1
-      order=
-      [ "$turn" = 1 ] || order=default
-      "$work/cholmod_once" "$work/$shape.matrix" $order > "$work/said" || fail "CHOLMOD failed on $shape"
-      awk '{ line[NR] = $0 } $1 ~ /^(analyse|factor|solve)$/ { sum += $2 }
-           END { print "solution", sum; for (i = 1; i <= NR; i++) print line[i] }' "$work/said" > "$work/one"
-      keep_faster "$work/one" "$work/theirs"
-      enough "$work/ours" && break
+      if [ -x "$work/cholmod_once" ]; then
+         run_cholmod "$shape" METIS
+         keep_faster "$work/one" "$work/metis"
+         if [ "$choice" != METIS ]; then
+            run_cholmod "$shape" own
+            choice=$(awk '$1 == "ordering" { print $2 }' "$work/one")
+            [ "$choice" = METIS ] || keep_faster "$work/one" "$work/own"
+         fi
+      fi
+      enough 60 "$work/ours" "$work/metis" "$work/own" && break
    done
+   echo "turns $((turn > 3 ? 3 : turn))" >> "$work/ours"
    record ours "$shape" "$work/ours"
-   if [ -f "$work/theirs" ]; then
-      record cholmod "$shape" "$work/theirs"
-      awk '$1 == "deflection" { u[FILENAME] = $2 } $1 == "unknowns" { n[FILENAME] = $2 } $1 == "residual" { r = $2 }
-           END { ours = ARGV[1]; theirs = ARGV[2]; difference = u[ours] - u[theirs]; if (difference < 0) difference = -difference
-                 exit !(n[ours] == n[theirs] && u[ours] > 0 && difference <= 2e-5*u[ours] && r < 1e-8) }' \
-         "$work/ours" "$work/theirs" || fail "$shape: CHOLMOD finds another answer: see deflection, residual in $measured"
-   fi
+   [ ! -f "$work/metis" ] || record_cholmod "$shape" "$work/metis" cholmod
+   [ ! -f "$work/own" ] || record_cholmod "$shape" "$work/own" own
    remove_results "$shape"
 }
 
+# Whether the solutions of the files $2... took more than $1 seconds in all: no further turn then.
 enough() {
-   awk 'NR == 1 { exit !($2 > 10) }' "$1"
+   local limit=$1
+   shift
+   cat "$@" 2> /dev/null | awk -v limit="$limit" '$1 == "solution" { s += $2 } END { exit !(s > limit) }'
 }
 
 # ------------------------------------------------------------------ what a re-analysis costs: the same deck without and with
@@ -157,7 +175,7 @@ measure_threads() {
          cat "$work/$shape.out" "$work/$shape.joint.csv" | cksum > "$work/sum_$threads"
       done
       cmp -s "$work/sum_1" "$work/sum_2" || same=no
-      enough "$work/threads_1" && break
+      enough 10 "$work/threads_1" && break
    done
    for threads in 1 2; do record "threads_$threads" "$shape" "$work/threads_$threads"; done
    echo "threads_2 $shape same $same" >> "$measured"
@@ -198,7 +216,7 @@ measure_gmsh() {
       run_program 1 "$work/two_blocks_fine.bdf"
       { figures "$work/two_blocks_fine.bdf"; of_listing "$work/two_blocks_fine.out"; } > "$work/one"
       keep_faster "$work/one" "$work/ours"
-      enough "$work/ours" && break
+      enough 10 "$work/ours" && break
    done
    awk '/^GRID/ { n++ } END { print "nodes", n }' "$work/gmsh/two_blocks_fine_mesh.bdf" >> "$work/ours"
    record gmsh two_blocks "$work/ours"

@@ -3,25 +3,37 @@
 
 {
    if (!(($1, $2) in met)) { met[$1, $2] = 1; row[$1, ++rows[$1]] = $2 }
-   name = $3
-   value = $0
-   sub(/^[^ ]+ [^ ]+ [^ ]+ /, "", value)
-   v[$1, $2, name] = value
+   words = $0
+   sub(/^[^ ]+ [^ ]+ [^ ]+ /, "", words)
+   if (NF == 4) v[$1, $2, $3] = $4; else v[$1, $2, $3] = words # a field compares as a number, words do not
 }
 
 END {
    increments = 20
    dgemm = v["machine", "before", "rate"]
    if (v["machine", "after", "rate"] + 0 > dgemm + 0) dgemm = v["machine", "after", "rate"]
+   split_factor("ours")
+   split_factor("gmsh")
    machine()
    phases()
    growth()
    beside()
+   kernel()
    rates()
    gmsh()
    friction()
    threads()
    crossing()
+}
+
+# The seconds of the element matrices, which are a part of the phase factor, become a phase of their own. On one thread only:
+# with more they are those of all threads together.
+function split_factor(table,    i, m) {
+   for (i = 1; i <= rows[table]; i++) {
+      m = row[table, i]
+      v[table, m, "assemble"] = v[table, m, "elements"]
+      if (v[table, m, "elements"] != "") v[table, m, "factor"] -= v[table, m, "elements"]
+   }
 }
 
 function machine() {
@@ -35,19 +47,20 @@ function machine() {
 function phases(    i, m, d) {
    if (!rows["ours"]) return
    title("Seconds of the phases, " increments " increments, one thread")
-   head("model;unknowns;left;read;build;order;factor;increments;recover;write;all;peak MiB")
+   head("model;unknowns;left;read;build;order;assemble;factor;increments;recover;write;all;peak MiB")
    for (i = 1; i <= rows["ours"]; i++) {
       m = row["ours", i]
       cells(label(m) ";" of(m, "unknowns") ";" left(m) ";" seconds(of(m, "read")) ";" seconds(of(m, "build")) ";" \
-         seconds(of(m, "order")) ";" seconds(of(m, "factor")) ";" seconds(of(m, "increments")) ";" seconds(of(m, "recover")) ";" \
-         seconds(of(m, "write")) ";" seconds(of(m, "all")) ";" of(m, "memory"))
+         seconds(of(m, "order")) ";" seconds(of(m, "assemble")) ";" seconds(of(m, "factor")) ";" \
+         seconds(of(m, "increments")) ";" seconds(of(m, "recover")) ";" seconds(of(m, "write")) ";" seconds(of(m, "all")) ";" \
+         of(m, "memory"))
    }
    put()
 }
 
 # The exponent of the unknowns with which a figure grows from one model to the next of the same proportions.
 function growth(    i, j, k, m, last, names, n, line, shown) {
-   n = split("build order factor increments recover write all memory", names, " ")
+   n = split("build order assemble factor increments recover write all memory", names, " ")
    line = "from;to"
    for (k = 1; k <= n; k++) line = line ";" names[k]
    head(line)
@@ -70,20 +83,44 @@ function growth(    i, j, k, m, last, names, n, line, shown) {
 function beside(    i, m) {
    if (!rows["ours"]) return
    title("The solution, beside CHOLMOD, which analyses, factorises and solves the equations of the first increment once")
-   head("model;joints;order + factor s;an increment ms;run s;CHOLMOD by;analyse s;factorise s;solve s;once s;run/once")
+   head("model;joints;order to factor s;an increment ms;run s;METIS: once s;METIS: run/once;own choice;own: once s;own: run/once")
    for (i = 1; i <= rows["ours"]; i++) {
       m = row["ours", i]
-      cells(label(m) ";" ordering(m) ";" seconds(of(m, "order") + of(m, "factor")) ";" \
-         milliseconds(of(m, "increments")/increments) ";" seconds(of(m, "solution")) ";" either(their(m, "ordering")) ";" \
+      cells(label(m) ";" ordering(m) ";" seconds(of(m, "order") + of(m, "assemble") + of(m, "factor")) ";" \
+         milliseconds(of(m, "increments")/increments) ";" seconds(of(m, "solution")) ";" seconds(their(m, "solution")) ";" \
+         ratio(of(m, "solution"), their(m, "solution")) ";" choice(m) ";" seconds(own(m, "solution")) ";" \
+         ratio(of(m, "solution"), own(m, "solution")))
+   }
+   put()
+}
+
+# The share of the solution in the user or system seconds of the whole program: as in the seconds of the phases.
+function of_solution(m, name) {
+   return of(m, name) == "" || of(m, "all") + 0 <= 0 ? "" : of(m, name)*of(m, "solution")/of(m, "all")
+}
+
+# The kernel counts in steps of some milliseconds: short solutions have no user and system seconds.
+function kernel(    i, m, short) {
+   if (!rows["ours"]) return
+   title("The same run and CHOLMOD with METIS: seconds of their own (user) and the kernel's (system)")
+   head("model;turns;run s;of that user s;of that system s;analyse s;factorise s;solve s;once s;of that user s;" \
+      "of that system s;run/once, user")
+   for (i = 1; i <= rows["ours"]; i++) {
+      m = row["ours", i]
+      short = of(m, "solution") < 0.1
+      cells(label(m) ";" either(of(m, "turns")) ";" seconds(of(m, "solution")) ";" \
+         (short ? "-;-" : seconds(of_solution(m, "user")) ";" seconds(of_solution(m, "system"))) ";" \
          seconds(their(m, "analyse")) ";" seconds(their(m, "factor")) ";" seconds(their(m, "solve")) ";" \
-         seconds(their(m, "solution")) ";" ratio(of(m, "solution"), their(m, "solution")))
+         seconds(their(m, "solution")) ";" \
+         (short ? "-;-;-" : seconds(their(m, "user")) ";" seconds(their(m, "system")) ";" \
+                            ratio(of_solution(m, "user"), their(m, "user"))))
    }
    put()
 }
 
 function rates(    i, m) {
    if (!rows["ours"]) return
-   title("Operations [1E9], rates as shares of DGEMM, memory [MiB], residual of CHOLMOD")
+   title("Operations [1E9], rates as shares of DGEMM, memory [MiB], residual; CHOLMOD with METIS")
    head("model;factor;rate;an increment;rate;CHOLMOD;rate;MiB;CHOLMOD MiB;residual")
    for (i = 1; i <= rows["ours"]; i++) {
       m = row["ours", i]
@@ -98,8 +135,8 @@ function rates(    i, m) {
 function gmsh(    i, k, m, n, names, line) {
    if (!rows["gmsh"]) return
    title("Two blocks from Gmsh, tetrahedra: seconds of the phases, 2 increments, one thread")
-   n = split("read build order factor increments recover write all", names, " ")
-   head("nodes;unknowns;left;joints;read;build;order;factor;increments;recover;write;all;peak MiB")
+   n = split("read build order assemble factor increments recover write all", names, " ")
+   head("nodes;unknowns;left;joints;read;build;order;assemble;factor;increments;recover;write;all;peak MiB")
    for (i = 1; i <= rows["gmsh"]; i++) {
       m = row["gmsh", i]
       line = v["gmsh", m, "nodes"] ";" either(v["gmsh", m, "unknowns"]) ";" either(v["gmsh", m, "left"]) ";" \
@@ -155,6 +192,9 @@ function crossing(    i, m, s, t) {
 # ------------------------------------------------------------------ figures
 function of(m, name) { return v["ours", m, name] }
 function their(m, name) { return v["cholmod", m, name] }
+function own(m, name) { return v["own", m, name] }
+# The ordering that CHOLMOD chooses; nothing is measured under "own" where that is METIS.
+function choice(m) { return own(m, "ordering") != "" ? own(m, "ordering") : their(m, "ordering") != "" ? "METIS" : "-" }
 function either(x) { return x == "" ? "-" : x }
 function left(m) { return either(of(m, "left")) }
 function ordering(m) { return words_of(of(m, "ordering")) }

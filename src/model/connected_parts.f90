@@ -1,0 +1,62 @@
+!> The parts of a model: bodies and nodes that elements, bars and bolts connect. Joints connect nothing here.
+module connected_parts
+   use disjoint_sets, only: join, root_of
+   use model_data, only: model_type, n_bars, n_sections
+   use section_coupling, only: section_node
+   implicit none
+   private
+
+   public :: find_parts
+
+contains
+
+   !> Number the connected bodies (a node without a body is a part of its own). Behind the section of a solid bolt the node of the
+   !! section stands for those that it cuts.
+   pure subroutine find_parts(model, with_bolts)
+      type(model_type), intent(inout) :: model
+      logical, intent(in)             :: with_bolts !! whether bolts connect bodies as other bars do
+      integer, allocatable :: parent(:)
+      integer :: e, first, k, node, root
+
+      allocate (parent(model%n_nodes))
+      parent = [(node, node = 1, model%n_nodes)]
+      do e = 1, model%n_elements
+         first = uncut(e, 1)
+         do k = 2, size(model%element_nodes, 1)
+            call join(parent, first, uncut(e, k))
+         end do
+      end do
+      do k = 1, n_bars(model)
+         if (with_bolts .or. model%bars(k)%bolt == 0) call join(parent, model%bars(k)%nodes(1), model%bars(k)%nodes(2))
+      end do
+      if (with_bolts) then
+         do k = 1, n_sections(model)
+            call join(parent, model%sections(k)%node, model%sections(k)%point)
+         end do
+      end if
+      if (allocated(model%part)) deallocate (model%part)
+      allocate (model%part(model%n_nodes), source=0)
+      model%n_parts = 0
+      do node = 1, model%n_nodes
+         root = root_of(parent, node)
+         if (model%part(root) == 0) then
+            model%n_parts = model%n_parts + 1
+            model%part(root) = model%n_parts
+         end if
+         model%part(node) = model%part(root)
+      end do
+
+   contains
+
+      !> Corner I of element J, or what stands for it behind a section.
+      pure integer function uncut(j, i) result(corner)
+         integer, intent(in) :: j, i
+
+         corner = model%element_nodes(i, j)
+         if (corner == 0 .or. section_node(model, j) == 0) return
+         if (model%node_section(corner) == model%element_section(j)) corner = section_node(model, j)
+      end function uncut
+
+   end subroutine find_parts
+
+end module connected_parts

@@ -1,0 +1,65 @@
+!> Models by TREE whose joints have stiffnesses that differ by a share from those of some_stiffnesses, and loads on what moves.
+module changed_joints
+   use case_control, only: solver_tree
+   use deck_models, only: box_partly_held, low_plate, model_of_cards, some_forces, some_stiffnesses, two_floating_boxes, &
+                          two_plane_blocks
+   use equation_numbering, only: gather
+   use equations, only: equation_system, form_body_stiffness, form_structure_stiffness, start_equations
+   use failures, only: failure_type
+   use kinds, only: wp
+   use model_data, only: model_type
+   implicit none
+   private
+
+   public :: prepare, changed, load
+
+   real(wp), parameter, public :: untouched = 7.0_wp
+
+contains
+
+   !> Model WHICH of four by TREE, laid out for so many FACTORISATIONS, factorised with stiffnesses that differ by a SHARE.
+   subroutine prepare(which, factorisations, share, model, system)
+      integer, intent(in)                :: which, factorisations
+      real(wp), intent(in)               :: share
+      type(model_type), intent(out)      :: model
+      type(equation_system), intent(out) :: system
+      type(failure_type) :: failure
+      character(:), allocatable :: problem
+
+      if (which == 1) call model_of_cards(two_plane_blocks, model, problem)
+      if (which == 2) call model_of_cards(two_floating_boxes, model, problem)
+      if (which == 3) call model_of_cards(box_partly_held, model, problem)
+      if (which == 4) call model_of_cards(low_plate, model, problem)
+      if (problem /= '') error stop 'changed_joints: the model has errors'
+      call start_equations(model, system, failure, solver_tree, factorisations)
+      call form_body_stiffness(model, system, failure)
+      call form_structure_stiffness(model, changed(model, share), 'here', system, failure)
+      if (failure%raised) error stop 'changed_joints: no factor'
+   end subroutine prepare
+
+
+   !> Stiffnesses of the joints larger or smaller by up to a SHARE.
+   pure function changed(model, share) result(k)
+      type(model_type), intent(in) :: model
+      real(wp), intent(in)         :: share
+      real(wp) :: k(3, 3, size(model%interface))
+      integer  :: i
+
+      k = some_stiffnesses(model, 1)
+      do i = 1, size(model%interface)
+         k(:, :, i) = k(:, :, i)*(1.0_wp + share*(modulo(7*i, 11) - 5)/5.0_wp)
+      end do
+   end function changed
+
+
+   !> Forces on the equations that move, UNTOUCHED on the others.
+   subroutine load(model, system, x)
+      type(model_type), intent(in)       :: model
+      type(equation_system), intent(in)  :: system
+      real(wp), allocatable, intent(out) :: x(:)
+
+      allocate (x(system%n), source=untouched)
+      call gather(system, system%equations, some_forces(model), x)
+   end subroutine load
+
+end module changed_joints
