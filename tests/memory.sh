@@ -13,14 +13,17 @@ deck() { # SHAPE SOLVER
    tests/bench/make_deck.sh "$1" "$2" NONE > "$work/$1.bdf"
 }
 
-# limited MIB DECK...: status, words, and the results that are there
+# limited MIB DECK...: status, words, and the results that are there, complete or not; an older listing is there before
 limited() {
-   local mib=$1
+   local mib=$1 file
    shift
-   rm -f "$work"/*.out "$work"/*.joint.csv
+   find "$work" -type f ! -name '*.bdf' -delete
+   for file; do
+      [[ $file != *.bdf ]] || touch "${file%.bdf}.out"
+   done
    ( ulimit -v $((mib*1024)) && OPENBLAS_NUM_THREADS=1 timeout 60 "$program" -q --threads 1 -o "$work" "$@" ) > "$work/said" 2>&1
    status=$?
-   results=$(find "$work" -name '*.out' -o -name '*.joint.csv' | wc -l)
+   results=$(find "$work" -type f ! -name '*.bdf' ! -name said | wc -l)
 }
 
 # check WHAT STATUS RESULTS WORDS...
@@ -51,7 +54,24 @@ check 'a plate of 4000 x 4000' 3 0 'factor of 32016002 equations needs at least 
 
 # ------------------------------------------------------------------ nothing is told, an allocation fails while the model is built
 limited 200 --check "$work/hex8_250x250x250.bdf"
-check '250 x 250 x 250, --check' 3 0 'the memory of the machine, or what is allowed of it, does not suffice; no results'
+check '250 x 250 x 250, --check, which leaves older results alone' 3 1 \
+   'the memory of the machine, or what is allowed of it, does not suffice; no results'
+
+# ------------------------------------------------------------------ GRID and CHEXA: told from the graph, before it is ordered
+awk -v n=45 'BEGIN {
+   m = n + 1
+   print "SPC = 1\nECHO = NO\nSOLVER = TREE\nSUBCASE 1\nLOAD = 10\nINCR = 5\nOUTPUT = NONE\nBEGIN BULK"
+   for (k = 0; k < m^3; k++) printf "GRID,%d,,%.1f,%.1f,%.1f\n", k + 1, k%m, int(k/m)%m, int(k/m^2)
+   for (k = 0; k < n^3; k++) {
+      a = 1 + k%n + m*(int(k/n)%n) + m^2*int(k/n^2)
+      b = a + m^2
+      printf "CHEXA,%d,1,%d,%d,%d,%d,%d,%d\n,%d,%d\n", k + 1, a, a + 1, a + 1 + m, a + m, b, b + 1, b + 1 + m, b + m
+   }
+   print "PSOLID,1,1\nMAT1,1,9500.0,,0.25\nFORCE,10," m^3 ",,1.0,0.0,0.0,1.0\nJINCR,5,1"
+   for (k = 1; k <= m^2; k++) print "SPC1,1,123," k
+   print "ENDDATA" }' > "$work/grid.bdf"
+limited 264 "$work/grid.bdf"
+check '45 x 45 x 45 from GRID cards' 3 0 'factor of 285660 equations needs at least 85 MiB' 'at most [0-9]+ equations would fit'
 
 # ------------------------------------------------------------------ told from the fronts, and from the skyline
 deck hex8_20x20x20 TREE
@@ -78,6 +98,12 @@ for ((mib = 64; mib <= 400; mib += 16)); do
       check "16 x 16 x 16 in $mib MiB" 3 0 'MiB|memory'
    fi
 done
+
+# ------------------------------------------------------------------ an allocation fails in the midst of the results: none is left
+tests/bench/make_deck.sh q4_1x1 SKYLINE VTU 24 | sed -E -e 's/^BEGIN/SUBCASE 2\n  LOAD = 11\n  INCR = 6\nBEGIN/' \
+   -e 's/^ENDDATA/LOAD,11,1.5,1.0,10\nJINCR,6,40000,ARITH,2.5-5\nENDDATA/' > "$work/long.bdf"
+limited 224 "$work/long.bdf"
+check 'a listing of a million re-analyses' 3 0 'llocat' 'does not suffice; no results'
 echo "$few runs did not fit"
 echo "$passed passed, $failed failed"
 [ $failed -eq 0 ]

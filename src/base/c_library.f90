@@ -6,7 +6,8 @@ module c_library
    implicit none
    private
 
-   public :: read_all_bytes, create_file, write_bytes, close_file, rename_file, remove_file, true_path, is_terminal, end_run
+   public :: read_all_bytes, create_file, write_bytes, close_file, rename_file, remove_file, remove_terminated, &
+             true_path, is_terminal, end_run
 
    logical, public, protected :: has_ended = .false. !! by end_run
 
@@ -192,11 +193,19 @@ contains
    !> Remove the file PATH where it is there.
    subroutine remove_file(path)
       character(*), intent(in) :: path
+
+      call remove_terminated(path//c_null_char)
+   end subroutine remove_file
+
+
+   !> The same for a PATH that ends with a null character; takes no memory.
+   subroutine remove_terminated(path)
+      character(*), intent(in) :: path
       integer(c_int) :: status
 
-      status = c_unlink(path//c_null_char)
+      status = c_unlink(path)
       if (status /= 0) return   ! nothing of that name was there: as wanted
-   end subroutine remove_file
+   end subroutine remove_terminated
 
 
    !> The absolute path of PATH with all links resolved; PATH itself where no such file is.

@@ -1,8 +1,10 @@
 !> The last resort: an allocation that fails where nobody looks ends the program through the run-time library, with exit status 1
-!! and words of its own. Here that becomes a message of the program and the status of what cannot be solved.
+!! and words of its own. Here that becomes a message of the program and the status of what cannot be solved, and no result is
+!! left half written.
 module failed_allocation
    use, intrinsic :: iso_c_binding, only: c_associated, c_funloc, c_funptr, c_int, c_null_ptr, c_ptr
    use c_library, only: has_ended, write_bytes
+   use incomplete_results, only: remove_incomplete
    implicit none
    private
 
@@ -39,7 +41,9 @@ contains
       type(c_ptr), value    :: argument !! null
       logical :: ok
 
-      if (has_ended .or. status /= status_of_library .or. c_associated(argument)) return
+      if (has_ended .or. c_associated(argument)) return
+      call remove_incomplete()
+      if (status /= status_of_library) return
       call write_bytes(2, 'the memory of the machine, or what is allowed of it, does not suffice; no results'// &
                        new_line('a'), ok)
       call c_exit_at_once(status_unsolved)

@@ -1,6 +1,8 @@
 !> What the machine has, and what the program has taken of it.
 module machine
    use, intrinsic :: iso_c_binding, only: c_int, c_size_t
+   use control_groups, only: memory_left_by_groups
+   use kernel_figures, only: kernel_figure, no_figure
    use kinds, only: long
    use omp_lib, only: omp_get_max_threads
    implicit none
@@ -8,7 +10,6 @@ module machine
 
    public :: available_memory, peak_memory, keep_memory
 
-   integer(long), parameter :: unknown = huge(1_long) ! a figure that cannot be read
    integer(c_int), parameter :: trim_threshold = -1, top_pad = -2, mmap_max = -4 ! parameters of mallopt, malloc.h of glibc
 
    !> What a thread's first call of OpenBLAS takes of the address space; where it cannot have that it tries for ever.
@@ -47,18 +48,19 @@ contains
    end subroutine keep_memory
 
 
-   !> Memory that the program can still take, of what the machine has free and what a limit on its address space leaves [bytes];
-   !! huge where neither can be read. What has been kept of an earlier deck is given back first, or counted as free.
+   !> Memory that the program can still take, of what the machine has free, what its control groups leave (a container's limit),
+   !! and what a limit on its address space leaves [bytes]; huge where none of them can be read. What has been kept of an earlier
+   !! deck is given back first, or counted as free.
    function available_memory() result(bytes)
       integer(long)      :: bytes, limit, taken
       integer(c_int)     :: status
       type(heap_figures) :: heap
 
       status = malloc_trim(0_c_size_t)
-      bytes = kernel_figure('/proc/meminfo', 'MemAvailable:', 1024)
+      bytes = min(kernel_figure('/proc/meminfo', 'MemAvailable:', 1024), memory_left_by_groups(''))
       limit = kernel_figure('/proc/self/limits', 'Max address space', 1)
       taken = kernel_figure('/proc/self/status', 'VmSize:', 1024)
-      if (limit == unknown .or. taken == unknown) return
+      if (limit == no_figure .or. taken == no_figure) return
       heap = mallinfo2()
       bytes = min(bytes, max(0_long, limit - taken + heap%fordblks - omp_get_max_threads()*blas_buffer))
    end function available_memory
@@ -70,29 +72,5 @@ contains
 
       bytes = kernel_figure('/proc/self/status', 'VmHWM:', 1024)
    end function peak_memory
-
-
-   !> The figure that stands behind NAME in a file of the kernel, there in units of so many bytes [bytes].
-   function kernel_figure(path, name, unit_bytes) result(bytes)
-      character(*), intent(in) :: path, name
-      integer, intent(in)      :: unit_bytes
-      integer(long) :: bytes
-      character(80) :: line
-      integer :: unit, status
-
-      bytes = unknown
-      open (newunit=unit, file=path, action='read', status='old', iostat=status)
-      if (status /= 0) return
-      do
-         read (unit, '(a)', iostat=status) line
-         if (status /= 0) exit
-         if (index(line, name) == 1) then
-            read (line(len(name) + 1:), *, iostat=status) bytes
-            bytes = merge(unit_bytes*bytes, unknown, status == 0)
-            exit
-         end if
-      end do
-      close (unit)
-   end function kernel_figure
 
 end module machine

@@ -14,16 +14,17 @@ contains
    !> A failure where so many BYTES for the factor of N equations are more than can be had; its message says what would fit.
    subroutine check_memory(n, dimension, how, bytes, failure)
       integer, intent(in)               :: n          !! unknowns
-      integer, intent(in)               :: dimension  !! of the model
+      integer, intent(in)               :: dimension  !! of the model; 1: a bound without fill
       character(*), intent(in)          :: how        !! 'about', 'at least'
       real(wp), intent(in)              :: bytes
       type(failure_type), intent(inout) :: failure
+      real(wp), parameter :: inverse_growth(3) = [1.0_wp, 0.9_wp, 0.75_wp] ! bytes grow like n, n log n, n**(4/3)
       character(:), allocatable :: at_most
       real(wp) :: there, fits
 
       there = real(available_memory(), wp)
       if (bytes <= there) return
-      fits = n*(there/bytes)**merge(0.75_wp, 0.9_wp, dimension == 3) ! bytes grow like n**(4/3), n log n
+      fits = n*(there/bytes)**inverse_growth(dimension)
       at_most = how
       if (how == 'at least') at_most = 'at most'
       call failure%raise('the factor of '//integer_text(n)//' equations needs '//how//' '// &

@@ -6,7 +6,7 @@ module element_mapping
    use elasticity, only: axisymmetric, elasticity_matrix, max_stresses, solid
    use element_kinds, only: element_table, kind_hexa8, kind_penta6, kind_quad4, kind_tetra4, kind_tria3, max_nodes
    use kinds, only: wp
-   use quadrature, only: body_rule, integration_rule
+   use quadrature, only: body_rule, integration_rule, side_rule
    use shape_functions, only: centre_point, corner_point, shape_derivatives, shape_values
    implicit none
    private
@@ -200,17 +200,18 @@ contains
    end function element_volume
 
 
-   !> The smallest det J over the corners and the integration points, divided by the longest edge to the power of the
-   !! dimension and scaled so that a square or cube has 1 [-]. Not above zero for an element that is turned round, folded,
-   !! or flat to 1E-12. Of a solid the corners ask for more than the integration needs: one hexahedron of the patch of
-   !! MacNeal and Harder has -0.0127 at a corner.
+   !> The smallest det J over the integration points and the corners, divided by the longest edge to the power of the dimension
+   !! and scaled so that a square or cube has 1 [-]. Not above zero for an element that is turned round, folded, or flat to
+   !! 1E-12. Of a solid the corners ask for more than any integral over it or its sides: one hexahedron of the patch of MacNeal
+   !! and Harder has -0.0127 there. Where they are not positive, the integration points of the sides count in their place, and
+   !! no two corners may stand in one place.
    pure real(wp) function smallest_jacobian(kind, x) result(smallest)
       integer, intent(in)  :: kind                        !! kind_tria3 ... kind_hexa8
       real(wp), intent(in) :: x(:, :)                     !! corners (dimension, nodes) [length]
       real(wp), parameter  :: scale(5) = [1.0_wp, 4.0_wp, 1.0_wp, 2.0_wp, 8.0_wp] ! det J of a cube of edge 1, inverted
       type(integration_rule) :: rule
-      real(wp) :: corners(3, max_nodes), dn(3, max_nodes), j(3, 3), jacobian, longest
-      integer  :: d, i, k, n, next, side
+      real(wp) :: corners(3, max_nodes), longest, of_corners
+      integer  :: d, i, n, next, side
 
       n = element_table(kind)%n_nodes
       d = element_table(kind)%dimension
@@ -226,14 +227,11 @@ contains
          end associate
       end do
       longest = sqrt(longest)
-      smallest = huge(1.0_wp)
       call body_rule(kind, .false., rule)
-      do k = 1, n + rule%n
-         if (k <= n) call shape_derivatives(kind, corner_point(:, k, kind), dn)
-         if (k > n) call shape_derivatives(kind, rule%point(:, k - n), dn)
-         call jacobian_matrix(d, n, corners, dn, j, jacobian)
-         smallest = min(smallest, scale(kind)*jacobian)
-      end do
+      smallest = least_at(kind, corners, rule%point(:, :rule%n))
+      of_corners = least_at(kind, corners, corner_point(:, :n, kind))
+      if (d == 3 .and. .not. of_corners > 0.0_wp .and. smallest > 0.0_wp) of_corners = least_on_sides(kind, corners, longest)
+      smallest = scale(kind)*min(smallest, of_corners)
       if (smallest > flat*longest**d) then
          smallest = smallest/longest**d
       else
@@ -241,5 +239,50 @@ contains
          if (longest > 0.0_wp) smallest = smallest/longest**d
       end if
    end function smallest_jacobian
+
+
+   !> The smallest det J at these POINTS [length^dimension].
+   pure real(wp) function least_at(kind, corners, points) result(smallest)
+      integer, intent(in)  :: kind
+      real(wp), intent(in) :: corners(3, max_nodes)       !! [length]
+      real(wp), intent(in) :: points(:, :)                !! (3, n) local coordinates
+      real(wp) :: dn(3, max_nodes), j(3, 3), jacobian
+      integer  :: k
+
+      smallest = huge(1.0_wp)
+      do k = 1, size(points, 2)
+         call shape_derivatives(kind, points(:, k), dn)
+         call jacobian_matrix(element_table(kind)%dimension, element_table(kind)%n_nodes, corners, dn, j, jacobian)
+         smallest = min(smallest, jacobian)
+      end do
+   end function least_at
+
+
+   !> The smallest det J of a solid at the integration points of its sides [length^3]; 0 where two corners stand in one place.
+   pure real(wp) function least_on_sides(kind, corners, longest) result(smallest)
+      integer, intent(in)  :: kind
+      real(wp), intent(in) :: corners(3, max_nodes)       !! [length]
+      real(wp), intent(in) :: longest                     !! edge [length]
+      type(integration_rule) :: rule
+      real(wp) :: points(3, max_nodes), n(max_nodes)
+      integer  :: i, k, side
+
+      smallest = huge(1.0_wp)
+      do side = 1, element_table(kind)%n_sides
+         associate (m => element_table(kind)%side_size(side), nodes => element_table(kind)%side_nodes(:, side))
+            call side_rule(m, rule)
+            do i = 1, rule%n
+               call shape_values(merge(kind_tria3, kind_quad4, m == 3), rule%point(:, i), n)
+               points(:, i) = matmul(corner_point(:, nodes(:m), kind), n(:m))
+            end do
+            smallest = min(smallest, least_at(kind, corners, points(:, :rule%n)))
+         end associate
+      end do
+      do i = 2, element_table(kind)%n_nodes
+         do k = 1, i - 1
+            if (sum((corners(:, i) - corners(:, k))**2) <= (flat*longest)**2) smallest = min(smallest, 0.0_wp)
+         end do
+      end do
+   end function least_on_sides
 
 end module element_mapping

@@ -31,7 +31,7 @@ contains
       type(failure_type), intent(inout)    :: failure
       real(wp), allocatable :: load(:, :), u_start(:, :), moved(:, :)
       integer, allocatable  :: flips(:)
-      real(wp) :: done, part
+      real(wp) :: done, part, left
       logical  :: converged, imprecise
       type(failure_type) :: trouble
       integer  :: before_open, i, loose
@@ -48,12 +48,13 @@ contains
                                                                          [(i, i=1, model%n_nodes)]), tiny(1.0_wp))
       do while (done < 1.0_wp)
          part = min(part, 1.0_wp - done)
-         associate (r => analysis%retained, left => merge(1.0_wp - done - part, 0.0_wp, done + part < 1.0_wp))
+         left = merge(1.0_wp - done - part, 0.0_wp, done + part < 1.0_wp)
+         associate (r => analysis%retained)
             load(:, r) = analysis%felt(:, r) - left*analysis%change(:, r)
             moved(:, r) = analysis%moved(:, r) - left*analysis%move(:, r)
          end associate
-         call iterate(model, load, moved, where_in_plan(plan, analysis%stage, analysis%increment), analysis, system, flips, &
-                      loose, imprecise, trouble, converged)
+         call iterate(model, load, moved, left, where_in_plan(plan, analysis%stage, analysis%increment), analysis, system, &
+                      flips, loose, imprecise, trouble, converged)
          if (converged) then
             done = done + part
             part = 2.0_wp*part
@@ -78,9 +79,10 @@ contains
 
    !> Newton iterations under the nodal forces LOAD with held components MOVED, from the committed state; converged, they are
    !! committed. The first iteration moves the supports, in one go and with the tangent of the committed state.
-   subroutine iterate(model, load, moved, place, analysis, system, flips, loose, imprecise, trouble, converged)
+   subroutine iterate(model, load, moved, left, place, analysis, system, flips, loose, imprecise, trouble, converged)
       type(model_type), intent(in)         :: model
       real(wp), intent(in)                 :: load(:, :), moved(:, :)
+      real(wp), intent(in)                 :: left  !! of the increment, when LOAD and MOVED are reached [-]
       character(*), intent(in)             :: place !! stage and increment, for messages
       type(analysis_type), intent(inout)   :: analysis
       type(equation_system), intent(inout) :: system
@@ -91,13 +93,14 @@ contains
       logical, intent(out)                 :: converged
       type(trial_type)      :: now, next
       real(wp), allocatable :: direction(:, :), move(:, :)
-      real(wp) :: load_size, noise, step
+      real(wp) :: load_size, noise, rounding, step, travel
       integer  :: iteration, changes
-      logical  :: moves
+      logical  :: moves, carried
 
       allocate (direction, mold=load)
       allocate (move, source=merge(moved - analysis%u, 0.0_wp, system%number == 0))
       moves = any(abs(move) > 0.0_wp)
+      travel = max(maxval(abs(moved)), maxval(abs(analysis%u(:, analysis%retained))))
       converged = .false.
       flips = 0
       call start_trial(model, system, analysis, now)
@@ -108,9 +111,12 @@ contains
          ! forces in the bodies are differences of large numbers: what rounding leaves of them is no residual, and where it is no
          ! small part of the load, a body has moved away and nothing is in equilibrium
          noise = 10.0_wp*epsilon(1.0_wp)*system%stiffest*maxval(abs(now%u(:, analysis%retained)))
-         converged = now%size <= max(analysis%tolerance, 0.1_wp*noise) .and. noise <= 1.0e-5_wp*load_size .and. &
-                     .not. moves
-         if (converged .or. iteration == most_iterations .or. noise > load_size) exit
+         ! ... unless it only goes with supports that are moved, and nothing bears a force
+         rounding = 10.0_wp*epsilon(1.0_wp)*system%stiffest*travel*sqrt(real(size(load), wp))
+         carried = load_size <= rounding .and. maxval(abs(now%u(:, analysis%retained))) <= 10.0_wp*travel
+         converged = now%size <= max(analysis%tolerance, 0.1_wp*noise) .and. noise <= 1.0e-5_wp*load_size
+         converged = .not. moves .and. (converged .or. (carried .and. now%size <= rounding))
+         if (converged .or. iteration == most_iterations .or. (noise > load_size .and. .not. (carried .or. moves))) exit
          call find_direction(model, now, analysis, iteration == 0, move, place, system, direction, trouble)
          if (trouble%raised) exit
          if (moves) then
@@ -118,7 +124,8 @@ contains
             step = 1.0_wp
             moves = .false.
             move = 0.0_wp
-            analysis%tolerance = max(analysis%tolerance, analysis%load_tolerance*support_force(model, system, analysis, next%u))
+            analysis%tolerance = max(analysis%tolerance, &
+                                     analysis%load_tolerance*support_force(model, system, analysis, next%u, left))
             load_size = analysis%tolerance/analysis%load_tolerance ! what the supports take is a load here
          else
             call search(model, system, load, analysis, now, direction, next, step)
@@ -131,7 +138,7 @@ contains
          if (.not. next%size < huge(1.0_wp)) exit
          call swap(now, next)
       end do
-      imprecise = noise > 1.0e-5_wp*load_size
+      imprecise = noise > 1.0e-5_wp*load_size .and. .not. carried
       loose = loose_joint(model, now)
       if (converged) call commit(model, now, analysis)
    end subroutine iterate

@@ -64,18 +64,21 @@ contains
    end subroutine hand_over
 
 
-   !> What the supports take under the displacements U of retained nodes [force].
-   real(wp) function support_force(model, system, analysis, u) result(force)
+   !> What the supports take under the displacements U of retained nodes, so much of the increment being LEFT [force].
+   real(wp) function support_force(model, system, analysis, u, left) result(force)
       type(model_type), intent(in)      :: model
       type(equation_system), intent(in) :: system
       type(analysis_type), intent(in)   :: analysis
       real(wp), intent(in)              :: u(:, :)
-      type(analysis_type) :: moved
+      real(wp), intent(in)              :: left !! [-], 0 to 1
+      type(analysis_type) :: trial
 
-      moved = analysis
-      moved%u = u
-      call recover_bodies(model, system, moved)
-      force = norm2(pack(moved%unbalanced, model%held))
+      trial = analysis
+      trial%u = u
+      trial%moved = analysis%moved - left*analysis%move
+      trial%applied = analysis%applied - left*analysis%share*(analysis%load_after - analysis%load_before)
+      call recover_bodies(model, system, trial)
+      force = norm2(pack(trial%unbalanced, model%held))
    end function support_force
 
 

@@ -147,7 +147,7 @@ contains
    end subroutine check_one_state
 
 
-   !> Every element has a positive area or volume at all its corners.
+   !> Every plane element has a positive area at all its corners, every solid a positive volume where it is integrated.
    subroutine check_elements(deck, model, errors)
       type(deck_type), intent(in)          :: deck
       type(model_type), intent(in)         :: model
@@ -192,7 +192,7 @@ contains
       case (kind_tria3)
          words = 'area at some corner; expected three nodes counter-clockwise'
       case default
-         words = 'volume at some corner; expected the corners in the order of '//trim(element_table(kind)%card)// &
+         words = 'volume at some integration point; expected the corners in the order of '//trim(element_table(kind)%card)// &
                  ' in the card manual'
       end select
    end function shape_words

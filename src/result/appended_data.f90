@@ -12,6 +12,7 @@
 module appended_data
    use, intrinsic :: iso_fortran_env, only: int8, int32, int64, real64
    use c_library, only: remove_file, rename_file
+   use incomplete_results, only: note_incomplete
    use vtu_header, only: array_type, closing, data_start, header_text
    implicit none
    private
@@ -53,6 +54,8 @@ contains
       self%n_arrays = 0
       if (allocated(self%arrays)) deallocate (self%arrays)
       allocate (self%arrays(16))
+      call note_incomplete(path)
+      call note_incomplete(path//suffix)
       open (newunit=self%unit, file=path//suffix, status='replace', action='write', access='stream', &
             form='unformatted', iostat=self%status)
       self%is_open = self%status == 0

@@ -2,6 +2,7 @@
 !! With no name the lines go to the standard output, at the end too.
 module output_file
    use c_library, only: close_file, create_file, remove_file, rename_file, write_bytes
+   use incomplete_results, only: note_incomplete
    implicit none
    private
 
@@ -34,7 +35,11 @@ contains
       self%path = path
       if (allocated(self%buffer)) deallocate (self%buffer)
       allocate (character(room) :: self%buffer)
-      if (path /= '') call create_file(path//suffix, self%descriptor)
+      if (path /= '') then
+         call note_incomplete(path)
+         call note_incomplete(path//suffix)
+         call create_file(path//suffix, self%descriptor)
+      end if
       self%fault = path /= '' .and. self%descriptor < 0
       self%is_open = .not. self%fault
    end subroutine start

@@ -3,6 +3,7 @@ module results
    use c_library, only: remove_file
    use deck_input, only: deck_type
    use equations, only: equation_system
+   use incomplete_results, only: all_complete, note_incomplete
    use joint_history, only: write_history, write_history_header
    use listing, only: finish_listing, list_increment, list_stage, listing_type, start_listing
    use model_data, only: model_type
@@ -13,7 +14,7 @@ module results
    implicit none
    private
 
-   public :: start_results, print_increment, print_stage, finish_results, discard_results, remove_old_results
+   public :: announce_results, start_results, print_increment, print_stage, finish_results, discard_results, remove_old_results
 
    type, public :: results_type
       type(listing_type)     :: listing
@@ -23,6 +24,15 @@ module results
    end type results_type
 
 contains
+
+   !> From here on, wherever the program ends, what an earlier run of the deck left is not its result any more.
+   subroutine announce_results(listing_path, history_path)
+      character(*), intent(in) :: listing_path, history_path
+
+      call note_incomplete(listing_path)
+      call note_incomplete(history_path)
+   end subroutine announce_results
+
 
    !> Open the files LISTING_PATH (empty: standard output) and HISTORY_PATH (empty: none) and write what opens them.
    !! OK is false where that fails.
@@ -87,6 +97,7 @@ contains
          call discard_results(results)
          if (results%history_path /= '') call remove_file(results%history_path)
       end if
+      call all_complete()
    end subroutine finish_results
 
 
@@ -97,6 +108,7 @@ contains
       call results%listing%file%discard()
       call results%history%discard()
       call discard_vtu(results%vtu)
+      call all_complete()
    end subroutine discard_results
 
 

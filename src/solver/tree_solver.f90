@@ -9,6 +9,7 @@ module tree_solver
    use front_layout, only: front_layout_type, lay_out_fronts, postpone_joints
    use front_tree, only: front_tree_type, start_front_tree
    use kinds, only: long, wp
+   use least_factor, only: least_factor_bytes
    use memory_need, only: check_memory
    use model_data, only: model_type
    use nested_dissection, only: dissect
@@ -53,6 +54,8 @@ contains
       do i = 1, model%n_nodes
          weight(i) = merge(count(.not. model%held(:, i)), 0, model%used(i))
       end do
+      call check_memory(sum(weight), 1, 'at least', least_factor_bytes(graph, weight), failure)
+      if (failure%raised) return
       call dissect(graph, weight > 0, order, ok)
       if (.not. ok) then
          call failure%raise('no memory to order '//integer_text(count(weight > 0))//' nodes')

@@ -52,9 +52,10 @@ unit-test: $(UNIT_PROGRAM)
 $(UNIT_FOLDER):
 	@mkdir -p $@
 
-# Modules that several test files use; none uses another.
+# Modules that several test files use.
 $(UNIT_HELPERS): $(UNIT_FOLDER)/%.o: tests/unit/%.f90 $(CHECKED_LIBRARY) | $(UNIT_FOLDER)
 	$(UNIT_COMPILE) -I$(CHECKED_MODULES) -c $< -o $@
+$(UNIT_FOLDER)/changed_joints.o: $(UNIT_FOLDER)/deck_models.o
 
 $(UNIT_OBJECTS): $(UNIT_HELPERS)
 # What reads .vtu files back and what solves a model are written once.
