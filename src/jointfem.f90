@@ -19,7 +19,7 @@ program jointfem
    use model_data, only: model_type
    use newton_method, only: newton_increment
    use progress, only: phase_build, phase_factor, phase_increments, phase_order, phase_recover, phase_write, progress_type
-   use results, only: announce_results, finish_results, print_increment, print_stage, results_type, start_results
+   use results, only: finish_results, print_increment, print_stage, remove_old_results, results_type, start_results
    use run_control, only: end_program, overwrites_input, report_checked, report_errors, report_failure, &
                           report_unreadable, report_unwritten, report_warnings
    use stage_plan, only: factorisations_of, shows_bodies, stage_plan_type
@@ -65,7 +65,7 @@ contains
       else if (overwrites_input(argument, deck)) then
          return
       end if
-      if (.not. command%check_only) call announce_results(argument%listing, argument%history)
+      if (.not. command%check_only) call remove_old_results(argument%listing, argument%history)
 
       ! ------------------------------------------------------------------ BODIES, JOINTS, LOADS
       call progress%enter(phase_build)
@@ -77,7 +77,7 @@ contains
       call build_model(deck, model, plan, errors)
       if (errors%any()) then
          call progress%clear()
-         call report_errors(command, argument, deck, errors)
+         call report_errors(deck, errors)
          return
       else if (command%check_only) then
          call progress%clear()

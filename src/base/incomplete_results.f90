@@ -1,4 +1,4 @@
-!> Which result files are being written or out of date, so that none stays behind where the program ends in the midst of it.
+!> Which result files are being written, so that none stays behind where the program ends in the midst of it.
 module incomplete_results
    use, intrinsic :: iso_c_binding, only: c_null_char
    use c_library, only: remove_terminated
@@ -11,7 +11,7 @@ module incomplete_results
 
 contains
 
-   !> The file PATH is about to be written, or what is there is out of date.
+   !> The file PATH is about to be written.
    subroutine note_incomplete(path)
       character(*), intent(in) :: path   !! empty: the standard output, nothing to note
 

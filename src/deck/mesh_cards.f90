@@ -171,7 +171,7 @@ contains
          integer_field('WELD', default=0)]
       call decode_card(card, table, .false., values, errors)
       call check_block(card, 5, values, errors)
-      where (values%integers(15:16) > most_first) values%integers(15:16) = 1 ! what the cards of most decks count on
+      where (values%integers(15:16) > most_first) values%integers(15:16) = 1 ! a deck of solids is mostly one block, from 1 on
       if (values%ok .and. any(values%reals(9:11) <= values%reals(6:8))) call field_error(card, 9, &
          'X2: the second corner must lie beyond the first in x, y and z', errors)
       bulk%n_block3 = bulk%n_block3 + 1

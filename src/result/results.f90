@@ -3,7 +3,7 @@ module results
    use c_library, only: remove_file
    use deck_input, only: deck_type
    use equations, only: equation_system
-   use incomplete_results, only: all_complete, note_incomplete
+   use incomplete_results, only: all_complete
    use joint_history, only: write_history, write_history_header
    use listing, only: finish_listing, list_increment, list_stage, listing_type, start_listing
    use model_data, only: model_type
@@ -14,7 +14,7 @@ module results
    implicit none
    private
 
-   public :: announce_results, start_results, print_increment, print_stage, finish_results, discard_results, remove_old_results
+   public :: start_results, print_increment, print_stage, finish_results, discard_results, remove_old_results
 
    type, public :: results_type
       type(listing_type)     :: listing
@@ -24,15 +24,6 @@ module results
    end type results_type
 
 contains
-
-   !> From here on, wherever the program ends, what an earlier run of the deck left is not its result any more.
-   subroutine announce_results(listing_path, history_path)
-      character(*), intent(in) :: listing_path, history_path
-
-      call note_incomplete(listing_path)
-      call note_incomplete(history_path)
-   end subroutine announce_results
-
 
    !> Open the files LISTING_PATH (empty: standard output) and HISTORY_PATH (empty: none) and write what opens them.
    !! OK is false where that fails.
@@ -47,7 +38,6 @@ contains
 
       results%listing_path = listing_path
       results%history_path = history_path
-      call remove_old_results(listing_path, history_path)
       call start_vtu(results%vtu, base_of(history_path), plan)
       call start_listing(results%listing, listing_path, deck, model, plan, system)
       ok = .not. results%listing%file%failed()
@@ -112,7 +102,7 @@ contains
    end subroutine discard_results
 
 
-   !> Remove what an earlier run of the same deck left: it is not the result of this deck any more.
+   !> Remove what an earlier run of the same deck left: it is not the result of this deck any more, wherever the run ends.
    subroutine remove_old_results(listing_path, history_path)
       character(*), intent(in) :: listing_path, history_path
 

@@ -9,7 +9,7 @@ module run_control
    use error_report, only: print_errors
    use failures, only: failure_type
    use model_data, only: model_type, n_points
-   use results, only: discard_results, remove_old_results, results_type
+   use results, only: discard_results, results_type
    use stage_plan, only: stage_plan_type
    use text_tools, only: plural
    implicit none
@@ -57,16 +57,13 @@ contains
    end function overwrites_input
 
 
-   !> The deck has errors: all of them, and no result of an earlier run is left to be mistaken for its own.
-   subroutine report_errors(command, argument, deck, errors)
-      type(command_type), intent(in)    :: command
-      type(deck_argument), intent(in)   :: argument
+   !> The deck has errors: all of them.
+   subroutine report_errors(deck, errors)
       type(deck_type), intent(in)       :: deck
       type(deck_error_list), intent(in) :: errors
 
       call raise_status(status_deck)
       call print_errors(error_unit, 'DECK', 'nothing solved', deck%text, errors)
-      if (.not. command%check_only) call remove_old_results(argument%listing, argument%history)
    end subroutine report_errors
 
 
@@ -79,7 +76,6 @@ contains
       call raise_status(status_unsolved)
       write (error_unit, '(4a)') argument%name, ': ', failure%message, '; no results'
       call discard_results(results)
-      call remove_old_results(argument%listing, argument%history)
    end subroutine report_failure
 
 

@@ -22,12 +22,13 @@ module earlier_solutions
 
 contains
 
-   !> X solves ([k_b] + sum of [k_int]) x = b on the EQUATIONS that move; B and X elsewhere are not looked at.
+   !> X solves ([k_b] + sum of [k_int]) x = b on the EQUATIONS that move.
    subroutine note_solution(tree, equations, k_int, b, x, earlier)
       type(front_tree_type), intent(in)           :: tree
       integer, intent(in)                         :: equations(:)
       real(wp), intent(in)                        :: k_int(:, :, :) !! (6, 6, n) of interface elements [force/length]
-      real(wp), intent(in)                        :: b(:), x(:)     !! (tree%n) [force], [length]
+      real(wp), intent(in)                        :: b(:)           !! (n) of the EQUATIONS [force]
+      real(wp), intent(in)                        :: x(:)           !! (tree%n) [length]
       type(earlier_solutions_type), intent(inout) :: earlier
       real(wp), allocatable :: of_joints(:)
       integer :: i
@@ -42,7 +43,7 @@ contains
       of_joints(equations) = 0.0_wp
       call add_joints(tree, k_int, x, of_joints)
       earlier%u(:, 1) = x(equations)
-      earlier%f(:, 1) = b(equations) - of_joints(equations)
+      earlier%f(:, 1) = b - of_joints(equations)
    end subroutine note_solution
 
 
@@ -62,7 +63,7 @@ contains
       integer, intent(in)                      :: equations(:)
       real(wp), intent(in)                     :: k_int(:, :, :) !! (6, 6, n) [force/length]
       type(earlier_solutions_type), intent(in) :: earlier
-      real(wp), intent(in)                     :: b(:)           !! (tree%n) [force]
+      real(wp), intent(in)                     :: b(:)           !! (n) of the EQUATIONS [force]
       real(wp), intent(inout)                  :: x(:)           !! (tree%n) [length]
       real(wp), intent(inout)                  :: residual(:)    !! (tree%n) [force]
       real(wp), intent(out)                    :: work           !! [force*length]
@@ -87,15 +88,15 @@ contains
             direction(:, n) = direction(:, n) - share*direction(:, i) ! the force's share in later ones is none then
          end do
          energy = dot_product(direction(:, n), force(:, n))
-         if (.not. energy > dependent*whole) then
+         if (.not. energy > dependent*abs(whole)) then
             n = n - 1
             cycle
          end if
          direction(:, n) = direction(:, n)/sqrt(energy)
          force(:, n) = force(:, n)/sqrt(energy)
-         x(equations) = x(equations) + dot_product(direction(:, n), b(equations))*direction(:, n)
+         x(equations) = x(equations) + dot_product(direction(:, n), b)*direction(:, n)
       end do
-      residual(equations) = b(equations)
+      residual(equations) = b
       work = 0.0_wp
       if (n == 0) return
       call moving_times_vector(tree, x, f)

@@ -4,18 +4,16 @@
 !! form_structure_stiffness, then solve_equations and body_forces as often as needed; recover_displacements for all nodes.
 module equations
    use bar_elements, only: bar_stiffness
-   use conjugate_gradients, only: iterate_moving
-   use earlier_solutions, only: earlier_solutions_type, forget_solutions, guess_solution, note_solution
    use case_control, only: solver_auto, solver_skyline, solver_tree
    use equation_numbering, only: equation_numbers, gather, number_joints, put
    use fault_report, only: report_fault
-   use factor_reuse, only: factor_reuse_type, forget_factor, may_reuse, note_factor, note_failure, note_steps
    use failures, only: failure_type
-   use front_factor, only: add_to_moving, factorise_fixed, factorise_moving
-   use front_solve, only: eliminate_fixed, moving_times_vector, recover_fixed, solve_moving
+   use front_factor, only: add_to_moving, factorise_fixed
+   use front_solve, only: eliminate_fixed, moving_times_vector, recover_fixed
    use front_tree, only: largest_diagonal
    use kinds, only: long, wp
    use model_data, only: model_type, n_bars, n_sections
+   use moving_solution, only: forget_moving, form_moving, moving_factor_type, solve_with_joints
    use node_graph, only: build_node_graph, node_graph_type
    use skyline, only: skyline_times_vector, solve_skyline
    use skyline_solver, only: form_skyline_bodies, form_skyline_structure, lay_out_skyline, scatter, skyline_solver_type, &
@@ -33,8 +31,6 @@ module equations
    integer, parameter :: narrow = 16            ! entries in a column, on the average
    integer, parameter :: most_tried = 100000    ! unknowns up to which the profile is looked at
 
-   real(wp), parameter :: step_tolerance = 1.0e-13_wp !! of conjugate gradients: share of the energy of the solution, as a length
-
    type, extends(equation_numbers), public :: equation_system
       logical :: is_tree = .false.              !! which of the two
       type(skyline_solver_type) :: skyline
@@ -45,11 +41,7 @@ module equations
       integer, allocatable  :: joint_equations(:, :) !! (6, n) of interface elements, with SKYLINE
       real(wp) :: stiffest = 0.0_wp             !! largest diagonal entry of [k_b] [force/length]
       real(wp), allocatable :: k_int(:, :, :)   !! (6, 6, n) of the interface elements now, global axes [force/length]
-      real(wp), allocatable :: k_factor(:, :, :) !! that the factor is of
-      logical :: is_factor = .false.            !! whether that is k_int; else it is an earlier one
-      logical :: is_solved = .false.            !! whether k_int has had a solution yet
-      type(factor_reuse_type) :: reuse          !! of the factor, by conjugate gradients
-      type(earlier_solutions_type) :: earlier   !! with which they begin
+      type(moving_factor_type) :: factor        !! with TREE: what that knows of k_int
       integer :: fault = 0                      !! of the last factorisation, as in front_factor
       character(:), allocatable :: where        !! stage and increment, for messages
    end type equation_system
@@ -90,8 +82,8 @@ contains
          call mark_joints(model, in_joint)
          call start_tree_solver(model, graph, in_joint, repeated, system, system%tree, failure)
          if (failure%raised) return
-         system%equations = system%tree%moving
-         call system%reuse%set_costs(system%tree%moving_operations, system%tree%moving_entries)
+         system%equations = system%tree%moving_equations
+         call system%factor%reuse%set_costs(system%tree%moving_operations, system%tree%moving_entries)
          in_joint(system%node(system%equations)) = .true.
          system%retained = pack([(i, i = 1, model%n_nodes)], in_joint)
       else
@@ -163,7 +155,7 @@ contains
             end if
          end associate
          system%stiffest = max(system%stiffest, model%bars(i)%stiffness)
-         call forget_earlier(system)
+         call forget_moving(system%factor)
       end associate
    end subroutine add_bar
 
@@ -175,18 +167,9 @@ contains
 
       if (system%number(d, node) == 0) return
       system%locked = [system%locked, system%number(d, node)]
-      call forget_earlier(system)
+      call forget_moving(system%factor)
       if (system%is_tree) system%tree%tree%locked(system%number(d, node)) = .true.
    end subroutine lock_unknown
-
-
-   !> The equations are others now: neither the factor nor solutions are of use any more.
-   subroutine forget_earlier(system)
-      type(equation_system), intent(inout) :: system
-
-      call forget_factor(system%reuse)
-      call forget_solutions(system%earlier)
-   end subroutine forget_earlier
 
 
    !> G: what retained nodes feel of the nodal forces F on all nodes; zero elsewhere.
@@ -221,12 +204,10 @@ contains
       logical, intent(in), optional        :: many_solutions !! true
       real(wp) :: k_global(3, 3)
       integer  :: i
-      logical  :: reuse
+      logical  :: one_solution
 
-      reuse = .false.
-      if (present(many_solutions)) then
-         if (.not. many_solutions) call may_reuse(system%reuse, reuse)
-      end if
+      one_solution = .false.
+      if (present(many_solutions)) one_solution = .not. many_solutions
       system%where = where
       if (.not. allocated(system%k_int)) allocate (system%k_int(6, 6, size(model%interface)))
       do i = 1, size(model%interface)
@@ -236,30 +217,13 @@ contains
          system%k_int(:3, 4:, i) = -k_global
          system%k_int(4:, :3, i) = -k_global
       end do
-      system%is_solved = .false.
-      system%is_factor = .false.
-      if (.not. reuse) call factorise(system)
-      call check_solution(model, system, failure)
-   end subroutine form_structure_stiffness
-
-
-   !> Factorise the stiffness of the structure as it is now.
-   subroutine factorise(system)
-      type(equation_system), intent(inout) :: system
-
       if (system%is_tree) then
-         call factorise_moving(system%tree%tree, system%k_int, system%fault)
+         call form_moving(system%tree%tree, system%k_int, one_solution, system%factor, system%fault)
       else
          call form_skyline_structure(system%k_int, system%joint_equations, system%locked, system%skyline, system%fault)
       end if
-      system%is_factor = system%fault == 0
-      if (system%is_factor) then
-         system%k_factor = system%k_int
-         call note_factor(system%reuse)
-      else
-         call forget_factor(system%reuse)
-      end if
-   end subroutine factorise
+      call check_solution(model, system, failure)
+   end subroutine form_structure_stiffness
 
 
    !> A factorisation that failed, in form_structure_stiffness or since then in solve_equations, as a failure.
@@ -278,38 +242,17 @@ contains
       type(equation_system), intent(inout) :: system
       real(wp), intent(in)                 :: f(:, :) !! (dimension, n_nodes) [force]
       real(wp), intent(inout)              :: u(:, :) !! (dimension, n_nodes), set where retained [length]
-      real(wp), allocatable :: b(:), r(:), x(:)
-      real(wp) :: work
-      integer  :: steps
+      real(wp), allocatable :: x(:)
 
-      allocate (b(system%n), r(system%n), x(system%n))
-      call gather(system, system%equations, f, b)
-      if (.not. system%is_factor) then
-         associate (tree => system%tree%tree)
-            call guess_solution(tree, system%equations, system%k_int, system%earlier, b, x, r, work)
-            call iterate_moving(tree, system%equations, system%k_int - system%k_factor, work, step_tolerance, &
-                                system%reuse%most_steps, r, x, steps)
-         end associate
-         if (steps <= system%reuse%most_steps) then
-            call note_steps(system%reuse, steps)
-         else
-            call note_failure(system%reuse)
-            call factorise(system)
-         end if
+      allocate (x(system%n))
+      call gather(system, system%equations, f, x)
+      if (system%is_tree) then
+         call solve_with_joints(system%tree%tree, system%equations, system%locked, system%k_int, system%factor, x, system%fault)
+      else if (system%fault == 0) then
+         x(system%locked) = 0.0_wp
+         call solve_skyline(system%skyline%structure, x)
       end if
       if (system%fault /= 0) return
-      if (system%is_factor) then
-         x(system%equations) = b(system%equations)
-         x(system%locked) = 0.0_wp
-         if (system%is_tree) then
-            call solve_moving(system%tree%tree, x)
-         else
-            call solve_skyline(system%skyline%structure, x)
-         end if
-      end if
-      if (.not. system%is_solved .and. system%reuse%most_steps > 0) &
-         call note_solution(system%tree%tree, system%equations, system%k_int, b, x, system%earlier)
-      system%is_solved = .true.
       u(:, system%retained) = 0.0_wp
       call put(system, system%equations, x, u)
    end subroutine solve_equations

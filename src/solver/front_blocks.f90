@@ -23,7 +23,8 @@ contains
       real(wp), intent(in)          :: a(:, :)
       type(kept_block), intent(out) :: block
       logical, intent(out)          :: ok
-      integer :: i, j, k, status
+      integer(long) :: k
+      integer :: i, j, status
 
       block%n_rows = size(a, 1)
       block%n_columns = size(a, 2)
@@ -31,7 +32,7 @@ contains
       do j = 1, block%n_columns
          k = k + count(abs(a(j:, j)) > 0.0_wp)
       end do
-      if (2*int(k, long) > int(block%n_rows, long)*block%n_columns/2) then
+      if (2*k > int(block%n_rows, long)*block%n_columns/2) then
          allocate (block%whole(block%n_rows, block%n_columns), stat=status)
          ok = status == 0
          if (.not. ok) return
@@ -60,7 +61,8 @@ contains
    pure subroutine restore_block(block, a)
       type(kept_block), intent(in) :: block
       real(wp), intent(inout)      :: a(block%n_rows, block%n_columns)
-      integer :: i, j, k
+      integer(long) :: k
+      integer :: i, j
 
       do j = 1, block%n_columns
          if (allocated(block%whole)) then
@@ -76,7 +78,7 @@ contains
          end if
       end do
       if (allocated(block%whole)) return
-      do k = 1, size(block%values)
+      do k = 1, size(block%values, kind=long)
          a(block%row(k), block%column(k)) = block%values(k)
       end do
    end subroutine restore_block
@@ -87,13 +89,13 @@ contains
       type(kept_block), intent(inout) :: block
       integer, intent(in)             :: i, j
       real(wp), intent(in)            :: value
-      integer :: k
+      integer(long) :: k
 
       if (allocated(block%whole)) then
          block%whole(i, j) = block%whole(i, j) + value
          return
       end if
-      do k = 1, size(block%values)
+      do k = 1, size(block%values, kind=long)
          if (block%row(k) /= i .or. block%column(k) /= j) cycle
          block%values(k) = block%values(k) + value
          return
@@ -109,7 +111,8 @@ contains
       type(kept_block), intent(in) :: block
       real(wp), intent(in)         :: x(block%n_rows)
       real(wp), intent(inout)      :: y(block%n_rows)
-      integer :: k, m, n
+      integer(long) :: k
+      integer :: m, n
 
       m = block%n_rows
       n = block%n_columns
@@ -120,7 +123,7 @@ contains
          call dgemv('N', m - n, n, 1.0_wp, block%whole(n + 1, 1), m, x, 1, 1.0_wp, y(n + 1), 1)
          call dgemv('T', m - n, n, 1.0_wp, block%whole(n + 1, 1), m, x(n + 1), 1, 1.0_wp, y, 1)
       else
-         do k = 1, size(block%values)
+         do k = 1, size(block%values, kind=long)
             associate (i => block%row(k), j => block%column(k))
                y(i) = y(i) + block%values(k)*x(j)
                if (i /= j) y(j) = y(j) + block%values(k)*x(i)

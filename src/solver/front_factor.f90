@@ -1,9 +1,10 @@
 !> Factorisation in a tree of fronts: once for those that do not move, in every increment for the others. Independent subtrees
 !! are tasks of OpenMP; every addition has its place in one order, whatever the number of threads.
 module front_factor
+   use front_assembly, only: add_elements, add_matrix, add_update, place_in
    use front_blocks, only: add_to_block, keep_block, restore_block
    use front_kernel, only: eliminate, top_row
-   use front_tree, only: add_elements, add_matrix, add_update, front_of, front_tree_type, front_type, place_in
+   use front_tree, only: front_of, front_tree_type, front_type
    use kinds, only: wp
    use model_data, only: model_type
    use omp_lib, only: omp_get_wtime

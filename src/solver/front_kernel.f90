@@ -12,12 +12,12 @@ module front_kernel
    implicit none
    private
 
-   public :: eliminate, top_row
+   public :: eliminate, top_row, touched_entries
 
-   integer, parameter :: wide   = 384    ! columns of the update matrix that are one task
-   integer, parameter :: narrow = 96     ! columns that are eliminated together
-   integer, parameter :: strip  = 768    ! rows that are one task
-   integer, parameter :: alone  = 300    ! rows up to which a front is not worth tasks
+   integer, parameter :: narrow = 96       ! columns that are eliminated together
+   integer, parameter :: wide   = 4*narrow ! columns of the update matrix that are one task
+   integer, parameter :: strip  = 768      ! rows that are one task
+   integer, parameter :: alone  = 300      ! rows up to which a front is not worth tasks
 
 contains
 
@@ -109,5 +109,14 @@ contains
 
       top_row = j - mod(j - 1, narrow)
    end function top_row
+
+
+   !> Entries of a panel or update matrix of M rows and N columns that take memory: whole pages above the top rows take none.
+   elemental real(wp) function touched_entries(m, n)
+      real(wp), intent(in) :: m, n
+      real(wp), parameter  :: page = 512.0_wp !! entries
+
+      touched_entries = m*n - 0.5_wp*max(0.0_wp, n - page - narrow)**2
+   end function touched_entries
 
 end module front_kernel

@@ -3,6 +3,7 @@
 !! Source: Liu, SIAM Review 34 (1992) 82-109.
 module front_layout
    use elimination_tree, only: count_rows, find_parents, number_places, order_depth_first
+   use front_kernel, only: touched_entries
    use kinds, only: wp
    use node_graph, only: node_graph_type
    use supernodes, only: find_supernodes, merge_supernodes, sorted_places, supernodes_type, weigh_supernodes
@@ -22,7 +23,8 @@ module front_layout
       logical, allocatable :: moves(:)          !! (n) whether a node of a joint is eliminated in its subtree
       real(wp) :: fixed_operations  = 0.0_wp    !! of one factorisation of the fronts that do not move
       real(wp) :: moving_operations = 0.0_wp    !! of the others
-      real(wp) :: factor_entries = 0.0_wp       !! of all panels, as stored
+      real(wp) :: factor_entries = 0.0_wp       !! of all panels, whole
+      real(wp) :: panel_entries  = 0.0_wp       !! of all panels, what takes memory
       real(wp) :: moving_entries = 0.0_wp       !! entries of the moving fronts, whole lower triangles
       real(wp) :: kept_entries   = 0.0_wp       !! lower triangles that fronts which do not move leave to those that do
       real(wp) :: peak_entries   = 0.0_wp       !! most that stand in update matrices at once, one subtree after the other
@@ -140,6 +142,7 @@ contains
          layout%moves(f) = supers%moves(s)
          rows = supers%pivots(s) + supers%beyond(s)
          layout%factor_entries = layout%factor_entries + rows*supers%pivots(s)
+         layout%panel_entries = layout%panel_entries + touched_entries(rows, supers%pivots(s))
          if (layout%moves(f)) then
             layout%moving_operations = layout%moving_operations + front_operations(supers%pivots(s), supers%beyond(s))
             layout%moving_entries = layout%moving_entries + 0.5_wp*rows*(rows + 1.0_wp)

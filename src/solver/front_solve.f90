@@ -125,6 +125,7 @@ contains
       end do
    end subroutine moving_times_vector
 
+
    !> Y = Y + sum of [k_int] X.
    pure subroutine add_joints(tree, k_int, x, y)
       type(front_tree_type), intent(in) :: tree

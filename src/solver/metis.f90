@@ -11,6 +11,7 @@ module metis
    integer, parameter :: n_options = 40         ! METIS_NOPTIONS
    integer, parameter :: compress = 13          ! METIS_OPTION_COMPRESS, from 1 on
    integer, parameter :: metis_ok = 1           ! METIS_OK
+   integer, parameter :: words = 8              ! of a node or a link that METIS is given room for
 
    interface
       integer(c_int32_t) function metis_set_default_options(options) bind(c, name='METIS_SetDefaultOptions')
@@ -63,22 +64,29 @@ contains
    end subroutine order_by_metis
 
 
-   !> Cut GRAPH by separators into N_PARTS, a power of 2: PLACE of every node in a separator_tree. OK as above.
+   !> Cut GRAPH by separators into N_PARTS, a power of 2: PLACE of every node in a separator_tree; all in place 1 where METIS
+   !! does not say which nodes the separators are. OK is false where there is not the memory: METIS would end the program.
    subroutine separate_by_metis(graph, n_parts, place, ok)
       type(node_graph_type), intent(in) :: graph
       integer, intent(in)               :: n_parts
       integer, allocatable, intent(out) :: place(:) !! (graph%n)
       logical, intent(out)              :: ok
       integer(c_int32_t) :: old_of_new(graph%n), new_of_old(graph%n), sizes(2*n_parts - 1), options(n_options)
+      integer, allocatable :: room(:, :)
       integer :: n, status
 
+      allocate (room(words, graph%n + size(graph%neighbours)), stat=status)
+      ok = status == 0
+      if (.not. ok) return
+      deallocate (room)
       status = metis_set_default_options(options)
       options(compress) = 0   ! sizes would count what is left of the nodes
       sizes = 0
       ok = metis_node_ndp(graph%n, graph%first - 1, graph%neighbours - 1, c_null_ptr, n_parts, options, old_of_new, new_of_old, &
                           sizes) == metis_ok
       if (.not. ok) return
-      allocate (place(graph%n), source=1)   ! one part: no sizes
+      allocate (place(graph%n), source=1)
+      if (sum(sizes) /= graph%n) return
       n = 0
       call hand_out(1)
 

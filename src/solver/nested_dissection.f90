@@ -13,7 +13,7 @@ module nested_dissection
    public :: dissect, dissect_coarsely
 
    integer, parameter :: large = 20000      ! nodes from which on a graph is coarsened
-   integer, parameter :: flat = 10          ! neighbours of a node in a plane mesh, at most on the average
+   integer, parameter :: flat = 10          ! neighbours of a node, on the average, up to which a mesh is taken for a plane one
    integer, parameter :: part_nodes = 700   ! that are not dissected coarsely
 
 contains
@@ -32,7 +32,7 @@ contains
       nodes = pack([(i, i = 1, graph%n)], taken)
       allocate (number(graph%n), source=0)
       call part_of_graph(graph, nodes, number, part)
-      if (part%n >= large .and. part%first(part%n + 1) - 1 <= flat*part%n) then
+      if (part%n >= large .and. size(part%neighbours) <= flat*part%n) then
          call dissect_coarsely(part, part_nodes, order, ok)
       else
          call order_by_metis(part, order, ok)
@@ -62,6 +62,7 @@ contains
       call coarsen(pairs, pair_weight, fours, four_weight, four)
       call separate_by_metis(fours, n_parts, place, ok)
       if (.not. ok) return
+      if (maxval(place) == 1) n_parts = 1   ! nothing was separated
       place = place(four(pair))
       call thin_separators(graph, n_parts, place)
       call list_owners(2*n_parts - 1, reshape(place, [1, graph%n]), first, nodes)

@@ -96,10 +96,10 @@ contains
       integer :: i, k, m
 
       part%n = size(nodes)
+      number(nodes) = [(i, i = 1, part%n)]
       m = 0
       do i = 1, part%n
-         number(nodes(i)) = i
-         m = m + graph%first(nodes(i) + 1) - graph%first(nodes(i))
+         m = m + count(number(graph%neighbours(graph%first(nodes(i)):graph%first(nodes(i) + 1) - 1)) > 0)
       end do
       allocate (part%first(part%n + 1), part%neighbours(m))
       m = 0

@@ -2,6 +2,7 @@
 !! Sources: Ashcraft, Grimes, ACM Trans. Math. Softw. 15 (1989) 291-309 (merging); Liu, SIAM Review 34 (1992) 82-109 (order of
 !! children).
 module supernodes
+   use front_kernel, only: touched_entries
    use id_table, only: sorted_order
    use kinds, only: wp
    use node_graph, only: node_graph_type
@@ -233,7 +234,7 @@ contains
       pure real(wp) function update_entries(of)
          integer, intent(in) :: of
 
-         update_entries = supers%beyond(of)**2
+         update_entries = touched_entries(supers%beyond(of), supers%beyond(of))
       end function update_entries
 
    end subroutine merge_supernodes

@@ -31,7 +31,7 @@ module tree_solver
       real(wp) :: fixed_operations  = 0.0_wp      !! of one factorisation of the fronts that do not move
       real(wp) :: moving_operations = 0.0_wp      !! of the others, in every increment that factorises
       real(wp) :: moving_entries = 0.0_wp         !! of the fronts that move
-      integer, allocatable :: moving(:)           !! equations of the fronts that move
+      integer, allocatable :: moving_equations(:) !! of the fronts that move
    end type tree_solver_type
 
 contains
@@ -70,11 +70,11 @@ contains
       solver%fixed_operations = layout%fixed_operations
       solver%moving_operations = layout%moving_operations
       solver%moving_entries = layout%moving_entries
-      allocate (solver%moving(sum(solver%tree%fronts(solver%tree%moving)%p)))
+      allocate (solver%moving_equations(sum(solver%tree%fronts(solver%tree%moving)%p)))
       n = 0
       do k = 1, size(solver%tree%moving)
          associate (front => solver%tree%fronts(solver%tree%moving(k)))
-            solver%moving(n + 1:n + front%p) = [(i, i=front%first, front%first + front%p - 1)]
+            solver%moving_equations(n + 1:n + front%p) = [(i, i=front%first, front%first + front%p - 1)]
             n = n + front%p
          end associate
       end do
@@ -137,7 +137,7 @@ contains
       real(wp) :: of_elements
 
       of_elements = 0.5_wp*dimension*3**dimension*n
-      bytes_needed = 8.0_wp*(layout%factor_entries + layout%peak_entries) + 16.0_wp*(layout%kept_entries + of_elements)
+      bytes_needed = 8.0_wp*(layout%panel_entries + layout%peak_entries) + 16.0_wp*(layout%kept_entries + of_elements)
    end function bytes_needed
 
 end module tree_solver
