@@ -1,6 +1,6 @@
 !> The order of elimination: nested dissection of the node graph. METIS dissects; large graphs of plane meshes it sees coarsely
-!! first, nodes by fours: the separators of the coarse graph, thinned, are as good as those of the fine one, at a quarter of the
-!! work. In space they are worse, by a tenth of the operations, and the order is a small part of the whole.
+!! first, nodes by fours: the separators of the coarse graph, thinned, are as good as those of the fine one, and the whole takes
+!! half the time. In space they are worse, by a tenth of the operations, and the order is a small part of the whole.
 module nested_dissection
    use graph_coarsening, only: coarsen, weigh_links
    use metis, only: order_by_metis, separate_by_metis
