@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Every deck of input/, and those beside this script, moved supports and one large enough for several threads, by SOLVER = TREE
-# and by SOLVER = SKYLINE: the same results. By TREE with one thread and with several: the same bytes.
+# Every deck of input/, and those beside this script, moved supports, one large enough for several threads, one large enough to be
+# ordered by a coarse graph, by SOLVER = TREE and by SOLVER = SKYLINE: the same results. By TREE with one thread and with several: the same bytes.
 #
 #    run.sh PROGRAM WORK_FOLDER
 set -u
