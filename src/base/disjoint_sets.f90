@@ -15,22 +15,24 @@ contains
       integer :: i, j
 
       if (a == 0 .or. b == 0) return
-      i = a
-      do while (parent(i) /= i)
-         parent(i) = parent(parent(i))
-         i = parent(i)
-      end do
-      j = b
-      do while (parent(j) /= j)
-         parent(j) = parent(parent(j))
-         j = parent(j)
-      end do
-      if (i < j) then
-         parent(j) = i
-      else
-         parent(i) = j
-      end if
+      call climb(parent, a, i)
+      call climb(parent, b, j)
+      parent(max(i, j)) = min(i, j)
    end subroutine join
+
+
+   !> The ROOT of the set of MEMBER, the way there halved for the next time.
+   pure subroutine climb(parent, member, root)
+      integer, intent(inout) :: parent(:)
+      integer, intent(in)    :: member
+      integer, intent(out)   :: root
+
+      root = member
+      do while (parent(root) /= root)
+         parent(root) = parent(parent(root))
+         root = parent(root)
+      end do
+   end subroutine climb
 
 
    !> The member that stands for the set of MEMBER.

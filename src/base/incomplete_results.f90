@@ -7,17 +7,19 @@ module incomplete_results
 
    public :: note_incomplete, remove_incomplete, all_complete
 
+   character(*), parameter, public :: suffix = '.part' !! that a file has until it is complete
+
    character(:), allocatable :: names ! one after the other, each with a null character at its end
 
 contains
 
-   !> The file PATH is about to be written.
+   !> The file PATH is about to be written: neither it nor PATH.part is a result yet.
    subroutine note_incomplete(path)
       character(*), intent(in) :: path   !! empty: the standard output, nothing to note
 
       if (path == '') return
       if (.not. allocated(names)) names = ''
-      names = names//path//c_null_char
+      names = names//path//c_null_char//path//suffix//c_null_char
    end subroutine note_incomplete
 
 

@@ -3,12 +3,12 @@ module machine
    use, intrinsic :: iso_c_binding, only: c_int, c_size_t
    use control_groups, only: memory_left_by_groups
    use kernel_figures, only: kernel_figure, no_figure
-   use kinds, only: long
+   use kinds, only: long, wp
    use omp_lib, only: omp_get_max_threads
    implicit none
    private
 
-   public :: available_memory, peak_memory, keep_memory
+   public :: available_memory, memory_for, peak_memory, keep_memory
 
    integer(c_int), parameter :: trim_threshold = -1, top_pad = -2, mmap_max = -4 ! parameters of mallopt, malloc.h of glibc
 
@@ -49,14 +49,11 @@ contains
 
 
    !> Memory that the program can still take, of what the machine has free, what its control groups leave (a container's limit),
-   !! and what a limit on its address space leaves [bytes]; huge where none of them can be read. What has been kept of an earlier
-   !! deck is given back first, or counted as free.
+   !! and what a limit on its address space leaves [bytes]; huge where none of them can be read.
    function available_memory() result(bytes)
       integer(long)      :: bytes, limit, taken
-      integer(c_int)     :: status
       type(heap_figures) :: heap
 
-      status = malloc_trim(0_c_size_t)
       bytes = min(kernel_figure('/proc/meminfo', 'MemAvailable:', 1024), memory_left_by_groups(''))
       limit = kernel_figure('/proc/self/limits', 'Max address space', 1)
       taken = kernel_figure('/proc/self/status', 'VmSize:', 1024)
@@ -64,6 +61,20 @@ contains
       heap = mallinfo2()
       bytes = min(bytes, max(0_long, limit - taken + heap%fordblks - omp_get_max_threads()*blas_buffer))
    end function available_memory
+
+
+   !> The same; where that is less than the bytes WANTED, what has been kept for reuse is given back first, and not before: its
+   !! pages would have to be made anew.
+   function memory_for(wanted) result(bytes)
+      real(wp), intent(in) :: wanted
+      integer(long)  :: bytes
+      integer(c_int) :: status
+
+      bytes = available_memory()
+      if (wanted <= real(bytes, wp)) return
+      status = malloc_trim(0_c_size_t)
+      bytes = available_memory()
+   end function memory_for
 
 
    !> The most memory that this program has had [bytes]; huge where that cannot be read.

@@ -2,7 +2,7 @@
 module memory_need
    use failures, only: failure_type
    use kinds, only: wp
-   use machine, only: available_memory
+   use machine, only: memory_for
    use text_tools, only: integer_text
    implicit none
    private
@@ -22,7 +22,7 @@ contains
       character(:), allocatable :: at_most
       real(wp) :: there, fits
 
-      there = real(available_memory(), wp)
+      there = real(memory_for(bytes), wp)
       if (bytes <= there) return
       fits = n*(there/bytes)**inverse_growth(dimension)
       at_most = how

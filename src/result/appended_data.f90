@@ -12,7 +12,7 @@
 module appended_data
    use, intrinsic :: iso_fortran_env, only: int8, int32, int64, real64
    use c_library, only: remove_file, rename_file
-   use incomplete_results, only: note_incomplete
+   use incomplete_results, only: note_incomplete, suffix
    use vtu_header, only: array_type, closing, data_start, header_text
    implicit none
    private
@@ -37,8 +37,6 @@ module appended_data
       procedure, private :: put_reals, put_integers, put_bytes
    end type appended_data_type
 
-   character(*), parameter :: suffix = '.part'
-
    integer, parameter :: wrong_call = -huge(0) ! a status of our own
 
 contains
@@ -55,7 +53,6 @@ contains
       if (allocated(self%arrays)) deallocate (self%arrays)
       allocate (self%arrays(16))
       call note_incomplete(path)
-      call note_incomplete(path//suffix)
       open (newunit=self%unit, file=path//suffix, status='replace', action='write', access='stream', &
             form='unformatted', iostat=self%status)
       self%is_open = self%status == 0

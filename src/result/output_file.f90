@@ -2,7 +2,7 @@
 !! With no name the lines go to the standard output, at the end too.
 module output_file
    use c_library, only: close_file, create_file, remove_file, rename_file, write_bytes
-   use incomplete_results, only: note_incomplete
+   use incomplete_results, only: note_incomplete, suffix
    implicit none
    private
 
@@ -22,7 +22,6 @@ module output_file
       procedure :: discard
    end type output_file_type
 
-   character(*), parameter :: suffix = '.part'
    integer, parameter :: room = 1048576          ! bytes that are gathered before they are written
 
 contains
@@ -35,11 +34,8 @@ contains
       self%path = path
       if (allocated(self%buffer)) deallocate (self%buffer)
       allocate (character(room) :: self%buffer)
-      if (path /= '') then
-         call note_incomplete(path)
-         call note_incomplete(path//suffix)
-         call create_file(path//suffix, self%descriptor)
-      end if
+      call note_incomplete(path)
+      if (path /= '') call create_file(path//suffix, self%descriptor)
       self%fault = path /= '' .and. self%descriptor < 0
       self%is_open = .not. self%fault
    end subroutine start

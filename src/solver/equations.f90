@@ -82,7 +82,9 @@ contains
          call mark_joints(model, in_joint)
          call start_tree_solver(model, graph, in_joint, repeated, system, system%tree, failure)
          if (failure%raised) return
-         system%equations = system%tree%moving_equations
+         associate (tree => system%tree%tree)
+            system%equations = pack([(i, i = 1, system%n)], tree%fronts(tree%of_equation)%moves)
+         end associate
          call system%factor%reuse%set_costs(system%tree%moving_operations, system%tree%moving_entries)
          in_joint(system%node(system%equations)) = .true.
          system%retained = pack([(i, i = 1, model%n_nodes)], in_joint)

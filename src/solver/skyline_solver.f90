@@ -6,7 +6,7 @@ module skyline_solver
    use equation_numbering, only: equation_numbers, number_unknowns
    use failures, only: failure_type
    use kinds, only: long, wp
-   use machine, only: available_memory
+   use machine, only: memory_for
    use model_data, only: model_type, n_bars
    use section_coupling, only: coupled_nodes
    use node_graph, only: node_graph_type
@@ -55,13 +55,15 @@ contains
    subroutine start_skyline_solver(solver, failure)
       type(skyline_solver_type), intent(inout) :: solver
       type(failure_type), intent(inout)        :: failure
+      integer(long) :: there
       logical :: ok
 
-      associate (n => size(solver%first_row))
-         if (16*solver%profile > available_memory()) then
+      associate (n => size(solver%first_row), needed => 16*solver%profile)
+         there = memory_for(real(needed, wp))
+         if (needed > there) then
             call failure%raise('the skyline of '//integer_text(n)//' equations needs '// &
-                               integer_text(int(16*solver%profile/1048576))//' MiB, and the machine has '// &
-                               integer_text(int(available_memory()/1048576))//' MiB to give; SOLVER = TREE needs less')
+                               integer_text(int(needed/1048576))//' MiB, and the machine has '// &
+                               integer_text(int(there/1048576))//' MiB to give; SOLVER = TREE needs less')
          else
             call start_skyline(solver%first_row, solver%body, ok)
             if (.not. ok) call failure%raise('no memory for the skyline of '//integer_text(n)//' equations')

@@ -31,7 +31,6 @@ module tree_solver
       real(wp) :: fixed_operations  = 0.0_wp      !! of one factorisation of the fronts that do not move
       real(wp) :: moving_operations = 0.0_wp      !! of the others, in every increment that factorises
       real(wp) :: moving_entries = 0.0_wp         !! of the fronts that move
-      integer, allocatable :: moving_equations(:) !! of the fronts that move
    end type tree_solver_type
 
 contains
@@ -47,7 +46,7 @@ contains
       type(failure_type), intent(inout)      :: failure
       type(front_layout_type) :: layout
       integer, allocatable    :: order(:), weight(:)
-      integer :: i, k, n
+      integer :: i
       logical :: ok
 
       allocate (weight(model%n_nodes))
@@ -70,14 +69,6 @@ contains
       solver%fixed_operations = layout%fixed_operations
       solver%moving_operations = layout%moving_operations
       solver%moving_entries = layout%moving_entries
-      allocate (solver%moving_equations(sum(solver%tree%fronts(solver%tree%moving)%p)))
-      n = 0
-      do k = 1, size(solver%tree%moving)
-         associate (front => solver%tree%fronts(solver%tree%moving(k)))
-            solver%moving_equations(n + 1:n + front%p) = [(i, i=front%first, front%first + front%p - 1)]
-            n = n + front%p
-         end associate
-      end do
    end subroutine start_tree_solver
 
 
