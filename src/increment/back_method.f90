@@ -1,13 +1,13 @@
 !> METHOD = BACK, after Back, Burdekin and Cowley: the whole load at once with secant stiffnesses at the last pressures, two
 !! consecutive pressures averaged, until they settle. Loading only.
 module back_method
-   use analysis_state, only: analysis_type, find_unbalanced, record_pass, pass_record, tally_work
-   use coupled_solution, only: solve_moved
-   use equations, only: body_forces, check_solution, equation_system, form_structure_stiffness, solve_equations
+   use analysis_state, only: analysis_type, find_movements, find_unbalanced, record_pass, pass_record, tally_work
+   use equations, only: equation_system, forces_in_bodies, form_structure_stiffness, solve_equations
    use failures, only: failure_type
+   use interface_operator, only: joint_movement
    use joint_laws, only: element_state, joint_law
    use kinds, only: wp
-   use model_data, only: joint_movement, model_type
+   use model_data, only: joint_node_id, model_type
    use normal_stiffness, only: branch_load, branch_open, pressure_floor
    use shear_stiffness, only: shear_law
    use stage_plan, only: stage_plan_type, where_in_plan
@@ -27,7 +27,7 @@ contains
       type(model_type), intent(in)         :: model
       type(stage_plan_type), intent(in)    :: plan
       type(analysis_type), intent(inout)   :: analysis
-      type(equation_system), intent(inout) :: system
+      class(equation_system), intent(inout) :: system
       type(failure_type), intent(inout)    :: failure
       real(wp), allocatable :: p(:), p_new(:), k_shear(:, :), movement(:, :), k_int(:, :, :)
       real(wp) :: change
@@ -43,17 +43,12 @@ contains
             call secants(i)
          end do
          call form_structure_stiffness(model, k_int, where_in_plan(plan, analysis%stage, analysis%increment), system, failure, &
-                                       many_solutions=.false.)
-         if (failure%raised) return
-         if (analysis%moves) then
-            call solve_moved(model, system, k_int, analysis%felt, analysis%moved, analysis%u)
-         else
-            call solve_equations(system, analysis%felt, analysis%u)
-         end if
-         call check_solution(model, system, failure)
+                                       one_solution=.true.)
+         call solve_equations(model, system, analysis%felt, analysis%u, failure, &
+                              moved=merge(analysis%moved(:, system%retained), 0.0_wp, analysis%moves))
          if (failure%raised) return
          do i = 1, n
-            movement(:, i) = joint_movement(model, analysis%u, i)
+            movement(:, i) = joint_movement(system%interface(i), analysis%u)
             p_new(i) = max(0.0_wp, k_int(3, 3, i)*movement(3, i)/model%interface(i)%area)
          end do
          if (n == 0) exit
@@ -72,7 +67,7 @@ contains
          worst = maxloc(abs(p_new - p), dim=1)
          call failure%raise(where_in_plan(plan, analysis%stage, analysis%increment)//': the pressures have not settled after '// &
             integer_text(most_iterations)//' iterations; the one of node '// &
-            integer_text(model%node_id(model%interface(worst)%nodes(1)))//' still changes by '//real_text(change))
+            integer_text(joint_node_id(model, worst, 1))//' still changes by '//real_text(change))
          return
       end if
       call store()
@@ -140,8 +135,9 @@ contains
                end associate
             end associate
          end do
-         call body_forces(system, analysis%u, analysis%body)
-         call find_unbalanced(model, analysis)
+         call forces_in_bodies(system, analysis%u, analysis%body)
+         call find_movements(system, analysis)
+         call find_unbalanced(system, analysis)
       end subroutine store
 
    end subroutine back_increment
