@@ -46,7 +46,8 @@ export UNIT_REPORT
 unit-test: $(UNIT_PROGRAM)
 	@written=$$(cat /dev/null $(PF_FILES) | \
 	   $(AWK) 'tolower($$1) == "@test" { n++ } tolower($$1) == "@disable" { n-- } END { print n + 0 }'); \
-	status=0; $(UNIT_PROGRAM) > $(UNIT_FOLDER)/unit_tests.log 2>&1 || status=$$?; \
+	scratch=$$(mktemp -d $(UNIT_FOLDER)/scratch.XXXXXX); trap 'rm -rf $$scratch' EXIT; \
+	status=0; UNIT_SCRATCH=$$scratch $(UNIT_PROGRAM) > $(UNIT_FOLDER)/unit_tests.log 2>&1 || status=$$?; \
 	$(AWK) -v written=$$written -v status=$$status "$$UNIT_REPORT" $(UNIT_FOLDER)/unit_tests.log
 
 $(UNIT_FOLDER):
