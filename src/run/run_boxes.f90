@@ -14,6 +14,7 @@ module run_boxes
    use machine, only: keep_memory
    use model_build, only: build_model
    use model_data, only: model_type
+   use model_size, only: check_model_size
    use progress, only: phase_build, phase_factor, phase_increments, phase_order, phase_recover, phase_write, progress_type
    use results, only: finish_results, list_results => print_increment, print_stage_results => print_stage, remove_old_results, &
                       results_type, start_results
@@ -95,6 +96,8 @@ contains
 
       if (is_over(run)) return
       call run%progress%enter(phase_build)
+      if (.not. (run%check_only .or. run%errors%any())) call check_model_size(deck, run%failure)
+      if (is_over(run)) return
       call build_model(deck, model, plan, run%errors)
       if (run%errors%any()) then
          run%ending = has_errors

@@ -1,5 +1,4 @@
-!> What a factor needs against what the machine has: the one check, when the layout of the factor is known and before it is made.
-!! What is larger than the machine before there is a layout meets the limit of machine, and fails as an allocation.
+!> What is needed against what the machine has. A factor is looked at when its layout is known, and before it is made.
 module memory_need
    use failures, only: failure_type
    use kinds, only: wp
