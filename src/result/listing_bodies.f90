@@ -173,7 +173,7 @@ contains
       end do
       base = 0.0_wp
       do i = 1, size(model%interface)
-         if (named_node(model%interface(i), 2) > 0) cycle
+         if (named_node(model%interface(i), 2) /= 0) cycle
          force = element_force(model%interface(i), analysis%states(i))
          base = base - force(:model%dimension)
       end do

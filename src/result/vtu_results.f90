@@ -115,7 +115,7 @@ contains
             c = n_stresses(model%properties(model%element_property(e))%state)
             at_centre(:, e) = full_stress(model, e, element_stress(model, e, analysis%all_u))
             principal(:, e) = principal_stresses(at_centre(:, e))
-            call element_corner_stress(model, e, analysis%u, corner(:c, :size(nodes)))
+            call element_corner_stress(model, e, analysis%all_u, corner(:c, :size(nodes)))
             do i = 1, size(nodes)
                at_node(:, nodes(i)) = at_node(:, nodes(i)) + full_stress(model, e, corner(:c, i))/ &
                                       real(model%first_at(nodes(i) + 1) - model%first_at(nodes(i)), wp)
