@@ -105,7 +105,7 @@ contains
       end if
 
       ! ------------------------------------------------------------------ NORM, SHEAR: FIRST STIFFNESS OF THE JOINTS
-      call start_analysis(model, system, deck%control%carry, deck%control%tolerance, analysis)
+      call start_analysis(model, system, deck%control, analysis)
       call interface_stiffness(model, analysis)
       call progress%expect(plan)
 

@@ -1,5 +1,6 @@
 !> Everything that changes from increment to increment, and what all methods do with it alike.
 module analysis_state
+   use case_control, only: case_control_type, pressure_eq10
    use equations, only: equation_system
    use joint_laws, only: element_state, element_stiffness_of
    use kinds, only: wp
@@ -32,6 +33,7 @@ module analysis_state
       real(wp) :: share = 0.0_wp                    !! of the stage's load change, this increment
       real(wp) :: fraction = 0.0_wp                 !! of it, so far: exactly 1 at the end of the stage
       logical  :: carry = .false.
+      logical  :: eq10 = .false.                    !! STEP: p on the loading curve by Eq. (10) as printed
       real(wp) :: load_tolerance = 1.0e-10_wp       !! NEWTON: share of the largest load that may be left unbalanced
       real(wp) :: tolerance = 0.0_wp                !! the same as a force, for the largest load so far
       real(wp), allocatable :: load_before(:, :)    !! at the start of the stage [force]
@@ -67,12 +69,11 @@ module analysis_state
 contains
 
    !> A structure at rest without load.
-   subroutine start_analysis(model, system, carry, tolerance, analysis)
-      type(model_type), intent(in)      :: model
-      type(equation_system), intent(in) :: system
-      logical, intent(in)               :: carry
-      real(wp), intent(in)              :: tolerance !! of NEWTON [-]
-      type(analysis_type), intent(out)  :: analysis
+   subroutine start_analysis(model, system, control, analysis)
+      type(model_type), intent(in)        :: model
+      type(equation_system), intent(in)   :: system
+      type(case_control_type), intent(in) :: control
+      type(analysis_type), intent(out)    :: analysis
 
       allocate (analysis%applied(model%dimension, model%n_nodes), source=0.0_wp)
       allocate (analysis%load_before, analysis%load_after, analysis%u, analysis%du, analysis%body, analysis%unbalanced, &
@@ -81,10 +82,12 @@ contains
       allocate (analysis%moved_before, analysis%moved_after, analysis%moved, analysis%move, source=analysis%applied)
       allocate (analysis%retained, source=system%retained)
       allocate (analysis%pull(n_bars(model)), source=0.0_wp)
-      analysis%carry = carry
-      analysis%load_tolerance = tolerance
+      analysis%carry = control%carry
+      analysis%eq10 = control%pressure == pressure_eq10
+      analysis%load_tolerance = control%tolerance
       allocate (analysis%states(size(model%interface)), analysis%energy(size(model%joints)), analysis%passes(16))
       allocate (analysis%k(3, size(model%interface)), source=0.0_wp)
+      analysis%states%normal%p_av = model%joints(model%interface%joint)%p_av
    end subroutine start_analysis
 
 
@@ -98,7 +101,7 @@ contains
       do i = 1, size(model%interface)
          before = analysis%states(i)%normal%branch
          call element_stiffness_of(model%joints(model%interface(i)%joint)%law, model%interface(i)%area, &
-                                   joint_movement(model, analysis%u, i), analysis%states(i), analysis%k(:, i))
+                                   analysis%eq10, joint_movement(model, analysis%u, i), analysis%states(i), analysis%k(:, i))
          if (analysis%states(i)%normal%branch == branch_open .and. before /= branch_open) &
             analysis%n_removed = analysis%n_removed + 1
       end do

@@ -4,7 +4,7 @@ module step_method
    use coupled_solution, only: solve_moved
    use equations, only: body_forces, check_solution, equation_system, form_structure_stiffness, solve_equations
    use failures, only: failure_type
-   use joint_laws, only: exceeds_limit, friction_excess
+   use joint_laws, only: exceeds_limit, flag_margin, friction_excess
    use kinds, only: wp
    use model_data, only: joint_movement, model_type
    use stage_plan, only: stage_plan_type, where_in_plan
@@ -178,7 +178,8 @@ contains
       do i = 1, size(model%interface)
          excess(:, i) = friction_excess(model%joints(model%interface(i)%joint)%law, model%interface(i)%area, analysis%states(i))
          total = total + norm2(excess(:, i))
-         if (exceeds_limit(model%joints(model%interface(i)%joint)%law, analysis%states(i))) analysis%states(i)%slips = .true.
+         if (exceeds_limit(model%joints(model%interface(i)%joint)%law, analysis%states(i), flag_margin)) &
+            analysis%states(i)%slips = .true.
       end do
    end subroutine find_excess
 
@@ -190,7 +191,7 @@ contains
       integer :: i
 
       do i = 1, size(model%interface)
-         is_endless(i) = model%joints(model%interface(i)%joint)%law%n_reanalyses < 0
+         is_endless(i) = model%joints(model%interface(i)%joint)%n_reanalyses < 0
       end do
    end function is_endless
 
@@ -211,7 +212,7 @@ contains
       again = .false.
       do i = 1, size(model%interface)
          associate (element => model%interface(i), d => model%dimension, passes => &
-                    model%joints(model%interface(i)%joint)%law%n_reanalyses)
+                    model%joints(model%interface(i)%joint)%n_reanalyses)
             if (norm2(excess(:, i)) <= 0.0_wp .or. (passes >= 0 .and. pass > passes)) cycle
             again = .true.
             do k = 1, 2
