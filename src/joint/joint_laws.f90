@@ -77,32 +77,30 @@ contains
    end function friction_limit
 
 
-   !> By how much the shear force exceeds the limit: a vector in the direction of tau, zero within the limit [force].
-   pure function friction_excess(law, area, state) result(excess)
-      type(joint_law), intent(in)     :: law
-      real(wp), intent(in)            :: area
-      type(element_state), intent(in) :: state
-      real(wp) :: excess(2), tau(2), limit
-
-      excess = 0.0_wp
-      if (.not. law%has_friction) return
-      tau = state%shear%tau
-      limit = friction_limit(law, state%normal%pressure)
-      if (norm2(tau) <= limit*(1.0_wp + slip_margin)) return
-      excess = tau*(1.0_wp - limit/norm2(tau))*area
-   end function friction_excess
-
-
-   !> Whether the shear stress is above the limit by more than the share MARGIN, so that the element is said to slip.
+   !> Whether the shear stress is above the limit by more than the share MARGIN of it.
    pure logical function exceeds_limit(law, state, margin)
       type(joint_law), intent(in)     :: law
       type(element_state), intent(in) :: state
       real(wp), intent(in)            :: margin
 
       exceeds_limit = .false.
-      if (.not. law%has_friction) return
-      exceeds_limit = norm2(state%shear%tau) > friction_limit(law, state%normal%pressure)*(1.0_wp + margin)
+      if (law%has_friction) &
+         exceeds_limit = norm2(state%shear%tau) > friction_limit(law, state%normal%pressure)*(1.0_wp + margin)
    end function exceeds_limit
+
+
+   !> By how much the shear force exceeds the limit: a vector in the direction of tau, zero within the limit [force].
+   pure function friction_excess(law, area, state) result(excess)
+      type(joint_law), intent(in)     :: law
+      real(wp), intent(in)            :: area
+      type(element_state), intent(in) :: state
+      real(wp) :: excess(2), tau(2)
+
+      excess = 0.0_wp
+      if (.not. exceeds_limit(law, state, slip_margin)) return
+      tau = state%shear%tau
+      excess = tau*(1.0_wp - friction_limit(law, state%normal%pressure)/norm2(tau))*area
+   end function friction_excess
 
 
    !> Follow all laws of one element exactly from its state BEFORE, in equilibrium, to MOVEMENT: the branches, and Coulomb as a
@@ -115,7 +113,7 @@ contains
       type(element_state), intent(out) :: after
       real(wp), intent(out)            :: tangent(3, 3) !! d (forces x, y, z)/d movement [force/length], not symmetric
       real(wp), intent(out)            :: work(2)       !! done by shear, by normal forces [force x length]
-      real(wp) :: by_delta(2), by_p(2), slope, shear_work, limit, size_of_tau, along(2), trial(2)
+      real(wp) :: by_delta(2), by_p(2), slope, shear_work, limit, size_of_tau, along(2)
       integer  :: i
 
       after = before
@@ -135,13 +133,11 @@ contains
          tangent(i, i) = area*by_delta(i)
          tangent(i, 3) = area*by_p(i)*slope
       end do
-      if (.not. law%has_friction) return
-      trial = after%shear%tau
-      limit = friction_limit(law, after%normal%pressure)
-      size_of_tau = norm2(trial)
-      if (size_of_tau <= limit*(1.0_wp + slip_margin)) return
-      after%slips = .true.                                         ! tau = limit * trial/|trial|
-      along = trial/size_of_tau
+      after%slips = exceeds_limit(law, after, slip_margin)
+      if (.not. after%slips) return
+      limit = friction_limit(law, after%normal%pressure)            ! tau = limit * trial/|trial|
+      size_of_tau = norm2(after%shear%tau)
+      along = after%shear%tau/size_of_tau
       tangent(:2, :2) = limit/size_of_tau*(tangent(:2, :2) - matmul(spread(along, 2, 1), &
                                            matmul(spread(along, 1, 1), tangent(:2, :2))))
       tangent(:2, 3) = limit/size_of_tau*(tangent(:2, 3) - along*dot_product(along, tangent(:2, 3))) &

@@ -1,17 +1,17 @@
 !> The normal law of the joint, and NORM: how the increments meet it (Fig. 6b).
 !!
-!!     p |                                              *      LOAD     from 0 along the curve lambda = c p**m, Eq. (1),
-!!       |                                            *                 through A and on
-!!   p_A |. . . . . . . . . . . . . . . . . . . . . A          UNLOAD   from A, where the force fell, along the line AB of
-!!       |                                        */.                   slope E_u
-!!       |                                     *  / .          OPEN     at B the force has come to zero: the element is
-!!       |                                  *    /  .                   removed and carries nothing, lambda < lambda_B;
-!!       |                               *      /   .                   lambda_B is its permanent set
-!!       |                            *        /    .          RELOAD   back at B it is reintroduced, along BA, where it
-!!       |                        *           /     .                   turns to before A UNLOAD again; at A it is on
-!!       |                    *              /      .                   LOAD
-!!       |             *                    /       .
-!!     0 *---------------------------------B--------.-----
+!!     p |                                              *
+!!       |                                            *               LOAD    *  from 0 along lambda = c p**m, Eq. (1), through A on
+!!   p_A |. . . . . . . . . . . . . . . . . . . . . A
+!!       |                                        */.                 UNLOAD  /  from A, where the force fell, down AB, slope E_u
+!!       |                                     *  / .
+!!       |                                  *    /  .                 OPEN    -  from B, where the force has come to zero: removed,
+!!       |                               *      /   .                            p = 0; lambda_B is the permanent set
+!!       |                            *        /    .
+!!       |                        *           /     .                 RELOAD  /  up BA, from where the force grew again or, after
+!!       |                    *              /      .                            OPEN, from B, where the element is reintroduced;
+!!       |             *                    /       .                            UNLOAD where it falls again, LOAD from A on
+!!     0 *---------------------------------B--------+------
 !!       0                             lambda_B  lambda_A   lambda
 module normal_stiffness
    use kinds, only: wp
@@ -218,13 +218,9 @@ contains
    pure function branch_name(branch) result(name)
       integer, intent(in)       :: branch
       character(:), allocatable :: name
+      character(6), parameter   :: names(4) = ['LOAD  ', 'UNLOAD', 'OPEN  ', 'RELOAD']
 
-      select case (branch)
-      case (branch_load);   name = 'LOAD'
-      case (branch_unload); name = 'UNLOAD'
-      case (branch_open);   name = 'OPEN'
-      case default;         name = 'RELOAD'
-      end select
+      name = trim(names(branch))
    end function branch_name
 
 end module normal_stiffness

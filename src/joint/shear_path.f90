@@ -88,7 +88,8 @@ contains
 
    !> Along one branch from fraction FROM to TO: stress, its derivatives, work.
    !! tau = integral of g d delta, g the slope; with f the fraction of the way,
-   !!    d tau/d delta_end = integral of (g + f D dg/d delta) d f,   d tau/d p_end = integral of f D dg/dp d f,   D = change of delta
+   !!    d tau/d delta_end = integral of (g + f D dg/d delta) d f,   d tau/d p_end = integral of f D dg/dp d f,
+   !! D being the change of delta.
    pure subroutine follow_piece(law, state, way, from, to, by_delta, by_p, work)
       type(shear_law), intent(in)      :: law
       type(shear_state), intent(inout) :: state

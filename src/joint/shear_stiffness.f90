@@ -1,21 +1,19 @@
 !> The shear law of the joint in one direction, and SHEAR: how the increments meet it (section 4.3).
 !!
-!!                                tau |                                 LOAD    L  tau = A(d), Eq. (6), from 0 through A and on
-!!                              tau_r |. . . . . . . . . . . . . A L L
-!!                                    |                L  L R R R U.    UNLOAD  U  tau = b0 + B(d), Eqs. (3b), (7), from A,
-!!                                    |          L  L R R      U   .               where the movement turned back, past zero
-!!                                    |       L   R R        U     .               to M, the mirror of A: there it joins LOAD
-!!                                    |    L   R           U       .               of the other sense
-!!                                    |  L  R           U          .
-!!                                    | L R           U            .    RELOAD  R  tau = c0 + C(d), Eqs. (4), (5), from S,
-!!      ------------------------------L-R----------U--------------d_r              where U turned back (anywhere), to A: there
-!!                                  R |         U                   d              it joins LOAD; where R turns back, UNLOAD
-!!                                R   |      U
-!!                              R     |   U
-!!                            R      U|                 A, B, C are cubics in d whose coefficients are straight lines in the
-!!                          R  U  U   |                 pressure (Fig. 2); d = s delta, tau as s tau, s = +1 or -1 being the
-!!                U  U  U  S          |                 sense of the loading that the branch belongs to. b0 and c0 make it
-!!     L L M U  U                     |. -tau_r         begin at the stress that is there.
+!!                               tau |                                   L  LOAD    tau = A(d), Eq. (6), from 0 through A on
+!!                             tau_r |. . . . . . . . . .L  L  LRA  L  L
+!!                                   |           L  L  R  R  R  U.       U  UNLOAD  tau = b0 + B(d), Eqs. (3b), (7), from A, where
+!!                                   |       L  L  R  R       U  .                  the movement turned back, past zero to M, the
+!!                                   |    L   R  R          U    .                  mirror of A: it joins L of the other sense
+!!                                   |  L   R            U       .
+!!                                   |L  R           U  U        .       R  RELOAD  tau = c0 + C(d), Eqs. (4), (5), from S, where U
+!!    -------------------------------|-R----------U--------------+------            turned back again, anywhere, to A: it joins L;
+!!                                 R |         U  U             d_r    d            where R turns back, U anew
+!!                               R   |      U
+!!                             R     |  U  U                             b0 and c0 make a branch begin at the stress that is there.
+!!                           R  U  U U                                   d and tau count in the sense s of the loading, +1 or -1:
+!!                U  U  U  S         |                                   d = s delta. A, B, C are cubics whose coefficients are
+!! L  L M  U  U  U                   | -tau_r                            straight lines in the pressure (Fig. 2).
 module shear_stiffness
    use kinds, only: wp
    use normal_stiffness, only: branch_load, branch_reload, branch_unload
