@@ -40,7 +40,7 @@ contains
                end if
             end if
             if (joint%p0 > 0.0_wp) then
-               joint%law%normal%p_av = joint%p0
+               joint%p_av = joint%p0
             else if (.not. joint%determinate) then
                call errors%add(joint%line, 'joint '//integer_text(joint%id)//' does not carry all the load (supports or '// &
                   'other joints take a share), so the pressure of the first increment is not known: give P0 on its PJOINT')
@@ -48,7 +48,7 @@ contains
                call errors%add(joint%line, 'the first increment does not press joint '//integer_text(joint%id)// &
                   ' together (normal force '//real_text(resultant)//'), so its pressure is not known: give P0 on its PJOINT')
             else
-               joint%law%normal%p_av = resultant/joint%area
+               joint%p_av = resultant/joint%area
             end if
          end associate
       end do

@@ -1,6 +1,5 @@
 !> The laws of the joints: from PJOINT, JNORM and JSHEAR cards to the joints that name them.
 module law_build
-   use case_control, only: pressure_eq10
    use deck_cards, only: add_field_error
    use deck_errors, only: deck_error_list
    use deck_input, only: deck_type
@@ -51,11 +50,10 @@ contains
          if (pjoint%p0_given) joint%p0 = pjoint%p0
          law%has_friction = pjoint%mu_given
          law%mu = pjoint%mu
-         law%n_reanalyses = pjoint%n_reanalyses
+         joint%n_reanalyses = pjoint%n_reanalyses
          k = tables%jnorm%find(pjoint%normal_law)
          if (k > 0) then ! else said where PJOINT is checked
-            law%normal = normal_law(c=deck%bulk%jnorm(k)%c, m=deck%bulk%jnorm(k)%m, e_u=deck%bulk%jnorm(k)%e_u, &
-                                    eq10=deck%control%pressure == pressure_eq10)
+            law%normal = normal_law(c=deck%bulk%jnorm(k)%c, m=deck%bulk%jnorm(k)%m, e_u=deck%bulk%jnorm(k)%e_u)
             joint%e_u_given = deck%bulk%jnorm(k)%e_u_given
          end if
          do direction = 1, 2

@@ -2,6 +2,7 @@
 module listing_joints
    use analysis_state, only: analysis_type, element_force
    use interface_operator, only: at_first_end
+   use joint_laws, only: friction_limit
    use kinds, only: wp
    use listing_page, only: heading, in_column, label_type, noise, page_width, where_now
    use model_data, only: joint_node_id, model_type
@@ -124,7 +125,7 @@ contains
                   call row%add_short([clean(state%delta, delta_floor), clean(state%tau, tau_floor), &
                                       clean(state%tau*element%area, tau_floor*element%area), clean(state%k_s)])
                   if (joint%law%has_friction) call row%add_short( &
-                     [clean(joint%law%mu*max(0.0_wp, analysis%states(i)%normal%pressure), tau_floor)])
+                     [clean(friction_limit(joint%law, analysis%states(i)%normal%pressure), tau_floor)])
                   if (analysis%states(i)%slips) call row%add(repeat(' ', 97 - row%length)//'SLIPS')
                   call file%put(row%text(:row%length))
                end associate

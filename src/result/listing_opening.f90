@@ -9,6 +9,7 @@ module listing_opening
    use model_data, only: model_type, n_bars, n_points, n_sections
    use normal_stiffness, only: branch_load, branch_name, branch_reload, branch_unload, pressure_floor
    use output_file, only: output_file_type
+   use shear_stiffness, only: cubic, cubic_of
    use stage_plan, only: stage_plan_type
    use text_tools, only: clean, real_text
    implicit none
@@ -121,7 +122,7 @@ contains
       do j = 1, size(model%joints)
          associate (joint => model%joints(j), law => model%joints(j)%law%normal)
             write (line, '(i11, i9, es13.5, es13.5, f7.4, es15.5, es17.5, es17.5)') joint%id, &
-               joint%last - joint%first + 1, joint%area, law%c, law%m, law%e_u, law%p_av, pressure_floor*law%p_av
+               joint%last - joint%first + 1, joint%area, law%c, law%m, law%e_u, joint%p_av, pressure_floor*joint%p_av
             if (model%dimension == 3) then
                write (line(103:), '(3f10.6)') clean(joint%normal, 1.0e-9_wp)
             else
@@ -140,6 +141,7 @@ contains
       type(model_type), intent(in)          :: model
       integer, parameter :: branches(3) = [branch_load, branch_unload, branch_reload]
       character(page_width) :: line
+      type(cubic) :: curve
       integer :: b, j, k
 
       if (.not. any(model%joints%law%shear(1)%given .or. model%joints%law%shear(2)%given .or. &
@@ -151,8 +153,9 @@ contains
             do k = 1, model%dimension - 1
                if (.not. law%shear(k)%given) cycle
                do b = 1, 3
+                  curve = cubic_of(law%shear(k), branches(b))
                   write (line, '(i11, 3x, a1, 2x, a6, 6es13.5)') model%joints(j)%id, merge('X', 'Y', k == 1), &
-                     branch_name(branches(b)), law%shear(k)%coefficients(:, :, branches(b))
+                     branch_name(branches(b)), curve%coefficients
                   call file%put(line)
                end do
                if (law%shear(k)%p_max < huge(1.0_wp)) then
@@ -166,7 +169,7 @@ contains
             end do
             if (law%has_friction) then
                write (line, '(i11, a, f10.6, a, i5)') model%joints(j)%id, '   FRICTION MU =', law%mu, '   RE-ANALYSES', &
-                  law%n_reanalyses
+                  model%joints(j)%n_reanalyses
                call file%put(line)
             end if
          end associate

@@ -141,7 +141,7 @@ contains
       type(analysis_type), intent(out)   :: analysis
 
       if (is_over(run)) return
-      call start_analysis(model, system, deck%control%carry, deck%control%tolerance, analysis)
+      call start_analysis(model, system, deck%control, analysis)
       call interface_stiffness(model, system, analysis, run%failure)
       call run%progress%expect(plan)
       call run%progress%enter(phase_increments)
