@@ -1,16 +1,62 @@
 !> The power law of the normal deflection, lambda = c p^m (Eq. 1), from test points.
-module power_fit
+module normal_fit
+   use deck_errors, only: deck_error_list
    use kinds, only: wp
    use least_squares, only: fit_line, solve_least_squares
+   use text_tools, only: real_text
    implicit none
    private
 
-   public :: fit_power_law, fit_proportional
+   public :: fit_normal, fit_power_law, fit_proportional
 
    integer, parameter  :: most_steps = 200, most_halvings = 60
-   real(wp), parameter :: settled = 1.0e-14_wp ! change of ln c and m in one step
+   real(wp), parameter :: settled = 1.0e-14_wp   ! change of ln c and m in one step
+   real(wp), parameter :: m_rounding = 1.0e-9_wp ! an m above 1 by less is 1
+
+   type, public :: normal_fit_type
+      real(wp) :: c = 0.0_wp, m = 0.0_wp           !! lambda = c p^m
+      integer  :: n_points = 0
+      real(wp) :: p_low = 0.0_wp, p_high = 0.0_wp  !! [pressure]
+      real(wp) :: lambda_high = 0.0_wp             !! [length]
+      real(wp) :: rms = 0.0_wp, largest = 0.0_wp, p_largest = 0.0_wp !! residual of lambda [length], and where [pressure]
+   end type normal_fit_type
 
 contains
+
+   !> Fit the power law, m being 1 at most. What the points lack goes to ERRORS, an m held at 1 to WARNINGS.
+   subroutine fit_normal(p, lambda, fit, errors, warnings)
+      real(wp), intent(in)                 :: p(:)      !! >= 0 [pressure]
+      real(wp), intent(in)                 :: lambda(:) !! [length]
+      type(normal_fit_type), intent(out)   :: fit
+      type(deck_error_list), intent(inout) :: errors, warnings
+      real(wp) :: off(size(p))
+      integer  :: at
+      logical  :: ok
+
+      call fit_power_law(p, lambda, fit%c, fit%m, ok)
+      if (.not. ok) then
+         call errors%add(0, 'the points do not fix c and m: expected two or more different p above 0 with lambda above 0')
+         return
+      else if (fit%m <= 0.0_wp) then
+         call errors%add(0, 'lambda does not grow with p: m = '//real_text(fit%m)//', expected above 0 and not above 1')
+         return
+      else if (fit%m > 1.0_wp) then
+         if (fit%m > 1.0_wp + m_rounding) call warnings%add(0, 'the points want m = '//real_text(fit%m)// &
+                                                            ', the law allows 1 at most: m is held at 1')
+         fit%m = 1.0_wp
+         fit%c = fit_proportional(p, lambda)
+      end if
+      off = abs(lambda - fit%c*p**fit%m)
+      at = maxloc(off, 1)
+      fit%n_points = size(p)
+      fit%p_low = minval(p)
+      fit%p_high = maxval(p)
+      fit%lambda_high = maxval(lambda)
+      fit%rms = norm2(off)/sqrt(real(size(p), wp))
+      fit%largest = off(at)
+      fit%p_largest = p(at)
+   end subroutine fit_normal
+
 
    !> The c and m that make the sum of (c p^m - lambda)^2 least. The straight line through ln lambda over ln p is the start;
    !! then Gauss-Newton in lambda itself, a step that makes the sum larger being halved. Points with p = 0 or lambda <= 0
@@ -24,13 +70,15 @@ contains
       logical, intent(out)  :: ok
       real(wp), allocatable :: x(:), y(:)
       real(wp) :: line(2), mean
+      logical  :: above(size(p))
 
       c = 0.0_wp
       m = 0.0_wp
-      ok = count(p > 0.0_wp .and. lambda > 0.0_wp) >= 2
+      above = p > 0.0_wp .and. lambda > 0.0_wp
+      ok = count(above) >= 2
       if (.not. ok) return
-      x = log(pack(p, p > 0.0_wp .and. lambda > 0.0_wp))
-      y = log(pack(lambda, p > 0.0_wp .and. lambda > 0.0_wp))
+      x = log(pack(p, above))
+      y = log(pack(lambda, above))
       mean = sum(x)/size(x)      ! at the mean of ln p the two unknowns hardly depend on each other
       call fit_line(x - mean, y, line, ok)
       if (.not. ok) return
@@ -86,4 +134,4 @@ contains
       c = dot_product(p, lambda)/dot_product(p, p)
    end function fit_proportional
 
-end module power_fit
+end module normal_fit
