@@ -40,7 +40,7 @@ contains
       results%history_path = history_path
       call start_vtu(results%vtu, base_of(history_path), plan)
       call start_listing(results%listing, listing_path, deck, model, plan, system)
-      ok = .not. results%listing%file%failed()
+      ok = .not. results%listing%page%file%failed()
       if (history_path /= '') then
          call results%history%start(history_path)
          call write_history_header(results%history)
@@ -95,7 +95,7 @@ contains
    subroutine discard_results(results)
       type(results_type), intent(inout) :: results
 
-      call results%listing%file%discard()
+      call results%listing%page%file%discard()
       call results%history%discard()
       call discard_vtu(results%vtu)
       call all_complete()
