@@ -1,8 +1,7 @@
-!> A line of a table put together field by field, in the forms that the tables use: without formats, which cost more than all
-!! else where the lines are many.
+!> A line of a history put together field by field: without formats, which cost more than all else where the lines are many.
 module text_line
    use kinds, only: wp
-   use number_text, only: full_width, integer_width, short_width, write_full, write_integer, write_short
+   use number_text, only: full_width, integer_width, write_full, write_integer
    implicit none
    private
 
@@ -15,7 +14,6 @@ module text_line
       procedure :: clear
       procedure :: add
       procedure :: add_integer
-      procedure :: add_short
       procedure :: add_full
    end type text_line_type
 
@@ -41,32 +39,16 @@ contains
    end subroutine add
 
 
-   !> VALUE with blanks before it in a field of WIDTH, as iWIDTH; without a width as i0.
-   pure subroutine add_integer(self, value, width)
+   !> VALUE as i0.
+   pure subroutine add_integer(self, value)
       class(text_line_type), intent(inout) :: self
       integer, intent(in)                  :: value
-      integer, intent(in), optional        :: width !! not less than the number needs
       character(integer_width) :: digits
       integer :: n
 
       call write_integer(value, digits, n)
-      if (present(width)) call self%add(repeat(' ', max(0, width - n)))
       call self%add(digits(:n))
    end subroutine add_integer
-
-
-   !> VALUES as es13.5, one behind the other.
-   pure subroutine add_short(self, values)
-      class(text_line_type), intent(inout) :: self
-      real(wp), intent(in)                 :: values(:)
-      character(short_width) :: field
-      integer :: i
-
-      do i = 1, size(values)
-         call write_short(values(i), field)
-         call self%add(field)
-      end do
-   end subroutine add_short
 
 
    !> VALUE with 17 digits, as es24.16e3 without blanks.

@@ -83,7 +83,7 @@ contains
       if (present(unit_shift)) item%unit_shift = unit_shift
       point = index(form//'.', '.')
       if (form /= 'a') read (form(scan(form, '0123456789'):point - 1), *) item%width
-      item%is_short = form(point:) == '.5' .and. form(1:2) == 'es' .and. item%width >= short_width
+      item%is_short = index(form, 'es') == 1 .and. form(point:) == '.5' .and. item%width >= short_width
    end function column
 
 
