@@ -6,7 +6,6 @@ program jointfem
    use block_size, only: check_block_size
    use bolt_locking, only: lock_bolts
    use case_control, only: method_back, method_newton
-   use command_tools, only: use_threads
    use command_line, only: command_type, deck_argument, read_command_line
    use deck_errors, only: deck_error_list
    use deck_input, only: deck_type, read_deck
@@ -14,7 +13,7 @@ program jointfem
    use failed_allocation, only: watch_allocations
    use failures, only: failure_type
    use load_path, only: recover_bodies, start_increment, start_stage
-   use machine, only: keep_memory
+   use machine, only: keep_memory, use_threads
    use model_build, only: build_model
    use model_data, only: model_type
    use newton_method, only: newton_increment
@@ -65,7 +64,7 @@ contains
       else if (overwrites_input(argument, deck)) then
          return
       end if
-      if (.not. command%check_only) call remove_old_results(argument%listing, argument%history)
+      if (.not. command%check_only) call remove_old_results(argument%base)
 
       ! ------------------------------------------------------------------ BODIES, JOINTS, LOADS
       call progress%enter(phase_build)
@@ -98,7 +97,7 @@ contains
       call progress%enter(phase_write)
       call progress%count_operations(system%tree%fixed_operations, system%tree%moving_operations, &
                                      system%tree%tree%assembly_time)
-      call start_results(argument%listing, argument%history, deck, model, plan, system, results, ok)
+      call start_results(argument%base, deck, model, plan, system, results, ok)
       if (.not. ok) then
          call report_unwritten(argument, results)
          return

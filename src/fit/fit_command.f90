@@ -1,6 +1,6 @@
 !> The command line of jointfit: options and data files.
 module fit_command
-   use command_tools, only: argument_text, complain, is_option, name_input, say, version
+   use command_arguments, only: argument_text, complain, input_argument, input_of, is_option, say, version
    use deck_numbers, only: parse_integer, parse_real
    use fit_branches, only: branch_number
    use kinds, only: wp
@@ -12,12 +12,6 @@ module fit_command
 
    character(*), parameter :: program = 'jointfit'
 
-   !> One data file of the command.
-   type, public :: data_argument
-      character(:), allocatable :: path  !! to read; /dev/stdin for `-`
-      character(:), allocatable :: name  !! as the user wrote it
-   end type data_argument
-
    type, public :: fit_command_type
       integer  :: id          = 1         !! --id: of the first file's card
       logical  :: joint_fit   = .false.   !! --joint-fit: the one-step coefficients go on the card
@@ -26,7 +20,7 @@ module fit_command
       integer  :: as          = 0         !! --as: the branch of the card that it becomes
       real(wp) :: p_tolerance = 1.0e-3_wp !! --p-tolerance: pressures that count as one
       real(wp) :: d_max       = 0.0_wp    !! --dmax: DMAX of the card [length], 0: the largest d of the data
-      type(data_argument), allocatable :: files(:)
+      type(input_argument), allocatable :: files(:)
    end type fit_command_type
 
 contains
@@ -50,7 +44,7 @@ contains
          i = i + 1
          argument = argument_text(i)
          if (.not. is_option(argument, options)) then
-            call add_file(command, argument)
+            command%files = [command%files, input_of(argument)]
             cycle
          end if
          select case (argument)
@@ -131,16 +125,6 @@ contains
       call parse_real(text, value, ok)
       if (.not. ok) call parse_real(text//'.', value, ok)
    end subroutine read_real
-
-
-   subroutine add_file(command, argument)
-      type(fit_command_type), intent(inout) :: command
-      character(*), intent(in)              :: argument
-      type(data_argument) :: file
-
-      call name_input(argument, file%name, file%path)
-      command%files = [command%files, file]
-   end subroutine add_file
 
 
    subroutine print_help(status)

@@ -2,7 +2,7 @@
 module fit_comments
    use branch_fit, only: branch_fit_type, residual_type
    use fit_branches, only: branch_letters, branch_words, fit_load, fit_reload, fit_unload
-   use command_tools, only: version
+   use command_arguments, only: version
    use fit_command, only: fit_command_type
    use kinds, only: wp
    use law_cards, only: coefficient_line, jnorm_card, jshear_card

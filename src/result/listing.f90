@@ -6,9 +6,9 @@ module listing
    use determinate_joints, only: carried_resultant
    use equations, only: equation_system
    use kinds, only: wp
-   use listing_bars, only: note_bars, note_sections, start_bars, start_sections
+   use listing_bars, only: note_bars, note_sections
    use listing_bodies, only: list_bodies
-   use listing_joints, only: list_energy, list_interface, note_passes, note_resultants, start_passes, start_resultants
+   use listing_joints, only: list_energy, list_interface, note_passes, note_resultants
    use listing_opening, only: write_opening
    use listing_plot, only: plot_joints
    use listing_table, only: column, label_type, listing_table_type, noise, page_type
@@ -76,40 +76,17 @@ contains
          page%largest_force = max(page%largest_force, maxval(abs(analysis%applied(:, analysis%loaded))))
          if (analysis%is_moved) page%largest_force = &
             max(page%largest_force, maxval(abs(analysis%unbalanced), mask=model%held)) ! what moves the supports
-         if (analysis%increment == 1) call start_stage(listing, model%dimension, trim(stage%label))
-         call note_increment(listing, model, analysis)
-         call note_resultants(model, analysis, page%largest_force, listing%resultants)
-         call note_passes(analysis, listing%passes)
-         call note_bars(model, analysis, page%largest_force, listing%bars)
-         call note_sections(model, analysis, page%largest_force, listing%sections)
+         call note_increment(page, trim(stage%label), model, analysis, listing%increments)
+         call note_resultants(page, model, analysis, listing%resultants)
+         call note_passes(page, listing%method, analysis, listing%passes)
+         call note_bars(page, model, analysis, listing%bars)
+         call note_sections(page, model, analysis, listing%sections)
          call watch_ranges(model, plan, analysis, listing%watch)
          if (analysis%increment == size(stage%shares)) return ! the tables of the end of the stage follow
          if (stage%output == output_all .or. stage%output == output_joint) call list_interface(page, model, analysis)
          if (stage%output == output_all) call list_bodies(page, stage%stress, model, analysis)
       end associate
    end subroutine list_increment
-
-
-   !> Begin the tables of a stage.
-   subroutine start_stage(listing, dimension, label)
-      type(listing_type), intent(inout) :: listing
-      integer, intent(in)               :: dimension
-      character(*), intent(in)          :: label
-
-      associate (labels => listing%page%labels)
-         ! the unit of LAMBDA does not stand at the end of its column
-         call listing%increments%start('INCREMENTS OF '//listing%page%stage//'   '//label, &
-            [column('INCR', 'i6'), column('SHARE', 'f8.5'), column('LOAD', 'f7.4'), column('JOINT', 'i11'), column('OPEN', 'i5'), &
-             column('LAMBDA MAX', 'es13.5', labels%length, unit_shift=2), column('AT NODE', 'i11'), &
-             column('P MAX', 'es13.5', labels%pressure), column('AT NODE', 'i11'), &
-             column('JOINT FORCE', 'es13.5', labels%force), column('APPLIED TO', 'es12.5', labels%force), &
-             column(['DIFFERENCE', 'UNBALANCED'], 'es11.3', labels%force)])
-      end associate
-      call start_resultants(listing%page, dimension, listing%resultants)
-      call start_passes(listing%page, listing%method, listing%passes)
-      call start_bars(listing%page, listing%bars)
-      call start_sections(listing%page, listing%sections)
-   end subroutine start_stage
 
 
    !> Print the table of increments of the stage just completed, and the tables of its end.
@@ -135,27 +112,35 @@ contains
    end subroutine list_stage
 
 
-   !> Note the increment just completed: a row a joint, or one where there are none.
-   subroutine note_increment(listing, model, analysis)
-      type(listing_type), intent(inout) :: listing
-      type(model_type), intent(in)      :: model
-      type(analysis_type), intent(in)   :: analysis
+   !> Note the increment just completed, of the stage with LABEL: a row a joint, or one where there are none.
+   subroutine note_increment(page, label, model, analysis, table)
+      type(page_type), intent(in)             :: page
+      character(*), intent(in)                :: label
+      type(model_type), intent(in)            :: model
+      type(analysis_type), intent(in)         :: analysis
+      type(listing_table_type), intent(inout) :: table
       type(stage_load_type) :: now
       real(wp) :: unbalanced
       integer  :: j
 
+      associate (labels => page%labels)
+         ! the unit of LAMBDA does not stand at the end of its column
+         if (table%is_empty()) call table%start('INCREMENTS OF '//page%stage//'   '//label, &
+            [column('INCR', 'i6'), column('SHARE', 'f8.5'), column('LOAD', 'f7.4'), column('JOINT', 'i11'), column('OPEN', 'i5'), &
+             column('LAMBDA MAX', 'es13.5', labels%length, unit_shift=2), column('AT NODE', 'i11'), &
+             column('P MAX', 'es13.5', labels%pressure), column('AT NODE', 'i11'), &
+             column('JOINT FORCE', 'es13.5', labels%force), column('APPLIED TO', 'es12.5', labels%force), &
+             column(['DIFFERENCE', 'UNBALANCED'], 'es11.3', labels%force)])
+      end associate
       call current_load(model, analysis, now)
-      unbalanced = clean(free_norm(model, analysis%unbalanced, analysis%retained), noise*listing%page%largest_force)
+      unbalanced = clean(free_norm(model, analysis%unbalanced, analysis%retained), noise*page%largest_force)
       do j = min(1, size(model%joints)), size(model%joints)
-         call listing%increments%add([analysis%increment])
-         call listing%increments%add([analysis%share, analysis%fraction])
-         if (j > 0) then
-            call add_joint(model, analysis, now, j, noise*listing%page%largest_force, listing%increments)
-         else
-            call listing%increments%skip(9)
-         end if
-         call listing%increments%add([unbalanced])
-         call listing%increments%keep_row()
+         call table%add([analysis%increment])
+         call table%add([analysis%share, analysis%fraction])
+         if (j > 0) call add_joint(model, analysis, now, j, noise*page%largest_force, table)
+         if (j == 0) call table%skip(9)
+         call table%add([unbalanced])
+         call table%keep_row()
       end do
    end subroutine note_increment
 

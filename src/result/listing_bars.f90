@@ -10,31 +10,24 @@ module listing_bars
    implicit none
    private
 
-   public :: start_bars, note_bars, start_sections, note_sections
+   public :: note_bars, note_sections
 
 contains
 
-   pure subroutine start_bars(page, table)
-      type(page_type), intent(in)             :: page
-      type(listing_table_type), intent(inout) :: table
-
-      call table%start('BOLT FORCES, AND FORCES OF OTHER BARS (TENSION POSITIVE), '//page%stage, &
-                       [column('INCR', 'i6'), column([character(7) :: 'BOLT', 'ELEMENT', 'NODE 1', 'NODE 2'], 'i11'), &
-                        column('FORCE', 'es15.5', page%labels%force), column('ELONGATION', 'es15.5', page%labels%length), &
-                        column('', 'a')])
-   end subroutine start_bars
-
-
    !> Note the forces of all bars after the increment just completed.
-   subroutine note_bars(model, analysis, largest_force, table)
+   subroutine note_bars(page, model, analysis, table)
+      type(page_type), intent(in)             :: page
       type(model_type), intent(in)            :: model
       type(analysis_type), intent(in)         :: analysis
-      real(wp), intent(in)                    :: largest_force !! ever applied, for the noise
       type(listing_table_type), intent(inout) :: table
       real(wp) :: floor
       integer  :: i
 
       if (n_bars(model) == 0) return
+      if (table%is_empty()) call table%start( &
+         'BOLT FORCES, AND FORCES OF OTHER BARS (TENSION POSITIVE), '//page%stage, &
+         [column('INCR', 'i6'), column([character(7) :: 'BOLT', 'ELEMENT', 'NODE 1', 'NODE 2'], 'i11'), &
+          column('FORCE', 'es15.5', page%labels%force), column('ELONGATION', 'es15.5', page%labels%length), column('', 'a')])
       floor = noise*maxval(abs(analysis%u(:, analysis%retained)))
       do i = 1, n_bars(model)
          associate (bar => model%bars(i))
@@ -42,7 +35,7 @@ contains
             if (bar%bolt > 0) call table%add([bar%bolt])
             if (bar%bolt == 0) call table%skip(1)
             call table%add([bar%id, model%node_id(bar%nodes)])
-            call table%add([clean(bar_tension(model, analysis, i), noise*largest_force), &
+            call table%add([clean(bar_tension(model, analysis, i), noise*page%largest_force), &
                             clean(bar_elongation(model, analysis%u, i), floor)])
             if (bar%bolt > 0) call table%add(state_of_bolt(bar%stage == analysis%stage, bar%is_elastic))
             call table%keep_row()
@@ -51,33 +44,26 @@ contains
    end subroutine note_bars
 
 
-   pure subroutine start_sections(page, table)
-      type(page_type), intent(in)             :: page
-      type(listing_table_type), intent(inout) :: table
-
-      call table%start('BOLT FORCES, SOLID BOLTS (TENSION POSITIVE), '//page%stage, &
-                       [column('INCR', 'i6'), column([character(7) :: 'BOLT', 'SURFACE', '', ''], 'i11'), &
-                        column('FORCE', 'es15.5', page%labels%force), column('SHORTENED BY', 'es15.5', page%labels%length), &
-                        column('', 'a')])
-   end subroutine start_sections
-
-
    !> Note the forces of all solid bolts after the increment just completed, and how much each was shortened at its section.
-   subroutine note_sections(model, analysis, largest_force, table)
+   subroutine note_sections(page, model, analysis, table)
+      type(page_type), intent(in)             :: page
       type(model_type), intent(in)            :: model
       type(analysis_type), intent(in)         :: analysis
-      real(wp), intent(in)                    :: largest_force !! ever applied, for the noise
       type(listing_table_type), intent(inout) :: table
       real(wp) :: floor
       integer  :: i
 
       if (n_sections(model) == 0) return
+      if (table%is_empty()) call table%start( &
+         'BOLT FORCES, SOLID BOLTS (TENSION POSITIVE), '//page%stage, &
+         [column('INCR', 'i6'), column([character(7) :: 'BOLT', 'SURFACE'], 'i11'), column('', 'a22'), &
+          column('FORCE', 'es15.5', page%labels%force), column('SHORTENED BY', 'es15.5', page%labels%length), column('', 'a')])
       floor = noise*maxval(abs(analysis%u(:, analysis%retained)))
       do i = 1, n_sections(model)
          associate (section => model%sections(i))
             call table%add([analysis%increment, section%bolt, section%surface])
-            call table%skip(2)
-            call table%add([clean(section_tension(model, analysis, i), noise*largest_force), &
+            call table%skip(1)
+            call table%add([clean(section_tension(model, analysis, i), noise*page%largest_force), &
                             clean(analysis%u(1, section%node), floor)])
             call table%add(state_of_bolt(section%stage == analysis%stage, section%is_locked))
             call table%keep_row()

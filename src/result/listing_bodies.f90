@@ -4,7 +4,7 @@ module listing_bodies
    use body_elements, only: element_stress, full_stress
    use elasticity, only: max_stresses, n_stresses
    use kinds, only: wp
-   use listing_table, only: axes, column, heading, listing_table_type, noise, page_type
+   use listing_table, only: axes, column, listing_table_type, noise, page_type
    use model_data, only: corners_of, model_type, n_points
    use stress_measures, only: principal_stresses, von_mises
    use text_tools, only: clean

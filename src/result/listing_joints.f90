@@ -10,7 +10,7 @@ module listing_joints
    implicit none
    private
 
-   public :: list_interface, start_resultants, note_resultants, start_passes, note_passes, list_energy
+   public :: list_interface, note_resultants, note_passes, list_energy
 
 contains
 
@@ -98,38 +98,24 @@ contains
    end subroutine list_shear
 
 
-   pure subroutine start_resultants(page, dimension, table)
-      type(page_type), intent(in)             :: page
-      integer, intent(in)                     :: dimension
-      type(listing_table_type), intent(inout) :: table
-      character(*), parameter :: title = 'RESULTANTS OF JOINTS, SIDE 1 ON SIDE 2 (MOMENT ABOUT THE CENTROID OF THE JOINT), '
-
-      associate (force => page%labels%force, moment => page%labels%moment)
-         if (dimension == 3) then
-            call table%start(title//page%stage, &
-                             [column('INCR', 'i6'), column('JOINT', 'i11'), column('NORMAL FORCE', 'es15.5', force), &
-                              column('FORCE '//axes, 'es15.5', force), column('MOMENT '//axes, 'es15.5', moment)])
-         else
-            call table%start(title//page%stage, &
-                             [column('INCR', 'i6'), column('JOINT', 'i11'), &
-                              column([character(12) :: 'NORMAL FORCE', 'SHEAR FORCE', 'FORCE X', 'FORCE Y'], 'es15.5', force), &
-                              column('MOMENT Z', 'es15.5', moment)])
-         end if
-      end associate
-   end subroutine start_resultants
-
-
    !> Note the resultants of all joints after the increment just completed: force of side 1 on side 2, moment about the
    !! centroid of the joint's area.
-   subroutine note_resultants(model, analysis, largest_force, table)
+   subroutine note_resultants(page, model, analysis, table)
+      type(page_type), intent(in)             :: page
       type(model_type), intent(in)            :: model
       type(analysis_type), intent(in)         :: analysis
-      real(wp), intent(in)                    :: largest_force
       type(listing_table_type), intent(inout) :: table
+      character(12) :: headings(7)
       real(wp) :: force(3), total(3), centroid(3), arm(3), moment(3), normal, along(2), floor, extent
       integer  :: i, j
 
-      floor = noise*largest_force
+      headings = [character(12) :: 'NORMAL FORCE', 'FORCE '//axes, 'MOMENT '//axes]
+      if (model%dimension == 2) headings(2:5) = [character(12) :: 'SHEAR FORCE', 'FORCE X', 'FORCE Y', 'MOMENT Z']
+      if (table%is_empty()) call table%start( &
+         'RESULTANTS OF JOINTS, SIDE 1 ON SIDE 2 (MOMENT ABOUT THE CENTROID OF THE JOINT), '//page%stage, &
+         [column('INCR', 'i6'), column('JOINT', 'i11'), column(headings(:4), 'es15.5', page%labels%force), &
+          column(headings(5:2*model%dimension + 1), 'es15.5', page%labels%moment)])
+      floor = noise*page%largest_force
       do j = 1, size(model%joints)
          associate (joint => model%joints(j))
             centroid = 0.0_wp
@@ -162,36 +148,17 @@ contains
    end subroutine note_resultants
 
 
-   !> The table of what METHOD does in an increment besides solving once.
-   pure subroutine start_passes(page, method, table)
+   !> Note the re-analyses after the Coulomb check, or the iterations, of the increment just completed.
+   subroutine note_passes(page, method, analysis, table)
       type(page_type), intent(in)             :: page
       integer, intent(in)                     :: method
-      type(listing_table_type), intent(inout) :: table
-
-      select case (method)
-      case (method_newton)
-         call table%start('CONVERGENCE HISTORY, '//page%stage//': UNBALANCED FORCE BEFORE AND AFTER EACH ITERATION', &
-                          [column(['INCR', 'PART'], 'i6'), column('ITER', 'i8'), column(['BEFORE', 'AFTER '], 'es14.3'), &
-                           column('STEP', 'f9.4'), column('CHANGES', 'i9')])
-      case (method_back)
-         call table%start('ITERATIONS, '//page%stage//': LARGEST PRESSURE, AND ITS LARGEST CHANGE', &
-                          [column(['INCR', 'ITER'], 'i6'), column(['PRESSURE', 'CHANGE  '], 'es14.5')])
-      case default
-         call table%start('RE-ANALYSES AFTER THE COULOMB CHECK, '//page%stage//': EXCESS OVER THE LIMITS', &
-                          [column(['INCR', 'PASS'], 'i6'), column(['BEFORE', 'AFTER '], 'es14.5'), &
-                           column('REMOVED %', 'f10.2', heading_shift=1), column('SLIPPING', 'i9', heading_shift=3)])
-      end select
-   end subroutine start_passes
-
-
-   !> Note the re-analyses after the Coulomb check, or the iterations, of the increment just completed.
-   subroutine note_passes(analysis, table)
       type(analysis_type), intent(in)         :: analysis
       type(listing_table_type), intent(inout) :: table
       integer, parameter :: shown = 8 ! of many passes
       character(6) :: increment
       integer :: i
 
+      if (table%is_empty()) call start_passes(page%stage, method, table)
       do i = 1, analysis%n_passes
          if (analysis%n_passes > 3*shown .and. i > shown .and. i < analysis%n_passes) then
             write (increment, '(i6)') analysis%increment
@@ -216,6 +183,27 @@ contains
          end associate
       end do
    end subroutine note_passes
+
+
+   pure subroutine start_passes(stage, method, table)
+      character(*), intent(in)                :: stage
+      integer, intent(in)                     :: method
+      type(listing_table_type), intent(inout) :: table
+
+      select case (method)
+      case (method_newton)
+         call table%start('CONVERGENCE HISTORY, '//stage//': UNBALANCED FORCE BEFORE AND AFTER EACH ITERATION', &
+                          [column(['INCR', 'PART'], 'i6'), column('ITER', 'i8'), column(['BEFORE', 'AFTER '], 'es14.3'), &
+                           column('STEP', 'f9.4'), column('CHANGES', 'i9')])
+      case (method_back)
+         call table%start('ITERATIONS, '//stage//': LARGEST PRESSURE, AND ITS LARGEST CHANGE', &
+                          [column(['INCR', 'ITER'], 'i6'), column(['PRESSURE', 'CHANGE  '], 'es14.5')])
+      case default
+         call table%start('RE-ANALYSES AFTER THE COULOMB CHECK, '//stage//': EXCESS OVER THE LIMITS', &
+                          [column(['INCR', 'PASS'], 'i6'), column(['BEFORE', 'AFTER '], 'es14.5'), &
+                           column('REMOVED %', 'f10.2', heading_shift=1), column('SLIPPING', 'i9', heading_shift=3)])
+      end select
+   end subroutine start_passes
 
 
    !> Work done on the joints in the stage, by shear and by normal forces; the difference is lost where the stage closes a loop.

@@ -54,6 +54,7 @@ module listing_table
       integer :: n_kept = 0
       character(page_width), allocatable :: kept(:)
    contains
+      procedure :: is_empty
       procedure :: start
       procedure :: print_head
       generic   :: add => add_integers, add_reals, add_text
@@ -85,6 +86,14 @@ contains
       if (form /= 'a') read (form(scan(form, '0123456789'):point - 1), *) item%width
       item%is_short = index(form, 'es') == 1 .and. form(point:) == '.5' .and. item%width >= short_width
    end function column
+
+
+   !> Whether nothing is kept: a table of a stage begins anew.
+   pure logical function is_empty(self)
+      class(listing_table_type), intent(in) :: self
+
+      is_empty = self%n_kept == 0
+   end function is_empty
 
 
    !> Begin a table of these COLUMNS, without rows. TITLE is empty where the headings follow other words.
@@ -228,14 +237,9 @@ contains
    pure subroutine keep_line(self, line)
       class(listing_table_type), intent(inout) :: self
       character(*), intent(in)                 :: line
-      character(page_width), allocatable :: longer(:)
 
       if (.not. allocated(self%kept)) allocate (self%kept(64))
-      if (self%n_kept == size(self%kept)) then
-         allocate (longer(2*self%n_kept))
-         longer(:self%n_kept) = self%kept
-         call move_alloc(longer, self%kept)
-      end if
+      if (self%n_kept == size(self%kept)) self%kept = [self%kept, self%kept]
       self%n_kept = self%n_kept + 1
       self%kept(self%n_kept) = line
    end subroutine keep_line

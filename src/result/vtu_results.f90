@@ -233,7 +233,6 @@ contains
       logical :: there
       integer :: k
 
-      if (name == '') return
       call remove_file(name//'.vtu')
       call remove_file(name//'.joint.vtu')
       inquire (file=name//'.pvd', exist=there)
