@@ -1,7 +1,7 @@
 !> The listing NAME.out: increments of each stage, and the tables that OUTPUT asks for.
 module listing
    use analysis_state, only: analysis_type, free_norm
-   use case_control, only: case_control_type, output_all, output_joint, output_last
+   use case_control, only: output_all, output_joint, output_last
    use deck_input, only: deck_type
    use determinate_joints, only: carried_resultant
    use equations, only: equation_system
@@ -42,23 +42,14 @@ contains
       type(equation_system), intent(in) :: system
 
       call listing%page%file%start(path)
-      listing%page%labels = unit_labels(deck%control)
       listing%method = deck%control%method
+      associate (length => trim(deck%control%length_unit), force => trim(deck%control%force_unit))
+         if (length /= '') listing%page%labels = label_type( &
+            length=length, force=force, pressure=force//'/'//length//'2', area=length//'2', stiffness=force//'/'//length, &
+            moment=force//' '//length, slope=force//'/'//length//'2/'//length)
+      end associate
       call write_opening(listing%page, deck, model, plan, system)
    end subroutine start_listing
-
-
-   !> Labels out of UNITS = length, force.
-   pure function unit_labels(control) result(labels)
-      type(case_control_type), intent(in) :: control
-      type(label_type) :: labels
-
-      if (control%length_unit == '') return
-      associate (length => trim(control%length_unit), force => trim(control%force_unit))
-         labels = label_type(length=length, force=force, pressure=force//'/'//length//'2', area=length//'2', &
-                             stiffness=force//'/'//length, moment=force//' '//length, slope=force//'/'//length//'2/'//length)
-      end associate
-   end function unit_labels
 
 
    !> Note the increment just completed; print its tables where OUTPUT = ALL or JOINT.
@@ -119,7 +110,7 @@ contains
       type(model_type), intent(in)            :: model
       type(analysis_type), intent(in)         :: analysis
       type(listing_table_type), intent(inout) :: table
-      type(stage_load_type) :: now
+      type(stage_load_type) :: now !! the load that acts
       real(wp) :: unbalanced
       integer  :: j
 
@@ -132,7 +123,10 @@ contains
              column('JOINT FORCE', 'es13.5', labels%force), column('APPLIED TO', 'es12.5', labels%force), &
              column(['DIFFERENCE', 'UNBALANCED'], 'es11.3', labels%force)])
       end associate
-      call current_load(model, analysis, now)
+      now%n = size(analysis%loaded)
+      allocate (now%node, source=analysis%loaded)
+      allocate (now%force(3, now%n), source=0.0_wp)
+      now%force(:model%dimension, :) = analysis%applied(:, now%node)
       unbalanced = clean(free_norm(model, analysis%unbalanced, analysis%retained), noise*page%largest_force)
       do j = min(1, size(model%joints)), size(model%joints)
          call table%add([analysis%increment])
@@ -180,22 +174,6 @@ contains
          end if
       end associate
    end subroutine add_joint
-
-
-   !> The load that acts now, as a list of nodal forces.
-   pure subroutine current_load(model, analysis, now)
-      type(model_type), intent(in)       :: model
-      type(analysis_type), intent(in)    :: analysis
-      type(stage_load_type), intent(out) :: now
-      integer :: i
-
-      now%n = size(analysis%loaded)
-      allocate (now%node, source=analysis%loaded)
-      allocate (now%force(3, now%n), source=0.0_wp)
-      do i = 1, now%n
-         now%force(:model%dimension, i) = analysis%applied(:, now%node(i))
-      end do
-   end subroutine current_load
 
 
    !> Close the listing under its name.

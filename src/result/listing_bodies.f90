@@ -81,7 +81,9 @@ contains
       call table%print_head(page%file)
       do e = 1, model%n_elements
          call table%add([model%element_id(e)])
-         call table%add(clean(centre(model, e)))
+         associate (nodes => corners_of(model, e))
+            call table%add(clean(sum(model%x(:model%dimension, nodes), dim=2)/size(nodes)))
+         end associate
          call table%add(clean(stress(:n, e), floor))
          call table%print_row(page%file)
       end do
@@ -112,18 +114,6 @@ contains
    end subroutine list_principal
 
 
-   !> The mean of the corners of element E.
-   pure function centre(model, e) result(x)
-      type(model_type), intent(in) :: model
-      integer, intent(in)          :: e
-      real(wp) :: x(model%dimension)
-
-      associate (nodes => corners_of(model, e))
-         x = sum(model%x(:model%dimension, nodes), dim=2)/size(nodes)
-      end associate
-   end function centre
-
-
    !> Reactions at supports, and the balance of all outer forces: loads, supports, rigid bases.
    subroutine list_reactions(page, model, analysis)
       type(page_type), intent(inout)  :: page
@@ -132,7 +122,7 @@ contains
       type(listing_table_type) :: table
       real(wp), dimension(model%dimension) :: reaction, supports, base, loads
       real(wp) :: floor, force(3)
-      integer  :: i, node
+      integer  :: first, i, node
 
       call table%start('REACTIONS AT SUPPORTS'//page%now//in_units(page%labels%force), &
                        [column('NODE', 'i11'), column(axes(:model%dimension), 'es13.5'), &
@@ -156,31 +146,30 @@ contains
          base = base - force(:model%dimension)
       end do
       loads = sum(analysis%applied(:, :n_points(model)), dim=2)
-      call list_balance(page, model, clean(reshape([loads, supports, base, loads + supports + base], [model%dimension, 4]), floor))
-   end subroutine list_reactions
-
-
-   !> RESULTANTS (dimension, 4) of the loads, the supports, the rigid bases, and of all of them.
-   subroutine list_balance(page, model, resultants)
-      type(page_type), intent(inout) :: page
-      type(model_type), intent(in)   :: model
-      real(wp), intent(in)           :: resultants(:, :)
-      character(33), parameter :: names(4) = [character(33) :: 'LOADS', 'SUPPORTS', 'RIGID BASES, THROUGH THE JOINTS', &
-                                              'SUM: LEFT UNBALANCED']
-      type(listing_table_type) :: table
-      integer :: first, i
-
       first = merge(2, 1, model%axisymmetric)
       call table%start('BALANCE OF FORCES'//page%now//in_units(page%labels%force), &
                        [column('', 'a35'), column(axes(first:model%dimension), 'es13.5'), &
                         column(merge('  (THE RADIAL FORCES BALANCE ROUND THE RING)', repeat(' ', 44), model%axisymmetric), 'a')])
       call table%print_head(page%file)
-      do i = 1, size(names)
-         call table%add(names(i))
-         call table%add(resultants(first:, i))
+      call balance_line('LOADS', loads(first:))
+      call balance_line('SUPPORTS', supports(first:))
+      call balance_line('RIGID BASES, THROUGH THE JOINTS', base(first:))
+      call balance_line('SUM: LEFT UNBALANCED', loads(first:) + supports(first:) + base(first:))
+
+   contains
+
+      subroutine balance_line(words, resultant)
+         character(*), intent(in) :: words
+         real(wp), intent(in)     :: resultant(:)
+         character(33) :: name
+
+         name = words
+         call table%add(name)
+         call table%add(clean(resultant, floor))
          call table%print_row(page%file)
-      end do
-   end subroutine list_balance
+      end subroutine balance_line
+
+   end subroutine list_reactions
 
 
    !> The unit behind a heading, in brackets; empty where LABEL is blank.

@@ -151,29 +151,16 @@ contains
       character(*), intent(in)        :: file
       type(deck_argument), intent(in) :: deck
       character(:), allocatable :: base
+      integer :: slash
 
       is_result_of = .false.
       if (deck%base == '') return
       if (file == true_path(deck%base//listing_ending)) is_result_of = .true.
       if (file == true_path(deck%base//history_ending)) is_result_of = .true.
-      base = in_true_folder(deck%base)
+      slash = index(deck%base, '/', back=.true.)
+      base = true_path(deck%base(:slash)//'.')//'/'//deck%base(slash + 1:) ! whether or not a file is there
       if (index(file, base) == 1 .and. is_result_ending(file(len(base) + 1:))) is_result_of = .true.
    end function is_result_of
-
-
-   !> PATH with its folder resolved, whether or not the file is there.
-   function in_true_folder(path) result(resolved)
-      character(*), intent(in)  :: path
-      character(:), allocatable :: resolved
-      integer :: slash
-
-      slash = index(path, '/', back=.true.)
-      if (slash == 0) then
-         resolved = true_path('.')//'/'//path
-      else
-         resolved = true_path(path(:slash))//'/'//path(slash + 1:)
-      end if
-   end function in_true_folder
 
 
    !> PATH without its folder and its last extension.
