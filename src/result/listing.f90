@@ -115,7 +115,7 @@ contains
       integer  :: j
 
       associate (labels => page%labels)
-         ! the unit of LAMBDA does not stand at the end of its column
+         ! in this table the unit of LAMBDA stands two characters behind its numbers
          if (table%is_empty()) call table%start('INCREMENTS OF '//page%stage//'   '//label, &
             [column('INCR', 'i6'), column('SHARE', 'f8.5'), column('LOAD', 'f7.4'), column('JOINT', 'i11'), column('OPEN', 'i5'), &
              column('LAMBDA MAX', 'es13.5', labels%length, unit_shift=2), column('AT NODE', 'i11'), &

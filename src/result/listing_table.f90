@@ -237,9 +237,14 @@ contains
    pure subroutine keep_line(self, line)
       class(listing_table_type), intent(inout) :: self
       character(*), intent(in)                 :: line
+      character(page_width), allocatable :: longer(:)
 
       if (.not. allocated(self%kept)) allocate (self%kept(64))
-      if (self%n_kept == size(self%kept)) self%kept = [self%kept, self%kept]
+      if (self%n_kept == size(self%kept)) then ! an array constructor that finds no memory would end the program without a word
+         allocate (longer(2*self%n_kept))
+         longer(:self%n_kept) = self%kept
+         call move_alloc(longer, self%kept)
+      end if
       self%n_kept = self%n_kept + 1
       self%kept(self%n_kept) = line
    end subroutine keep_line
