@@ -1,8 +1,9 @@
 !> NAME.joint.csv: every interface element after every increment, in full precision.
 module joint_history
    use csv_line, only: csv_line_type
+   use interface_operator, only: at_first_end
    use kinds, only: wp
-   use model_data, only: joint_movement, model_type
+   use model_data, only: joint_node_id, model_type
    use normal_stiffness, only: branch_name
    use output_file, only: output_file_type
    use stage_plan, only: stage_plan_type
@@ -31,8 +32,7 @@ contains
       type(stage_plan_type), intent(in)     :: plan
       type(analysis_type), intent(in)       :: analysis
       type(csv_line_type) :: line
-      real(wp) :: movement(3)
-      integer  :: i, k, node2, same
+      integer  :: i, k, same
 
       call line%add([plan%stages(analysis%stage)%id, analysis%increment])
       call line%add(clean([analysis%fraction]))
@@ -40,10 +40,8 @@ contains
       do i = 1, size(model%interface)
          line%length = same
          associate (element => model%interface(i), state => analysis%states(i)%normal)
-            node2 = 0
-            if (element%nodes(2) > 0) node2 = model%node_id(element%nodes(2))
-            call line%add([model%joints(element%joint)%id, element%id, model%node_id(element%nodes(1)), node2])
-            call line%add(clean([model%x(:, element%nodes(1)), element%area]))
+            call line%add([model%joints(element%joint)%id, element%id, joint_node_id(model, i, 1), joint_node_id(model, i, 2)])
+            call line%add(clean([at_first_end(element, model%x), element%area]))
             call line%add(branch_name(state%branch))
             call line%add(clean([state%lambda, state%pressure, state%sumf, state%k_n]))
          end associate
@@ -53,9 +51,8 @@ contains
                   call line%add(branch_name(state%branch))
                   call line%add(clean([state%delta, state%tau, state%k_s]))
                else                       ! without a shear law the movement alone is a result
-                  movement = joint_movement(model, analysis%u, i)
                   call line%add('')
-                  call line%add(clean([movement(k), 0.0_wp, 0.0_wp]))
+                  call line%add(clean([analysis%movement(k, i), 0.0_wp, 0.0_wp]))
                end if
             end associate
          end do

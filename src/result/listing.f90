@@ -4,7 +4,7 @@ module listing
    use case_control, only: output_all, output_joint, output_last
    use deck_input, only: deck_type
    use determinate_joints, only: carried_resultant
-   use equations, only: equation_system
+   use equation_solver, only: equation_system
    use kinds, only: wp
    use listing_bars, only: note_bars, note_sections
    use listing_bodies, only: list_bodies
@@ -12,7 +12,7 @@ module listing
    use listing_opening, only: write_opening
    use listing_plot, only: plot_joints
    use listing_table, only: column, label_type, listing_table_type, noise, page_type
-   use model_data, only: model_type, stage_load_type
+   use model_data, only: joint_node_id, model_type, stage_load_type
    use normal_stiffness, only: branch_open
    use range_watch, only: range_watch_type, watch_balance, watch_ranges
    use stage_plan, only: stage_plan_type
@@ -39,7 +39,7 @@ contains
       type(deck_type), intent(in)       :: deck
       type(model_type), intent(in)      :: model
       type(stage_plan_type), intent(in) :: plan
-      type(equation_system), intent(in) :: system
+      class(equation_system), intent(in) :: system
 
       call listing%page%file%start(path)
       listing%method = deck%control%method
@@ -66,7 +66,7 @@ contains
          page%now = ', '//page%stage//', INCREMENT '//integer_text(analysis%increment)
          page%largest_force = max(page%largest_force, maxval(abs(analysis%applied(:, analysis%loaded))))
          if (analysis%is_moved) page%largest_force = &
-            max(page%largest_force, maxval(abs(analysis%unbalanced), mask=model%held)) ! what moves the supports
+            max(page%largest_force, maxval(abs(analysis%all_unbalanced), mask=model%held)) ! what moves the supports
          call note_increment(page, trim(stage%label), model, analysis, listing%increments)
          call note_resultants(page, model, analysis, listing%resultants)
          call note_passes(page, listing%method, analysis, listing%passes)
@@ -127,7 +127,7 @@ contains
       allocate (now%node, source=analysis%loaded)
       allocate (now%force(3, now%n), source=0.0_wp)
       now%force(:model%dimension, :) = analysis%applied(:, now%node)
-      unbalanced = clean(free_norm(model, analysis%unbalanced, analysis%retained), noise*page%largest_force)
+      unbalanced = clean(free_norm(analysis%unbalanced, analysis%held), noise*page%largest_force)
       do j = min(1, size(model%joints)), size(model%joints)
          call table%add([analysis%increment])
          call table%add([analysis%share, analysis%fraction])
@@ -162,9 +162,9 @@ contains
          end do
          call table%add([joint%id, n_open])
          call table%add([clean(state(at_lambda)%lambda, noise*analysis%largest_lambda)])
-         call table%add([model%node_id(model%interface(at_lambda)%nodes(1))])
+         call table%add([joint_node_id(model, at_lambda, 1)])
          call table%add([clean(state(at_p)%pressure, noise*analysis%largest_p)])
-         call table%add([model%node_id(model%interface(at_p)%nodes(1))])
+         call table%add([joint_node_id(model, at_p, 1)])
          call table%add([clean(force, floor)])
          if (joint%determinate) then
             applied = carried_resultant(model, joint, now)

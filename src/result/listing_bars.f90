@@ -1,8 +1,7 @@
 !> The tables of bars and bolts: their forces after every increment.
 module listing_bars
    use analysis_state, only: analysis_type
-   use bar_elements, only: bar_elongation
-   use bolt_locking, only: bar_tension, section_tension
+   use bolt_locking, only: bar_tension, elongation_now, overlap_now, section_tension
    use kinds, only: wp
    use listing_table, only: column, listing_table_type, noise, page_type
    use model_data, only: model_type, n_bars, n_sections
@@ -28,7 +27,7 @@ contains
          'BOLT FORCES, AND FORCES OF OTHER BARS (TENSION POSITIVE), '//page%stage, &
          [column('INCR', 'i6'), column([character(7) :: 'BOLT', 'ELEMENT', 'NODE 1', 'NODE 2'], 'i11'), &
           column('FORCE', 'es15.5', page%labels%force), column('ELONGATION', 'es15.5', page%labels%length), column('', 'a')])
-      floor = noise*maxval(abs(analysis%u(:, analysis%retained)))
+      floor = noise*maxval(abs(analysis%u))
       do i = 1, n_bars(model)
          associate (bar => model%bars(i))
             call table%add([analysis%increment])
@@ -36,8 +35,8 @@ contains
             if (bar%bolt == 0) call table%skip(1)
             call table%add([bar%id, model%node_id(bar%nodes)])
             call table%add([clean(bar_tension(model, analysis, i), noise*page%largest_force), &
-                            clean(bar_elongation(model, analysis%u, i), floor)])
-            if (bar%bolt > 0) call table%add(state_of_bolt(bar%stage == analysis%stage, bar%is_elastic))
+                            clean(elongation_now(model, analysis, i), floor)])
+            if (bar%bolt > 0) call table%add(state_of_bolt(bar%stage == analysis%stage, analysis%is_elastic(i)))
             call table%keep_row()
          end associate
       end do
@@ -58,14 +57,14 @@ contains
          'BOLT FORCES, SOLID BOLTS (TENSION POSITIVE), '//page%stage, &
          [column('INCR', 'i6'), column([character(7) :: 'BOLT', 'SURFACE'], 'i11'), column('', 'a22'), &
           column('FORCE', 'es15.5', page%labels%force), column('SHORTENED BY', 'es15.5', page%labels%length), column('', 'a')])
-      floor = noise*maxval(abs(analysis%u(:, analysis%retained)))
+      floor = noise*maxval(abs(analysis%u))
       do i = 1, n_sections(model)
          associate (section => model%sections(i))
             call table%add([analysis%increment, section%bolt, section%surface])
             call table%skip(1)
             call table%add([clean(section_tension(model, analysis, i), noise*page%largest_force), &
-                            clean(analysis%u(1, section%node), floor)])
-            call table%add(state_of_bolt(section%stage == analysis%stage, section%is_locked))
+                            clean(overlap_now(model, analysis, i), floor)])
+            call table%add(state_of_bolt(section%stage == analysis%stage, analysis%is_locked(i)))
             call table%keep_row()
          end associate
       end do

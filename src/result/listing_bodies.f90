@@ -3,6 +3,7 @@ module listing_bodies
    use analysis_state, only: analysis_type, element_force
    use body_elements, only: element_stress, full_stress
    use elasticity, only: max_stresses, n_stresses
+   use interface_operator, only: named_node
    use kinds, only: wp
    use listing_table, only: axes, column, listing_table_type, noise, page_type
    use model_data, only: corners_of, model_type, n_points
@@ -40,12 +41,12 @@ contains
                        [column('NODE', 'i11'), column(axes(:model%dimension), 'es13.5'), &
                         column('U'//axes(:model%dimension), 'es13.5')])
       call table%print_head(page%file)
-      floor = noise*maxval(abs(analysis%u(:, :n_points(model))))
+      floor = noise*maxval(abs(analysis%all_u(:, :n_points(model))))
       do node = 1, n_points(model)
          if (.not. model%used(node)) cycle
          call table%add([model%node_id(node)])
          call table%add(clean(model%x(:model%dimension, node)))
-         call table%add(clean(analysis%u(:, node), floor))
+         call table%add(clean(analysis%all_u(:, node), floor))
          call table%print_row(page%file)
       end do
    end subroutine list_displacements
@@ -66,7 +67,7 @@ contains
       n = 0
       do e = 1, model%n_elements
          n = n_stresses(model%properties(model%element_property(e))%state)
-         stress(:n, e) = element_stress(model, e, analysis%u)
+         stress(:n, e) = element_stress(model, e, analysis%all_u)
       end do
       floor = noise*maxval(abs(stress))
       if (model%dimension == 3) then
@@ -132,7 +133,7 @@ contains
       supports = 0.0_wp
       do node = 1, n_points(model)
          if (.not. any(model%held(:, node)) .or. .not. model%used(node)) cycle
-         reaction = merge(-analysis%unbalanced(:, node), 0.0_wp, model%held(:, node))
+         reaction = merge(-analysis%all_unbalanced(:, node), 0.0_wp, model%held(:, node))
          supports = supports + reaction
          call table%add([model%node_id(node)])
          call table%add(clean(model%x(:model%dimension, node)))
@@ -141,8 +142,8 @@ contains
       end do
       base = 0.0_wp
       do i = 1, size(model%interface)
-         if (model%interface(i)%nodes(2) > 0) cycle
-         force = element_force(model, analysis, i)
+         if (named_node(model%interface(i), 2) /= 0) cycle
+         force = element_force(model%interface(i), analysis%states(i))
          base = base - force(:model%dimension)
       end do
       loads = sum(analysis%applied(:, :n_points(model)), dim=2)

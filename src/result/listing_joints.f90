@@ -2,9 +2,11 @@
 module listing_joints
    use analysis_state, only: analysis_type, element_force
    use case_control, only: method_back, method_newton
+   use interface_operator, only: at_first_end
+   use joint_laws, only: friction_limit
    use kinds, only: wp
    use listing_table, only: axes, column, heading, listing_table_type, noise, page_type
-   use model_data, only: model_type
+   use model_data, only: joint_node_id, model_type
    use normal_stiffness, only: branch_name
    use text_tools, only: clean, integer_text
    implicit none
@@ -22,7 +24,7 @@ contains
       character(9), parameter  :: k_n(1) = ['K_N, USED'] ! in space only in the joint history
       type(listing_table_type) :: table
       real(wp) :: lambda_floor, p_floor, force_floor
-      integer  :: i, j, node2
+      integer  :: i, j
 
       do j = 1, size(model%joints)
          associate (joint => model%joints(j), state => analysis%states%normal, labels => page%labels)
@@ -38,10 +40,8 @@ contains
             force_floor = p_floor*joint%area
             do i = joint%first, joint%last
                associate (element => model%interface(i))
-                  node2 = 0
-                  if (element%nodes(2) > 0) node2 = model%node_id(element%nodes(2))
-                  call table%add([element%id, model%node_id(element%nodes(1)), node2])
-                  call table%add(clean(model%x(:model%dimension, element%nodes(1))))
+                  call table%add([element%id, joint_node_id(model, i, 1), joint_node_id(model, i, 2)])
+                  call table%add(clean(at_first_end(element, model%x(:model%dimension, :))))
                   call table%add([element%area])
                   call table%add(branch_name(state(i)%branch))
                   call table%add([clean(state(i)%lambda, lambda_floor), clean(state(i)%pressure, p_floor), &
@@ -63,7 +63,7 @@ contains
       type(analysis_type), intent(in) :: analysis
       integer, intent(in)             :: j
       type(listing_table_type) :: table
-      real(wp) :: delta_floor, tau_floor, limit
+      real(wp) :: delta_floor, tau_floor
       integer  :: i, k
 
       associate (joint => model%joints(j), labels => page%labels)
@@ -79,13 +79,12 @@ contains
             call table%print_head(page%file)
             do i = joint%first, joint%last
                associate (state => analysis%states(i)%shear(k), element => model%interface(i))
-                  call table%add([element%id, model%node_id(element%nodes(1))])
+                  call table%add([element%id, joint_node_id(model, i, 1)])
                   call table%add(branch_name(state%branch))
                   call table%add([clean(state%delta, delta_floor), clean(state%tau, tau_floor), &
                                   clean(state%tau*element%area, tau_floor*element%area), clean(state%k_s)])
                   if (joint%law%has_friction) then
-                     limit = joint%law%mu*max(0.0_wp, analysis%states(i)%normal%pressure)
-                     call table%add([clean(limit, tau_floor)])
+                     call table%add([clean(friction_limit(joint%law, analysis%states(i)%normal%pressure), tau_floor)])
                   else
                      call table%skip(1)
                   end if
@@ -120,13 +119,13 @@ contains
          associate (joint => model%joints(j))
             centroid = 0.0_wp
             do i = joint%first, joint%last
-               centroid = centroid + model%interface(i)%area*model%x(:, model%interface(i)%nodes(1))/joint%area
+               centroid = centroid + model%interface(i)%area*at_first_end(model%interface(i), model%x)/joint%area
             end do
             total = 0.0_wp
             moment = 0.0_wp; normal = 0.0_wp; along = 0.0_wp; extent = 0.0_wp
             do i = joint%first, joint%last
-               force = element_force(model, analysis, i)
-               arm = model%x(:, model%interface(i)%nodes(1)) - centroid
+               force = element_force(model%interface(i), analysis%states(i))
+               arm = at_first_end(model%interface(i), model%x) - centroid
                extent = max(extent, norm2(arm))
                total = total + force
                moment = moment + [arm(2)*force(3) - arm(3)*force(2), arm(3)*force(1) - arm(1)*force(3), &
