@@ -3,7 +3,6 @@
 module run_boxes
    use analysis_state, only: analysis_type, interface_stiffness, note_largest, start_analysis
    use command_line, only: command_type, deck_argument, read_command_line
-   use command_tools, only: use_threads
    use deck_errors, only: deck_error_list
    use deck_input, only: deck_type, read_deck
    use equation_solver, only: equation_system, solver_description
@@ -11,7 +10,7 @@ module run_boxes
    use failed_allocation, only: watch_allocations
    use failures, only: failure_type
    use load_path, only: recover_bodies
-   use machine, only: keep_memory
+   use machine, only: keep_memory, use_threads
    use model_build, only: build_model
    use model_data, only: model_type
    use model_size, only: check_model_size
@@ -82,7 +81,7 @@ contains
       else if (overwrites_input(argument, deck)) then
          run%ending = would_overwrite
       else if (.not. command%check_only) then
-         call remove_old_results(argument%listing, argument%history)
+         call remove_old_results(argument%base)
       end if
    end subroutine read_data
 
@@ -126,7 +125,7 @@ contains
       call run%progress%enter(phase_write)
       call system%describe(solver)
       call run%progress%count_operations(solver%fixed_operations, solver%moving_operations, solver%assembly_time)
-      call start_results(run%argument%listing, run%argument%history, deck, model, plan, system, run%results, ok)
+      call start_results(run%argument%base, deck, model, plan, system, run%results, ok)
       if (.not. ok) run%ending = is_unwritten
    end subroutine form_bodies
 

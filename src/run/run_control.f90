@@ -2,14 +2,14 @@
 module run_control
    use, intrinsic :: iso_fortran_env, only: error_unit
    use c_library, only: end_run, write_bytes
-   use command_tools, only: why_unreadable
-   use command_line, only: command_type, deck_argument, is_result_of
+   use command_arguments, only: complain_of_input
+   use command_line, only: deck_argument, is_result_of
    use deck_errors, only: deck_error_list
    use deck_input, only: deck_type
    use error_report, only: print_errors
    use failures, only: failure_type
    use model_data, only: model_type, n_points
-   use results, only: discard_results, results_type
+   use results, only: discard_results, history_ending, listing_ending, results_type
    use stage_plan, only: stage_plan_type
    use text_tools, only: plural
    implicit none
@@ -37,7 +37,7 @@ contains
       type(deck_argument), intent(in) :: argument
 
       call raise_status(status_unreadable)
-      write (error_unit, '(3a)') argument%name, ': ', why_unreadable(argument%path, 'a deck')
+      call complain_of_input(argument, 'a deck')
    end subroutine report_unreadable
 
 
@@ -96,11 +96,11 @@ contains
       type(results_type), intent(inout) :: results
 
       call raise_status(status_unwritten)
-      if (argument%listing == '') then
+      if (argument%base == '') then
          write (error_unit, '(2a)') argument%name, ': the listing cannot be written to the standard output'
       else
-         write (error_unit, '(5a)') argument%name, ': the results ', argument%listing, ' and ', argument%history// &
-            ' cannot be written: is the folder there, and is there room on the disk?'
+         write (error_unit, '(5a)') argument%name, ': the results ', argument%base//listing_ending, ' and ', &
+            argument%base//history_ending, ' cannot be written: is the folder there, and is there room on the disk?'
       end if
       call discard_results(results)
    end subroutine report_unwritten
