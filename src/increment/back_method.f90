@@ -1,13 +1,13 @@
 !> METHOD = BACK, after Back, Burdekin and Cowley: the whole load at once with secant stiffnesses at the last pressures, two
 !! consecutive pressures averaged, until they settle. Loading only.
 module back_method
-   use analysis_state, only: analysis_type, find_unbalanced, pass_record, record_pass, tally_work
-   use coupled_solution, only: solve_moved
-   use equations, only: body_forces, check_solution, equation_system, form_structure_stiffness, solve_equations
+   use analysis_state, only: analysis_type, find_movements, find_unbalanced, pass_record, record_pass, tally_work
+   use equations, only: equation_system, forces_in_bodies, form_structure_stiffness, solve_equations
    use failures, only: failure_type
+   use interface_operator, only: joint_movement
    use joint_laws, only: back_stiffness, exceeds_limit, loading_work, rest_margin
    use kinds, only: wp
-   use model_data, only: joint_movement, model_type
+   use model_data, only: joint_node_id, model_type
    use normal_stiffness, only: branch_load, branch_open, pressure_floor
    use stage_plan, only: stage_plan_type, where_in_plan
    use text_tools, only: integer_text, real_text
@@ -34,7 +34,7 @@ contains
       type(model_type), intent(in)         :: model
       type(stage_plan_type), intent(in)    :: plan
       type(analysis_type), intent(inout)   :: analysis
-      type(equation_system), intent(inout) :: system
+      class(equation_system), intent(inout) :: system
       type(failure_type), intent(inout)    :: failure
       type(iterate_type) :: now
       real(wp) :: change
@@ -46,17 +46,12 @@ contains
       do iteration = 1, most_iterations
          call take_secants(model, analysis, iteration, now)
          call form_structure_stiffness(model, now%k_int, where_in_plan(plan, analysis%stage, analysis%increment), system, &
-                                       failure, many_solutions=.false.)
-         if (failure%raised) return
-         if (analysis%moves) then
-            call solve_moved(model, system, now%k_int, analysis%felt, analysis%moved, analysis%u)
-         else
-            call solve_equations(system, analysis%felt, analysis%u)
-         end if
-         call check_solution(model, system, failure)
+                                       failure, one_solution=.true.)
+         call solve_equations(model, system, analysis%felt, analysis%u, failure, &
+                              moved=merge(analysis%moved(:, system%retained), 0.0_wp, analysis%moves))
          if (failure%raised) return
          if (n == 0) exit
-         call read_off(model, analysis, now, change)
+         call read_off(model, system, analysis, now, change)
          call record_pass(analysis, pass_record(before=maxval(abs(now%p)), after=change, part=-1))
          if (change <= settled*max(maxval(now%p), pressure_floor*maxval(analysis%states%normal%p_av))) exit
          now%p = 0.5_wp*(now%p + now%p_new)
@@ -65,12 +60,13 @@ contains
          worst = maxloc(abs(now%p_new - now%p), dim=1)
          call failure%raise(where_in_plan(plan, analysis%stage, analysis%increment)//': the pressures have not settled after '// &
             integer_text(most_iterations)//' iterations; the one of node '// &
-            integer_text(model%node_id(model%interface(worst)%nodes(1)))//' still changes by '//real_text(change))
+            integer_text(joint_node_id(model, worst, 1))//' still changes by '//real_text(change))
          return
       end if
       call store(model, now, analysis)
-      call body_forces(system, analysis%u, analysis%body)
-      call find_unbalanced(model, analysis)
+      call forces_in_bodies(system, analysis%u, analysis%body)
+      call find_movements(system, analysis)
+      call find_unbalanced(system, analysis)
    end subroutine back_increment
 
 
@@ -99,18 +95,19 @@ contains
 
    !> What the solution moves and presses, and by how much stresses differ from those of the secants [pressure]. The shear secants
    !! must be those of the deflections that they led to.
-   subroutine read_off(model, analysis, now, change)
-      type(model_type), intent(in)      :: model
-      type(analysis_type), intent(in)   :: analysis
-      type(iterate_type), intent(inout) :: now
-      real(wp), intent(out)             :: change
+   subroutine read_off(model, system, analysis, now, change)
+      type(model_type), intent(in)       :: model
+      class(equation_system), intent(in) :: system
+      type(analysis_type), intent(in)    :: analysis
+      type(iterate_type), intent(inout)  :: now
+      real(wp), intent(out)              :: change
       real(wp) :: k(3), tau_change(2)
       integer  :: i
 
       change = 0.0_wp
       do i = 1, size(model%interface)
          associate (element => model%interface(i), movement => now%movement(:, i), p_av => analysis%states(i)%normal%p_av)
-            now%movement(:, i) = joint_movement(model, analysis%u, i)
+            now%movement(:, i) = joint_movement(system%interface(i), analysis%u)
             now%p_new(i) = max(0.0_wp, now%k_int(3, 3, i)*movement(3)/element%area)
             k = back_stiffness(model%joints(element%joint)%law, element%area, p_av, now%p(i), movement)
             now%k_shear(:, i) = k(:2)

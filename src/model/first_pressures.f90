@@ -109,13 +109,13 @@ contains
    pure logical function touches_body(model, joint)
       type(model_type), intent(in) :: model
       type(joint_type), intent(in) :: joint
-      integer :: i, node, side
+      integer :: i, k, node
 
       touches_body = .false.
       do i = joint%first, joint%last
-         do side = 1, 2
-            node = model%interface(i)%nodes(side)
-            if (node > 0) touches_body = touches_body .or. model%first_at(node + 1) > model%first_at(node)
+         do k = 1, size(model%interface(i)%node)
+            node = model%interface(i)%node(k)
+            touches_body = touches_body .or. model%first_at(node + 1) > model%first_at(node)
          end do
       end do
    end function touches_body

@@ -70,13 +70,12 @@ contains
       type(model_type), intent(in)         :: model
       type(joint_type), intent(inout)      :: joint
       type(deck_error_list), intent(inout) :: errors
-      integer :: i, node, side
+      integer :: i, k, node
 
       if (joint%e_u_given .or. joint%law%normal%c <= 0.0_wp) return
       do i = joint%first, joint%last
-         do side = 1, 2
-            node = model%interface(i)%nodes(side)
-            if (node == 0) cycle
+         do k = 1, size(model%interface(i)%node)
+            node = model%interface(i)%node(k)
             if (model%first_at(node) == model%first_at(node + 1)) cycle
             associate (property => model%element_property(model%elements_at(model%first_at(node))))
                if (property > 0) joint%law%normal%e_u = model%properties(property)%e

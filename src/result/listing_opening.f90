@@ -2,7 +2,7 @@
 module listing_opening
    use case_control, only: case_control_type, method_newton, method_step, pressure_eq10
    use deck_input, only: deck_type
-   use equations, only: equation_system
+   use equation_solver, only: equation_system, solver_description
    use kinds, only: long, wp
    use listing_echo, only: write_echo
    use listing_page, only: cut, heading, in_column, label_type, page_width, unit_labels
@@ -25,7 +25,7 @@ contains
       type(deck_type), intent(in)           :: deck
       type(model_type), intent(in)          :: model
       type(stage_plan_type), intent(in)     :: plan
-      type(equation_system), intent(in)     :: system
+      class(equation_system), intent(in)    :: system
 
       call file%put(' '//repeat('-', page_width - 1))
       call file%put('  J O I N T F E M      TANGENT-STIFFNESS FINITE ELEMENT ANALYSIS OF JOINTED STRUCTURES')
@@ -43,8 +43,9 @@ contains
       type(output_file_type), intent(inout) :: file
       type(deck_type), intent(in)           :: deck
       type(model_type), intent(in)          :: model
-      type(equation_system), intent(in)     :: system
-      character(:), allocatable :: solver
+      class(equation_system), intent(in)    :: system
+      type(solver_description) :: solver
+      integer :: i
 
       call heading(file, 'MODEL SUMMARY')
       call count_line('NODES', int(n_points(model), long))
@@ -58,26 +59,20 @@ contains
       call count_line('INTERFACE ELEMENTS', size(model%interface, kind=long))
       call count_line('SUPPORTED COMPONENTS', count(model%held(:, :n_points(model)), kind=long))
       call count_line('UNKNOWNS', int(system%n, long))
-      if (system%is_tree) then
-         call count_line('FRONTS', size(system%tree%tree%fronts, kind=long))
-         call count_line('ENTRIES OF THE FACTOR', system%tree%factor_entries)
-         call count_line('UNKNOWNS LEFT AFTER CONDENSATION', size(system%equations, kind=long))
-         solver = 'TREE, JOINTS '//system%tree%way
-      else
-         call count_line('PROFILE OF THE STIFFNESS MATRIX, ENTRIES', system%skyline%profile)
-         call count_line('   IN THE ORDER OF THE NODE NUMBERS', system%skyline%profile_as_numbered)
-         solver = 'SKYLINE'
-      end if
+      call system%describe(solver)
+      do i = 1, size(solver%words)
+         if (solver%words(i) /= '') call count_line(trim(solver%words(i)), solver%numbers(i))
+      end do
       call count_line('STAGES', size(deck%control%stages, kind=long))
       associate (control => deck%control)
          select case (control%method)
          case (method_step)
             call file%put('  METHOD STEP   PRESSURE '//trim(merge('EQ10', 'SUMF', control%pressure == pressure_eq10))// &
-                          '   CARRY '//trim(merge('YES', 'NO ', control%carry))//'   SOLVER '//solver)
+                          '   CARRY '//trim(merge('YES', 'NO ', control%carry))//'   SOLVER '//solver%name)
          case (method_newton)
-            call file%put('  METHOD NEWTON   TOL '//real_text(control%tolerance)//'   SOLVER '//solver)
+            call file%put('  METHOD NEWTON   TOL '//real_text(control%tolerance)//'   SOLVER '//solver%name)
          case default
-            call file%put('  METHOD BACK   SOLVER '//solver)
+            call file%put('  METHOD BACK   SOLVER '//solver%name)
          end select
       end associate
       if (deck%control%length_unit /= '') call file%put('  UNITS, LABELS ONLY: LENGTH '// &

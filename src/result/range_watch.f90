@@ -3,7 +3,7 @@ module range_watch
    use analysis_state, only: analysis_type, free_norm
    use joint_laws, only: friction_excess, friction_limit
    use kinds, only: wp
-   use model_data, only: model_type
+   use model_data, only: joint_node_id, model_type
    use normal_stiffness, only: branch_open
    use row_buffer, only: row_buffer_type
    use shear_stiffness, only: shear_slope
@@ -46,7 +46,7 @@ contains
                if (p <= law%p_max .and. d <= law%d_max .and. steep) cycle
                watch%stage(i) = analysis%stage
                watch%n_warnings = watch%n_warnings + 1
-               call watch%rows%add('  WARNING: NODE '//integer_text(model%node_id(model%interface(i)%nodes(1)))//', '// &
+               call watch%rows%add('  WARNING: NODE '//integer_text(joint_node_id(model, i, 1))//', '// &
                   upper(where_in_plan(plan, analysis%stage, analysis%increment))// &
                   trim(merge(': OUTSIDE THE TESTED RANGE OF', ': NO POSITIVE SLOPE IN       ', steep))// &
                   ' THE SHEAR LAW, P = '//real_text(p)//', D = '//real_text(d))
@@ -69,7 +69,7 @@ contains
       integer  :: i
 
       words = '  WARNING: '//upper(where_in_plan(plan, analysis%stage, analysis%increment))//': '
-      unbalanced = free_norm(model, analysis%unbalanced, analysis%retained)
+      unbalanced = free_norm(analysis%unbalanced, analysis%held)
       if (unbalanced > much*largest_force) then
          watch%n_warnings = watch%n_warnings + 1
          call watch%rows%add(words//real_text(unbalanced)//' OF FORCE ARE LEFT UNBALANCED BY REMOVED ELEMENTS: '// &
