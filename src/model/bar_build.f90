@@ -1,12 +1,11 @@
 !> Bars and bolts: CROD elements with a PROD, and the BOLT cards that tighten some of them.
 module bar_build
-   use bulk_data, only: bolt_card, element_card
-   use card_names, only: card_name
-   use deck_cards, only: add_field_error
+   use bulk_data, only: bolt_card, edge_crod, element_card
    use deck_errors, only: deck_error_list
    use deck_input, only: deck_type
    use kinds, only: wp
    use model_data, only: bar_type, model_type
+   use node_build, only: find_nodes
    use text_tools, only: integer_text
    implicit none
    private
@@ -16,12 +15,11 @@ module bar_build
 contains
 
    !> Whether an edge is a bar: a CROD with the id of a PROD.
-   logical function is_bar(deck, edge)
+   pure logical function is_bar(deck, edge)
       type(deck_type), intent(in)    :: deck
       type(element_card), intent(in) :: edge
 
-      is_bar = any(deck%bulk%prod(:deck%bulk%n_prod)%id == edge%property) .and. edge%property > 0
-      if (is_bar) is_bar = card_name(deck%text%card_part(edge%line)) == 'CROD'
+      is_bar = edge%kind == edge_crod .and. edge%property > 0 .and. any(deck%bulk%prod%id == edge%property)
    end function is_bar
 
 
@@ -32,15 +30,17 @@ contains
       type(deck_error_list), intent(inout) :: errors
       integer :: i, n
 
-      allocate (model%bars(deck%bulk%n_edge))
+      allocate (model%bars(size(deck%bulk%edge)))
       n = 0
-      do i = 1, deck%bulk%n_edge
+      do i = 1, size(deck%bulk%edge)
          if (.not. is_bar(deck, deck%bulk%edge(i))) cycle
          n = n + 1
          call build_bar(deck, deck%bulk%edge(i), model, model%bars(n), errors)
       end do
       model%bars = model%bars(:n)
-      call tighten(deck, model, errors)
+      do i = 1, size(deck%bulk%bolt)
+         if (deck%bulk%bolt(i)%element > 0) call tighten(deck, deck%bulk%bolt(i), model, errors) ! else a solid bolt
+      end do
    end subroutine build_bars
 
 
@@ -50,21 +50,15 @@ contains
       type(model_type), intent(in)         :: model
       type(bar_type), intent(inout)        :: bar
       type(deck_error_list), intent(inout) :: errors
-      integer  :: k, material, property
+      integer  :: material
       real(wp) :: length
 
       bar%id = edge%id
-      do k = 1, 2
-         bar%nodes(k) = model%node_table%find(edge%nodes(k))
-         if (bar%nodes(k) == 0 .and. edge%nodes(k) > 0) call add_field_error(deck%text, edge%line, k + 2, &
-            'node G'//integer_text(k), 'there is no GRID '//integer_text(edge%nodes(k)), errors)
-      end do
-      property = findloc(deck%bulk%prod(:deck%bulk%n_prod)%id, edge%property, dim=1)
-      associate (prod => deck%bulk%prod(property))
-         material = findloc(deck%bulk%mat1(:deck%bulk%n_mat1)%id, prod%material, dim=1)
+      call find_nodes(deck, edge%line, edge%nodes(:2), model, bar%nodes, errors)
+      associate (prod => deck%bulk%prod(findloc(deck%bulk%prod%id, edge%property, dim=1)))
+         material = findloc(deck%bulk%mat1%id, prod%material, dim=1)
          if (material == 0) then
-            if (prod%material > 0) call add_field_error(deck%text, prod%line, 2, 'MID', 'there is no MAT1 '// &
-                                                        integer_text(prod%material), errors)
+            if (prod%material > 0) call deck%field_error(prod%line, 'MID', 'there is no MAT1 '//integer_text(prod%material), errors)
             return
          end if
          if (any(bar%nodes == 0)) return
@@ -82,32 +76,29 @@ contains
    end subroutine build_bar
 
 
-   !> BOLT cards: which bars are bolts, and in which stage they are tightened.
-   subroutine tighten(deck, model, errors)
+   !> The BOLT of a bar: which one it is, and in which stage it is tightened.
+   subroutine tighten(deck, card, model, errors)
       type(deck_type), intent(in)          :: deck
+      type(bolt_card), intent(in)          :: card
       type(model_type), intent(inout)      :: model
       type(deck_error_list), intent(inout) :: errors
-      integer :: i, k, stage
+      integer :: k, stage
 
-      do i = 1, deck%bulk%n_bolt
-         associate (card => deck%bulk%bolt(i))
-            if (card%element == 0) cycle ! a solid bolt
-            k = findloc(model%bars%id, card%element, dim=1)
-            call find_stage(deck, card, stage, errors)
-            if (k == 0) call add_field_error(deck%text, card%line, 2, 'EID', 'there is no CROD '// &
-               integer_text(card%element)//' with a PROD', errors)
-            if (k == 0 .or. stage == 0) cycle
-            if (model%bars(k)%bolt > 0) then
-               call add_field_error(deck%text, card%line, 2, 'EID', 'CROD '//integer_text(card%element)//' is BOLT '// &
-                                    integer_text(model%bars(k)%bolt)//' already', errors)
-               cycle
-            end if
-            model%bars(k)%bolt = card%id
-            model%bars(k)%preload = card%preload
-            model%bars(k)%stage = stage
-            model%bars(k)%is_elastic = .false.
-         end associate
-      end do
+      k = findloc(model%bars%id, card%element, dim=1)
+      call find_stage(deck, card, stage, errors)
+      if (k == 0) call deck%field_error(card%line, 'EID', 'there is no CROD '//integer_text(card%element)//' with a PROD', errors)
+      if (k == 0 .or. stage == 0) return
+      associate (bar => model%bars(k))
+         if (bar%bolt > 0) then
+            call deck%field_error(card%line, 'EID', 'CROD '//integer_text(card%element)//' is BOLT '//integer_text(bar%bolt)// &
+                                  ' already', errors)
+            return
+         end if
+         bar%bolt = card%id
+         bar%preload = card%preload
+         bar%stage = stage
+         bar%is_elastic = .false.
+      end associate
    end subroutine tighten
 
 
@@ -119,7 +110,7 @@ contains
       type(deck_error_list), intent(inout) :: errors
 
       stage = findloc(deck%control%stages%id, card%stage, dim=1)
-      if (stage == 0 .and. card%stage > 0) call add_field_error(deck%text, card%line, 4, 'STAGE', &
+      if (stage == 0 .and. card%stage > 0) call deck%field_error(card%line, 'STAGE', &
          'there is no SUBCASE '//integer_text(card%stage), errors)
    end subroutine find_stage
 

@@ -18,7 +18,7 @@ module block_mesh
       integer, allocatable  :: places(:, :)   !! (8, elements)
       integer :: n_sides = 0                  !! marked sides
       integer, allocatable  :: mark(:)        !! (n_sides) PMARK id
-      integer, allocatable  :: mark_field(:)  !! (n_sides) data field of the card that names it
+      integer, allocatable  :: number(:)      !! (n_sides) k: side Sk of the card
       integer, allocatable  :: side(:, :)     !! (4, n_sides) places of its corners, 0 behind the last
    end type block_type
 
@@ -48,7 +48,7 @@ contains
          if (card%marks(side) == 0) cycle
          associate (places => block_side(card, side))
             do i = 1, size(places) - 1
-               call add_side(block, card%marks(side), 16 + side, places(i:i + 1))
+               call add_side(block, card%marks(side), side, places(i:i + 1))
             end do
          end associate
       end do
@@ -59,18 +59,18 @@ contains
       type(block_type), intent(inout) :: block
       integer, intent(in)             :: most
 
-      allocate (block%mark(most), block%mark_field(most), source=0)
+      allocate (block%mark(most), block%number(most), source=0)
       allocate (block%side(4, most), source=0)
    end subroutine start_sides
 
 
-   pure subroutine add_side(block, mark, field, places)
+   pure subroutine add_side(block, mark, number, places)
       type(block_type), intent(inout) :: block
-      integer, intent(in)             :: mark, field, places(:)
+      integer, intent(in)             :: mark, number, places(:)
 
       block%n_sides = block%n_sides + 1
       block%mark(block%n_sides) = mark
-      block%mark_field(block%n_sides) = field
+      block%number(block%n_sides) = number
       block%side(:size(places), block%n_sides) = places
    end subroutine add_side
 
@@ -81,9 +81,10 @@ contains
       type(block3_card), intent(in) :: card
       type(block_type), intent(out) :: block
       real(wp) :: r(0:card%divisions(1)), s(0:card%divisions(2)), t(0:card%divisions(3)), share(3)
-      integer  :: i, j, k, n(3), m
+      integer  :: corner, i, j, k, m, n(3), step(3) ! from node to node along x, y, z
 
       n = card%divisions
+      step = [(n(2) + 1)*(n(3) + 1), n(3) + 1, 1]
       block%line = card%line
       block%id = card%id
       block%property = card%property
@@ -98,8 +99,8 @@ contains
          do j = 0, n(2)
             do k = 0, n(3)
                m = m + 1
-               share = [r(i), s(j), t(k)]
                block%node_id(m) = card%first_node + m - 1
+               share = [r(i), s(j), t(k)]
                block%x(:, m) = card%corner(:, 1) + share*(card%corner(:, 2) - card%corner(:, 1))
             end do
          end do
@@ -111,61 +112,44 @@ contains
             do k = 0, n(3) - 1
                m = m + 1
                block%element_id(m) = card%first_element + m - 1
-               block%places(:, m) = [at(i, j, k), at(i + 1, j, k), at(i + 1, j + 1, k), at(i, j + 1, k), &
-                                     at(i, j, k + 1), at(i + 1, j, k + 1), at(i + 1, j + 1, k + 1), at(i, j + 1, k + 1)]
+               corner = 1 + dot_product([i, j, k], step)
+               block%places(:4, m) = corner + [0, step(1), step(1) + step(2), step(2)]
+               block%places(5:, m) = block%places(:4, m) + step(3)
             end do
          end do
       end do
       call start_sides(block, 2*(n(1)*n(2) + n(2)*n(3) + n(3)*n(1)))
-      do m = 1, 2 ! low, high; the corners of every face go round it as seen from outside
-         if (card%marks(m) > 0) then
-            i = merge(0, n(1), m == 1)
-            do j = 0, n(2) - 1
-               do k = 0, n(3) - 1
-                  call add_side(block, card%marks(m), 16 + m, &
-                                faced(m == 2, [at(i, j, k), at(i, j + 1, k), at(i, j + 1, k + 1), at(i, j, k + 1)]))
-               end do
-            end do
-         end if
-         if (card%marks(m + 2) > 0) then
-            j = merge(0, n(2), m == 1)
-            do i = 0, n(1) - 1
-               do k = 0, n(3) - 1
-                  call add_side(block, card%marks(m + 2), 18 + m, &
-                                faced(m == 1, [at(i, j, k), at(i + 1, j, k), at(i + 1, j, k + 1), at(i, j, k + 1)]))
-               end do
-            end do
-         end if
-         if (card%marks(m + 4) > 0) then
-            k = merge(0, n(3), m == 1)
-            do i = 0, n(1) - 1
-               do j = 0, n(2) - 1
-                  call add_side(block, card%marks(m + 4), 20 + m, &
-                                faced(m == 2, [at(i, j, k), at(i + 1, j, k), at(i + 1, j + 1, k), at(i, j + 1, k)]))
-               end do
-            end do
-         end if
+      do m = 1, 2 ! low, high
+         do i = 1, 3
+            call mark_face(card, i, m == 2, step, block)
+         end do
       end do
-
-   contains
-
-      pure function faced(outwards, places)
-         logical, intent(in) :: outwards !! whether the normal of PLACES as they stand points out
-         integer, intent(in) :: places(4)
-         integer :: faced(4)
-
-         faced = places
-         if (.not. outwards) faced = places(4:1:-1)
-      end function faced
-
-
-      pure integer function at(a, b, c)
-         integer, intent(in) :: a, b, c
-
-         at = (a*(n(2) + 1) + b)*(n(3) + 1) + c + 1
-      end function at
-
    end subroutine generate_block3
+
+
+   !> The marked sides on one face of a box: where it begins or ends along AXIS. Their corners go round them as seen from outside.
+   pure subroutine mark_face(card, axis, at_end, step, block)
+      type(block3_card), intent(in)   :: card
+      integer, intent(in)             :: axis    !! 1: x, 2: y, 3: z
+      logical, intent(in)             :: at_end
+      integer, intent(in)             :: step(3) !! from place to place along x, y, z
+      type(block_type), intent(inout) :: block
+      integer :: a, b, corner, i, j, places(4), side
+
+      side = 2*axis - merge(0, 1, at_end)
+      if (card%marks(side) == 0) return
+      a = merge(2, 1, axis == 1) ! the two other axes, in ascending order
+      b = merge(2, 3, axis == 3)
+      do i = 0, card%divisions(a) - 1
+         do j = 0, card%divisions(b) - 1
+            corner = 1 + i*step(a) + j*step(b)
+            if (at_end) corner = corner + card%divisions(axis)*step(axis)
+            places = corner + [0, step(a), step(a) + step(b), step(b)]
+            if (at_end .eqv. axis == 2) places = places(4:1:-1) ! right-handed are y z, z x, x y
+            call add_side(block, card%marks(side), side, places)
+         end do
+      end do
+   end subroutine mark_face
 
 
    !> Coordinates X(2, n) and numbers ID(n) of the nodes of a block, n = (NX + 1)(NY + 1). Node (i, j), i counting

@@ -28,14 +28,14 @@ contains
       nodes = 0.0_wp
       unknowns = 0.0_wp
       associate (bulk => deck%bulk)
-         do b = 1, bulk%n_block2
+         do b = 1, size(bulk%block2)
             associate (sides => [1.0_wp, bulk%block2(b)%divisions + 1.0_wp])
                entries = entries + plane_share*2**2*dissected_entries(sides)
                nodes = nodes + product(sides)
                unknowns = unknowns + 2*product(sides)
             end associate
          end do
-         do b = 1, bulk%n_block3
+         do b = 1, size(bulk%block3)
             associate (sides => bulk%block3(b)%divisions + 1.0_wp)
                entries = entries + solid_share*3**2*dissected_entries(sides)
                nodes = nodes + product(sides)
@@ -43,7 +43,7 @@ contains
             end associate
          end do
          bytes = 8.0_wp*entries + model_bytes*nodes
-         call check_memory(int(min(unknowns, real(huge(1), wp))), merge(3, 2, bulk%n_block3 > 0), 'at least', bytes, failure)
+         call check_memory(int(min(unknowns, real(huge(1), wp))), merge(3, 2, size(bulk%block3) > 0), 'at least', bytes, failure)
       end associate
    end subroutine check_block_size
 

@@ -1,13 +1,12 @@
 !> Interface elements that CJOINT cards give one by one.
 module cjoint_build
-   use deck_cards, only: add_field_error
    use deck_errors, only: deck_error_list
    use deck_input, only: deck_type
    use id_table, only: id_table_type
    use interface_axes, only: joint_axes, outward
    use kinds, only: wp
    use model_data, only: interface_element, model_type
-   use text_tools, only: integer_text
+   use node_build, only: find_nodes
    implicit none
    private
 
@@ -24,7 +23,7 @@ contains
       type(id_table_type) :: laws
       integer :: first, i
 
-      associate (law => deck%bulk%cjoint(:deck%bulk%n_cjoint)%law)
+      associate (law => deck%bulk%cjoint%law)
          call laws%build(law)
          allocate (group(size(law)))
          n_groups = 0
@@ -45,21 +44,16 @@ contains
       type(model_type), intent(in)         :: model
       type(interface_element), allocatable, intent(out) :: elements(:)
       type(deck_error_list), intent(inout) :: errors
-      integer :: k, node
+      integer :: k
 
       allocate (elements(size(members)))
       do k = 1, size(members)
          associate (card => deck%bulk%cjoint(members(k)), element => elements(k))
             element%id = card%id
             element%area = card%area
-            do node = 1, 2
-               if (card%nodes(node) == 0) cycle
-               element%nodes(node) = model%node_table%find(card%nodes(node))
-               if (element%nodes(node) == 0) call add_field_error(deck%text, card%line, node + 2, 'node G'// &
-                  integer_text(node), 'there is no GRID '//integer_text(card%nodes(node)), errors)
-            end do
-            if (model%dimension == 2 .and. abs(card%normal(3)) > 0.0_wp) call add_field_error(deck%text, card%line, 8, 'NZ', &
-               'not zero, but a plane model lies in x-y', errors)
+            call find_nodes(deck, card%line, card%nodes, model, element%nodes, errors)
+            if (model%dimension == 2 .and. abs(card%normal(3)) > 0.0_wp) &
+               call deck%field_error(card%line, 'NZ', 'not zero, but a plane model lies in x-y', errors)
             if (norm2(card%normal) > 0.0_wp) &
                element%axes = joint_axes(model, outward(model, element%nodes, card%normal/norm2(card%normal)))
          end associate
@@ -75,7 +69,7 @@ contains
 
       number = law
       if (joints%find(law) == 0) return
-      number = law + max(maxval(deck%bulk%joint(:deck%bulk%n_joint)%id), maxval(deck%bulk%pjoint(:deck%bulk%n_pjoint)%id))
+      number = law + max(maxval(deck%bulk%joint%id), maxval(deck%bulk%pjoint%id))
    end function group_number
 
 end module cjoint_build

@@ -1,70 +1,89 @@
-!> Numbers given twice, and properties whose parts are missing, among the cards that are few.
+!> Numbers given twice, and laws of joints whose parts are missing.
 module id_checks
-   use deck_cards, only: add_field_error
    use deck_errors, only: deck_error_list
    use deck_input, only: deck_type
-   use deck_text, only: deck_text_type
-   use id_table, only: id_table_type
+   use id_table, only: id_table_type, sorted_order
    use text_tools, only: integer_text
    implicit none
    private
 
-   public :: check_ids
+   public :: check_ids, report_repeated
 
 contains
 
-   !> Every id of its kind once; properties and PMARK share theirs, as properties do in NASTRAN.
+   !> Every id of its kind once among the cards that are few; properties and PMARK share theirs, as properties do in NASTRAN.
    subroutine check_ids(deck, errors)
       type(deck_type), intent(in)          :: deck
       type(deck_error_list), intent(inout) :: errors
       integer :: direction, i
 
-      associate (bulk => deck%bulk, text => deck%text)
-         call check_kind(text, 'property', 'PID', [bulk%pshell(:bulk%n_pshell)%id, bulk%paxis(:bulk%n_paxis)%id, &
-                         bulk%psolid(:bulk%n_psolid)%id, bulk%prod(:bulk%n_prod)%id, bulk%pmark(:bulk%n_pmark)%id], &
-                         [bulk%pshell(:bulk%n_pshell)%line, bulk%paxis(:bulk%n_paxis)%line, &
-                         bulk%psolid(:bulk%n_psolid)%line, bulk%prod(:bulk%n_prod)%line, bulk%pmark(:bulk%n_pmark)%line], errors)
-         call check_kind(text, 'MAT1', 'MID', bulk%mat1(:bulk%n_mat1)%id, bulk%mat1(:bulk%n_mat1)%line, errors)
-         call check_kind(text, 'LOAD', 'SID', bulk%load(:bulk%n_load)%set, bulk%load(:bulk%n_load)%line, errors)
-         call check_kind(text, 'BLOCK2', 'BID', bulk%block2(:bulk%n_block2)%id, bulk%block2(:bulk%n_block2)%line, errors)
-         call check_kind(text, 'BLOCK3', 'BID', bulk%block3(:bulk%n_block3)%id, bulk%block3(:bulk%n_block3)%line, errors)
-         call check_kind(text, 'BOLT', 'BID', bulk%bolt(:bulk%n_bolt)%id, bulk%bolt(:bulk%n_bolt)%line, errors)
-         call check_kind(text, 'JOINT', 'JID', bulk%joint(:bulk%n_joint)%id, bulk%joint(:bulk%n_joint)%line, errors)
-         call check_kind(text, 'PJOINT', 'PJID', bulk%pjoint(:bulk%n_pjoint)%id, bulk%pjoint(:bulk%n_pjoint)%line, errors)
-         call check_kind(text, 'JNORM', 'NID', bulk%jnorm(:bulk%n_jnorm)%id, bulk%jnorm(:bulk%n_jnorm)%line, errors)
-         call check_kind(text, 'JSHEAR', 'SID', bulk%jshear(:bulk%n_jshear)%id, bulk%jshear(:bulk%n_jshear)%line, errors)
-         call check_kind(text, 'JINCR', 'SID', bulk%jincr(:bulk%n_jincr)%id, bulk%jincr(:bulk%n_jincr)%line, errors)
-         do i = 1, bulk%n_pjoint
-            do direction = 1, 2
-               if (bulk%pjoint(i)%shear_laws(direction) == 0) cycle
-               if (.not. any(bulk%jshear(:bulk%n_jshear)%id == bulk%pjoint(i)%shear_laws(direction))) call add_field_error( &
-                  text, bulk%pjoint(i)%line, direction + 2, merge('SIDX', 'SIDY', direction == 1), 'there is no JSHEAR '// &
-                  integer_text(bulk%pjoint(i)%shear_laws(direction)), errors)
-            end do
-            if (bulk%pjoint(i)%normal_law == 0) cycle
-            if (.not. any(bulk%jnorm(:bulk%n_jnorm)%id == bulk%pjoint(i)%normal_law)) call add_field_error(text, &
-               bulk%pjoint(i)%line, 2, 'NID', 'there is no JNORM '//integer_text(bulk%pjoint(i)%normal_law), errors)
+      associate (bulk => deck%bulk)
+         call report_repeated(deck, 'property', [bulk%pshell%id, bulk%paxis%id, bulk%psolid%id, bulk%prod%id, bulk%pmark%id], &
+                              [bulk%pshell%line, bulk%paxis%line, bulk%psolid%line, bulk%prod%line, bulk%pmark%line], errors)
+         call report_repeated(deck, 'MAT1', bulk%mat1%id, bulk%mat1%line, errors)
+         call report_repeated(deck, 'LOAD', bulk%load%set, bulk%load%line, errors)
+         call report_repeated(deck, 'BLOCK2', bulk%block2%id, bulk%block2%line, errors)
+         call report_repeated(deck, 'BLOCK3', bulk%block3%id, bulk%block3%line, errors)
+         call report_repeated(deck, 'BOLT', bulk%bolt%id, bulk%bolt%line, errors)
+         call report_repeated(deck, 'JOINT', bulk%joint%id, bulk%joint%line, errors)
+         call report_repeated(deck, 'PJOINT', bulk%pjoint%id, bulk%pjoint%line, errors)
+         call report_repeated(deck, 'JNORM', bulk%jnorm%id, bulk%jnorm%line, errors)
+         call report_repeated(deck, 'JSHEAR', bulk%jshear%id, bulk%jshear%line, errors)
+         call report_repeated(deck, 'JINCR', bulk%jincr%id, bulk%jincr%line, errors)
+         do i = 1, size(bulk%pjoint)
+            associate (card => bulk%pjoint(i))
+               do direction = 1, 2
+                  if (card%shear_laws(direction) == 0 .or. any(bulk%jshear%id == card%shear_laws(direction))) cycle
+                  call deck%field_error(card%line, merge('SIDX', 'SIDY', direction == 1), 'there is no JSHEAR '// &
+                                        integer_text(card%shear_laws(direction)), errors)
+               end do
+               if (card%normal_law == 0 .or. any(bulk%jnorm%id == card%normal_law)) cycle
+               call deck%field_error(card%line, 'NID', 'there is no JNORM '//integer_text(card%normal_law), errors)
+            end associate
          end do
       end associate
    end subroutine check_ids
 
 
-   subroutine check_kind(text, kind, field, id, line, errors)
-      type(deck_text_type), intent(in)     :: text
-      character(*), intent(in)             :: kind, field
+   !> Say which of the numbers ID(n), given on the cards of LINE(n), are given twice; a card that gives many is named once.
+   subroutine report_repeated(deck, noun, id, line, errors, n_cards)
+      type(deck_type), intent(in)          :: deck
+      character(*), intent(in)             :: noun    !! what they are the numbers of
       integer, intent(in)                  :: id(:), line(:)
       type(deck_error_list), intent(inout) :: errors
+      integer, intent(in), optional        :: n_cards !! the first so many are given one by one, in data field 1 of their cards, the
+                                                      !! others by blocks, nodes from N1 and elements from E1 on; left out: all
       type(id_table_type)  :: table
-      integer, allocatable :: again(:)
-      integer :: k
+      integer, allocatable :: again(:), order(:)
+      integer :: k, last
+      logical :: by_block
+      character(:), allocatable :: words
 
       call table%build(id)
       call table%list_repeated(again)
-      do k = 1, size(again)
-         if (id(again(k)) == 0) cycle ! a field that could not be read
-         call add_field_error(text, line(again(k)), 1, field, kind//' '//integer_text(id(again(k)))// &
-                              ' is given twice, first in '//text%place(line(table%find(id(again(k))))), errors)
+      call sorted_order(line(again), order)
+      last = 0
+      do while (last < size(again))
+         k = last + 1
+         last = k
+         do while (last < size(again))
+            if (line(again(order(last + 1))) /= line(again(order(k)))) exit
+            last = last + 1
+         end do
+         associate (this => again(order(k)))
+            if (id(this) == 0) cycle ! a field that could not be read
+            words = noun//' '//integer_text(id(this))
+            if (last > k) words = words//', and more of this card,'
+            words = words//' is given twice, first in '//deck%text%place(line(table%find(id(this))))
+            by_block = .false.
+            if (present(n_cards)) by_block = this > n_cards
+            if (by_block) then
+               call deck%field_error(line(this), merge('N1', 'E1', noun == 'node'), words, errors)
+            else
+               call deck%field_error(line(this), 1, words, errors)
+            end if
+         end associate
       end do
-   end subroutine check_kind
+   end subroutine report_repeated
 
 end module id_checks

@@ -1,7 +1,6 @@
 !> Interface elements: between two facing surfaces, between a surface and a rigid base, or given outright.
 module joint_build
    use cjoint_build, only: cjoint_elements, group_number, list_groups
-   use deck_cards, only: add_field_error
    use deck_errors, only: deck_error_list
    use deck_input, only: deck_type
    use facing_nodes, only: pair_nodes
@@ -9,7 +8,7 @@ module joint_build
    use interface_axes, only: joint_axes
    use kinds, only: wp
    use law_build, only: default_slope, law_tables, list_laws, resolve_laws
-   use model_data, only: interface_element, joint_type, model_type
+   use model_data, only: interface_element, joint_type, model_type, surface_type
    use reverse_lists, only: list_owners
    use surface_build, only: surface_node_list, surface_nodes
    use text_tools, only: integer_text
@@ -38,15 +37,14 @@ contains
       integer, allocatable :: first(:), group(:), members(:)
       integer :: g, highest, j, n, n_groups
 
-      associate (bulk => deck%bulk, cards => deck%bulk%joint(:deck%bulk%n_joint))
+      associate (bulk => deck%bulk, cards => deck%bulk%joint)
          call tables%joint%build(cards%id)
          call tables%side%build([(cards(j)%sides, j = 1, size(cards))])
          call tables%surface%build(model%surfaces%id)
          call list_laws(deck, tables%laws)
          call list_groups(deck, group, n_groups)
          allocate (model%joints(size(cards) + n_groups), model%interface(0))
-         highest = 0
-         if (bulk%n_cjoint > 0) highest = maxval(bulk%cjoint(:bulk%n_cjoint)%id)
+         highest = max(0, maxval(bulk%cjoint%id))
          n = 0
          do j = 1, size(cards)
             call joint_elements(deck, tables, j, model, highest, elements, errors)
@@ -108,52 +106,25 @@ contains
       integer :: surface(2), k
 
       allocate (elements(0))
-      associate (card => deck%bulk%joint(j))
-         surface = 0
-         do k = 1, 2
-            if (card%sides(k) == 0) cycle
-            surface(k) = tables%surface%find(card%sides(k))
-            if (surface(k) == 0) call add_field_error(deck%text, card%line, k + 2, 'SIDE'//integer_text(k), &
-               'there is no PMARK '//integer_text(card%sides(k)), errors)
-         end do
-         k = j
-         if (card%sides(1) > 0) k = min(k, (tables%side%find(card%sides(1)) + 1)/2)
-         if (card%sides(2) > 0) k = min(k, (tables%side%find(card%sides(2)) + 1)/2)
-         if (k < j) call add_field_error(deck%text, card%line, 3, 'SIDE1', 'one of the sides is a side of JOINT '// &
-                                         integer_text(deck%bulk%joint(k)%id)//' already', errors)
-         if (surface(1) == 0 .or. (surface(2) == 0 .and. card%sides(2) > 0)) return
-         if (model%surfaces(surface(1))%n == 0) return
-         if (surface(2) > 0) then
-            if (model%surfaces(surface(2))%n == 0) return
-            if (any(model%surfaces(surface(2))%other(:model%surfaces(surface(2))%n) > 0)) then
-               call add_field_error(deck%text, card%line, 4, 'SIDE2', 'bodies lie on both sides of surface '// &
-                  integer_text(card%sides(2)), errors)
-               return
-            end if
-         end if
-         if (surface(2) > 0 .and. any(model%surfaces(surface(1))%other(:model%surfaces(surface(1))%n) > 0)) then
-            call add_field_error(deck%text, card%line, 3, 'SIDE1', 'bodies lie on both sides of surface '// &
-               integer_text(card%sides(1))//': leave SIDE2 blank, and the program splits it', errors)
-            return
-         end if
-         call surface_nodes(model, model%surfaces(surface(1)), side1)
-         allocate (partner(side1%n), source=0)
-         if (surface(2) > 0) then
-            call surface_nodes(model, model%surfaces(surface(2)), side2)
-            call pair_nodes(deck, j, model, surface(1), side1, side2, partner, errors)
-         else if (any(model%twin(side1%node) > 0)) then
-            call drop_tips(model, side1)
-            partner = model%twin(side1%node)
-         end if
-      end associate
+      call find_sides(deck, tables, j, model, surface, errors)
+      if (surface(1) == 0) return
+      call surface_nodes(model, model%surfaces(surface(1)), side1)
+      allocate (partner(side1%n), source=0)
+      if (surface(2) > 0) then
+         call surface_nodes(model, model%surfaces(surface(2)), side2)
+         call pair_nodes(deck, j, model, surface(1), side1, side2, partner, errors)
+      else if (any(model%twin(side1%node) > 0)) then
+         call drop_tips(model, side1)
+         partner = model%twin(side1%node)
+      end if
       if (model%axisymmetric .and. any(side1%area <= 0.0_wp)) then
          call errors%add(deck%bulk%joint(j)%line, 'surface '//integer_text(deck%bulk%joint(j)%sides(1))// &
             ' has no area at node '//integer_text(model%node_id(side1%node(minloc(side1%area, dim=1))))//': it lies on the axis')
          return
       end if
       if (highest > huge(highest) - side1%n) then
-         call add_field_error(deck%text, deck%bulk%joint(j)%line, 1, 'JID', 'the numbers of its interface '// &
-            'elements, which follow those of the CJOINTs, would pass 2147483647', errors)
+         call deck%field_error(deck%bulk%joint(j)%line, 'JID', 'the numbers of its interface elements, which follow those of '// &
+                               'the CJOINTs, would pass 2147483647', errors)
          return
       end if
       deallocate (elements)
@@ -166,6 +137,57 @@ contains
       end do
       highest = highest + side1%n
    end subroutine joint_elements
+
+
+   !> The surfaces of JOINT card J, SURFACE(2) = 0 where it names no SIDE2; both 0 where no joint can be made of them.
+   subroutine find_sides(deck, tables, j, model, surface, errors)
+      type(deck_type), intent(in)          :: deck
+      type(joint_tables), intent(in)       :: tables
+      integer, intent(in)                  :: j
+      type(model_type), intent(in)         :: model
+      integer, intent(out)                 :: surface(2)
+      type(deck_error_list), intent(inout) :: errors
+      integer :: first, k
+      logical :: fit
+
+      associate (card => deck%bulk%joint(j))
+         surface = 0
+         first = j
+         do k = 1, 2
+            if (card%sides(k) == 0) cycle
+            surface(k) = tables%surface%find(card%sides(k))
+            if (surface(k) == 0) call deck%field_error(card%line, 'SIDE'//integer_text(k), &
+                                                       'there is no PMARK '//integer_text(card%sides(k)), errors)
+            first = min(first, (tables%side%find(card%sides(k)) + 1)/2)
+         end do
+         if (first < j) call deck%field_error(card%line, 'SIDE1', 'one of the sides is a side of JOINT '// &
+                                              integer_text(deck%bulk%joint(first)%id)//' already', errors)
+         fit = surface(1) > 0 .and. (surface(2) > 0 .or. card%sides(2) == 0)
+         do k = 1, 2
+            if (surface(k) > 0) fit = fit .and. model%surfaces(surface(k))%n > 0
+         end do
+         if (fit .and. surface(2) > 0) then
+            if (is_shared(model%surfaces(surface(2)))) then
+               call deck%field_error(card%line, 'SIDE2', 'bodies lie on both sides of surface '//integer_text(card%sides(2)), &
+                                     errors)
+               fit = .false.
+            else if (is_shared(model%surfaces(surface(1)))) then
+               call deck%field_error(card%line, 'SIDE1', 'bodies lie on both sides of surface '//integer_text(card%sides(1))// &
+                                     ': leave SIDE2 blank, and the program splits it', errors)
+               fit = .false.
+            end if
+         end if
+         if (.not. fit) surface = 0
+      end associate
+   end subroutine find_sides
+
+
+   !> Whether bodies lie on both sides of some of SURFACE.
+   pure logical function is_shared(surface)
+      type(surface_type), intent(in) :: surface
+
+      is_shared = any(surface%other(:surface%n) > 0)
+   end function is_shared
 
 
    !> Leave out the nodes at which a split surface ends inside a body.

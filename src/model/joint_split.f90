@@ -1,15 +1,13 @@
 !> A joint on one shared surface: where bodies lie on both sides of a marked surface and share its nodes, the nodes are
 !! doubled, so that interface elements can stand between them.
 module joint_split
-   use behind_surface, only: elements_behind
-   use deck_cards, only: add_field_error
    use deck_errors, only: deck_error_list
    use deck_input, only: deck_type
    use id_table, only: id_table_type
    use kinds, only: wp
    use mesh_build, only: list_elements_of_nodes
    use model_data, only: model_type
-   use surface_sides, only: face_one_way, list_sides, side_list
+   use surface_sides, only: elements_behind, face_one_way, list_sides, side_list
    use text_tools, only: integer_text
    implicit none
    private
@@ -43,23 +41,22 @@ contains
       allocate (model%twin(model%n_nodes), source=0)
       call surfaces%build(model%surfaces%id)
       allocate (split%node(0))
-      do j = 1, deck%bulk%n_joint
+      do j = 1, size(deck%bulk%joint)
          if (deck%bulk%joint(j)%sides(2) /= 0) cycle
          s = surfaces%find(deck%bulk%joint(j)%sides(1))
          if (s == 0) cycle
-         associate (surface => model%surfaces(s))
+         associate (surface => model%surfaces(s), line => deck%bulk%joint(j)%line)
             if (.not. any(surface%other(:surface%n) > 0)) cycle
             if (any(surface%other(:surface%n) == 0)) then
-               call add_field_error(deck%text, deck%bulk%joint(j)%line, 3, 'SIDE1', 'bodies lie on both sides of some '// &
-                                    merge('edges', 'faces', model%dimension == 2)//' of '// &
-                                    'surface '//integer_text(surface%id)//' and on one side of others', errors)
+               call deck%field_error(line, 'SIDE1', 'bodies lie on both sides of some '//merge('edges', 'faces', &
+                  model%dimension == 2)//' of surface '//integer_text(surface%id)//' and on one side of others', errors)
                cycle
             end if
             met = pack(surface%nodes(:, :surface%n), is_split(model, surface%nodes(:, :surface%n)))
             if (size(met) > 0) then
-               call add_field_error(deck%text, deck%bulk%joint(j)%line, 3, 'SIDE1', 'surface '//integer_text(surface%id)// &
-                  ' meets another surface that is split, at node '//integer_text(model%node_id(minval(met)))// &
-                  ': mesh the bodies apart there and give both faces, SIDE1 and SIDE2', errors)
+               call deck%field_error(line, 'SIDE1', 'surface '//integer_text(surface%id)//' meets another surface that is '// &
+                  'split, at node '//integer_text(model%node_id(minval(met)))//': mesh the bodies apart there and give both '// &
+                  'faces, SIDE1 and SIDE2', errors)
                cycle
             end if
          end associate

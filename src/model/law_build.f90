@@ -1,7 +1,6 @@
 !> The laws of the joints: from PJOINT, JNORM and JSHEAR cards to the joints that name them.
 module law_build
    use case_control, only: pressure_eq10
-   use deck_cards, only: add_field_error
    use deck_errors, only: deck_error_list
    use deck_input, only: deck_type
    use id_table, only: id_table_type
@@ -26,9 +25,9 @@ contains
       type(deck_type), intent(in)     :: deck
       type(law_tables), intent(inout) :: tables
 
-      call tables%pjoint%build(deck%bulk%pjoint(:deck%bulk%n_pjoint)%id)
-      call tables%jnorm%build(deck%bulk%jnorm(:deck%bulk%n_jnorm)%id)
-      call tables%jshear%build(deck%bulk%jshear(:deck%bulk%n_jshear)%id)
+      call tables%pjoint%build(deck%bulk%pjoint%id)
+      call tables%jnorm%build(deck%bulk%jnorm%id)
+      call tables%jshear%build(deck%bulk%jshear%id)
    end subroutine list_laws
 
 
@@ -44,7 +43,7 @@ contains
       if (id == 0) return
       i = tables%pjoint%find(id)
       if (i == 0) then
-         call add_field_error(deck%text, joint%line, 2, 'PJID', 'there is no PJOINT '//integer_text(id), errors)
+         call deck%field_error(joint%line, 'PJID', 'there is no PJOINT '//integer_text(id), errors)
          return
       end if
       associate (pjoint => deck%bulk%pjoint(i), law => joint%law)

@@ -31,9 +31,9 @@ contains
       allocate (model%stage_loads(size(deck%control%stages)))
       do s = 1, size(deck%control%stages)
          associate (loads => model%stage_loads(s), reference => deck%control%stages(s)%load)
-            allocate (loads%node(deck%bulk%n_force), loads%force(3, deck%bulk%n_force))
+            allocate (loads%node(size(deck%bulk%force)), loads%force(3, size(deck%bulk%force)))
             if (reference%id == 0) cycle
-            i = findloc(deck%bulk%load(:deck%bulk%n_load)%set, reference%id, dim=1)
+            i = findloc(deck%bulk%load%set, reference%id, dim=1)
             if (i > 0) then
                associate (load => deck%bulk%load(i))
                   do k = 1, size(load%sets)
@@ -62,20 +62,20 @@ contains
       integer :: i, node, s
 
       associate (bulk => deck%bulk)
-         do i = 1, bulk%n_force
+         do i = 1, size(bulk%force)
             if (bulk%force(i)%set == set) call add_force(model%node_table%find(bulk%force(i)%node), &
                                                          factor*bulk%force(i)%force, loads)
          end do
-         do i = 1, bulk%n_displacement
+         do i = 1, size(bulk%displacement)
             if (bulk%displacement(i)%set == set) call add_displacement(i)
          end do
          if (all(bulk%pressure%set /= set) .and. all(bulk%surface_load%set /= set) .and. all(bulk%gravity%set /= set)) return
          allocate (spread_out(3, model%n_nodes), source=0.0_wp)
-         do i = 1, bulk%n_pressure
+         do i = 1, size(bulk%pressure)
             if (bulk%pressure(i)%set == set .and. pressed(i)%element > 0) &
                call add_pressure(model, pressed(i), factor*bulk%pressure(i)%pressure, spread_out)
          end do
-         do i = 1, bulk%n_surface_load
+         do i = 1, size(bulk%surface_load)
             if (bulk%surface_load(i)%set /= set) cycle
             s = findloc(model%surfaces%id, bulk%surface_load(i)%surface, dim=1)
             if (s == 0) cycle
@@ -85,7 +85,7 @@ contains
                call add_surface_force(model, model%surfaces(s), factor*bulk%surface_load(i)%force, spread_out)
             end if
          end do
-         do i = 1, bulk%n_gravity
+         do i = 1, size(bulk%gravity)
             if (bulk%gravity(i)%set == set) call add_gravity(model, factor*bulk%gravity(i)%acceleration, spread_out)
          end do
       end associate

@@ -1,7 +1,6 @@
 !> From a deck to the structure that is solved.
 module model_build
    use bar_build, only: build_bars
-   use condition_build, only: build_supports
    use connected_parts, only: find_parts
    use deck_errors, only: deck_error_list
    use deck_input, only: deck_type
@@ -11,11 +10,11 @@ module model_build
    use joint_build, only: build_joints
    use joint_split, only: split_shared_surfaces
    use load_build, only: build_loads
-   use mesh_build, only: build_mesh
+   use mesh_build, only: build_mesh, marked_sides
    use model_data, only: model_type, n_sections
    use section_build, only: build_sections
-   use side_build, only: marked_sides
    use stage_plan, only: plan_stages, stage_plan_type
+   use support_build, only: build_supports
    use surface_build, only: build_surfaces
    implicit none
    private

@@ -1,19 +1,18 @@
 !> Marked surfaces: which body elements their sides belong to, which way they face, the areas of their nodes.
 module surface_build
-   use deck_cards, only: add_field_error
    use deck_errors, only: deck_error_list
    use deck_input, only: deck_type
    use element_kinds, only: element_table, max_side_nodes
    use element_loads, only: side_areas, side_forces
    use id_table, only: distinct, id_table_type, sorted_order
    use kinds, only: wp
+   use mesh_build, only: marked_sides
    use model_data, only: model_type, surface_type
-   use side_build, only: marked_sides
    use text_tools, only: integer_text
    implicit none
    private
 
-   public :: build_surfaces, surface_nodes, side_of_element, side_influence
+   public :: build_surfaces, find_surface, surface_nodes, side_of_element, side_influence
 
    !> The nodes of a surface, each once, in ascending order of their numbers.
    type, public :: surface_node_list
@@ -35,8 +34,8 @@ contains
       integer, allocatable :: surface(:), filled(:)
       integer :: i, k, n
 
-      n = deck%bulk%n_pmark
-      call marks%build(deck%bulk%pmark(:n)%id)
+      n = size(deck%bulk%pmark)
+      call marks%build(deck%bulk%pmark%id)
       allocate (model%surfaces(n), surface(sides%n), filled(n))
       filled = 0
       do i = 1, sides%n
@@ -44,26 +43,20 @@ contains
          if (surface(i) > 0) then
             filled(surface(i)) = filled(surface(i)) + 1
          else if (sides%mark(i) > 0) then
-            call add_field_error(deck%text, sides%line(i), sides%field(i), mark_name(sides%field(i)), 'there is no PMARK '// &
-                                 integer_text(sides%mark(i))//shell_hint(sides, i), errors)
+            call report_missing(deck, sides, i, errors)
          end if
       end do
       do k = 1, n
-         model%surfaces(k)%id = deck%bulk%pmark(k)%id
-         model%surfaces(k)%n = 0
-         allocate (model%surfaces(k)%nodes(merge(2, max_side_nodes, model%dimension == 2), filled(k)), source=0)
-         allocate (model%surfaces(k)%element(filled(k)), model%surfaces(k)%other(filled(k)), &
-                   model%surfaces(k)%line(filled(k)), model%surfaces(k)%corners(filled(k)))
-         if (filled(k) > 0 .or. model%surfaces(k)%id == 0) cycle
-         if (findloc(deck%bulk%pmark(:k)%id, model%surfaces(k)%id, dim=1) < k) cycle ! a number given twice: said elsewhere
-         if (model%dimension == 3) then
-            call add_field_error(deck%text, deck%bulk%pmark(k)%line, 1, 'PID', 'surface '// &
-               integer_text(model%surfaces(k)%id)//' has no face: expected a CTRIA3, CQUAD4 or side of a block with this PID', &
-               errors)
-         else
-            call add_field_error(deck%text, deck%bulk%pmark(k)%line, 1, 'PID', 'surface '// &
-               integer_text(model%surfaces(k)%id)//' has no edge: expected a CBAR, CROD or side of a block with this PID', errors)
-         end if
+         associate (this => model%surfaces(k), card => deck%bulk%pmark(k))
+            this%id = card%id
+            allocate (this%nodes(merge(2, max_side_nodes, model%dimension == 2), filled(k)), source=0)
+            allocate (this%element(filled(k)), this%other(filled(k)), this%line(filled(k)), this%corners(filled(k)))
+            if (filled(k) > 0 .or. card%id == 0) cycle
+            if (marks%find(card%id) < k) cycle ! a number given twice: said elsewhere
+            call deck%field_error(card%line, 'PID', 'surface '//integer_text(card%id)//' has no '// &
+               trim(merge('face: expected a CTRIA3, CQUAD4', 'edge: expected a CBAR, CROD    ', model%dimension == 3))// &
+               ' or side of a block with this PID', errors)
+         end associate
       end do
       do i = 1, sides%n
          if (surface(i) == 0 .or. any(sides%nodes(:sides%corners(i), i) == 0)) cycle
@@ -75,26 +68,37 @@ contains
    end subroutine build_surfaces
 
 
-   !> The field that names a mark: PID of an edge or face, S1 to S6 of a block.
-   pure function mark_name(field) result(name)
-      integer, intent(in)       :: field
-      character(:), allocatable :: name
+   !> Which SURFACE of MODEL the FIELD of the card on LINE names by its ID; 0, and an error, where there is none.
+   subroutine find_surface(deck, line, field, id, model, surface, errors)
+      type(deck_type), intent(in)          :: deck
+      integer, intent(in)                  :: line, id
+      character(*), intent(in)             :: field
+      type(model_type), intent(in)         :: model
+      integer, intent(out)                 :: surface
+      type(deck_error_list), intent(inout) :: errors
 
-      name = 'PID'
-      if (field > 16) name = 'S'//integer_text(field - 16)
-   end function mark_name
+      surface = findloc(model%surfaces%id, id, dim=1)
+      if (surface == 0) call deck%field_error(line, field, 'there is no PMARK '//integer_text(id), errors)
+   end subroutine find_surface
 
 
-   !> What else a face of solids without its PMARK may be meant to be.
-   pure function shell_hint(sides, i) result(words)
-      type(marked_sides), intent(in) :: sides
-      integer, intent(in)            :: i
-      character(:), allocatable      :: words
+   !> There is no PMARK with the mark of side I. A face of solids may be meant to be something else.
+   subroutine report_missing(deck, sides, i, errors)
+      type(deck_type), intent(in)          :: deck
+      type(marked_sides), intent(in)       :: sides
+      integer, intent(in)                  :: i
+      type(deck_error_list), intent(inout) :: errors
+      character(:), allocatable :: words
 
-      words = ''
-      if (sides%corners(i) > 2 .and. sides%field(i) == 2) &
-         words = ': in a model of solids CTRIA3 and CQUAD4 mark surfaces, and plane bodies cannot be mixed in'
-   end function shell_hint
+      words = 'there is no PMARK '//integer_text(sides%mark(i))
+      if (sides%of_block(i) > 0) then
+         call deck%field_error(sides%line(i), 'S'//integer_text(sides%of_block(i)), words, errors)
+      else
+         if (sides%corners(i) > 2) &
+            words = words//': in a model of solids CTRIA3 and CQUAD4 mark surfaces, and plane bodies cannot be mixed in'
+         call deck%field_error(sides%line(i), 'PID', words, errors)
+      end if
+   end subroutine report_missing
 
 
    !> Add side I to its surface, in the order of the element that it belongs to: of two the one that has it in the sense of its

@@ -1,6 +1,6 @@
 !> The echo of the deck in the listing.
 module listing_echo
-   use card_names, only: card_name, is_continuation
+   use deck_cards, only: card_name, is_continuation
    use deck_input, only: deck_type
    use include_lines, only: is_include
    use listing_page, only: cut, heading, page_width
