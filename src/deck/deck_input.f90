@@ -2,9 +2,9 @@
 module deck_input
    use bulk_data, only: bulk_data_type
    use card_lines, only: card_type
-   use card_reader, only: card_kind, card_reader_type, name_of_field, number_of_field
+   use card_reader, only: card_kind, card_reader_type
    use case_control, only: case_control_type, read_case_control
-   use deck_cards, only: add_field_error, card_name, check_first_field, is_continuation, read_card
+   use deck_cards, only: card_name, check_first_field, is_continuation, read_card
    use deck_errors, only: deck_error_list
    use deck_text, only: deck_text_type, read_deck_text
    use include_lines, only: is_include
@@ -24,11 +24,7 @@ module deck_input
       type(case_control_type) :: control
       type(bulk_data_type)    :: bulk
       logical :: is_whole = .false. !! false: a part of the deck is missing, what refers to it cannot be checked
-      type(card_kind), allocatable, private :: kinds(:) ! of card, with their tables
-   contains
-      procedure :: field_name
-      procedure, private :: field_error_by_name, field_error_by_number
-      generic :: field_error => field_error_by_name, field_error_by_number
+      type(card_kind), allocatable :: kinds(:) !! of card, with their tables
    end type deck_type
 
    character(8), parameter :: end_of_data = 'ENDDATA'
@@ -133,8 +129,9 @@ contains
             call check_rest_of_line(text%card_part(cursor), cursor, errors)
             cursor = cursor + 1
          else
+            is_open = .true.
             n_cards = n_cards + 1
-            call find_card(text%files(file)%bytes(first:last), comma, text, cursor, cards, is_open, errors)
+            call find_card(text%files(file)%bytes(first:last), comma, text, cursor, cards, errors)
          end if
       end do
       if (ended_file /= 1) call errors%add(0, 'no ENDDATA: the deck ends before its end, is it whole?')
@@ -152,76 +149,28 @@ contains
    end subroutine check_rest_of_line
 
 
-   !> Note the card that begins with LINE, line CURSOR of TEXT, which is left on a line behind it. IS_OPEN: a card was noted on the
-   !! lines before, and then whether this one is.
-   subroutine find_card(line, comma, text, cursor, cards, is_open, errors)
+   !> Note the card that begins with LINE, line CURSOR of TEXT, which is left on a line behind it.
+   subroutine find_card(line, comma, text, cursor, cards, errors)
       character(*), intent(in)              :: line
       integer, intent(in)                   :: comma !! column of its first comma, 0: none
       type(deck_text_type), intent(in)      :: text
       integer, intent(inout)                :: cursor
       type(card_reader_type), intent(inout) :: cards
-      logical, intent(inout)                :: is_open
       type(deck_error_list), intent(inout)  :: errors
       type(card_type)       :: card
       type(deck_error_list) :: faults
-      integer :: kind
+      logical :: is_known
 
-      kind = 0
+      is_known = .false.
       call check_first_field(line, comma, cursor, faults)
-      if (.not. faults%any()) kind = cards%kind_of(card_name(line, comma))
-      if (kind > 0) then
-         call cards%note_card(kind, cursor, is_open)
+      if (.not. faults%any()) call cards%note_card(card_name(line, comma), cursor, is_known)
+      if (is_known) then
          cursor = cursor + 1
       else
          call read_card(text, cursor, card, errors) ! for what else is wrong with it
          if (card%name /= '') call errors%add(card%line, ''''//trim(card%name)// &
                                               ''' is no card that jointfem knows; see input/README.md', 1, 8)
       end if
-      is_open = kind > 0
    end subroutine find_card
-
-
-   !> The name of data field K of the card on LINE.
-   function field_name(self, line, k) result(name)
-      class(deck_type), intent(in) :: self
-      integer, intent(in)          :: line, k
-      character(:), allocatable    :: name
-
-      name = name_of_field(self%kinds, card_name(self%text%card_part(line)), k)
-   end function field_name
-
-
-   !> Add an error about the FIELD, by its name in the table, of the card that begins on LINE, found long after it was read.
-   subroutine field_error_by_name(self, line, field, message, errors, called)
-      class(deck_type), intent(in)         :: self
-      integer, intent(in)                  :: line
-      character(*), intent(in)             :: field, message
-      type(deck_error_list), intent(inout) :: errors
-      character(*), intent(in), optional   :: called !! in the message, where not by its name
-      integer :: k
-
-      k = number_of_field(self%kinds, card_name(self%text%card_part(line)), field)
-      if (present(called)) then
-         call add_field_error(self%text, line, k, called, message, errors)
-      else
-         call add_field_error(self%text, line, k, field, message, errors)
-      end if
-   end subroutine field_error_by_name
-
-
-   !> The same by the number K of the data field.
-   subroutine field_error_by_number(self, line, k, message, errors, called)
-      class(deck_type), intent(in)         :: self
-      integer, intent(in)                  :: line, k
-      character(*), intent(in)             :: message
-      type(deck_error_list), intent(inout) :: errors
-      character(*), intent(in), optional   :: called !! as above; must be given where the table does not name the field
-
-      if (present(called)) then
-         call add_field_error(self%text, line, k, called, message, errors)
-      else
-         call add_field_error(self%text, line, k, self%field_name(line, k), message, errors)
-      end if
-   end subroutine field_error_by_number
 
 end module deck_input

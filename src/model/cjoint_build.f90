@@ -1,7 +1,6 @@
 !> Interface elements that CJOINT cards give one by one.
 module cjoint_build
-   use deck_errors, only: deck_error_list
-   use deck_input, only: deck_type
+   use deck_check, only: checked_deck
    use id_table, only: id_table_type
    use interface_axes, only: joint_axes, outward
    use kinds, only: wp
@@ -17,7 +16,7 @@ contains
    !> CJOINT cards with the same PJOINT make up one joint, numbered as the PJOINT: GROUP(i) is that of card i, in the order in
    !! which they come.
    pure subroutine list_groups(deck, group, n_groups)
-      type(deck_type), intent(in)       :: deck
+      type(checked_deck), intent(in)    :: deck
       integer, allocatable, intent(out) :: group(:) !! (n_cjoint)
       integer, intent(out)              :: n_groups
       type(id_table_type) :: laws
@@ -38,12 +37,11 @@ contains
 
 
    !> The interface elements of the CJOINT cards MEMBERS.
-   subroutine cjoint_elements(deck, members, model, elements, errors)
-      type(deck_type), intent(in)          :: deck
-      integer, intent(in)                  :: members(:)
-      type(model_type), intent(in)         :: model
+   subroutine cjoint_elements(deck, members, model, elements)
+      type(checked_deck), intent(in)                    :: deck
+      integer, intent(in)                               :: members(:)
+      type(model_type), intent(in)                      :: model
       type(interface_element), allocatable, intent(out) :: elements(:)
-      type(deck_error_list), intent(inout) :: errors
       integer :: k
 
       allocate (elements(size(members)))
@@ -51,9 +49,9 @@ contains
          associate (card => deck%bulk%cjoint(members(k)), element => elements(k))
             element%id = card%id
             element%area = card%area
-            call find_nodes(deck, card%line, card%nodes, model, element%nodes, errors)
+            call find_nodes(deck, card%line, card%nodes, model, element%nodes)
             if (model%dimension == 2 .and. abs(card%normal(3)) > 0.0_wp) &
-               call deck%field_error(card%line, 'NZ', 'not zero, but a plane model lies in x-y', errors)
+               call deck%field_error(card%line, 'NZ', 'not zero, but a plane model lies in x-y')
             if (norm2(card%normal) > 0.0_wp) &
                element%axes = joint_axes(model, outward(model, element%nodes, card%normal/norm2(card%normal)))
          end associate
@@ -63,7 +61,7 @@ contains
 
    !> The number of a group of CJOINTs: that of its PJOINT, or where a JOINT has it already, the next that is free.
    pure integer function group_number(deck, joints, law) result(number)
-      type(deck_type), intent(in)     :: deck
+      type(checked_deck), intent(in)  :: deck
       type(id_table_type), intent(in) :: joints !! of the JOINT cards, by their ids
       integer, intent(in)             :: law
 

@@ -3,8 +3,7 @@
 module element_build
    use block_mesh, only: block_type
    use bulk_data, only: element_card, property_card
-   use deck_errors, only: deck_error_list
-   use deck_input, only: deck_type
+   use deck_check, only: checked_deck
    use elasticity, only: axisymmetric, solid
    use element_kinds, only: element_table, kind_quad4, kind_tria3, max_nodes
    use element_mapping, only: smallest_jacobian
@@ -31,10 +30,9 @@ contains
 
 
    !> Every PSHELL, PAXIS and PSOLID with its material.
-   subroutine resolve_properties(deck, model, errors)
-      type(deck_type), intent(in)          :: deck
-      type(model_type), intent(inout)      :: model
-      type(deck_error_list), intent(inout) :: errors
+   subroutine resolve_properties(deck, model)
+      type(checked_deck), intent(in)  :: deck
+      type(model_type), intent(inout) :: model
       type(property_card), allocatable :: cards(:)
       type(id_table_type) :: materials
       integer :: i, k
@@ -51,7 +49,7 @@ contains
                property%nu = deck%bulk%mat1(k)%nu
                property%rho = deck%bulk%mat1(k)%rho
             else if (card%material > 0) then
-               call deck%field_error(card%line, 2, 'there is no MAT1 '//integer_text(card%material), errors)
+               call deck%field_error(card%line, 2, 'there is no MAT1 '//integer_text(card%material))
             end if
          end associate
       end do
@@ -59,13 +57,12 @@ contains
 
 
    !> Elements of cards and of blocks, in ascending order of their numbers.
-   subroutine collect_elements(deck, blocks, raw, position, model, errors)
-      type(deck_type), intent(in)          :: deck
-      type(block_type), intent(in)         :: blocks(:)
-      type(raw_nodes), intent(in)          :: raw
-      integer, intent(in)                  :: position(:)
-      type(model_type), intent(inout)      :: model
-      type(deck_error_list), intent(inout) :: errors
+   subroutine collect_elements(deck, blocks, raw, position, model)
+      type(checked_deck), intent(in)  :: deck
+      type(block_type), intent(in)    :: blocks(:)
+      type(raw_nodes), intent(in)     :: raw
+      integer, intent(in)             :: position(:)
+      type(model_type), intent(inout) :: model
       type(id_table_type)  :: properties
       integer, allocatable :: id(:), kind(:), nodes(:, :), property(:), line(:), order(:)
       integer :: b, corners, i, k, n, total
@@ -83,15 +80,15 @@ contains
             kind(n) = element%kind
             line(n) = element%line
             corners = element_table(element%kind)%n_nodes
-            call find_nodes(deck, element%line, element%nodes(:corners), model, nodes(:corners, n), errors)
+            call find_nodes(deck, element%line, element%nodes(:corners), model, nodes(:corners, n))
             property(n) = properties%find(element%property)
-            call check_property(deck, model, element%line, element%property, element%kind, property(n), errors)
+            call check_property(deck, model, element%line, element%property, element%kind, property(n))
          end associate
       end do
       do b = 1, size(blocks)
          associate (block => blocks(b))
             k = properties%find(block%property)
-            call check_property(deck, model, block%line, block%property, block%kind, k, errors)
+            call check_property(deck, model, block%line, block%property, block%kind, k)
             corners = element_table(block%kind)%n_nodes
             do i = 1, size(block%element_id)
                n = n + 1
@@ -123,16 +120,15 @@ contains
 
    !> The property ID of an element of a KIND must be one of its own sort; PROPERTY is its position, 0 for none, and set to 0
    !! where it is of another.
-   subroutine check_property(deck, model, line, id, kind, property, errors)
-      type(deck_type), intent(in)          :: deck
-      type(model_type), intent(in)         :: model
-      integer, intent(in)                  :: line, id, kind
-      integer, intent(inout)               :: property
-      type(deck_error_list), intent(inout) :: errors
+   subroutine check_property(deck, model, line, id, kind, property)
+      type(checked_deck), intent(in) :: deck
+      type(model_type), intent(in)   :: model
+      integer, intent(in)            :: line, id, kind
+      integer, intent(inout)         :: property
       character(:), allocatable :: wanted
 
       if (model%dimension == 3 .and. element_table(kind)%dimension == 2) then
-         call errors%add(line, 'BLOCK2: the model has solids; plane bodies and solids cannot be mixed')
+         call deck%errors%add(line, 'BLOCK2: the model has solids; plane bodies and solids cannot be mixed')
          return
       end if
       wanted = 'PSHELL or PAXIS '
@@ -144,18 +140,17 @@ contains
       if (id == 0) return
       if (any(deck%bulk%pmark%id == id) .and. element_table(kind)%dimension == 2) then
          call deck%field_error(line, 'PID', integer_text(id)//' is a PMARK: a surface of a plane body is '// &
-                               'marked with CBAR or CROD edges', errors)
+                               'marked with CBAR or CROD edges')
       else
-         call deck%field_error(line, 'PID', 'there is no '//wanted//integer_text(id), errors)
+         call deck%field_error(line, 'PID', 'there is no '//wanted//integer_text(id))
       end if
    end subroutine check_property
 
 
    !> No element number twice, bodies, faces, edges and interface elements counted together as NASTRAN does.
-   subroutine check_element_numbers(deck, blocks, errors)
-      type(deck_type), intent(in)          :: deck
-      type(block_type), intent(in)         :: blocks(:)
-      type(deck_error_list), intent(inout) :: errors
+   subroutine check_element_numbers(deck, blocks)
+      type(checked_deck), intent(in) :: deck
+      type(block_type), intent(in)   :: blocks(:)
       integer, allocatable :: id(:), line(:)
       integer :: b, n, n_cards, k
 
@@ -172,15 +167,15 @@ contains
          line(n + 1:n + k) = blocks(b)%line
          n = n + k
       end do
-      call report_repeated(deck, 'element', id, line, errors, n_cards=n_cards)
+      call report_repeated(deck, 'element', id, line, n_cards=n_cards)
    end subroutine check_element_numbers
 
 
    !> Plane bodies and bodies of revolution cannot be mixed: the forces of the ones are those of their thickness, of the
    !! others those of the whole ring.
-   subroutine check_one_state(model, errors)
-      type(model_type), intent(inout)      :: model
-      type(deck_error_list), intent(inout) :: errors
+   subroutine check_one_state(deck, model)
+      type(checked_deck), intent(in)  :: deck
+      type(model_type), intent(inout) :: model
       logical :: rings, others
       integer :: e
 
@@ -194,8 +189,8 @@ contains
             others = .true.
          end if
          if (.not. (rings .and. others)) cycle
-         call errors%add(model%element_line(e), 'element '//integer_text(model%element_id(e))//': PAXIS and PSHELL cannot be '// &
-                         'mixed in one model')
+         call deck%errors%add(model%element_line(e), 'element '//integer_text(model%element_id(e))//': PAXIS and PSHELL '// &
+                              'cannot be mixed in one model')
          exit
       end do
       model%axisymmetric = rings
@@ -203,10 +198,9 @@ contains
 
 
    !> Every plane element has a positive area at all its corners, every solid a positive volume where it is integrated.
-   subroutine check_elements(deck, model, errors)
-      type(deck_type), intent(in)          :: deck
-      type(model_type), intent(in)         :: model
-      type(deck_error_list), intent(inout) :: errors
+   subroutine check_elements(deck, model)
+      type(checked_deck), intent(in) :: deck
+      type(model_type), intent(in)   :: model
       type(id_table_type)  :: doubtful_blocks ! by their lines
       logical, allocatable :: doubtful(:)
       integer :: e, i, last_line, node
@@ -230,7 +224,7 @@ contains
             if (smallest_jacobian(model%element_kind(e), model%x(:model%dimension, nodes)) > 0.0_wp) cycle
          end associate
          last_line = model%element_line(e)
-         call errors%add(model%element_line(e), 'element '//integer_text(model%element_id(e))//' has no positive '// &
+         call deck%errors%add(model%element_line(e), 'element '//integer_text(model%element_id(e))//' has no positive '// &
                          shape_words(model%element_kind(e)))
       end do
    end subroutine check_elements
@@ -238,7 +232,7 @@ contains
 
    !> What an element of a KIND lacks, and what was expected.
    pure function shape_words(kind) result(words)
-      integer, intent(in)       :: kind
+      integer, intent(in) :: kind
       character(:), allocatable :: words
 
       select case (kind)

@@ -1,8 +1,7 @@
 !> Interface elements: between two facing surfaces, between a surface and a rigid base, or given outright.
 module joint_build
    use cjoint_build, only: cjoint_elements, group_number, list_groups
-   use deck_errors, only: deck_error_list
-   use deck_input, only: deck_type
+   use deck_check, only: checked_deck
    use facing_nodes, only: pair_nodes
    use id_table, only: id_table_type
    use interface_axes, only: joint_axes
@@ -28,10 +27,9 @@ module joint_build
 contains
 
    !> Fill the joints and interface elements of MODEL.
-   subroutine build_joints(deck, model, errors)
-      type(deck_type), intent(in)          :: deck
-      type(model_type), intent(inout)      :: model
-      type(deck_error_list), intent(inout) :: errors
+   subroutine build_joints(deck, model)
+      type(checked_deck), intent(in)  :: deck
+      type(model_type), intent(inout) :: model
       type(interface_element), allocatable :: elements(:)
       type(joint_tables)   :: tables
       integer, allocatable :: first(:), group(:), members(:)
@@ -47,34 +45,34 @@ contains
          highest = max(0, maxval(bulk%cjoint%id))
          n = 0
          do j = 1, size(cards)
-            call joint_elements(deck, tables, j, model, highest, elements, errors)
+            call joint_elements(deck, tables, j, model, highest, elements)
             call add_elements(model, n, j, cards(j)%id, cards(j)%line, elements)
-            call resolve_laws(deck, tables%laws, cards(j)%law, model%joints(j), errors)
+            call resolve_laws(deck, tables%laws, cards(j)%law, model%joints(j))
          end do
          call list_owners(n_groups, reshape(group, [1, size(group)]), first, members)
          do g = 1, n_groups
             j = size(cards) + g
-            call cjoint_elements(deck, members(first(g):first(g + 1) - 1), model, elements, errors)
+            call cjoint_elements(deck, members(first(g):first(g + 1) - 1), model, elements)
             associate (card => bulk%cjoint(members(first(g))))
                call add_elements(model, n, j, group_number(deck, tables%joint, card%law), card%line, elements)
-               call resolve_laws(deck, tables%laws, card%law, model%joints(j), errors)
+               call resolve_laws(deck, tables%laws, card%law, model%joints(j))
             end associate
          end do
       end associate
       model%interface = model%interface(:n)
       do j = 1, size(model%joints)
          call sum_joint(model, model%joints(j))
-         call default_slope(model, model%joints(j), errors)
+         call default_slope(deck, model, model%joints(j))
       end do
    end subroutine build_joints
 
 
    !> Put the interface elements of joint J behind the first N of the model's, which may have room for more.
    subroutine add_elements(model, n, j, id, line, elements)
-      type(model_type), intent(inout)         :: model
-      integer, intent(inout)                  :: n
-      integer, intent(in)                     :: j, id, line
-      type(interface_element), intent(inout)  :: elements(:)
+      type(model_type), intent(inout)        :: model
+      integer, intent(inout)                 :: n
+      integer, intent(in)                    :: j, id, line
+      type(interface_element), intent(inout) :: elements(:)
       type(interface_element), allocatable    :: longer(:)
 
       model%joints(j)%id = id
@@ -93,38 +91,37 @@ contains
 
 
    !> Interface elements of JOINT card J, numbered from HIGHEST + 1.
-   subroutine joint_elements(deck, tables, j, model, highest, elements, errors)
-      type(deck_type), intent(in)          :: deck
-      type(joint_tables), intent(in)       :: tables
-      integer, intent(in)                  :: j
-      type(model_type), intent(in)         :: model
-      integer, intent(inout)               :: highest
+   subroutine joint_elements(deck, tables, j, model, highest, elements)
+      type(checked_deck), intent(in)                    :: deck
+      type(joint_tables), intent(in)                    :: tables
+      integer, intent(in)                               :: j
+      type(model_type), intent(in)                      :: model
+      integer, intent(inout)                            :: highest
       type(interface_element), allocatable, intent(out) :: elements(:)
-      type(deck_error_list), intent(inout) :: errors
       type(surface_node_list) :: side1, side2
       integer, allocatable :: partner(:)
       integer :: surface(2), k
 
       allocate (elements(0))
-      call find_sides(deck, tables, j, model, surface, errors)
+      call find_sides(deck, tables, j, model, surface)
       if (surface(1) == 0) return
       call surface_nodes(model, model%surfaces(surface(1)), side1)
       allocate (partner(side1%n), source=0)
       if (surface(2) > 0) then
          call surface_nodes(model, model%surfaces(surface(2)), side2)
-         call pair_nodes(deck, j, model, surface(1), side1, side2, partner, errors)
+         call pair_nodes(deck, j, model, surface(1), side1, side2, partner)
       else if (any(model%twin(side1%node) > 0)) then
          call drop_tips(model, side1)
          partner = model%twin(side1%node)
       end if
       if (model%axisymmetric .and. any(side1%area <= 0.0_wp)) then
-         call errors%add(deck%bulk%joint(j)%line, 'surface '//integer_text(deck%bulk%joint(j)%sides(1))// &
+         call deck%errors%add(deck%bulk%joint(j)%line, 'surface '//integer_text(deck%bulk%joint(j)%sides(1))// &
             ' has no area at node '//integer_text(model%node_id(side1%node(minloc(side1%area, dim=1))))//': it lies on the axis')
          return
       end if
       if (highest > huge(highest) - side1%n) then
          call deck%field_error(deck%bulk%joint(j)%line, 'JID', 'the numbers of its interface elements, which follow those of '// &
-                               'the CJOINTs, would pass 2147483647', errors)
+                               'the CJOINTs, would pass 2147483647')
          return
       end if
       deallocate (elements)
@@ -140,13 +137,12 @@ contains
 
 
    !> The surfaces of JOINT card J, SURFACE(2) = 0 where it names no SIDE2; both 0 where no joint can be made of them.
-   subroutine find_sides(deck, tables, j, model, surface, errors)
-      type(deck_type), intent(in)          :: deck
-      type(joint_tables), intent(in)       :: tables
-      integer, intent(in)                  :: j
-      type(model_type), intent(in)         :: model
-      integer, intent(out)                 :: surface(2)
-      type(deck_error_list), intent(inout) :: errors
+   subroutine find_sides(deck, tables, j, model, surface)
+      type(checked_deck), intent(in) :: deck
+      type(joint_tables), intent(in) :: tables
+      integer, intent(in)            :: j
+      type(model_type), intent(in)   :: model
+      integer, intent(out)           :: surface(2)
       integer :: first, k
       logical :: fit
 
@@ -157,23 +153,22 @@ contains
             if (card%sides(k) == 0) cycle
             surface(k) = tables%surface%find(card%sides(k))
             if (surface(k) == 0) call deck%field_error(card%line, 'SIDE'//integer_text(k), &
-                                                       'there is no PMARK '//integer_text(card%sides(k)), errors)
+                                                       'there is no PMARK '//integer_text(card%sides(k)))
             first = min(first, (tables%side%find(card%sides(k)) + 1)/2)
          end do
          if (first < j) call deck%field_error(card%line, 'SIDE1', 'one of the sides is a side of JOINT '// &
-                                              integer_text(deck%bulk%joint(first)%id)//' already', errors)
+                                              integer_text(deck%bulk%joint(first)%id)//' already')
          fit = surface(1) > 0 .and. (surface(2) > 0 .or. card%sides(2) == 0)
          do k = 1, 2
             if (surface(k) > 0) fit = fit .and. model%surfaces(surface(k))%n > 0
          end do
          if (fit .and. surface(2) > 0) then
             if (is_shared(model%surfaces(surface(2)))) then
-               call deck%field_error(card%line, 'SIDE2', 'bodies lie on both sides of surface '//integer_text(card%sides(2)), &
-                                     errors)
+               call deck%field_error(card%line, 'SIDE2', 'bodies lie on both sides of surface '//integer_text(card%sides(2)))
                fit = .false.
             else if (is_shared(model%surfaces(surface(1)))) then
                call deck%field_error(card%line, 'SIDE1', 'bodies lie on both sides of surface '//integer_text(card%sides(1))// &
-                                     ': leave SIDE2 blank, and the program splits it', errors)
+                                     ': leave SIDE2 blank, and the program splits it')
                fit = .false.
             end if
          end if

@@ -1,8 +1,7 @@
 !> A joint on one shared surface: where bodies lie on both sides of a marked surface and share its nodes, the nodes are
 !! doubled, so that interface elements can stand between them.
 module joint_split
-   use deck_errors, only: deck_error_list
-   use deck_input, only: deck_type
+   use deck_check, only: checked_deck
    use id_table, only: id_table_type
    use kinds, only: wp
    use mesh_build, only: list_elements_of_nodes
@@ -29,10 +28,9 @@ contains
 
    !> Split the shared surfaces that JOINT cards name as SIDE1 without a SIDE2. The elements on the left of the
    !! surface's edges, or inside its faces, keep the nodes; those behind get the twins, numbered from the highest node number on.
-   subroutine split_shared_surfaces(deck, model, errors)
-      type(deck_type), intent(in)          :: deck
-      type(model_type), intent(inout)      :: model
-      type(deck_error_list), intent(inout) :: errors
+   subroutine split_shared_surfaces(deck, model)
+      type(checked_deck), intent(in)  :: deck
+      type(model_type), intent(inout) :: model
       type(id_table_type)  :: surfaces
       type(split_type)     :: split
       integer, allocatable :: met(:)
@@ -49,14 +47,14 @@ contains
             if (.not. any(surface%other(:surface%n) > 0)) cycle
             if (any(surface%other(:surface%n) == 0)) then
                call deck%field_error(line, 'SIDE1', 'bodies lie on both sides of some '//merge('edges', 'faces', &
-                  model%dimension == 2)//' of surface '//integer_text(surface%id)//' and on one side of others', errors)
+                  model%dimension == 2)//' of surface '//integer_text(surface%id)//' and on one side of others')
                cycle
             end if
             met = pack(surface%nodes(:, :surface%n), is_split(model, surface%nodes(:, :surface%n)))
             if (size(met) > 0) then
                call deck%field_error(line, 'SIDE1', 'surface '//integer_text(surface%id)//' meets another surface that is '// &
                   'split, at node '//integer_text(model%node_id(minval(met)))//': mesh the bodies apart there and give both '// &
-                  'faces, SIDE1 and SIDE2', errors)
+                  'faces, SIDE1 and SIDE2')
                cycle
             end if
          end associate

@@ -1,8 +1,7 @@
 !> Loads: which forces act, and which displacements are prescribed, at the end of every stage.
 module load_build
    use body_elements, only: element_weight
-   use deck_errors, only: deck_error_list
-   use deck_input, only: deck_type
+   use deck_check, only: checked_deck
    use element_kinds, only: max_nodes, max_side_nodes
    use kinds, only: wp
    use load_checks, only: check_load_cards, has_component, has_set, nor_others
@@ -19,15 +18,14 @@ module load_build
 contains
 
    !> The total load at the end of each stage.
-   subroutine build_loads(deck, model, errors)
-      type(deck_type), intent(in)          :: deck
-      type(model_type), intent(inout)      :: model
-      type(deck_error_list), intent(inout) :: errors
+   subroutine build_loads(deck, model)
+      type(checked_deck), intent(in)  :: deck
+      type(model_type), intent(inout) :: model
       type(pressed_side), allocatable :: pressed(:)
       integer :: i, k, s
 
-      call check_load_cards(deck, model, errors)
-      call find_pressed_sides(deck, model, pressed, errors)
+      call check_load_cards(deck, model)
+      call find_pressed_sides(deck, model, pressed)
       allocate (model%stage_loads(size(deck%control%stages)))
       do s = 1, size(deck%control%stages)
          associate (loads => model%stage_loads(s), reference => deck%control%stages(s)%load)
@@ -42,7 +40,7 @@ contains
                end associate
             else
                call add_set(deck, model, pressed, reference%id, 1.0_wp, loads)
-               if (.not. has_set(deck%bulk, reference%id)) call errors%add(reference%line, &
+               if (.not. has_set(deck%bulk, reference%id)) call deck%errors%add(reference%line, &
                   'LOAD: there is no FORCE or LOAD with set '//integer_text(reference%id)//nor_others)
             end if
          end associate
@@ -52,7 +50,7 @@ contains
 
    !> Add FACTOR times everything of SET to LOADS: nodal forces one by one, distributed loads summed up at every node.
    subroutine add_set(deck, model, pressed, set, factor, loads)
-      type(deck_type), intent(in)          :: deck
+      type(checked_deck), intent(in)       :: deck
       type(model_type), intent(in)         :: model
       type(pressed_side), intent(in)       :: pressed(:)
       integer, intent(in)                  :: set

@@ -2,8 +2,7 @@
 module mesh_build
    use bar_build, only: is_bar
    use block_mesh, only: block_type
-   use deck_errors, only: deck_error_list
-   use deck_input, only: deck_type
+   use deck_check, only: checked_deck
    use element_build, only: check_element_numbers, check_elements, check_one_state, collect_elements, is_face, resolve_properties
    use element_kinds, only: element_table, max_side_nodes
    use kinds, only: wp
@@ -28,11 +27,10 @@ module mesh_build
 contains
 
    !> Fill the mesh part of MODEL; SIDES are the marked sides found on the way.
-   subroutine build_mesh(deck, model, sides, errors)
-      type(deck_type), intent(in)          :: deck
-      type(model_type), intent(inout)      :: model
-      type(marked_sides), intent(out)      :: sides
-      type(deck_error_list), intent(inout) :: errors
+   subroutine build_mesh(deck, model, sides)
+      type(checked_deck), intent(in)  :: deck
+      type(model_type), intent(inout) :: model
+      type(marked_sides), intent(out) :: sides
       type(block_type), allocatable :: blocks(:)
       type(raw_nodes) :: raw
       integer, allocatable :: position(:) ! raw node -> node of the model
@@ -40,16 +38,16 @@ contains
       model%dimension = 2
       if (size(deck%bulk%block3) > 0 .or. any(element_table(deck%bulk%element%kind)%dimension == 3)) model%dimension = 3
       call generate_blocks(deck, blocks)
-      call collect_nodes(deck, blocks, raw, errors)
+      call collect_nodes(deck, blocks, raw)
       call order_nodes(raw, model, position)
-      call resolve_properties(deck, model, errors)
-      call collect_elements(deck, blocks, raw, position, model, errors)
-      call check_element_numbers(deck, blocks, errors)
+      call resolve_properties(deck, model)
+      call collect_elements(deck, blocks, raw, position, model)
+      call check_element_numbers(deck, blocks)
       call list_elements_of_nodes(model)
-      call check_one_state(model, errors)
-      call check_nodes(deck, model, errors)
-      call check_elements(deck, model, errors)
-      call collect_sides(deck, blocks, raw, position, model, sides, errors)
+      call check_one_state(deck, model)
+      call check_nodes(deck, model)
+      call check_elements(deck, model)
+      call collect_sides(deck, blocks, raw, position, model, sides)
    end subroutine build_mesh
 
 
@@ -62,37 +60,35 @@ contains
 
 
    !> A plane model lies in x-y, an axisymmetric one besides in x >= 0.
-   subroutine check_nodes(deck, model, errors)
-      type(deck_type), intent(in)          :: deck
-      type(model_type), intent(in)         :: model
-      type(deck_error_list), intent(inout) :: errors
+   subroutine check_nodes(deck, model)
+      type(checked_deck), intent(in) :: deck
+      type(model_type), intent(in)   :: model
       integer :: b, i
 
       if (model%dimension == 3) return
       do i = 1, size(deck%bulk%grid)
          associate (grid => deck%bulk%grid(i))
-            if (abs(grid%x(3)) > 0.0_wp) call deck%field_error(grid%line, 'X3', 'not zero, but a plane model lies in x-y', errors)
+            if (abs(grid%x(3)) > 0.0_wp) call deck%field_error(grid%line, 'X3', 'not zero, but a plane model lies in x-y')
             if (model%axisymmetric .and. grid%x(1) < 0.0_wp) &
-               call deck%field_error(grid%line, 'X1', 'negative, but an axisymmetric model lies in x >= 0', errors)
+               call deck%field_error(grid%line, 'X1', 'negative, but an axisymmetric model lies in x >= 0')
          end associate
       end do
       if (.not. model%axisymmetric) return
       do b = 1, size(deck%bulk%block2)
-         if (any(deck%bulk%block2(b)%corner(1, :) < 0.0_wp)) call errors%add(deck%bulk%block2(b)%line, &
+         if (any(deck%bulk%block2(b)%corner(1, :) < 0.0_wp)) call deck%errors%add(deck%bulk%block2(b)%line, &
             'BLOCK2: a corner has x < 0, but an axisymmetric model lies in x >= 0')
       end do
    end subroutine check_nodes
 
 
    !> CBAR and CROD edges in the plane, CTRIA3 and CQUAD4 faces of solids, and the marked sides of blocks.
-   subroutine collect_sides(deck, blocks, raw, position, model, sides, errors)
-      type(deck_type), intent(in)          :: deck
-      type(block_type), intent(in)         :: blocks(:)
-      type(raw_nodes), intent(in)          :: raw
-      integer, intent(in)                  :: position(:)
-      type(model_type), intent(in)         :: model
-      type(marked_sides), intent(out)      :: sides
-      type(deck_error_list), intent(inout) :: errors
+   subroutine collect_sides(deck, blocks, raw, position, model, sides)
+      type(checked_deck), intent(in)  :: deck
+      type(block_type), intent(in)    :: blocks(:)
+      type(raw_nodes), intent(in)     :: raw
+      integer, intent(in)             :: position(:)
+      type(model_type), intent(in)    :: model
+      type(marked_sides), intent(out) :: sides
       integer :: b, i, n, total
 
       total = size(deck%bulk%edge) + sum(blocks%n_sides)
@@ -104,19 +100,19 @@ contains
          associate (edge => deck%bulk%edge(i))
             if (is_bar(deck, edge)) cycle
             if (model%dimension == 3) then
-               call errors%add(edge%line, 'a CBAR, or a CROD without a PROD, marks an edge of a plane body; surfaces of '// &
+               call deck%errors%add(edge%line, 'a CBAR, or a CROD without a PROD, marks an edge of a plane body; surfaces of '// &
                                'solids are marked with CTRIA3 and CQUAD4 faces')
                cycle
             end if
             call start_side(edge%property, 2, edge%line, 0)
-            call find_nodes(deck, edge%line, edge%nodes(:2), model, sides%nodes(:2, n), errors)
+            call find_nodes(deck, edge%line, edge%nodes(:2), model, sides%nodes(:2, n))
          end associate
       end do
       do i = 1, size(deck%bulk%element)
          associate (face => deck%bulk%element(i))
             if (.not. is_face(model, face)) cycle
             call start_side(face%property, element_table(face%kind)%n_nodes, face%line, 0)
-            call find_nodes(deck, face%line, face%nodes(:sides%corners(n)), model, sides%nodes(:sides%corners(n), n), errors)
+            call find_nodes(deck, face%line, face%nodes(:sides%corners(n)), model, sides%nodes(:sides%corners(n), n))
          end associate
       end do
       do b = 1, size(blocks)

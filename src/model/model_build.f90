@@ -2,6 +2,7 @@
 module model_build
    use bar_build, only: build_bars
    use connected_parts, only: find_parts
+   use deck_check, only: checked_deck
    use deck_errors, only: deck_error_list
    use deck_input, only: deck_type
    use determinate_joints, only: find_determinate_joints
@@ -26,22 +27,24 @@ contains
    !> Build MODEL and the PLAN of its stages from DECK; what does not fit together goes to ERRORS, and then neither
    !! is fit to be solved.
    subroutine build_model(deck, model, plan, errors)
-      type(deck_type), intent(in)          :: deck
-      type(model_type), intent(out)        :: model
-      type(stage_plan_type), intent(out)   :: plan
-      type(deck_error_list), intent(inout) :: errors
+      type(deck_type), intent(in), target          :: deck
+      type(model_type), intent(out)                :: model
+      type(stage_plan_type), intent(out)           :: plan
+      type(deck_error_list), intent(inout), target :: errors
+      type(checked_deck) :: checked
       type(marked_sides) :: sides
 
       if (.not. deck%is_whole) return
-      call check_ids(deck, errors)
-      call build_mesh(deck, model, sides, errors)
-      call build_surfaces(deck, sides, model, errors)
-      call split_shared_surfaces(deck, model, errors)
-      call build_joints(deck, model, errors)
-      call build_bars(deck, model, errors)
-      call build_supports(deck, model, errors)
-      call build_sections(deck, model, errors)
-      call build_loads(deck, model, errors)
+      call checked%start(deck, errors)
+      call check_ids(checked)
+      call build_mesh(checked, model, sides)
+      call build_surfaces(checked, sides, model)
+      call split_shared_surfaces(checked, model)
+      call build_joints(checked, model)
+      call build_bars(checked, model)
+      call build_supports(checked, model)
+      call build_sections(checked, model)
+      call build_loads(checked, model)
       call plan_stages(deck, plan, errors)
       if (.not. any(model%used)) call errors%add(0, 'nothing to solve: expected body elements or interface elements')
       if (errors%any()) return

@@ -1,8 +1,7 @@
 !> Nodes: GRID cards and those of generated blocks, in the order of their numbers.
 module node_build
    use block_mesh, only: block_type, generate_block2, generate_block3
-   use deck_errors, only: deck_error_list
-   use deck_input, only: deck_type
+   use deck_check, only: checked_deck
    use element_kinds, only: kind_quad4
    use id_checks, only: report_repeated
    use id_table, only: sorted_order
@@ -28,7 +27,7 @@ contains
 
    !> What the BLOCK2 and BLOCK3 cards give, in the order of the deck.
    subroutine generate_blocks(deck, blocks)
-      type(deck_type), intent(in)                :: deck
+      type(checked_deck), intent(in)             :: deck
       type(block_type), allocatable, intent(out) :: blocks(:)
       integer, allocatable :: order(:)
       integer :: b
@@ -48,11 +47,10 @@ contains
 
 
    !> All GRID cards and all nodes of blocks; a welded block uses the coincident nodes of the block it is welded to.
-   subroutine collect_nodes(deck, blocks, raw, errors)
-      type(deck_type), intent(in)          :: deck
-      type(block_type), intent(in)         :: blocks(:)
-      type(raw_nodes), intent(out)         :: raw
-      type(deck_error_list), intent(inout) :: errors
+   subroutine collect_nodes(deck, blocks, raw)
+      type(checked_deck), intent(in) :: deck
+      type(block_type), intent(in)   :: blocks(:)
+      type(raw_nodes), intent(out)   :: raw
       integer :: b, i, k, n, total
 
       allocate (raw%block_start(size(blocks) + 1), source=0)
@@ -69,7 +67,7 @@ contains
       end do
       do b = 1, size(blocks)
          associate (places => raw%place(raw%block_start(b) + 1:raw%block_start(b + 1)))
-            call weld_block(deck, blocks, b, raw, places, errors)
+            call weld_block(deck, blocks, b, raw, places)
             do k = 1, size(places)
                if (places(k) > 0) cycle
                n = n + 1
@@ -81,18 +79,17 @@ contains
          end associate
       end do
       raw%n = n
-      call report_repeated(deck, 'node', raw%id(:n), raw%line(:n), errors, n_cards=size(deck%bulk%grid))
+      call report_repeated(deck, 'node', raw%id(:n), raw%line(:n), n_cards=size(deck%bulk%grid))
    end subroutine collect_nodes
 
 
    !> Where block B is welded to an earlier one, PLACES(k) is the raw node at X(:, k) of that block, else 0.
-   subroutine weld_block(deck, blocks, b, raw, places, errors)
-      type(deck_type), intent(in)          :: deck
-      type(block_type), intent(in)         :: blocks(:)
-      integer, intent(in)                  :: b
-      type(raw_nodes), intent(in)          :: raw
-      integer, intent(inout)               :: places(:)
-      type(deck_error_list), intent(inout) :: errors
+   subroutine weld_block(deck, blocks, b, raw, places)
+      type(checked_deck), intent(in) :: deck
+      type(block_type), intent(in)   :: blocks(:)
+      integer, intent(in)            :: b
+      type(raw_nodes), intent(in)    :: raw
+      integer, intent(inout)         :: places(:)
       type(position_search_type) :: search
       integer, allocatable :: near_this(:), near_other(:)
       real(wp) :: reach, distance
@@ -106,7 +103,7 @@ contains
          end do
          if (other == 0) then
             call deck%field_error(block%line, 'WELD', 'no '//merge('BLOCK2 ', 'BLOCK3 ', block%kind == kind_quad4)// &
-                                  integer_text(block%weld)//' stands before this one', errors)
+                                  integer_text(block%weld)//' stands before this one')
             return
          end if
       end associate
@@ -118,7 +115,7 @@ contains
          call search%nearest(blocks(b)%x(:, near_other(k)), reach, found, distance)
          if (found > 0) places(near_other(k)) = raw%place(raw%block_start(other) + near_this(found))
       end do
-      if (all(places == 0)) call deck%field_error(blocks(b)%line, 'WELD', 'the two blocks have no node in common', errors)
+      if (all(places == 0)) call deck%field_error(blocks(b)%line, 'WELD', 'the two blocks have no node in common')
    end subroutine weld_block
 
 
@@ -164,19 +161,18 @@ contains
 
    !> The NODES of the model with the numbers ID, which a card of an element, edge or interface element names from its data field 3
    !! on; 0, and an error, where there is none. An id of 0 is a field that could not be read, or that is blank.
-   subroutine find_nodes(deck, line, id, model, nodes, errors)
-      type(deck_type), intent(in)          :: deck
-      integer, intent(in)                  :: line     !! of the card
-      integer, intent(in)                  :: id(:)
-      type(model_type), intent(in)         :: model
-      integer, intent(out)                 :: nodes(:)
-      type(deck_error_list), intent(inout) :: errors
+   subroutine find_nodes(deck, line, id, model, nodes)
+      type(checked_deck), intent(in) :: deck
+      integer, intent(in)            :: line     !! of the card
+      integer, intent(in)            :: id(:)
+      type(model_type), intent(in)   :: model
+      integer, intent(out)           :: nodes(:)
       integer :: k
 
       do k = 1, size(id)
          nodes(k) = model%node_table%find(id(k))
-         if (nodes(k) == 0 .and. id(k) > 0) call deck%field_error(line, k + 2, 'there is no GRID '//integer_text(id(k)), errors, &
-                                                                  called='node '//deck%field_name(line, k + 2))
+         if (nodes(k) == 0 .and. id(k) > 0) &
+            call deck%field_error(line, k + 2, 'there is no GRID '//integer_text(id(k)), noun='node')
       end do
    end subroutine find_nodes
 

@@ -2,8 +2,7 @@
 module section_build
    use bar_build, only: find_stage
    use bulk_data, only: bolt_card
-   use deck_errors, only: deck_error_list
-   use deck_input, only: deck_type
+   use deck_check, only: checked_deck
    use element_kinds, only: max_side_nodes
    use kinds, only: wp
    use model_data, only: model_type, section_type
@@ -20,10 +19,9 @@ module section_build
 contains
 
    !> Fill the sections of MODEL and append their nodes.
-   subroutine build_sections(deck, model, errors)
-      type(deck_type), intent(in)          :: deck
-      type(model_type), intent(inout)      :: model
-      type(deck_error_list), intent(inout) :: errors
+   subroutine build_sections(deck, model)
+      type(checked_deck), intent(in)  :: deck
+      type(model_type), intent(inout) :: model
       integer :: i, k, n
 
       n = count(deck%bulk%bolt%surface > 0)
@@ -34,19 +32,18 @@ contains
       do i = 1, size(deck%bulk%bolt)
          if (deck%bulk%bolt(i)%surface <= 0) cycle
          k = k + 1
-         call build_section(deck, deck%bulk%bolt(i), k, model, errors)
+         call build_section(deck, deck%bulk%bolt(i), k, model)
       end do
       if (all(model%sections%point > 0)) call append_section_nodes(model) ! if not, there are errors
    end subroutine build_sections
 
 
    !> Section K from its CARD: which way it faces, and which elements are behind it.
-   subroutine build_section(deck, card, k, model, errors)
-      type(deck_type), intent(in)          :: deck
-      type(bolt_card), intent(in)          :: card
-      integer, intent(in)                  :: k
-      type(model_type), intent(inout)      :: model
-      type(deck_error_list), intent(inout) :: errors
+   subroutine build_section(deck, card, k, model)
+      type(checked_deck), intent(in)  :: deck
+      type(bolt_card), intent(in)     :: card
+      integer, intent(in)             :: k
+      type(model_type), intent(inout) :: model
       type(surface_node_list) :: list
       real(wp), allocatable   :: centroid(:)
       character(:), allocatable :: fault
@@ -55,8 +52,8 @@ contains
       model%sections(k)%bolt = card%id
       model%sections(k)%surface = card%surface
       model%sections(k)%preload = card%preload
-      call find_stage(deck, card, model%sections(k)%stage, errors)
-      call find_surface(deck, card%line, 'PMARK', card%surface, model, s, errors)
+      call find_stage(deck, card, model%sections(k)%stage)
+      call find_surface(deck, card%line, 'PMARK', card%surface, model, s)
       if (s == 0) return
       if (model%surfaces(s)%n == 0) return ! said already
       fault = not_inside(model, s)
@@ -68,7 +65,7 @@ contains
          fault = not_flat(model, model%sections(k), list, centroid)
       end if
       if (fault == '') call find_elements_behind(model, s, k, fault)
-      if (fault /= '') call deck%field_error(card%line, 'PMARK', 'surface '//integer_text(card%surface)//' '//fault, errors)
+      if (fault /= '') call deck%field_error(card%line, 'PMARK', 'surface '//integer_text(card%surface)//' '//fault)
    end subroutine build_section
 
 

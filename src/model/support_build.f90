@@ -1,8 +1,7 @@
 !> Supports: which components of which nodes are held.
 module support_build
    use bulk_data, only: support_card
-   use deck_errors, only: deck_error_list
-   use deck_input, only: deck_type
+   use deck_check, only: checked_deck
    use model_data, only: model_type, n_bars
    use surface_build, only: find_surface
    use text_tools, only: integer_text
@@ -14,10 +13,9 @@ module support_build
 contains
 
    !> Nodes that some element holds, and the components that the SPC set of case control and PS of GRID support.
-   subroutine build_supports(deck, model, errors)
-      type(deck_type), intent(in)          :: deck
-      type(model_type), intent(inout)      :: model
-      type(deck_error_list), intent(inout) :: errors
+   subroutine build_supports(deck, model)
+      type(checked_deck), intent(in)  :: deck
+      type(model_type), intent(inout) :: model
       integer :: i, node, set, set_line
 
       allocate (model%held(model%dimension, model%n_nodes), source=.false.)
@@ -43,25 +41,24 @@ contains
          set_line = deck%control%stages(1)%supports%line
       end if
       do i = 1, size(deck%bulk%support)
-         call apply_support(deck, deck%bulk%support(i), deck%bulk%support(i)%set == set, model, errors)
+         call apply_support(deck, deck%bulk%support(i), deck%bulk%support(i)%set == set, model)
       end do
       if (set > 0 .and. all(deck%bulk%support%set /= set)) &
-         call errors%add(set_line, 'SPC: there is no SPC, SPC1 or SPCM with set '//integer_text(set))
+         call deck%errors%add(set_line, 'SPC: there is no SPC, SPC1 or SPCM with set '//integer_text(set))
    end subroutine build_supports
 
 
    !> Check one support card, and hold its nodes where it is of the ACTIVE set.
-   subroutine apply_support(deck, support, active, model, errors)
-      type(deck_type), intent(in)          :: deck
-      type(support_card), intent(in)       :: support
-      logical, intent(in)                  :: active
-      type(model_type), intent(inout)      :: model
-      type(deck_error_list), intent(inout) :: errors
+   subroutine apply_support(deck, support, active, model)
+      type(checked_deck), intent(in)  :: deck
+      type(support_card), intent(in)  :: support
+      logical, intent(in)             :: active
+      type(model_type), intent(inout) :: model
       integer :: e, k, node, surface
       logical :: any_node
 
       if (support%surface > 0) then
-         call find_surface(deck, support%line, 'PID', support%surface, model, surface, errors)
+         call find_surface(deck, support%line, 'PID', support%surface, model, surface)
          if (surface == 0 .or. .not. active) return
          do e = 1, model%surfaces(surface)%n
             do k = 1, model%surfaces(surface)%corners(e)
@@ -74,7 +71,7 @@ contains
          if (support%first(k) == support%last(k)) then
             node = model%node_table%find(support%first(k))
             if (node == 0 .and. support%first(k) > 0) call deck%field_error(support%line, support%at(k), &
-               'there is no GRID '//integer_text(support%first(k)), errors, called='G')
+               'there is no GRID '//integer_text(support%first(k)), called='G')
             if (node > 0 .and. active) call hold(model, node, support%components)
             cycle
          end if
@@ -86,7 +83,7 @@ contains
             if (active) call hold(model, node, support%components)
          end do
          if (.not. any_node) call deck%field_error(support%line, support%at(k), 'there is no GRID from '// &
-            integer_text(support%first(k))//' to '//integer_text(support%last(k)), errors, called='G')
+            integer_text(support%first(k))//' to '//integer_text(support%last(k)), called='G')
       end do
    end subroutine apply_support
 

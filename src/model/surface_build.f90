@@ -1,7 +1,6 @@
 !> Marked surfaces: which body elements their sides belong to, which way they face, the areas of their nodes.
 module surface_build
-   use deck_errors, only: deck_error_list
-   use deck_input, only: deck_type
+   use deck_check, only: checked_deck
    use element_kinds, only: element_table, max_side_nodes
    use element_loads, only: side_areas, side_forces
    use id_table, only: distinct, id_table_type, sorted_order
@@ -25,11 +24,10 @@ module surface_build
 contains
 
    !> One surface for every PMARK card, with the sides that name it.
-   subroutine build_surfaces(deck, sides, model, errors)
-      type(deck_type), intent(in)          :: deck
-      type(marked_sides), intent(in)       :: sides
-      type(model_type), intent(inout)      :: model
-      type(deck_error_list), intent(inout) :: errors
+   subroutine build_surfaces(deck, sides, model)
+      type(checked_deck), intent(in)  :: deck
+      type(marked_sides), intent(in)  :: sides
+      type(model_type), intent(inout) :: model
       type(id_table_type)  :: marks
       integer, allocatable :: surface(:), filled(:)
       integer :: i, k, n
@@ -43,7 +41,7 @@ contains
          if (surface(i) > 0) then
             filled(surface(i)) = filled(surface(i)) + 1
          else if (sides%mark(i) > 0) then
-            call report_missing(deck, sides, i, errors)
+            call report_missing(deck, sides, i)
          end if
       end do
       do k = 1, n
@@ -55,60 +53,58 @@ contains
             if (marks%find(card%id) < k) cycle ! a number given twice: said elsewhere
             call deck%field_error(card%line, 'PID', 'surface '//integer_text(card%id)//' has no '// &
                trim(merge('face: expected a CTRIA3, CQUAD4', 'edge: expected a CBAR, CROD    ', model%dimension == 3))// &
-               ' or side of a block with this PID', errors)
+               ' or side of a block with this PID')
          end associate
       end do
       do i = 1, sides%n
          if (surface(i) == 0 .or. any(sides%nodes(:sides%corners(i), i) == 0)) cycle
-         call add_side(sides, i, model, model%surfaces(surface(i)), errors)
+         call add_side(deck, sides, i, model, model%surfaces(surface(i)))
       end do
       do k = 1, n
-         call check_repeated(model, model%surfaces(k), errors)
+         call check_repeated(deck, model, model%surfaces(k))
       end do
    end subroutine build_surfaces
 
 
    !> Which SURFACE of MODEL the FIELD of the card on LINE names by its ID; 0, and an error, where there is none.
-   subroutine find_surface(deck, line, field, id, model, surface, errors)
-      type(deck_type), intent(in)          :: deck
-      integer, intent(in)                  :: line, id
-      character(*), intent(in)             :: field
-      type(model_type), intent(in)         :: model
-      integer, intent(out)                 :: surface
-      type(deck_error_list), intent(inout) :: errors
+   subroutine find_surface(deck, line, field, id, model, surface)
+      type(checked_deck), intent(in) :: deck
+      integer, intent(in)            :: line, id
+      character(*), intent(in)       :: field
+      type(model_type), intent(in)   :: model
+      integer, intent(out)           :: surface
 
       surface = findloc(model%surfaces%id, id, dim=1)
-      if (surface == 0) call deck%field_error(line, field, 'there is no PMARK '//integer_text(id), errors)
+      if (surface == 0) call deck%field_error(line, field, 'there is no PMARK '//integer_text(id))
    end subroutine find_surface
 
 
    !> There is no PMARK with the mark of side I. A face of solids may be meant to be something else.
-   subroutine report_missing(deck, sides, i, errors)
-      type(deck_type), intent(in)          :: deck
-      type(marked_sides), intent(in)       :: sides
-      integer, intent(in)                  :: i
-      type(deck_error_list), intent(inout) :: errors
+   subroutine report_missing(deck, sides, i)
+      type(checked_deck), intent(in) :: deck
+      type(marked_sides), intent(in) :: sides
+      integer, intent(in)            :: i
       character(:), allocatable :: words
 
       words = 'there is no PMARK '//integer_text(sides%mark(i))
       if (sides%of_block(i) > 0) then
-         call deck%field_error(sides%line(i), 'S'//integer_text(sides%of_block(i)), words, errors)
+         call deck%field_error(sides%line(i), 'S'//integer_text(sides%of_block(i)), words)
       else
          if (sides%corners(i) > 2) &
             words = words//': in a model of solids CTRIA3 and CQUAD4 mark surfaces, and plane bodies cannot be mixed in'
-         call deck%field_error(sides%line(i), 'PID', words, errors)
+         call deck%field_error(sides%line(i), 'PID', words)
       end if
    end subroutine report_missing
 
 
    !> Add side I to its surface, in the order of the element that it belongs to: of two the one that has it in the sense of its
    !! card, the other is then behind it.
-   subroutine add_side(sides, i, model, surface, errors)
-      type(marked_sides), intent(in)       :: sides
-      integer, intent(in)                  :: i
-      type(model_type), intent(in)         :: model
-      type(surface_type), intent(inout)    :: surface
-      type(deck_error_list), intent(inout) :: errors
+   subroutine add_side(deck, sides, i, model, surface)
+      type(checked_deck), intent(in)    :: deck
+      type(marked_sides), intent(in)    :: sides
+      integer, intent(in)               :: i
+      type(model_type), intent(in)      :: model
+      type(surface_type), intent(inout) :: surface
       integer :: owner, other, found, e, j, side, own_side
       logical :: same_sense, owner_same
 
@@ -132,7 +128,7 @@ contains
             if (found > 0) other = found
          end do
          if (owner == 0) then
-            call errors%add(sides%line(i), 'the '//side_name(model, nodes)//' is no side of a body element')
+            call deck%errors%add(sides%line(i), 'the '//side_name(model, nodes)//' is no side of a body element')
             return
          end if
          surface%n = surface%n + 1
@@ -197,10 +193,10 @@ contains
 
 
    !> No side stands twice on a surface: its area would count twice.
-   subroutine check_repeated(model, surface, errors)
-      type(model_type), intent(in)         :: model
-      type(surface_type), intent(in)       :: surface
-      type(deck_error_list), intent(inout) :: errors
+   subroutine check_repeated(deck, model, surface)
+      type(checked_deck), intent(in) :: deck
+      type(model_type), intent(in)   :: model
+      type(surface_type), intent(in) :: surface
       integer, allocatable :: order(:), lowest(:)
       integer :: j, k, m
 
@@ -216,7 +212,7 @@ contains
             associate (this => surface%nodes(:surface%corners(order(k)), order(k)), &
                        that => surface%nodes(:surface%corners(order(j)), order(j)))
                if (any([(all(that /= this(m)), m = 1, size(this))])) cycle
-               call errors%add(max(surface%line(order(k)), surface%line(order(j))), 'surface '//integer_text(surface%id)// &
+               call deck%errors%add(max(surface%line(order(k)), surface%line(order(j))), 'surface '//integer_text(surface%id)// &
                   ': the '//side_name(model, this)//' is marked twice')
             end associate
          end do
