@@ -96,27 +96,18 @@ module bulk_data
       integer, allocatable  :: at(:)                    ! data field of each set
    end type load_card
 
-   type, public :: block2_card
+   !> BLOCK2 and BLOCK3.
+   type, public :: block_card
       integer  :: line = 0, id = 0, property = 0
-      integer  :: divisions(2) = 1                      ! along side 1-2 and along side 1-4
-      real(wp) :: corner(2, 4) = 0.0_wp
-      real(wp) :: grading(2) = 1.0_wp                   ! last division over first
+      integer  :: dimension = 2
+      integer  :: divisions(3) = [1, 1, 0]              ! of a BLOCK2 along sides 1-2 and 1-4, and 0
+      real(wp) :: corner(3, 4) = 0.0_wp                 ! of a BLOCK3 two opposite ones
+      real(wp) :: grading(3) = 1.0_wp                   ! last division over first
       integer  :: first_node = 1, first_element = 1
-      integer  :: marks(4) = 0                          ! PMARK of sides 1-2, 2-3, 3-4, 4-1
+      integer  :: marks(6) = 0                          ! PMARK of sides 1-2, 2-3, 3-4, 4-1, or x low, x high, y low, ...
       integer  :: weld = 0                              ! block whose coincident nodes are used
       logical  :: doubtful = .false.                    ! some field could not be read
-   end type block2_card
-
-   type, public :: block3_card
-      integer  :: line = 0, id = 0, property = 0
-      integer  :: divisions(3) = 1
-      real(wp) :: corner(3, 2) = 0.0_wp                 ! the two opposite ones
-      real(wp) :: grading(3) = 1.0_wp
-      integer  :: first_node = 1, first_element = 1
-      integer  :: marks(6) = 0                          ! PMARK of the sides x low, x high, y low, y high, z low, z high
-      integer  :: weld = 0
-      logical  :: doubtful = .false.
-   end type block3_card
+   end type block_card
 
    type, public :: pmark_card
       integer :: line = 0, id = 0
@@ -175,8 +166,7 @@ module bulk_data
       type(displacement_card), allocatable :: displacement(:)
       type(load_card), allocatable         :: load(:)
       type(bolt_card), allocatable         :: bolt(:)
-      type(block2_card), allocatable       :: block2(:)
-      type(block3_card), allocatable       :: block3(:)
+      type(block_card), allocatable        :: block(:)
       type(pmark_card), allocatable        :: pmark(:)
       type(joint_card), allocatable        :: joint(:)
       type(cjoint_card), allocatable       :: cjoint(:)

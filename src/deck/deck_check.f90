@@ -1,4 +1,5 @@
-!> A deck that was read, while what its cards say is put together: errors that are found long after a card was read.
+!> A deck that was read, while what its cards say is put together: errors about fields that were read long ago, numbers given twice,
+!! laws of joints whose parts are missing.
 module deck_check
    use bulk_data, only: bulk_data_type
    use card_reader, only: card_kind
@@ -7,6 +8,8 @@ module deck_check
    use deck_errors, only: deck_error_list
    use deck_input, only: deck_type
    use deck_text, only: deck_text_type
+   use id_table, only: id_table_type, sorted_order
+   use text_tools, only: integer_text
    implicit none
    private
 
@@ -21,6 +24,8 @@ module deck_check
       procedure :: start
       procedure, private :: kind_of_line, named_field_error, numbered_field_error
       generic :: field_error => named_field_error, numbered_field_error
+      procedure :: check_ids
+      procedure :: report_repeated
    end type checked_deck
 
 contains
@@ -82,5 +87,81 @@ contains
       if (present(noun)) name = noun//' '//name
       call add_field_error(self%text, line, k, name, message, self%errors)
    end subroutine numbered_field_error
+
+
+   !> Every id of its kind once among the cards that are few; properties and PMARK share theirs, as properties do in NASTRAN.
+   subroutine check_ids(self)
+      class(checked_deck), intent(in) :: self
+      integer :: direction, i
+
+      associate (bulk => self%bulk)
+         call self%report_repeated('property', [bulk%pshell%id, bulk%paxis%id, bulk%psolid%id, bulk%prod%id, bulk%pmark%id], &
+                              [bulk%pshell%line, bulk%paxis%line, bulk%psolid%line, bulk%prod%line, bulk%pmark%line])
+         call self%report_repeated('MAT1', bulk%mat1%id, bulk%mat1%line)
+         call self%report_repeated('LOAD', bulk%load%set, bulk%load%line)
+         associate (plane => bulk%block%dimension == 2)
+            call self%report_repeated('BLOCK2', pack(bulk%block%id, plane), pack(bulk%block%line, plane))
+            call self%report_repeated('BLOCK3', pack(bulk%block%id, .not. plane), pack(bulk%block%line, .not. plane))
+         end associate
+         call self%report_repeated('BOLT', bulk%bolt%id, bulk%bolt%line)
+         call self%report_repeated('JOINT', bulk%joint%id, bulk%joint%line)
+         call self%report_repeated('PJOINT', bulk%pjoint%id, bulk%pjoint%line)
+         call self%report_repeated('JNORM', bulk%jnorm%id, bulk%jnorm%line)
+         call self%report_repeated('JSHEAR', bulk%jshear%id, bulk%jshear%line)
+         call self%report_repeated('JINCR', bulk%jincr%id, bulk%jincr%line)
+         do i = 1, size(bulk%pjoint)
+            associate (card => bulk%pjoint(i))
+               do direction = 1, 2
+                  if (card%shear_laws(direction) == 0 .or. any(bulk%jshear%id == card%shear_laws(direction))) cycle
+                  call self%field_error(card%line, merge('SIDX', 'SIDY', direction == 1), 'there is no JSHEAR '// &
+                                        integer_text(card%shear_laws(direction)))
+               end do
+               if (card%normal_law == 0 .or. any(bulk%jnorm%id == card%normal_law)) cycle
+               call self%field_error(card%line, 'NID', 'there is no JNORM '//integer_text(card%normal_law))
+            end associate
+         end do
+      end associate
+   end subroutine check_ids
+
+
+   !> Say which of the numbers ID(n), given on the cards of LINE(n), are given twice; a card that gives many is named once.
+   subroutine report_repeated(self, noun, id, line, n_cards)
+      class(checked_deck), intent(in) :: self
+      character(*), intent(in)       :: noun    !! what they are the numbers of
+      integer, intent(in)            :: id(:), line(:)
+      integer, intent(in), optional  :: n_cards !! the first so many are given one by one, in data field 1 of their cards, the
+                                                      !! others by blocks, nodes from N1 and elements from E1 on; left out: all
+      type(id_table_type)  :: table
+      integer, allocatable :: again(:), order(:)
+      integer :: k, last
+      logical :: by_block
+      character(:), allocatable :: words
+
+      call table%build(id)
+      call table%list_repeated(again)
+      call sorted_order(line(again), order)
+      last = 0
+      do while (last < size(again))
+         k = last + 1
+         last = k
+         do while (last < size(again))
+            if (line(again(order(last + 1))) /= line(again(order(k)))) exit
+            last = last + 1
+         end do
+         associate (this => again(order(k)))
+            if (id(this) == 0) cycle ! a field that could not be read
+            words = noun//' '//integer_text(id(this))
+            if (last > k) words = words//', and more of this card,'
+            words = words//' is given twice, first in '//self%text%place(line(table%find(id(this))))
+            by_block = .false.
+            if (present(n_cards)) by_block = this > n_cards
+            if (by_block) then
+               call self%field_error(line(this), merge('N1', 'E1', noun == 'node'), words)
+            else
+               call self%field_error(line(this), 1, words)
+            end if
+         end associate
+      end do
+   end subroutine report_repeated
 
 end module deck_check

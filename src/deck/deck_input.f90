@@ -7,12 +7,12 @@ module deck_input
    use deck_cards, only: card_name, check_first_field, is_continuation, read_card
    use deck_errors, only: deck_error_list
    use deck_text, only: deck_text_type, read_deck_text
-   use include_lines, only: is_include
    use joint_cards, only: read_cjoint, read_jincr, read_jnorm, read_joint, read_jshear, read_pjoint
    use kinds, only: long
+   use line_scan, only: is_include
    use load_cards, only: read_bolt, read_displacement, read_force, read_gravity, read_load, read_pressure, read_support, &
                          read_surface_load
-   use mesh_cards, only: read_block2, read_block3, read_edge, read_element, read_grid, read_pmark
+   use mesh_cards, only: read_block, read_edge, read_element, read_grid, read_pmark
    use property_cards, only: read_mat1, read_paxis, read_prod, read_pshell, read_psolid
    implicit none
    private
@@ -39,8 +39,7 @@ contains
       call cards%add_kinds('GRID', read_grid)
       call cards%add_kinds('CTRIA3 CQUAD4 CTETRA CPENTA CHEXA', read_element)
       call cards%add_kinds('CBAR CROD', read_edge)
-      call cards%add_kinds('BLOCK2', read_block2)
-      call cards%add_kinds('BLOCK3', read_block3)
+      call cards%add_kinds('BLOCK2 BLOCK3', read_block)
       call cards%add_kinds('PMARK', read_pmark)
       call cards%add_kinds('PSHELL', read_pshell)
       call cards%add_kinds('PAXIS', read_paxis)

@@ -1,8 +1,7 @@
 !> The lines of a deck in the order in which they count, INCLUDE files opened in their place.
 module deck_text
-   use include_lines, only: folder, included_path, is_include
    use kinds, only: long
-   use line_scan, only: line_place, scan_line
+   use line_scan, only: folder, included_path, is_include, line_place, scan_line
    use c_library, only: read_all_bytes, true_path
    use command_tools, only: standard_input
    use deck_errors, only: deck_error_list

@@ -1,4 +1,5 @@
-!> The rules that the table of a card is made of: one a field, with what the field may hold, and the same in words.
+!> The rules that the table of a card is made of: one a field, with what the field may hold, and the same in words. Of several names a
+!! rule makes as many fields alike.
 module field_rules
    use kinds, only: wp
    use text_tools, only: integer_text, real_text
@@ -31,7 +32,7 @@ module field_rules
 contains
 
    !> Rule for an integer: an id by default (1 and up).
-   pure function integer_field(name, default, least, most) result(rule)
+   elemental function integer_field(name, default, least, most) result(rule)
       character(*), intent(in)      :: name
       integer, intent(in), optional :: default !! none: the field must be filled
       integer, intent(in), optional :: least, most
@@ -48,7 +49,7 @@ contains
 
 
    !> Rule for a real; ABOVE and BELOW exclude the bound, LEAST and MOST include it.
-   pure function real_field(name, default, above, below, least, most, whole) result(rule)
+   elemental function real_field(name, default, above, below, least, most, whole) result(rule)
       character(*), intent(in)       :: name
       real(wp), intent(in), optional :: default !! none: the field must be filled
       real(wp), intent(in), optional :: above, below, least, most
@@ -70,7 +71,7 @@ contains
 
 
    !> Rule for a word out of a list, WORDS = '|ARITH|GEOM|LIST|'; a blank field takes the first.
-   pure function word_field(name, words) result(rule)
+   elemental function word_field(name, words) result(rule)
       character(*), intent(in) :: name, words
       type(field_rule) :: rule
 
@@ -81,7 +82,7 @@ contains
 
 
    !> Rule for a list of NASTRAN's components: different digits of 1 to 6.
-   pure function component_field(name, default) result(rule)
+   elemental function component_field(name, default) result(rule)
       character(*), intent(in)      :: name
       integer, intent(in), optional :: default !! none: the field must be filled
       type(field_rule) :: rule
@@ -92,7 +93,7 @@ contains
 
 
    !> Rule for a field that must stay blank (NAME says what NASTRAN has there); a zero is a blank too.
-   pure function blank_field(name) result(rule)
+   elemental function blank_field(name) result(rule)
       character(*), intent(in) :: name
       type(field_rule) :: rule
 

@@ -4,7 +4,7 @@ module joint_cards
    use card_fields, only: decode_real
    use card_lines, only: card_type
    use card_reader, only: card_reader_type
-   use field_rules, only: blank_field, field_rule, integer_field, real_field, word_field
+   use field_rules, only: blank_field, integer_field, real_field, word_field
    use kinds, only: wp
    use load_shares, only: arithmetic_shares, geometric_shares
    use normal_stiffness, only: branch_load, branch_reload, branch_unload
@@ -26,8 +26,8 @@ contains
       type(bulk_data_type), intent(inout)   :: bulk
       integer :: i
 
-      call cards%set_table([integer_field('JID'), integer_field('PJID'), integer_field('SIDE1'), &
-         integer_field('SIDE2', default=0), real_field('TOL', default=0.0_wp, above=0.0_wp)])
+      call cards%set_table([integer_field(['JID  ', 'PJID ', 'SIDE1']), integer_field('SIDE2', default=0), &
+         real_field('TOL', default=0.0_wp, above=0.0_wp)])
       allocate (bulk%joint(cards%n))
       do i = 1, cards%n
          call cards%next()
@@ -46,9 +46,8 @@ contains
       type(bulk_data_type), intent(inout)   :: bulk
       integer :: i
 
-      call cards%set_table([integer_field('EID'), integer_field('PJID'), integer_field('G1'), &
-         integer_field('G2', default=0), real_field('AREA', above=0.0_wp), real_field('NX', default=0.0_wp), &
-         real_field('NY', default=0.0_wp), real_field('NZ', default=0.0_wp)])
+      call cards%set_table([integer_field(['EID ', 'PJID', 'G1  ']), integer_field('G2', default=0), &
+         real_field('AREA', above=0.0_wp), real_field(['NX', 'NY', 'NZ'], default=0.0_wp)])
       allocate (bulk%cjoint(cards%n))
       do i = 1, cards%n
          call cards%next()
@@ -68,9 +67,9 @@ contains
       type(bulk_data_type), intent(inout)   :: bulk
       integer :: i
 
-      call cards%set_table([integer_field('PJID'), integer_field('NID'), &
-         integer_field('SIDX', default=0), integer_field('SIDY', default=0), real_field('MU', default=0.0_wp, least=0.0_wp), &
-         integer_field('NREAN', default=1, least=-1, most=most_reanalyses), real_field('P0', default=0.0_wp, above=0.0_wp)])
+      call cards%set_table([integer_field(['PJID', 'NID ']), integer_field(['SIDX', 'SIDY'], default=0), &
+         real_field('MU', default=0.0_wp, least=0.0_wp), integer_field('NREAN', default=1, least=-1, most=most_reanalyses), &
+         real_field('P0', default=0.0_wp, above=0.0_wp)])
       allocate (bulk%pjoint(cards%n))
       do i = 1, cards%n
          call cards%next()
@@ -110,13 +109,11 @@ contains
       type(card_type) :: as_given
       integer :: branch, first, i, k
 
-      call cards%set_table([integer_field('SID'), real_field('A11'), coefficient('A12'), coefficient('A21'), &
-         coefficient('A22'), coefficient('A31'), coefficient('A32'), blank_field('blank'), &
-         coefficient('B11'), coefficient('B12'), coefficient('B21'), coefficient('B22'), coefficient('B31'), &
-         coefficient('B32'), blank_field('blank'), blank_field('blank'), &
-         coefficient('C11'), coefficient('C12'), coefficient('C21'), coefficient('C22'), coefficient('C31'), &
-         coefficient('C32'), blank_field('blank'), blank_field('blank'), &
-         real_field('PMAX', default=huge(1.0_wp), above=0.0_wp), real_field('DMAX', default=huge(1.0_wp), above=0.0_wp)])
+      call cards%set_table([integer_field('SID'), real_field('A11'), &
+         real_field(['A12', 'A21', 'A22', 'A31', 'A32'], default=0.0_wp), blank_field('blank'), &
+         real_field(['B11', 'B12', 'B21', 'B22', 'B31', 'B32'], default=0.0_wp), blank_field(['blank', 'blank']), &
+         real_field(['C11', 'C12', 'C21', 'C22', 'C31', 'C32'], default=0.0_wp), blank_field(['blank', 'blank']), &
+         real_field(['PMAX', 'DMAX'], default=huge(1.0_wp), above=0.0_wp)])
       allocate (bulk%jshear(cards%n))
       do i = 1, cards%n
          call cards%take()
@@ -144,16 +141,6 @@ contains
             jshear%law%d_max = x(26)
          end associate
       end do
-
-   contains
-
-      pure function coefficient(name) result(rule)
-         character(*), intent(in) :: name
-         type(field_rule) :: rule
-
-         rule = real_field(name, default=0.0_wp)
-      end function coefficient
-
    end subroutine read_jshear
 
 

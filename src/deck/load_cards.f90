@@ -5,7 +5,7 @@ module load_cards
                         surface_load_card
    use card_fields, only: decode_integer, decode_real
    use card_reader, only: card_reader_type
-   use field_rules, only: blank_field, component_field, field_rule, integer_field, real_field
+   use field_rules, only: blank_field, component_field, integer_field, real_field
    use kinds, only: wp
    use text_tools, only: integer_text
    implicit none
@@ -101,7 +101,8 @@ contains
       type(bulk_data_type), intent(inout)   :: bulk
       integer :: i
 
-      call cards%set_table([integer_field('SID'), integer_field('G'), blank_field('CID'), real_field('F'), direction()])
+      call cards%set_table([integer_field(['SID', 'G  ']), blank_field('CID'), real_field('F'), &
+         real_field(['N1', 'N2', 'N3'], default=0.0_wp)])
       allocate (bulk%force(cards%n))
       do i = 1, cards%n
          call cards%next()
@@ -114,14 +115,6 @@ contains
    end subroutine read_force
 
 
-   !> The fields of a direction.
-   pure function direction() result(rules)
-      type(field_rule) :: rules(3)
-
-      rules = [real_field('N1', default=0.0_wp), real_field('N2', default=0.0_wp), real_field('N3', default=0.0_wp)]
-   end function direction
-
-
    !> PLOAD4: pressure on a face of a solid, positive into it: P1 at G1, P2 to P4 at the next corners as the right hand goes
    !! about the outward normal, where blank as P1. The face is named by G1 and, for CHEXA and CPENTA, the opposite corner G3; for
    !! CTETRA G4 is the corner that the face does not have.
@@ -131,11 +124,9 @@ contains
       type(bulk_data_type), intent(inout)   :: bulk
       integer :: i
 
-      call cards%set_table([integer_field('SID'), integer_field('EID'), real_field('P1'), &
-         real_field('P2', default=0.0_wp), real_field('P3', default=0.0_wp), real_field('P4', default=0.0_wp), &
+      call cards%set_table([integer_field(['SID', 'EID']), real_field('P1'), real_field(['P2', 'P3', 'P4'], default=0.0_wp), &
          integer_field('G1'), integer_field('G34', default=0)], 'PLOAD4')
-      call cards%set_table([integer_field('SID'), integer_field('EID'), real_field('P'), integer_field('G1'), &
-         integer_field('G2')], 'PLOADE')
+      call cards%set_table([integer_field(['SID', 'EID']), real_field('P'), integer_field(['G1', 'G2'])], 'PLOADE')
       allocate (bulk%pressure(cards%n))
       do i = 1, cards%n
          call cards%next()
@@ -161,7 +152,8 @@ contains
       integer :: i
 
       call cards%set_table([integer_field('SID'), real_field('P'), integer_field('PID')], 'PLOADM')
-      call cards%set_table([integer_field('SID'), real_field('F'), direction(), integer_field('PID')], 'FORCEM')
+      call cards%set_table([integer_field('SID'), real_field('F'), real_field(['N1', 'N2', 'N3'], default=0.0_wp), &
+         integer_field('PID')], 'FORCEM')
       allocate (bulk%surface_load(cards%n))
       do i = 1, cards%n
          call cards%next()
@@ -186,7 +178,8 @@ contains
       type(bulk_data_type), intent(inout)   :: bulk
       integer :: i
 
-      call cards%set_table([integer_field('SID'), blank_field('CID'), real_field('A'), direction()])
+      call cards%set_table([integer_field('SID'), blank_field('CID'), real_field('A'), &
+         real_field(['N1', 'N2', 'N3'], default=0.0_wp)])
       allocate (bulk%gravity(cards%n))
       do i = 1, cards%n
          call cards%next()

@@ -1,7 +1,7 @@
 !> The cards of the mesh: GRID, body elements, the edges CBAR and CROD, PMARK, and the blocks BLOCK2 and BLOCK3. A routine for each
 !! array of the bulk data, a table for each kind.
 module mesh_cards
-   use bulk_data, only: block2_card, block3_card, bulk_data_type, edge_cbar, edge_crod, grid_card, pmark_card
+   use bulk_data, only: bulk_data_type, edge_cbar, edge_crod, grid_card, pmark_card
    use card_reader, only: card_reader_type
    use element_kinds, only: element_table, n_kinds
    use field_rules, only: blank_field, component_field, field_rule, integer_field, real_field
@@ -10,7 +10,7 @@ module mesh_cards
    implicit none
    private
 
-   public :: read_grid, read_element, read_edge, read_pmark, read_block2, read_block3
+   public :: read_grid, read_element, read_edge, read_pmark, read_block
 
    real(wp), parameter :: most_elements = 2.0e7_wp         ! of a block
    integer, parameter  :: most_first = huge(1) - 200000000 ! N1 and E1: the numbers of a block have room behind them
@@ -23,8 +23,7 @@ contains
       type(bulk_data_type), intent(inout)   :: bulk
       integer :: i
 
-      call cards%set_table([integer_field('ID'), blank_field('CP'), real_field('X1', default=0.0_wp, whole=.true.), &
-         real_field('X2', default=0.0_wp, whole=.true.), real_field('X3', default=0.0_wp, whole=.true.), &
+      call cards%set_table([integer_field('ID'), blank_field('CP'), real_field(['X1', 'X2', 'X3'], default=0.0_wp, whole=.true.), &
          blank_field('CD'), component_field('PS', default=0), blank_field('SEID')])
       allocate (bulk%grid(cards%n))
       do i = 1, cards%n
@@ -47,9 +46,8 @@ contains
       integer :: i, k, kind
 
       do kind = 1, n_kinds
-         table = [integer_field('EID'), integer_field('PID'), (integer_field('G'//integer_text(k)), k = 1, &
-                  element_table(kind)%n_nodes)]
-         if (element_table(kind)%dimension == 2) table = [table, blank_field('THETA'), blank_field('ZOFFS')]
+         table = [integer_field(['EID', 'PID']), (integer_field('G'//integer_text(k)), k = 1, element_table(kind)%n_nodes)]
+         if (element_table(kind)%dimension == 2) table = [table, blank_field(['THETA', 'ZOFFS'])]
          call cards%set_table(table, element_table(kind)%card)
       end do
       allocate (bulk%element(cards%n))
@@ -75,9 +73,8 @@ contains
       type(bulk_data_type), intent(inout)   :: bulk
       integer :: i
 
-      call cards%set_table([integer_field('EID'), integer_field('PID'), integer_field('GA'), integer_field('GB'), &
-         real_field('X1', default=0.0_wp), real_field('X2', default=0.0_wp), real_field('X3', default=0.0_wp)], 'CBAR')
-      call cards%set_table([integer_field('EID'), integer_field('PID'), integer_field('G1'), integer_field('G2')], 'CROD')
+      call cards%set_table([integer_field(['EID', 'PID', 'GA ', 'GB ']), real_field(['X1', 'X2', 'X3'], default=0.0_wp)], 'CBAR')
+      call cards%set_table(integer_field(['EID', 'PID', 'G1 ', 'G2 ']), 'CROD')
       allocate (bulk%edge(cards%n))
       do i = 1, cards%n
          call cards%next()
@@ -109,68 +106,57 @@ contains
 
    !> BLOCK2: a quadrilateral block of NX by NY elements between four corners; corners 2 and 4 left blank make it a
    !! rectangle with corners 1 and 3 on its diagonal.
-   subroutine read_block2(cards, bulk)
+   !! BLOCK3: a box of NX by NY by NZ elements between two opposite corners; nodes go up z first, then y, then x.
+   subroutine read_block(cards, bulk)
       type(card_reader_type), intent(inout) :: cards
       type(bulk_data_type), intent(inout)   :: bulk
-      integer, parameter :: most_divisions = 100000
       integer, parameter :: others(4) = [7, 8, 11, 12] ! data fields of corners 2 and 4
-      integer :: i, k
+      integer :: i
 
-      call cards%set_table([integer_field('BID'), integer_field('PID'), &
-         integer_field('NX', most=most_divisions), integer_field('NY', most=most_divisions), &
-         real_field('X1', default=0.0_wp), real_field('Y1', default=0.0_wp), &
-         real_field('X2', default=0.0_wp), real_field('Y2', default=0.0_wp), &
-         real_field('X3'), real_field('Y3'), real_field('X4', default=0.0_wp), real_field('Y4', default=0.0_wp), &
-         real_field('RX', default=1.0_wp, above=0.0_wp), real_field('RY', default=1.0_wp, above=0.0_wp), &
-         integer_field('N1', default=1), integer_field('E1', default=1), &
-         (integer_field('S'//integer_text(k), default=0), k = 1, 4), integer_field('WELD', default=0)])
-      allocate (bulk%block2(cards%n))
+      call cards%set_table([integer_field(['BID', 'PID']), integer_field(['NX', 'NY'], most=100000), &
+         real_field(['X1', 'Y1', 'X2', 'Y2'], default=0.0_wp), real_field(['X3', 'Y3']), &
+         real_field(['X4', 'Y4'], default=0.0_wp), real_field(['RX', 'RY'], default=1.0_wp, above=0.0_wp), &
+         integer_field(['N1', 'E1'], default=1), integer_field(['S1  ', 'S2  ', 'S3  ', 'S4  ', 'WELD'], default=0)], 'BLOCK2')
+      call cards%set_table([integer_field(['BID', 'PID']), integer_field(['NX', 'NY', 'NZ'], most=10000), &
+         real_field(['X1', 'Y1', 'Z1'], default=0.0_wp), real_field(['X2', 'Y2', 'Z2']), &
+         real_field(['RX', 'RY', 'RZ'], default=1.0_wp, above=0.0_wp), integer_field(['N1', 'E1'], default=1), &
+         integer_field(['S1  ', 'S2  ', 'S3  ', 'S4  ', 'S5  ', 'S6  ', 'WELD'], default=0)], 'BLOCK3')
+      allocate (bulk%block(cards%n))
       do i = 1, cards%n
          call cards%next()
-         associate (block2 => bulk%block2(i), x => cards%values%reals, integers => cards%values%integers, &
+         associate (block => bulk%block(i), x => cards%values%reals, integers => cards%values%integers, &
                     given => cards%values%given)
-            if (any(given(others)) .and. .not. all(given(others))) call cards%error('X2', &
-               'corners 2 and 4 must both be given (X2, Y2, X4, Y4), or all four left blank for a rectangle')
-            call check_block(cards, 4)
-            block2 = block2_card(line=cards%card%line, id=integers(1), property=integers(2), divisions=max(1, integers(3:4)), &
-                                 corner=reshape(x(5:12), [2, 4]), grading=x(13:14), first_node=integers(15), &
-                                 first_element=integers(16), marks=integers(17:20), weld=integers(21), doubtful=cards%is_faulty())
-            if (any(given(others))) cycle
-            block2%corner(:, 2) = [x(9), x(6)]
-            block2%corner(:, 4) = [x(5), x(10)]
+            if (cards%card%name == 'BLOCK2') then
+               if (any(given(others)) .and. .not. all(given(others))) call cards%error('X2', &
+                  'corners 2 and 4 must both be given (X2, Y2, X4, Y4), or all four left blank for a rectangle')
+               call check_block(cards, 4)
+               block%divisions(:2) = max(1, integers(3:4))
+               block%corner(:2, :) = reshape(x(5:12), [2, 4])
+               if (.not. any(given(others))) block%corner(:2, 2::2) = reshape(x([9, 6, 5, 10]), [2, 2])
+               block%grading(:2) = x(13:14)
+               block%marks(:4) = integers(17:20)
+               block%weld = integers(21)
+            else
+               call check_block(cards, 5)
+               where (integers(15:16) > most_first) integers(15:16) = 1 ! a deck of solids is mostly one block, from 1 on
+               if (cards%values%ok .and. any(x(9:11) <= x(6:8))) &
+                  call cards%error('X2', 'the second corner must lie beyond the first in x, y and z')
+               block%dimension = 3
+               block%divisions = max(1, integers(3:5))
+               block%corner(:, :2) = reshape(x(6:11), [3, 2])
+               block%grading = x(12:14)
+               block%marks = integers(17:22)
+               block%weld = integers(23)
+            end if
+            block%line = cards%card%line
+            block%id = integers(1)
+            block%property = integers(2)
+            block%first_node = integers(15)
+            block%first_element = integers(16)
+            block%doubtful = cards%is_faulty()
          end associate
       end do
-   end subroutine read_block2
-
-
-   !> BLOCK3: a box of NX by NY by NZ elements between two opposite corners; nodes go up z first, then y, then x.
-   subroutine read_block3(cards, bulk)
-      type(card_reader_type), intent(inout) :: cards
-      type(bulk_data_type), intent(inout)   :: bulk
-      integer, parameter :: most_divisions = 10000
-      integer :: i, k
-
-      call cards%set_table([integer_field('BID'), integer_field('PID'), integer_field('NX', most=most_divisions), &
-         integer_field('NY', most=most_divisions), integer_field('NZ', most=most_divisions), &
-         real_field('X1', default=0.0_wp), real_field('Y1', default=0.0_wp), real_field('Z1', default=0.0_wp), &
-         real_field('X2'), real_field('Y2'), real_field('Z2'), real_field('RX', default=1.0_wp, above=0.0_wp), &
-         real_field('RY', default=1.0_wp, above=0.0_wp), real_field('RZ', default=1.0_wp, above=0.0_wp), &
-         integer_field('N1', default=1), integer_field('E1', default=1), &
-         (integer_field('S'//integer_text(k), default=0), k = 1, 6), integer_field('WELD', default=0)])
-      allocate (bulk%block3(cards%n))
-      do i = 1, cards%n
-         call cards%next()
-         associate (x => cards%values%reals, integers => cards%values%integers)
-            call check_block(cards, 5)
-            where (integers(15:16) > most_first) integers(15:16) = 1 ! a deck of solids is mostly one block, from 1 on
-            if (cards%values%ok .and. any(x(9:11) <= x(6:8))) &
-               call cards%error('X2', 'the second corner must lie beyond the first in x, y and z')
-            bulk%block3(i) = block3_card(line=cards%card%line, id=integers(1), property=integers(2), &
-               divisions=max(1, integers(3:5)), corner=reshape(x(6:11), [3, 2]), grading=x(12:14), first_node=integers(15), &
-               first_element=integers(16), marks=integers(17:22), weld=integers(23), doubtful=cards%is_faulty())
-         end associate
-      end do
-   end subroutine read_block3
+   end subroutine read_block
 
 
    !> Size and numbers of a block, whose divisions are data fields 3 to LAST and whose N1 and E1 are 15 and 16. Of too many

@@ -20,9 +20,9 @@ contains
       type(bulk_data_type), intent(inout)   :: bulk
       integer :: i
 
-      call cards%set_table([integer_field('PID'), integer_field('MID1'), real_field('T', above=0.0_wp), &
-         integer_field('MID2', default=0, least=-1, most=-1), blank_field('12I/T**3'), blank_field('MID3'), &
-         blank_field('TS/T'), blank_field('NSM'), word_field('MODES', '|NO|YES|')])
+      call cards%set_table([integer_field(['PID ', 'MID1']), real_field('T', above=0.0_wp), &
+         integer_field('MID2', default=0, least=-1, most=-1), blank_field(['12I/T**3', 'MID3    ', 'TS/T    ', 'NSM     ']), &
+         word_field('MODES', '|NO|YES|')])
       allocate (bulk%pshell(cards%n))
       do i = 1, cards%n
          call cards%next()
@@ -41,7 +41,7 @@ contains
       type(bulk_data_type), intent(inout)   :: bulk
       integer :: i
 
-      call cards%set_table([integer_field('PID'), integer_field('MID')])
+      call cards%set_table(integer_field(['PID', 'MID']))
       allocate (bulk%paxis(cards%n))
       do i = 1, cards%n
          call cards%next()
@@ -59,8 +59,8 @@ contains
       type(bulk_data_type), intent(inout)   :: bulk
       integer :: i
 
-      call cards%set_table([integer_field('PID'), integer_field('MID'), blank_field('CORDM'), blank_field('IN'), &
-         blank_field('STRESS'), word_field('ISOP', '|PLAIN|MODES|'), blank_field('FCTN')])
+      call cards%set_table([integer_field(['PID', 'MID']), blank_field(['CORDM ', 'IN    ', 'STRESS']), &
+         word_field('ISOP', '|PLAIN|MODES|'), blank_field('FCTN')])
       allocate (bulk%psolid(cards%n))
       do i = 1, cards%n
          call cards%next()
@@ -78,8 +78,7 @@ contains
       type(bulk_data_type), intent(inout)   :: bulk
       integer :: i
 
-      call cards%set_table([integer_field('PID'), integer_field('MID'), real_field('A', above=0.0_wp), blank_field('J'), &
-         blank_field('C'), blank_field('NSM')])
+      call cards%set_table([integer_field(['PID', 'MID']), real_field('A', above=0.0_wp), blank_field(['J  ', 'C  ', 'NSM'])])
       allocate (bulk%prod(cards%n))
       do i = 1, cards%n
          call cards%next()
@@ -97,10 +96,9 @@ contains
       type(bulk_data_type), intent(inout)   :: bulk
       integer :: i
 
-      call cards%set_table([integer_field('MID'), real_field('E', default=0.0_wp, above=0.0_wp), &
-         real_field('G', default=0.0_wp, above=0.0_wp), real_field('NU', default=0.0_wp, above=-1.0_wp, below=0.5_wp), &
-         real_field('RHO', default=0.0_wp, least=0.0_wp), real_field('A', default=0.0_wp), &
-         real_field('TREF', default=0.0_wp), real_field('GE', default=0.0_wp)])
+      call cards%set_table([integer_field('MID'), real_field(['E', 'G'], default=0.0_wp, above=0.0_wp), &
+         real_field('NU', default=0.0_wp, above=-1.0_wp, below=0.5_wp), real_field('RHO', default=0.0_wp, least=0.0_wp), &
+         real_field(['A   ', 'TREF', 'GE  '], default=0.0_wp)])
       allocate (bulk%mat1(cards%n))
       do i = 1, cards%n
          call cards%next()

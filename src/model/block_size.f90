@@ -27,23 +27,16 @@ contains
       entries = 0.0_wp
       nodes = 0.0_wp
       unknowns = 0.0_wp
-      associate (bulk => deck%bulk)
-         do b = 1, size(bulk%block2)
-            associate (sides => [1.0_wp, bulk%block2(b)%divisions + 1.0_wp])
-               entries = entries + plane_share*2**2*dissected_entries(sides)
+      associate (blocks => deck%bulk%block)
+         do b = 1, size(blocks)
+            associate (sides => blocks(b)%divisions + 1.0_wp, d => blocks(b)%dimension)
+               entries = entries + merge(plane_share, solid_share, d == 2)*d**2*dissected_entries(sides)
                nodes = nodes + product(sides)
-               unknowns = unknowns + 2*product(sides)
-            end associate
-         end do
-         do b = 1, size(bulk%block3)
-            associate (sides => bulk%block3(b)%divisions + 1.0_wp)
-               entries = entries + solid_share*3**2*dissected_entries(sides)
-               nodes = nodes + product(sides)
-               unknowns = unknowns + 3*product(sides)
+               unknowns = unknowns + d*product(sides)
             end associate
          end do
          bytes = 8.0_wp*entries + model_bytes*nodes
-         call check_memory(int(min(unknowns, real(huge(1), wp))), merge(3, 2, size(bulk%block3) > 0), 'at least', bytes, failure)
+         call check_memory(int(min(unknowns, real(huge(1), wp))), maxval([2, blocks%dimension]), 'at least', bytes, failure)
       end associate
    end subroutine check_block_size
 

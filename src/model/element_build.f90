@@ -7,7 +7,6 @@ module element_build
    use elasticity, only: axisymmetric, solid
    use element_kinds, only: element_table, kind_quad4, kind_tria3, max_nodes
    use element_mapping, only: smallest_jacobian
-   use id_checks, only: report_repeated
    use id_table, only: id_table_type, sorted_order
    use kinds, only: wp
    use model_data, only: corners_of, model_type, property_type
@@ -167,7 +166,7 @@ contains
          line(n + 1:n + k) = blocks(b)%line
          n = n + k
       end do
-      call report_repeated(deck, 'element', id, line, n_cards=n_cards)
+      call deck%report_repeated('element', id, line, n_cards=n_cards)
    end subroutine check_element_numbers
 
 
@@ -211,9 +210,7 @@ contains
          node = model%node_table%find(deck%bulk%grid(i)%id)
          if (node > 0) doubtful(node) = .true.
       end do
-      associate (block2 => deck%bulk%block2, block3 => deck%bulk%block3)
-         call doubtful_blocks%build([pack(block2%line, block2%doubtful), pack(block3%line, block3%doubtful)])
-      end associate
+      call doubtful_blocks%build(pack(deck%bulk%block%line, deck%bulk%block%doubtful))
       last_line = 0
       do e = 1, model%n_elements
          if (model%element_line(e) == last_line) cycle ! once a card

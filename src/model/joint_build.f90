@@ -1,13 +1,14 @@
 !> Interface elements: between two facing surfaces, between a surface and a rigid base, or given outright.
 module joint_build
-   use cjoint_build, only: cjoint_elements, group_number, list_groups
+   use bulk_data, only: cjoint_card
    use deck_check, only: checked_deck
    use facing_nodes, only: pair_nodes
    use id_table, only: id_table_type
-   use interface_axes, only: joint_axes
+   use interface_axes, only: joint_axes, outward
    use kinds, only: wp
    use law_build, only: default_slope, law_tables, list_laws, resolve_laws
    use model_data, only: interface_element, joint_type, model_type, surface_type
+   use node_build, only: find_nodes
    use reverse_lists, only: list_owners
    use surface_build, only: surface_node_list, surface_nodes
    use text_tools, only: integer_text
@@ -16,47 +17,49 @@ module joint_build
 
    public :: build_joints
 
-   !> Where what the JOINT cards name stands.
+   !> Where what the cards name stands.
    type :: joint_tables
       type(id_table_type) :: joint   !! the JOINT cards
       type(id_table_type) :: side    !! the sides of the JOINT cards, those of card j at 2 j - 1 and 2 j
       type(id_table_type) :: surface !! the surfaces of the model
+      type(id_table_type) :: group   !! the CJOINT cards, by their PJOINT
       type(law_tables)    :: laws
    end type joint_tables
 
 contains
 
-   !> Fill the joints and interface elements of MODEL.
+   !> Fill the joints and interface elements of MODEL. CJOINT cards with the same PJOINT make up one joint.
    subroutine build_joints(deck, model)
       type(checked_deck), intent(in)  :: deck
       type(model_type), intent(inout) :: model
       type(interface_element), allocatable :: elements(:)
       type(joint_tables)   :: tables
-      integer, allocatable :: first(:), group(:), members(:)
-      integer :: g, highest, j, n, n_groups
+      integer, allocatable :: first(:), leader(:), members(:)
+      integer :: highest, i, j, n
 
-      associate (bulk => deck%bulk, cards => deck%bulk%joint)
-         call tables%joint%build(cards%id)
-         call tables%side%build([(cards(j)%sides, j = 1, size(cards))])
+      associate (joints => deck%bulk%joint, cjoints => deck%bulk%cjoint)
+         call tables%joint%build(joints%id)
+         call tables%side%build([(joints(j)%sides, j = 1, size(joints))])
          call tables%surface%build(model%surfaces%id)
+         call tables%group%build(cjoints%law)
          call list_laws(deck, tables%laws)
-         call list_groups(deck, group, n_groups)
-         allocate (model%joints(size(cards) + n_groups), model%interface(0))
-         highest = max(0, maxval(bulk%cjoint%id))
+         leader = [(tables%group%find(cjoints(i)%law), i = 1, size(cjoints))] ! the first card of the group
+         allocate (model%joints(size(joints) + count(leader == [(i, i = 1, size(cjoints))])), model%interface(0))
+         highest = max(0, maxval(cjoints%id))
          n = 0
-         do j = 1, size(cards)
+         do j = 1, size(joints)
             call joint_elements(deck, tables, j, model, highest, elements)
-            call add_elements(model, n, j, cards(j)%id, cards(j)%line, elements)
-            call resolve_laws(deck, tables%laws, cards(j)%law, model%joints(j))
+            call add_elements(model, n, j, joints(j)%id, joints(j)%line, elements)
+            call resolve_laws(deck, tables%laws, joints(j)%law, model%joints(j))
          end do
-         call list_owners(n_groups, reshape(group, [1, size(group)]), first, members)
-         do g = 1, n_groups
-            j = size(cards) + g
-            call cjoint_elements(deck, members(first(g):first(g + 1) - 1), model, elements)
-            associate (card => bulk%cjoint(members(first(g))))
-               call add_elements(model, n, j, group_number(deck, tables%joint, card%law), card%line, elements)
-               call resolve_laws(deck, tables%laws, card%law, model%joints(j))
-            end associate
+         call list_owners(size(cjoints), reshape(leader, [1, size(cjoints)]), first, members)
+         j = size(joints)
+         do i = 1, size(cjoints)
+            if (leader(i) /= i) cycle
+            j = j + 1
+            call cjoint_elements(deck, cjoints(members(first(i):first(i + 1) - 1)), model, elements)
+            call add_elements(model, n, j, group_number(deck, tables%joint, cjoints(i)%law), cjoints(i)%line, elements)
+            call resolve_laws(deck, tables%laws, cjoints(i)%law, model%joints(j))
          end do
       end associate
       model%interface = model%interface(:n)
@@ -189,21 +192,49 @@ contains
    pure subroutine drop_tips(model, side)
       type(model_type), intent(in)           :: model
       type(surface_node_list), intent(inout) :: side
-      integer :: k, n
+      integer, allocatable :: kept(:)
+      integer :: k
 
-      n = 0
-      do k = 1, side%n
-         if (model%twin(side%node(k)) == 0) cycle
-         n = n + 1
-         side%node(n) = side%node(k)
-         side%area(n) = side%area(k)
-         side%normal(:, n) = side%normal(:, k)
-      end do
-      side%n = n
-      side%node = side%node(:n)
-      side%area = side%area(:n)
-      side%normal = side%normal(:, :n)
+      kept = pack([(k, k = 1, side%n)], model%twin(side%node) > 0)
+      side%n = size(kept)
+      side%node = side%node(kept)
+      side%area = side%area(kept)
+      side%normal = side%normal(:, kept)
    end subroutine drop_tips
+
+
+   !> The interface elements of CJOINT CARDS.
+   subroutine cjoint_elements(deck, cards, model, elements)
+      type(checked_deck), intent(in) :: deck
+      type(cjoint_card), intent(in)  :: cards(:)
+      type(model_type), intent(in)   :: model
+      type(interface_element), allocatable, intent(out) :: elements(:)
+      integer :: k
+
+      allocate (elements(size(cards)))
+      do k = 1, size(cards)
+         associate (card => cards(k), element => elements(k))
+            element%id = card%id
+            element%area = card%area
+            call find_nodes(deck, card%line, card%nodes, model, element%nodes)
+            if (model%dimension == 2 .and. abs(card%normal(3)) > 0.0_wp) &
+               call deck%field_error(card%line, 'NZ', 'not zero, but a plane model lies in x-y')
+            if (norm2(card%normal) > 0.0_wp) &
+               element%axes = joint_axes(model, outward(model, element%nodes, card%normal/norm2(card%normal)))
+         end associate
+      end do
+   end subroutine cjoint_elements
+
+
+   !> The number of a joint of CJOINTs: that of its PJOINT, or where a JOINT has it already, the next that is free.
+   pure integer function group_number(deck, joints, law) result(number)
+      type(checked_deck), intent(in)  :: deck
+      type(id_table_type), intent(in) :: joints !! of the JOINT cards, by their ids
+      integer, intent(in)             :: law
+
+      number = law
+      if (joints%find(law) > 0) number = law + max(maxval(deck%bulk%joint%id), maxval(deck%bulk%pjoint%id))
+   end function group_number
 
 
    !> Area and mean normal of a joint.

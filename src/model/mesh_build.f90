@@ -1,13 +1,13 @@
 !> Nodes, bodies and marked sides: from the mesh cards and the block generators to positions in the model.
 module mesh_build
    use bar_build, only: is_bar
-   use block_mesh, only: block_type
+   use block_mesh, only: block_type, generate_block
    use deck_check, only: checked_deck
    use element_build, only: check_element_numbers, check_elements, check_one_state, collect_elements, is_face, resolve_properties
    use element_kinds, only: element_table, max_side_nodes
    use kinds, only: wp
    use model_data, only: model_type
-   use node_build, only: collect_nodes, find_nodes, generate_blocks, order_nodes, raw_nodes
+   use node_build, only: collect_nodes, find_nodes, order_nodes, raw_nodes
    use reverse_lists, only: list_owners
    implicit none
    private
@@ -34,10 +34,14 @@ contains
       type(block_type), allocatable :: blocks(:)
       type(raw_nodes) :: raw
       integer, allocatable :: position(:) ! raw node -> node of the model
+      integer :: b
 
       model%dimension = 2
-      if (size(deck%bulk%block3) > 0 .or. any(element_table(deck%bulk%element%kind)%dimension == 3)) model%dimension = 3
-      call generate_blocks(deck, blocks)
+      if (any(deck%bulk%block%dimension == 3) .or. any(element_table(deck%bulk%element%kind)%dimension == 3)) model%dimension = 3
+      allocate (blocks(size(deck%bulk%block)))
+      do b = 1, size(blocks)
+         call generate_block(deck%bulk%block(b), blocks(b))
+      end do
       call collect_nodes(deck, blocks, raw)
       call order_nodes(raw, model, position)
       call resolve_properties(deck, model)
@@ -74,8 +78,8 @@ contains
          end associate
       end do
       if (.not. model%axisymmetric) return
-      do b = 1, size(deck%bulk%block2)
-         if (any(deck%bulk%block2(b)%corner(1, :) < 0.0_wp)) call deck%errors%add(deck%bulk%block2(b)%line, &
+      do b = 1, size(deck%bulk%block)
+         if (any(deck%bulk%block(b)%corner(1, :) < 0.0_wp)) call deck%errors%add(deck%bulk%block(b)%line, &
             'BLOCK2: a corner has x < 0, but an axisymmetric model lies in x >= 0')
       end do
    end subroutine check_nodes

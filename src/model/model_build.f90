@@ -7,7 +7,6 @@ module model_build
    use deck_input, only: deck_type
    use determinate_joints, only: find_determinate_joints
    use first_pressures, only: find_first_pressures
-   use id_checks, only: check_ids
    use joint_build, only: build_joints
    use joint_split, only: split_shared_surfaces
    use load_build, only: build_loads
@@ -36,7 +35,7 @@ contains
 
       if (.not. deck%is_whole) return
       call checked%start(deck, errors)
-      call check_ids(checked)
+      call checked%check_ids()
       call build_mesh(checked, model, sides)
       call build_surfaces(checked, sides, model)
       call split_shared_surfaces(checked, model)

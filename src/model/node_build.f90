@@ -1,9 +1,8 @@
 !> Nodes: GRID cards and those of generated blocks, in the order of their numbers.
 module node_build
-   use block_mesh, only: block_type, generate_block2, generate_block3
+   use block_mesh, only: block_type
    use deck_check, only: checked_deck
    use element_kinds, only: kind_quad4
-   use id_checks, only: report_repeated
    use id_table, only: sorted_order
    use kinds, only: wp
    use model_data, only: model_type
@@ -12,7 +11,7 @@ module node_build
    implicit none
    private
 
-   public :: generate_blocks, collect_nodes, order_nodes, find_nodes
+   public :: collect_nodes, order_nodes, find_nodes
 
    !> Nodes as they come, before they are put in order, and which of them a block's places are.
    type, public :: raw_nodes
@@ -24,27 +23,6 @@ module node_build
    end type raw_nodes
 
 contains
-
-   !> What the BLOCK2 and BLOCK3 cards give, in the order of the deck.
-   subroutine generate_blocks(deck, blocks)
-      type(checked_deck), intent(in)             :: deck
-      type(block_type), allocatable, intent(out) :: blocks(:)
-      integer, allocatable :: order(:)
-      integer :: b
-
-      associate (block2 => deck%bulk%block2, block3 => deck%bulk%block3)
-         allocate (blocks(size(block2) + size(block3)))
-         call sorted_order([block2%line, block3%line], order)
-         do b = 1, size(blocks)
-            if (order(b) <= size(block2)) then
-               call generate_block2(block2(order(b)), blocks(b))
-            else
-               call generate_block3(block3(order(b) - size(block2)), blocks(b))
-            end if
-         end do
-      end associate
-   end subroutine generate_blocks
-
 
    !> All GRID cards and all nodes of blocks; a welded block uses the coincident nodes of the block it is welded to.
    subroutine collect_nodes(deck, blocks, raw)
@@ -79,7 +57,7 @@ contains
          end associate
       end do
       raw%n = n
-      call report_repeated(deck, 'node', raw%id(:n), raw%line(:n), n_cards=size(deck%bulk%grid))
+      call deck%report_repeated('node', raw%id(:n), raw%line(:n), n_cards=size(deck%bulk%grid))
    end subroutine collect_nodes
 
 
@@ -160,7 +138,7 @@ contains
 
 
    !> The NODES of the model with the numbers ID, which a card of an element, edge or interface element names from its data field 3
-   !! on; 0, and an error, where there is none. An id of 0 is a field that could not be read, or that is blank.
+   !! on; 0, and an error, where there is none. An id of 0 is no node: a field that is blank or could not be read.
    subroutine find_nodes(deck, line, id, model, nodes)
       type(checked_deck), intent(in) :: deck
       integer, intent(in)            :: line     !! of the card
@@ -169,10 +147,11 @@ contains
       integer, intent(out)           :: nodes(:)
       integer :: k
 
+      nodes = 0
       do k = 1, size(id)
+         if (id(k) == 0) cycle
          nodes(k) = model%node_table%find(id(k))
-         if (nodes(k) == 0 .and. id(k) > 0) &
-            call deck%field_error(line, k + 2, 'there is no GRID '//integer_text(id(k)), noun='node')
+         if (nodes(k) == 0) call deck%field_error(line, k + 2, 'there is no GRID '//integer_text(id(k)), noun='node')
       end do
    end subroutine find_nodes
 

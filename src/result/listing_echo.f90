@@ -2,7 +2,7 @@
 module listing_echo
    use deck_cards, only: card_name, is_continuation
    use deck_input, only: deck_type
-   use include_lines, only: is_include
+   use line_scan, only: is_include
    use listing_page, only: cut, heading, page_width
    use output_file, only: output_file_type
    use text_tools, only: integer_text, plural, upper
