@@ -28,13 +28,12 @@ module card_reader
    !> What a reading routine takes its cards from.
    type, public :: card_reader_type
       integer           :: n = 0                     !! cards that the routine will find
-      type(card_type)   :: card                      !! the one that was taken last,
-      type(card_values) :: values                    !! and its fields
+      integer           :: line = 0                  !! where the card begins that was taken last
+      type(card_type)   :: card                      !! that card
       type(deck_error_list), pointer :: errors => null()
       type(card_kind), allocatable :: kinds(:)       !! all that there are
       type(deck_text_type), pointer, private :: text => null()
       integer(int8), allocatable, private :: kind_at(:) ! (lines) of the card that begins there, 0: none that is known
-      integer, private :: line = 0                   ! where the card in hand begins
       integer, private :: routine = 0
       integer, private :: errors_before = 0          ! the card was decoded
    contains
@@ -153,12 +152,13 @@ contains
    end subroutine set_table
 
 
-   !> Take and decode the next card of the routine. There must be one.
-   subroutine next(self)
+   !> Take the next card of the routine, there must be one, and decode it.
+   subroutine next(self, values)
       class(card_reader_type), intent(inout) :: self
+      type(card_values), intent(inout)       :: values
 
       call self%take()
-      call self%decode()
+      call self%decode(values)
    end subroutine next
 
 
@@ -178,16 +178,17 @@ contains
 
 
    !> Decode the card by its table, or by the first N fields of it with more behind them.
-   subroutine decode(self, n)
+   subroutine decode(self, values, n)
       class(card_reader_type), intent(inout) :: self
+      type(card_values), intent(inout)       :: values
       integer, intent(in), optional          :: n
 
       self%errors_before = self%errors%n
       associate (kind => self%kinds(self%kind_at(self%line)))
          if (present(n)) then
-            call decode_card(self%card, kind%table(:n), .true., self%values, self%errors)
+            call decode_card(self%card, kind%table(:n), .true., values, self%errors)
          else
-            call decode_card(self%card, kind%table, kind%open_ended, self%values, self%errors)
+            call decode_card(self%card, kind%table, kind%open_ended, values, self%errors)
          end if
       end associate
    end subroutine decode
@@ -211,14 +212,15 @@ contains
 
 
    !> The direction of WHAT in the three fields from FIRST on must not be zero.
-   subroutine check_direction(self, first, what)
+   subroutine check_direction(self, first, what, values)
       class(card_reader_type), intent(inout) :: self
       character(*), intent(in)               :: first, what
+      type(card_values), intent(in)          :: values
       integer :: k
 
       associate (kind => self%kinds(self%kind_at(self%line)))
          k = kind%number_of(first)
-         if (self%values%ok .and. all(abs(self%values%reals(k:k + 2)) <= 0.0_wp)) &
+         if (values%ok .and. all(abs(values%reals(k:k + 2)) <= 0.0_wp)) &
             call self%error(first, what//' has no direction, expected '//trim(kind%table(k)%name)//', '// &
                             trim(kind%table(k + 1)%name)//', '//trim(kind%table(k + 2)%name)//' not all zero')
       end associate

@@ -60,13 +60,7 @@ contains
       character(*), intent(in)           :: field, message
       character(*), intent(in), optional :: called !! in the message, where not by its name
 
-      associate (k => self%kinds(self%kind_of_line(line))%number_of(field))
-         if (present(called)) then
-            call add_field_error(self%text, line, k, called, message, self%errors)
-         else
-            call add_field_error(self%text, line, k, field, message, self%errors)
-         end if
-      end associate
+      call self%field_error(line, self%kinds(self%kind_of_line(line))%number_of(field), message, called)
    end subroutine named_field_error
 
 

@@ -1,7 +1,7 @@
 !> The cards of the joint: JOINT, CJOINT, PJOINT, JNORM, JSHEAR, JINCR. A table and a routine each.
 module joint_cards
    use bulk_data, only: bulk_data_type, cjoint_card, jincr_card, jnorm_card, joint_card, pjoint_card
-   use card_fields, only: decode_real
+   use card_fields, only: card_values, decode_real
    use card_lines, only: card_type
    use card_reader, only: card_reader_type
    use field_rules, only: blank_field, integer_field, real_field, word_field
@@ -24,17 +24,18 @@ contains
    subroutine read_joint(cards, bulk)
       type(card_reader_type), intent(inout) :: cards
       type(bulk_data_type), intent(inout)   :: bulk
+      type(card_values) :: values
       integer :: i
 
       call cards%set_table([integer_field(['JID  ', 'PJID ', 'SIDE1']), integer_field('SIDE2', default=0), &
          real_field('TOL', default=0.0_wp, above=0.0_wp)])
       allocate (bulk%joint(cards%n))
       do i = 1, cards%n
-         call cards%next()
-         associate (integers => cards%values%integers)
+         call cards%next(values)
+         associate (integers => values%integers)
             if (integers(4) == integers(3) .and. integers(3) > 0) call cards%error('SIDE2', 'the same surface as SIDE1')
-            bulk%joint(i) = joint_card(line=cards%card%line, id=integers(1), law=integers(2), sides=integers(3:4), &
-                                       tolerance=cards%values%reals(5))
+            bulk%joint(i) = joint_card(line=cards%line, id=integers(1), law=integers(2), sides=integers(3:4), &
+                                       tolerance=values%reals(5))
          end associate
       end do
    end subroutine read_joint
@@ -44,17 +45,18 @@ contains
    subroutine read_cjoint(cards, bulk)
       type(card_reader_type), intent(inout) :: cards
       type(bulk_data_type), intent(inout)   :: bulk
+      type(card_values) :: values
       integer :: i
 
       call cards%set_table([integer_field(['EID ', 'PJID', 'G1  ']), integer_field('G2', default=0), &
          real_field('AREA', above=0.0_wp), real_field(['NX', 'NY', 'NZ'], default=0.0_wp)])
       allocate (bulk%cjoint(cards%n))
       do i = 1, cards%n
-         call cards%next()
-         call cards%check_direction('NX', 'the normal')
-         associate (integers => cards%values%integers, reals => cards%values%reals)
+         call cards%next(values)
+         call cards%check_direction('NX', 'the normal', values)
+         associate (integers => values%integers, reals => values%reals)
             if (integers(4) == integers(3) .and. integers(3) > 0) call cards%error('G2', 'the same node as G1')
-            bulk%cjoint(i) = cjoint_card(line=cards%card%line, id=integers(1), law=integers(2), nodes=integers(3:4), &
+            bulk%cjoint(i) = cjoint_card(line=cards%line, id=integers(1), law=integers(2), nodes=integers(3:4), &
                                          area=reals(5), normal=reals(6:8))
          end associate
       end do
@@ -65,6 +67,7 @@ contains
    subroutine read_pjoint(cards, bulk)
       type(card_reader_type), intent(inout) :: cards
       type(bulk_data_type), intent(inout)   :: bulk
+      type(card_values) :: values
       integer :: i
 
       call cards%set_table([integer_field(['PJID', 'NID ']), integer_field(['SIDX', 'SIDY'], default=0), &
@@ -72,9 +75,9 @@ contains
          real_field('P0', default=0.0_wp, above=0.0_wp)])
       allocate (bulk%pjoint(cards%n))
       do i = 1, cards%n
-         call cards%next()
-         associate (integers => cards%values%integers, reals => cards%values%reals, given => cards%values%given)
-            bulk%pjoint(i) = pjoint_card(line=cards%card%line, id=integers(1), normal_law=integers(2), &
+         call cards%next(values)
+         associate (integers => values%integers, reals => values%reals, given => values%given)
+            bulk%pjoint(i) = pjoint_card(line=cards%line, id=integers(1), normal_law=integers(2), &
                shear_laws=integers(3:4), mu=reals(5), mu_given=given(5), n_reanalyses=integers(6), p0=reals(7), &
                p0_given=given(7))
          end associate
@@ -86,17 +89,16 @@ contains
    subroutine read_jnorm(cards, bulk)
       type(card_reader_type), intent(inout) :: cards
       type(bulk_data_type), intent(inout)   :: bulk
+      type(card_values) :: values
       integer :: i
 
       call cards%set_table([integer_field('NID'), real_field('C', above=0.0_wp), &
          real_field('M', above=0.0_wp, most=1.0_wp), real_field('EU', default=0.0_wp, above=0.0_wp)])
       allocate (bulk%jnorm(cards%n))
       do i = 1, cards%n
-         call cards%next()
-         associate (values => cards%values)
-            bulk%jnorm(i) = jnorm_card(line=cards%card%line, id=values%integers(1), c=values%reals(2), m=values%reals(3), &
-                                       e_u=values%reals(4), e_u_given=values%given(4))
-         end associate
+         call cards%next(values)
+         bulk%jnorm(i) = jnorm_card(line=cards%line, id=values%integers(1), c=values%reals(2), m=values%reals(3), &
+                                    e_u=values%reals(4), e_u_given=values%given(4))
       end do
    end subroutine read_jnorm
 
@@ -106,6 +108,7 @@ contains
    subroutine read_jshear(cards, bulk)
       type(card_reader_type), intent(inout) :: cards
       type(bulk_data_type), intent(inout)   :: bulk
+      type(card_values) :: values
       type(card_type) :: as_given
       integer :: branch, first, i, k
 
@@ -119,11 +122,11 @@ contains
          call cards%take()
          as_given = cards%card
          cards%card = aligned(as_given)
-         call cards%decode()
+         call cards%decode(values)
          cards%card = as_given
-         associate (jshear => bulk%jshear(i), x => cards%values%reals, given => cards%values%given)
-            jshear%line = cards%card%line
-            jshear%id = cards%values%integers(1)
+         associate (jshear => bulk%jshear(i), x => values%reals, given => values%given)
+            jshear%line = cards%line
+            jshear%id = values%integers(1)
             jshear%law%given = .true.
             do k = 1, size(branches)
                branch = branches(k)
@@ -165,6 +168,7 @@ contains
    subroutine read_jincr(cards, bulk)
       type(card_reader_type), intent(inout) :: cards
       type(bulk_data_type), intent(inout)   :: bulk
+      type(card_values) :: values
       integer :: i
 
       call cards%set_table([integer_field('SID'), integer_field('N', default=0, most=most_increments), &
@@ -173,12 +177,12 @@ contains
       do i = 1, cards%n
          call cards%take()
          if (is_list(cards%card)) then
-            call cards%decode(3)
+            call cards%decode(values, 3)
          else
-            call cards%decode()
+            call cards%decode(values)
          end if
-         bulk%jincr(i) = jincr_card(line=cards%card%line, id=cards%values%integers(1), shares=[1.0_wp])
-         if (cards%values%ok) call share_out(cards, bulk%jincr(i)%shares)
+         bulk%jincr(i) = jincr_card(line=cards%line, id=values%integers(1), shares=[1.0_wp])
+         if (values%ok) call share_out(cards, values, bulk%jincr(i)%shares)
       end do
    end subroutine read_jincr
 
@@ -192,17 +196,18 @@ contains
 
 
    !> The SHARES of a JINCR; they stay where there is an error.
-   subroutine share_out(cards, shares)
+   subroutine share_out(cards, values, shares)
       type(card_reader_type), intent(inout) :: cards
+      type(card_values), intent(in)         :: values
       real(wp), allocatable, intent(inout)  :: shares(:)
       logical :: ok
 
-      associate (n => cards%values%integers(2), first => cards%values%reals(4))
-         if (cards%values%words(3) == 'LIST') then
-            call read_list(cards, shares)
-         else if (.not. cards%values%given(2)) then
+      associate (n => values%integers(2), first => values%reals(4))
+         if (values%words(3) == 'LIST') then
+            call read_list(cards, values, shares)
+         else if (.not. values%given(2)) then
             call cards%error('N', 'blank, expected the number of increments')
-         else if (cards%values%words(3) == 'ARITH') then
+         else if (values%words(3) == 'ARITH') then
             call arithmetic_shares(n, first, shares, ok)
             if (.not. ok) call cards%error('FIRST', 'with '//integer_text(n)//' increments in arithmetic progression'// &
                ' and a first share of '//real_text(first)//' the last share is not positive, expected FIRST below '// &
@@ -217,14 +222,15 @@ contains
 
 
    !> The shares of PROG = LIST; they stand from FIRST on and add up to 1 (to 1E-4: then they are scaled to do so).
-   subroutine read_list(cards, shares)
+   subroutine read_list(cards, values, shares)
       type(card_reader_type), intent(inout) :: cards
+      type(card_values), intent(in)         :: values
       real(wp), allocatable, intent(inout)  :: shares(:)
       real(wp), allocatable :: given(:)
       integer :: k, n
       logical :: ok
 
-      associate (card => cards%card, values => cards%values)
+      associate (card => cards%card)
          allocate (given(card%n), source=0.0_wp)
          n = 0
          do k = 4, card%n

@@ -3,7 +3,7 @@
 module load_cards
    use bulk_data, only: bolt_card, bulk_data_type, displacement_card, force_card, gravity_card, pressure_card, support_card, &
                         surface_load_card
-   use card_fields, only: decode_integer, decode_real
+   use card_fields, only: card_values, decode_integer, decode_real
    use card_reader, only: card_reader_type
    use field_rules, only: blank_field, component_field, integer_field, real_field
    use kinds, only: wp
@@ -20,6 +20,7 @@ contains
    subroutine read_support(cards, bulk)
       type(card_reader_type), intent(inout) :: cards
       type(bulk_data_type), intent(inout)   :: bulk
+      type(card_values) :: values
       integer :: field, i, n
 
       call cards%set_table([integer_field('SID'), integer_field('G1'), component_field('C1'), blank_field('D1'), &
@@ -29,9 +30,9 @@ contains
       allocate (bulk%support(2*cards%n))
       n = 0
       do i = 1, cards%n
-         call cards%next()
+         call cards%next(values)
          n = n + 1
-         associate (line => cards%card%line, integers => cards%values%integers, given => cards%values%given)
+         associate (line => cards%line, integers => values%integers, given => values%given)
             select case (cards%card%name)
             case ('SPC')
                if (given(5) .neqv. given(6)) call cards%error('G2', 'node and components C2 go together')
@@ -99,18 +100,17 @@ contains
    subroutine read_force(cards, bulk)
       type(card_reader_type), intent(inout) :: cards
       type(bulk_data_type), intent(inout)   :: bulk
+      type(card_values) :: values
       integer :: i
 
       call cards%set_table([integer_field(['SID', 'G  ']), blank_field('CID'), real_field('F'), &
          real_field(['N1', 'N2', 'N3'], default=0.0_wp)])
       allocate (bulk%force(cards%n))
       do i = 1, cards%n
-         call cards%next()
-         call cards%check_direction('N1', 'the force')
-         associate (values => cards%values)
-            bulk%force(i) = force_card(line=cards%card%line, set=values%integers(1), node=values%integers(2), &
-                                       force=values%reals(4)*values%reals(5:7))
-         end associate
+         call cards%next(values)
+         call cards%check_direction('N1', 'the force', values)
+         bulk%force(i) = force_card(line=cards%line, set=values%integers(1), node=values%integers(2), &
+                                    force=values%reals(4)*values%reals(5:7))
       end do
    end subroutine read_force
 
@@ -122,6 +122,7 @@ contains
    subroutine read_pressure(cards, bulk)
       type(card_reader_type), intent(inout) :: cards
       type(bulk_data_type), intent(inout)   :: bulk
+      type(card_values) :: values
       integer :: i
 
       call cards%set_table([integer_field(['SID', 'EID']), real_field('P1'), real_field(['P2', 'P3', 'P4'], default=0.0_wp), &
@@ -129,9 +130,9 @@ contains
       call cards%set_table([integer_field(['SID', 'EID']), real_field('P'), integer_field(['G1', 'G2'])], 'PLOADE')
       allocate (bulk%pressure(cards%n))
       do i = 1, cards%n
-         call cards%next()
-         associate (pressure => bulk%pressure(i), values => cards%values)
-            pressure = pressure_card(line=cards%card%line, set=values%integers(1), first=values%integers(2), &
+         call cards%next(values)
+         associate (pressure => bulk%pressure(i))
+            pressure = pressure_card(line=cards%line, set=values%integers(1), first=values%integers(2), &
                                      on_face=cards%card%name == 'PLOAD4')
             if (pressure%on_face) then
                pressure%corners = values%integers(7:8)
@@ -149,6 +150,7 @@ contains
    subroutine read_surface_load(cards, bulk)
       type(card_reader_type), intent(inout) :: cards
       type(bulk_data_type), intent(inout)   :: bulk
+      type(card_values) :: values
       integer :: i
 
       call cards%set_table([integer_field('SID'), real_field('P'), integer_field('PID')], 'PLOADM')
@@ -156,14 +158,14 @@ contains
          integer_field('PID')], 'FORCEM')
       allocate (bulk%surface_load(cards%n))
       do i = 1, cards%n
-         call cards%next()
-         associate (load => bulk%surface_load(i), values => cards%values)
-            load = surface_load_card(line=cards%card%line, set=values%integers(1), is_pressure=cards%card%name == 'PLOADM')
+         call cards%next(values)
+         associate (load => bulk%surface_load(i))
+            load = surface_load_card(line=cards%line, set=values%integers(1), is_pressure=cards%card%name == 'PLOADM')
             if (load%is_pressure) then
                load%pressure = values%reals(2)
                load%surface = values%integers(3)
             else
-               call cards%check_direction('N1', 'the force')
+               call cards%check_direction('N1', 'the force', values)
                load%force = values%reals(2)*values%reals(3:5)
                load%surface = values%integers(6)
             end if
@@ -176,18 +178,17 @@ contains
    subroutine read_gravity(cards, bulk)
       type(card_reader_type), intent(inout) :: cards
       type(bulk_data_type), intent(inout)   :: bulk
+      type(card_values) :: values
       integer :: i
 
       call cards%set_table([integer_field('SID'), blank_field('CID'), real_field('A'), &
          real_field(['N1', 'N2', 'N3'], default=0.0_wp)])
       allocate (bulk%gravity(cards%n))
       do i = 1, cards%n
-         call cards%next()
-         call cards%check_direction('N1', 'the acceleration')
-         associate (values => cards%values)
-            bulk%gravity(i) = gravity_card(line=cards%card%line, set=values%integers(1), &
-                                           acceleration=values%reals(3)*values%reals(4:6))
-         end associate
+         call cards%next(values)
+         call cards%check_direction('N1', 'the acceleration', values)
+         bulk%gravity(i) = gravity_card(line=cards%line, set=values%integers(1), &
+                                        acceleration=values%reals(3)*values%reals(4:6))
       end do
    end subroutine read_gravity
 
@@ -196,6 +197,7 @@ contains
    subroutine read_displacement(cards, bulk)
       type(card_reader_type), intent(inout) :: cards
       type(bulk_data_type), intent(inout)   :: bulk
+      type(card_values) :: values
       integer :: field, i, n
 
       call cards%set_table([integer_field('SID'), integer_field('G1'), component_field('C1'), real_field('D1'), &
@@ -203,16 +205,14 @@ contains
       allocate (bulk%displacement(2*cards%n))
       n = 0
       do i = 1, cards%n
-         call cards%next()
-         associate (values => cards%values)
-            if (any(values%given(5:7)) .and. .not. all(values%given(5:6))) &
-               call cards%error('G2', 'node, components C2 and displacement D2 go together')
-            do field = 2, merge(5, 2, values%given(5)), 3
-               n = n + 1
-               bulk%displacement(n) = displacement_card(line=cards%card%line, set=values%integers(1), field=field, &
-                  node=values%integers(field), components=values%integers(field + 1), value=values%reals(field + 2))
-            end do
-         end associate
+         call cards%next(values)
+         if (any(values%given(5:7)) .and. .not. all(values%given(5:6))) &
+            call cards%error('G2', 'node, components C2 and displacement D2 go together')
+         do field = 2, merge(5, 2, values%given(5)), 3
+            n = n + 1
+            bulk%displacement(n) = displacement_card(line=cards%line, set=values%integers(1), field=field, &
+               node=values%integers(field), components=values%integers(field + 1), value=values%reals(field + 2))
+         end do
       end do
       bulk%displacement = bulk%displacement(:n)
    end subroutine read_displacement
@@ -222,6 +222,7 @@ contains
    subroutine read_load(cards, bulk)
       type(card_reader_type), intent(inout) :: cards
       type(bulk_data_type), intent(inout)   :: bulk
+      type(card_values) :: values
       real(wp) :: factor
       integer  :: i, k, set
       logical  :: factor_ok, set_ok
@@ -229,8 +230,8 @@ contains
       call cards%set_table([integer_field('SID'), real_field('S'), real_field('S1'), integer_field('L1')], open_ended=.true.)
       allocate (bulk%load(cards%n))
       do i = 1, cards%n
-         call cards%next()
-         associate (load => bulk%load(i), card => cards%card, values => cards%values)
+         call cards%next(values)
+         associate (load => bulk%load(i), card => cards%card)
             load%line = card%line
             load%set = values%integers(1)
             load%scale = values%reals(2)
@@ -266,22 +267,21 @@ contains
    subroutine read_bolt(cards, bulk)
       type(card_reader_type), intent(inout) :: cards
       type(bulk_data_type), intent(inout)   :: bulk
+      type(card_values) :: values
       integer :: i
 
       call cards%set_table([integer_field('BID'), integer_field('EID', default=0), real_field('PRELOAD', above=0.0_wp), &
          integer_field('STAGE', default=1), integer_field('PMARK', default=0)])
       allocate (bulk%bolt(cards%n))
       do i = 1, cards%n
-         call cards%next()
-         associate (values => cards%values)
-            if (values%given(2) .and. values%given(5)) then
-               call cards%error('PMARK', 'a bolt is a CROD, EID, or a solid cut at a surface, PMARK, not both')
-            else if (.not. (values%given(2) .or. values%given(5))) then
-               call cards%error('EID', 'blank, expected a CROD, or in field 6 the PMARK at which a solid is cut')
-            end if
-            bulk%bolt(i) = bolt_card(line=cards%card%line, id=values%integers(1), element=values%integers(2), &
-                                     preload=values%reals(3), stage=values%integers(4), surface=values%integers(5))
-         end associate
+         call cards%next(values)
+         if (values%given(2) .and. values%given(5)) then
+            call cards%error('PMARK', 'a bolt is a CROD, EID, or a solid cut at a surface, PMARK, not both')
+         else if (.not. (values%given(2) .or. values%given(5))) then
+            call cards%error('EID', 'blank, expected a CROD, or in field 6 the PMARK at which a solid is cut')
+         end if
+         bulk%bolt(i) = bolt_card(line=cards%line, id=values%integers(1), element=values%integers(2), &
+                                  preload=values%reals(3), stage=values%integers(4), surface=values%integers(5))
       end do
    end subroutine read_bolt
 

@@ -2,6 +2,7 @@
 !! array of the bulk data, a table for each kind.
 module mesh_cards
    use bulk_data, only: bulk_data_type, edge_cbar, edge_crod, grid_card, pmark_card
+   use card_fields, only: card_values
    use card_reader, only: card_reader_type
    use element_kinds, only: element_table, n_kinds
    use field_rules, only: blank_field, component_field, field_rule, integer_field, real_field
@@ -21,17 +22,16 @@ contains
    subroutine read_grid(cards, bulk)
       type(card_reader_type), intent(inout) :: cards
       type(bulk_data_type), intent(inout)   :: bulk
+      type(card_values) :: values
       integer :: i
 
       call cards%set_table([integer_field('ID'), blank_field('CP'), real_field(['X1', 'X2', 'X3'], default=0.0_wp, whole=.true.), &
          blank_field('CD'), component_field('PS', default=0), blank_field('SEID')])
       allocate (bulk%grid(cards%n))
       do i = 1, cards%n
-         call cards%next()
-         associate (values => cards%values)
-            bulk%grid(i) = grid_card(line=cards%card%line, id=values%integers(1), ps=values%integers(7), x=values%reals(3:5), &
-                                     doubtful=.not. values%ok)
-         end associate
+         call cards%next(values)
+         bulk%grid(i) = grid_card(line=cards%line, id=values%integers(1), ps=values%integers(7), x=values%reals(3:5), &
+                                  doubtful=.not. values%ok)
       end do
    end subroutine read_grid
 
@@ -42,6 +42,7 @@ contains
    subroutine read_element(cards, bulk)
       type(card_reader_type), intent(inout) :: cards
       type(bulk_data_type), intent(inout)   :: bulk
+      type(card_values) :: values
       type(field_rule), allocatable :: table(:)
       integer :: i, k, kind
 
@@ -53,10 +54,10 @@ contains
       allocate (bulk%element(cards%n))
       kind = 1
       do i = 1, cards%n
-         call cards%next()
+         call cards%next(values)
          if (element_table(kind)%card /= cards%card%name) kind = findloc(element_table%card, cards%card%name, dim=1)
-         associate (element => bulk%element(i), integers => cards%values%integers, n => element_table(kind)%n_nodes)
-            element%line = cards%card%line
+         associate (element => bulk%element(i), integers => values%integers, n => element_table(kind)%n_nodes)
+            element%line = cards%line
             element%kind = kind
             element%id = integers(1)
             element%property = integers(2)
@@ -71,15 +72,16 @@ contains
    subroutine read_edge(cards, bulk)
       type(card_reader_type), intent(inout) :: cards
       type(bulk_data_type), intent(inout)   :: bulk
+      type(card_values) :: values
       integer :: i
 
       call cards%set_table([integer_field(['EID', 'PID', 'GA ', 'GB ']), real_field(['X1', 'X2', 'X3'], default=0.0_wp)], 'CBAR')
       call cards%set_table(integer_field(['EID', 'PID', 'G1 ', 'G2 ']), 'CROD')
       allocate (bulk%edge(cards%n))
       do i = 1, cards%n
-         call cards%next()
-         associate (edge => bulk%edge(i), integers => cards%values%integers)
-            edge%line = cards%card%line
+         call cards%next(values)
+         associate (edge => bulk%edge(i), integers => values%integers)
+            edge%line = cards%line
             edge%kind = merge(edge_crod, edge_cbar, cards%card%name == 'CROD')
             edge%id = integers(1)
             edge%property = integers(2)
@@ -93,13 +95,14 @@ contains
    subroutine read_pmark(cards, bulk)
       type(card_reader_type), intent(inout) :: cards
       type(bulk_data_type), intent(inout)   :: bulk
+      type(card_values) :: values
       integer :: i
 
       call cards%set_table([integer_field('PID')])
       allocate (bulk%pmark(cards%n))
       do i = 1, cards%n
-         call cards%next()
-         bulk%pmark(i) = pmark_card(line=cards%card%line, id=cards%values%integers(1))
+         call cards%next(values)
+         bulk%pmark(i) = pmark_card(line=cards%line, id=values%integers(1))
       end do
    end subroutine read_pmark
 
@@ -110,6 +113,7 @@ contains
    subroutine read_block(cards, bulk)
       type(card_reader_type), intent(inout) :: cards
       type(bulk_data_type), intent(inout)   :: bulk
+      type(card_values) :: values
       integer, parameter :: others(4) = [7, 8, 11, 12] ! data fields of corners 2 and 4
       integer :: i
 
@@ -123,13 +127,13 @@ contains
          integer_field(['S1  ', 'S2  ', 'S3  ', 'S4  ', 'S5  ', 'S6  ', 'WELD'], default=0)], 'BLOCK3')
       allocate (bulk%block(cards%n))
       do i = 1, cards%n
-         call cards%next()
-         associate (block => bulk%block(i), x => cards%values%reals, integers => cards%values%integers, &
-                    given => cards%values%given)
+         call cards%next(values)
+         associate (block => bulk%block(i), x => values%reals, integers => values%integers, &
+                    given => values%given)
             if (cards%card%name == 'BLOCK2') then
                if (any(given(others)) .and. .not. all(given(others))) call cards%error('X2', &
                   'corners 2 and 4 must both be given (X2, Y2, X4, Y4), or all four left blank for a rectangle')
-               call check_block(cards, 4)
+               call check_block(cards, 4, integers)
                block%divisions(:2) = max(1, integers(3:4))
                block%corner(:2, :) = reshape(x(5:12), [2, 4])
                if (.not. any(given(others))) block%corner(:2, 2::2) = reshape(x([9, 6, 5, 10]), [2, 2])
@@ -137,9 +141,9 @@ contains
                block%marks(:4) = integers(17:20)
                block%weld = integers(21)
             else
-               call check_block(cards, 5)
+               call check_block(cards, 5, integers)
                where (integers(15:16) > most_first) integers(15:16) = 1 ! a deck of solids is mostly one block, from 1 on
-               if (cards%values%ok .and. any(x(9:11) <= x(6:8))) &
+               if (values%ok .and. any(x(9:11) <= x(6:8))) &
                   call cards%error('X2', 'the second corner must lie beyond the first in x, y and z')
                block%dimension = 3
                block%divisions = max(1, integers(3:5))
@@ -148,7 +152,7 @@ contains
                block%marks = integers(17:22)
                block%weld = integers(23)
             end if
-            block%line = cards%card%line
+            block%line = cards%line
             block%id = integers(1)
             block%property = integers(2)
             block%first_node = integers(15)
@@ -161,18 +165,17 @@ contains
 
    !> Size and numbers of a block, whose divisions are data fields 3 to LAST and whose N1 and E1 are 15 and 16. Of too many
    !! elements one is left, so that the rest of the deck can be checked.
-   subroutine check_block(cards, last)
+   subroutine check_block(cards, last, integers)
       type(card_reader_type), intent(inout) :: cards
       integer, intent(in)                   :: last
+      integer, intent(inout)                :: integers(:) !! the data fields
 
-      associate (integers => cards%values%integers)
-         if (product(real(integers(3:last), wp)) > most_elements) then
-            call cards%error('NX', 'more than 2E7 elements in one block')
-            integers(3:last) = 1
-         end if
-         if (integers(15) > most_first) call cards%error('N1', 'the last node number would pass 2147483647')
-         if (integers(16) > most_first) call cards%error('E1', 'the last element number would pass 2147483647')
-      end associate
+      if (product(real(integers(3:last), wp)) > most_elements) then
+         call cards%error('NX', 'more than 2E7 elements in one block')
+         integers(3:last) = 1
+      end if
+      if (integers(15) > most_first) call cards%error('N1', 'the last node number would pass 2147483647')
+      if (integers(16) > most_first) call cards%error('E1', 'the last element number would pass 2147483647')
    end subroutine check_block
 
 end module mesh_cards

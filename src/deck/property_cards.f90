@@ -1,6 +1,7 @@
 !> The cards of properties and materials: PSHELL, PAXIS, PSOLID, PROD, MAT1. A table and a routine each.
 module property_cards
    use bulk_data, only: bulk_data_type, mat1_card, prod_card, property_card
+   use card_fields, only: card_values
    use card_reader, only: card_reader_type
    use elasticity, only: axisymmetric, plane_strain, plane_stress, solid
    use field_rules, only: blank_field, integer_field, real_field, word_field
@@ -18,6 +19,7 @@ contains
    subroutine read_pshell(cards, bulk)
       type(card_reader_type), intent(inout) :: cards
       type(bulk_data_type), intent(inout)   :: bulk
+      type(card_values) :: values
       integer :: i
 
       call cards%set_table([integer_field(['PID ', 'MID1']), real_field('T', above=0.0_wp), &
@@ -25,12 +27,10 @@ contains
          word_field('MODES', '|NO|YES|')])
       allocate (bulk%pshell(cards%n))
       do i = 1, cards%n
-         call cards%next()
-         associate (values => cards%values)
-            bulk%pshell(i) = property_card(line=cards%card%line, id=values%integers(1), material=values%integers(2), &
-               state=merge(plane_strain, plane_stress, values%integers(4) == -1), thickness=values%reals(3), &
-               incompatible=values%words(9) == 'YES')
-         end associate
+         call cards%next(values)
+         bulk%pshell(i) = property_card(line=cards%line, id=values%integers(1), material=values%integers(2), &
+            state=merge(plane_strain, plane_stress, values%integers(4) == -1), thickness=values%reals(3), &
+            incompatible=values%words(9) == 'YES')
       end do
    end subroutine read_pshell
 
@@ -39,16 +39,15 @@ contains
    subroutine read_paxis(cards, bulk)
       type(card_reader_type), intent(inout) :: cards
       type(bulk_data_type), intent(inout)   :: bulk
+      type(card_values) :: values
       integer :: i
 
       call cards%set_table(integer_field(['PID', 'MID']))
       allocate (bulk%paxis(cards%n))
       do i = 1, cards%n
-         call cards%next()
-         associate (values => cards%values)
-            bulk%paxis(i) = property_card(line=cards%card%line, id=values%integers(1), material=values%integers(2), &
-                                          state=axisymmetric)
-         end associate
+         call cards%next(values)
+         bulk%paxis(i) = property_card(line=cards%line, id=values%integers(1), material=values%integers(2), &
+                                       state=axisymmetric)
       end do
    end subroutine read_paxis
 
@@ -57,17 +56,16 @@ contains
    subroutine read_psolid(cards, bulk)
       type(card_reader_type), intent(inout) :: cards
       type(bulk_data_type), intent(inout)   :: bulk
+      type(card_values) :: values
       integer :: i
 
       call cards%set_table([integer_field(['PID', 'MID']), blank_field(['CORDM ', 'IN    ', 'STRESS']), &
          word_field('ISOP', '|PLAIN|MODES|'), blank_field('FCTN')])
       allocate (bulk%psolid(cards%n))
       do i = 1, cards%n
-         call cards%next()
-         associate (values => cards%values)
-            bulk%psolid(i) = property_card(line=cards%card%line, id=values%integers(1), material=values%integers(2), &
-                                           state=solid, incompatible=values%words(6) == 'MODES')
-         end associate
+         call cards%next(values)
+         bulk%psolid(i) = property_card(line=cards%line, id=values%integers(1), material=values%integers(2), &
+                                        state=solid, incompatible=values%words(6) == 'MODES')
       end do
    end subroutine read_psolid
 
@@ -76,16 +74,15 @@ contains
    subroutine read_prod(cards, bulk)
       type(card_reader_type), intent(inout) :: cards
       type(bulk_data_type), intent(inout)   :: bulk
+      type(card_values) :: values
       integer :: i
 
       call cards%set_table([integer_field(['PID', 'MID']), real_field('A', above=0.0_wp), blank_field(['J  ', 'C  ', 'NSM'])])
       allocate (bulk%prod(cards%n))
       do i = 1, cards%n
-         call cards%next()
-         associate (values => cards%values)
-            bulk%prod(i) = prod_card(line=cards%card%line, id=values%integers(1), material=values%integers(2), &
-                                     area=values%reals(3))
-         end associate
+         call cards%next(values)
+         bulk%prod(i) = prod_card(line=cards%line, id=values%integers(1), material=values%integers(2), &
+                                  area=values%reals(3))
       end do
    end subroutine read_prod
 
@@ -94,6 +91,7 @@ contains
    subroutine read_mat1(cards, bulk)
       type(card_reader_type), intent(inout) :: cards
       type(bulk_data_type), intent(inout)   :: bulk
+      type(card_values) :: values
       integer :: i
 
       call cards%set_table([integer_field('MID'), real_field(['E', 'G'], default=0.0_wp, above=0.0_wp), &
@@ -101,21 +99,20 @@ contains
          real_field(['A   ', 'TREF', 'GE  '], default=0.0_wp)])
       allocate (bulk%mat1(cards%n))
       do i = 1, cards%n
-         call cards%next()
-         associate (values => cards%values)
-            if (values%ok) call fill_in(cards)
-            bulk%mat1(i) = mat1_card(line=cards%card%line, id=values%integers(1), e=values%reals(2), nu=values%reals(4), &
-                                     rho=values%reals(5))
-         end associate
+         call cards%next(values)
+         if (values%ok) call fill_in(cards, values)
+         bulk%mat1(i) = mat1_card(line=cards%line, id=values%integers(1), e=values%reals(2), nu=values%reals(4), &
+                                  rho=values%reals(5))
       end do
    end subroutine read_mat1
 
 
    !> Of E, G and NU, data fields 2 to 4 of a MAT1, the one that is left blank.
-   subroutine fill_in(cards)
+   subroutine fill_in(cards, values)
       type(card_reader_type), intent(inout) :: cards
+      type(card_values), intent(inout)      :: values
 
-      associate (e => cards%values%reals(2), g => cards%values%reals(3), nu => cards%values%reals(4), given => cards%values%given)
+      associate (e => values%reals(2), g => values%reals(3), nu => values%reals(4), given => values%given)
          if (count(given(2:4)) < 2) then
             call cards%error('E', 'expected two of E, G and NU')
          else if (.not. given(2)) then

@@ -13,12 +13,6 @@ module joint_split
 
    public :: split_shared_surfaces
 
-   !> The nodes that are split: the twin of node(k) is the k-th node behind those that there were.
-   type :: split_type
-      integer :: n = 0
-      integer, allocatable :: node(:)
-   end type split_type
-
    !> Some elements.
    type :: element_list
       integer, allocatable :: element(:)
@@ -32,13 +26,12 @@ contains
       type(checked_deck), intent(in)  :: deck
       type(model_type), intent(inout) :: model
       type(id_table_type)  :: surfaces
-      type(split_type)     :: split
       integer, allocatable :: met(:)
-      integer :: j, s
+      integer :: j, n_twins, s
 
       allocate (model%twin(model%n_nodes), source=0)
       call surfaces%build(model%surfaces%id)
-      allocate (split%node(0))
+      n_twins = 0
       do j = 1, size(deck%bulk%joint)
          if (deck%bulk%joint(j)%sides(2) /= 0) cycle
          s = surfaces%find(deck%bulk%joint(j)%sides(1))
@@ -58,10 +51,10 @@ contains
                cycle
             end if
          end associate
-         call split_surface(model, s, split)
+         call split_surface(model, s, n_twins)
       end do
-      if (split%n == 0) return
-      call add_twins(model, split)
+      if (n_twins == 0) return
+      call add_twins(model, n_twins)
       call list_elements_of_nodes(model)
       call move_other_surfaces(model)
    end subroutine split_shared_surfaces
@@ -77,11 +70,11 @@ contains
    end function is_split
 
 
-   !> Give the elements behind surface S twins of its nodes. The twins are no nodes of the model yet.
-   subroutine split_surface(model, s, split)
+   !> Give the elements behind surface S twins of its nodes, behind the N_TWINS that there are. They are no nodes of the model yet.
+   subroutine split_surface(model, s, n_twins)
       type(model_type), intent(inout) :: model
       integer, intent(in)             :: s
-      type(split_type), intent(inout) :: split
+      integer, intent(inout)          :: n_twins
       type(side_list) :: at
       type(element_list), allocatable :: behind(:)
       integer :: i, k
@@ -94,11 +87,11 @@ contains
       end do
       do k = 1, at%n
          if (size(behind(k)%element) == 0) cycle ! the surface ends inside a body here: the tip stays whole
-         call note_split(split, at%node(k))
-         model%twin(at%node(k)) = model%n_nodes + split%n
+         n_twins = n_twins + 1
+         model%twin(at%node(k)) = model%n_nodes + n_twins
          do i = 1, size(behind(k)%element)
             associate (corners => model%element_nodes(:, behind(k)%element(i)))
-               where (corners == at%node(k)) corners = model%n_nodes + split%n
+               where (corners == at%node(k)) corners = model%n_nodes + n_twins
             end associate
          end do
       end do
@@ -107,44 +100,23 @@ contains
    end subroutine split_surface
 
 
-   subroutine note_split(split, node)
-      type(split_type), intent(inout) :: split
-      integer, intent(in)             :: node
-      integer, allocatable :: longer(:)
-
-      if (split%n == size(split%node)) then
-         allocate (longer(2*split%n + 64))
-         longer(:split%n) = split%node
-         call move_alloc(longer, split%node)
-      end if
-      split%n = split%n + 1
-      split%node(split%n) = node
-   end subroutine note_split
-
-
    !> Append the twins to the nodes of the model.
-   subroutine add_twins(model, split)
+   subroutine add_twins(model, n_twins)
       type(model_type), intent(inout) :: model
-      type(split_type), intent(in)    :: split
-      integer, allocatable  :: id(:), twin(:)
+      integer, intent(in)             :: n_twins
       real(wp), allocatable :: x(:, :)
-      integer :: k, n, m
+      integer :: k, n
 
       n = model%n_nodes
-      m = split%n
-      allocate (id(n + m), x(3, n + m), twin(n + m))
-      id(:n) = model%node_id
+      allocate (x(3, n + n_twins))
       x(:, :n) = model%x
-      twin(:n) = model%twin
-      twin(n + 1:) = 0
-      do k = 1, m
-         id(n + k) = model%node_id(n) + k
-         x(:, n + k) = model%x(:, split%node(k))
+      do k = 1, n
+         if (model%twin(k) > 0) x(:, model%twin(k)) = model%x(:, k)
       end do
-      call move_alloc(id, model%node_id)
       call move_alloc(x, model%x)
-      call move_alloc(twin, model%twin)
-      model%n_nodes = n + m
+      model%node_id = [model%node_id, (model%node_id(n) + k, k = 1, n_twins)]
+      model%twin = [model%twin, (0, k = 1, n_twins)]
+      model%n_nodes = n + n_twins
       call model%node_table%build(model%node_id)
    end subroutine add_twins
 
