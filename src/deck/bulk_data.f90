@@ -7,6 +7,8 @@ module bulk_data
    implicit none
    private
 
+   public :: has_component
+
    type, public :: grid_card
       integer  :: line = 0, id = 0, ps = 0
       real(wp) :: x(3) = 0.0_wp
@@ -175,5 +177,15 @@ module bulk_data
       type(jshear_card), allocatable       :: jshear(:)
       type(jincr_card), allocatable        :: jincr(:)
    end type bulk_data_type
+
+contains
+
+   !> Whether digit D, 1 to 6, is among COMPONENTS.
+   pure logical function has_component(components, d)
+      integer, intent(in) :: components, d
+      integer :: k
+
+      has_component = any([(modulo(components/10**k, 10) == d, k = 0, 5)])
+   end function has_component
 
 end module bulk_data

@@ -76,9 +76,7 @@ contains
       type(card_values), intent(inout)     :: values
       type(deck_error_list), intent(inout) :: errors
 
-      if (rule%required) then
-         call card%field_error(k, trim(rule%name)//': blank, expected '//expectation(rule), errors)
-      end if
+      if (rule%required) call card%field_error(k, trim(rule%name)//': blank, expected '//expectation(rule), errors)
       values%integers(k) = 0
       values%reals(k) = rule%default
       if (rule%kind == kind_integer .or. rule%kind == kind_components) values%integers(k) = nint(rule%default)
@@ -100,7 +98,7 @@ contains
          if (.not. ok) then
             call decode_integer(card, k, rule%name, expectation(rule), values%integers(k), ok, errors)
          else if (.not. in_range(rule, values%integers(k))) then
-            call out_of_range(card, k, rule, errors)
+            call wrong_entry(card, k, rule%name, 'is out of range, expected '//expectation(rule), errors)
             values%integers(k) = 0
          end if
       case (kind_real)
@@ -112,28 +110,18 @@ contains
          call parse_real(card%fields(k)%text(:card%fields(k)%length), values%reals(k), ok)
          if (.not. ok) call decode_real(card, k, rule%name, expectation(rule), values%reals(k), ok, errors)
          if (ok .and. .not. in_range(rule, values%reals(k))) then
-            call out_of_range(card, k, rule, errors)
+            call wrong_entry(card, k, rule%name, 'is out of range, expected '//expectation(rule), errors)
             values%reals(k) = rule%default
          end if
       case (kind_word)
          values%words(k) = card%fields(k)%text(:8)
-         if (index(rule%words, '|'//trim(card%fields(k)%text)//'|') == 0 .or. index(card%fields(k)%text, '|') > 0) then
-            call out_of_range(card, k, rule, errors)
-         end if
+         if (index(rule%words, '|'//trim(card%fields(k)%text)//'|') == 0 .or. index(card%fields(k)%text, '|') > 0) &
+            call wrong_entry(card, k, rule%name, 'is out of range, expected '//expectation(rule), errors)
       case (kind_blank)
-         if (.not. is_zero(card%fields(k)%text)) call wrong_entry(card, k, rule%name, 'where the field must be blank', errors)
+         if (verify(trim(card%fields(k)%text), '0.+-') > 0 .or. index(card%fields(k)%text, '0') == 0) & ! a zero is a blank too
+            call wrong_entry(card, k, rule%name, 'where the field must be blank', errors)
       end select
    end subroutine decode_field
-
-
-   subroutine out_of_range(card, k, rule, errors)
-      type(card_type), intent(in)          :: card
-      integer, intent(in)                  :: k
-      type(field_rule), intent(in)         :: rule
-      type(deck_error_list), intent(inout) :: errors
-
-      call wrong_entry(card, k, rule%name, 'is out of range, expected '//expectation(rule), errors)
-   end subroutine out_of_range
 
 
    !> An error about data field K of CARD, NAME, that says of its entry what the WORDS say.
@@ -200,12 +188,5 @@ contains
                         verify(trim(text), letters) == 0 .and. scan(text(1:1), '0123456789+-.') == 1 .and. &
                         scan(text(len_trim(text):len_trim(text)), '0123456789.') == 1
    end function is_number_shape
-
-
-   pure logical function is_zero(text)
-      character(*), intent(in) :: text
-
-      is_zero = verify(trim(text), '0.+-') == 0 .and. index(text, '0') > 0
-   end function is_zero
 
 end module card_fields

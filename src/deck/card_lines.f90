@@ -48,7 +48,7 @@ contains
 
 
    !> Cut one line into fields and put them at the end of CARD.
-   subroutine cut_line(line, comma, at, has_tabs, card, errors)
+   recursive subroutine cut_line(line, comma, at, has_tabs, card, errors)
       character(*), intent(in)             :: line     !! its card part
       integer, intent(in)                  :: comma    !! column of its first comma, 0: none
       integer, intent(in)                  :: at       !! its index in the deck text
@@ -57,16 +57,30 @@ contains
       type(deck_error_list), intent(inout) :: errors
       character(:), allocatable :: plain
       integer :: tab
+      logical :: large
 
-      tab = 0
-      if (has_tabs) tab = index(line, achar(9))
-      if (tab == 0) then
-         call cut_plain_line(line, comma, at, card, errors)
-      else
-         call errors%add(at, 'a tab in column '//integer_text(tab)//': expected blanks, fields are columns of eight', tab, tab)
-         plain = without_tabs(line)
-         call cut_plain_line(plain, index(plain, ','), at, card, errors)
+      if (has_tabs) then
+         tab = index(line, achar(9))
+         if (tab > 0) then
+            call errors%add(at, 'a tab in column '//integer_text(tab)//': expected blanks, fields are columns of eight', tab, tab)
+            plain = without_tabs(line)
+            call cut_line(plain, index(plain, ','), at, .false., card, errors)
+            return
+         end if
       end if
+      card%marker = ''
+      large = index(line(:merge(comma - 1, min(8, len(line)), comma > 0)), '*') > 0
+      if (card%half .and. .not. large) then
+         do while (modulo(card%n, 8) /= 0) ! the second half of a large-field line is not there
+            call push(card, '', at, 0, 0, errors)
+         end do
+      end if
+      if (comma > 0) then
+         call cut_free(line, comma, at, card, large, errors)
+      else
+         call cut_fixed(line, at, card, large, errors)
+      end if
+      card%half = large .and. modulo(card%n, 8) == 4
    end subroutine cut_line
 
 
@@ -86,26 +100,6 @@ contains
          if (len(plain) > 1000) return
       end do
    end function without_tabs
-
-
-   !> CUT_LINE for a line without tabs.
-   subroutine cut_plain_line(line, comma, at, card, errors)
-      character(*), intent(in)             :: line
-      integer, intent(in)                  :: comma, at
-      type(card_type), intent(inout)       :: card
-      type(deck_error_list), intent(inout) :: errors
-      logical :: large
-
-      card%marker = ''
-      large = index(line(:merge(comma - 1, min(8, len(line)), comma > 0)), '*') > 0
-      if (card%half .and. .not. large) call pad_to_line(card, at)
-      if (comma > 0) then
-         call cut_free(line, comma, at, card, large, errors)
-      else
-         call cut_fixed(line, at, card, large, errors)
-      end if
-      card%half = large .and. modulo(card%n, 8) == 4
-   end subroutine cut_plain_line
 
 
    !> Fixed fields: eight of 8 columns, or four of 16, behind the name; columns 73-80 are the continuation mark.
@@ -206,18 +200,6 @@ contains
       if (to - from + 1 > field_width) call errors%add(at, card%where_is(card%n)//': an entry of more than '// &
                                                        integer_text(field_width)//' characters', first, last)
    end subroutine push
-
-
-   !> Blank fields up to the end of the eight that a line of a card gives.
-   subroutine pad_to_line(card, at)
-      type(card_type), intent(inout) :: card
-      integer, intent(in)            :: at
-      type(deck_error_list) :: nothing_to_say
-
-      do while (modulo(card%n, 8) /= 0)
-         call push(card, '', at, 0, 0, nothing_to_say)
-      end do
-   end subroutine pad_to_line
 
 
    !> Words for data field K: 'CQUAD4, field 7'; NASTRAN counts 2 to 9 on every line of a card.

@@ -177,19 +177,18 @@ contains
    end subroutine take
 
 
-   !> Decode the card by its table, or by the first N fields of it with more behind them.
+   !> Decode the card by its table, or by the first N rules of it: then more may follow.
    subroutine decode(self, values, n)
       class(card_reader_type), intent(inout) :: self
       type(card_values), intent(inout)       :: values
       integer, intent(in), optional          :: n
+      integer :: used
 
       self%errors_before = self%errors%n
       associate (kind => self%kinds(self%kind_at(self%line)))
-         if (present(n)) then
-            call decode_card(self%card, kind%table(:n), .true., values, self%errors)
-         else
-            call decode_card(self%card, kind%table, kind%open_ended, values, self%errors)
-         end if
+         used = size(kind%table)
+         if (present(n)) used = n
+         call decode_card(self%card, kind%table(:used), kind%open_ended .or. used < size(kind%table), values, self%errors)
       end associate
    end subroutine decode
 

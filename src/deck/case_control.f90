@@ -218,7 +218,7 @@ contains
       levels = 0
       twice = .false.
       rest = upper(entry%value)
-      if (rest == '') call value_error(entry, 'ALL|JOINT|LAST|NONE|PLOT|STRESS|VTU', errors)
+      if (rest == '') call value_error(entry, 'ALL or JOINT or LAST or NONE or PLOT or STRESS or VTU', errors)
       do while (rest /= '')
          comma = index(rest//',', ',')
          levels = levels + 1

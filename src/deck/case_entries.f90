@@ -2,6 +2,7 @@
 module case_entries
    use deck_errors, only: deck_error_list
    use deck_numbers, only: parse_integer
+   use field_rules, only: list_of
    use text_tools, only: upper
    implicit none
    private
@@ -87,33 +88,23 @@ contains
 
       at = index(words, '|'//upper(entry%value)//'|')
       if (at == 0 .or. entry%value == '' .or. index(entry%value, '|') > 0) then
-         call value_error(entry, words(2:len(words) - 1), errors)
+         call value_error(entry, list_of(words, ' or '), errors)
       else
          choice = count([(words(i:i) == '|', i = 1, at)])
       end if
    end subroutine choose
 
 
-   !> The value of ENTRY is not what was EXPECTED, words with | for 'or'.
+   !> The value of ENTRY is not what was EXPECTED.
    subroutine value_error(entry, expected, errors)
       type(entry_type), intent(in)         :: entry
       character(*), intent(in)             :: expected
       type(deck_error_list), intent(inout) :: errors
-      character(:), allocatable :: words
-      integer :: i
 
-      words = ''
-      do i = 1, len(expected)
-         if (expected(i:i) == '|') then
-            words = words//' or '
-         else
-            words = words//expected(i:i)
-         end if
-      end do
       if (entry%value == '') then
-         call errors%add(entry%line, entry%key//': no value, expected '//words)
+         call errors%add(entry%line, entry%key//': no value, expected '//expected)
       else
-         call errors%add(entry%line, entry%key//': '''//entry%value(:min(60, len(entry%value)))//''', expected '//words, &
+         call errors%add(entry%line, entry%key//': '''//entry%value(:min(60, len(entry%value)))//''', expected '//expected, &
                          entry%first, entry%last)
       end if
    end subroutine value_error

@@ -99,7 +99,7 @@ contains
       integer, intent(inout)                :: n_cards
       type(deck_error_list), intent(inout)  :: errors
       integer(long) :: first, last
-      integer :: comma, file
+      integer :: behind, comma, file
       integer :: ended_file ! the file whose ENDDATA was read last, 1 the deck itself
       logical :: is_open    ! a card is, and may be continued
 
@@ -125,7 +125,8 @@ contains
          else if (card_name(text%files(file)%bytes(first:last), comma) == end_of_data) then
             is_open = .false.
             ended_file = file
-            call check_rest_of_line(text%card_part(cursor), cursor, errors)
+            behind = verify(text%files(file)%bytes(first:last), ' ') + len_trim(end_of_data)
+            if (last - first + 1 >= behind) call errors%add(cursor, 'text behind ENDDATA', behind, int(last - first + 1))
             cursor = cursor + 1
          else
             is_open = .true.
@@ -135,17 +136,6 @@ contains
       end do
       if (ended_file /= 1) call errors%add(0, 'no ENDDATA: the deck ends before its end, is it whole?')
    end subroutine find_cards
-
-
-   subroutine check_rest_of_line(line, at, errors)
-      character(*), intent(in)             :: line
-      integer, intent(in)                  :: at
-      type(deck_error_list), intent(inout) :: errors
-      character(:), allocatable :: words
-
-      words = trim(adjustl(line))
-      if (len(words) > 7) call errors%add(at, 'text behind ENDDATA', len(line) - len(words) + 8, len(line))
-   end subroutine check_rest_of_line
 
 
    !> Note the card that begins with LINE, line CURSOR of TEXT, which is left on a line behind it.

@@ -6,7 +6,7 @@ module field_rules
    implicit none
    private
 
-   public :: integer_field, real_field, word_field, blank_field, component_field, in_range, expectation
+   public :: integer_field, real_field, word_field, blank_field, component_field, in_range, expectation, list_of
 
    integer, parameter, public :: kind_integer = 1, kind_real = 2, kind_word = 3, kind_blank = 4, kind_components = 5
 
@@ -146,11 +146,11 @@ contains
          words = 'a list of components, different digits of 1 to 6'
       case (kind_real)
          words = 'a real number'
-         if (has_least) words = words//' '//bound('above', 'of at least', rule%least, rule%above)
+         if (has_least) words = words//trim(merge(' above      ', ' of at least', rule%above))//' '//real_text(rule%least)
          if (has_least .and. has_most) words = words//' and'
-         if (has_most) words = words//' '//bound('below', 'at most', rule%most, rule%below)
+         if (has_most) words = words//trim(merge(' below  ', ' at most', rule%below))//' '//real_text(rule%most)
       case (kind_word)
-         words = 'one of '//list_of(trim(rule%words))
+         words = 'one of '//list_of(trim(rule%words), ', ')
       case default
          words = 'blank'
       end select
@@ -158,29 +158,16 @@ contains
    end function expectation
 
 
-   !> 'above 0', 'of at least 0': a bound that is out or in.
-   pure function bound(out, in, value, is_out) result(words)
-      character(*), intent(in)  :: out, in
-      real(wp), intent(in)      :: value
-      logical, intent(in)       :: is_out
-      character(:), allocatable :: words
-
-      words = in
-      if (is_out) words = out
-      words = words//' '//real_text(value)
-   end function bound
-
-
-   !> '|STEP|BACK|' as 'STEP, BACK'.
-   pure function list_of(words) result(list)
-      character(*), intent(in)  :: words
+   !> WORDS = '|STEP|BACK|' as a list with this SEPARATOR between them.
+   pure function list_of(words, separator) result(list)
+      character(*), intent(in)  :: words, separator
       character(:), allocatable :: list
       integer :: i
 
       list = ''
       do i = 2, len(words) - 1
          if (words(i:i) == '|') then
-            list = list//', '
+            list = list//separator
          else
             list = list//words(i:i)
          end if

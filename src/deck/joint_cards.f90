@@ -169,30 +169,20 @@ contains
       type(card_reader_type), intent(inout) :: cards
       type(bulk_data_type), intent(inout)   :: bulk
       type(card_values) :: values
-      integer :: i
+      integer :: i, n
 
       call cards%set_table([integer_field('SID'), integer_field('N', default=0, most=most_increments), &
          word_field('PROG', '|ARITH|GEOM|LIST|'), real_field('FIRST', default=0.05_wp, above=0.0_wp, most=1.0_wp)])
       allocate (bulk%jincr(cards%n))
       do i = 1, cards%n
          call cards%take()
-         if (is_list(cards%card)) then
-            call cards%decode(values, 3)
-         else
-            call cards%decode(values)
-         end if
+         n = 4
+         if (cards%card%n >= 3) n = merge(3, 4, cards%card%fields(3)%text == 'LIST')
+         call cards%decode(values, n) ! behind LIST the shares follow
          bulk%jincr(i) = jincr_card(line=cards%line, id=values%integers(1), shares=[1.0_wp])
          if (values%ok) call share_out(cards, values, bulk%jincr(i)%shares)
       end do
    end subroutine read_jincr
-
-
-   pure logical function is_list(card)
-      type(card_type), intent(in) :: card
-
-      is_list = .false.
-      if (card%n >= 3) is_list = card%fields(3)%text == 'LIST'
-   end function is_list
 
 
    !> The SHARES of a JINCR; they stay where there is an error.

@@ -1,10 +1,11 @@
 !> Loads: which forces act, and which displacements are prescribed, at the end of every stage.
 module load_build
    use body_elements, only: element_weight
+   use bulk_data, only: has_component
    use deck_check, only: checked_deck
    use element_kinds, only: max_nodes, max_side_nodes
    use kinds, only: wp
-   use load_checks, only: check_load_cards, has_component, has_set, nor_others
+   use load_checks, only: check_load_cards, has_set, nor_others
    use model_data, only: corners_of, model_type, stage_load_type, surface_type
    use section_coupling, only: add_section_share
    use pressed_sides, only: add_pressure, find_pressed_sides, pressed_side

@@ -1,6 +1,6 @@
 !> Load cards against the model: nodes, surfaces, sets and masses that are there, directions that the model has.
 module load_checks
-   use bulk_data, only: bulk_data_type
+   use bulk_data, only: bulk_data_type, has_component
    use deck_check, only: checked_deck
    use kinds, only: wp
    use model_data, only: model_type
@@ -9,10 +9,10 @@ module load_checks
    implicit none
    private
 
-   public :: check_load_cards, has_component, has_set
+   public :: check_load_cards, has_set
 
-   !> Behind `there is no FORCE`: the other cards of a load set.
-   character(*), parameter, public :: nor_others = ', nor a PLOAD4, PLOADE, PLOADM, FORCEM, GRAV or SPCD'
+   character(*), parameter :: others = 'PLOAD4, PLOADE, PLOADM, FORCEM, GRAV or SPCD' ! than FORCE, of a load set
+   character(*), parameter, public :: nor_others = ', nor a '//others                 !! behind `there is no FORCE`
 
 contains
 
@@ -158,24 +158,10 @@ contains
    end subroutine check_displacements
 
 
-   !> Whether digit D is among COMPONENTS.
-   pure logical function has_component(components, d)
-      integer, intent(in) :: components, d
-      integer :: rest
-
-      has_component = .true.
-      rest = components
-      do while (rest > 0)
-         if (modulo(rest, 10) == d) return
-         rest = rest/10
-      end do
-      has_component = .false.
-   end function has_component
-
-
    !> LOAD cards combine sets that are there.
    subroutine check_combinations(deck)
       type(checked_deck), intent(in) :: deck
+      character(:), allocatable :: name
       integer :: i, k
 
       do i = 1, size(deck%bulk%load)
@@ -184,21 +170,13 @@ contains
                if (card%sets(k) > 0 .and. .not. has_set(deck%bulk, card%sets(k))) call deck%field_error(card%line, card%at(k), &
                   'there is no FORCE with set '//integer_text(card%sets(k))//nor_others, called='L'//integer_text(k))
             end do
-            if (has_set(deck%bulk, card%set)) call deck%field_error(card%line, 'SID', 'set '//integer_text(card%set)// &
-               ' is that of a '//first_of_set(deck%bulk, card%set)//' too: case control could mean either')
+            if (.not. has_set(deck%bulk, card%set)) cycle
+            name = others
+            if (any(deck%bulk%force%set == card%set)) name = 'FORCE'
+            call deck%field_error(card%line, 'SID', 'set '//integer_text(card%set)//' is that of a '//name// &
+                                  ' too: case control could mean either')
          end associate
       end do
    end subroutine check_combinations
-
-
-   !> The name of a card that is of SET.
-   pure function first_of_set(bulk, set) result(name)
-      type(bulk_data_type), intent(in) :: bulk
-      integer, intent(in)              :: set
-      character(:), allocatable :: name
-
-      name = 'FORCE'
-      if (all(bulk%force%set /= set)) name = 'PLOAD4, PLOADE, PLOADM, FORCEM, GRAV or SPCD'
-   end function first_of_set
 
 end module load_checks

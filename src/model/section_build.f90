@@ -56,8 +56,12 @@ contains
       call find_surface(deck, card%line, 'PMARK', card%surface, model, s)
       if (s == 0) return
       if (model%surfaces(s)%n == 0) return ! said already
-      fault = not_inside(model, s)
-      if (fault == '') then
+      fault = ''
+      if (model%surfaces(s)%was_split) then
+         fault = 'is split by a JOINT: a bolt is cut at a surface inside its body'
+      else if (any(model%surfaces(s)%other(:model%surfaces(s)%n) == 0)) then
+         fault = 'lies on the outside of a body: expected elements on both sides of it'
+      else
          call face_as_the_first(model, s, model%sections(k))
          if (model%sections(k)%area <= 0.0_wp) return ! a body without its property: said already
          call surface_nodes(model, model%surfaces(s), list)
@@ -67,21 +71,6 @@ contains
       if (fault == '') call find_elements_behind(model, s, k, fault)
       if (fault /= '') call deck%field_error(card%line, 'PMARK', 'surface '//integer_text(card%surface)//' '//fault)
    end subroutine build_section
-
-
-   !> Why surface S does not lie inside a body; empty where it does.
-   pure function not_inside(model, s) result(fault)
-      type(model_type), intent(in) :: model
-      integer, intent(in)          :: s
-      character(:), allocatable    :: fault
-
-      fault = ''
-      if (model%surfaces(s)%was_split) then
-         fault = 'is split by a JOINT: a bolt is cut at a surface inside its body'
-      else if (any(model%surfaces(s)%other(:model%surfaces(s)%n) == 0)) then
-         fault = 'lies on the outside of a body: expected elements on both sides of it'
-      end if
-   end function not_inside
 
 
    !> Turn the sides of surface S round that face against its first; their mean normal gives SECTION its direction and area.

@@ -1,6 +1,6 @@
 !> Supports: which components of which nodes are held.
 module support_build
-   use bulk_data, only: support_card
+   use bulk_data, only: has_component, support_card
    use deck_check, only: checked_deck
    use model_data, only: model_type, n_bars
    use surface_build, only: find_surface
@@ -112,17 +112,13 @@ contains
    pure subroutine hold(model, node, components)
       type(model_type), intent(inout) :: model
       integer, intent(in)             :: node, components
-      integer :: rest, digit
+      integer :: d
 
       if (node == 0) return
-      rest = components
-      do while (rest > 0)
-         digit = modulo(rest, 10)
-         if (digit >= 1 .and. digit <= model%dimension) then
-            model%held(digit, node) = .true.
-            if (model%twin(node) > 0) model%held(digit, model%twin(node)) = .true. ! a split node: both of it
-         end if
-         rest = rest/10
+      do d = 1, model%dimension
+         if (.not. has_component(components, d)) cycle
+         model%held(d, node) = .true.
+         if (model%twin(node) > 0) model%held(d, model%twin(node)) = .true. ! a split node: both of it
       end do
    end subroutine hold
 
