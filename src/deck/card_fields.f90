@@ -10,13 +10,15 @@ module card_fields
 
    public :: decode_card, decode_integer, decode_real
 
+   integer, parameter :: most_rules = 32
+
    !> The fields of one card, decoded. Field k is in INTEGERS(k) or REALS(k) or WORDS(k) by its rule.
    type, public :: card_values
-      integer, allocatable      :: integers(:)
-      real(wp), allocatable     :: reals(:)
-      character(8), allocatable :: words(:)
-      logical, allocatable      :: given(:)    !! false: blank, the default was taken
-      logical                   :: ok = .true. !! false: some field was wrong
+      integer      :: integers(most_rules) = 0
+      real(wp)     :: reals(most_rules) = 0.0_wp
+      character(8) :: words(most_rules) = ''
+      logical      :: given(most_rules) = .false. !! false: blank, the default was taken
+      logical      :: ok = .true.                 !! false: some field was wrong
    end type card_values
 
 contains
@@ -25,14 +27,13 @@ contains
    !! follows is left to the card's own routine. All that is wrong goes to ERRORS.
    subroutine decode_card(card, rules, open_ended, values, errors)
       type(card_type), intent(in)          :: card
-      type(field_rule), intent(in)         :: rules(:)
+      type(field_rule), intent(in)         :: rules(:)   !! at most MOST_RULES
       logical, intent(in)                  :: open_ended
       type(card_values), intent(inout)     :: values
       type(deck_error_list), intent(inout) :: errors
       integer :: k, errors_before
 
       errors_before = errors%n
-      call make_room(values, size(rules))
       values%given(:size(rules)) = .false.
       do k = 1, size(rules)
          if (k <= card%n) values%given(k) = card%fields(k)%length > 0
@@ -50,23 +51,6 @@ contains
       end if
       values%ok = errors%n == errors_before
    end subroutine decode_card
-
-
-   subroutine make_room(values, n)
-      type(card_values), intent(inout) :: values
-      integer, intent(in)              :: n
-      integer :: room
-
-      if (allocated(values%given)) then
-         if (size(values%given) >= n) return
-         deallocate (values%integers, values%reals, values%words, values%given)
-      end if
-      room = max(n, 32)
-      allocate (values%integers(room), source=0)
-      allocate (values%reals(room), source=0.0_wp)
-      allocate (values%words(room), source='        ')
-      allocate (values%given(room), source=.false.)
-   end subroutine make_room
 
 
    subroutine take_default(card, k, rule, values, errors)
@@ -97,7 +81,7 @@ contains
          call parse_integer(card%fields(k)%text(:card%fields(k)%length), values%integers(k), ok)
          if (.not. ok) then
             call decode_integer(card, k, rule%name, expectation(rule), values%integers(k), ok, errors)
-         else if (.not. in_range(rule, values%integers(k))) then
+         else if (.not. in_range(rule, real(values%integers(k), wp))) then
             call wrong_entry(card, k, rule%name, 'is out of range, expected '//expectation(rule), errors)
             values%integers(k) = 0
          end if

@@ -83,22 +83,19 @@ contains
    end subroutine start
 
 
-   !> The kinds with these NAMES (blanks between them) are read by READ.
+   !> The kinds with these NAMES are read by READ.
    subroutine add_kinds(self, names, read)
       class(card_reader_type), intent(inout) :: self
-      character(*), intent(in)               :: names
+      character(*), intent(in)               :: names(:)
       procedure(read_cards)                  :: read
       type(card_kind) :: kind
-      integer :: first, last
+      integer :: k
 
       kind%routine = size(self%kinds) + 1
       kind%read => read
-      first = 1
-      do while (first <= len(names))
-         last = index(names(first:)//' ', ' ') + first - 2
-         kind%name = names(first:last)
+      do k = 1, size(names)
+         kind%name = names(k)
          self%kinds = [self%kinds, kind]
-         first = last + 2
       end do
    end subroutine add_kinds
 

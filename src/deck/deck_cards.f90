@@ -124,16 +124,11 @@ contains
       character(*), intent(in)             :: line
       integer, intent(in)                  :: comma, at
       type(deck_error_list), intent(inout) :: errors
-      integer :: first, last, behind, star
+      integer :: first, last, star
 
       last = end_of_first_field(line, comma)
-      behind = last + 1 ! of the entry
-      do while (behind > 1)
-         if (line(behind - 1:behind - 1) /= ' ') exit
-         behind = behind - 1
-      end do
-      first = max(1, verify(line(:behind - 1), ' '))
-      associate (entry => line(first:behind - 1))
+      first = max(1, verify(line(:last), ' '))
+      associate (entry => line(first:len_trim(line(:last))))
          star = index(entry, '*')
          if (star > 1 .and. star < len(entry)) then
             call errors%add(at, '''*'' inside field 1, expected it behind the name', 1, last)

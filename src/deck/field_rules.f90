@@ -10,11 +10,6 @@ module field_rules
 
    integer, parameter, public :: kind_integer = 1, kind_real = 2, kind_word = 3, kind_blank = 4, kind_components = 5
 
-   !> Whether a value keeps to a rule.
-   interface in_range
-      procedure :: integer_in_range, real_in_range
-   end interface in_range
-
    !> What a field may hold.
    type, public :: field_rule
       character(8)  :: name     = ''           !! as in the card manual
@@ -102,26 +97,19 @@ contains
    end function blank_field
 
 
-   pure logical function integer_in_range(rule, value) result(in_range)
-      type(field_rule), intent(in) :: rule
-      integer, intent(in)          :: value
-
-      if (rule%kind == kind_components) then
-         in_range = is_component_list(value)
-      else
-         in_range = value >= rule%least .and. value <= rule%most
-      end if
-   end function integer_in_range
-
-
-   pure logical function real_in_range(rule, value) result(in_range)
+   !> Whether VALUE keeps to a RULE of integers or reals.
+   pure logical function in_range(rule, value)
       type(field_rule), intent(in) :: rule
       real(wp), intent(in)         :: value
 
+      if (rule%kind == kind_components) then
+         in_range = is_component_list(nint(value))
+         return
+      end if
       in_range = value >= rule%least .and. value <= rule%most
       if (rule%above) in_range = in_range .and. value > rule%least
       if (rule%below) in_range = in_range .and. value < rule%most
-   end function real_in_range
+   end function in_range
 
 
    !> What a rule wants, in words.

@@ -7,7 +7,7 @@ module line_scan
    implicit none
    private
 
-   public :: scan_line, is_include, included_path, folder
+   public :: scan_line, is_include, included_path
 
    integer, parameter :: longest_include = 10000 ! characters; no path is longer
 
@@ -123,14 +123,5 @@ contains
          end if
       end if
    end function included_path
-
-
-   !> The folder part of PATH with its slash, empty for the current folder.
-   pure function folder(path) result(part)
-      character(*), intent(in)  :: path
-      character(:), allocatable :: part
-
-      part = path(:index(path, '/', back=.true.))
-   end function folder
 
 end module line_scan

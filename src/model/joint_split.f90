@@ -4,8 +4,8 @@ module joint_split
    use deck_check, only: checked_deck
    use id_table, only: id_table_type
    use kinds, only: wp
-   use mesh_build, only: list_elements_of_nodes
    use model_data, only: model_type
+   use reverse_lists, only: list_owners
    use surface_sides, only: elements_behind, face_one_way, list_sides, side_list
    use text_tools, only: integer_text
    implicit none
@@ -55,7 +55,7 @@ contains
       end do
       if (n_twins == 0) return
       call add_twins(model, n_twins)
-      call list_elements_of_nodes(model)
+      call list_owners(model%n_nodes, model%element_nodes, model%first_at, model%elements_at)
       call move_other_surfaces(model)
    end subroutine split_shared_surfaces
 

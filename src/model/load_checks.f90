@@ -5,6 +5,7 @@ module load_checks
    use kinds, only: wp
    use model_data, only: model_type
    use surface_build, only: find_surface
+   use surface_sides, only: nodes_of
    use text_tools, only: integer_text
    implicit none
    private
@@ -87,26 +88,14 @@ contains
                if (card%is_pressure .and. (any(surface%other(:surface%n) > 0) .or. surface%was_split)) &
                   call deck%field_error(card%line, 'PID', 'bodies lie on both sides of surface '//integer_text(card%surface)// &
                                         ', so which one the pressure acts on is not known')
+               if (model%axisymmetric .and. surface%n > 0 .and. all(abs(model%x(1, nodes_of(surface))) <= 0.0_wp)) &
+                  call deck%field_error(card%line, 'PID', 'surface '//integer_text(card%surface)// &
+                                        ' lies on the axis and has no area')
             end associate
-            if (model%axisymmetric .and. on_axis(model, s)) call deck%field_error(card%line, 'PID', &
-               'surface '//integer_text(card%surface)//' lies on the axis and has no area')
             call check_plane(deck, model, card%line, card%force)
          end associate
       end do
    end subroutine check_surface_loads
-
-
-   !> Whether all nodes of surface S have x = 0, the axis of a body of revolution.
-   pure logical function on_axis(model, s)
-      type(model_type), intent(in) :: model
-      integer, intent(in)          :: s
-      integer :: i
-
-      on_axis = model%surfaces(s)%n > 0
-      do i = 1, model%surfaces(s)%n
-         if (maxval(abs(model%x(1, model%surfaces(s)%nodes(:model%surfaces(s)%corners(i), i)))) > 0.0_wp) on_axis = .false.
-      end do
-   end function on_axis
 
 
    !> GRAV needs a mass to act on.

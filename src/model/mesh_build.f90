@@ -12,7 +12,7 @@ module mesh_build
    implicit none
    private
 
-   public :: build_mesh, list_elements_of_nodes
+   public :: build_mesh
 
    !> Sides that carry a mark, before they are sorted into surfaces.
    type, public :: marked_sides
@@ -47,20 +47,12 @@ contains
       call resolve_properties(deck, model)
       call collect_elements(deck, blocks, raw, position, model)
       call check_element_numbers(deck, blocks)
-      call list_elements_of_nodes(model)
+      call list_owners(model%n_nodes, model%element_nodes, model%first_at, model%elements_at)
       call check_one_state(deck, model)
       call check_nodes(deck, model)
       call check_elements(deck, model)
       call collect_sides(deck, blocks, raw, position, model, sides)
    end subroutine build_mesh
-
-
-   !> The elements of every node.
-   subroutine list_elements_of_nodes(model)
-      type(model_type), intent(inout) :: model
-
-      call list_owners(model%n_nodes, model%element_nodes, model%first_at, model%elements_at)
-   end subroutine list_elements_of_nodes
 
 
    !> A plane model lies in x-y, an axisymmetric one besides in x >= 0.

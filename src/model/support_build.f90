@@ -4,6 +4,7 @@ module support_build
    use deck_check, only: checked_deck
    use model_data, only: model_type, n_bars
    use surface_build, only: find_surface
+   use surface_sides, only: nodes_of
    use text_tools, only: integer_text
    implicit none
    private
@@ -54,16 +55,16 @@ contains
       type(support_card), intent(in)  :: support
       logical, intent(in)             :: active
       type(model_type), intent(inout) :: model
-      integer :: e, k, node, surface
+      integer, allocatable :: nodes(:)
+      integer :: k, node, surface
       logical :: any_node
 
       if (support%surface > 0) then
          call find_surface(deck, support%line, 'PID', support%surface, model, surface)
          if (surface == 0 .or. .not. active) return
-         do e = 1, model%surfaces(surface)%n
-            do k = 1, model%surfaces(surface)%corners(e)
-               call hold(model, model%surfaces(surface)%nodes(k, e), support%components)
-            end do
+         nodes = nodes_of(model%surfaces(surface))
+         do k = 1, size(nodes)
+            call hold(model, nodes(k), support%components)
          end do
          return
       end if

@@ -3,10 +3,12 @@ module surface_build
    use deck_check, only: checked_deck
    use element_kinds, only: element_table, max_side_nodes
    use element_loads, only: side_areas, side_forces
-   use id_table, only: distinct, id_table_type, sorted_order
+   use id_table, only: id_table_type, sorted_order
    use kinds, only: wp
    use mesh_build, only: marked_sides
    use model_data, only: model_type, surface_type
+   use reverse_lists, only: list_owners
+   use surface_sides, only: nodes_of
    use text_tools, only: integer_text
    implicit none
    private
@@ -29,39 +31,31 @@ contains
       type(marked_sides), intent(in)  :: sides
       type(model_type), intent(inout) :: model
       type(id_table_type)  :: marks
-      integer, allocatable :: surface(:), filled(:)
-      integer :: i, k, n
+      integer, allocatable :: surface(:), first(:), members(:)
+      integer :: i, k
 
-      n = size(deck%bulk%pmark)
       call marks%build(deck%bulk%pmark%id)
-      allocate (model%surfaces(n), surface(sides%n), filled(n))
-      filled = 0
+      allocate (model%surfaces(size(deck%bulk%pmark)), surface(sides%n))
       do i = 1, sides%n
          surface(i) = marks%find(sides%mark(i))
-         if (surface(i) > 0) then
-            filled(surface(i)) = filled(surface(i)) + 1
-         else if (sides%mark(i) > 0) then
-            call report_missing(deck, sides, i)
-         end if
+         if (surface(i) == 0 .and. sides%mark(i) > 0) call report_missing(deck, sides, i)
       end do
-      do k = 1, n
-         associate (this => model%surfaces(k), card => deck%bulk%pmark(k))
+      call list_owners(size(model%surfaces), reshape(surface, [1, sides%n]), first, members)
+      do k = 1, size(model%surfaces)
+         associate (this => model%surfaces(k), card => deck%bulk%pmark(k), n => first(k + 1) - first(k))
             this%id = card%id
-            allocate (this%nodes(merge(2, max_side_nodes, model%dimension == 2), filled(k)), source=0)
-            allocate (this%element(filled(k)), this%other(filled(k)), this%line(filled(k)), this%corners(filled(k)))
-            if (filled(k) > 0 .or. card%id == 0) cycle
-            if (marks%find(card%id) < k) cycle ! a number given twice: said elsewhere
+            allocate (this%nodes(merge(2, max_side_nodes, model%dimension == 2), n), source=0)
+            allocate (this%element(n), this%other(n), this%line(n), this%corners(n))
+            do i = first(k), first(k + 1) - 1
+               if (any(sides%nodes(:sides%corners(members(i)), members(i)) == 0)) cycle ! said already
+               call add_side(deck, sides, members(i), model, this)
+            end do
+            call check_repeated(deck, model, this)
+            if (n > 0 .or. card%id == 0 .or. marks%find(card%id) < k) cycle ! the last: a number given twice, said elsewhere
             call deck%field_error(card%line, 'PID', 'surface '//integer_text(card%id)//' has no '// &
                trim(merge('face: expected a CTRIA3, CQUAD4', 'edge: expected a CBAR, CROD    ', model%dimension == 3))// &
                ' or side of a block with this PID')
          end associate
-      end do
-      do i = 1, sides%n
-         if (surface(i) == 0 .or. any(sides%nodes(:sides%corners(i), i) == 0)) cycle
-         call add_side(deck, sides, i, model, model%surfaces(surface(i)))
-      end do
-      do k = 1, n
-         call check_repeated(deck, model, model%surfaces(k))
       end do
    end subroutine build_surfaces
 
@@ -253,9 +247,7 @@ contains
       real(wp) :: area(max_side_nodes), normal(3, max_side_nodes)
       integer  :: s, k, node
 
-      associate (nodes => surface%nodes(:, :surface%n))
-         call distinct(pack(nodes, nodes > 0), list%node)
-      end associate
+      list%node = nodes_of(surface)
       list%n = size(list%node)
       call place%build(list%node)
       allocate (list%area(list%n), source=0.0_wp)

@@ -7,7 +7,7 @@ module surface_sides
    implicit none
    private
 
-   public :: list_sides, face_one_way, elements_behind
+   public :: nodes_of, list_sides, face_one_way, elements_behind
 
    !> The sides of a surface at every node of it: side(first(k):first(k + 1) - 1) at node(k).
    type, public :: side_list
@@ -20,6 +20,15 @@ module surface_sides
 
 contains
 
+   !> The nodes of SURFACE, each once, in ascending order.
+   pure function nodes_of(surface) result(nodes)
+      type(surface_type), intent(in) :: surface
+      integer, allocatable :: nodes(:)
+
+      call distinct(pack(surface%nodes(:, :surface%n), surface%nodes(:, :surface%n) > 0), nodes)
+   end function nodes_of
+
+
    !> The sides of SURFACE at every node.
    pure subroutine list_sides(surface, at)
       type(surface_type), intent(in) :: surface
@@ -27,9 +36,7 @@ contains
       integer, allocatable :: places(:, :)
       integer :: i, k
 
-      associate (nodes => surface%nodes(:, :surface%n))
-         call distinct(pack(nodes, nodes > 0), at%node)
-      end associate
+      at%node = nodes_of(surface)
       at%n = size(at%node)
       call at%place%build(at%node)
       allocate (places(size(surface%nodes, 1), surface%n), source=0)
