@@ -6,7 +6,7 @@ module deck_input
    use case_control, only: case_control_type, read_case_control
    use deck_cards, only: card_name, check_first_field, is_continuation, read_card
    use deck_errors, only: deck_error_list
-   use deck_text, only: deck_text_type, read_deck_text
+   use deck_text, only: deck_text_of_bytes, deck_text_type, read_deck_text
    use joint_cards, only: read_cjoint, read_jincr, read_jnorm, read_joint, read_jshear, read_pjoint
    use kinds, only: long
    use line_scan, only: is_include
@@ -17,7 +17,7 @@ module deck_input
    implicit none
    private
 
-   public :: read_deck
+   public :: read_deck, read_deck_of_text
 
    type, public :: deck_type
       type(deck_text_type)    :: text
@@ -65,16 +65,36 @@ contains
 
    !> Read the deck PATH. READABLE is false where the file itself cannot be read; what is wrong in it goes to ERRORS.
    subroutine read_deck(path, deck, errors, readable)
-      character(*), intent(in)                     :: path
-      type(deck_type), intent(out), target         :: deck
+      character(*), intent(in)             :: path
+      type(deck_type), intent(out)         :: deck
+      type(deck_error_list), intent(inout) :: errors
+      logical, intent(out)                 :: readable
+
+      call read_deck_text(path, deck%text, errors, readable)
+      if (readable) call read_lines(deck, errors)
+   end subroutine read_deck
+
+
+   !> Read the deck whose file would hold these BYTES; what is wrong in it goes to ERRORS.
+   subroutine read_deck_of_text(bytes, deck, errors)
+      character(*), intent(in)             :: bytes
+      type(deck_type), intent(out)         :: deck
+      type(deck_error_list), intent(inout) :: errors
+
+      call deck_text_of_bytes(bytes, deck%text, errors)
+      call read_lines(deck, errors)
+   end subroutine read_deck_of_text
+
+
+   !> Case control and bulk data of the deck whose text is there.
+   subroutine read_lines(deck, errors)
+      type(deck_type), intent(inout), target       :: deck
       type(deck_error_list), intent(inout), target :: errors
-      logical, intent(out)                         :: readable
       type(card_reader_type) :: cards
       integer :: cursor
       logical :: found_bulk, is_whole
 
-      call read_deck_text(path, deck%text, errors, readable)
-      if (.not. (readable .and. deck%text%is_text)) return
+      if (.not. deck%text%is_text) return
       is_whole = .not. errors%any()
       cursor = 1
       call read_case_control(deck%text, cursor, deck%control, found_bulk, errors)
@@ -88,7 +108,7 @@ contains
       call cards%read_all(deck%bulk)
       call move_alloc(cards%kinds, deck%kinds)
       deck%is_whole = is_whole
-   end subroutine read_deck
+   end subroutine read_lines
 
 
    !> Note where the cards from line CURSOR to ENDDATA begin; N_CARDS counts them, those that nobody knows too.

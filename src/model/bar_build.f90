@@ -93,7 +93,6 @@ contains
          bar%bolt = card%id
          bar%preload = card%preload
          bar%stage = stage
-         bar%is_elastic = .false.
       end associate
    end subroutine tighten
 

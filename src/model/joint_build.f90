@@ -6,8 +6,9 @@ module joint_build
    use id_table, only: id_table_type
    use interface_axes, only: joint_axes, outward
    use kinds, only: wp
+   use interface_operator, only: hang_on, interface_element
    use law_build, only: default_slope, law_tables, list_laws, resolve_laws
-   use model_data, only: interface_element, joint_type, model_type, surface_type
+   use model_data, only: joint_type, model_type, surface_type
    use node_build, only: find_nodes
    use reverse_lists, only: list_owners
    use surface_build, only: surface_node_list, surface_nodes
@@ -131,7 +132,7 @@ contains
       allocate (elements(side1%n))
       do k = 1, side1%n
          elements(k)%id = highest + k
-         elements(k)%nodes = [side1%node(k), partner(k)]
+         call hang_on(elements(k), side1%node(k), partner(k))
          elements(k)%area = side1%area(k)
          elements(k)%axes = joint_axes(model, side1%normal(:, k))
       end do
@@ -209,18 +210,19 @@ contains
       type(cjoint_card), intent(in)  :: cards(:)
       type(model_type), intent(in)   :: model
       type(interface_element), allocatable, intent(out) :: elements(:)
-      integer :: k
+      integer :: k, nodes(2)
 
       allocate (elements(size(cards)))
       do k = 1, size(cards)
          associate (card => cards(k), element => elements(k))
             element%id = card%id
             element%area = card%area
-            call find_nodes(deck, card%line, card%nodes, model, element%nodes)
+            call find_nodes(deck, card%line, card%nodes, model, nodes)
+            call hang_on(element, nodes(1), nodes(2))
             if (model%dimension == 2 .and. abs(card%normal(3)) > 0.0_wp) &
                call deck%field_error(card%line, 'NZ', 'not zero, but a plane model lies in x-y')
             if (norm2(card%normal) > 0.0_wp) &
-               element%axes = joint_axes(model, outward(model, element%nodes, card%normal/norm2(card%normal)))
+               element%axes = joint_axes(model, outward(model, nodes, card%normal/norm2(card%normal)))
          end associate
       end do
    end subroutine cjoint_elements
