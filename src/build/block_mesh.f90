@@ -1,12 +1,12 @@
 !> The generator of teaching meshes: BLOCK2, a quadrilateral block, and BLOCK3, a box; nodes numbered up each column first.
 module block_mesh
-   use bulk_data, only: block2_card, block3_card
+   use bulk_data, only: block_card
    use element_kinds, only: kind_hexa8, kind_quad4
    use kinds, only: wp
    implicit none
    private
 
-   public :: generate_block2, generate_block3, block_nodes, block_elements, block_side
+   public :: generate_block
 
    !> What a block gives: places are positions in its own node list.
    type, public :: block_type
@@ -15,80 +15,30 @@ module block_mesh
       integer, allocatable  :: node_id(:)
       real(wp), allocatable :: x(:, :)        !! (3, nodes)
       integer, allocatable  :: element_id(:)
-      integer, allocatable  :: places(:, :)   !! (8, elements)
+      integer, allocatable  :: places(:, :)   !! (8, elements), 0 behind the last
       integer :: n_sides = 0                  !! marked sides
       integer, allocatable  :: mark(:)        !! (n_sides) PMARK id
-      integer, allocatable  :: mark_field(:)  !! (n_sides) data field of the card that names it
+      integer, allocatable  :: number(:)      !! (n_sides) k: side Sk of the card
       integer, allocatable  :: side(:, :)     !! (4, n_sides) places of its corners, 0 behind the last
    end type block_type
 
 contains
 
-   !> The nodes, elements and marked sides of a BLOCK2.
-   pure subroutine generate_block2(card, block)
-      type(block2_card), intent(in) :: card
+   !> The nodes, elements and marked sides of a CARD. Node (i, j, k), i counting along x or side 1-2, j along y or side 1-4 and k
+   !! along z, all from 0, is number N1 + (i (NY + 1) + j)(NZ + 1) + k; element numbers go up each column too, from E1.
+   pure subroutine generate_block(card, block)
+      type(block_card), intent(in)  :: card
       type(block_type), intent(out) :: block
-      integer, allocatable  :: corners(:, :)
-      real(wp), allocatable :: x(:, :)
-      integer :: i, side
-
-      block%line = card%line
-      block%id = card%id
-      block%property = card%property
-      block%weld = card%weld
-      block%kind = kind_quad4
-      call block_nodes(card, block%node_id, x)
-      allocate (block%x(3, size(x, 2)), source=0.0_wp)
-      block%x(:2, :) = x
-      call block_elements(card, block%element_id, corners)
-      allocate (block%places(8, size(corners, 2)), source=0)
-      block%places(:4, :) = corners
-      call start_sides(block, 2*sum(card%divisions))
-      do side = 1, 4
-         if (card%marks(side) == 0) cycle
-         associate (places => block_side(card, side))
-            do i = 1, size(places) - 1
-               call add_side(block, card%marks(side), 16 + side, places(i:i + 1))
-            end do
-         end associate
-      end do
-   end subroutine generate_block2
-
-
-   pure subroutine start_sides(block, most)
-      type(block_type), intent(inout) :: block
-      integer, intent(in)             :: most
-
-      allocate (block%mark(most), block%mark_field(most), source=0)
-      allocate (block%side(4, most), source=0)
-   end subroutine start_sides
-
-
-   pure subroutine add_side(block, mark, field, places)
-      type(block_type), intent(inout) :: block
-      integer, intent(in)             :: mark, field, places(:)
-
-      block%n_sides = block%n_sides + 1
-      block%mark(block%n_sides) = mark
-      block%mark_field(block%n_sides) = field
-      block%side(:size(places), block%n_sides) = places
-   end subroutine add_side
-
-
-   !> The nodes, elements and marked sides of a BLOCK3: node (i, j, k), all from 0, is number
-   !! N1 + (i (NY + 1) + j)(NZ + 1) + k.
-   pure subroutine generate_block3(card, block)
-      type(block3_card), intent(in) :: card
-      type(block_type), intent(out) :: block
-      real(wp) :: r(0:card%divisions(1)), s(0:card%divisions(2)), t(0:card%divisions(3)), share(3)
-      integer  :: i, j, k, n(3), m
+      real(wp) :: r(0:card%divisions(1)), s(0:card%divisions(2)), t(0:card%divisions(3))
+      integer  :: corner, i, j, k, m, n(3), step(3) ! from place to place along x, y, z
 
       n = card%divisions
+      step = [(n(2) + 1)*(n(3) + 1), n(3) + 1, 1]
       block%line = card%line
       block%id = card%id
       block%property = card%property
       block%weld = card%weld
-      block%kind = kind_hexa8
+      block%kind = merge(kind_quad4, kind_hexa8, card%dimension == 2)
       call graded_places(card%grading(1), r)
       call graded_places(card%grading(2), s)
       call graded_places(card%grading(3), t)
@@ -98,100 +48,57 @@ contains
          do j = 0, n(2)
             do k = 0, n(3)
                m = m + 1
-               share = [r(i), s(j), t(k)]
                block%node_id(m) = card%first_node + m - 1
-               block%x(:, m) = card%corner(:, 1) + share*(card%corner(:, 2) - card%corner(:, 1))
+               block%x(:, m) = point(card, r(i), s(j), t(k))
             end do
          end do
       end do
-      allocate (block%element_id(product(n)), block%places(8, product(n)))
+      n(3) = max(1, n(3))
+      allocate (block%element_id(product(n)), block%places(8, product(n)), source=0)
       m = 0
       do i = 0, n(1) - 1
          do j = 0, n(2) - 1
             do k = 0, n(3) - 1
                m = m + 1
                block%element_id(m) = card%first_element + m - 1
-               block%places(:, m) = [at(i, j, k), at(i + 1, j, k), at(i + 1, j + 1, k), at(i, j + 1, k), &
-                                     at(i, j, k + 1), at(i + 1, j, k + 1), at(i + 1, j + 1, k + 1), at(i, j + 1, k + 1)]
+               corner = 1 + dot_product([i, j, k], step)
+               block%places(:4, m) = corner + [0, step(1), step(1) + step(2), step(2)]
+               if (card%dimension == 3) block%places(5:, m) = block%places(:4, m) + step(3)
             end do
          end do
       end do
-      call start_sides(block, 2*(n(1)*n(2) + n(2)*n(3) + n(3)*n(1)))
-      do m = 1, 2 ! low, high; the corners of every face go round it as seen from outside
-         if (card%marks(m) > 0) then
-            i = merge(0, n(1), m == 1)
-            do j = 0, n(2) - 1
-               do k = 0, n(3) - 1
-                  call add_side(block, card%marks(m), 16 + m, &
-                                faced(m == 2, [at(i, j, k), at(i, j + 1, k), at(i, j + 1, k + 1), at(i, j, k + 1)]))
-               end do
-            end do
-         end if
-         if (card%marks(m + 2) > 0) then
-            j = merge(0, n(2), m == 1)
-            do i = 0, n(1) - 1
-               do k = 0, n(3) - 1
-                  call add_side(block, card%marks(m + 2), 18 + m, &
-                                faced(m == 1, [at(i, j, k), at(i + 1, j, k), at(i + 1, j, k + 1), at(i, j, k + 1)]))
-               end do
-            end do
-         end if
-         if (card%marks(m + 4) > 0) then
-            k = merge(0, n(3), m == 1)
-            do i = 0, n(1) - 1
-               do j = 0, n(2) - 1
-                  call add_side(block, card%marks(m + 4), 20 + m, &
-                                faced(m == 2, [at(i, j, k), at(i + 1, j, k), at(i + 1, j + 1, k), at(i, j + 1, k)]))
-               end do
-            end do
-         end if
-      end do
-
-   contains
-
-      pure function faced(outwards, places)
-         logical, intent(in) :: outwards !! whether the normal of PLACES as they stand points out
-         integer, intent(in) :: places(4)
-         integer :: faced(4)
-
-         faced = places
-         if (.not. outwards) faced = places(4:1:-1)
-      end function faced
-
-
-      pure integer function at(a, b, c)
-         integer, intent(in) :: a, b, c
-
-         at = (a*(n(2) + 1) + b)*(n(3) + 1) + c + 1
-      end function at
-
-   end subroutine generate_block3
-
-
-   !> Coordinates X(2, n) and numbers ID(n) of the nodes of a block, n = (NX + 1)(NY + 1). Node (i, j), i counting
-   !! along side 1-2 and j along side 1-4, both from 0, is number N1 + i (NY + 1) + j and stands at the bilinear
-   !! image of its graded place in the unit square.
-   pure subroutine block_nodes(block, id, x)
-      type(block2_card), intent(in)      :: block
-      integer, allocatable, intent(out)  :: id(:)
-      real(wp), allocatable, intent(out) :: x(:, :)
-      real(wp) :: s(0:block%divisions(1)), t(0:block%divisions(2))
-      integer  :: i, j, n
-
-      call graded_places(block%grading(1), s)
-      call graded_places(block%grading(2), t)
-      n = (block%divisions(1) + 1)*(block%divisions(2) + 1)
-      allocate (id(n), x(2, n))
-      n = 0
-      do i = 0, block%divisions(1)
-         do j = 0, block%divisions(2)
-            n = n + 1
-            id(n) = block%first_node + n - 1
-            x(:, n) = (1.0_wp - s(i))*(1.0_wp - t(j))*block%corner(:, 1) + s(i)*(1.0_wp - t(j))*block%corner(:, 2) &
-                      + s(i)*t(j)*block%corner(:, 3) + (1.0_wp - s(i))*t(j)*block%corner(:, 4)
+      m = merge(2*(n(1) + n(2)), 2*(n(1)*n(2) + n(2)*n(3) + n(3)*n(1)), card%dimension == 2)
+      allocate (block%mark(m), block%number(m), block%side(4, m), source=0)
+      if (card%dimension == 2) then
+         do k = 1, 4
+            call mark_edge(card, k, step, block)
          end do
-      end do
-   end subroutine block_nodes
+      else
+         do k = 1, 3
+            call mark_face(card, k, .false., step, block)
+         end do
+         do k = 1, 3
+            call mark_face(card, k, .true., step, block)
+         end do
+      end if
+   end subroutine generate_block
+
+
+   !> Where the node of a block at the graded places R, S, T in the unit square or cube stands: its bilinear image, in a box the point
+   !! between the corners.
+   pure function point(card, r, s, t) result(x)
+      type(block_card), intent(in) :: card
+      real(wp), intent(in)         :: r, s, t
+      real(wp) :: x(3)
+
+      associate (c => card%corner)
+         if (card%dimension == 3) then
+            x = c(:, 1) + [r, s, t]*(c(:, 2) - c(:, 1))
+         else
+            x = (1.0_wp - r)*(1.0_wp - s)*c(:, 1) + r*(1.0_wp - s)*c(:, 2) + r*s*c(:, 3) + (1.0_wp - r)*s*c(:, 4)
+         end if
+      end associate
+   end function point
 
 
    !> Places 0 = s_0 < ... < s_n = 1 whose steps grow by a constant factor, the last RATIO times the first.
@@ -202,9 +109,10 @@ contains
       integer  :: i, n
 
       n = ubound(s, 1)
+      s(0) = 0.0_wp
+      if (n == 0) return
       factor = 1.0_wp
       if (n > 1) factor = ratio**(1.0_wp/(n - 1))
-      s(0) = 0.0_wp
       step = 1.0_wp
       do i = 1, n
          s(i) = s(i - 1) + step
@@ -215,47 +123,58 @@ contains
    end subroutine graded_places
 
 
-   !> Places in the block's node list, NODES(4, n), of the corners of each element, counter-clockwise; element numbers
-   !! go up each column too, ID(n) from E1.
-   pure subroutine block_elements(block, id, nodes)
-      type(block2_card), intent(in)     :: block
-      integer, allocatable, intent(out) :: id(:), nodes(:, :)
-      integer :: i, j, n, corner, column
+   !> The marked edges on side NUMBER of a quadrilateral block (1: corners 1-2, 2: 2-3, 3: 3-4, 4: 4-1), in this order.
+   pure subroutine mark_edge(card, number, step, block)
+      type(block_card), intent(in)    :: card
+      integer, intent(in)             :: number
+      integer, intent(in)             :: step(3)
+      type(block_type), intent(inout) :: block
+      integer :: axis, first, i
 
-      n = product(block%divisions)
-      allocate (id(n), nodes(4, n))
-      column = block%divisions(2) + 1
-      n = 0
-      do i = 0, block%divisions(1) - 1
-         do j = 0, block%divisions(2) - 1
-            n = n + 1
-            id(n) = block%first_element + n - 1
-            corner = i*column + j + 1
-            nodes(:, n) = [corner, corner + column, corner + column + 1, corner + 1]
+      if (card%marks(number) == 0) return
+      axis = 2 - modulo(number, 2)
+      first = 1
+      if (number == 2 .or. number == 3) first = first + card%divisions(1)*step(1)
+      if (number >= 3) first = first + card%divisions(2)*step(2)
+      do i = 0, card%divisions(axis) - 1
+         call add_side(block, card%marks(number), number, first + [i, i + 1]*merge(step(axis), -step(axis), number < 3))
+      end do
+   end subroutine mark_edge
+
+
+   !> The marked sides on one face of a box: where it begins or ends along AXIS. Their corners go round them as seen from outside.
+   pure subroutine mark_face(card, axis, at_end, step, block)
+      type(block_card), intent(in)    :: card
+      integer, intent(in)             :: axis    !! 1: x, 2: y, 3: z
+      logical, intent(in)             :: at_end
+      integer, intent(in)             :: step(3) !! from place to place along x, y, z
+      type(block_type), intent(inout) :: block
+      integer :: a, b, corner, i, j, number, places(4)
+
+      number = 2*axis - merge(0, 1, at_end)
+      if (card%marks(number) == 0) return
+      a = merge(2, 1, axis == 1) ! the two other axes, in ascending order
+      b = merge(2, 3, axis == 3)
+      do i = 0, card%divisions(a) - 1
+         do j = 0, card%divisions(b) - 1
+            corner = 1 + i*step(a) + j*step(b)
+            if (at_end) corner = corner + card%divisions(axis)*step(axis)
+            places = corner + [0, step(a), step(a) + step(b), step(b)]
+            if (at_end .eqv. axis == 2) places = places(4:1:-1) ! right-handed are y z, z x, x y
+            call add_side(block, card%marks(number), number, places)
          end do
       end do
-   end subroutine block_elements
+   end subroutine mark_face
 
 
-   !> The nodes of side SIDE (1: corners 1-2, 2: 2-3, 3: 3-4, 4: 4-1) in this order, as places in the block's node list.
-   pure function block_side(block, side) result(places)
-      type(block2_card), intent(in)     :: block
-      integer, intent(in)               :: side
-      integer, allocatable              :: places(:)
-      integer :: i, column, last_column
+   pure subroutine add_side(block, mark, number, places)
+      type(block_type), intent(inout) :: block
+      integer, intent(in)             :: mark, number, places(:)
 
-      column = block%divisions(2) + 1
-      last_column = block%divisions(1)*column
-      select case (side)
-      case (1)
-         allocate (places, source=[(i*column + 1, i = 0, block%divisions(1))])
-      case (2)
-         allocate (places, source=[(last_column + i, i = 1, column)])
-      case (3)
-         allocate (places, source=[(i*column + column, i = block%divisions(1), 0, -1)])
-      case default
-         allocate (places, source=[(i, i = column, 1, -1)])
-      end select
-   end function block_side
+      block%n_sides = block%n_sides + 1
+      block%mark(block%n_sides) = mark
+      block%number(block%n_sides) = number
+      block%side(:size(places), block%n_sides) = places
+   end subroutine add_side
 
 end module block_mesh

@@ -1,22 +1,21 @@
-!> Body elements: from their cards and the block generators to positions in the model, and whether they are sound.
+!> Body elements and their properties: from their cards and the block generators to positions in the model, and whether they are
+!! sound.
 module element_build
    use block_mesh, only: block_type
-   use bulk_data, only: element_card
-   use deck_errors, only: deck_error_list
-   use deck_input, only: deck_type
-   use elasticity, only: axisymmetric
+   use bulk_data, only: element_card, property_card
+   use deck_check, only: checked_deck
+   use elasticity, only: axisymmetric, solid
    use element_kinds, only: element_table, kind_quad4, kind_tria3, max_nodes
    use element_mapping, only: smallest_jacobian
    use id_table, only: id_table_type, sorted_order
    use kinds, only: wp
-   use model_data, only: corners_of, model_type
-   use node_build, only: raw_nodes, report_missing, report_repeated
-   use property_build, only: check_property
+   use model_data, only: corners_of, model_type, property_type
+   use node_build, only: find_nodes, raw_nodes
    use text_tools, only: integer_text
    implicit none
    private
 
-   public :: collect_elements, check_element_numbers, check_elements, check_one_state, is_face
+   public :: resolve_properties, collect_elements, check_element_numbers, check_elements, check_one_state, is_face
 
 contains
 
@@ -29,103 +28,153 @@ contains
    end function is_face
 
 
+   !> Every PSHELL, PAXIS and PSOLID with its material.
+   subroutine resolve_properties(deck, model)
+      type(checked_deck), intent(in)  :: deck
+      type(model_type), intent(inout) :: model
+      type(property_card), allocatable :: cards(:)
+      type(id_table_type) :: materials
+      integer :: i, k
+
+      call materials%build(deck%bulk%mat1%id)
+      allocate (cards, source=[deck%bulk%pshell, deck%bulk%paxis, deck%bulk%psolid])
+      allocate (model%properties(size(cards)))
+      do i = 1, size(cards)
+         associate (card => cards(i), property => model%properties(i))
+            property = property_type(id=card%id, state=card%state, thickness=card%thickness, incompatible=card%incompatible)
+            k = materials%find(card%material)
+            if (k > 0) then
+               property%e = deck%bulk%mat1(k)%e
+               property%nu = deck%bulk%mat1(k)%nu
+               property%rho = deck%bulk%mat1(k)%rho
+            else if (card%material > 0) then
+               call deck%field_error(card%line, 2, 'there is no MAT1 '//integer_text(card%material))
+            end if
+         end associate
+      end do
+   end subroutine resolve_properties
+
+
    !> Elements of cards and of blocks, in ascending order of their numbers.
-   subroutine collect_elements(deck, blocks, raw, position, model, errors)
-      type(deck_type), intent(in)          :: deck
-      type(block_type), intent(in)         :: blocks(:)
-      type(raw_nodes), intent(in)          :: raw
-      integer, intent(in)                  :: position(:)
-      type(model_type), intent(inout)      :: model
-      type(deck_error_list), intent(inout) :: errors
+   subroutine collect_elements(deck, blocks, raw, position, model)
+      type(checked_deck), intent(in)  :: deck
+      type(block_type), intent(in)    :: blocks(:)
+      type(raw_nodes), intent(in)     :: raw
+      integer, intent(in)             :: position(:)
+      type(model_type), intent(inout) :: model
       type(id_table_type)  :: properties
       integer, allocatable :: id(:), kind(:), nodes(:, :), property(:), line(:), order(:)
-      integer :: b, i, k, n, total, most
+      integer :: b, corners, i, k, n, total
 
       call properties%build(model%properties%id)
-      total = deck%bulk%n_element
-      do b = 1, size(blocks)
-         total = total + size(blocks(b)%element_id)
-      end do
+      total = size(deck%bulk%element) + n_elements(blocks)
       allocate (id(total), kind(total), property(total), line(total))
       allocate (nodes(max_nodes, total), source=0)
       n = 0
-      do i = 1, deck%bulk%n_element
+      do i = 1, size(deck%bulk%element)
          associate (element => deck%bulk%element(i))
             if (is_face(model, element)) cycle
             n = n + 1
             id(n) = element%id
             kind(n) = element%kind
             line(n) = element%line
-            do k = 1, element_table(element%kind)%n_nodes
-               nodes(k, n) = model%node_table%find(element%nodes(k))
-               if (nodes(k, n) == 0) call report_missing(deck, element%line, k + 2, 'node G'//integer_text(k), element%nodes(k), &
-                                                         errors)
-            end do
+            corners = element_table(element%kind)%n_nodes
+            call find_nodes(deck, element%line, element%nodes(:corners), model, nodes(:corners, n))
             property(n) = properties%find(element%property)
-            call check_property(deck, model, element%line, element%property, element%kind, property(n), errors)
+            call check_property(deck, model, element%line, element%property, element%kind, property(n))
          end associate
       end do
       do b = 1, size(blocks)
          associate (block => blocks(b))
             k = properties%find(block%property)
-            call check_property(deck, model, block%line, block%property, block%kind, k, errors)
+            call check_property(deck, model, block%line, block%property, block%kind, k)
+            corners = element_table(block%kind)%n_nodes
             do i = 1, size(block%element_id)
                n = n + 1
                id(n) = block%element_id(i)
                kind(n) = block%kind
                line(n) = block%line
                property(n) = k
-               associate (corners => element_table(block%kind)%n_nodes)
-                  nodes(:corners, n) = position(raw%place(raw%block_start(b) + block%places(:corners, i)))
-               end associate
+               nodes(:corners, n) = position(raw%place(raw%block_start(b) + block%places(:corners, i)))
             end do
          end associate
       end do
       call sorted_order(id(:n), order)
-      most = maxval([4, element_table(kind(:n))%n_nodes])
       model%n_elements = n
       model%element_id = id(order)
       model%element_kind = kind(order)
-      model%element_nodes = nodes(:most, order)
+      model%element_nodes = nodes(:maxval([4, element_table(kind(:n))%n_nodes]), order)
       model%element_property = property(order)
       model%element_line = line(order)
    end subroutine collect_elements
 
 
+   pure integer function n_elements(blocks)
+      type(block_type), intent(in) :: blocks(:)
+      integer :: b
+
+      n_elements = sum([(size(blocks(b)%element_id), b = 1, size(blocks))])
+   end function n_elements
+
+
+   !> The property ID of an element of a KIND must be one of its own sort; PROPERTY is its position, 0 for none, and set to 0
+   !! where it is of another.
+   subroutine check_property(deck, model, line, id, kind, property)
+      type(checked_deck), intent(in) :: deck
+      type(model_type), intent(in)   :: model
+      integer, intent(in)            :: line, id, kind
+      integer, intent(inout)         :: property
+      character(:), allocatable :: wanted
+
+      if (model%dimension == 3 .and. element_table(kind)%dimension == 2) then
+         call deck%errors%add(line, 'BLOCK2: the model has solids; plane bodies and solids cannot be mixed')
+         return
+      end if
+      wanted = 'PSHELL or PAXIS '
+      if (element_table(kind)%dimension == 3) wanted = 'PSOLID '
+      if (property > 0) then
+         if ((model%properties(property)%state == solid) .eqv. element_table(kind)%dimension == 3) return
+         property = 0
+      end if
+      if (id == 0) return
+      if (any(deck%bulk%pmark%id == id) .and. element_table(kind)%dimension == 2) then
+         call deck%field_error(line, 'PID', integer_text(id)//' is a PMARK: a surface of a plane body is '// &
+                               'marked with CBAR or CROD edges')
+      else
+         call deck%field_error(line, 'PID', 'there is no '//wanted//integer_text(id))
+      end if
+   end subroutine check_property
+
+
    !> No element number twice, bodies, faces, edges and interface elements counted together as NASTRAN does.
-   subroutine check_element_numbers(deck, blocks, errors)
-      type(deck_type), intent(in)          :: deck
-      type(block_type), intent(in)         :: blocks(:)
-      type(deck_error_list), intent(inout) :: errors
+   subroutine check_element_numbers(deck, blocks)
+      type(checked_deck), intent(in) :: deck
+      type(block_type), intent(in)   :: blocks(:)
       integer, allocatable :: id(:), line(:)
-      integer :: b, n, n_cards, k, total
+      integer :: b, n, n_cards, k
 
       associate (bulk => deck%bulk)
-         n_cards = bulk%n_element + bulk%n_edge + bulk%n_cjoint
-         total = n_cards
-         do b = 1, size(blocks)
-            total = total + size(blocks(b)%element_id)
-         end do
-         allocate (id(total), line(total))
-         id(:n_cards) = [bulk%element(:bulk%n_element)%id, bulk%edge(:bulk%n_edge)%id, bulk%cjoint(:bulk%n_cjoint)%id]
-         line(:n_cards) = [bulk%element(:bulk%n_element)%line, bulk%edge(:bulk%n_edge)%line, bulk%cjoint(:bulk%n_cjoint)%line]
-         n = n_cards
-         do b = 1, size(blocks)
-            k = size(blocks(b)%element_id)
-            id(n + 1:n + k) = blocks(b)%element_id
-            line(n + 1:n + k) = blocks(b)%line
-            n = n + k
-         end do
+         n_cards = size(bulk%element) + size(bulk%edge) + size(bulk%cjoint)
+         allocate (id(n_cards + n_elements(blocks)), line(n_cards + n_elements(blocks)))
+         id(:n_cards) = [bulk%element%id, bulk%edge%id, bulk%cjoint%id]
+         line(:n_cards) = [bulk%element%line, bulk%edge%line, bulk%cjoint%line]
       end associate
-      call report_repeated(deck, id, line, n_cards, 'element', errors)
+      n = n_cards
+      do b = 1, size(blocks)
+         k = size(blocks(b)%element_id)
+         id(n + 1:n + k) = blocks(b)%element_id
+         line(n + 1:n + k) = blocks(b)%line
+         n = n + k
+      end do
+      call deck%report_repeated('element', id, line, n_cards=n_cards)
    end subroutine check_element_numbers
 
 
    !> Plane bodies and bodies of revolution cannot be mixed: the forces of the ones are those of their thickness, of the
    !! others those of the whole ring.
-   subroutine check_one_state(model, errors)
-      type(model_type), intent(inout)      :: model
-      type(deck_error_list), intent(inout) :: errors
+   subroutine check_one_state(deck, model)
+      type(checked_deck), intent(in)  :: deck
+      type(model_type), intent(inout) :: model
       logical :: rings, others
       integer :: e
 
@@ -139,8 +188,8 @@ contains
             others = .true.
          end if
          if (.not. (rings .and. others)) cycle
-         call errors%add(model%element_line(e), 'element '//integer_text(model%element_id(e))//': PAXIS and PSHELL cannot be '// &
-                         'mixed in one model')
+         call deck%errors%add(model%element_line(e), 'element '//integer_text(model%element_id(e))//': PAXIS and PSHELL '// &
+                              'cannot be mixed in one model')
          exit
       end do
       model%axisymmetric = rings
@@ -148,23 +197,20 @@ contains
 
 
    !> Every plane element has a positive area at all its corners, every solid a positive volume where it is integrated.
-   subroutine check_elements(deck, model, errors)
-      type(deck_type), intent(in)          :: deck
-      type(model_type), intent(in)         :: model
-      type(deck_error_list), intent(inout) :: errors
+   subroutine check_elements(deck, model)
+      type(checked_deck), intent(in) :: deck
+      type(model_type), intent(in)   :: model
       type(id_table_type)  :: doubtful_blocks ! by their lines
       logical, allocatable :: doubtful(:)
       integer :: e, i, last_line, node
 
       allocate (doubtful(model%n_nodes), source=.false.)
-      do i = 1, deck%bulk%n_grid
+      do i = 1, size(deck%bulk%grid)
          if (.not. deck%bulk%grid(i)%doubtful) cycle
          node = model%node_table%find(deck%bulk%grid(i)%id)
          if (node > 0) doubtful(node) = .true.
       end do
-      associate (block2 => deck%bulk%block2(:deck%bulk%n_block2), block3 => deck%bulk%block3(:deck%bulk%n_block3))
-         call doubtful_blocks%build([pack(block2%line, block2%doubtful), pack(block3%line, block3%doubtful)])
-      end associate
+      call doubtful_blocks%build(pack(deck%bulk%block%line, deck%bulk%block%doubtful))
       last_line = 0
       do e = 1, model%n_elements
          if (model%element_line(e) == last_line) cycle ! once a card
@@ -175,7 +221,7 @@ contains
             if (smallest_jacobian(model%element_kind(e), model%x(:model%dimension, nodes)) > 0.0_wp) cycle
          end associate
          last_line = model%element_line(e)
-         call errors%add(model%element_line(e), 'element '//integer_text(model%element_id(e))//' has no positive '// &
+         call deck%errors%add(model%element_line(e), 'element '//integer_text(model%element_id(e))//' has no positive '// &
                          shape_words(model%element_kind(e)))
       end do
    end subroutine check_elements
@@ -183,7 +229,7 @@ contains
 
    !> What an element of a KIND lacks, and what was expected.
    pure function shape_words(kind) result(words)
-      integer, intent(in)       :: kind
+      integer, intent(in) :: kind
       character(:), allocatable :: words
 
       select case (kind)

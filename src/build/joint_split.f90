@@ -1,26 +1,17 @@
 !> A joint on one shared surface: where bodies lie on both sides of a marked surface and share its nodes, the nodes are
 !! doubled, so that interface elements can stand between them.
 module joint_split
-   use behind_surface, only: elements_behind
-   use deck_cards, only: add_field_error
-   use deck_errors, only: deck_error_list
-   use deck_input, only: deck_type
+   use deck_check, only: checked_deck
    use id_table, only: id_table_type
    use kinds, only: wp
-   use mesh_build, only: list_elements_of_nodes
    use model_data, only: model_type
-   use surface_sides, only: face_one_way, list_sides, side_list
+   use reverse_lists, only: list_owners
+   use surface_sides, only: elements_behind, face_one_way, list_sides, side_list
    use text_tools, only: integer_text
    implicit none
    private
 
    public :: split_shared_surfaces
-
-   !> The nodes that are split: the twin of node(k) is the k-th node behind those that there were.
-   type :: split_type
-      integer :: n = 0
-      integer, allocatable :: node(:)
-   end type split_type
 
    !> Some elements.
    type :: element_list
@@ -31,43 +22,40 @@ contains
 
    !> Split the shared surfaces that JOINT cards name as SIDE1 without a SIDE2. The elements on the left of the
    !! surface's edges, or inside its faces, keep the nodes; those behind get the twins, numbered from the highest node number on.
-   subroutine split_shared_surfaces(deck, model, errors)
-      type(deck_type), intent(in)          :: deck
-      type(model_type), intent(inout)      :: model
-      type(deck_error_list), intent(inout) :: errors
+   subroutine split_shared_surfaces(deck, model)
+      type(checked_deck), intent(in)  :: deck
+      type(model_type), intent(inout) :: model
       type(id_table_type)  :: surfaces
-      type(split_type)     :: split
       integer, allocatable :: met(:)
-      integer :: j, s
+      integer :: j, n_twins, s
 
       allocate (model%twin(model%n_nodes), source=0)
       call surfaces%build(model%surfaces%id)
-      allocate (split%node(0))
-      do j = 1, deck%bulk%n_joint
+      n_twins = 0
+      do j = 1, size(deck%bulk%joint)
          if (deck%bulk%joint(j)%sides(2) /= 0) cycle
          s = surfaces%find(deck%bulk%joint(j)%sides(1))
          if (s == 0) cycle
-         associate (surface => model%surfaces(s))
+         associate (surface => model%surfaces(s), line => deck%bulk%joint(j)%line)
             if (.not. any(surface%other(:surface%n) > 0)) cycle
             if (any(surface%other(:surface%n) == 0)) then
-               call add_field_error(deck%text, deck%bulk%joint(j)%line, 3, 'SIDE1', 'bodies lie on both sides of some '// &
-                                    merge('edges', 'faces', model%dimension == 2)//' of '// &
-                                    'surface '//integer_text(surface%id)//' and on one side of others', errors)
+               call deck%field_error(line, 'SIDE1', 'bodies lie on both sides of some '//merge('edges', 'faces', &
+                  model%dimension == 2)//' of surface '//integer_text(surface%id)//' and on one side of others')
                cycle
             end if
             met = pack(surface%nodes(:, :surface%n), is_split(model, surface%nodes(:, :surface%n)))
             if (size(met) > 0) then
-               call add_field_error(deck%text, deck%bulk%joint(j)%line, 3, 'SIDE1', 'surface '//integer_text(surface%id)// &
-                  ' meets another surface that is split, at node '//integer_text(model%node_id(minval(met)))// &
-                  ': mesh the bodies apart there and give both faces, SIDE1 and SIDE2', errors)
+               call deck%field_error(line, 'SIDE1', 'surface '//integer_text(surface%id)//' meets another surface that is '// &
+                  'split, at node '//integer_text(model%node_id(minval(met)))//': mesh the bodies apart there and give both '// &
+                  'faces, SIDE1 and SIDE2')
                cycle
             end if
          end associate
-         call split_surface(model, s, split)
+         call split_surface(model, s, n_twins)
       end do
-      if (split%n == 0) return
-      call add_twins(model, split)
-      call list_elements_of_nodes(model)
+      if (n_twins == 0) return
+      call add_twins(model, n_twins)
+      call list_owners(model%n_nodes, model%element_nodes, model%first_at, model%elements_at)
       call move_other_surfaces(model)
    end subroutine split_shared_surfaces
 
@@ -82,11 +70,11 @@ contains
    end function is_split
 
 
-   !> Give the elements behind surface S twins of its nodes. The twins are no nodes of the model yet.
-   subroutine split_surface(model, s, split)
+   !> Give the elements behind surface S twins of its nodes, behind the N_TWINS that there are. They are no nodes of the model yet.
+   subroutine split_surface(model, s, n_twins)
       type(model_type), intent(inout) :: model
       integer, intent(in)             :: s
-      type(split_type), intent(inout) :: split
+      integer, intent(inout)          :: n_twins
       type(side_list) :: at
       type(element_list), allocatable :: behind(:)
       integer :: i, k
@@ -99,11 +87,11 @@ contains
       end do
       do k = 1, at%n
          if (size(behind(k)%element) == 0) cycle ! the surface ends inside a body here: the tip stays whole
-         call note_split(split, at%node(k))
-         model%twin(at%node(k)) = model%n_nodes + split%n
+         n_twins = n_twins + 1
+         model%twin(at%node(k)) = model%n_nodes + n_twins
          do i = 1, size(behind(k)%element)
             associate (corners => model%element_nodes(:, behind(k)%element(i)))
-               where (corners == at%node(k)) corners = model%n_nodes + split%n
+               where (corners == at%node(k)) corners = model%n_nodes + n_twins
             end associate
          end do
       end do
@@ -112,44 +100,23 @@ contains
    end subroutine split_surface
 
 
-   subroutine note_split(split, node)
-      type(split_type), intent(inout) :: split
-      integer, intent(in)             :: node
-      integer, allocatable :: longer(:)
-
-      if (split%n == size(split%node)) then
-         allocate (longer(2*split%n + 64))
-         longer(:split%n) = split%node
-         call move_alloc(longer, split%node)
-      end if
-      split%n = split%n + 1
-      split%node(split%n) = node
-   end subroutine note_split
-
-
    !> Append the twins to the nodes of the model.
-   subroutine add_twins(model, split)
+   subroutine add_twins(model, n_twins)
       type(model_type), intent(inout) :: model
-      type(split_type), intent(in)    :: split
-      integer, allocatable  :: id(:), twin(:)
+      integer, intent(in)             :: n_twins
       real(wp), allocatable :: x(:, :)
-      integer :: k, n, m
+      integer :: k, n
 
       n = model%n_nodes
-      m = split%n
-      allocate (id(n + m), x(3, n + m), twin(n + m))
-      id(:n) = model%node_id
+      allocate (x(3, n + n_twins))
       x(:, :n) = model%x
-      twin(:n) = model%twin
-      twin(n + 1:) = 0
-      do k = 1, m
-         id(n + k) = model%node_id(n) + k
-         x(:, n + k) = model%x(:, split%node(k))
+      do k = 1, n
+         if (model%twin(k) > 0) x(:, model%twin(k)) = model%x(:, k)
       end do
-      call move_alloc(id, model%node_id)
       call move_alloc(x, model%x)
-      call move_alloc(twin, model%twin)
-      model%n_nodes = n + m
+      model%node_id = [model%node_id, (model%node_id(n) + k, k = 1, n_twins)]
+      model%twin = [model%twin, (0, k = 1, n_twins)]
+      model%n_nodes = n + n_twins
       call model%node_table%build(model%node_id)
    end subroutine add_twins
 

@@ -1,11 +1,9 @@
 !> Nodes: GRID cards and those of generated blocks, in the order of their numbers.
 module node_build
-   use block_mesh, only: block_type, generate_block2, generate_block3
-   use deck_cards, only: add_field_error
-   use deck_errors, only: deck_error_list
-   use deck_input, only: deck_type
+   use block_mesh, only: block_type
+   use deck_check, only: checked_deck
    use element_kinds, only: kind_quad4
-   use id_table, only: id_table_type, sorted_order
+   use id_table, only: sorted_order
    use kinds, only: wp
    use model_data, only: model_type
    use position_search, only: position_search_type
@@ -13,7 +11,7 @@ module node_build
    implicit none
    private
 
-   public :: generate_blocks, collect_nodes, order_nodes, report_missing, report_repeated
+   public :: collect_nodes, order_nodes, find_nodes
 
    !> Nodes as they come, before they are put in order, and which of them a block's places are.
    type, public :: raw_nodes
@@ -26,40 +24,18 @@ module node_build
 
 contains
 
-   !> What the BLOCK2 and BLOCK3 cards give, in the order of the deck.
-   subroutine generate_blocks(deck, blocks)
-      type(deck_type), intent(in)                :: deck
-      type(block_type), allocatable, intent(out) :: blocks(:)
-      integer, allocatable :: order(:)
-      integer :: b
-
-      associate (bulk => deck%bulk)
-         allocate (blocks(bulk%n_block2 + bulk%n_block3))
-         call sorted_order([bulk%block2(:bulk%n_block2)%line, bulk%block3(:bulk%n_block3)%line], order)
-         do b = 1, size(blocks)
-            if (order(b) <= bulk%n_block2) then
-               call generate_block2(bulk%block2(order(b)), blocks(b))
-            else
-               call generate_block3(bulk%block3(order(b) - bulk%n_block2), blocks(b))
-            end if
-         end do
-      end associate
-   end subroutine generate_blocks
-
-
    !> All GRID cards and all nodes of blocks; a welded block uses the coincident nodes of the block it is welded to.
-   subroutine collect_nodes(deck, blocks, raw, errors)
-      type(deck_type), intent(in)          :: deck
-      type(block_type), intent(in)         :: blocks(:)
-      type(raw_nodes), intent(out)         :: raw
-      type(deck_error_list), intent(inout) :: errors
+   subroutine collect_nodes(deck, blocks, raw)
+      type(checked_deck), intent(in) :: deck
+      type(block_type), intent(in)   :: blocks(:)
+      type(raw_nodes), intent(out)   :: raw
       integer :: b, i, k, n, total
 
       allocate (raw%block_start(size(blocks) + 1), source=0)
       do b = 1, size(blocks)
          raw%block_start(b + 1) = raw%block_start(b) + size(blocks(b)%node_id)
       end do
-      n = deck%bulk%n_grid
+      n = size(deck%bulk%grid)
       total = n + raw%block_start(size(blocks) + 1)
       allocate (raw%id(total), raw%line(total), raw%x(3, total), raw%place(total - n))
       do i = 1, n
@@ -69,7 +45,7 @@ contains
       end do
       do b = 1, size(blocks)
          associate (places => raw%place(raw%block_start(b) + 1:raw%block_start(b + 1)))
-            call weld_block(deck, blocks, b, raw, places, errors)
+            call weld_block(deck, blocks, b, raw, places)
             do k = 1, size(places)
                if (places(k) > 0) cycle
                n = n + 1
@@ -81,18 +57,17 @@ contains
          end associate
       end do
       raw%n = n
-      call report_repeated(deck, raw%id(:n), raw%line(:n), deck%bulk%n_grid, 'node', errors)
+      call deck%report_repeated('node', raw%id(:n), raw%line(:n), n_cards=size(deck%bulk%grid))
    end subroutine collect_nodes
 
 
    !> Where block B is welded to an earlier one, PLACES(k) is the raw node at X(:, k) of that block, else 0.
-   subroutine weld_block(deck, blocks, b, raw, places, errors)
-      type(deck_type), intent(in)          :: deck
-      type(block_type), intent(in)         :: blocks(:)
-      integer, intent(in)                  :: b
-      type(raw_nodes), intent(in)          :: raw
-      integer, intent(inout)               :: places(:)
-      type(deck_error_list), intent(inout) :: errors
+   subroutine weld_block(deck, blocks, b, raw, places)
+      type(checked_deck), intent(in) :: deck
+      type(block_type), intent(in)   :: blocks(:)
+      integer, intent(in)            :: b
+      type(raw_nodes), intent(in)    :: raw
+      integer, intent(inout)         :: places(:)
       type(position_search_type) :: search
       integer, allocatable :: near_this(:), near_other(:)
       real(wp) :: reach, distance
@@ -105,9 +80,8 @@ contains
             if (blocks(other)%id == block%weld) exit
          end do
          if (other == 0) then
-            call add_field_error(deck%text, block%line, weld_field(block), 'WELD', 'no '// &
-                                 merge('BLOCK2 ', 'BLOCK3 ', block%kind == kind_quad4)//integer_text(block%weld)// &
-                                 ' stands before this one', errors)
+            call deck%field_error(block%line, 'WELD', 'no '//merge('BLOCK2 ', 'BLOCK3 ', block%kind == kind_quad4)// &
+                                  integer_text(block%weld)//' stands before this one')
             return
          end if
       end associate
@@ -119,9 +93,7 @@ contains
          call search%nearest(blocks(b)%x(:, near_other(k)), reach, found, distance)
          if (found > 0) places(near_other(k)) = raw%place(raw%block_start(other) + near_this(found))
       end do
-      if (all(places == 0)) call add_field_error(deck%text, blocks(b)%line, &
-         weld_field(blocks(b)), 'WELD', &
-         'the two blocks have no node in common', errors)
+      if (all(places == 0)) call deck%field_error(blocks(b)%line, 'WELD', 'the two blocks have no node in common')
    end subroutine weld_block
 
 
@@ -147,14 +119,6 @@ contains
    end subroutine nodes_near
 
 
-   !> The data field of WELD on the card of BLOCK.
-   pure integer function weld_field(block)
-      type(block_type), intent(in) :: block
-
-      weld_field = merge(21, 23, block%kind == kind_quad4)
-   end function weld_field
-
-
    !> The nodes of the model in ascending order of their numbers.
    subroutine order_nodes(raw, model, position)
       type(raw_nodes), intent(in)       :: raw
@@ -173,53 +137,22 @@ contains
    end subroutine order_nodes
 
 
-   !> Say that there is no node ID, which data field K, NAME, of the card on LINE names; not where the field could not be read.
-   subroutine report_missing(deck, line, k, name, id, errors)
-      type(deck_type), intent(in)          :: deck
-      integer, intent(in)                  :: line, k, id
-      character(*), intent(in)             :: name
-      type(deck_error_list), intent(inout) :: errors
+   !> The NODES of the model with the numbers ID, which a card of an element, edge or interface element names from its data field 3
+   !! on; 0, and an error, where there is none. An id of 0 is no node: a field that is blank or could not be read.
+   subroutine find_nodes(deck, line, id, model, nodes)
+      type(checked_deck), intent(in) :: deck
+      integer, intent(in)            :: line     !! of the card
+      integer, intent(in)            :: id(:)
+      type(model_type), intent(in)   :: model
+      integer, intent(out)           :: nodes(:)
+      integer :: k
 
-      if (id > 0) call add_field_error(deck%text, line, k, name, 'there is no GRID '//integer_text(id), errors)
-   end subroutine report_missing
-
-
-   !> Say which of the numbers ID(n), given on the cards of LINE(n), are given twice; a card that gives many is named once.
-   subroutine report_repeated(deck, id, line, n_cards, noun, errors)
-      type(deck_type), intent(in)          :: deck
-      integer, intent(in)                  :: id(:), line(:)
-      integer, intent(in)                  :: n_cards !! the first so many are given one by one, the others by blocks
-      character(*), intent(in)             :: noun
-      type(deck_error_list), intent(inout) :: errors
-      type(id_table_type)  :: table
-      integer, allocatable :: again(:), order(:)
-      integer :: field, k, last, more
-      character(3) :: name
-
-      call table%build(id)
-      call table%list_repeated(again)
-      call sorted_order(line(again), order)
-      k = 1
-      do while (k <= size(again))
-         last = k
-         do while (last < size(again))
-            if (line(again(order(last + 1))) /= line(again(order(k)))) exit
-            last = last + 1
-         end do
-         more = last - k
-         associate (this => again(order(k)))
-            field = 1
-            name = merge('ID ', 'EID', noun == 'node')
-            if (this > n_cards) then
-               field = merge(15, 16, noun == 'node')
-               name = merge('N1', 'E1', noun == 'node')
-            end if
-            if (id(this) > 0) call add_field_error(deck%text, line(this), field, trim(name), noun//' '//integer_text(id(this))// &
-               trim(merge(', and more of this card,', '                        ', more > 0))//' is given twice, first in '// &
-               deck%text%place(line(table%find(id(this)))), errors)
-         end associate
-         k = last + 1
+      nodes = 0
+      do k = 1, size(id)
+         if (id(k) == 0) cycle
+         nodes(k) = model%node_table%find(id(k))
+         if (nodes(k) == 0) call deck%field_error(line, k + 2, 'there is no GRID '//integer_text(id(k)), noun='node')
       end do
-   end subroutine report_repeated
+   end subroutine find_nodes
 
 end module node_build
