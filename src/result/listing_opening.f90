@@ -1,10 +1,10 @@
 !> The first pages of the listing: heading, deck echo, summary of the model, joints and stages.
 module listing_opening
-   use card_names, only: card_name, is_continuation
+   use deck_cards, only: card_name, is_continuation
    use case_control, only: method_newton, method_step, pressure_eq10
    use deck_input, only: deck_type
    use equation_solver, only: equation_system, solver_description
-   use include_lines, only: is_include
+   use line_scan, only: is_include
    use kinds, only: long, wp
    use listing_table, only: axes, column, cut, heading, listing_table_type, page_type, page_width
    use model_data, only: model_type, n_bars, n_points, n_sections
