@@ -7,7 +7,7 @@ module comparison_text
    private
 
    public :: text_file, open_text, next_line, close_text
-   public :: next_token, word, number_kind, number_value, same_integer, defect, text_of
+   public :: next_token, next_field, word, number_kind, number_value, same_integer, defect, text_of
 
    !> What number_kind finds in a token.
    integer, parameter, public :: not_a_number = 0, an_integer = 1, a_real = 2
@@ -132,6 +132,19 @@ contains
       end do
       last = position - 1
    end subroutine next_token
+
+   !> Field text(first:last) that starts at `at`; then `at` is the start of the next one, past len(text) + 1 if none.
+   pure subroutine next_field(text, at, first, last)
+      character(len=*), intent(in) :: text
+      integer, intent(inout) :: at
+      integer, intent(out) :: first, last
+      integer :: comma
+
+      comma = index(text(at:), ',')
+      first = at
+      last = merge(at + comma - 2, len(text), comma > 0)
+      at = last + 2
+   end subroutine next_field
 
    !> The n-th token of a short text, empty if there are fewer.
    pure function word(text, n) result(token)
