@@ -1,12 +1,12 @@
 !> Text as the comparison sees it: files read line by line without a limit on
 !! the length of a line, tokens between blanks, numbers, defects.
 module comparison_text
-   use, intrinsic :: iso_fortran_env, only: real64, int64
+   use, intrinsic :: iso_fortran_env, only: error_unit, real64, int64
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    implicit none
    private
 
-   public :: text_file, open_text, next_line, close_text
+   public :: text_file, open_text, next_line, close_text, argument, give_up
    public :: next_token, next_field, word, number_kind, number_value, same_integer, defect, text_of
 
    !> What number_kind finds in a token.
@@ -312,5 +312,24 @@ contains
       write (digits, '(i0)') n
       text_of = trim(digits)
    end function text_of
+
+   !> The i-th word of the command line.
+   function argument(i)
+      integer, intent(in) :: i
+      character(len=:), allocatable :: argument
+      integer :: length
+
+      call get_command_argument(i, length=length)
+      allocate (character(len=length) :: argument)
+      call get_command_argument(i, argument)
+   end function argument
+
+   !> Stop with exit status 2.
+   subroutine give_up(why)
+      character(len=*), intent(in) :: why
+
+      write (error_unit, '(a)') why
+      stop 2, quiet=.true.
+   end subroutine give_up
 
 end module comparison_text

@@ -14,8 +14,8 @@
 !! holds. Exit status: 0 all hold; 1 one does not: its first rows are on standard output; 2 wrong usage, no row left, no such
 !! column, a value that is no finite number, an unreadable file.
 program query_results
-   use, intrinsic :: iso_fortran_env, only: error_unit, output_unit, real64
-   use comparison_text, only: not_a_number, number_kind, text_of
+   use, intrinsic :: iso_fortran_env, only: output_unit, real64
+   use comparison_text, only: argument, give_up, not_a_number, number_kind, text_of
    use csv_table, only: column_of, read_table, cell_length
    use query_expression, only: evaluate, cell_of, equal, row_values, selection
    implicit none
@@ -224,22 +224,5 @@ contains
       print '(a)', chosen%file%name//': '//what
       failed = .true.
    end subroutine tell
-
-   function argument(k)
-      integer, intent(in) :: k
-      character(len=:), allocatable :: argument
-      integer :: length
-
-      call get_command_argument(k, length=length)
-      allocate (character(len=length) :: argument)
-      call get_command_argument(k, argument)
-   end function argument
-
-   subroutine give_up(why)
-      character(len=*), intent(in) :: why
-
-      write (error_unit, '(a)') why
-      stop 2, quiet=.true.
-   end subroutine give_up
 
 end program query_results

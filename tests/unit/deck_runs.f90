@@ -26,7 +26,7 @@ module deck_runs
       type(analysis_type)   :: analysis                !! after the last increment
       type(analysis_type), allocatable :: states(:)    !! after each increment
       type(failure_type)    :: failure
-      character(:), allocatable :: problem             !! the first error of the deck, '' where there is none: then nothing is solved
+      character(:), allocatable :: problem             !! the first error of the deck: nothing is solved then; '': none
    end type run_type
 
 contains
