@@ -1,7 +1,8 @@
 !> NAME.joint.csv: every interface element after every increment, in full precision.
 module joint_history
+   use interface_operator, only: at_first_end
    use kinds, only: wp
-   use model_data, only: joint_movement, model_type
+   use model_data, only: joint_node_id, model_type
    use normal_stiffness, only: branch_name
    use output_file, only: output_file_type
    use stage_plan, only: stage_plan_type
@@ -31,7 +32,8 @@ contains
       type(stage_plan_type), intent(in)     :: plan
       type(analysis_type), intent(in)       :: analysis
       type(text_line_type) :: line
-      integer :: i, k, node2, same
+      real(wp) :: x(3)
+      integer  :: i, k, same
 
       call line%clear()                   ! the columns that all rows have in common
       call line%add_integer(plan%stages(analysis%stage)%id)
@@ -41,14 +43,13 @@ contains
       do i = 1, size(model%interface)
          line%length = same
          associate (element => model%interface(i), state => analysis%states(i)%normal)
-            node2 = 0
-            if (element%nodes(2) > 0) node2 = model%node_id(element%nodes(2))
             call add_number(model%joints(element%joint)%id)
             call add_number(element%id)
-            call add_number(model%node_id(element%nodes(1)))
-            call add_number(node2)
+            call add_number(joint_node_id(model, i, 1))
+            call add_number(joint_node_id(model, i, 2))
+            x = at_first_end(element, model%x)
             do k = 1, 3
-               call add_real(model%x(k, element%nodes(1)))
+               call add_real(x(k))
             end do
             call add_real(element%area)
             call line%add(','//branch_name(state%branch))
@@ -94,7 +95,7 @@ contains
                call add_real(state%tau)
                call add_real(state%k_s)
             else
-               movement = joint_movement(model, analysis%u, i)
+               movement = analysis%movement(:, i)
                call line%add(',')
                call add_real(movement(direction))
                call add_real(0.0_wp)

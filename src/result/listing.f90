@@ -3,7 +3,7 @@ module listing
    use case_control, only: method_back, method_newton, output_all, output_joint, output_last
    use deck_input, only: deck_type
    use determinate_joints, only: carried_resultant
-   use equations, only: equation_system
+   use equation_solver, only: equation_system
    use kinds, only: wp
    use listing_bars, only: list_bars, list_sections, note_bars, note_sections
    use listing_bodies, only: list_bodies
@@ -11,7 +11,7 @@ module listing
    use listing_opening, only: write_opening
    use listing_page, only: heading, in_column, label_type, noise, page_width, unit_labels
    use listing_plot, only: plot_joints
-   use model_data, only: model_type, stage_load_type
+   use model_data, only: joint_node_id, model_type, stage_load_type
    use normal_stiffness, only: branch_open
    use output_file, only: output_file_type
    use range_watch, only: range_watch_type, watch_balance, watch_ranges
@@ -43,7 +43,7 @@ contains
       type(deck_type), intent(in)       :: deck
       type(model_type), intent(in)      :: model
       type(stage_plan_type), intent(in) :: plan
-      type(equation_system), intent(in) :: system
+      class(equation_system), intent(in) :: system
 
       call listing%file%start(path)
       listing%labels = unit_labels(deck%control)
@@ -66,9 +66,9 @@ contains
       listing%n_removed = listing%n_removed + analysis%n_removed
       listing%largest_force = max(listing%largest_force, maxval(abs(analysis%applied(:, analysis%loaded))))
       if (analysis%is_moved) listing%largest_force = &
-         max(listing%largest_force, maxval(abs(analysis%unbalanced), mask=model%held)) ! what moves the supports
+         max(listing%largest_force, maxval(abs(analysis%all_unbalanced), mask=model%held)) ! what moves the supports
       call current_load(model, analysis, now)
-      unbalanced = free_norm(model, analysis%unbalanced, analysis%retained)
+      unbalanced = free_norm(analysis%unbalanced, analysis%held)
       do j = 1, size(model%joints)
          call listing%increments%add(increment_row(listing, model, analysis, now, unbalanced, j))
       end do
@@ -177,8 +177,8 @@ contains
             end do
             write (row(22:), '(i11, i5, 2(es13.5, i11), es13.5)') joint%id, n_open, &
                clean(state(at_lambda)%lambda, noise*analysis%largest_lambda), &
-               model%node_id(model%interface(at_lambda)%nodes(1)), &
-               clean(state(at_p)%pressure, noise*analysis%largest_p), model%node_id(model%interface(at_p)%nodes(1)), &
+               joint_node_id(model, at_lambda, 1), &
+               clean(state(at_p)%pressure, noise*analysis%largest_p), joint_node_id(model, at_p, 1), &
                clean(force, floor)
             if (joint%determinate) then
                applied = carried_resultant(model, joint, now)

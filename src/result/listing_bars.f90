@@ -1,8 +1,7 @@
 !> The tables of bars and bolts: their forces after every increment.
 module listing_bars
    use analysis_state, only: analysis_type
-   use bar_elements, only: bar_elongation
-   use bolt_locking, only: bar_tension, section_tension
+   use bolt_locking, only: bar_tension, elongation_now, overlap_now, section_tension
    use kinds, only: wp
    use listing_page, only: heading, in_column, label_type, noise, page_width
    use model_data, only: model_type, n_bars, n_sections
@@ -30,17 +29,17 @@ contains
       integer  :: i
 
       if (n_bars(model) == 0) return
-      floor = noise*maxval(abs(analysis%u(:, analysis%retained)))
+      floor = noise*maxval(abs(analysis%u))
       do i = 1, n_bars(model)
          associate (bar => model%bars(i))
             write (who, '(11x, 3i11)') bar%id, model%node_id(bar%nodes)
             state = ''
             if (bar%bolt > 0) then
                write (who(:11), '(i11)') bar%bolt
-               state = state_of_bolt(bar%stage == analysis%stage, bar%is_elastic)
+               state = state_of_bolt(bar%stage == analysis%stage, analysis%is_elastic(i))
             end if
             call note(analysis%increment, who, clean(bar_tension(model, analysis, i), noise*largest_force), &
-                      clean(bar_elongation(model, analysis%u, i), floor), state, rows)
+                      clean(elongation_now(model, analysis, i), floor), state, rows)
          end associate
       end do
    end subroutine note_bars
@@ -57,13 +56,13 @@ contains
       integer  :: i
 
       if (n_sections(model) == 0) return
-      floor = noise*maxval(abs(analysis%u(:, analysis%retained)))
+      floor = noise*maxval(abs(analysis%u))
       do i = 1, n_sections(model)
          associate (section => model%sections(i))
             write (who, '(2i11)') section%bolt, section%surface
             call note(analysis%increment, who, clean(section_tension(model, analysis, i), noise*largest_force), &
-                      clean(analysis%u(1, section%node), floor), &
-                      state_of_bolt(section%stage == analysis%stage, section%is_locked), rows)
+                      clean(overlap_now(model, analysis, i), floor), &
+                      state_of_bolt(section%stage == analysis%stage, analysis%is_locked(i)), rows)
          end associate
       end do
    end subroutine note_sections

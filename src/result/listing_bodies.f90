@@ -3,6 +3,7 @@ module listing_bodies
    use analysis_state, only: analysis_type, element_force
    use body_elements, only: element_stress, full_stress
    use elasticity, only: max_stresses, n_stresses
+   use interface_operator, only: named_node
    use kinds, only: wp
    use listing_page, only: heading, in_units, label_type, noise, page_width, where_now
    use model_data, only: corners_of, model_type, n_points
@@ -49,13 +50,13 @@ contains
       else
          call file%put('       NODE            X            Y           UX           UY')
       end if
-      floor = noise*maxval(abs(analysis%u(:, :n_points(model))))
+      floor = noise*maxval(abs(analysis%all_u(:, :n_points(model))))
       do node = 1, n_points(model)
          if (.not. model%used(node)) cycle
          call line%clear()
          call line%add_integer(model%node_id(node), 11)
          call line%add_short(clean(model%x(:model%dimension, node)))
-         call line%add_short(clean(analysis%u(:, node), floor))
+         call line%add_short(clean(analysis%all_u(:, node), floor))
          call file%put(line%text(:line%length))
       end do
    end subroutine list_displacements
@@ -77,7 +78,7 @@ contains
       n = 0
       do e = 1, model%n_elements
          n = n_stresses(model%properties(model%element_property(e))%state)
-         stress(:n, e) = element_stress(model, e, analysis%u)
+         stress(:n, e) = element_stress(model, e, analysis%all_u)
       end do
       floor = noise*maxval(abs(stress))
       call heading(file, 'STRESSES AT THE CENTRES OF ELEMENTS'//where_now(plan, analysis)// &
@@ -162,7 +163,7 @@ contains
       supports = 0.0_wp
       do node = 1, n_points(model)
          if (.not. any(model%held(:, node)) .or. .not. model%used(node)) cycle
-         reaction = merge(-analysis%unbalanced(:, node), 0.0_wp, model%held(:, node))
+         reaction = merge(-analysis%all_unbalanced(:, node), 0.0_wp, model%held(:, node))
          supports = supports + reaction
          call line%clear()
          call line%add_integer(model%node_id(node), 11)
@@ -172,8 +173,8 @@ contains
       end do
       base = 0.0_wp
       do i = 1, size(model%interface)
-         if (model%interface(i)%nodes(2) > 0) cycle
-         force = element_force(model, analysis, i)
+         if (named_node(model%interface(i), 2) /= 0) cycle
+         force = element_force(model%interface(i), analysis%states(i))
          base = base - force(:model%dimension)
       end do
       loads = sum(analysis%applied(:, :n_points(model)), dim=2)

@@ -1,9 +1,11 @@
 !> Tables of the joints: interface elements, resultants, re-analyses or iterations, energies.
 module listing_joints
    use analysis_state, only: analysis_type, element_force
+   use interface_operator, only: at_first_end
+   use joint_laws, only: friction_limit
    use kinds, only: wp
    use listing_page, only: heading, in_column, label_type, noise, page_width, where_now
-   use model_data, only: model_type
+   use model_data, only: joint_node_id, model_type
    use normal_stiffness, only: branch_name
    use output_file, only: output_file_type
    use row_buffer, only: row_buffer_type
@@ -27,7 +29,7 @@ contains
       character(page_width) :: line
       type(text_line_type)  :: row
       real(wp) :: lambda_floor, p_floor, force_floor
-      integer  :: i, j, node2
+      integer  :: i, j
 
       do j = 1, size(model%joints)
          associate (joint => model%joints(j), state => analysis%states%normal)
@@ -56,13 +58,11 @@ contains
             force_floor = p_floor*joint%area
             do i = joint%first, joint%last
                associate (element => model%interface(i))
-                  node2 = 0
-                  if (element%nodes(2) > 0) node2 = model%node_id(element%nodes(2))
                   call row%clear()
                   call row%add_integer(element%id, 11)
-                  call row%add_integer(model%node_id(element%nodes(1)), 11)
-                  call row%add_integer(node2, 11)
-                  call row%add_short(clean(model%x(:model%dimension, element%nodes(1))))
+                  call row%add_integer(joint_node_id(model, i, 1), 11)
+                  call row%add_integer(joint_node_id(model, i, 2), 11)
+                  call row%add_short(clean(at_first_end(element, model%x(:model%dimension, :))))
                   call row%add_short([element%area])
                   call row%add(branch_field(state(i)%branch))
                   call row%add_short([clean(state(i)%lambda, lambda_floor), clean(state(i)%pressure, p_floor), &
@@ -120,12 +120,12 @@ contains
                associate (state => analysis%states(i)%shear(k), element => model%interface(i))
                   call row%clear()
                   call row%add_integer(element%id, 11)
-                  call row%add_integer(model%node_id(element%nodes(1)), 11)
+                  call row%add_integer(joint_node_id(model, i, 1), 11)
                   call row%add(branch_field(state%branch))
                   call row%add_short([clean(state%delta, delta_floor), clean(state%tau, tau_floor), &
                                       clean(state%tau*element%area, tau_floor*element%area), clean(state%k_s)])
                   if (joint%law%has_friction) call row%add_short( &
-                     [clean(joint%law%mu*max(0.0_wp, analysis%states(i)%normal%pressure), tau_floor)])
+                     [clean(friction_limit(joint%law, analysis%states(i)%normal%pressure), tau_floor)])
                   if (analysis%states(i)%slips) call row%add(repeat(' ', 97 - row%length)//'SLIPS')
                   call file%put(row%text(:row%length))
                end associate
@@ -151,13 +151,13 @@ contains
          associate (joint => model%joints(j))
             centroid = 0.0_wp
             do i = joint%first, joint%last
-               centroid = centroid + model%interface(i)%area*model%x(:, model%interface(i)%nodes(1))/joint%area
+               centroid = centroid + model%interface(i)%area*at_first_end(model%interface(i), model%x)/joint%area
             end do
             total = 0.0_wp
             moment = 0.0_wp; normal = 0.0_wp; along = 0.0_wp; extent = 0.0_wp
             do i = joint%first, joint%last
-               force = element_force(model, analysis, i)
-               arm = model%x(:, model%interface(i)%nodes(1)) - centroid
+               force = element_force(model%interface(i), analysis%states(i))
+               arm = at_first_end(model%interface(i), model%x) - centroid
                extent = max(extent, norm2(arm))
                total = total + force
                moment = moment + [arm(2)*force(3) - arm(3)*force(2), arm(3)*force(1) - arm(1)*force(3), &

@@ -2,13 +2,14 @@
 module listing_opening
    use case_control, only: case_control_type, method_newton, method_step, pressure_eq10
    use deck_input, only: deck_type
-   use equations, only: equation_system
+   use equation_solver, only: equation_system, solver_description
    use kinds, only: long, wp
    use listing_echo, only: write_echo
    use listing_page, only: cut, heading, in_column, label_type, page_width, unit_labels
    use model_data, only: model_type, n_bars, n_points, n_sections
    use normal_stiffness, only: branch_load, branch_name, branch_reload, branch_unload, pressure_floor
    use output_file, only: output_file_type
+   use shear_stiffness, only: cubic, cubic_of
    use stage_plan, only: stage_plan_type
    use text_tools, only: clean, real_text
    implicit none
@@ -24,7 +25,7 @@ contains
       type(deck_type), intent(in)           :: deck
       type(model_type), intent(in)          :: model
       type(stage_plan_type), intent(in)     :: plan
-      type(equation_system), intent(in)     :: system
+      class(equation_system), intent(in)    :: system
 
       call file%put(' '//repeat('-', page_width - 1))
       call file%put('  J O I N T F E M      TANGENT-STIFFNESS FINITE ELEMENT ANALYSIS OF JOINTED STRUCTURES')
@@ -42,8 +43,9 @@ contains
       type(output_file_type), intent(inout) :: file
       type(deck_type), intent(in)           :: deck
       type(model_type), intent(in)          :: model
-      type(equation_system), intent(in)     :: system
-      character(:), allocatable :: solver
+      class(equation_system), intent(in)    :: system
+      type(solver_description) :: solver
+      integer :: i
 
       call heading(file, 'MODEL SUMMARY')
       call count_line('NODES', int(n_points(model), long))
@@ -57,26 +59,20 @@ contains
       call count_line('INTERFACE ELEMENTS', size(model%interface, kind=long))
       call count_line('SUPPORTED COMPONENTS', count(model%held(:, :n_points(model)), kind=long))
       call count_line('UNKNOWNS', int(system%n, long))
-      if (system%is_tree) then
-         call count_line('FRONTS', size(system%tree%tree%fronts, kind=long))
-         call count_line('ENTRIES OF THE FACTOR', system%tree%factor_entries)
-         call count_line('UNKNOWNS LEFT AFTER CONDENSATION', size(system%equations, kind=long))
-         solver = 'TREE, JOINTS '//system%tree%way
-      else
-         call count_line('PROFILE OF THE STIFFNESS MATRIX, ENTRIES', system%skyline%profile)
-         call count_line('   IN THE ORDER OF THE NODE NUMBERS', system%skyline%profile_as_numbered)
-         solver = 'SKYLINE'
-      end if
+      call system%describe(solver)
+      do i = 1, size(solver%words)
+         if (solver%words(i) /= '') call count_line(trim(solver%words(i)), solver%numbers(i))
+      end do
       call count_line('STAGES', size(deck%control%stages, kind=long))
       associate (control => deck%control)
          select case (control%method)
          case (method_step)
             call file%put('  METHOD STEP   PRESSURE '//trim(merge('EQ10', 'SUMF', control%pressure == pressure_eq10))// &
-                          '   CARRY '//trim(merge('YES', 'NO ', control%carry))//'   SOLVER '//solver)
+                          '   CARRY '//trim(merge('YES', 'NO ', control%carry))//'   SOLVER '//solver%name)
          case (method_newton)
-            call file%put('  METHOD NEWTON   TOL '//real_text(control%tolerance)//'   SOLVER '//solver)
+            call file%put('  METHOD NEWTON   TOL '//real_text(control%tolerance)//'   SOLVER '//solver%name)
          case default
-            call file%put('  METHOD BACK   SOLVER '//solver)
+            call file%put('  METHOD BACK   SOLVER '//solver%name)
          end select
       end associate
       if (deck%control%length_unit /= '') call file%put('  UNITS, LABELS ONLY: LENGTH '// &
@@ -126,7 +122,7 @@ contains
       do j = 1, size(model%joints)
          associate (joint => model%joints(j), law => model%joints(j)%law%normal)
             write (line, '(i11, i9, es13.5, es13.5, f7.4, es15.5, es17.5, es17.5)') joint%id, &
-               joint%last - joint%first + 1, joint%area, law%c, law%m, law%e_u, law%p_av, pressure_floor*law%p_av
+               joint%last - joint%first + 1, joint%area, law%c, law%m, law%e_u, joint%p_av, pressure_floor*joint%p_av
             if (model%dimension == 3) then
                write (line(103:), '(3f10.6)') clean(joint%normal, 1.0e-9_wp)
             else
@@ -145,6 +141,7 @@ contains
       type(model_type), intent(in)          :: model
       integer, parameter :: branches(3) = [branch_load, branch_unload, branch_reload]
       character(page_width) :: line
+      type(cubic) :: curve
       integer :: b, j, k
 
       if (.not. any(model%joints%law%shear(1)%given .or. model%joints%law%shear(2)%given .or. &
@@ -156,8 +153,9 @@ contains
             do k = 1, model%dimension - 1
                if (.not. law%shear(k)%given) cycle
                do b = 1, 3
+                  curve = cubic_of(law%shear(k), branches(b))
                   write (line, '(i11, 3x, a1, 2x, a6, 6es13.5)') model%joints(j)%id, merge('X', 'Y', k == 1), &
-                     branch_name(branches(b)), law%shear(k)%coefficients(:, :, branches(b))
+                     branch_name(branches(b)), curve%coefficients
                   call file%put(line)
                end do
                if (law%shear(k)%p_max < huge(1.0_wp)) then
@@ -171,7 +169,7 @@ contains
             end do
             if (law%has_friction) then
                write (line, '(i11, a, f10.6, a, i5)') model%joints(j)%id, '   FRICTION MU =', law%mu, '   RE-ANALYSES', &
-                  law%n_reanalyses
+                  model%joints(j)%n_reanalyses
                call file%put(line)
             end if
          end associate

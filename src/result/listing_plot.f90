@@ -1,9 +1,10 @@
 !> Line-printer plots of a joint, as the period had them: pressure and deflection along the interface.
 module listing_plot
    use analysis_state, only: analysis_type
+   use interface_operator, only: at_first_end
    use kinds, only: wp
    use listing_page, only: heading, label_type, page_width, where_now
-   use model_data, only: model_type
+   use model_data, only: joint_node_id, model_type
    use output_file, only: output_file_type
    use stage_plan, only: stage_plan_type
    use text_tools, only: clean, integer_text
@@ -40,8 +41,8 @@ contains
             call file%put(line)
             call file%put('      NODE            X  +'//repeat('---------+', 10))
             do i = joint%first, joint%last
-               write (line, '(i10, es13.5)') model%node_id(model%interface(i)%nodes(1)), &
-                  clean(model%x(1, model%interface(i)%nodes(1)))
+               write (line, '(i10, es13.5)') joint_node_id(model, i, 1), &
+                  clean(at_first_end(model%interface(i), model%x(1:1, :)))
                line(26:26) = '|'
                line(25 + width:25 + width) = '|'
                call mark((state(i)%lambda - lambda_least)/(lambda_most - lambda_least), '+')

@@ -2,7 +2,7 @@
 module results
    use c_library, only: remove_file
    use deck_input, only: deck_type
-   use equations, only: equation_system
+   use equation_solver, only: equation_system
    use incomplete_results, only: all_complete
    use joint_history, only: write_history, write_history_header
    use listing, only: finish_listing, list_increment, list_stage, listing_type, start_listing
@@ -32,7 +32,7 @@ contains
       type(deck_type), intent(in)       :: deck
       type(model_type), intent(in)      :: model
       type(stage_plan_type), intent(in) :: plan
-      type(equation_system), intent(in) :: system
+      class(equation_system), intent(in) :: system
       type(results_type), intent(inout) :: results
       logical, intent(out)              :: ok
 

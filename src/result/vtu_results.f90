@@ -7,6 +7,7 @@ module vtu_results
    use c_library, only: remove_file
    use element_kinds, only: element_table, kind_penta6, max_nodes
    use elasticity, only: max_stresses, n_stresses
+   use interface_operator, only: at_first_end
    use kinds, only: wp
    use model_data, only: corners_of, model_type, n_points
    use pvd_file, only: pvd_file_type
@@ -99,7 +100,7 @@ contains
       allocate (u(3, m), at_node(6, m), source=0.0_wp)
       allocate (at_centre(6, model%n_elements), principal(3, model%n_elements))
       allocate (corners(count(model%element_nodes > 0)), ends(model%n_elements), types(model%n_elements))
-      u(:model%dimension, :) = analysis%u(:, :m)
+      u(:model%dimension, :) = analysis%all_u(:, :m)
       n = 0
       do e = 1, model%n_elements
          associate (nodes => corners_of(model, e))
@@ -112,9 +113,9 @@ contains
             ends(e) = n
             types(e) = int(element_table(model%element_kind(e))%vtk_type, int8)
             c = n_stresses(model%properties(model%element_property(e))%state)
-            at_centre(:, e) = full_stress(model, e, element_stress(model, e, analysis%u))
+            at_centre(:, e) = full_stress(model, e, element_stress(model, e, analysis%all_u))
             principal(:, e) = principal_stresses(at_centre(:, e))
-            call element_corner_stress(model, e, analysis%u, corner(:c, :size(nodes)))
+            call element_corner_stress(model, e, analysis%all_u, corner(:c, :size(nodes)))
             do i = 1, size(nodes)
                at_node(:, nodes(i)) = at_node(:, nodes(i)) + full_stress(model, e, corner(:c, i))/ &
                                       real(model%first_at(nodes(i) + 1) - model%first_at(nodes(i)), wp)
@@ -153,8 +154,8 @@ contains
       allocate (u(3, n), source=0.0_wp)
       do i = 1, n
          associate (element => model%interface(i))
-            x(:, i) = model%x(:, element%nodes(1))
-            u(:model%dimension, i) = analysis%u(:, element%nodes(1))
+            x(:, i) = at_first_end(element, model%x)
+            u(:model%dimension, i) = at_first_end(element, analysis%all_u)
             tau(:, i) = matmul(element%axes(:, :2), analysis%states(i)%shear%tau)
          end associate
       end do

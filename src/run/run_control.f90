@@ -16,7 +16,7 @@ module run_control
    private
 
    public :: overwrites_input, report_unreadable, report_errors, report_failure, &
-             report_unwritten, report_checked, report_warnings, end_program
+             report_overwritten, report_unwritten, report_checked, report_warnings, end_program
 
    integer, parameter :: status_unreadable = 1, status_deck = 2, status_unsolved = 3, status_unwritten = 4
 
@@ -41,7 +41,7 @@ contains
    end subroutine report_unreadable
 
 
-   !> Whether a file that the deck includes is one that its results would be written to: said, and status 1.
+   !> Whether a file that the deck includes is one that its results would be written to.
    logical function overwrites_input(argument, deck)
       type(deck_argument), intent(in) :: argument
       type(deck_type), intent(in)     :: deck
@@ -49,12 +49,23 @@ contains
 
       overwrites_input = .false.
       do i = 2, deck%text%n_files
-         if (.not. is_result_of(deck%text%files(i)%true_path, argument)) cycle
-         overwrites_input = .true.
-         call raise_status(status_unreadable)
-         write (error_unit, '(3a)') argument%name, ': its results would overwrite the INCLUDE file ', deck%text%files(i)%path
+         if (is_result_of(deck%text%files(i)%true_path, argument)) overwrites_input = .true.
       end do
    end function overwrites_input
+
+
+   !> The files of which that is so.
+   subroutine report_overwritten(argument, deck)
+      type(deck_argument), intent(in) :: argument
+      type(deck_type), intent(in)     :: deck
+      integer :: i
+
+      call raise_status(status_unreadable)
+      do i = 2, deck%text%n_files
+         if (is_result_of(deck%text%files(i)%true_path, argument)) write (error_unit, '(3a)') argument%name, &
+            ': its results would overwrite the INCLUDE file ', deck%text%files(i)%path
+      end do
+   end subroutine report_overwritten
 
 
    !> The deck has errors: all of them.
@@ -122,9 +133,10 @@ contains
 
    !> End with STATUS, or the highest of the decks where that is higher.
    subroutine end_program(status)
-      integer, intent(in) :: status
+      integer, intent(in), optional :: status !! 0
 
-      call end_run(max(status, exit_status))
+      if (present(status)) call raise_status(status)
+      call end_run(exit_status)
    end subroutine end_program
 
 end module run_control

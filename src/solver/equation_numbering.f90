@@ -1,11 +1,10 @@
 !> Which unknown is which equation.
 module equation_numbering
-   use kinds, only: wp
    use model_data, only: model_type
    implicit none
    private
 
-   public :: number_unknowns, number_joints, gather, put
+   public :: number_unknowns
 
    type, public :: equation_numbers
       integer :: n = 0                              !! unknowns
@@ -43,55 +42,5 @@ contains
          end do
       end do
    end subroutine number_unknowns
-
-
-   !> The EQUATIONS of the interface elements: components of node 1, of node 2 from the fourth on; 0: held, none such, base.
-   subroutine number_joints(model, number, equations)
-      type(model_type), intent(in)      :: model
-      integer, intent(in)               :: number(:, :)    !! (dimension, n_nodes) as in equation_numbers
-      integer, allocatable, intent(out) :: equations(:, :) !! (6, n)
-      integer :: d, i
-
-      d = model%dimension
-      allocate (equations(6, size(model%interface)), source=0)
-      do i = 1, size(model%interface)
-         associate (nodes => model%interface(i)%nodes)
-            equations(:d, i) = number(:, nodes(1))
-            if (nodes(2) > 0) equations(4:3 + d, i) = number(:, nodes(2))
-         end associate
-      end do
-   end subroutine number_joints
-
-
-   !> X(equation) from an array over nodes, for the EQUATIONS.
-   subroutine gather(numbers, equations, array, x)
-      class(equation_numbers), intent(in) :: numbers
-      integer, intent(in)               :: equations(:)
-      real(wp), intent(in)              :: array(:, :) !! (dimension, n_nodes)
-      real(wp), intent(inout)           :: x(:)        !! (n), not touched for others
-      integer :: i
-
-      do i = 1, size(equations)
-         associate (k => equations(i))
-            x(k) = array(numbers%direction(k), numbers%node(k))
-         end associate
-      end do
-   end subroutine gather
-
-
-   !> An array over nodes from X(equation), of the EQUATIONS.
-   subroutine put(numbers, equations, x, array)
-      class(equation_numbers), intent(in) :: numbers
-      integer, intent(in)               :: equations(:)
-      real(wp), intent(in)              :: x(:)        !! (n)
-      real(wp), intent(inout)           :: array(:, :) !! (dimension, n_nodes)
-      integer :: i
-
-      do i = 1, size(equations)
-         associate (k => equations(i))
-            array(numbers%direction(k), numbers%node(k)) = x(k)
-         end associate
-      end do
-   end subroutine put
 
 end module equation_numbering

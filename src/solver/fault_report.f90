@@ -1,8 +1,8 @@
 !> A factorisation that failed, in words: which node has no stiffness in which direction.
 module fault_report
    use equation_numbering, only: equation_numbers
+   use equation_solver, only: no_memory
    use failures, only: failure_type
-   use front_factor, only: no_memory
    use model_data, only: model_type, n_points
    use text_tools, only: integer_text
    implicit none

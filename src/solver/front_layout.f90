@@ -107,21 +107,59 @@ contains
    subroutine number_fronts(supers, layout)
       type(supernodes_type), intent(inout)   :: supers
       type(front_layout_type), intent(inout) :: layout
-      integer, allocatable :: number(:), front_of(:), sequence(:), new_order(:), columns(:), new_place(:)
-      integer :: f, i, k, member, n, s
-      real(wp) :: rows
+      integer, allocatable :: number(:), sequence(:), new_place(:)
+
+      call number_trees(supers, number, sequence)
+      layout%n = size(sequence)
+      call number_columns(supers, sequence, new_place, layout)
+      call link_fronts(supers, number, sequence, new_place, layout)
+   end subroutine number_fronts
+
+
+   !> Depth first, children first: NUMBER(s) is that of supernode s, 0 where it was merged; SEQUENCE is the other way round.
+   pure subroutine number_trees(supers, number, sequence)
+      type(supernodes_type), intent(inout) :: supers !! its lists of children are gone then
+      integer, allocatable, intent(out)    :: number(:), sequence(:)
+      integer :: child, n, node, root
 
       allocate (number(supers%n), sequence(supers%n), source=0)
       n = 0
-      do s = 1, supers%n
-         if (supers%parent(s) == 0) call walk(s)
+      do root = 1, supers%n
+         if (supers%parent(root) /= 0) cycle
+         node = root
+         do
+            do while (supers%child(node) /= 0)
+               child = supers%child(node)
+               supers%child(node) = supers%sibling(child)
+               supers%sibling(child) = node   ! the way back
+               node = child
+            end do
+            n = n + 1
+            number(node) = n
+            sequence(n) = node
+            if (node == root) exit
+            node = supers%sibling(node)
+         end do
       end do
-      layout%n = n
-      allocate (layout%first_pivot(n + 1), layout%first_row(n + 1), layout%parent(n), layout%moves(n))
+      sequence = sequence(:n)
+   end subroutine number_trees
+
+
+   !> The columns of every front in one run, in the order of the fronts; what the fronts are worth. NEW_PLACE(old place).
+   subroutine number_columns(supers, sequence, new_place, layout)
+      type(supernodes_type), intent(in)      :: supers
+      integer, intent(in)                    :: sequence(:)
+      integer, allocatable, intent(out)      :: new_place(:)
+      type(front_layout_type), intent(inout) :: layout
+      integer, allocatable :: new_order(:), columns(:)
+      integer  :: f, i, k, member, s
+      real(wp) :: rows
+
+      allocate (layout%first_pivot(layout%n + 1), layout%first_row(layout%n + 1), layout%moves(layout%n))
       allocate (new_order(size(layout%order)), new_place(size(layout%order)), columns(size(layout%order)))
       layout%first_pivot(1) = 1
       layout%first_row(1) = 1
-      do f = 1, n
+      do f = 1, layout%n
          s = sequence(f)
          k = 0
          member = supers%member(s)
@@ -151,10 +189,19 @@ contains
          end if
       end do
       layout%order = new_order
-      allocate (layout%rows(layout%first_row(layout%n + 1) - 1), front_of(supers%n))
+   end subroutine number_columns
+
+
+   !> The rows of every front beyond its columns, its parent, and what stands in update matrices.
+   subroutine link_fronts(supers, number, sequence, new_place, layout)
+      type(supernodes_type), intent(in)      :: supers
+      integer, intent(in)                    :: number(:), sequence(:), new_place(:)
+      type(front_layout_type), intent(inout) :: layout
+      integer  :: f, s
+      real(wp) :: rows
+
+      allocate (layout%rows(layout%first_row(layout%n + 1) - 1), layout%parent(layout%n))
       layout%parent = 0
-      layout%peak_entries = 0.0_wp
-      layout%kept_entries = 0.0_wp
       do f = 1, layout%n
          s = sequence(f)
          layout%rows(layout%first_row(f):layout%first_row(f + 1) - 1) = &
@@ -170,30 +217,6 @@ contains
          if (layout%moves(number(s)) .and. .not. layout%moves(f)) &
             layout%kept_entries = layout%kept_entries + 0.5_wp*rows*(rows + 1.0_wp)
       end do
-
-   contains
-
-      !> Number a tree from its root S, children first.
-      subroutine walk(root)
-         integer, intent(in) :: root
-         integer :: node, child
-
-         node = root
-         do
-            do while (supers%child(node) /= 0)
-               child = supers%child(node)
-               supers%child(node) = supers%sibling(child)
-               supers%sibling(child) = node   ! the way back
-               node = child
-            end do
-            n = n + 1
-            number(node) = n
-            sequence(n) = node
-            if (node == root) exit
-            node = supers%sibling(node)
-         end do
-      end subroutine walk
-
-   end subroutine number_fronts
+   end subroutine link_fronts
 
 end module front_layout

@@ -19,7 +19,7 @@ module moving_solution
    type, public :: moving_factor_type
       logical :: is_own = .false.                     !! whether the factor is that of the stiffness now, not an earlier one
       logical :: is_awaited = .false.                 !! whether the one solution that is wanted is still to come
-      real(wp), allocatable :: k_int(:, :, :)         !! (6, 6, n) of interface elements, that the factor is of [force/length]
+      real(wp), allocatable :: k_int(:, :, :)         !! (3, 3, n) of interface elements, that the factor is of [force/length]
       type(factor_reuse_type) :: reuse                !! when to use an earlier one
       type(earlier_solutions_type) :: earlier         !! with which conjugate gradients begin
    end type moving_factor_type
@@ -30,12 +30,13 @@ contains
    !! FAULT as in front_factor.
    subroutine form_moving(tree, k_int, one_solution, factor, fault)
       type(front_tree_type), intent(inout)    :: tree
-      real(wp), intent(in)                    :: k_int(:, :, :) !! (6, 6, n) of interface elements, global axes [force/length]
+      real(wp), intent(in)                    :: k_int(:, :, :) !! (3, 3, n) of interface elements, global axes [force/length]
       logical, intent(in)                     :: one_solution
       type(moving_factor_type), intent(inout) :: factor
-      integer, intent(inout)                  :: fault
+      integer, intent(out)                    :: fault
       logical :: reuse
 
+      fault = 0
       reuse = .false.
       if (one_solution) call may_reuse(factor%reuse, reuse)
       factor%is_awaited = one_solution .and. factor%reuse%most_steps > 0
@@ -61,40 +62,39 @@ contains
    end subroutine factorise
 
 
-   !> X, the load on entry, becomes the solution on the EQUATIONS that move, with K_INT of form_moving; zero where LOCKED. Where
+   !> X, the load on entry, becomes the solution on the equations that move, with K_INT of form_moving; zero where LOCKED. Where
    !! conjugate gradients do not get there, only now the stiffness is factorised: FAULT as there.
-   subroutine solve_with_joints(tree, equations, locked, k_int, factor, x, fault)
+   subroutine solve_with_joints(tree, locked, k_int, factor, x, fault)
       type(front_tree_type), intent(inout)    :: tree
-      integer, intent(in)                     :: equations(:), locked(:)
-      real(wp), intent(in)                    :: k_int(:, :, :) !! (6, 6, n) [force/length]
+      integer, intent(in)                     :: locked(:)
+      real(wp), intent(in)                    :: k_int(:, :, :) !! (3, 3, n) [force/length]
       type(moving_factor_type), intent(inout) :: factor
       real(wp), intent(inout)                 :: x(:)           !! (tree%n) [force], [length]; not touched elsewhere
-      integer, intent(inout)                  :: fault
-      real(wp) :: b(size(equations))
+      integer, intent(out)                    :: fault
+      real(wp) :: b(size(tree%equations))
       logical  :: found
 
-      if (fault /= 0) return
-      b = x(equations)
+      fault = 0
+      b = x(tree%equations)
       found = .false.
       if (.not. factor%is_own) then
-         call iterate(tree, equations, k_int, b, factor, x, found)
+         call iterate(tree, k_int, b, factor, x, found)
          if (.not. found) call factorise(tree, k_int, factor, fault)
          if (fault /= 0) return
       end if
       if (.not. found) then
-         x(equations) = b
+         x(tree%equations) = b
          x(locked) = 0.0_wp
          call solve_moving(tree, x)
       end if
-      if (factor%is_awaited) call note_solution(tree, equations, k_int, b, x, factor%earlier)
+      if (factor%is_awaited) call note_solution(tree, k_int, b, x, factor%earlier)
       factor%is_awaited = .false.
    end subroutine solve_with_joints
 
 
    !> Conjugate gradients with the factor there is; whether the solution is FOUND in time.
-   subroutine iterate(tree, equations, k_int, b, factor, x, found)
+   subroutine iterate(tree, k_int, b, factor, x, found)
       type(front_tree_type), intent(in)       :: tree
-      integer, intent(in)                     :: equations(:)
       real(wp), intent(in)                    :: k_int(:, :, :), b(:)
       type(moving_factor_type), intent(inout) :: factor
       real(wp), intent(inout)                 :: x(:)
@@ -104,9 +104,8 @@ contains
       integer  :: steps
 
       allocate (residual(tree%n))
-      call guess_solution(tree, equations, k_int, factor%earlier, b, x, residual, work)
-      call iterate_moving(tree, equations, k_int - factor%k_int, work, step_tolerance, factor%reuse%most_steps, residual, x, &
-                          steps)
+      call guess_solution(tree, k_int, factor%earlier, b, x, residual, work)
+      call iterate_moving(tree, k_int - factor%k_int, work, step_tolerance, factor%reuse%most_steps, residual, x, steps)
       found = steps <= factor%reuse%most_steps
       if (found) then
          call note_steps(factor%reuse, steps)

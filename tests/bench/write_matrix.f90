@@ -116,7 +116,9 @@ contains
       do i = 1, size(model%interface)
          associate (element => model%interface(i))
             state = element_state()
-            call element_stiffness_of(model%joints(element%joint)%law, element%area, [0.0_wp, 0.0_wp, 0.0_wp], state, k_int)
+            state%normal%p_av = model%joints(element%joint)%p_av
+            call element_stiffness_of(model%joints(element%joint)%law, element%area, .false., [0.0_wp, 0.0_wp, 0.0_wp], state, &
+                                      k_int)
             k_global = matmul(element%axes*spread(k_int, 1, 3), transpose(element%axes))
             k(:d, :d) = k_global(:d, :d)
             k(d + 1:2*d, d + 1:2*d) = k_global(:d, :d)

@@ -2,11 +2,11 @@
 module changed_joints
    use case_control, only: solver_tree
    use deck_models, only: model_of_cards, sample_cards, some_forces, some_stiffnesses
-   use equation_numbering, only: gather
    use equations, only: equation_system, form_body_stiffness, form_structure_stiffness, start_equations
    use failures, only: failure_type
    use kinds, only: wp
    use model_data, only: model_type
+   use tree_solver, only: tree_solver_type
    implicit none
    private
 
@@ -22,13 +22,18 @@ contains
       integer, intent(in)                :: which, factorisations
       real(wp), intent(in)               :: share
       type(model_type), intent(out)      :: model
-      type(equation_system), intent(out) :: system
+      type(tree_solver_type), intent(out) :: system
+      class(equation_system), allocatable :: by_tree
       type(failure_type) :: failure
       character(:), allocatable :: problem
 
       call model_of_cards(sample_cards(merge(5, which, which == 4)), model, problem)
       if (problem /= '') error stop 'changed_joints: the model has errors'
-      call start_equations(model, system, failure, solver_tree, factorisations)
+      call start_equations(model, by_tree, failure, solver_tree, factorisations)
+      select type (by_tree)
+      type is (tree_solver_type)
+         system = by_tree
+      end select
       call form_body_stiffness(model, system, failure)
       call form_structure_stiffness(model, changed(model, share), 'here', system, failure)
       if (failure%raised) error stop 'changed_joints: no factor'
@@ -52,11 +57,14 @@ contains
    !> Forces on the equations that move, UNTOUCHED on the others.
    subroutine load(model, system, x)
       type(model_type), intent(in)       :: model
-      type(equation_system), intent(in)  :: system
+      type(tree_solver_type), intent(in) :: system
       real(wp), allocatable, intent(out) :: x(:)
+      integer :: i
 
       allocate (x(system%n), source=untouched)
-      call gather(system, system%equations, some_forces(model), x)
+      associate (f => some_forces(model), e => system%equations)
+         x(e) = [(f(system%direction(e(i)), system%node(e(i))), i = 1, size(e))]
+      end associate
    end subroutine load
 
 end module changed_joints

@@ -2,7 +2,7 @@
 module deck_runs
    use analysis_state, only: analysis_type, interface_stiffness, start_analysis
    use bolt_locking, only: lock_bolts
-   use case_control, only: method_newton
+   use case_control, only: case_control_type, method_newton
    use deck_errors, only: deck_error_list
    use deck_input, only: deck_type, read_deck
    use deck_models, only: read_lines
@@ -17,15 +17,16 @@ module deck_runs
    implicit none
    private
 
-   public :: run_lines, run_file
+   public :: build_lines, run_stages, run_lines, run_file
 
    type, public :: run_type
-      type(model_type)      :: model
-      type(stage_plan_type) :: plan
-      type(equation_system) :: system
-      type(analysis_type)   :: analysis                !! after the last increment
+      type(case_control_type) :: control
+      type(model_type)        :: model
+      type(stage_plan_type)   :: plan
+      class(equation_system), allocatable :: system
+      type(analysis_type)     :: analysis              !! after the last increment
       type(analysis_type), allocatable :: states(:)    !! after each increment
-      type(failure_type)    :: failure
+      type(failure_type)      :: failure
       character(:), allocatable :: problem             !! the first error of the deck: nothing is solved then; '': none
    end type run_type
 
@@ -36,11 +37,9 @@ contains
       character(*), intent(in)      :: lines
       type(run_type), intent(out)   :: run
       integer, intent(in), optional :: last
-      type(deck_type)       :: deck
-      type(deck_error_list) :: errors
 
-      call read_lines(lines, deck, errors)
-      call run_deck(deck, errors, run, last)
+      call build_lines(lines, run)
+      call run_stages(run, last)
    end subroutine run_lines
 
 
@@ -55,36 +54,55 @@ contains
 
       call read_deck(path, deck, errors, readable)
       if (.not. readable) call errors%add(0, 'unreadable')
-      call run_deck(deck, errors, run, last)
+      call build_deck(deck, errors, run)
+      call run_stages(run, last)
    end subroutine run_file
 
 
-   subroutine run_deck(deck, errors, run, last)
+   !> The model and the plan of the deck with these LINES, to be solved by RUN_STAGES.
+   subroutine build_lines(lines, run)
+      character(*), intent(in)    :: lines
+      type(run_type), intent(out) :: run
+      type(deck_type)       :: deck
+      type(deck_error_list) :: errors
+
+      call read_lines(lines, deck, errors)
+      call build_deck(deck, errors, run)
+   end subroutine build_lines
+
+
+   subroutine build_deck(deck, errors, run)
       type(deck_type), intent(in)          :: deck
       type(deck_error_list), intent(inout) :: errors
       type(run_type), intent(inout)        :: run
-      integer, intent(in), optional        :: last
+
+      run%control = deck%control
+      if (.not. errors%any()) call build_model(deck, run%model, run%plan, errors)
+      run%problem = ''
+      if (errors%any()) run%problem = errors%items(1)%message
+   end subroutine build_deck
+
+
+   !> Solve what is built, up to stage LAST or all of it; SOLVER as in case control, AUTO.
+   subroutine run_stages(run, last, solver)
+      type(run_type), intent(inout) :: run
+      integer, intent(in), optional :: last, solver
       integer :: i, s, stages
 
-      run%problem = ''
-      if (.not. errors%any()) call build_model(deck, run%model, run%plan, errors)
-      if (errors%any()) then
-         run%problem = errors%items(1)%message
-         return
-      end if
+      if (run%problem /= '') return
       stages = size(run%plan%stages)
       if (present(last)) stages = last
-      call start_equations(run%model, run%system, run%failure)
+      call start_equations(run%model, run%system, run%failure, solver)
       call form_body_stiffness(run%model, run%system, run%failure)
-      call start_analysis(run%model, run%system, deck%control%carry, deck%control%tolerance, run%analysis)
-      call interface_stiffness(run%model, run%analysis)
+      call start_analysis(run%model, run%system, run%control, run%analysis)
+      call interface_stiffness(run%model, run%system, run%analysis, run%failure)
       allocate (run%states(0))
       do s = 1, stages
-         call lock_bolts(s, run%model, run%system, run%analysis)
-         call start_stage(run%model, run%system, s, run%analysis)
+         call lock_bolts(run%model, run%system, run%analysis)
+         call start_stage(run%model, run%system, run%analysis)
          do i = 1, size(run%plan%stages(s)%shares)
-            call start_increment(run%plan, run%analysis)
-            if (deck%control%method == method_newton) then
+            call start_increment(run%plan, run%system, run%analysis)
+            if (run%control%method == method_newton) then
                call newton_increment(run%model, run%plan, run%analysis, run%system, run%failure)
             else
                call step(run)
@@ -94,7 +112,7 @@ contains
             run%states = [run%states, run%analysis]
          end do
       end do
-   end subroutine run_deck
+   end subroutine run_stages
 
 
    !> An increment of STEP.
@@ -107,7 +125,7 @@ contains
       if (run%failure%raised) return
       call accumulate(run%model, run%system, run%analysis, run%failure)
       call limit_friction(run%model, run%plan, run%system, run%analysis, run%failure)
-      call interface_stiffness(run%model, run%analysis)
+      call interface_stiffness(run%model, run%system, run%analysis, run%failure)
    end subroutine step
 
 end module deck_runs
