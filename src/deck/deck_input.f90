@@ -77,9 +77,9 @@ contains
 
    !> Read the deck whose file would hold these BYTES; what is wrong in it goes to ERRORS.
    subroutine read_deck_of_text(bytes, deck, errors)
-      character(*), intent(in)             :: bytes
-      type(deck_type), intent(out)         :: deck
-      type(deck_error_list), intent(inout) :: errors
+      character(*), intent(in)           :: bytes
+      type(deck_type), intent(out)       :: deck
+      type(deck_error_list), intent(out) :: errors
 
       call deck_text_of_bytes(bytes, deck%text, errors)
       call read_lines(deck, errors)
