@@ -1,5 +1,6 @@
 !> Everything that changes from increment to increment, and what all methods do with it alike.
 module analysis_state
+   use case_control, only: case_control_type, pressure_eq10
    use equation_solver, only: equation_system
    use failures, only: failure_type
    use interface_operator, only: add_global_force, interface_element, joint_movement
@@ -34,6 +35,7 @@ module analysis_state
       real(wp) :: share = 0.0_wp                    !! of the stage's load change, this increment
       real(wp) :: fraction = 0.0_wp                 !! of it, so far: exactly 1 at the end of the stage
       logical  :: carry = .false.
+      logical  :: eq10 = .false.                    !! STEP: p on the loading curve by Eq. (10) as printed
       real(wp) :: load_tolerance = 1.0e-10_wp       !! NEWTON: share of the largest load that may be left unbalanced
       real(wp) :: tolerance = 0.0_wp                !! the same as a force, for the largest load so far
       ! over all nodes
@@ -79,15 +81,15 @@ module analysis_state
 contains
 
    !> A structure at rest without load.
-   subroutine start_analysis(model, system, carry, tolerance, analysis)
-      type(model_type), intent(in)       :: model
-      class(equation_system), intent(in) :: system
-      logical, intent(in)                :: carry
-      real(wp), intent(in)               :: tolerance !! of NEWTON [-]
-      type(analysis_type), intent(out)   :: analysis
+   subroutine start_analysis(model, system, control, analysis)
+      type(model_type), intent(in)        :: model
+      class(equation_system), intent(in)  :: system
+      type(case_control_type), intent(in) :: control
+      type(analysis_type), intent(out)    :: analysis
 
-      analysis%carry = carry
-      analysis%load_tolerance = tolerance
+      analysis%carry = control%carry
+      analysis%eq10 = control%pressure == pressure_eq10
+      analysis%load_tolerance = control%tolerance
       allocate (analysis%applied(model%dimension, model%n_nodes), source=0.0_wp)
       allocate (analysis%load_before, analysis%load_after, analysis%moved_before, analysis%moved_after, analysis%moved, &
                 analysis%all_u, analysis%all_unbalanced, source=analysis%applied)
@@ -102,6 +104,7 @@ contains
       if (n_bars(model) > 0) analysis%is_elastic = model%bars%bolt == 0
       allocate (analysis%states(size(model%interface)), analysis%energy(size(model%joints)), analysis%passes(16))
       allocate (analysis%k(3, size(model%interface)), analysis%movement(3, size(model%interface)), source=0.0_wp)
+      analysis%states%normal%p_av = model%joints(model%interface%joint)%p_av
    end subroutine start_analysis
 
 
@@ -133,7 +136,7 @@ contains
       do i = 1, size(model%interface)
          before = analysis%states(i)%normal%branch
          call element_stiffness_of(model%joints(model%interface(i)%joint)%law, model%interface(i)%area, &
-                                   analysis%movement(:, i), analysis%states(i), analysis%k(:, i))
+                                   analysis%eq10, analysis%movement(:, i), analysis%states(i), analysis%k(:, i))
          if (analysis%states(i)%normal%branch == branch_open .and. before /= branch_open) &
             analysis%n_removed = analysis%n_removed + 1
       end do

@@ -5,6 +5,7 @@ module newton_method
    use coupled_solution, only: solve_coupled
    use equations, only: equation_system, form_structure_stiffness, solve_equations
    use failures, only: failure_type
+   use joint_laws, only: element_state, element_stiffness_of
    use kinds, only: wp
    use load_path, only: support_force
    use model_data, only: joint_node_id, model_type
@@ -182,6 +183,7 @@ contains
       type(attempt_type), intent(inout)     :: attempt
       real(wp), intent(inout)               :: direction(:, :)
       real(wp), allocatable :: matrix(:, :, :), rest(:, :, :)
+      type(element_state) :: at_rest
       real(wp) :: elastic(3)
       integer  :: i, k
       logical  :: virgin, coupled
@@ -191,17 +193,14 @@ contains
       do i = 1, size(model%interface)
          associate (element => model%interface(i), law => model%joints(model%interface(i)%joint)%law)
             virgin = first .and. abs(analysis%states(i)%normal%lambda_a) <= 0.0_wp
-            elastic(3) = law%normal%p_av**(1.0_wp - law%normal%m)*element%area/law%normal%c
-            do k = 1, 2
-               elastic(k) = 0.0_wp
-               if (law%shear(k)%given) elastic(k) = element%area*(law%shear(k)%coefficients(1, 1, 1) &
-                                                                  + law%shear(k)%coefficients(2, 1, 1)*law%normal%p_av)
-            end do
+            at_rest = element_state()
+            at_rest%normal%p_av = analysis%states(i)%normal%p_av
+            call element_stiffness_of(law, element%area, .false., [0.0_wp, 0.0_wp, 0.0_wp], at_rest, elastic)
             matrix(3, 3, i) = max(now%tangent(3, 3, i), little*elastic(3))
             if (virgin) matrix(3, 3, i) = elastic(3)
             matrix(:2, :2, i) = 0.5_wp*(now%tangent(:2, :2, i) + transpose(now%tangent(:2, :2, i)))
             do k = 1, 2
-               matrix(k, k, i) = max(0.0_wp, matrix(k, k, i)) + little*max(0.0_wp, elastic(k))
+               matrix(k, k, i) = max(0.0_wp, matrix(k, k, i)) + little*elastic(k)
                if (virgin) matrix(k, k, i) = max(matrix(k, k, i), elastic(k))
             end do
             analysis%k(:, i) = [now%tangent(1, 1, i), now%tangent(2, 2, i), now%tangent(3, 3, i)]

@@ -4,7 +4,7 @@ module step_method
    use equations, only: equation_system, forces_in_bodies, form_structure_stiffness, solve_equations
    use failures, only: failure_type
    use interface_operator, only: add_force, joint_movement
-   use joint_laws, only: exceeds_limit, friction_excess
+   use joint_laws, only: exceeds_limit, flag_margin, friction_excess
    use kinds, only: wp
    use model_data, only: joint_node_id, model_type
    use stage_plan, only: stage_plan_type, where_in_plan
@@ -169,7 +169,8 @@ contains
       do i = 1, size(model%interface)
          excess(:, i) = friction_excess(model%joints(model%interface(i)%joint)%law, model%interface(i)%area, analysis%states(i))
          total = total + norm2(excess(:, i))
-         if (exceeds_limit(model%joints(model%interface(i)%joint)%law, analysis%states(i))) analysis%states(i)%slips = .true.
+         if (exceeds_limit(model%joints(model%interface(i)%joint)%law, analysis%states(i), flag_margin)) &
+            analysis%states(i)%slips = .true.
       end do
    end subroutine find_excess
 
@@ -181,7 +182,7 @@ contains
       integer :: i
 
       do i = 1, size(model%interface)
-         is_endless(i) = model%joints(model%interface(i)%joint)%law%n_reanalyses < 0
+         is_endless(i) = model%joints(model%interface(i)%joint)%n_reanalyses < 0
       end do
    end function is_endless
 
@@ -202,7 +203,7 @@ contains
       again = .false.
       do i = 1, size(model%interface)
          associate (element => system%interface(i), passes => &
-                    model%joints(model%interface(i)%joint)%law%n_reanalyses)
+                    model%joints(model%interface(i)%joint)%n_reanalyses)
             if (norm2(excess(:, i)) <= 0.0_wp .or. (passes >= 0 .and. pass > passes)) cycle
             again = .true.
             do k = 1, 2

@@ -42,7 +42,9 @@ module model_data
       integer  :: first = 0, last = -1       !! its interface elements
       type(joint_law) :: law                 !! normal, shear, friction
       logical  :: e_u_given = .false.        !! whether the deck gives the unloading slope
+      integer  :: n_reanalyses = 1           !! NREAN after the Coulomb check; -1: until the excess is gone
       real(wp) :: p0 = 0.0_wp                !! initial pressure given by the user, 0: none
+      real(wp) :: p_av = 0.0_wp              !! pressure of the first increment, Eq. (9): that, or by statics [pressure], > 0
       real(wp) :: area = 0.0_wp              !! A_int, sum of the areas of influence [length^2]
       real(wp) :: normal(3) = 0.0_wp         !! mean normal, from side 1 to side 2
       logical  :: determinate = .false.      !! whether statics alone gives its normal resultant
