@@ -180,7 +180,6 @@ contains
       do i = 1, size(model%interface)
          call tally_work(analysis%energy(model%interface(i)%joint), trial%work(:, i))
          associate (state => analysis%states(i))
-            state%normal%k_n = trial%tangent(3, 3, i)
             state%shear(1)%k_s = trial%tangent(1, 1, i)
             state%shear(2)%k_s = trial%tangent(2, 2, i)
             call rest_when_open(state, analysis%movement(:, i))

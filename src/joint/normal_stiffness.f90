@@ -60,18 +60,14 @@ contains
       real(wp), intent(out)             :: k_n   !! [force/length]
       logical :: was_loading
 
-      if (is_virgin(area, state)) then
-         state%pressure = state%sumf/area
-         k_n = normal_secant(law, area, state%p_av)
-         return
-      end if
       was_loading = state%branch == branch_load
-      call ask_diamonds(area, state)
+      if (.not. is_virgin(area, state)) call ask_diamonds(area, state)
       state%pressure = state%sumf/area
       if (eq10 .and. was_loading .and. state%branch == branch_load) state%pressure = state%k_n*state%lambda/area
       select case (state%branch)
       case (branch_load)
          k_n = normal_tangent(law, area, state%pressure, state%p_av)
+         if (is_virgin(area, state)) k_n = normal_secant(law, area, state%p_av)
       case (branch_open)
          k_n = 0.0_wp
       case default
@@ -80,45 +76,65 @@ contains
    end subroutine norm
 
 
-   !> The diamonds of Fig. 6(b): the branch that the element is on for the next increment, with point A where it leaves the loading
-   !! curve and point B where it opens. A removed element carries nothing; the tension that it had is left unbalanced.
+   !> The diamonds of Fig. 6(b), asked one after another of the state that the increment has reached: the branch that the element
+   !! is on for the next increment, with point A where it leaves the loading curve and point B where it opens. A removed element
+   !! carries nothing; the tension that it had is left unbalanced. So no element enters an increment with tension.
    pure subroutine ask_diamonds(area, state)
       real(wp), intent(in)              :: area
       type(normal_state), intent(inout) :: state
-      real(wp) :: no_change
-      logical  :: rises, falls
+      logical :: was_open
 
-      no_change = rounding*max(abs(state%sumf), abs(state%sigmaf), state%p_av*area)
-      rises = state%sumf > state%sigmaf + no_change
-      falls = state%sumf < state%sigmaf - no_change
+      was_open = state%branch == branch_open
       select case (state%branch)
       case (branch_load)
-         if (falls) then
+         if (force_falls(area, state)) then
             state%lambda_a = state%lambda_before
             state%p_a = state%sigmaf/area
             state%branch = branch_unload
          end if
-      case (branch_unload)
-         if (state%sumf <= -rounding*max(state%p_a, state%p_av)*area) then
-            state%lambda_b = state%lambda
-            state%sumf = 0.0_wp
-            state%branch = branch_open
-         else if (rises) then
-            state%branch = branch_reload
-         end if
-      case (branch_open)
-         if (state%lambda >= state%lambda_b) state%branch = branch_reload
       case (branch_reload)
-         if (falls) then
-            state%branch = branch_unload
-         else if (state%lambda >= state%lambda_a) then
-            state%branch = branch_load
-         end if
+         if (force_falls(area, state)) state%branch = branch_unload
+      case (branch_unload)
+         if (state%sumf > state%sigmaf + no_change(area, state)) state%branch = branch_reload
       end select
+      if (state%branch == branch_unload .and. state%sumf <= -rounding*max(state%p_a, state%p_av)*area) then
+         state%lambda_b = state%lambda
+         state%sumf = 0.0_wp
+         state%branch = branch_open
+      end if
+      if (was_open .and. has_come_to(state%lambda_b, state)) state%branch = branch_reload
+      if (state%branch == branch_reload .and. has_come_to(state%lambda_a, state)) state%branch = branch_load
    end subroutine ask_diamonds
 
 
-   !> Whether the element has not carried anything yet: at first, and until a load reaches it.
+   !> Whether the last increment was tensile.
+   pure logical function force_falls(area, state)
+      real(wp), intent(in)           :: area
+      type(normal_state), intent(in) :: state
+
+      force_falls = state%sumf < state%sigmaf - no_change(area, state)
+   end function force_falls
+
+
+   !> The change of the force of STATE that is rounding [force].
+   pure real(wp) function no_change(area, state)
+      real(wp), intent(in)           :: area
+      type(normal_state), intent(in) :: state
+
+      no_change = rounding*max(abs(state%sumf), abs(state%sigmaf), state%p_av*area)
+   end function no_change
+
+
+   !> Whether the deflection of STATE is at that of POINT or beyond it, but for rounding.
+   pure logical function has_come_to(point, state)
+      real(wp), intent(in)           :: point
+      type(normal_state), intent(in) :: state
+
+      has_come_to = state%lambda >= point - rounding*max(abs(point), abs(state%lambda_a))
+   end function has_come_to
+
+
+   !> Whether nothing is on the element on its loading curve: at first, until a load reaches it, and where it closes past A.
    pure logical function is_virgin(area, state)
       real(wp), intent(in)           :: area
       type(normal_state), intent(in) :: state
@@ -129,7 +145,8 @@ contains
 
 
    !> The exact law over one step, for methods that iterate to equilibrium, from the state BEFORE to the deflection LAMBDA: the
-   !! loading curve beyond point A, the line below it, and nothing once that line has come down to zero.
+   !! loading curve beyond point A, the line below it, and nothing once that line has come down to zero. What is at A but for
+   !! rounding is on the loading curve, and what rounding alone moves keeps its branch.
    pure subroutine follow_normal(law, area, before, lambda, after, slope, work)
       type(normal_law), intent(in)    :: law
       real(wp), intent(in)            :: area   !! a_i [length^2]
@@ -138,8 +155,9 @@ contains
       type(normal_state), intent(out) :: after
       real(wp), intent(out)           :: slope  !! dp/dlambda at LAMBDA [pressure/length]; zero where open
       real(wp), intent(out)           :: work   !! done on the element, integral of p a d lambda [force x length]
-      real(wp) :: unloaded
+      real(wp) :: least, unloaded
 
+      least = rounding*max(abs(before%lambda_a), law%c*before%p_av**law%m)
       after = before
       after%lambda_before = before%lambda
       after%sigmaf = before%sumf
@@ -151,17 +169,27 @@ contains
          after%lambda_a = lambda
          after%p_a = after%pressure
          slope = normal_tangent(law, 1.0_wp, after%pressure, before%p_av)
+         after%k_n = slope*area
       else if (unloaded > 0.0_wp) then
-         after%branch = merge(branch_reload, branch_unload, lambda > before%lambda)
+         if (lambda >= before%lambda_a - least) then
+            after%branch = branch_load
+         else if (lambda > before%lambda + least .or. before%branch == branch_open) then
+            after%branch = branch_reload
+         else if (lambda < before%lambda - least .or. before%branch == branch_load) then
+            after%branch = branch_unload
+         end if
          after%pressure = unloaded
          slope = law%e_u
+         after%k_n = slope*area
+         if (after%branch == branch_load) after%k_n = normal_tangent(law, area, unloaded, before%p_av)
       else
          after%branch = branch_open
          after%pressure = 0.0_wp
          after%lambda_b = before%lambda_a - before%p_a/law%e_u
          slope = 0.0_wp
+         after%k_n = 0.0_wp
+         if (abs(lambda - before%lambda) <= least .and. before%sumf <= 0.0_wp) after%branch = before%branch ! at rest
       end if
-      if (abs(lambda - before%lambda) <= 0.0_wp) after%branch = before%branch ! at rest
       after%sumf = after%pressure*area
       work = area*(stored_work(law, after%lambda_a, after%p_a, after%pressure) &
                    - stored_work(law, before%lambda_a, before%p_a, before%pressure))

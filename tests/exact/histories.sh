@@ -64,15 +64,15 @@ DECK
 # k_b = E a/h = 1000 x 100/50 a node; a = 100
 reopen reopen STEP && judge 'opens and closes again, STEP' -F, '
    FNR == 1 { for (k = 1; k <= NF; k++) at[$k] = k; next }
-   function law() {   # branch and stiffness after an increment, section 4 of the paper
-      if (branch == "LOAD") {
-         if (s < before) { la = l_before; branch = "UNLOAD" }
-      } else if (branch == "UNLOAD") {
-         if (s <= 0) { branch = "OPEN"; lb = l; s = 0 } else if (s > before) branch = "RELOAD"
-      } else if (branch == "OPEN") { if (l >= lb) branch = "RELOAD" }
-      else if (s < before) branch = "UNLOAD"
-      else if (l >= la) branch = "LOAD"
+   function law() {   # branch and stiffness after an increment, section 4 of the paper; the questions one after another
+      if (branch == "LOAD") { if (s < before) { la = l_before; branch = "UNLOAD" } }
+      else if (branch == "UNLOAD") { if (s > before) branch = "RELOAD" }
+      else if (branch == "RELOAD") { if (s < before) branch = "UNLOAD" }
+      else if (l >= lb) branch = "RELOAD"
+      if (branch == "UNLOAD" && s <= 0) { branch = "OPEN"; lb = l; s = 0 }
+      if (branch == "RELOAD" && l >= la) branch = "LOAD"
       kn = branch == "OPEN" ? 0 : branch == "LOAD" ? sqrt(s / 100) * 100 / 4e-3 : 50000
+      if (branch == "LOAD" && s == 0) kn = sqrt(0.05) * a / 8e-3   # closed past A: nothing is on it yet, Eq. (9)
    }
    BEGIN { a = 100; kb = 2000; branch = "LOAD"; kn = sqrt(0.05) * a / 8e-3; split("100 -40 150", load, " ") }
    $(at["node1"]) == 1 {
@@ -83,7 +83,7 @@ reopen reopen STEP && judge 'opens and closes again, STEP' -F, '
       if (($(at["lambda"]) - l)^2 > 1e-20 || ($(at["force"]) - s)^2 > 1e-14 || $(at["branch"]) != branch)
          print $1 "," $2 ": " $(at["lambda"]), $(at["force"]), $(at["branch"]) ", not " l, s, branch
    }
-   END { if (n != 24 || !seen["OPEN"] || !seen["RELOAD"] || !again) print n " rows, open " seen["OPEN"]; print "checked " n }' "$work/reopen.joint.csv"
+   END { if (n != 24 || !seen["OPEN"] || !seen["UNLOAD"] || !again) print n " rows, open " seen["OPEN"]; print "checked " n }' "$work/reopen.joint.csv"
 
 reopen reopen NEWTON && judge 'opens and closes again, NEWTON' -F, '
    FNR == 1 { for (k = 1; k <= NF; k++) at[$k] = k; next }
@@ -191,3 +191,75 @@ for before in '' 'SUBCASE 1
    run late && ask 'an element loaded a stage later goes the same way' late rows 'stage = 6 and increment = 10' count 2 \
       all 'lambda = 8.4809379e-3 within 8e-9' all 'lambda = first(lambda) within 8e-15'
 done
+
+# NORM asks its questions of the state that is reached (STEP). An element beside a bar of 8000, as a glue that does not let go would be
+# seen: pressed by 100, then pulled by 200 in two increments of 150. By hand, a = 100, c = 8E-3, m = 0.5, P0 = 1, E_u = 9500:
+#    1: k = sqrt(1) a/c = 12500,             d = 100/20500,      lambda = 4.878048780E-3,   force 60.97560976
+#    2: k = 2 sqrt(.6097560976) a/c = 19521.72, d = -150/27521.72, lambda = -5.721919281E-4, force -45.42246458: found falling
+#       from the loading curve and in tension in one call, it is removed at once; the tension is left unbalanced
+#    3: the bar alone,                       d = -150/8000,      lambda = -1.932219193E-2,   force 0
+cat > "$work/glued.bdf" <<'DECK'
+SUBCASE 1
+  LOAD = 1
+SUBCASE 2
+  LOAD = 2
+  INCR = 2
+BEGIN BULK
+GRID,1,,0.0,0.0,,,1
+GRID,2,,0.0,10.0,,,12
+CROD,2,1,1,2
+PROD,1,1,10.0
+MAT1,1,8000.0,,0.0
+CJOINT,1,1,1,,100.0,0.0,-1.0
+PJOINT,1,1,,,,,1.0
+JNORM,1,8.0-3,0.5,9500.0
+FORCE,1,1,,100.0,0.0,-1.0
+FORCE,2,1,,-200.0,0.0,-1.0
+JINCR,2,2,ARITH,0.5
+ENDDATA
+DECK
+run glued && {
+   near 'pulled off a bar: pressed, lambda' "$(cell glued 1 1 1 lambda)" 4.878048780487805e-3 1e-12
+   near 'pulled off a bar: pressed, force' "$(cell glued 1 1 1 force)" 60.97560975609756 1e-12
+   same 'pulled off a bar: opens in the increment that makes it pull' "$(cell glued 2 1 1 branch)" OPEN
+   near 'pulled off a bar: lambda there' "$(cell glued 2 1 1 lambda)" -5.721919280627617e-4 1e-12
+   near 'pulled off a bar: lambda at the end' "$(cell glued 2 2 1 lambda)" -1.932219192806276e-2 1e-12
+   near 'pulled off a bar: stiffness of the last increment' "$(cell glued 2 2 1 k_n)" 0 0
+   judge 'pulled off a bar: nothing of tension is ever carried' -F, '
+      FNR == 1 { for (k = 1; k <= NF; k++) at[$k] = k; next }
+      { n++; if ($(at["force"]) < 0 || $(at["pressure"]) < 0) print $1 "," $2 ": " $(at["force"]), $(at["pressure"]) }
+      END { if (n != 3) print n " rows"; print "checked " n }' "$work/glued.joint.csv"
+   says 'pulled off a bar: what it pulled with is left unbalanced' "$work/glued.out" '  4.542E+01$'
+}
+
+# Reloaded past A: one increment to p = 1, one down to 0.8, two up to 3; E_u = 500. By hand, lambda_A = c sqrt(1) = 8E-3:
+#    down:     k = 2 sqrt(1) a/c = 25000,    lambda = 8E-3 - 20/25000 = 7.2E-3
+#    up, 1:    k = E_u a = 50000,            lambda = 7.2E-3 + 110/50000 = 9.4E-3, past A and force 190: on the loading curve
+#    up, 2:    k = 2 sqrt(1.9) a/c = 34460.12188,  lambda = 9.4E-3 + 110/34460.12188 = 1.259209550E-2
+cat > "$work/past_a.bdf" <<'DECK'
+SUBCASE 1
+  LOAD = 1
+SUBCASE 2
+  LOAD = 2
+SUBCASE 3
+  LOAD = 3
+  INCR = 2
+BEGIN BULK
+GRID,1,,0.0,0.0,,,1
+CJOINT,1,1,1,,100.0,0.0,-1.0
+PJOINT,1,1
+JNORM,1,8.0-3,0.5,500.0
+FORCE,1,1,,100.0,0.0,-1.0
+LOAD,2,0.8,1.0,1
+LOAD,3,3.0,1.0,1
+JINCR,2,2,ARITH,0.5
+ENDDATA
+DECK
+run past_a && {
+   near 'reloaded past A: relieved' "$(cell past_a 2 1 1 lambda)" 7.2e-3 1e-12
+   same 'reloaded past A: relieved' "$(cell past_a 2 1 1 branch)" UNLOAD
+   near 'reloaded past A: up the line' "$(cell past_a 3 1 1 lambda)" 9.4e-3 1e-12
+   same 'reloaded past A: past it at once' "$(cell past_a 3 1 1 branch)" LOAD
+   near 'reloaded past A: the second increment has the tangent of the loading curve' "$(cell past_a 3 2 1 k_n)" 34460.121880225546 1e-12
+   near 'reloaded past A: lambda at the end' "$(cell past_a 3 2 1 lambda)" 1.2592095500484053e-2 1e-12
+}
