@@ -72,7 +72,7 @@ reopen reopen STEP && judge 'opens and closes again, STEP' -F, '
       if (branch == "UNLOAD" && s <= 0) { branch = "OPEN"; lb = l; s = 0 }
       if (branch == "RELOAD" && l >= la) branch = "LOAD"
       kn = branch == "OPEN" ? 0 : branch == "LOAD" ? sqrt(s / 100) * 100 / 4e-3 : 50000
-      if (branch == "LOAD" && s == 0) kn = sqrt(0.05) * a / 8e-3   # closed past A: nothing is on it yet, Eq. (9)
+      if (branch == "LOAD" && s == 0) kn = l / 8e-3 * a / 4e-3   # closed past A, nothing on it yet: the curve at its deflection
    }
    BEGIN { a = 100; kb = 2000; branch = "LOAD"; kn = sqrt(0.05) * a / 8e-3; split("100 -40 150", load, " ") }
    $(at["node1"]) == 1 {
