@@ -14,7 +14,7 @@ module stage_plan
       integer :: id = 0
       character(:), allocatable :: label
       integer :: output = 0                 !! output_* of case_control
-      logical :: plot = .false., vtu = .false., stress = .false.
+      logical :: plot = .false., vtu = .false., stress = .false., state = .false., condensed = .false.
       real(wp), allocatable :: shares(:)    !! of the stage's load change, one an increment, sum 1
    end type planned_stage
 
@@ -40,6 +40,8 @@ contains
             stage%plot = given%plot
             stage%vtu = given%vtu
             stage%stress = given%stress
+            stage%state = given%state
+            stage%condensed = given%condensed
             stage%shares = [1.0_wp]
             if (given%increments%id == 0) cycle
             k = findloc(deck%bulk%jincr%id, given%increments%id, dim=1)

@@ -27,6 +27,8 @@ module case_control
       logical :: plot   = .false.
       logical :: vtu    = .false.
       logical :: stress = .false.   !! principal stresses and von Mises in the listing
+      logical :: state  = .false.   !! what the interface elements remember
+      logical :: condensed = .false. !! [k_b] condensed on the interface
    end type stage_type
 
    type, public :: case_control_type
@@ -207,6 +209,7 @@ contains
       type(entry_type), intent(in)         :: entry
       type(stage_type), intent(inout)      :: stage
       type(deck_error_list), intent(inout) :: errors
+      character(*), parameter :: beside = 'PLOT, STRESS, VTU, STATE, CONDENSED' ! a level, not in place of one
       character(:), allocatable :: rest
       integer :: comma, levels
       logical :: twice
@@ -215,10 +218,12 @@ contains
       stage%plot = .false.
       stage%vtu = .false.
       stage%stress = .false.
+      stage%state = .false.
+      stage%condensed = .false.
       levels = 0
       twice = .false.
       rest = upper(entry%value)
-      if (rest == '') call value_error(entry, 'ALL or JOINT or LAST or NONE or PLOT or STRESS or VTU', errors)
+      if (rest == '') call value_error(entry, 'ALL or JOINT or LAST or NONE or '//beside, errors)
       do while (rest /= '')
          comma = index(rest//',', ',')
          levels = levels + 1
@@ -230,14 +235,15 @@ contains
          case ('PLOT');   call switch_on(stage%plot)
          case ('STRESS'); call switch_on(stage%stress)
          case ('VTU');    call switch_on(stage%vtu)
+         case ('STATE');  call switch_on(stage%state)
+         case ('CONDENSED'); call switch_on(stage%condensed)
          case default
-            call value_error(entry, 'ALL, JOINT, LAST or NONE, and with a comma PLOT, STRESS, VTU', errors)
+            call value_error(entry, 'ALL, JOINT, LAST or NONE, and with a comma '//beside, errors)
             return
          end select
          rest = rest(min(comma + 1, len(rest) + 1):)
       end do
-      if (levels > 1 .or. twice) call value_error(entry, 'one of ALL, JOINT, LAST, NONE, and with commas PLOT, STRESS, VTU', &
-                                                  errors)
+      if (levels > 1 .or. twice) call value_error(entry, 'one of ALL, JOINT, LAST, NONE, and with commas '//beside, errors)
 
    contains
 

@@ -1,18 +1,22 @@
 !> Everything that changes from increment to increment, and what all methods do with it alike.
 module analysis_state
-   use case_control, only: case_control_type, pressure_eq10
+   use case_control, only: case_control_type, method_step, pressure_eq10
+   use condensed_interface, only: condensed_type
    use equation_solver, only: equation_system
    use failures, only: failure_type
    use interface_operator, only: add_global_force, interface_element, joint_movement
-   use joint_laws, only: element_state, element_stiffness_of
+   use joint_laws, only: element_state, element_stiffness_of, joint_law
    use kinds, only: wp
    use model_data, only: model_type, n_bars, n_sections
-   use normal_stiffness, only: branch_open
+   use normal_stiffness, only: branch_load, branch_open, is_virgin, normal_secant
+   use turning_points, only: note_turns, turning_point
    implicit none
    private
 
    public :: start_analysis, all_held, interface_stiffness, find_movements, find_unbalanced, subtract_joint_forces, &
-             element_force, tally_work, record_pass, note_largest, free_norm
+             element_force, tally_work, record_pass, note_largest, free_norm, kind_on_branch
+
+   integer, parameter, public :: no_stiffness = 1, secant_stiffness = 2, tangent_stiffness = 3, e_u_stiffness = 4 !! k_n used
 
    !> Work done on one joint in the present stage [force x length].
    type, public :: joint_energy
@@ -27,6 +31,14 @@ module analysis_state
       integer  :: changes = 0                       !! interface elements that slip, or that changed their branch
       integer  :: part = 0                          !! NEWTON: which part of a divided increment; BACK: -1
    end type pass_record
+
+   !> An element that slips, before a re-analysis and after it: points t_1 and t_1' of Fig. 5(b).
+   type, public :: slip_record
+      integer  :: pass = 0, element = 0
+      real(wp) :: delta(2, 2) = 0.0_wp              !! (direction, before and after) [length]
+      real(wp) :: tau(2, 2) = 0.0_wp                !! likewise [pressure]
+      real(wp) :: limit(2) = 0.0_wp                 !! mu p before and after
+   end type slip_record
 
    !> Arrays over nodes are (dimension, n_nodes). Of displacements and forces the increments see the retained nodes alone, in arrays
    !! (dimension, retained); recover_bodies completes them.
@@ -69,8 +81,13 @@ module analysis_state
       type(element_state), allocatable :: states(:)
       real(wp), allocatable :: movement(:, :)       !! (3, n) of end 1 against end 2, in all, in the element's axes [length]
       real(wp), allocatable :: k(:, :)              !! (3, n) their stiffness (k_sx, k_sy, k_n) in the next increment
+      type(element_state), allocatable :: exact(:)  !! STEP: the states by the exact laws along the same movements
+      type(turning_point), allocatable :: turns(:, :) !! (2, n) where the shear branches began
+      integer, allocatable  :: kind(:), next_kind(:) !! of the normal stiffness used in this increment, and in the next one
+      type(condensed_type)  :: condensed            !! [k_b] on the interface, where OUTPUT asks for it
       type(joint_energy), allocatable  :: energy(:) !! of the joints
       type(pass_record), allocatable   :: passes(:) !! of the last increment
+      type(slip_record), allocatable   :: slips(:)  !! of the last increment, where OUTPUT asks for them
       integer  :: n_passes  = 0
       real(wp) :: largest_p = 0.0_wp                !! pressure or shear stress so far, anywhere: the measure of noise
       real(wp) :: largest_lambda = 0.0_wp           !! deflection so far, likewise
@@ -104,7 +121,10 @@ contains
       if (n_bars(model) > 0) analysis%is_elastic = model%bars%bolt == 0
       allocate (analysis%states(size(model%interface)), analysis%energy(size(model%joints)), analysis%passes(16))
       allocate (analysis%k(3, size(model%interface)), analysis%movement(3, size(model%interface)), source=0.0_wp)
+      allocate (analysis%turns(2, size(model%interface)), analysis%slips(0))
+      allocate (analysis%kind(size(model%interface)), analysis%next_kind(size(model%interface)), source=no_stiffness)
       analysis%states%normal%p_av = model%joints(model%interface%joint)%p_av
+      if (control%method == method_step) allocate (analysis%exact, source=analysis%states)
    end subroutine start_analysis
 
 
@@ -137,11 +157,37 @@ contains
          before = analysis%states(i)%normal%branch
          call element_stiffness_of(model%joints(model%interface(i)%joint)%law, model%interface(i)%area, &
                                    analysis%eq10, analysis%movement(:, i), analysis%states(i), analysis%k(:, i))
+         analysis%next_kind(i) = kind_of_next(model%joints(model%interface(i)%joint)%law, model%interface(i)%area, &
+                                              analysis%states(i), analysis%k(3, i))
          if (analysis%states(i)%normal%branch == branch_open .and. before /= branch_open) &
             analysis%n_removed = analysis%n_removed + 1
       end do
+      call note_turns(analysis%states, analysis%turns)
       call find_unbalanced(system, analysis)
    end subroutine interface_stiffness
+
+
+   !> What kind of stiffness K_N is that NORM has given an element in this STATE.
+   pure integer function kind_of_next(law, area, state, k_n) result(kind)
+      type(joint_law), intent(in)     :: law
+      real(wp), intent(in)            :: area, k_n
+      type(element_state), intent(in) :: state
+
+      kind = kind_on_branch(state%normal%branch)
+      if (is_virgin(area, state%normal)) then
+         if (k_n <= normal_secant(law%normal, area, state%normal%p_av)) kind = secant_stiffness
+      end if
+   end function kind_of_next
+
+
+   !> The kind of the normal stiffness on a BRANCH.
+   pure integer function kind_on_branch(branch) result(kind)
+      integer, intent(in) :: branch
+
+      kind = e_u_stiffness
+      if (branch == branch_load) kind = tangent_stiffness
+      if (branch == branch_open) kind = no_stiffness
+   end function kind_on_branch
 
 
    !> The movements of all interface elements under the displacements now.

@@ -1,7 +1,8 @@
 !> METHOD = BACK, after Back, Burdekin and Cowley: the whole load at once with secant stiffnesses at the last pressures, two
 !! consecutive pressures averaged, until they settle. Loading only.
 module back_method
-   use analysis_state, only: analysis_type, find_movements, find_unbalanced, pass_record, record_pass, tally_work
+   use analysis_state, only: analysis_type, find_movements, find_unbalanced, no_stiffness, pass_record, record_pass, &
+                             secant_stiffness, tally_work
    use equations, only: equation_system, forces_in_bodies, form_structure_stiffness, solve_equations
    use failures, only: failure_type
    use interface_operator, only: joint_movement
@@ -131,6 +132,7 @@ contains
             state%normal%branch = merge(branch_load, branch_open, movement(3) > 0.0_wp)
             state%normal%lambda = movement(3)
             state%normal%k_n = now%k_int(3, 3, i)
+            analysis%kind(i) = merge(secant_stiffness, no_stiffness, state%normal%k_n > 0.0_wp)
             state%normal%sumf = max(0.0_wp, now%k_int(3, 3, i)*movement(3))
             state%normal%pressure = state%normal%sumf/element%area
             state%shear%sense = sign(1.0_wp, movement(:2))

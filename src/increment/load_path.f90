@@ -129,6 +129,7 @@ contains
       analysis%felt = analysis%felt + analysis%change
       if (analysis%carry) analysis%change = analysis%change + analysis%unbalanced
       analysis%n_passes = 0
+      analysis%slips = analysis%slips(:0)
       analysis%n_parts = 1
 
    contains

@@ -1,11 +1,12 @@
 !> A trial of METHOD = NEWTON: displacements, joints, what is unbalanced; the step along a direction; how it becomes the state.
 module newton_trial
-   use analysis_state, only: analysis_type, find_movements, free_norm, subtract_joint_forces, tally_work
+   use analysis_state, only: analysis_type, find_movements, free_norm, kind_on_branch, subtract_joint_forces, tally_work
    use equations, only: equation_system, forces_in_bodies
    use interface_operator, only: joint_movement
    use joint_laws, only: element_state, follow_element, rest_when_open
    use kinds, only: wp
    use model_data, only: model_type
+   use turning_points, only: note_turns
    implicit none
    private
 
@@ -183,8 +184,10 @@ contains
             state%shear(1)%k_s = trial%tangent(1, 1, i)
             state%shear(2)%k_s = trial%tangent(2, 2, i)
             call rest_when_open(state, analysis%movement(:, i))
+            analysis%kind(i) = kind_on_branch(state%normal%branch)
          end associate
       end do
+      call note_turns(analysis%states, analysis%turns)
    end subroutine commit
 
 end module newton_trial

@@ -1,10 +1,11 @@
 !> METHOD = STEP, the step-wise tangent-stiffness method: one routine a box of the flow chart (Fig. 6a).
 module step_method
-   use analysis_state, only: analysis_type, pass_record, record_pass, tally_work
+   use analysis_state, only: analysis_type, pass_record, record_pass, slip_record, tally_work
+   use case_control, only: output_joint
    use equations, only: equation_system, forces_in_bodies, form_structure_stiffness, solve_equations
    use failures, only: failure_type
    use interface_operator, only: add_force, joint_movement
-   use joint_laws, only: exceeds_limit, flag_margin, friction_excess
+   use joint_laws, only: exceeds_limit, flag_margin, friction_excess, friction_limit
    use kinds, only: wp
    use model_data, only: joint_node_id, model_type
    use stage_plan, only: stage_plan_type, where_in_plan
@@ -15,6 +16,7 @@ module step_method
    public :: structure_stiffness, solve_increment, accumulate, limit_friction
 
    integer, parameter  :: most_passes = 2000               ! of NREAN = -1
+   integer, parameter, public :: passes_shown = 8          !! of many, and the last one
    real(wp), parameter :: largest_number = 1.0e100_wp      ! [length] of a displacement that can be meant
 
 contains
@@ -70,6 +72,7 @@ contains
       integer :: i, k
 
       if (failure%raised) return
+      analysis%kind = analysis%next_kind
       do i = 1, size(model%interface)
          associate (state => analysis%states(i))
             state%normal%k_n = analysis%k(3, i)
@@ -132,20 +135,23 @@ contains
       real(wp), allocatable :: excess(:, :), relief(:, :)
       real(wp) :: total, total_after
       integer  :: pass, worst
-      logical  :: again
+      logical  :: again, is_listed
 
       if (failure%raised .or. .not. any(model%joints%law%has_friction)) return
       allocate (excess(2, size(model%interface)))
       allocate (relief, mold=analysis%u)
+      is_listed = plan%stages(analysis%stage)%output >= output_joint
       call find_excess(model, analysis, excess, total)
       do pass = 1, most_passes
          if (total <= 0.0_wp) return
+         if (is_listed) call note_slipping(model, pass, excess, analysis)
          call release(model, system, pass, excess, analysis, relief, again)
          if (.not. again) return
          call solve_equations(model, system, relief, analysis%du, failure)
          if (failure%raised) return
          call add_displacements(model, system, relief, analysis)
          call find_excess(model, analysis, excess, total_after)
+         if (is_listed) call note_relieved(model, analysis)
          call record_pass(analysis, pass_record(before=total, after=total_after, changes=count(analysis%states%slips)))
          total = total_after
       end do
@@ -156,6 +162,58 @@ contains
          integer_text(joint_node_id(model, worst, 1))// &
          ' in its tangential direction: the joint slips as a whole')
    end subroutine limit_friction
+
+
+   !> Note the elements that re-analysis number PASS relieves, as they are before it: of many passes the first, and the last one in
+   !! place of those between.
+   subroutine note_slipping(model, pass, excess, analysis)
+      type(model_type), intent(in)       :: model
+      integer, intent(in)                :: pass
+      real(wp), intent(in)               :: excess(:, :)
+      type(analysis_type), intent(inout) :: analysis
+      type(slip_record) :: record
+      integer :: i
+
+      analysis%slips = pack(analysis%slips, analysis%slips%pass <= passes_shown)
+      do i = 1, size(model%interface)
+         if (.not. is_relieved(model, i, pass, excess(:, i))) cycle
+         record%pass = pass
+         record%element = i
+         record%delta(:, 1) = analysis%states(i)%shear%delta
+         record%tau(:, 1) = analysis%states(i)%shear%tau
+         record%limit(1) = friction_limit(model%joints(model%interface(i)%joint)%law, analysis%states(i)%normal%pressure)
+         analysis%slips = [analysis%slips, record]
+      end do
+   end subroutine note_slipping
+
+
+   !> The same elements after it.
+   pure subroutine note_relieved(model, analysis)
+      type(model_type), intent(in)       :: model
+      type(analysis_type), intent(inout) :: analysis
+      integer :: i
+
+      do i = 1, size(analysis%slips)
+         associate (record => analysis%slips(i), state => analysis%states(analysis%slips(i)%element))
+            if (record%pass <= analysis%n_passes) cycle
+            record%delta(:, 2) = state%shear%delta
+            record%tau(:, 2) = state%shear%tau
+            record%limit(2) = friction_limit(model%joints(model%interface(record%element)%joint)%law, state%normal%pressure)
+         end associate
+      end do
+   end subroutine note_relieved
+
+
+   !> Whether re-analysis number PASS relieves interface element I of its EXCESS.
+   pure logical function is_relieved(model, i, pass, excess)
+      type(model_type), intent(in) :: model
+      integer, intent(in)          :: i, pass
+      real(wp), intent(in)         :: excess(2)
+
+      associate (passes => model%joints(model%interface(i)%joint)%n_reanalyses)
+         is_relieved = norm2(excess) > 0.0_wp .and. (passes < 0 .or. pass <= passes)
+      end associate
+   end function is_relieved
 
 
    !> EXCESS(2, n) of all elements and the TOTAL of their sizes [force]; those that slip are marked.
@@ -202,9 +260,8 @@ contains
       relief = 0.0_wp
       again = .false.
       do i = 1, size(model%interface)
-         associate (element => system%interface(i), passes => &
-                    model%joints(model%interface(i)%joint)%n_reanalyses)
-            if (norm2(excess(:, i)) <= 0.0_wp .or. (passes >= 0 .and. pass > passes)) cycle
+         if (.not. is_relieved(model, i, pass, excess(:, i))) cycle
+         associate (element => system%interface(i))
             again = .true.
             do k = 1, 2
                analysis%states(i)%shear(k)%tau = analysis%states(i)%shear(k)%tau - excess(k, i)/element%area

@@ -11,6 +11,8 @@ module listing
    use listing_joints, only: list_energy, list_interface, note_passes, note_resultants
    use listing_opening, only: write_opening
    use listing_plot, only: plot_joints
+   use listing_states, only: list_condensed, list_states
+   use listing_steps, only: farthest_type, note_distances, note_slips
    use listing_table, only: column, label_type, listing_table_type, noise, page_type
    use model_data, only: joint_node_id, model_type, stage_load_type
    use normal_stiffness, only: branch_open
@@ -25,7 +27,8 @@ module listing
    type, public :: listing_type
       type(page_type) :: page
       integer :: method = 0
-      type(listing_table_type) :: increments, resultants, passes, bars, sections ! of the stage so far
+      type(listing_table_type) :: increments, distances, resultants, passes, slips, bars, sections ! of the stage so far
+      type(farthest_type) :: farthest !! from the laws
       integer :: n_increments = 0, n_removed = 0
       type(range_watch_type) :: watch
    end type listing_type
@@ -68,13 +71,16 @@ contains
          if (analysis%is_moved) page%largest_force = &
             max(page%largest_force, maxval(abs(analysis%all_unbalanced), mask=model%held)) ! what moves the supports
          call note_increment(page, trim(stage%label), model, analysis, listing%increments)
+         call note_distances(page, model, plan, analysis, listing%distances, listing%farthest)
          call note_resultants(page, model, analysis, listing%resultants)
          call note_passes(page, listing%method, analysis, listing%passes)
+         call note_slips(page, model, analysis, listing%slips)
          call note_bars(page, model, analysis, listing%bars)
          call note_sections(page, model, analysis, listing%sections)
          call watch_ranges(model, plan, analysis, listing%watch)
+         if (stage%condensed .and. analysis%increment == 1) call list_condensed(page, model, analysis)
          if (analysis%increment == size(stage%shares)) return ! the tables of the end of the stage follow
-         if (stage%output == output_all .or. stage%output == output_joint) call list_interface(page, model, analysis)
+         if (stage%output == output_all .or. stage%output == output_joint) call list_joints(page, stage%state, model, analysis)
          if (stage%output == output_all) call list_bodies(page, stage%stress, model, analysis)
       end associate
    end subroutine list_increment
@@ -89,18 +95,32 @@ contains
 
       associate (stage => plan%stages(analysis%stage), page => listing%page)
          call listing%increments%print_kept(page%file)
+         call listing%distances%print_kept(page%file)
          call watch_balance(model, plan, analysis, page%largest_force, listing%watch)
          call listing%watch%rows%print_kept(page%file)
          call listing%passes%print_kept(page%file)
+         call listing%slips%print_kept(page%file)
          call listing%resultants%print_kept(page%file)
          call listing%bars%print_kept(page%file)
          call listing%sections%print_kept(page%file)
          call list_energy(page, model, analysis)
-         if (stage%output >= output_last) call list_interface(page, model, analysis)
+         if (stage%output >= output_last) call list_joints(page, stage%state, model, analysis)
          if (stage%plot) call plot_joints(page, model, analysis)
          if (stage%output == output_all .or. stage%output == output_last) call list_bodies(page, stage%stress, model, analysis)
       end associate
    end subroutine list_stage
+
+
+   !> The interface elements, and WITH_STATE what they remember.
+   subroutine list_joints(page, with_state, model, analysis)
+      type(page_type), intent(inout)  :: page
+      logical, intent(in)             :: with_state
+      type(model_type), intent(in)    :: model
+      type(analysis_type), intent(in) :: analysis
+
+      call list_interface(page, model, analysis)
+      if (with_state) call list_states(page, model, analysis)
+   end subroutine list_joints
 
 
    !> Note the increment just completed, of the stage with LABEL: a row a joint, or one where there are none.

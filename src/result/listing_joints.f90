@@ -7,7 +7,7 @@ module listing_joints
    use kinds, only: wp
    use listing_table, only: axes, column, heading, listing_table_type, noise, page_type
    use model_data, only: joint_node_id, model_type
-   use normal_stiffness, only: branch_name
+   use normal_stiffness, only: branch_name, normal_law
    use text_tools, only: clean, integer_text
    implicit none
    private
@@ -50,10 +50,53 @@ contains
                   call table%print_row(page%file)
                end associate
             end do
+            call list_stiffness(page, model, analysis, j)
             if (any(joint%law%shear%given)) call list_shear(page, model, analysis, j)
          end associate
       end do
    end subroutine list_interface
+
+
+   !> Normal stiffness of the interface elements of joint J: what the increment used, and of which kind, and how far lambda is from
+   !! the loading curve at the present p.
+   subroutine list_stiffness(page, model, analysis, j)
+      type(page_type), intent(inout)  :: page
+      type(model_type), intent(in)    :: model
+      type(analysis_type), intent(in) :: analysis
+      integer, intent(in)             :: j
+      character(7), parameter  :: kinds(4) = [character(7) :: '0', 'SECANT', 'TANGENT', 'E_U'] ! in the order of analysis_state
+      type(listing_table_type) :: table
+      real(wp) :: lambda_floor
+      integer  :: i
+
+      lambda_floor = noise*analysis%largest_lambda
+      associate (joint => model%joints(j), labels => page%labels)
+         call table%start('NORMAL STIFFNESS OF JOINT '//integer_text(joint%id)//page%now, &
+                          [column([character(7) :: 'ELEMENT', 'NODE 1'], 'i11'), &
+                           column([character(6) :: 'LAMBDA', 'C P**M'], 'es13.5', labels%length), &
+                           column('K_N, USED', 'es13.5', labels%stiffness(:12)), column('KIND', 'a9')])
+         call table%print_head(page%file)
+         do i = joint%first, joint%last
+            associate (state => analysis%states(i)%normal)
+               call table%add([model%interface(i)%id, joint_node_id(model, i, 1)])
+               call table%add([clean(state%lambda, lambda_floor), &
+                               clean(loading_deflection(joint%law%normal, state%pressure), lambda_floor), clean(state%k_n)])
+               call table%add(trim(kinds(analysis%kind(i))))
+               call table%print_row(page%file)
+            end associate
+         end do
+      end associate
+   end subroutine list_stiffness
+
+
+   !> lambda = c p**m of the loading curve at P, Eq. (1) [length].
+   pure real(wp) function loading_deflection(law, p) result(lambda)
+      type(normal_law), intent(in) :: law
+      real(wp), intent(in)         :: p
+
+      lambda = 0.0_wp
+      if (p > 0.0_wp) lambda = law%c*p**law%m
+   end function loading_deflection
 
 
    !> Shear of the interface elements of joint J. LIMIT is mu p.

@@ -5,6 +5,7 @@ module run_boxes
    use, intrinsic :: iso_fortran_env, only: error_unit
    use c_library, only: end_run, write_bytes
    use command_arguments, only: complain_of_input
+   use condensed_interface, only: condense_on_joints
    use command_line, only: command_type, deck_argument, is_result_of, read_command_line
    use deck_errors, only: deck_error_list
    use deck_input, only: deck_type, read_deck
@@ -13,6 +14,8 @@ module run_boxes
    use failed_allocation, only: watch_allocations
    use error_report, only: print_errors
    use failures, only: failure_type
+   use law_distance, only: follow_laws
+   use listing_steps, only: distance_words
    use load_path, only: recover_bodies
    use machine, only: keep_memory, use_threads
    use model_build, only: build_model
@@ -190,6 +193,9 @@ contains
 
       if (is_over(run)) return
       call note_largest(analysis)
+      call follow_laws(model, analysis)
+      if (plan%stages(analysis%stage)%condensed .and. analysis%increment == 1) &
+         call condense_on_joints(model, system, analysis%felt_before, analysis%felt_after, analysis%condensed)
       call run%progress%enter(phase_recover)
       if (analysis%moves .or. shows_bodies(plan, analysis%stage, analysis%increment)) call recover_bodies(model, system, analysis)
       call run%progress%enter(phase_write)
@@ -220,6 +226,7 @@ contains
       type(deck_type), intent(in)       :: deck
       type(model_type), intent(in)      :: model
       type(stage_plan_type), intent(in) :: plan
+      character(:), allocatable :: words
       logical :: ok
 
       if (.not. is_over(run)) then
@@ -229,6 +236,8 @@ contains
          associate (n => run%results%listing%watch%n_warnings)
             if (n > 0) write (error_unit, '(4a)') run%argument%name, ': ', plural(n, 'warning'), ' in the listing'
          end associate
+         words = distance_words(run%results%listing%farthest)
+         if (words /= '') write (error_unit, '(3a)') run%argument%name, ': ', words
          if (.not. ok) run%ending = is_unwritten
       end if
       if (run%failure%raised) run%ending = is_unsolved

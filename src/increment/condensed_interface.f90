@@ -1,0 +1,134 @@
+!> [k_b] condensed on the unknowns of the joints, whatever the solver, for the listing of a small model: with it an increment can
+!! be done by hand.
+module condensed_interface
+   use blas_lapack, only: dpotrf, dtrsm
+   use equation_solver, only: equation_system
+   use interface_operator, only: nodes_of_end
+   use kinds, only: wp
+   use model_data, only: model_type
+   use text_tools, only: integer_text
+   implicit none
+   private
+
+   public :: condense_on_joints
+
+   integer, parameter :: most_unknowns = 40    ! that a page can show
+   integer, parameter :: most_equations = 3000 ! that are condensed as a full matrix
+
+   type, public :: condensed_type
+      character(:), allocatable :: problem        !! why there is none, in words; '': there is
+      integer, allocatable  :: node(:)            !! (n) positions, joint after joint, side 1 before side 2
+      integer, allocatable  :: direction(:)       !! (n) 1, 2, 3
+      real(wp), allocatable :: k(:, :)            !! (n, n) [force/length]
+      real(wp), allocatable :: load(:, :)         !! (n, 2) at the start of the stage and at its end [force]
+   end type condensed_type
+
+contains
+
+   !> [k_b] and the loads LOAD_BEFORE and LOAD_AFTER, as retained nodes feel them, on the free unknowns of the joints:
+   !! K_jj - K_jg K_gg^-1 K_gj and f_j - K_jg K_gg^-1 f_g, g the other unknowns, with the Cholesky factor of K_gg.
+   subroutine condense_on_joints(model, system, load_before, load_after, condensed)
+      type(model_type), intent(in)       :: model
+      class(equation_system), intent(in) :: system
+      real(wp), intent(in)               :: load_before(:, :), load_after(:, :) !! (dimension, retained) [force]
+      type(condensed_type), intent(out)  :: condensed
+      real(wp), allocatable :: k(:, :), load(:, :)
+      integer, allocatable  :: joints(:), gone(:)
+      integer :: info, m, n
+
+      call find_unknowns(model, system, joints, gone)
+      n = size(joints)
+      m = size(gone)
+      condensed%problem = ''
+      if (n > most_unknowns) then
+         condensed%problem = integer_text(n)//' unknowns of joints; at most '//integer_text(most_unknowns)//' are shown'
+      else if (n + m > most_equations) then
+         condensed%problem = integer_text(n + m)//' equations are left to the increments; at most '// &
+                             integer_text(most_equations)//' are condensed here, SOLVER = TREE leaves fewer'
+      else if (n == 0) then
+         condensed%problem = 'no unknown of a joint is free'
+      end if
+      if (condensed%problem /= '') return
+      condensed%node = system%node(joints)
+      condensed%direction = system%direction(joints)
+      allocate (k(n + m, n + m), load(n + m, 2))
+      call form_matrix(system, [joints, gone], k)
+      load(:, 1) = loads_on(system, [joints, gone], load_before)
+      load(:, 2) = loads_on(system, [joints, gone], load_after)
+      if (m > 0) then
+         call dpotrf('L', m, k(n + 1, n + 1), n + m, info)
+         if (info /= 0) then
+            condensed%problem = 'the bodies move without their joints'
+            return
+         end if
+         call dtrsm('L', 'L', 'N', 'N', m, n, 1.0_wp, k(n + 1, n + 1), n + m, k(n + 1, 1), n + m)
+         call dtrsm('L', 'L', 'N', 'N', m, 2, 1.0_wp, k(n + 1, n + 1), n + m, load(n + 1, 1), n + m)
+      end if
+      condensed%k = k(:n, :n) - matmul(transpose(k(n + 1:, :n)), k(n + 1:, :n))
+      condensed%load = load(:n, :) - matmul(transpose(k(n + 1:, :n)), load(n + 1:, :))
+   end subroutine condense_on_joints
+
+
+   !> The equations of the JOINTS, joint after joint, side 1 before side 2, node after node, and those that are GONE.
+   pure subroutine find_unknowns(model, system, joints, gone)
+      type(model_type), intent(in)       :: model
+      class(equation_system), intent(in) :: system
+      integer, allocatable, intent(out)  :: joints(:), gone(:)
+      logical :: is_open(system%n) ! solved for, and not listed so far
+      integer :: d, end, equation, i, j, k
+
+      is_open = .false.
+      is_open(system%equations) = .true.
+      is_open(system%locked) = .false.
+      allocate (joints(0))
+      do j = 1, size(model%joints)
+         do end = 1, 2
+            do i = model%joints(j)%first, model%joints(j)%last
+               associate (nodes => nodes_of_end(model%interface(i), end))
+                  do k = 1, size(nodes)
+                     do d = 1, model%dimension
+                        equation = system%number(d, nodes(k))
+                        if (equation == 0) cycle
+                        if (is_open(equation)) joints = [joints, equation]
+                        is_open(equation) = .false.
+                     end do
+                  end do
+               end associate
+            end do
+         end do
+      end do
+      gone = pack([(i, i = 1, system%n)], is_open)
+   end subroutine find_unknowns
+
+
+   !> K of the equations in ORDER, column by column.
+   subroutine form_matrix(system, order, k)
+      class(equation_system), intent(in) :: system
+      integer, intent(in)                :: order(:)
+      real(wp), intent(out)              :: k(:, :)
+      real(wp) :: x(system%n), y(system%n)
+      integer  :: i
+
+      x = 0.0_wp
+      y = 0.0_wp
+      do i = 1, size(order)
+         x(order(i)) = 1.0_wp
+         call system%multiply(x, y)
+         k(:, i) = y(order)
+         x(order(i)) = 0.0_wp
+      end do
+   end subroutine form_matrix
+
+
+   !> What of the LOAD on retained nodes acts in the equations in ORDER.
+   pure function loads_on(system, order, load) result(f)
+      class(equation_system), intent(in) :: system
+      integer, intent(in)                :: order(:)
+      real(wp), intent(in)               :: load(:, :)
+      real(wp) :: f(size(order))
+      integer  :: i
+
+      f = [(load(system%direction(order(i)), system%place(system%node(order(i)))), i = 1, size(order))]
+   end function loads_on
+
+end module condensed_interface

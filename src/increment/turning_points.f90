@@ -1,0 +1,57 @@
+!> Where the shear branches of the interface elements began: (delta, tau) of the last turn, kept for the listing alone. A branch of
+!! unloading or reloading is shifted so that it passes through it (b0 and c0 of section 4.3).
+module turning_points
+   use joint_laws, only: element_state
+   use kinds, only: wp
+   use normal_stiffness, only: branch_load
+   use shear_stiffness, only: cubic, cubic_of, shear_law, shear_state
+   implicit none
+   private
+
+   public :: note_turns, branch_shift
+
+   !> One direction of one element.
+   type, public :: turning_point
+      integer  :: branch = branch_load          !! that began there
+      real(wp) :: delta = 0.0_wp, tau = 0.0_wp  !! where it began [length], [pressure]
+   end type turning_point
+
+contains
+
+   !> Note in TURNS(2, n) the branches that have begun with the last movement of the elements in these STATES: before it they were
+   !! where the branch begins.
+   pure subroutine note_turns(states, turns)
+      type(element_state), intent(in)    :: states(:)
+      type(turning_point), intent(inout) :: turns(:, :)
+      integer :: i, k
+
+      do i = 1, size(states)
+         do k = 1, 2
+            associate (state => states(i)%shear(k))
+               if (turns(k, i)%branch /= state%branch) &
+                  turns(k, i) = turning_point(state%branch, state%delta_before, state%tau_before)
+            end associate
+         end do
+      end do
+   end subroutine note_turns
+
+
+   !> b0 or c0: by how much the curve of the branch of STATE under the pressure P is shifted to pass through the point TURN where
+   !! the branch began; zero on the loading curve [pressure].
+   pure real(wp) function branch_shift(law, state, p, turn) result(shift)
+      type(shear_law), intent(in)     :: law
+      type(shear_state), intent(in)   :: state
+      real(wp), intent(in)            :: p
+      type(turning_point), intent(in) :: turn
+      type(cubic) :: curve
+      real(wp)    :: a(3), d
+
+      shift = 0.0_wp
+      if (state%branch == branch_load) return
+      curve = cubic_of(law, state%branch)
+      a = curve%coefficients(1, :) + curve%coefficients(2, :)*p
+      d = state%sense*turn%delta
+      shift = state%sense*turn%tau - d*(a(1) + d*(a(2) + d*a(3)))
+   end function branch_shift
+
+end module turning_points

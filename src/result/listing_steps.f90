@@ -1,0 +1,153 @@
+!> Tables of what the steps of STEP leave open: how far they are from the laws, and what each re-analysis does.
+module listing_steps
+   use analysis_state, only: analysis_type
+   use kinds, only: wp
+   use law_distance, only: distance_type, normal_distance, shear_distance
+   use listing_table, only: axes, column, listing_table_type, noise, page_type
+   use model_data, only: joint_node_id, model_type
+   use stage_plan, only: stage_plan_type, where_in_plan
+   use step_method, only: passes_shown
+   use text_tools, only: clean, integer_text, real_text
+   implicit none
+   private
+
+   public :: note_distances, note_slips, distance_words
+
+   real(wp), parameter :: far = 0.02_wp !! of the largest stress: the answer is another one than that of the laws
+
+   !> The largest distance from a law in a run.
+   type, public :: farthest_type
+      real(wp) :: share = 0.0_wp           !! of the largest stress of the joint in the increment
+      integer  :: node = 0                 !! its number
+      character(:), allocatable :: stress, place !! in words
+   end type farthest_type
+
+contains
+
+   !> Note how far the joints are from their laws after the increment just completed, and where that is most in the run.
+   subroutine note_distances(page, model, plan, analysis, table, farthest)
+      type(page_type), intent(in)             :: page
+      type(model_type), intent(in)            :: model
+      type(stage_plan_type), intent(in)       :: plan
+      type(analysis_type), intent(in)         :: analysis
+      type(listing_table_type), intent(inout) :: table
+      type(farthest_type), intent(inout)      :: farthest
+      type(distance_type) :: normal, shear
+      logical :: has_shear
+      integer :: j
+
+      if (.not. allocated(analysis%exact) .or. size(model%joints) == 0) return
+      has_shear = any([(model%joints(j)%law%shear%given, j = 1, size(model%joints))])
+      if (table%is_empty()) then
+         associate (p => page%labels%pressure)
+            if (has_shear) then
+               call table%start(title('P, |TAU - TAU LAW| OF THE LARGEST TAU'), &
+                  [column('INCR', 'i6'), column('JOINT', 'i11'), column('P OFF %', 'f9.3'), column('AT NODE', 'i11'), &
+                   column(['P    ', 'P LAW'], 'es13.5', p), column('TAU OFF %', 'f11.3'), column('AT NODE', 'i11'), &
+                   column('ALONG', 'a6'), column(['TAU    ', 'TAU LAW'], 'es13.5', p)])
+            else
+               call table%start(title('P'), &
+                  [column('INCR', 'i6'), column('JOINT', 'i11'), column('P OFF %', 'f9.3'), column('AT NODE', 'i11'), &
+                   column(['P    ', 'P LAW'], 'es13.5', p)])
+            end if
+         end associate
+      end if
+      do j = 1, size(model%joints)
+         normal = normal_distance(model, analysis, j)
+         shear = shear_distance(model, analysis, j)
+         call table%add([analysis%increment, model%joints(j)%id])
+         call add(normal)
+         if (shear%is_there) call add(shear)
+         call table%keep_row()
+         call remember(normal, 'pressure')
+         call remember(shear, 'shear stress')
+      end do
+
+   contains
+
+      pure function title(what) result(words)
+         character(*), intent(in)  :: what
+         character(:), allocatable :: words
+
+         words = 'DISTANCE FROM THE LAWS, '//page%stage//': LARGEST |P - P LAW| OF THE LARGEST '//what
+      end function title
+
+      !> The columns of one DISTANCE.
+      subroutine add(distance)
+         type(distance_type), intent(in) :: distance
+
+         if (.not. distance%is_there) then
+            call table%skip(4)
+            return
+         end if
+         call table%add([100.0_wp*clean(distance%share, noise)])
+         call table%add([joint_node_id(model, distance%element, 1)])
+         if (distance%direction < 3) call table%add(axes(distance%direction))
+         call table%add(clean([distance%stress, distance%by_law], noise*analysis%largest_p))
+      end subroutine add
+
+      !> Keep DISTANCE if it is the largest so far.
+      subroutine remember(distance, stress)
+         type(distance_type), intent(in) :: distance
+         character(*), intent(in)        :: stress
+
+         if (.not. distance%is_there .or. distance%share <= farthest%share) return
+         farthest%share = distance%share
+         farthest%node = joint_node_id(model, distance%element, 1)
+         farthest%stress = stress
+         farthest%place = where_in_plan(plan, analysis%stage, analysis%increment)
+      end subroutine remember
+
+   end subroutine note_distances
+
+
+   !> The line on the screen at the end of a run that was FAR from its laws; '' where it was not.
+   pure function distance_words(farthest) result(words)
+      type(farthest_type), intent(in) :: farthest
+      character(:), allocatable :: words
+
+      words = ''
+      if (farthest%share > far) words = 'STEP is up to '//real_text(0.1_wp*anint(1000.0_wp*farthest%share))// &
+         ' % of the largest '//farthest%stress//' away from its law, at node '//integer_text(farthest%node)//' in '// &
+         farthest%place//'; METHOD = NEWTON gives the answer of the laws'
+   end function distance_words
+
+
+   !> Note the slipping elements before and after each re-analysis of the increment just completed, t_1 and t_1' of Fig. 5(b).
+   subroutine note_slips(page, model, analysis, table)
+      type(page_type), intent(in)             :: page
+      type(model_type), intent(in)            :: model
+      type(analysis_type), intent(in)         :: analysis
+      type(listing_table_type), intent(inout) :: table
+      real(wp) :: delta_floor, tau_floor
+      integer  :: i, k
+
+      if (size(analysis%slips) == 0) return
+      associate (length => page%labels%length, pressure => page%labels%pressure)
+         if (table%is_empty()) call table%start( &
+            'SLIPPING ELEMENTS BEFORE AND AFTER EACH RE-ANALYSIS, '//page%stage//' (POINTS T_1 AND T_1'' OF FIG. 5B)', &
+            [column(['INCR', 'PASS'], 'i6'), column([character(7) :: 'ELEMENT', 'NODE 1'], 'i11'), column('ALONG', 'a6'), &
+             column('DELTA', 'es13.5', length), column([character(5) :: 'TAU', 'LIMIT'], 'es13.5', pressure), &
+             column('DELTA AFTER', 'es14.5', length), column([character(11) :: 'TAU AFTER', 'LIMIT AFTER'], 'es13.5', pressure)])
+      end associate
+      delta_floor = noise*analysis%largest_lambda
+      tau_floor = noise*analysis%largest_p
+      do i = 1, size(analysis%slips)
+         associate (slip => analysis%slips(i))
+            if (slip%pass > passes_shown + 1 .and. all(analysis%slips(:i - 1)%pass < slip%pass)) &
+               call table%keep_line('        ...')
+            do k = 1, model%dimension - 1
+               if (.not. model%joints(model%interface(slip%element)%joint)%law%shear(k)%given) cycle
+               call table%add([analysis%increment, slip%pass, model%interface(slip%element)%id, &
+                               joint_node_id(model, slip%element, 1)])
+               call table%add(axes(k))
+               call table%add([clean(slip%delta(k, 1), delta_floor), clean(slip%tau(k, 1), tau_floor), &
+                               clean(slip%limit(1), tau_floor), clean(slip%delta(k, 2), delta_floor), &
+                               clean(slip%tau(k, 2), tau_floor), clean(slip%limit(2), tau_floor)])
+               call table%keep_row()
+            end do
+         end associate
+      end do
+   end subroutine note_slips
+
+end module listing_steps
