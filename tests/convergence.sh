@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # STEP tends to NEWTON: the error of the step-wise method on every loading deck, against NEWTON in many increments, as the
-# number of increments of each stage is doubled. Prints one table; fails where an error does not fall.
+# number of increments of each stage is doubled. Prints one table; fails where an error does not fall. On a history that unloads and
+# reloads much it does not: that deck is shown, and must be off by more than 2 % somewhere in the second half of the counts.
 #
 #    convergence.sh PROGRAM QUERY WORK_FOLDER
 #
@@ -27,7 +28,7 @@ variant() {
 }
 
 printf '%-16s' deck; for n in $counts; do printf '%12s' "$n"; done; echo
-while read -r deck stage newton; do
+while read -r deck stage newton history; do
    variant "$deck" NEWTON "$newton" || continue
    errors=
    printf '%-16s' "$deck"
@@ -41,6 +42,10 @@ while read -r deck stage newton; do
    echo
    # sixteen times as many increments leave less than half of it, also where the order is 1/2 or a little below
    set -- $errors
+   if [ "$history" ]; then
+      holds "$deck: the error is small, README says that it is not" "max($4, $5) > 0.02"
+      continue
+   fi
    holds "$deck: the error does not fall" "$1 > $2 and $2 > $3 and $3 > $4 and $4 > $5 and $5 < 0.5*$1"
 done <<'DECKS'
 prism05 1 40
@@ -50,6 +55,7 @@ friction_full 2 640
 lap_joint 2 160
 cantilever 2 160
 joint30 1 160
+prism_history 3 160 history
 DECKS
 echo "$passed passed, $failed failed"
 [ $failed -eq 0 ] && [ $passed -gt 0 ]

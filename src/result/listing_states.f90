@@ -116,12 +116,11 @@ contains
          end do
          do first = 1, n, across
             last = min(n, first + across - 1)
-            call table%start('[K_B] CONDENSED ON THE INTERFACE, '//page%stage//': FORCE AT A NODE IN X, Y, Z BY A UNIT '// &
-                             'DISPLACEMENT', &
+            call table%start('[K_B] CONDENSED ON THE INTERFACE, '//page%stage, &
                              [column('UNKNOWN', 'a13'), column(names(first:last), 'es13.5', page%labels%stiffness)])
             call table%print_head(page%file)
             do i = 1, n
-               call table%add(names(i))
+               call table%add(adjustr(names(i)))
                call table%add(clean(condensed%k(i, first:last), k_floor))
                call table%print_row(page%file)
             end do
@@ -131,7 +130,7 @@ contains
                            page%labels%force)])
          call table%print_head(page%file)
          do i = 1, n
-            call table%add(names(i))
+            call table%add(adjustr(names(i)))
             call table%add(clean([condensed%load(i, :), condensed%load(i, 2) - condensed%load(i, 1)], load_floor))
             call table%print_row(page%file)
          end do
