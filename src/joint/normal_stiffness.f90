@@ -19,7 +19,7 @@ module normal_stiffness
    private
 
    public :: norm, is_virgin, follow_normal, branch_name
-   public :: loading_pressure, normal_secant, normal_tangent, line_pressure, stored_work
+   public :: loading_deflection, loading_pressure, normal_secant, normal_tangent, line_pressure, stored_work
 
    integer, parameter, public :: branch_load = 1, branch_unload = 2, branch_open = 3, branch_reload = 4
 
@@ -172,7 +172,7 @@ contains
       real(wp), intent(out)           :: work   !! done on the element, integral of p a d lambda [force x length]
       real(wp) :: least, unloaded
 
-      least = rounding*max(abs(before%lambda_a), law%c*before%p_av**law%m)
+      least = rounding*max(abs(before%lambda_a), loading_deflection(law, before%p_av))
       after = before
       after%lambda_before = before%lambda
       after%sigmaf = before%sumf
@@ -218,6 +218,15 @@ contains
 
       p = (lambda/law%c)**(1.0_wp/law%m)
    end function loading_pressure
+
+
+   !> lambda of the loading curve at P >= 0, Eq. (1) [length].
+   pure real(wp) function loading_deflection(law, p) result(lambda)
+      type(normal_law), intent(in) :: law
+      real(wp), intent(in)         :: p
+
+      lambda = law%c*p**law%m
+   end function loading_deflection
 
 
    !> Secant of the loading curve from 0 to P, Eq. (9), times AREA [force/length].

@@ -14,7 +14,7 @@ module listing
    use model_data, only: joint_node_id, model_type, stage_load_type
    use normal_stiffness, only: branch_open
    use output_file, only: output_file_type
-   use range_watch, only: range_watch_type, watch_balance, watch_ranges
+   use range_watch, only: range_watch_type, watch_balance, watch_ranges, watch_unloading
    use row_buffer, only: row_buffer_type
    use stage_plan, only: stage_plan_type
    use analysis_state, only: analysis_type, free_norm
@@ -78,6 +78,7 @@ contains
       call note_bars(model, analysis, listing%largest_force, listing%bars)
       call note_sections(model, analysis, listing%largest_force, listing%sections)
       call watch_ranges(model, plan, analysis, listing%watch)
+      if (listing%method /= method_back) call watch_unloading(model, plan, analysis, listing%watch)
       associate (stage => plan%stages(analysis%stage))
          if (analysis%increment == size(stage%shares)) return ! the tables of the end of the stage follow
          if (stage%output == output_all .or. stage%output == output_joint) call list_interface( &
