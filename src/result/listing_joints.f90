@@ -7,7 +7,7 @@ module listing_joints
    use kinds, only: wp
    use listing_table, only: axes, column, heading, listing_table_type, noise, page_type
    use model_data, only: joint_node_id, model_type
-   use normal_stiffness, only: branch_name, normal_law
+   use normal_stiffness, only: branch_name, loading_deflection
    use text_tools, only: clean, integer_text
    implicit none
    private
@@ -80,23 +80,14 @@ contains
             associate (state => analysis%states(i)%normal)
                call table%add([model%interface(i)%id, joint_node_id(model, i, 1)])
                call table%add([clean(state%lambda, lambda_floor), &
-                               clean(loading_deflection(joint%law%normal, state%pressure), lambda_floor), clean(state%k_n)])
+                               clean(loading_deflection(joint%law%normal, max(0.0_wp, state%pressure)), lambda_floor), &
+                               clean(state%k_n)])
                call table%add(trim(kinds(analysis%kind(i))))
                call table%print_row(page%file)
             end associate
          end do
       end associate
    end subroutine list_stiffness
-
-
-   !> lambda = c p**m of the loading curve at P, Eq. (1) [length].
-   pure real(wp) function loading_deflection(law, p) result(lambda)
-      type(normal_law), intent(in) :: law
-      real(wp), intent(in)         :: p
-
-      lambda = 0.0_wp
-      if (p > 0.0_wp) lambda = law%c*p**law%m
-   end function loading_deflection
 
 
    !> Shear of the interface elements of joint J. LIMIT is mu p.
