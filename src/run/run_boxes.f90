@@ -10,14 +10,14 @@ module run_boxes
    use deck_input, only: deck_type, read_deck
    use equation_solver, only: equation_system, solver_description
    use equations, only: form_body_stiffness, start_equations
-   use failed_allocation, only: watch_allocations
    use error_report, only: print_errors
    use failures, only: failure_type
+   use incomplete_results, only: watch_allocations
    use load_path, only: recover_bodies
    use machine, only: keep_memory, use_threads
+   use memory_need, only: check_model_size
    use model_build, only: build_model
    use model_data, only: model_type, n_points
-   use model_size, only: check_model_size
    use progress, only: phase_build, phase_factor, phase_increments, phase_order, phase_recover, phase_write, progress_type
    use results, only: discard_results, finish_results, history_ending, list_results => print_increment, listing_ending, &
                       print_stage_results => print_stage, remove_old_results, results_type, start_results
