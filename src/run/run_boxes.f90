@@ -8,7 +8,7 @@ module run_boxes
    use command_line, only: command_type, deck_argument, is_result_of, read_command_line
    use deck_errors, only: deck_error_list
    use deck_input, only: deck_type, read_deck
-   use equation_solver, only: equation_system, solver_description
+   use equation_solver, only: equation_system
    use equations, only: form_body_stiffness, start_equations
    use error_report, only: print_errors
    use failures, only: failure_type
@@ -124,7 +124,6 @@ contains
       type(model_type), intent(in)      :: model
       type(stage_plan_type), intent(in) :: plan
       class(equation_system), allocatable, intent(out) :: system
-      type(solver_description) :: solver
       logical :: ok
 
       if (is_over(run)) return
@@ -134,8 +133,7 @@ contains
       if (.not. run%failure%raised) call form_body_stiffness(model, system, run%failure)
       if (run%failure%raised) return
       call run%progress%enter(phase_write)
-      call system%describe(solver)
-      call run%progress%count_operations(solver%fixed_operations, solver%moving_operations, solver%assembly_time)
+      run%progress%solver = system%description
       call start_results(run%argument%base, deck, model, plan, system, run%results, ok)
       if (.not. ok) run%ending = is_unwritten
    end subroutine form_bodies
