@@ -11,7 +11,7 @@ module element_mapping
    implicit none
    private
 
-   public :: make_element_law, has_incompatible_modes, map_element, map_point, element_volume, smallest_jacobian
+   public :: make_element_law, has_incompatible_modes, map_element, map_point, smallest_jacobian
 
    integer, parameter, public  :: max_shapes = max_nodes + 3 !! shape functions of an element and incompatible modes
    real(wp), parameter, public :: two_pi = 2.0_wp*acos(-1.0_wp)
@@ -179,25 +179,6 @@ contains
 
       c = [a(2)*b(3) - a(3)*b(2), a(3)*b(1) - a(1)*b(3), a(1)*b(2) - a(2)*b(1)]
    end function cross
-
-
-   !> Volume of an element: area times thickness in the plane, of the whole ring in an axisymmetric body [length^3].
-   pure real(wp) function element_volume(law, x) result(total)
-      type(element_law), intent(in) :: law
-      real(wp), intent(in)          :: x(:, :)            !! corners (dimension, nodes) [length]
-      type(integration_rule) :: rule
-      type(element_map)      :: map
-      real(wp) :: g(3, max_shapes), volume
-      integer  :: i
-
-      call map_element(law, x, map)
-      call body_rule(law%kind, law%state == axisymmetric, rule)
-      total = 0.0_wp
-      do i = 1, rule%n
-         call map_point(law, map, rule%point(:, i), g, volume)
-         total = total + rule%weight(i)*volume
-      end do
-   end function element_volume
 
 
    !> The smallest det J over the integration points and the corners, divided by the longest edge to the power of the dimension
