@@ -63,9 +63,9 @@ contains
    !> The deck with these BYTES, lines and line ends as a file holds them. It is named 'text'; what it includes is looked for in
    !! the current folder.
    subroutine deck_text_of_bytes(bytes, text, errors)
-      character(*), intent(in)           :: bytes
-      type(deck_text_type), intent(out)  :: text
-      type(deck_error_list), intent(out) :: errors
+      character(*), intent(in)             :: bytes
+      type(deck_text_type), intent(out)    :: text
+      type(deck_error_list), intent(inout) :: errors
 
       call start_text(text)
       text%n_files = 1
