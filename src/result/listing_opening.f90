@@ -46,7 +46,7 @@ contains
       type(deck_type), intent(in)           :: deck
       character(:), allocatable :: line
       character(10) :: counter
-      integer :: i, cards, hidden
+      integer :: i, cards, hidden !! lines of INCLUDE files since the last one shown
       logical :: in_bulk
 
       if (.not. deck%control%echo) then
@@ -69,7 +69,7 @@ contains
          if (deck%text%file_number(i) > 1) then
             hidden = hidden + 1
          else
-            call count_hidden(file, hidden)
+            call count_hidden()
             call file%put(' '//counter//' '//cut(deck%text%line(i), page_width - 13))
          end if
          if (.not. in_bulk .and. index(adjustl(upper(line)), 'BEGIN') == 1) then
@@ -78,20 +78,18 @@ contains
             call file%put('  COUNT-    .   1  ..   2  ..   3  ..   4  ..   5  ..   6  ..   7  ..   8  ..   9  ..  10  .')
          end if
       end do
-      call count_hidden(file, hidden)
+      call count_hidden()
       call file%put('')
       call file%put('  TOTAL COUNT '//integer_text(cards)//' CARDS')
+
+   contains
+
+      subroutine count_hidden()
+         if (hidden > 0) call file%put('            ('//upper(plural(hidden, 'line'))//' OF INCLUDE FILES, NOT ECHOED)')
+         hidden = 0
+      end subroutine count_hidden
+
    end subroutine write_echo
-
-
-   subroutine count_hidden(file, hidden)
-      type(output_file_type), intent(inout) :: file
-      integer, intent(inout)                :: hidden
-
-      if (hidden > 0) call file%put('            ('//upper(plural(hidden, 'line'))// &
-                                          ' OF INCLUDE FILES, NOT ECHOED)')
-      hidden = 0
-   end subroutine count_hidden
 
 
    !> What the model has of everything, and how it is solved.

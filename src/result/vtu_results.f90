@@ -105,7 +105,8 @@ contains
       m = n_points(model)
       allocate (u(3, m), at_node(6, m), source=0.0_wp)
       allocate (at_centre(6, model%n_elements), principal(3, model%n_elements))
-      allocate (corners(count(model%element_nodes > 0)), ends(model%n_elements), types(model%n_elements))
+      allocate (corners(count(model%element_nodes > 0)))
+      allocate (ends(model%n_elements), types(model%n_elements), properties(model%n_elements))
       u(:model%dimension, :) = analysis%all_u(:, :m)
       n = 0
       do e = 1, model%n_elements
@@ -118,6 +119,7 @@ contains
             n = n + size(nodes)
             ends(e) = n
             types(e) = int(element_table(model%element_kind(e))%vtk_type, int8)
+            properties(e) = model%properties(model%element_property(e))%id
             c = n_stresses(model%properties(model%element_property(e))%state)
             at_centre(:, e) = full_stress(model, e, element_stress(model, e, analysis%all_u))
             principal(:, e) = principal_stresses(at_centre(:, e))
@@ -127,10 +129,6 @@ contains
                                       real(model%first_at(nodes(i) + 1) - model%first_at(nodes(i)), wp)
             end do
          end associate
-      end do
-      allocate (properties(model%n_elements))
-      do e = 1, model%n_elements
-         properties(e) = model%properties(model%element_property(e))%id
       end do
       call file%points(model%x(:, :m))
       call file%cells(corners, ends, types)
