@@ -11,7 +11,7 @@ module element_mapping
    implicit none
    private
 
-   public :: make_element_law, has_incompatible_modes, map_element, map_point, smallest_jacobian
+   public :: make_element_law, map_element, map_point, smallest_jacobian
 
    integer, parameter, public  :: max_shapes = max_nodes + 3 !! shape functions of an element and incompatible modes
    real(wp), parameter, public :: two_pi = 2.0_wp*acos(-1.0_wp)
@@ -43,22 +43,14 @@ contains
       integer, intent(in)  :: kind, state                 !! kind_tria3 ... kind_hexa8; plane_stress ... solid
       real(wp), intent(in) :: e, nu                       !! [pressure], > 0; [-], -1 < nu < 0.5
       real(wp), intent(in) :: thickness                   !! of a plane body [length], > 0
-      logical, intent(in)  :: incompatible                !! wanted; taken where the kind has modes
+      logical, intent(in)  :: incompatible                !! wanted; the plane quadrilateral and the hexahedron have modes
 
       law%kind = kind
       law%state = state
       law%thickness = thickness
-      law%incompatible = incompatible .and. has_incompatible_modes(kind, state)
+      law%incompatible = incompatible .and. (kind == kind_hexa8 .or. (kind == kind_quad4 .and. state /= axisymmetric))
       call elasticity_matrix(state, e, nu, law%d)
    end function make_element_law
-
-
-   !> Whether incompatible modes exist for a kind of element: the plane quadrilateral and the hexahedron.
-   pure logical function has_incompatible_modes(kind, state)
-      integer, intent(in) :: kind, state
-
-      has_incompatible_modes = kind == kind_hexa8 .or. (kind == kind_quad4 .and. state /= axisymmetric)
-   end function has_incompatible_modes
 
 
    !> Take up the corners of an element.
@@ -67,13 +59,11 @@ contains
       real(wp), intent(in)           :: x(:, :)           !! corners (dimension, nodes) in the order of the card [length]
       type(element_map), intent(out) :: map
       real(wp) :: dn(3, max_nodes)
-      integer  :: d, i
+      integer  :: d
 
       d = element_table(law%kind)%dimension
       map%n = element_table(law%kind)%n_nodes
-      do i = 1, map%n
-         map%x(:d, i) = x(:d, i)
-      end do
+      map%x(:d, :map%n) = x(:d, :map%n)
       if (.not. law%incompatible) return
       map%n_modes = d
       call shape_derivatives(law%kind, centre_point(:, law%kind), dn)
