@@ -4,7 +4,7 @@ module deck_text
    use kinds, only: long
    use line_scan, only: line_place, scan_line
    use c_library, only: read_all_bytes, true_path
-   use command_tools, only: standard_input
+   use command_arguments, only: standard_input
    use deck_errors, only: deck_error_list
    use text_tools, only: integer_text
    implicit none

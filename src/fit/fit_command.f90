@@ -1,6 +1,6 @@
 !> The command line of jointfit: options and data files.
 module fit_command
-   use command_tools, only: argument_text, complain, is_option, name_input, say, version
+   use command_arguments, only: argument_text, complain, input_argument, input_of, is_option, say, version
    use deck_numbers, only: parse_integer
    use fit_data, only: branch_number, read_number
    use kinds, only: wp
@@ -12,12 +12,6 @@ module fit_command
 
    character(*), parameter :: program = 'jointfit'
 
-   !> One data file of the command.
-   type, public :: data_argument
-      character(:), allocatable :: path  !! to read; /dev/stdin for `-`
-      character(:), allocatable :: name  !! as the user wrote it
-   end type data_argument
-
    type, public :: fit_command_type
       integer  :: id          = 1         !! --id: of the first file's card
       logical  :: joint_fit   = .false.   !! --joint-fit: the one-step coefficients go on the card
@@ -26,7 +20,7 @@ module fit_command
       integer  :: as          = 0         !! --as: the branch of the card that it becomes
       real(wp) :: p_tolerance = 1.0e-3_wp !! --p-tolerance: pressures that count as one
       real(wp) :: d_max       = 0.0_wp    !! --dmax: DMAX of the card [length], 0: the largest d of the data
-      type(data_argument), allocatable :: files(:)
+      type(input_argument), allocatable :: files(:)
    end type fit_command_type
 
 contains
@@ -38,7 +32,6 @@ contains
       logical, intent(out)                :: finished
       integer, intent(out)                :: status
       character(:), allocatable :: argument
-      type(data_argument) :: file
       integer :: i
       logical :: ok, options
 
@@ -51,8 +44,7 @@ contains
          i = i + 1
          argument = argument_text(i)
          if (.not. is_option(argument, options)) then
-            call name_input(argument, file%name, file%path)
-            command%files = [command%files, file]
+            command%files = [command%files, input_of(argument)]
             cycle
          end if
          select case (argument)

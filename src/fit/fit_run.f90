@@ -2,11 +2,10 @@
 module fit_run
    use, intrinsic :: iso_fortran_env, only: error_unit
    use c_library, only: end_run
-   use command_tools, only: why_unreadable
+   use command_arguments, only: complain_of_input, input_argument
    use deck_errors, only: deck_error_list
    use deck_text, only: deck_text_type
    use error_report, only: print_errors
-   use fit_command, only: data_argument
    use fit_data, only: data_normal
    use output_file, only: output_file_type
    use surface_fit, only: surface_fit_type
@@ -22,10 +21,10 @@ module fit_run
 contains
 
    subroutine report_unreadable_data(file)
-      type(data_argument), intent(in) :: file
+      type(input_argument), intent(in) :: file
 
       exit_status = max(exit_status, status_unreadable)
-      write (error_unit, '(3a)') file%name, ': ', why_unreadable(file%path, 'a file of test data')
+      call complain_of_input(file, 'a file of test data')
    end subroutine report_unreadable_data
 
 
@@ -41,7 +40,7 @@ contains
 
    !> The warnings of a fit, and that there is no card for want of loading data.
    subroutine report_fit(file, fit)
-      type(data_argument), intent(in)    :: file
+      type(input_argument), intent(in)   :: file
       type(surface_fit_type), intent(in) :: fit
       integer :: k
 

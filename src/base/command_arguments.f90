@@ -1,24 +1,20 @@
-!> What the command lines of the programs have in common: arguments, version, the standard output, complaints, why a file cannot
-!! be read, threads.
-module command_tools
-   use, intrinsic :: iso_c_binding, only: c_int
+!> The arguments of a command, the same for both programs: options, input files, and the answers to what is wrong with either.
+module command_arguments
    use, intrinsic :: iso_fortran_env, only: error_unit
    use c_library, only: write_bytes
-   use omp_lib, only: omp_set_num_threads
    implicit none
    private
 
-   public :: argument_text, is_option, name_input, say, complain, why_unreadable, use_threads
+   public :: argument_text, is_option, input_of, say, complain, complain_of_input
 
    character(*), parameter, public :: version = '0.1.0'
    character(*), parameter, public :: standard_input = '/dev/stdin' !! the path of the file that `-` means
 
-   interface
-      subroutine openblas_set_num_threads(n) bind(c, name='openblas_set_num_threads')
-         import :: c_int
-         integer(c_int), value :: n
-      end subroutine openblas_set_num_threads
-   end interface
+   !> An input file of the command.
+   type, public :: input_argument
+      character(:), allocatable :: path !! to read; /dev/stdin for `-`
+      character(:), allocatable :: name !! as the user wrote it
+   end type input_argument
 
 contains
 
@@ -45,18 +41,14 @@ contains
    end function is_option
 
 
-   !> The file that ARGUMENT means: NAME as the user is told of it, PATH to read.
-   pure subroutine name_input(argument, name, path)
-      character(*), intent(in)               :: argument
-      character(:), allocatable, intent(out) :: name, path
+   !> The file that ARGUMENT means.
+   pure function input_of(argument) result(input)
+      character(*), intent(in) :: argument
+      type(input_argument)     :: input
 
-      name = argument
-      path = argument
-      if (argument == '-') then
-         name = 'standard input'
-         path = standard_input
-      end if
-   end subroutine name_input
+      input = input_argument(path=argument, name=argument)
+      if (argument == '-') input = input_argument(path=standard_input, name='standard input')
+   end function input_of
 
 
    !> Write TEXT and a line end on the standard output; STATUS is 0, or 4 where it cannot be written.
@@ -78,31 +70,24 @@ contains
    end subroutine complain
 
 
-   !> Words for a file that cannot be read; EXPECTED is what it should have been, 'a deck'.
-   function why_unreadable(path, expected) result(words)
-      character(*), intent(in)  :: path, expected
+   !> Say on the standard error why INPUT cannot be read; EXPECTED is what it should have been, 'a deck'.
+   subroutine complain_of_input(input, expected)
+      class(input_argument), intent(in) :: input
+      character(*), intent(in)          :: expected
       character(:), allocatable :: words
       logical :: there, is_folder
 
       is_folder = .false.
-      inquire (file=path, exist=there)
-      if (path /= '') inquire (file=path//'/.', exist=is_folder)
+      inquire (file=input%path, exist=there)
+      if (input%path /= '') inquire (file=input%path//'/.', exist=is_folder)
       if (is_folder) then
          words = 'a directory, expected '//expected
-      else if (there .and. path /= '') then
+      else if (there .and. input%path /= '') then
          words = 'cannot be read'
       else
          words = 'no such file'
       end if
-   end function why_unreadable
+      write (error_unit, '(3a)') input%name, ': ', words
+   end subroutine complain_of_input
 
-
-   !> N threads at most, 0: as many as there are cores. BLAS has one in each: one order of additions, the same digits everywhere.
-   subroutine use_threads(n)
-      integer, intent(in) :: n
-
-      call openblas_set_num_threads(1_c_int)
-      if (n > 0) call omp_set_num_threads(n)
-   end subroutine use_threads
-
-end module command_tools
+end module command_arguments
