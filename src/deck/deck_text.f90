@@ -65,7 +65,7 @@ contains
    subroutine deck_text_of_bytes(bytes, text, errors)
       character(*), intent(in)             :: bytes
       type(deck_text_type), intent(out)    :: text
-      type(deck_error_list), intent(inout) :: errors
+      type(deck_error_list), intent(out)   :: errors
 
       call start_text(text)
       text%n_files = 1
