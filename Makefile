@@ -19,6 +19,8 @@ RELEASE_OBJECTS = $(MODULES:%=$(BUILD)/release/%.o)
 CHECKED_OBJECTS = $(MODULES:%=$(BUILD)/checked/%.o)
 CHECKED_LIBRARY = $(BUILD)/checked/libjointfem.a
 CHECKED_MODULES = $(BUILD)/checked
+COMPARISONS     = $(sort $(wildcard tests/compare/*.f90))
+DEPENDENCIES    = awk -f tests/runner/dependencies.awk
 PF_FILES        = $(sort $(wildcard tests/unit/*.pf))
 
 .PHONY: all
@@ -63,10 +65,12 @@ $(BUILD)/checked/%.o: %.f90
 	@mkdir -p $(@D)
 	$(FC) $(FFLAGS_CHECKED) -J$(@D) -c -o $@ $<
 
-$(BUILD)/dependencies.mk: $(SOURCES) tests/runner/dependencies.awk Makefile
+# Which object needs which, from the `use` lines.
+$(BUILD)/dependencies.mk: $(SOURCES) $(COMPARISONS) tests/runner/dependencies.awk Makefile
 	@mkdir -p $(@D)
-	@for way in release checked; do awk -v folder=$(BUILD)/$$way -v objects="$$(printf "$(BUILD)/$$way/%s.o " $(MODULES))" \
-	   -f tests/runner/dependencies.awk $(SOURCES); done > $@
+	@$(DEPENDENCIES) -v folder=$(BUILD)/release -v objects='$(RELEASE_OBJECTS)' $(SOURCES) > $@
+	@$(DEPENDENCIES) -v folder=$(BUILD)/checked -v objects='$(CHECKED_OBJECTS)' $(SOURCES) >> $@
+	@$(DEPENDENCIES) -v folder=$(BUILD)/compare -v objects='$(COMPARISONS:tests/%.f90=$(BUILD)/%.o)' $(COMPARISONS) >> $@
 
 ifneq ($(MAKECMDGOALS),clean)
 -include $(BUILD)/dependencies.mk
@@ -87,14 +91,21 @@ run: bin/jointfem bin/jointfit
 include tests/runner/unit_tests.mk
 
 COMPARE = $(BUILD)/compare/compare_results
+QUERY   = $(BUILD)/compare/query_results
 
-$(COMPARE): tests/compare/comparison_text.f90 tests/compare/comparison_rules.f90 tests/compare/compare_results.f90
+$(COMPARE): $(addprefix $(BUILD)/compare/,comparison_text.o comparison_rules.o compare_results.o)
+	$(FC) $(FFLAGS) -o $@ $^
+
+$(QUERY): $(addprefix $(BUILD)/compare/,comparison_text.o csv_table.o query_expression.o query_results.o)
+	$(FC) $(FFLAGS) -o $@ $^
+
+$(BUILD)/compare/%.o: tests/compare/%.f90
 	@mkdir -p $(@D)
-	$(FC) $(FFLAGS) -J$(@D) -o $@ $^
+	$(FC) $(FFLAGS) -J$(@D) -c -o $@ $<
 
 .PHONY: test
-test: bin/jointfem $(BUILD)/checked/jointfem $(BUILD)/checked/jointfit $(COMPARE) $(UNIT_PROGRAM)
-	@MAKE='$(MAKE)' tests/run_all.sh bin/jointfem $(BUILD)/checked/jointfem $(COMPARE) $(BUILD)
+test: bin/jointfem $(BUILD)/checked/jointfem $(BUILD)/checked/jointfit $(COMPARE) $(QUERY) $(UNIT_PROGRAM)
+	@MAKE='$(MAKE)' tests/run_all.sh bin/jointfem $(BUILD)/checked/jointfem $(COMPARE) $(QUERY) $(BUILD)
 
 .PHONY: check
 check: bin/jointfem $(COMPARE)
@@ -115,8 +126,8 @@ accept: bin/jointfem
 include tests/bench/bench.mk
 
 .PHONY: figures
-figures: bin/jointfem bin/jointfit
-	@reference_output/figures/draw.sh bin/jointfem bin/jointfit $(BUILD)/figures
+figures: bin/jointfem bin/jointfit $(QUERY)
+	@reference_output/figures/draw.sh bin/jointfem bin/jointfit $(QUERY) $(BUILD)/figures
 
 .PHONY: clean
 clean:

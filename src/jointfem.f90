@@ -12,9 +12,8 @@ program jointfem
    use load_path, only: start_increment, start_stage
    use model_data, only: model_type
    use newton_method, only: newton_increment
-   use run_boxes, only: another_increment, another_stage, build_structure, finish_run, form_bodies, print_increment, &
-                        print_stage, read_data, run_type, start_joints, start_program
-   use run_control, only: end_program
+   use run_boxes, only: another_increment, another_stage, build_structure, end_program, finish_run, form_bodies, &
+                        print_increment, print_stage, read_data, run_type, start_joints, start_program
    use stage_plan, only: stage_plan_type
    use step_method, only: accumulate, limit_friction, solve_increment, structure_stiffness
    implicit none

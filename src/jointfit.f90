@@ -1,14 +1,15 @@
 !> jointfit: the cards of a joint's laws, JNORM and JSHEAR, from test data.
 program jointfit
-   use command_tools, only: use_threads
+   use c_library, only: end_run
    use deck_errors, only: deck_error_list
    use fit_command, only: fit_command_type, read_fit_command
    use fit_comments, only: write_cards
-   use fit_run, only: end_fit, finish_output, report_data_errors, report_fit, report_unreadable_data
-   use output_file, only: output_file_type
-   use slope_warnings, only: check_slopes
-   use surface_fit, only: fit_surface, surface_fit_type
    use fit_data, only: read_test_data, test_data_type
+   use fit_run, only: end_fit, report_data_errors, report_fit, report_unreadable_data
+   use machine, only: use_threads
+   use output_file, only: output_file_type
+   use slope_check, only: check_slopes
+   use surface_fit, only: fit_surface, surface_fit_type
    implicit none
    type(fit_command_type) :: command
    type(output_file_type) :: out
@@ -16,14 +17,13 @@ program jointfit
    logical :: finished
 
    call read_fit_command(command, finished, status)
-   if (finished) call end_fit(status)
+   if (finished) call end_run(status)
    call use_threads(1)
    call out%start('')
    do i = 1, size(command%files)
       call fit_file(i)
    end do
-   call finish_output(out)
-   call end_fit(status)
+   call end_fit(out)
 
 contains
 

@@ -1,12 +1,12 @@
 #!/usr/bin/env bash
 # Everything that `make test` runs, part after part, and one sum at the end.
 #
-#    run_all.sh PROGRAM CHECKED_PROGRAM COMPARE BUILD_FOLDER
+#    run_all.sh PROGRAM CHECKED_PROGRAM COMPARE QUERY BUILD_FOLDER
 #
 # CHECKED_PROGRAM is the program with run-time checks; bad and damaged decks go through it, so that a bound exceeded or a
 # floating-point exception is seen. Every part ends with a line `N passed, N failed`; a part without one has failed.
 set -u
-program=$1 checked=$2 compare=$3 build=$4
+program=$1 checked=$2 compare=$3 query=$4 build=$5
 passed=0 failed=0
 mkdir -p "$build/test"
 
@@ -29,23 +29,25 @@ part() {
 }
 
 part 'unit tests' ${MAKE:-make} --no-print-directory -s unit-test
+part 'modules use what stands to the left' tests/folders.sh README.md src
 part 'the test runner itself' env -u MAKELEVEL tests/runner/selftest.sh
 part 'decks against their references' tests/check.sh "$program" "$compare" "$build/check"
 part 'decks through the program with run-time checks' tests/check.sh "$checked" "$compare" "$build/check-checked"
-part 'what the paper says of the prism' tests/prism_findings.sh "$build/check"
-part 'exact answers and independent computations' tests/exact/run.sh "$program" "$build/exact"
-part 'TREE and SKYLINE, one thread and several' tests/solver/run.sh "$program" "$build/solver"
+part 'what the paper says of the prism' tests/prism_findings.sh "$query" "$build/check"
+part 'exact answers and independent computations' tests/exact/run.sh "$program" "$query" "$build/exact"
+part 'TREE and SKYLINE, one thread and several' tests/solver/run.sh "$program" "$query" "$build/solver"
 part 'models that do not fit into the memory' tests/memory.sh "$program" "$build/memory"
 part 'linear decks against CalculiX' tests/calculix/run.sh "$program" "$build/calculix"
-part 'STEP tends to NEWTON' tests/convergence.sh "$program" "$build/convergence"
+part 'STEP tends to NEWTON' tests/convergence.sh "$program" "$query" "$build/convergence"
 part 'the comparison itself' tests/compare/test_compare.sh "$compare" reference_output tests/compare/tolerances.txt
+part 'the queries of histories' tests/compare/test_query.sh "$query"
 part 'from test data to cards' tests/fit/run.sh "$build/checked/jointfit" "$program"
 part 'published surfaces' tests/fit/surfaces.sh "$program"
 mkdir -p "$build/vtu-deck"
 sed -E 's/^( *INCR = .*)/\1\n  OUTPUT = LAST, VTU/; /OUTPUT = (ALL|JOINT|LAST|NONE)$/d' input/prism_history.bdf > "$build/vtu-deck/history.bdf"
 "$program" -q -o "$build/vtu-deck" "$build/vtu-deck/history.bdf" 2> /dev/null
 part 'files for ParaView' tests/vtu/run.sh "$build/vtu" "$build/vtu-deck/history.pvd" "$build/check/post_on_plate.pvd"
-part 'meshes from Gmsh' tests/gmsh.sh "$program" "$build/gmsh"
+part 'meshes from Gmsh' tests/gmsh.sh "$program" "$query" "$build/gmsh"
 part 'the benchmark, without measuring' tests/bench/test_bench.sh "$program" "$build/test/bench"
 part 'bad decks and command lines' tests/bad/run.sh "$PWD/$checked"
 part 'damaged decks' tests/damage/run.sh "$PWD/$checked" "$PWD/input"

@@ -1,9 +1,10 @@
 #!/usr/bin/env bash
 # The pictures of this folder, PNG and SVG, from the joint histories of the decks. Needs gnuplot.
 #
-#    draw.sh PROGRAM FIT WORK_FOLDER
+#    draw.sh PROGRAM FIT QUERY WORK_FOLDER
 set -eu
-program=$1 fit=$2 work=$3
+program=$1 fit=$2 query=$3 work=$4
+source tests/exact/contact_edges.sh
 here=$(dirname "$0")
 command -v gnuplot > /dev/null || { echo 'make figures needs gnuplot: apt-get install gnuplot-nox'; exit 1; }
 mkdir -p "$work"
@@ -22,9 +23,8 @@ echo 'increments,error' > "$work/errors.csv"
 for n in 3 5 10 15 20 40 80 160 320; do
    first=$(awk -v n=$n 'BEGIN { printf "%.7f", n < 20 ? 0.05 : 1 / n }')
    prism STEP $n "$first"
-   awk -F, -v n=$n 'NR == FNR { if ($2 == 40) exact[$6] = $13; next }
-      $2 == n { e = $13 - exact[$6]; if (e < 0) e = -e; if (e > worst) worst = e }
-      END { print n "," worst }' "$work/NEWTON_40.joint.csv" "$work/STEP_$n.joint.csv" >> "$work/errors.csv"
+   echo "$n,$("$query" "$work/STEP_$n.joint.csv" rows "increment = $n" with "$work/NEWTON_40.joint.csv" on node1 on increment=40 \
+      print 'max(abs(lambda - other.lambda))')" >> "$work/errors.csv"
 done
 
 # Fig. 2: the lines that jointfit lays through the coefficients of the published cubics, as it prints them
@@ -38,7 +38,7 @@ for t in 2 3 4 5 6 7 8 9 10 11 12; do
    for law in '1.0-3,0.5,2.0+5' '1.0-5,0.5,2.0+7'; do
       awk -v t=$t -f tests/exact/flange_thickness.awk input/flange_pair.bdf | sed "s/^JNORM.*/JNORM,1,$law/" > "$work/flange.bdf"
       "$program" -q -o "$work" "$work/flange.bdf"
-      awk -f tests/exact/contact_edges.awk "$work/flange.joint.csv"
+      contact_edges "$query" "$work/flange.joint.csv"
    done | awk -v t=$t '{ reach[NR] = $2 - 40 } END { print t "," reach[1] "," reach[2] }' >> "$work/flange.csv"
 done
 

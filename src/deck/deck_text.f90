@@ -1,10 +1,9 @@
 !> The lines of a deck in the order in which they count, INCLUDE files opened in their place.
 module deck_text
-   use include_lines, only: folder, included_path, is_include
    use kinds, only: long
-   use line_scan, only: line_place, scan_line
+   use line_scan, only: included_path, is_include, line_place, scan_line
    use c_library, only: read_all_bytes, true_path
-   use command_tools, only: standard_input
+   use command_arguments, only: standard_input
    use deck_errors, only: deck_error_list
    use text_tools, only: integer_text
    implicit none
@@ -67,9 +66,9 @@ contains
    !> The deck with these BYTES, lines and line ends as a file holds them. It is named 'text'; what it includes is looked for in
    !! the current folder.
    subroutine deck_text_of_bytes(bytes, text, errors)
-      character(*), intent(in)             :: bytes
-      type(deck_text_type), intent(out)    :: text
-      type(deck_error_list), intent(inout) :: errors
+      character(*), intent(in)           :: bytes
+      type(deck_text_type), intent(out)  :: text
+      type(deck_error_list), intent(out) :: errors
 
       call start_text(text)
       text%n_files = 1
@@ -290,7 +289,7 @@ contains
          call errors%add(here, 'INCLUDE: expected a file name, INCLUDE ''mesh.bdf''')
          return
       end if
-      if (path(1:1) /= '/') path = folder(text%files(me)%path)//path
+      if (path(1:1) /= '/') path = text%files(me)%path(:index(text%files(me)%path, '/', back=.true.))//path
       resolved = true_path(path)
       ancestor = me
       do while (ancestor > 0)

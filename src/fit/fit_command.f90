@@ -1,8 +1,8 @@
 !> The command line of jointfit: options and data files.
 module fit_command
-   use command_tools, only: argument_text, complain, is_option, name_input, say, version
-   use deck_numbers, only: parse_integer, parse_real
-   use fit_branches, only: branch_number
+   use command_arguments, only: argument_text, complain, input_argument, input_of, is_option, say, version
+   use deck_numbers, only: parse_integer
+   use fit_data, only: branch_number, read_number
    use kinds, only: wp
    use text_tools, only: upper
    implicit none
@@ -12,12 +12,6 @@ module fit_command
 
    character(*), parameter :: program = 'jointfit'
 
-   !> One data file of the command.
-   type, public :: data_argument
-      character(:), allocatable :: path  !! to read; /dev/stdin for `-`
-      character(:), allocatable :: name  !! as the user wrote it
-   end type data_argument
-
    type, public :: fit_command_type
       integer  :: id          = 1         !! --id: of the first file's card
       logical  :: joint_fit   = .false.   !! --joint-fit: the one-step coefficients go on the card
@@ -26,7 +20,7 @@ module fit_command
       integer  :: as          = 0         !! --as: the branch of the card that it becomes
       real(wp) :: p_tolerance = 1.0e-3_wp !! --p-tolerance: pressures that count as one
       real(wp) :: d_max       = 0.0_wp    !! --dmax: DMAX of the card [length], 0: the largest d of the data
-      type(data_argument), allocatable :: files(:)
+      type(input_argument), allocatable :: files(:)
    end type fit_command_type
 
 contains
@@ -50,7 +44,7 @@ contains
          i = i + 1
          argument = argument_text(i)
          if (.not. is_option(argument, options)) then
-            call add_file(command, argument)
+            command%files = [command%files, input_of(argument)]
             cycle
          end if
          select case (argument)
@@ -64,10 +58,8 @@ contains
             return
          case ('--joint-fit')
             command%joint_fit = .true.
-         case ('--small')
-            command%small = .true.
-         case ('--large')
-            command%small = .false.
+         case ('--small', '--large')
+            command%small = argument == '--small'
          case ('--id', '--branch', '--as', '--p-tolerance', '--dmax')
             i = i + 1
             call read_value(argument, argument_text(i), command, ok)
@@ -94,53 +86,32 @@ contains
       character(*), intent(in)              :: option, value
       type(fit_command_type), intent(inout) :: command
       logical, intent(out)                  :: ok
+      character(:), allocatable :: expected
 
-      ok = .false.
       select case (option)
       case ('--id')
          call parse_integer(value, command%id, ok)
          ok = ok .and. command%id > 0
-         if (.not. ok) call complain(program, '--id '//value//': expected a number of 1 or more')
-      case ('--branch', '--as')
-         if (option == '--as') then
-            command%as = branch_number(upper(value))
-            ok = command%as > 0
-         else
-            command%only = branch_number(upper(value))
-            ok = command%only > 0
-         end if
-         if (.not. ok) call complain(program, option//' '//value//': expected LOAD, UNLOAD or RELOAD')
+         expected = 'a number of 1 or more'
+      case ('--branch')
+         command%only = branch_number(upper(value))
+         ok = command%only > 0
+         expected = 'LOAD, UNLOAD or RELOAD'
+      case ('--as')
+         command%as = branch_number(upper(value))
+         ok = command%as > 0
+         expected = 'LOAD, UNLOAD or RELOAD'
       case ('--p-tolerance')
-         call read_real(value, command%p_tolerance, ok)
+         call read_number(value, command%p_tolerance, ok)
          ok = ok .and. command%p_tolerance >= 0.0_wp .and. command%p_tolerance < 1.0_wp
-         if (.not. ok) call complain(program, '--p-tolerance '//value//': expected a number from 0 to below 1, as 0.01')
-      case ('--dmax')
-         call read_real(value, command%d_max, ok)
+         expected = 'a number from 0 to below 1, as 0.01'
+      case default                                   ! --dmax
+         call read_number(value, command%d_max, ok)
          ok = ok .and. command%d_max > 0.0_wp
-         if (.not. ok) call complain(program, '--dmax '//value//': expected a number above 0')
+         expected = 'a number above 0'
       end select
+      if (.not. ok) call complain(program, option//' '//value//': expected '//expected)
    end subroutine read_value
-
-
-   !> A number of the command: it may do without the point.
-   subroutine read_real(text, value, ok)
-      character(*), intent(in) :: text
-      real(wp), intent(out)    :: value
-      logical, intent(out)     :: ok
-
-      call parse_real(text, value, ok)
-      if (.not. ok) call parse_real(text//'.', value, ok)
-   end subroutine read_real
-
-
-   subroutine add_file(command, argument)
-      type(fit_command_type), intent(inout) :: command
-      character(*), intent(in)              :: argument
-      type(data_argument) :: file
-
-      call name_input(argument, file%name, file%path)
-      command%files = [command%files, file]
-   end subroutine add_file
 
 
    subroutine print_help(status)

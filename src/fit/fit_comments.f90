@@ -1,14 +1,15 @@
 !> What stands above the fitted cards: data, residuals, range, coefficients, warnings.
 module fit_comments
    use branch_fit, only: branch_fit_type, residual_type
-   use fit_branches, only: branch_letters, branch_words, fit_load, fit_reload, fit_unload
-   use command_tools, only: version
+   use command_arguments, only: version
    use fit_command, only: fit_command_type
+   use fit_data, only: branch_letters, branch_words, column_d, column_p, data_normal, fit_load, fit_reload, fit_unload, &
+                       test_data_type
    use kinds, only: wp
    use law_cards, only: coefficient_line, jnorm_card, jshear_card
+   use normal_fit, only: normal_fit_type
    use output_file, only: output_file_type
    use surface_fit, only: surface_fit_type
-   use fit_data, only: column_d, column_p, data_normal, test_data_type
    use text_tools, only: integer_text, plural, real_text
    implicit none
    private
@@ -30,7 +31,7 @@ contains
       call comment(out, '', 'fitted by jointfit '//version//' to '//name)
       if (data%units /= '') call comment(out, 'units', data%units)
       if (fit%kind == data_normal) then
-         call describe_normal(fit, out)
+         call describe_normal(fit%normal, out)
       else
          call describe_shear(data, command, fit, out)
       end if
@@ -38,7 +39,7 @@ contains
          call comment(out, 'WARNING', fit%warnings%items(k)%message)
       end do
       if (fit%kind == data_normal) then
-         call put_lines(out, '', jnorm_card(id, fit%c, fit%m, command%small))
+         call put_lines(out, '', jnorm_card(id, fit%normal%c, fit%normal%m, command%small))
       else if (fit%has_loading) then
          call put_lines(out, '', jshear_card(id, fit%card, fit%branch%n_points > 0, fit%p_max, fit%d_max, command%small))
       else
@@ -53,7 +54,7 @@ contains
 
 
    subroutine describe_normal(fit, out)
-      type(surface_fit_type), intent(in)    :: fit
+      type(normal_fit_type), intent(in)     :: fit
       type(output_file_type), intent(inout) :: out
 
       call comment(out, 'law', 'lambda = c p^m, c = '//real_text(fit%c)//', m = '//real_text(fit%m))
@@ -79,11 +80,7 @@ contains
          end if
          if (fit%source(b) /= b) call comment(out, branch_words(b), 'taken from the '// &
                                               trim(branch_words(fit%source(b)))//' data')
-         if (fit%branch(b)%from_points) then
-            call describe_points(data, fit, b, command%joint_fit, out)
-         else
-            call describe_cubics(fit, b, out)
-         end if
+         call describe_branch(data, fit, b, command%joint_fit, out)
       end do
       left_out = data%n - sum(fit%branch%n_points)
       if (left_out > 0) call comment(out, '', plural(left_out, 'row')//' of other branches left out')
@@ -91,8 +88,8 @@ contains
    end subroutine describe_shear
 
 
-   !> A branch that was fitted to test points.
-   subroutine describe_points(data, fit, b, joint_fit, out)
+   !> Branch B of the card: the cubic of each pressure and the lines through them, of points also the fit in one step.
+   subroutine describe_branch(data, fit, b, joint_fit, out)
       type(test_data_type), intent(in)      :: data
       type(surface_fit_type), intent(in)    :: fit
       integer, intent(in)                   :: b
@@ -102,19 +99,23 @@ contains
       integer :: i
 
       rows = pack([(i, i = 1, data%n)], data%branch(:data%n) == fit%source(b))
-      associate (branch => fit%branch(b))
-         call comment(out, branch_words(b), plural(branch%n_points, 'point')//' at '// &
-                      plural(size(branch%group_p), 'pressure')//', p '//range_text(branch%p_low, branch%p_high)//', d '// &
-                      range_text(branch%d_low, branch%d_high))
+      associate (branch => fit%branch(b), points => fit%branch(b)%from_points)
+         if (points) then
+            call comment(out, branch_words(b), plural(branch%n_points, 'point')//' at '// &
+                         plural(size(branch%group_p), 'pressure')//', p '//range_text(branch%p_low, branch%p_high)//', d '// &
+                         range_text(branch%d_low, branch%d_high))
+         else
+            call comment(out, branch_words(b), plural(branch%n_points, 'cubic')//' given, p '// &
+                         range_text(branch%p_low, branch%p_high))
+         end if
          if (branch%two_step) then
             call table_of_cubics(branch, b, out)
-            call comment(out, '', 'residual of these cubics: '//residual_words(branch%of_cubics))
-         end if
-         if (branch%two_step) then
-            call comment(out, '', 'lines through their coefficients (Fig. 2)'//on_card(.not. joint_fit)//':')
+            if (points) call comment(out, '', 'residual of these cubics: '//residual_words(branch%of_cubics))
+            call comment(out, '', 'lines through their coefficients (Fig. 2)'//on_card(.not. (points .and. joint_fit))//':')
             call lines_of_coefficients(branch, b, branch%lines, .true., out)
-            call comment(out, '', '   residual: '//residual_words(branch%of_lines))
+            if (points) call comment(out, '', '   residual: '//residual_words(branch%of_lines))
          end if
+         if (.not. points) return
          call comment(out, '', 'all points in one step'//on_card(joint_fit)//':')
          call lines_of_coefficients(branch, b, branch%joint, .false., out)
          call comment(out, '', '   residual: '//residual_words(branch%of_joint))
@@ -131,23 +132,7 @@ contains
                  real_text(data%value(column_d, rows(residual%at)))
       end function residual_words
 
-   end subroutine describe_points
-
-
-   !> A branch of which the cubics were given.
-   subroutine describe_cubics(fit, b, out)
-      type(surface_fit_type), intent(in)    :: fit
-      integer, intent(in)                   :: b
-      type(output_file_type), intent(inout) :: out
-
-      associate (branch => fit%branch(b))
-         call comment(out, branch_words(b), plural(branch%n_points, 'cubic')//' given, p '// &
-                      range_text(branch%p_low, branch%p_high))
-         call table_of_cubics(branch, b, out)
-         call comment(out, '', 'lines through their coefficients (Fig. 2), on the card:')
-         call lines_of_coefficients(branch, b, branch%lines, .true., out)
-      end associate
-   end subroutine describe_cubics
+   end subroutine describe_branch
 
 
    !> The cubic of each pressure, the points of Fig. 2.
@@ -156,33 +141,18 @@ contains
       integer, intent(in)                   :: b
       type(output_file_type), intent(inout) :: out
       character(14) :: cells(6)
-      character(1)  :: letter
-      integer :: i, first
+      character(84) :: words
+      integer :: i
 
-      letter = branch_letters(b)
-      first = merge(2, 3, branch%constant)
-      cells = [character(14) :: 'p', letter//'0', letter//'1', letter//'2', letter//'3', 'points']
-      call row()
-      do i = 1, size(branch%group_p)
-         cells = [character(14) :: real_text(branch%group_p(i)), real_text(branch%cubic(0, i)), &
-                  real_text(branch%cubic(1, i)), real_text(branch%cubic(2, i)), real_text(branch%cubic(3, i)), '']
-         if (branch%from_points) cells(6) = integer_text(count(branch%group == i))
-         call row()
-      end do
-
-   contains
-
-      subroutine row()
-         character(:), allocatable :: words
-         integer :: k
-
-         words = cells(1)
-         do k = first, merge(6, 5, branch%from_points)
-            words = words//cells(k)
+      associate (letter => branch_letters(b), c => branch%cubic)
+         cells = [character(14) :: 'p', letter//'0', letter//'1', letter//'2', letter//'3', 'points']
+         do i = 0, size(branch%group_p)
+            if (i > 0) cells = [character(14) :: real_text(branch%group_p(i)), real_text(c(0, i)), real_text(c(1, i)), &
+                                real_text(c(2, i)), real_text(c(3, i)), integer_text(count(branch%group == i))]
+            write (words, '(6a)') cells(1), cells(merge(2, 3, branch%constant):merge(6, 5, branch%from_points))
+            call comment(out, '', '   '//words)
          end do
-         call comment(out, '', '   '//words)
-      end subroutine row
-
+      end associate
    end subroutine table_of_cubics
 
 
@@ -194,18 +164,18 @@ contains
       logical, intent(in)                   :: with_scatter
       type(output_file_type), intent(inout) :: out
       character(40) :: words
+      character(:), allocatable :: scatter
       integer :: k
 
       do k = 1, 3
          words = '   '//branch_letters(b)//integer_text(k)//' = '//real_text(lines(1, k))// &
                  merge(' - ', ' + ', lines(2, k) < 0.0_wp)//real_text(abs(lines(2, k)))//' p'
-         if (with_scatter) then
-            call comment(out, '', words//'scatter rms '//real_text(branch%of_coefficients(k)%rms)//', largest '// &
-                         real_text(branch%of_coefficients(k)%largest)//' at p = '// &
-                         real_text(branch%group_p(branch%of_coefficients(k)%at)))
-         else
-            call comment(out, '', words)
-         end if
+         scatter = ''
+         associate (off => branch%of_coefficients(k))
+            if (with_scatter) scatter = 'scatter rms '//real_text(off%rms)//', largest '//real_text(off%largest)//' at p = '// &
+                                        real_text(branch%group_p(off%at))
+         end associate
+         call comment(out, '', words//scatter)
       end do
    end subroutine lines_of_coefficients
 

@@ -2,18 +2,17 @@
 module fit_run
    use, intrinsic :: iso_fortran_env, only: error_unit
    use c_library, only: end_run
-   use command_tools, only: why_unreadable
+   use command_arguments, only: complain_of_input, input_argument
    use deck_errors, only: deck_error_list
    use deck_text, only: deck_text_type
    use error_report, only: print_errors
-   use fit_command, only: data_argument
+   use fit_data, only: data_normal
    use output_file, only: output_file_type
    use surface_fit, only: surface_fit_type
-   use fit_data, only: data_normal
    implicit none
    private
 
-   public :: report_unreadable_data, report_data_errors, report_fit, finish_output, end_fit
+   public :: report_unreadable_data, report_data_errors, report_fit, end_fit
 
    integer, parameter :: status_unreadable = 1, status_data = 2, status_unwritten = 4
 
@@ -22,10 +21,10 @@ module fit_run
 contains
 
    subroutine report_unreadable_data(file)
-      type(data_argument), intent(in) :: file
+      type(input_argument), intent(in) :: file
 
       exit_status = max(exit_status, status_unreadable)
-      write (error_unit, '(3a)') file%name, ': ', why_unreadable(file%path, 'a file of test data')
+      call complain_of_input(file, 'a file of test data')
    end subroutine report_unreadable_data
 
 
@@ -41,7 +40,7 @@ contains
 
    !> The warnings of a fit, and that there is no card for want of loading data.
    subroutine report_fit(file, fit)
-      type(data_argument), intent(in)    :: file
+      type(input_argument), intent(in)   :: file
       type(surface_fit_type), intent(in) :: fit
       integer :: k
 
@@ -55,22 +54,14 @@ contains
    end subroutine report_fit
 
 
-   subroutine finish_output(out)
+   !> End the run of which OUT has the cards, with the highest status of all files.
+   subroutine end_fit(out)
       type(output_file_type), intent(inout) :: out
       logical :: ok
 
       call out%finish(ok)
-      if (ok) return
-      exit_status = max(exit_status, status_unwritten)
-      write (error_unit, '(a)') 'jointfit: the cards cannot be written to the standard output'
-   end subroutine finish_output
-
-
-   !> End with STATUS, or the highest of the files where that is higher.
-   subroutine end_fit(status)
-      integer, intent(in) :: status
-
-      call end_run(max(status, exit_status))
+      if (.not. ok) write (error_unit, '(a)') 'jointfit: the cards cannot be written to the standard output'
+      call end_run(max(exit_status, merge(0, status_unwritten, ok)))
    end subroutine end_fit
 
 end module fit_run

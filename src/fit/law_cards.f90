@@ -1,12 +1,12 @@
-!> JNORM and JSHEAR as lines of a deck.
+!> JNORM and JSHEAR as lines of a deck, their numbers with the most digits that the columns hold.
 module law_cards
-   use field_numbers, only: real_field_text
+   use deck_numbers, only: parse_real
    use kinds, only: wp
    use text_tools, only: integer_text
    implicit none
    private
 
-   public :: jnorm_card, jshear_card, coefficient_line, card_lines
+   public :: jnorm_card, jshear_card, coefficient_line, real_field_text
 
 contains
 
@@ -20,8 +20,7 @@ contains
 
       fields = ''
       fields(1) = integer_text(id)
-      fields(2) = real_field_text(c, width_of(small))
-      fields(3) = real_field_text(m, width_of(small))
+      fields(2:3) = number_fields([c, m], small)
       lines = card_lines('JNORM', fields, small)
    end function jnorm_card
 
@@ -36,18 +35,16 @@ contains
       logical, intent(in)  :: small
       character(80), allocatable :: lines(:)
       character(16) :: fields(32)
-      integer :: branch, first
+      integer, parameter :: first(3) = [2, 9, 17]
+      integer :: branch
 
       fields = ''
       fields(1) = integer_text(id)
       do branch = 1, 3
-         if (.not. given(branch)) cycle
-         first = 8*branch - 7
-         if (branch == 1) first = 2
-         fields(first:first + 5) = coefficient_fields(coefficients(:, :, branch), small)
+         if (given(branch)) fields(first(branch):first(branch) + 5) = number_fields([coefficients(:, :, branch)], small)
       end do
-      fields(25) = real_field_text(p_max, width_of(small))
-      if (d_max > 0.0_wp) fields(26) = real_field_text(d_max, width_of(small))
+      fields(25:26) = number_fields([p_max, d_max], small)
+      if (d_max <= 0.0_wp) fields(26) = ''
       lines = card_lines('JSHEAR', fields, small)
    end function jshear_card
 
@@ -60,31 +57,22 @@ contains
       character(16) :: fields(8)
 
       fields = ''
-      fields(:6) = coefficient_fields(coefficients, small)
+      fields(:6) = number_fields([coefficients], small)
       lines = card_lines('+', fields, small)
    end function coefficient_line
 
 
-   function coefficient_fields(coefficients, small) result(fields)
-      real(wp), intent(in) :: coefficients(2, 3)
+   !> NUMBERS in all columns of a small field, all but one of a large one, so that they stand apart.
+   function number_fields(numbers, small) result(fields)
+      real(wp), intent(in) :: numbers(:)
       logical, intent(in)  :: small
-      character(16) :: fields(6)
-      integer :: j, k
+      character(16) :: fields(size(numbers))
+      integer :: k
 
-      do k = 1, 3
-         do j = 1, 2
-            fields(2*k - 2 + j) = real_field_text(coefficients(j, k), width_of(small))
-         end do
+      do k = 1, size(numbers)
+         fields(k) = real_field_text(numbers(k), merge(8, 15, small))
       end do
-   end function coefficient_fields
-
-
-   !> Columns that a number may take: all of a small field, all but one of a large one, so that its numbers stand apart.
-   pure integer function width_of(small)
-      logical, intent(in) :: small
-
-      width_of = merge(8, 15, small)
-   end function width_of
+   end function number_fields
 
 
    !> A card NAME (or + for a continuation) with its FIELDS, eight a line, in large field eight a pair of lines. Eight blank
@@ -102,7 +90,7 @@ contains
       do first = 1, size(fields), 8
          associate (eight => fields(first:first + 7))
             if (all(eight == '')) then
-               lines = [lines, lone_plus()]
+               lines = [lines, joined('+', eight(:0), 8)]
             else if (small) then
                lines = [lines, joined(head, eight, 8)]
             else
@@ -114,13 +102,6 @@ contains
          head = '+'
       end do
    end function card_lines
-
-
-   pure function lone_plus() result(line)
-      character(80) :: line
-
-      line = '+'
-   end function lone_plus
 
 
    !> One line: HEAD in eight columns, then the FIELDS, WIDTH columns each.
@@ -137,5 +118,70 @@ contains
          line(first:first + width - 1) = fields(k)
       end do
    end function joined
+
+
+   !> VALUE in at most WIDTH columns, as NASTRAN writes it: the nearest number that fits, as 0.0125, 260.8628 or, where that
+   !! is nearer, in the short form with an exponent, 1.2346-5. It always has a decimal point, and reads back by parse_real.
+   function real_field_text(value, width) result(text)
+      real(wp), intent(in)      :: value !! |value| below 1E99 and not below 1E-99, or zero
+      integer, intent(in)       :: width !! 7 to 16
+      character(:), allocatable :: text
+      character(40) :: entry, best
+      real(wp) :: error, least, read_back
+      logical  :: ok
+      integer  :: k
+
+      best = '0.0'
+      least = huge(least)
+      do k = 1, 2*width - 1
+         if (k <= width) then
+            entry = plain_form(value, modulo(k, width), width)
+         else
+            entry = short_form(value, k - width - 1)
+         end if
+         if (len_trim(entry) > width) cycle
+         call parse_real(trim(entry), read_back, ok)
+         if (.not. ok) cycle
+         error = abs(read_back - value)
+         if (error >= least) cycle
+         least = error
+         best = entry
+      end do
+      text = trim(best)
+   end function real_field_text
+
+
+   !> VALUE with DECIMALS digits behind the point; a zero before the point where there is room, none where not.
+   function plain_form(value, decimals, width) result(entry)
+      real(wp), intent(in) :: value
+      integer, intent(in)  :: decimals, width
+      character(40) :: entry
+      character(12) :: layout
+
+      entry = repeat('*', len(entry))
+      if (abs(value) >= 1.0e16_wp) return
+      write (layout, '(a, i0, a)') '(f0.', decimals, ')'
+      write (entry, layout) value
+      if (len_trim(entry) >= width) return
+      if (entry(1:1) == '.') entry = '0'//trim(entry)
+      if (entry(1:2) == '-.') entry = '-0'//trim(entry(2:))
+   end function plain_form
+
+
+   !> VALUE with one digit before the point, DECIMALS behind it and an exponent without E: -1.25+7.
+   function short_form(value, decimals) result(entry)
+      real(wp), intent(in) :: value
+      integer, intent(in)  :: decimals
+      character(40) :: entry
+      character(16) :: layout
+      integer :: e, first
+
+      write (layout, '(a, i0, a)') '(es40.', decimals, 'e3)'
+      write (entry, layout) value
+      entry = adjustl(entry)
+      e = index(entry, 'E')
+      first = min(verify(entry(e + 2:), '0'), 3) + e + 1
+      entry = entry(:e - 1)//entry(e + 1:e + 1)//entry(first:)
+   end function short_form
 
 end module law_cards

@@ -5,7 +5,7 @@ module back_method
    use equations, only: equation_system, forces_in_bodies, form_structure_stiffness, solve_equations
    use failures, only: failure_type
    use interface_operator, only: joint_movement
-   use joint_laws, only: back_k_n, back_k_s, exceeds_limit, loading_work, rest_margin
+   use joint_laws, only: back_stiffness, exceeds_limit, loading_work, rest_margin
    use kinds, only: wp
    use model_data, only: joint_node_id, model_type
    use normal_stiffness, only: branch_load, branch_open, pressure_floor
@@ -70,27 +70,25 @@ contains
    end subroutine back_increment
 
 
-   !> Normal secants at the pressures, shear secants halfway between the last two.
+   !> Normal secants at the pressures, shear secants halfway between the last two; an open element has none.
    subroutine take_secants(model, analysis, iteration, now)
       type(model_type), intent(in)      :: model
       type(analysis_type), intent(in)   :: analysis
       integer, intent(in)               :: iteration
       type(iterate_type), intent(inout) :: now
-      real(wp) :: last
-      integer  :: i, k
+      real(wp) :: k(3)
+      integer  :: d, i
 
       do i = 1, size(model%interface)
-         associate (law => model%joints(model%interface(i)%joint)%law, area => model%interface(i)%area)
-            if (iteration == 1) now%k_shear(:, i) = back_k_s(law, area, now%p(i), now%movement(:2, i))
-            now%k_int(3, 3, i) = back_k_n(law%normal, area, analysis%states(i)%normal%p_av, now%p(i), now%movement(3, i))
-            do k = 1, 2
-               last = now%k_int(k, k, i)
-               now%k_int(k, k, i) = 0.0_wp
-               if (now%k_int(3, 3, i) <= 0.0_wp) cycle    ! open
-               now%k_int(k, k, i) = now%k_shear(k, i)
-               if (iteration >= 3) now%k_int(k, k, i) = 0.5_wp*(now%k_shear(k, i) + last)
-            end do
+         associate (element => model%interface(i), p_av => analysis%states(i)%normal%p_av)
+            k = back_stiffness(model%joints(element%joint)%law, element%area, p_av, now%p(i), now%movement(:, i))
          end associate
+         if (iteration > 1) k(:2) = now%k_shear(:, i)
+         if (iteration > 2) k(:2) = 0.5_wp*(k(:2) + [now%k_int(1, 1, i), now%k_int(2, 2, i)])
+         if (k(3) <= 0.0_wp) k = 0.0_wp
+         do d = 1, 3
+            now%k_int(d, d, i) = k(d)
+         end do
       end do
    end subroutine take_secants
 
@@ -103,18 +101,18 @@ contains
       type(analysis_type), intent(in)    :: analysis
       type(iterate_type), intent(inout)  :: now
       real(wp), intent(out)              :: change
-      integer :: i, k
+      real(wp) :: k(3), tau_change(2)
+      integer  :: i
 
       change = 0.0_wp
       do i = 1, size(model%interface)
-         associate (element => model%interface(i), movement => now%movement(:, i))
+         associate (element => model%interface(i), movement => now%movement(:, i), p_av => analysis%states(i)%normal%p_av)
             now%movement(:, i) = joint_movement(system%interface(i), analysis%u)
             now%p_new(i) = max(0.0_wp, now%k_int(3, 3, i)*movement(3)/element%area)
-            now%k_shear(:, i) = back_k_s(model%joints(element%joint)%law, element%area, now%p(i), movement(:2))
-            change = max(change, abs(now%p_new(i) - now%p(i)))
-            do k = 1, 2
-               change = max(change, abs((now%k_shear(k, i) - now%k_int(k, k, i))*movement(k))/element%area)
-            end do
+            k = back_stiffness(model%joints(element%joint)%law, element%area, p_av, now%p(i), movement)
+            now%k_shear(:, i) = k(:2)
+            tau_change = abs((k(:2) - [now%k_int(1, 1, i), now%k_int(2, 2, i)])*movement(:2))/element%area
+            change = max(change, abs(now%p_new(i) - now%p(i)), tau_change(1), tau_change(2))
          end associate
       end do
    end subroutine read_off
@@ -125,7 +123,7 @@ contains
       type(model_type), intent(in)       :: model
       type(iterate_type), intent(in)     :: now
       type(analysis_type), intent(inout) :: analysis
-      integer :: i, k
+      integer :: i
 
       do i = 1, size(model%interface)
          associate (state => analysis%states(i), element => model%interface(i), movement => now%movement(:, i), &
@@ -135,12 +133,10 @@ contains
             state%normal%k_n = now%k_int(3, 3, i)
             state%normal%sumf = max(0.0_wp, now%k_int(3, 3, i)*movement(3))
             state%normal%pressure = state%normal%sumf/element%area
-            do k = 1, 2
-               state%shear(k)%sense = sign(1.0_wp, movement(k))
-               state%shear(k)%delta = movement(k)
-               state%shear(k)%k_s = now%k_int(k, k, i)
-               state%shear(k)%tau = now%k_int(k, k, i)*movement(k)/element%area
-            end do
+            state%shear%sense = sign(1.0_wp, movement(:2))
+            state%shear%delta = movement(:2)
+            state%shear%k_s = [now%k_int(1, 1, i), now%k_int(2, 2, i)]
+            state%shear%tau = state%shear%k_s*movement(:2)/element%area
             state%slips = exceeds_limit(law, state, rest_margin)
             call tally_work(analysis%energy(element%joint), loading_work(law, element%area, state))
          end associate

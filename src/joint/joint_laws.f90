@@ -11,7 +11,7 @@ module joint_laws
 
    public :: element_stiffness_of, follow_element, rest_when_open
    public :: friction_limit, friction_excess, exceeds_limit
-   public :: back_k_n, back_k_s, loading_work
+   public :: back_stiffness, loading_work
 
    real(wp), parameter :: slip_margin = 1.0e-9_wp ! of the limit: rounding does not make a joint slip
    real(wp), parameter, public :: flag_margin = 1.0e-7_wp  !! of it: what a relief leaves is no slip in the next increment
@@ -147,27 +147,19 @@ contains
    end subroutine follow_element
 
 
-   !> BACK: normal secant at the pressure P [force/length], zero where the element is open: P is none and LAMBDA no approach.
-   pure real(wp) function back_k_n(law, area, p_av, p, lambda) result(k_n)
-      type(normal_law), intent(in) :: law
-      real(wp), intent(in)         :: area, p_av, p, lambda
-
-      k_n = 0.0_wp
-      if (p < pressure_floor*p_av .and. lambda < 0.0_wp) return
-      k_n = normal_secant(law, area, max(p, pressure_floor*p_av))
-   end function back_k_n
-
-
-   !> BACK: shear secants P(d)/d of the loading curves at the deflections DELTA and the pressure P, such that the stress is not
-   !! above the Coulomb limit [force/length].
-   pure function back_k_s(law, area, p, delta) result(k_s)
+   !> BACK: secants K = (k_sx, k_sy, k_n) of the loading curves, those of shear P(d)/d at the MOVEMENT and cut to the Coulomb limit,
+   !! the normal one of Eq. (9), all at the pressure P; k_n is zero where the element is open, without pressure and apart.
+   pure function back_stiffness(law, area, p_av, p, movement) result(k)
       type(joint_law), intent(in) :: law
-      real(wp), intent(in)        :: area, p, delta(2)
-      real(wp) :: k_s(2)
+      real(wp), intent(in)        :: area, p_av, p, movement(3)
+      real(wp) :: k(3), moved
 
-      k_s = area*cubic_secant(law%shear%load, abs(delta), max(0.0_wp, p))
-      if (law%has_friction .and. norm2(delta) > 0.0_wp) k_s = min(k_s, friction_limit(law, p)*area/norm2(delta))
-   end function back_k_s
+      moved = norm2(movement(:2))
+      k(:2) = area*cubic_secant(law%shear%load, abs(movement(:2)), max(0.0_wp, p))
+      if (law%has_friction .and. moved > 0.0_wp) k(:2) = min(k(:2), friction_limit(law, p)*area/moved)
+      k(3) = 0.0_wp
+      if (p >= pressure_floor*p_av .or. movement(3) >= 0.0_wp) k(3) = normal_secant(law%normal, area, max(p, pressure_floor*p_av))
+   end function back_stiffness
 
 
    !> Work done by shear, by normal forces on the way of an element from rest to STATE [force x length]: along the loading curves,

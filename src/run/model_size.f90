@@ -22,12 +22,9 @@ contains
       integer  :: b
 
       associate (bulk => deck%bulk)
-         nodes = bulk%n_grid
-         do b = 1, bulk%n_block2
-            nodes = nodes + product(bulk%block2(b)%divisions + 1.0_wp)
-         end do
-         do b = 1, bulk%n_block3
-            nodes = nodes + product(bulk%block3(b)%divisions + 1.0_wp)
+         nodes = size(bulk%grid)
+         do b = 1, size(bulk%block)
+            nodes = nodes + product(bulk%block(b)%divisions + 1.0_wp)
          end do
       end associate
       call shortage('the nodes of the model need at least', node_bytes*nodes, words, share)

@@ -2,33 +2,39 @@
 !! run is, and does nothing once one before it has ended the run; whatever ended it is said in one place, finish_run.
 module run_boxes
    use analysis_state, only: analysis_type, interface_stiffness, note_largest, start_analysis
-   use command_line, only: command_type, deck_argument, read_command_line
-   use command_tools, only: use_threads
+   use, intrinsic :: iso_fortran_env, only: error_unit
+   use c_library, only: end_run, write_bytes
+   use command_arguments, only: complain_of_input
+   use command_line, only: command_type, deck_argument, is_result_of, read_command_line
    use deck_errors, only: deck_error_list
    use deck_input, only: deck_type, read_deck
    use equation_solver, only: equation_system, solver_description
    use equations, only: form_body_stiffness, start_equations
    use failed_allocation, only: watch_allocations
+   use error_report, only: print_errors
    use failures, only: failure_type
    use load_path, only: recover_bodies
-   use machine, only: keep_memory
+   use machine, only: keep_memory, use_threads
    use model_build, only: build_model
-   use model_data, only: model_type
+   use model_data, only: model_type, n_points
    use model_size, only: check_model_size
    use progress, only: phase_build, phase_factor, phase_increments, phase_order, phase_recover, phase_write, progress_type
-   use results, only: finish_results, list_results => print_increment, print_stage_results => print_stage, remove_old_results, &
-                      results_type, start_results
-   use run_control, only: end_program, overwrites_input, report_checked, report_errors, report_failure, report_overwritten, &
-                          report_unreadable, report_unwritten, report_warnings
+   use results, only: discard_results, finish_results, history_ending, list_results => print_increment, listing_ending, &
+                      print_stage_results => print_stage, remove_old_results, results_type, start_results
    use stage_plan, only: factorisations_of, shows_bodies, stage_plan_type
+   use text_tools, only: plural
    implicit none
    private
 
    public :: start_program, read_data, build_structure, form_bodies, start_joints, another_stage, another_increment, &
-             print_increment, print_stage, finish_run
+             print_increment, print_stage, finish_run, end_program
 
-   ! how a run ended that did not come to its last increment
-   integer, parameter :: goes_on = 0, is_unreadable = 1, would_overwrite = 2, has_errors = 3, was_checked = 4, is_unwritten = 5
+   ! how a run ended that did not come to its last increment, and the exit status that this is
+   integer, parameter :: goes_on = 0, is_unreadable = 1, would_overwrite = 2, has_errors = 3, was_checked = 4, is_unsolved = 5, &
+                         is_unwritten = 6
+   integer, parameter :: status_of(0:6) = [0, 1, 1, 2, 0, 3, 4]
+
+   integer :: exit_status = 0 ! the highest so far
 
    !> The run of one deck.
    type, public :: run_type
@@ -72,6 +78,7 @@ contains
       type(run_type), intent(out)     :: run
       type(deck_type), intent(out)    :: deck
       logical :: readable
+      integer :: i
 
       run%argument = argument
       run%check_only = command%check_only
@@ -79,10 +86,13 @@ contains
       call read_deck(argument%path, deck, run%errors, readable)
       if (.not. readable) then
          run%ending = is_unreadable
-      else if (overwrites_input(argument, deck)) then
-         run%ending = would_overwrite
-      else if (.not. command%check_only) then
-         call remove_old_results(argument%listing, argument%history)
+         return
+      end if
+      do i = 2, deck%text%n_files
+         if (is_result_of(deck%text%files(i)%true_path, argument)) run%ending = would_overwrite
+      end do
+      if (.not. (is_over(run) .or. command%check_only)) then
+         call remove_old_results(argument%base)
       end if
    end subroutine read_data
 
@@ -126,7 +136,7 @@ contains
       call run%progress%enter(phase_write)
       call system%describe(solver)
       call run%progress%count_operations(solver%fixed_operations, solver%moving_operations, solver%assembly_time)
-      call start_results(run%argument%listing, run%argument%history, deck, model, plan, system, run%results, ok)
+      call start_results(run%argument%base, deck, model, plan, system, run%results, ok)
       if (.not. ok) run%ending = is_unwritten
    end subroutine form_bodies
 
@@ -216,21 +226,66 @@ contains
          call run%progress%enter(phase_write)
          call finish_results(plan, run%results, ok)
          call run%progress%finish()
-         call report_warnings(run%argument, run%results)
+         associate (n => run%results%listing%watch%n_warnings)
+            if (n > 0) write (error_unit, '(4a)') run%argument%name, ': ', plural(n, 'warning'), ' in the listing'
+         end associate
          if (.not. ok) run%ending = is_unwritten
       end if
+      if (run%failure%raised) run%ending = is_unsolved
       call run%progress%clear()
-      if (run%failure%raised) then
-         call report_failure(run%argument, run%failure, run%results)
-         return
-      end if
-      select case (run%ending)
-      case (is_unreadable);   call report_unreadable(run%argument)
-      case (would_overwrite); call report_overwritten(run%argument, deck)
-      case (has_errors);      call report_errors(deck, run%errors)
-      case (was_checked);     call report_checked(run%argument, model, plan)
-      case (is_unwritten);    call report_unwritten(run%argument, run%results)
-      end select
+      call say_how_it_ended(run, deck, model, plan)
+      exit_status = max(exit_status, status_of(run%ending))
    end subroutine finish_run
+
+
+   !> What is wrong, or that a deck is in order; no result is left of a run that did not come to its end.
+   subroutine say_how_it_ended(run, deck, model, plan)
+      type(run_type), intent(inout)     :: run
+      type(deck_type), intent(in)       :: deck
+      type(model_type), intent(in)      :: model
+      type(stage_plan_type), intent(in) :: plan
+      logical :: ok
+      integer :: i
+
+      associate (name => run%argument%name, base => run%argument%base)
+         select case (run%ending)
+         case (is_unreadable)
+            call complain_of_input(run%argument, 'a deck')
+         case (would_overwrite)
+            do i = 2, deck%text%n_files
+               if (is_result_of(deck%text%files(i)%true_path, run%argument)) write (error_unit, '(3a)') name, &
+                  ': its results would overwrite the INCLUDE file ', deck%text%files(i)%path
+            end do
+         case (has_errors)
+            call print_errors(error_unit, 'DECK', 'nothing solved', deck%text, run%errors)
+         case (was_checked)
+            call write_bytes(1, name//': no errors; '//plural(n_points(model), 'node')//', '// &
+                             plural(model%n_elements, 'body element')//', '// &
+                             plural(size(model%interface), 'interface element')//', '//plural(size(plan%stages), 'stage')// &
+                             new_line('a'), ok)
+            if (.not. ok) exit_status = max(exit_status, status_of(is_unwritten))
+         case (is_unsolved)
+            write (error_unit, '(4a)') name, ': ', run%failure%message, '; no results'
+            call discard_results(run%results)
+         case (is_unwritten)
+            if (base == '') then
+               write (error_unit, '(2a)') name, ': the listing cannot be written to the standard output'
+            else
+               write (error_unit, '(5a)') name, ': the results ', base//listing_ending, ' and ', base//history_ending, &
+                  ' cannot be written: is the folder there, and is there room on the disk?'
+            end if
+            call discard_results(run%results)
+         end select
+      end associate
+   end subroutine say_how_it_ended
+
+
+   !> End with STATUS, or the highest of the decks where that is higher.
+   subroutine end_program(status)
+      integer, intent(in), optional :: status !! 0
+
+      if (present(status)) exit_status = max(exit_status, status)
+      call end_run(exit_status)
+   end subroutine end_program
 
 end module run_boxes

@@ -6,12 +6,12 @@
 !! bodies have been condensed. Vectors go over all equations, and are set or read at these alone unless it says otherwise.
 !! FAULT is 0, no_memory, or an equation without stiffness.
 module equation_solver
-   use equation_numbering, only: equation_numbers
    use failures, only: failure_type
    use interface_operator, only: interface_element
    use kinds, only: long, wp
-   use model_data, only: model_type
+   use model_data, only: model_type, n_points
    use node_graph, only: node_graph_type
+   use text_tools, only: integer_text
    implicit none
    private
 
@@ -28,7 +28,10 @@ module equation_solver
       real(wp) :: assembly_time     = 0.0_wp         !! of the elements, all threads together [s]
    end type solver_description
 
-   type, abstract, extends(equation_numbers), public :: equation_system
+   type, abstract, public :: equation_system
+      integer :: n = 0                               !! unknowns
+      integer, allocatable  :: number(:, :)          !! (dimension, n_nodes) equation, 0: held or without element
+      integer, allocatable  :: node(:), direction(:) !! (n) what an equation belongs to
       integer, allocatable  :: equations(:)          !! that the increments solve for, ascending
       integer, allocatable  :: retained(:)           !! nodes that the increments see, ascending: those of the equations, and of
                                                      !! interface elements
@@ -45,6 +48,8 @@ module equation_solver
       procedure(start_solver), deferred     :: start
       procedure(form_bodies), deferred      :: form_bodies
       procedure(add_to_bodies), deferred    :: add_to_bodies
+      procedure :: number_unknowns
+      procedure :: report_fault
       procedure :: lock
       procedure :: held_now
       procedure :: condense
@@ -115,6 +120,32 @@ module equation_solver
 
 contains
 
+   !> Number the free components, node after node in ORDER.
+   subroutine number_unknowns(self, model, order)
+      class(equation_system), intent(inout) :: self
+      type(model_type), intent(in)          :: model
+      integer, intent(in)                   :: order(:)
+      integer :: d, i
+
+      self%n = 0
+      self%number = spread([(0, d = 1, model%dimension)], 2, model%n_nodes)
+      self%node = [(0, i = 1, count(.not. model%held(:, order)))]
+      self%direction = self%node
+      do i = 1, size(order)
+         if (.not. model%used(order(i))) cycle
+         do d = 1, model%dimension
+            if (model%held(d, order(i))) cycle
+            self%n = self%n + 1
+            self%number(d, order(i)) = self%n
+            self%node(self%n) = order(i)
+            self%direction(self%n) = d
+         end do
+      end do
+      self%node = self%node(:self%n)
+      self%direction = self%direction(:self%n)
+   end subroutine number_unknowns
+
+
    !> From now on the unknown of EQUATION is held: every solution has zero there.
    subroutine lock(self, equation)
       class(equation_system), intent(inout) :: self
@@ -157,5 +188,38 @@ contains
 
       x(self%equations) = u(self%equations)
    end subroutine recover
+
+
+   !> FAULT, an equation without stiffness or no_memory, in words.
+   subroutine report_fault(self, model, fault, where, failure)
+      class(equation_system), intent(in) :: self
+      type(model_type), intent(in)       :: model
+      integer, intent(in)                :: fault
+      character(*), intent(in)           :: where
+      type(failure_type), intent(inout)  :: failure
+
+      if (fault == no_memory) then
+         call failure%raise(where//'no memory for the factor of '//integer_text(self%n)//' equations')
+      else if (fault > 0) then
+         call failure%raise(where//'the structure is a mechanism: '// &
+            what_is_loose(model, self%node(fault), self%direction(fault))// &
+            ' (not supported there, or every joint that held it is open)')
+      end if
+   end subroutine report_fault
+
+
+   !> What has no stiffness, in words.
+   pure function what_is_loose(model, node, d) result(words)
+      type(model_type), intent(in) :: model
+      integer, intent(in)          :: node, d
+      character(:), allocatable    :: words
+      character(1), parameter :: direction_name(3) = ['X', 'Y', 'Z']
+
+      if (node <= n_points(model)) then
+         words = 'node '//integer_text(model%node_id(node))//' has no stiffness in direction '//direction_name(d)
+      else
+         words = 'nothing holds BOLT '//integer_text(model%sections(node - n_points(model))%bolt)//' together at its section'
+      end if
+   end function what_is_loose
 
 end module equation_solver

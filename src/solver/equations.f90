@@ -6,7 +6,6 @@ module equations
    use case_control, only: solver_auto
    use equation_solver, only: equation_system
    use failures, only: failure_type
-   use fault_report, only: report_fault
    use interface_operator, only: add_global_force, global_stiffness, relative_movement
    use kinds, only: wp
    use model_data, only: model_type, n_bars
@@ -73,7 +72,7 @@ contains
       integer :: fault, i
 
       call system%form_bodies(model, fault)
-      call report_fault(model, system, fault, '', failure)
+      call system%report_fault(model, fault, '', failure)
       if (failure%raised) return
       do i = 1, n_bars(model)
          if (model%bars(i)%bolt == 0) call add_bar(model, i, system)
@@ -135,7 +134,7 @@ contains
          system%k_int(:, :, i) = global_stiffness(system%interface(i), k_int(:, :, i))
       end do
       call system%form_structure(fault)
-      call report_fault(model, system, fault, system%where, failure)
+      call system%report_fault(model, fault, system%where, failure)
    end subroutine form_structure_stiffness
 
 
@@ -168,7 +167,7 @@ contains
          call gather(system, f, x)
       end if
       call system%solve(x, fault)
-      call report_fault(model, system, fault, system%where, failure)
+      call system%report_fault(model, fault, system%where, failure)
       if (failure%raised) return
       call put(system, x, u)
       if (moves) u = u + moved

@@ -10,7 +10,10 @@ module front_layout
    implicit none
    private
 
-   public :: lay_out_fronts, postpone_joints, front_operations
+   public :: choose_layout, lay_out_fronts, postpone_joints, front_operations, bytes_needed
+
+   real(wp), parameter :: entry_operations = 25.0_wp      !! what it costs to move one entry of a front, in operations on it
+   integer, parameter  :: part_nodes(3) = [200, 800, 3200] !! sizes of subtrees that are tried
 
    !> Fronts stand in the order of elimination: children before parents, a subtree without gaps.
    type, public :: front_layout_type
@@ -31,6 +34,66 @@ module front_layout
    end type front_layout_type
 
 contains
+
+   !> The LAYOUT with least work for so many FACTORISATIONS, and in words which WAY it has with the joints. Parts are tried only
+   !! where joints inside take less than joints last.
+   subroutine choose_layout(graph, order, weight, in_joint, factorisations, layout, way)
+      type(node_graph_type), intent(in)      :: graph
+      integer, intent(in)                    :: order(:), weight(:), factorisations
+      logical, intent(in)                    :: in_joint(:)
+      type(front_layout_type), intent(inout) :: layout
+      character(:), allocatable, intent(out) :: way
+      integer, allocatable :: postponed(:)
+      integer :: i
+
+      way = 'LAST'
+      call lay_out_fronts(graph, order, weight, in_joint, .true., layout)
+      call compare_with(order, 'INSIDE')
+      if (way == 'LAST') return
+      do i = 1, size(part_nodes)
+         postponed = order
+         call postpone_joints(graph, in_joint, part_nodes(i), postponed)
+         call compare_with(postponed, 'LAST IN PARTS')
+      end do
+
+   contains
+
+      subroutine compare_with(other, its_way)
+         integer, intent(in)      :: other(:)
+         character(*), intent(in) :: its_way
+         type(front_layout_type)  :: candidate
+
+         call lay_out_fronts(graph, other, weight, in_joint, .false., candidate)
+         if (total_work(candidate, factorisations) >= total_work(layout, factorisations)) return
+         layout = candidate
+         way = its_way
+      end subroutine compare_with
+
+   end subroutine choose_layout
+
+
+   !> Operations of the whole run.
+   pure real(wp) function total_work(layout, factorisations)
+      type(front_layout_type), intent(in) :: layout
+      integer, intent(in)                 :: factorisations
+
+      total_work = layout%fixed_operations &
+                   + factorisations*(layout%moving_operations + entry_operations*layout%moving_entries)
+   end function total_work
+
+
+   !> The factor; what moving fronts begin with: what is left to them, and elements, which are kept entry by entry and with two
+   !! indices, those of a regular mesh; the update matrices on the way.
+   pure real(wp) function bytes_needed(layout, n, dimension)
+      type(front_layout_type), intent(in) :: layout
+      integer, intent(in)                 :: n         !! unknowns
+      integer, intent(in)                 :: dimension
+      real(wp) :: of_elements
+
+      of_elements = 0.5_wp*dimension*3**dimension*n
+      bytes_needed = 8.0_wp*(layout%panel_entries + layout%peak_entries) + 16.0_wp*(layout%kept_entries + of_elements)
+   end function bytes_needed
+
 
    !> Lay out the fronts of GRAPH eliminated along ORDER. With JOINTS_LAST the nodes with IN_JOINT go to the end, all into one
    !! front.

@@ -3,7 +3,6 @@
 module skyline_solver
    use body_elements, only: coupled_stiffness
    use element_kinds, only: max_coupled_dofs
-   use equation_numbering, only: number_unknowns
    use equation_solver, only: equation_system, pivot_tolerance, solver_description
    use failures, only: failure_type
    use interface_equations, only: interface_equations_type, list_interface_equations
@@ -47,12 +46,12 @@ contains
       integer :: i
 
       call reverse_cuthill_mckee(graph, order)
-      call number_unknowns(model, [(i, i = 1, model%n_nodes)], self)
+      call self%number_unknowns(model, [(i, i = 1, model%n_nodes)])
       call lay_out_profile(model, self, first_row_as_numbered, self%profile_as_numbered)
-      call number_unknowns(model, order, self)
+      call self%number_unknowns(model, order)
       call lay_out_profile(model, self, self%first_row, self%profile)
       if (self%profile < self%profile_as_numbered) return
-      call number_unknowns(model, [(i, i = 1, model%n_nodes)], self)
+      call self%number_unknowns(model, [(i, i = 1, model%n_nodes)])
       call move_alloc(first_row_as_numbered, self%first_row)
       self%profile = self%profile_as_numbered
    end subroutine lay_out

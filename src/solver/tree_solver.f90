@@ -4,26 +4,34 @@
 !! joints inside: they stay where the dissection puts them;
 !! joints last in parts: in every subtree up to some size they come last, the bodies are condensed piece by piece.
 module tree_solver
-   use equation_numbering, only: number_unknowns
    use equation_solver, only: equation_system, solver_description
    use failures, only: failure_type
-   use front_factor, only: add_to_moving, factorise_fixed
-   use front_layout, only: front_layout_type, lay_out_fronts, postpone_joints
-   use front_solve, only: eliminate_fixed, moving_times_vector, recover_fixed
+   use conjugate_gradients, only: iterate_moving
+   use earlier_solutions, only: earlier_solutions_type, forget_solutions, guess_solution, note_solution
+   use factor_reuse, only: factor_reuse_type, forget_factor, may_reuse, note_factor, note_failure, note_steps
+   use front_factor, only: add_to_moving, factorise_fixed, factorise_moving
+   use front_layout, only: bytes_needed, choose_layout, front_layout_type
+   use front_solve, only: eliminate_fixed, moving_times_vector, recover_fixed, solve_moving
    use front_tree, only: front_tree_type, largest_diagonal, start_front_tree
    use kinds, only: long, wp
    use memory_need, only: check_memory
    use model_data, only: model_type, n_bars, n_sections
-   use moving_solution, only: forget_moving, form_moving, moving_factor_type, solve_with_joints
    use nested_dissection, only: dissect
    use node_graph, only: node_graph_type
    use text_tools, only: integer_text
    implicit none
    private
 
-   real(wp), parameter :: entry_operations = 25.0_wp !! what it costs to move one entry of a front, in operations on it
+   real(wp), parameter :: step_tolerance = 1.0e-13_wp !! of conjugate gradients: share of the energy of the solution, as a length
 
-   integer, parameter :: part_nodes(3) = [200, 800, 3200] ! sizes of subtrees that are tried
+   !> What is known of the stiffness now, beside the factor in the fronts.
+   type, public :: moving_factor_type
+      logical :: is_own = .false.                     !! whether the factor is that of the stiffness now, not an earlier one
+      logical :: is_awaited = .false.                 !! whether the one solution that is wanted is still to come
+      real(wp), allocatable :: k_int(:, :, :)         !! (3, 3, n) of interface elements, that the factor is of [force/length]
+      type(factor_reuse_type) :: reuse                !! when to use an earlier one
+      type(earlier_solutions_type) :: earlier         !! with which conjugate gradients begin
+   end type moving_factor_type
 
    type, extends(equation_system), public :: tree_solver_type
       type(front_tree_type) :: fronts
@@ -73,7 +81,7 @@ contains
       call choose_layout(graph, order, weight, in_joint, self%factorisations, layout, self%way)
       call check_memory(sum(weight), model%dimension, bytes_needed(layout, sum(weight), model%dimension), failure)
       if (failure%raised) return
-      call number_unknowns(model, layout%order, self)
+      call self%number_unknowns(model, layout%order)
       call start_front_tree(model, self%number, layout, self%fronts)
       self%factor_entries = int(layout%factor_entries, long)
       self%fixed_operations = layout%fixed_operations
@@ -104,66 +112,6 @@ contains
    end subroutine mark_joints
 
 
-   !> The LAYOUT with least work for so many FACTORISATIONS, and in words which WAY it has with the joints. Parts are tried only
-   !! where joints inside take less than joints last.
-   subroutine choose_layout(graph, order, weight, in_joint, factorisations, layout, way)
-      type(node_graph_type), intent(in)      :: graph
-      integer, intent(in)                    :: order(:), weight(:), factorisations
-      logical, intent(in)                    :: in_joint(:)
-      type(front_layout_type), intent(inout) :: layout
-      character(:), allocatable, intent(out) :: way
-      integer, allocatable :: postponed(:)
-      integer :: i
-
-      way = 'LAST'
-      call lay_out_fronts(graph, order, weight, in_joint, .true., layout)
-      call compare_with(order, 'INSIDE')
-      if (way == 'LAST') return
-      do i = 1, size(part_nodes)
-         postponed = order
-         call postpone_joints(graph, in_joint, part_nodes(i), postponed)
-         call compare_with(postponed, 'LAST IN PARTS')
-      end do
-
-   contains
-
-      subroutine compare_with(other, its_way)
-         integer, intent(in)      :: other(:)
-         character(*), intent(in) :: its_way
-         type(front_layout_type)  :: candidate
-
-         call lay_out_fronts(graph, other, weight, in_joint, .false., candidate)
-         if (total_work(candidate, factorisations) >= total_work(layout, factorisations)) return
-         layout = candidate
-         way = its_way
-      end subroutine compare_with
-
-   end subroutine choose_layout
-
-
-   !> Operations of the whole run.
-   pure real(wp) function total_work(layout, factorisations)
-      type(front_layout_type), intent(in) :: layout
-      integer, intent(in)                 :: factorisations
-
-      total_work = layout%fixed_operations &
-                   + factorisations*(layout%moving_operations + entry_operations*layout%moving_entries)
-   end function total_work
-
-
-   !> The factor; what moving fronts begin with: what is left to them, and elements, which are kept entry by entry and with two
-   !! indices, those of a regular mesh; the update matrices on the way.
-   pure real(wp) function bytes_needed(layout, n, dimension)
-      type(front_layout_type), intent(in) :: layout
-      integer, intent(in)                 :: n         !! unknowns
-      integer, intent(in)                 :: dimension
-      real(wp) :: of_elements
-
-      of_elements = 0.5_wp*dimension*3**dimension*n
-      bytes_needed = 8.0_wp*(layout%panel_entries + layout%peak_entries) + 16.0_wp*(layout%kept_entries + of_elements)
-   end function bytes_needed
-
-
    !> [k_b]; the fronts that do not move are eliminated.
    subroutine form_bodies(self, model, fault)
       class(tree_solver_type), intent(inout) :: self
@@ -181,7 +129,7 @@ contains
       real(wp), intent(in)                   :: k(:, :)
 
       call add_to_moving(self%fronts, rows, k)
-      call forget_moving(self%factor)
+      call forget(self)
    end subroutine add_to_bodies
 
 
@@ -191,7 +139,7 @@ contains
 
       self%locked = [self%locked, equation]
       self%fronts%locked(equation) = .true.
-      call forget_moving(self%factor)
+      call forget(self)
    end subroutine lock
 
 
@@ -206,21 +154,94 @@ contains
    end subroutine condense
 
 
+   !> Factorise the fronts that move with the joints as they are now, unless an earlier factor may do.
    subroutine form_structure(self, fault)
       class(tree_solver_type), intent(inout) :: self
       integer, intent(out)                   :: fault
+      logical :: reuse
 
-      call form_moving(self%fronts, self%k_int, self%one_solution, self%factor, fault)
+      fault = 0
+      reuse = .false.
+      associate (factor => self%factor)
+         if (self%one_solution) call may_reuse(factor%reuse, reuse)
+         factor%is_awaited = self%one_solution .and. factor%reuse%most_steps > 0
+         factor%is_own = .false.
+      end associate
+      if (.not. reuse) call factorise(self, fault)
    end subroutine form_structure
 
 
+   subroutine factorise(self, fault)
+      class(tree_solver_type), intent(inout) :: self
+      integer, intent(out)                   :: fault
+
+      call factorise_moving(self%fronts, self%k_int, fault)
+      self%factor%is_own = fault == 0
+      if (fault == 0) then
+         self%factor%k_int = self%k_int
+         call note_factor(self%factor%reuse)
+      else
+         call forget_factor(self%factor%reuse)
+      end if
+   end subroutine factorise
+
+
+   !> By the factor; where that is an earlier one by conjugate gradients, and only where these do not get there by a new factor.
    subroutine solve(self, x, fault)
       class(tree_solver_type), intent(inout) :: self
       real(wp), intent(inout)                :: x(:)
       integer, intent(out)                   :: fault
+      real(wp) :: b(size(self%equations))
+      logical  :: found
 
-      call solve_with_joints(self%fronts, self%locked, self%k_int, self%factor, x, fault)
+      fault = 0
+      b = x(self%equations)
+      found = .false.
+      if (.not. self%factor%is_own) then
+         call iterate(self, b, x, found)
+         if (.not. found) call factorise(self, fault)
+         if (fault /= 0) return
+      end if
+      if (.not. found) then
+         x(self%equations) = b
+         x(self%locked) = 0.0_wp
+         call solve_moving(self%fronts, x)
+      end if
+      if (self%factor%is_awaited) call note_solution(self%fronts, self%k_int, b, x, self%factor%earlier)
+      self%factor%is_awaited = .false.
    end subroutine solve
+
+
+   !> Conjugate gradients with the factor there is; whether the solution is FOUND in time.
+   subroutine iterate(self, b, x, found)
+      class(tree_solver_type), intent(inout) :: self
+      real(wp), intent(in)                   :: b(:)
+      real(wp), intent(inout)                :: x(:)
+      logical, intent(out)                   :: found
+      real(wp) :: residual(self%n), work
+      integer  :: steps
+
+      associate (factor => self%factor)
+         call guess_solution(self%fronts, self%k_int, factor%earlier, b, x, residual, work)
+         call iterate_moving(self%fronts, self%k_int - factor%k_int, work, step_tolerance, factor%reuse%most_steps, residual, x, &
+                             steps)
+         found = steps <= factor%reuse%most_steps
+         if (found) then
+            call note_steps(factor%reuse, steps)
+         else
+            call note_failure(factor%reuse)
+         end if
+      end associate
+   end subroutine iterate
+
+
+   !> The bodies, or what is held, are others now: neither the factor nor solutions are of use any more.
+   subroutine forget(self)
+      class(tree_solver_type), intent(inout) :: self
+
+      call forget_factor(self%factor%reuse)
+      call forget_solutions(self%factor%earlier)
+   end subroutine forget
 
 
    subroutine multiply(self, x, y)

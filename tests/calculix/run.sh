@@ -4,9 +4,9 @@
 #
 #    run.sh PROGRAM WORK_FOLDER [store]
 #
-# Every deck here is a cantilever under an end load and under its own weight. convert.awk makes input of CalculiX from the deck, ccx
-# solves it, compare.awk compares. Where ccx is not installed (Debian: calculix-ccx) the displacements stored here as NAME.dat, of
-# CalculiX 2.20, take its place; where it is, both are compared. `store` makes the stored ones anew.
+# Every deck is a cantilever under an end load and under its own weight: deck.awk writes it, convert.awk makes input of CalculiX
+# from it, ccx solves it, compare.awk compares. Where ccx is not installed (Debian: calculix-ccx) the displacements stored here as
+# NAME.dat, of CalculiX 2.20, take its place; where it is, both are compared. `store` makes the stored ones anew.
 #
 #    tetra   CTETRA is C3D4                   tria    CTRIA3 in plane stress is CPE3 with converted constants
 #    hexa    plain CHEXA is C3D8              quad    plain CQUAD4 likewise CPE4
@@ -32,9 +32,10 @@ agrees() {
 }
 
 for name in $decks; do
-   "$program" -q -o "$work" "$here/$name.bdf" || { fail "$name: it does not run"; continue; }
+   awk -v name="$name" -f "$here/deck.awk" > "$work/$name.bdf"
+   "$program" -q -o "$work" "$work/$name.bdf" || { fail "$name: it does not run"; continue; }
    if command -v ccx > /dev/null; then
-      awk -f "$here/convert.awk" "$here/$name.bdf" > "$work/$name.inp" && rm -f "$work/$name.dat" &&
+      awk -f "$here/convert.awk" "$work/$name.bdf" > "$work/$name.inp" && rm -f "$work/$name.dat" &&
          (cd "$work" && ccx "$name" > "$name.log" 2>&1)
       if [ ! -s "$work/$name.dat" ]; then tail -n 5 "$work/$name.log"; fail "$name: ccx does not solve it"; continue; fi
       agrees "$name" "$work/$name.dat" && pass || { cat "$work/differences"; fail "$name: against CalculiX"; }
@@ -47,7 +48,7 @@ done
 command -v ccx > /dev/null || echo 'ccx is not installed: only the stored displacements of CalculiX are compared'
 
 # the comparison notices a modulus that is wrong in its fifth digit, and a node that is missing
-sed 's/^MAT1,1,210000.0/MAT1,1,210005.0/' "$here/tetra.bdf" > "$work/stiff.bdf"
+sed 's/^MAT1,1,210000.0/MAT1,1,210005.0/' "$work/tetra.bdf" > "$work/stiff.bdf"
 "$program" -q -o "$work" "$work/stiff.bdf"
 agrees stiff "$here/tetra.dat" && fail 'a wrong modulus is not noticed' || pass
 sed '$d' "$here/tetra.dat" > "$work/short.dat"

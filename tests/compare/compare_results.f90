@@ -9,9 +9,9 @@
 !! Different are also: lines, rows, columns or words more or less; another word; a word for a number;
 !! NaN, Infinity or an overflow field (****) in either file, even in both; an empty file.
 program compare_results
-   use, intrinsic :: iso_fortran_env, only: error_unit, real64
+   use, intrinsic :: iso_fortran_env, only: real64
    use comparison_rules, only: rule, rule_set, read_rules, csv_rule, listing_rule, find_block, allowed
-   use comparison_text, only: text_file, open_text, next_line, close_text, next_token, number_kind, &
+   use comparison_text, only: argument, give_up, text_file, open_text, next_line, close_text, next_token, next_field, number_kind, &
                               number_value, same_integer, defect, text_of, not_a_number, an_integer
    implicit none
 
@@ -186,19 +186,6 @@ contains
       if (at_a <= len(line_a) + 1) call report(found, 'row', text_of(i)//' fields', 'more fields', 'as many fields')
    end subroutine compare_fields
 
-   !> Field text(first:last) that starts at `at`; then `at` is the start of the next one, past len(text) + 1 if none.
-   pure subroutine next_field(text, at, first, last)
-      character(len=*), intent(in) :: text
-      integer, intent(inout) :: at
-      integer, intent(out) :: first, last
-      integer :: comma
-
-      comma = index(text(at:), ',')
-      first = at
-      last = merge(at + comma - 2, len(text), comma > 0)
-      at = last + 2
-   end subroutine next_field
-
    !> Two words or fields that differ as text. With `strict_integers` an integer reference wants the same integer.
    subroutine compare_values(limit, strict_integers, text_r, text_a, found)
       type(rule), intent(in) :: limit
@@ -336,22 +323,5 @@ contains
       is_csv = .false.
       if (len(name) >= 4) is_csv = name(len(name) - 3:) == '.csv'
    end function is_csv
-
-   function argument(i)
-      integer, intent(in) :: i
-      character(len=:), allocatable :: argument
-      integer :: length
-
-      call get_command_argument(i, length=length)
-      allocate (character(len=length) :: argument)
-      call get_command_argument(i, argument)
-   end function argument
-
-   subroutine give_up(why)
-      character(len=*), intent(in) :: why
-
-      write (error_unit, '(a)') why
-      stop 2, quiet=.true.
-   end subroutine give_up
 
 end program compare_results

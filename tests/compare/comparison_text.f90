@@ -1,13 +1,13 @@
 !> Text as the comparison sees it: files read line by line without a limit on
 !! the length of a line, tokens between blanks, numbers, defects.
 module comparison_text
-   use, intrinsic :: iso_fortran_env, only: real64, int64
+   use, intrinsic :: iso_fortran_env, only: error_unit, real64, int64
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    implicit none
    private
 
-   public :: text_file, open_text, next_line, close_text
-   public :: next_token, word, number_kind, number_value, same_integer, defect, text_of
+   public :: text_file, open_text, next_line, close_text, argument, give_up
+   public :: next_token, next_field, word, number_kind, number_value, same_integer, defect, text_of
 
    !> What number_kind finds in a token.
    integer, parameter, public :: not_a_number = 0, an_integer = 1, a_real = 2
@@ -132,6 +132,19 @@ contains
       end do
       last = position - 1
    end subroutine next_token
+
+   !> Field text(first:last) that starts at `at`; then `at` is the start of the next one, past len(text) + 1 if none.
+   pure subroutine next_field(text, at, first, last)
+      character(len=*), intent(in) :: text
+      integer, intent(inout) :: at
+      integer, intent(out) :: first, last
+      integer :: comma
+
+      comma = index(text(at:), ',')
+      first = at
+      last = merge(at + comma - 2, len(text), comma > 0)
+      at = last + 2
+   end subroutine next_field
 
    !> The n-th token of a short text, empty if there are fewer.
    pure function word(text, n) result(token)
@@ -299,5 +312,24 @@ contains
       write (digits, '(i0)') n
       text_of = trim(digits)
    end function text_of
+
+   !> The i-th word of the command line.
+   function argument(i)
+      integer, intent(in) :: i
+      character(len=:), allocatable :: argument
+      integer :: length
+
+      call get_command_argument(i, length=length)
+      allocate (character(len=length) :: argument)
+      call get_command_argument(i, argument)
+   end function argument
+
+   !> Stop with exit status 2.
+   subroutine give_up(why)
+      character(len=*), intent(in) :: why
+
+      write (error_unit, '(a)') why
+      stop 2, quiet=.true.
+   end subroutine give_up
 
 end module comparison_text

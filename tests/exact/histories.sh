@@ -130,17 +130,12 @@ LOAD,2,1.0,1.0,1,1.0,9
 JINCR,1,10,ARITH,0.1
 ENDDATA
 DECK
+slope='if(100*(70 - 8000*before(delta_x)) > 0, 100*(70 - 8000*before(delta_x)), 0)'
 run range && {
-   judge 'a softening cubic: tangents by hand, never below zero' -F, '
-      FNR == 1 { for (k = 1; k <= NF; k++) at[$k] = k; next }
-      $1 == 2 && $(at["joint"]) == 1 {
-         n++; k = 100 * (70 - 8000 * d); if (k < 0) { k = 0; cut++ }
-         step = 6 / (1000 + k); d += step; tau += k * step / 100
-         if (($(at["delta_x"]) - d)^2 > 1e-20 || ($(at["tau_x"]) - tau)^2 > 1e-16 || ($(at["k_sx"]) - k)^2 > 1e-10) print $2 ": " $(at["delta_x"]), $(at["tau_x"]), $(at["k_sx"]) ", not " d, tau, k
-      }
-      END { if (n != 10 || !cut) print n " rows, cut off " cut; print "checked " n }' "$work/range.joint.csv"
-   first=$(awk -F, 'FNR == 1 { for (k = 1; k <= NF; k++) at[$k] = k; next } $1 == 2 && $(at["joint"]) == 1 && $(at["delta_x"]) > 0.006 {
-      printf "%d %.5f", $2, $(at["delta_x"]) * 1000; exit }' "$work/range.joint.csv")
+   ask 'a softening cubic: tangents by hand, never below zero' range rows 'stage = 2 and joint = 1' count 10 all 'min(k_sx) = 0' \
+      all "k_sx = $slope within 1e-5 and delta_x = before(delta_x) + 6/(1000 + $slope) within 1e-10" \
+      all "tau_x = before(tau_x) + $slope/100*6/(1000 + $slope) within 1e-8"
+   first=$(value range rows 'stage = 2 and joint = 1 and delta_x > 0.006' print 'first(increment)' print 'first(delta_x*1000)')
    judge 'range left: the warning names node, increment, p and d' -v first="$first" '
       /WARNING: NODE/ {
          n++; split(first, v, " ")
@@ -160,17 +155,10 @@ run range_in && {
 }
 
 # Shear under a pressure that rises, one increment a curve (Fig. 4b), by hand: k_s of each increment at the pressure before it.
-run_input shear_pressure && judge 'shear under rising pressure, STEP' -F, '
-   FNR == 1 { for (k = 1; k <= NF; k++) at[$k] = k; next }
-   { p = $(at["pressure"]) }
-   $1 == 1 { before = p; next }
-   $1 == 2 {
-      n++; k = 100 * (20 + 100 * before - 2 * (1000 + 2000 * before) * d + 3 * (10000 + 40000 * before) * d^2)
-      d += 2 / k
-      if (($(at["k_sx"]) / k - 1)^2 > 1e-20 || ($(at["delta_x"]) / d - 1)^2 > 1e-20) print $2 ": " $(at["k_sx"]), $(at["delta_x"]) ", not " k, d
-      before = p
-   }
-   END { if (n != 10) print n " rows"; print "checked " n }' "$work/shear_pressure.joint.csv"
+before='before(pressure)' d='before(delta_x)'
+slope="100*(20 + 100*$before - 2*(1000 + 2000*$before)*$d + 3*(10000 + 40000*$before)*$d^2)"
+run_input shear_pressure && ask 'shear under rising pressure, STEP' shear_pressure \
+   all "stage != 2 or k_sx = $slope within 1e-10*k_sx and delta_x = $d + 2/($slope) within 1e-10*delta_x" rows 'stage = 2' count 10
 
 # The first increment of an element is the first that reaches it: two elements with the same p, one loaded a stage later, and
 # a stage without load before all others.
@@ -200,12 +188,8 @@ DECK
 for before in '' 'SUBCASE 1
 '; do
    late late "$before"
-   run late && judge 'an element loaded a stage later goes the same way' -F, '
-      FNR == 1 { for (k = 1; k <= NF; k++) at[$k] = k; next }
-      $1 == 6 && $2 == 10 { lambda[$(at["node1"])] = $(at["lambda"]); n++ }
-      END { if (n != 2 || (lambda[1] / lambda[2] - 1)^2 > 1e-24 || (lambda[1] / 8.4809379e-3 - 1)^2 > 1e-12)
-               print n, lambda[1], lambda[2]
-            print "checked " n }' "$work/late.joint.csv"
+   run late && ask 'an element loaded a stage later goes the same way' late rows 'stage = 6 and increment = 10' count 2 \
+      all 'lambda = 8.4809379e-3 within 8e-9' all 'lambda = first(lambda) within 8e-15'
 done
 
 # NORM asks its questions of the state that is reached (STEP). An element beside a bar of 8000, as a glue that does not let go would be

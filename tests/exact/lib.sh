@@ -1,6 +1,6 @@
-# For run.sh: run a deck, take a value out of its results, compare. Every comparison counts one test; a value that is not a
-# number fails.
+# For run.sh: run a deck, ask its results, compare. Every comparison counts one test; a value that is not a number fails.
 
+export LC_ALL=C
 passed=0 failed=0
 
 fail() { echo "FAILED $1"; failed=$((failed + 1)); }
@@ -19,36 +19,30 @@ run() {
 # run_input NAME: a deck of input/
 run_input() { cp "input/$1.bdf" "$work/$1.bdf" && run "$1"; }
 
-# cell NAME STAGE INCREMENT NODE1 COLUMN [JOINT]
-cell() {
-   awk -F, -v s="$2" -v i="$3" -v n="$4" -v c="$5" -v j="${6:-}" '
-      FNR == 1 { for (k = 1; k <= NF; k++) at[$k] = k; next }
-      $1 == s && $2 == i && $(at["node1"]) == n && (j == "" || $(at["joint"]) == j) { print $(at[c]); found = 1; exit }
-      END { if (!found) print "missing" }' "$work/$1.joint.csv"
+# ask WORDS NAME ACTION...: whether the history of NAME is so; value NAME ACTION...: what it prints. See compare/query_results.f90
+ask() {
+   local words=$1
+   shift
+   if value "$@" > "$work/said" 2>&1; then passed=$((passed + 1)); else cat "$work/said"; fail "$words"; fi
 }
+value() { "$query" "$work/$1.joint.csv" "${@:2}"; }
 
-# near WORDS ACTUAL EXPECTED RELATIVE [ABSOLUTE]
-near() {
-   if awk -v a="$2" -v e="$3" -v r="$4" -v t="${5:-0}" 'BEGIN {
-         number = "^[ \t]*[-+]?[0-9.]+([eE][-+]?[0-9]+)?[ \t]*$"
-         if (a !~ number || e !~ number) exit 1
-         d = a - e; if (d < 0) d = -d
-         m = e < 0 ? -e : e + 0
-         exit !(d <= r * m + t) }'; then
-      passed=$((passed + 1))
-   else
-      fail "$1: $2, expected $3"
-   fi
-}
+# cell NAME STAGE INCREMENT NODE1 COLUMN [JOINT]
+cell() { value "$1" rows "stage = $2 and increment = $3 and node1 = $4${6:+ and joint = $6}" print "$5"; }
+
+# holds WORDS CONDITION, near WORDS ACTUAL EXPECTED RELATIVE [ABSOLUTE], number EXPRESSION: numbers without a history
+holds() { if "$query" - all "$2" > "$work/said" 2>&1; then passed=$((passed + 1)); else cat "$work/said"; fail "$1"; fi; }
+near() { holds "$1: $2, expected $3" "($2) = ($3) within ($4)*abs($3) + (${5:-0})"; }
+number() { "$query" - print "$1"; }
 
 # same WORDS ACTUAL EXPECTED
 same() { if [ "$2" = "$3" ]; then passed=$((passed + 1)); else fail "$1: '$2', expected '$3'"; fi; }
 
-# holds WORDS EXPRESSION: an awk expression that must be true
-holds() { if awk "BEGIN { exit !($2) }"; then passed=$((passed + 1)); else fail "$1: $2"; fi; }
-
 # says WORDS FILE PATTERN
 says() { if grep -q -- "$3" "$2"; then passed=$((passed + 1)); else fail "$1: no '$3' in $2"; fi; }
+
+# table NAME TITLE: the lines of the tables of the listing that are titled so
+table() { awk -v title=" $2" 'index($0, title) == 1 { on = 1; next } /^ [A-Z]/ { on = 0 } on' "$work/$1.out"; }
 
 # judge WORDS AWK-ARGUMENTS...: an awk script that prints a line for every fault and 'checked N' at its end
 judge() {
@@ -62,27 +56,18 @@ judge() {
    fi
 }
 
-# same_states WORDS NAME-A NAME-B RELATIVE [TURN]: all rows of two histories, element by element in their order: branches equal,
-# lambda, p, delta, tau within RELATIVE of the largest of their column. TURN = -1: shear has the other sense in B.
-same_states() {
-   judge "$1" -F, -v tolerance="$4" -v turn="${5:-1}" '
-      FNR == 1 { file++; for (k = 1; k <= NF; k++) at[$k] = k; next }
-      function value(c) { return $(at[c]) + 0 }
-      function size(x) { return x < 0 ? -x : x }
-      file == 1 {
-         n++
-         where[n] = $1 "," $2; branch[n] = $(at["branch"]); side[n] = $(at["branch_x"])
-         for (k = 1; k <= 4; k++) { v[k, n] = value(name[k]); if (size(v[k, n]) > top[k]) top[k] = size(v[k, n]) }
-      }
-      file == 2 {
-         m++
-         if (where[m] != $1 "," $2) print "row " m ": other increments"
-         if (branch[m] != $(at["branch"])) print where[m] ", row " m ": branch " $(at["branch"]) ", not " branch[m]
-         for (k = 1; k <= 4; k++)
-            if (!(size((k > 2 ? turn : 1) * value(name[k]) - v[k, m]) <= tolerance * top[k]))
-               print where[m] ", row " m ": " name[k] " " $(at[name[k]]) ", not " v[k, m]
-      }
-      BEGIN { split("lambda pressure delta_x tau_x", name, " ") }
-      END { if (n != m || top[1] == 0) print n " rows, " m " rows, lambda up to " top[1]; print "checked " n }' \
-      "$work/$2.joint.csv" "$work/$3.joint.csv"
+# same_rows WORDS NAME-A NAME-B RELATIVE SHEAR...: all rows of two histories in their order, branches and slips equal, lambda, p and
+# each SHEAR within RELATIVE of the largest of its column. SHEAR: a column, or an expression of A = one of B
+same_rows() {
+   local words=$1 a b actions=(all 'stage = other.stage and increment = other.increment and branch = other.branch and slip = other.slip')
+   for a in lambda pressure "${@:5}"; do
+      b=${a#*=} a=${a%%=*}
+      [ "$a" = "$b" ] && b=other.$a
+      actions+=(all "$a = $b within $4*max(abs($a))")
+   done
+   ask "$words" "$2" all 'max(abs(lambda)) > 0 and max(abs(pressure)) > 0' with "$work/$3.joint.csv" "${actions[@]}"
 }
+along='delta_x tau_x'
+against='delta_x=-other.delta_x tau_x=-other.tau_x'
+both='delta_x delta_y tau_x tau_y'
+resultant='sqrt(delta_x^2+delta_y^2)=sqrt(other.delta_x^2+other.delta_y^2) sqrt(tau_x^2+tau_y^2)=sqrt(other.tau_x^2+other.tau_y^2)'

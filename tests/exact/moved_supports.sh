@@ -29,7 +29,7 @@ SPCM,1,12,21"
 }
 
 # the joint and the bar above it in series: c sqrt(p) + p H/E = D, so sqrt(p) = 2 D/(c + sqrt(c^2 + 4 D H/E))
-in_series() { awk -v d="$1" 'BEGIN { c = 8e-3; r = 2 * d / (c + sqrt(c * c + 4 * d * 5 / 9500)); printf "%.15g\n", r * r }'; }
+in_series() { number "(2*$1/(8e-3 + sqrt(8e-3^2 + 4*$1*5/9500)))^2"; }
 
 for p0 in 1.0-6 0.1 1000.0; do
    for mesh in '1 1' '6 4'; do
@@ -37,7 +37,7 @@ for p0 in 1.0-6 0.1 1000.0; do
          moved_block pushed_down $mesh $p0 0.0:-$depth && {
             near "pressed $depth by SPCD alone, P0 $p0, mesh $mesh: p" "$(cell pushed_down 1 1 1 pressure)" "$(in_series $depth)" 1e-9
             near "pressed $depth by SPCD alone, P0 $p0, mesh $mesh: lambda" "$(cell pushed_down 1 1 1 lambda)" \
-               "$(awk -v p="$(in_series $depth)" 'BEGIN { printf "%.15g", 8e-3 * sqrt(p) }')" 1e-9
+               "8e-3*sqrt($(in_series $depth))" 1e-9
          }
       done
    done

@@ -1,8 +1,9 @@
 # The patch test of MacNeal and Harder as whole decks, of CHEXA, CPENTA and CTETRA: the stress is the same in every element, to the six
 # digits of the listing (to 1E-12: unit/test_patch_decks.pf), and the nodes inside move as the corners do.
 
+cp tests/exact/patch.inc tests/exact/patch_*.bdf "$work/"
 for kind in hexa penta tetra; do
-   cp tests/exact/patch_$kind.bdf "$work/" && run patch_$kind && judge "patch test of C${kind^^}" '
+   run patch_$kind && judge "patch test of C${kind^^}" '
       function size(x) { return x < 0 ? -x : x }
       function check(found, expected) { n++; if (!(size(found - expected) <= 1e-9 + 2e-6 * size(expected))) print FNR ": " found ", expected " expected }
       / DISPLACEMENTS OF NODES/ { table = "nodes" }

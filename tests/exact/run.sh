@@ -1,12 +1,12 @@
 #!/usr/bin/env bash
 # Whole runs against exact answers and independent computations.
 #
-#    run.sh PROGRAM WORK_FOLDER [PART...]      all parts, or those named
+#    run.sh PROGRAM QUERY WORK_FOLDER [PART...]      all parts, or those named
 #
 # Prints what fails and a last line `N passed, N failed`.
 set -u
-program=$1 work=$2
-shift 2
+program=$1 query=$2 work=$3
+shift 3
 mkdir -p "$work"
 source tests/exact/lib.sh
 [ $# -gt 0 ] || set -- one_element rigid_block beam friction prism turned two_bodies resultants histories solids moved_supports solid_bolts patches flange

@@ -25,20 +25,15 @@ turned_block() { # NAME METHOD ANGLE
 for method in NEWTON STEP; do
    turned_block upright $method 0 || continue
    for angle in 30 90 -45 61.7; do
-      turned_block turned $method $angle && same_states "block turned by $angle degrees, $method" upright turned 1e-10
+      turned_block turned $method $angle && same_rows "block turned by $angle degrees, $method" upright turned 1e-10 $along
    done
    # beyond 90 degrees x of the joint points the other way (to +X): shear has the other sign
    for angle in 135 200; do
-      turned_block turned $method $angle && same_states "block turned by $angle degrees, $method" upright turned 1e-10 -1
+      turned_block turned $method $angle && same_rows "block turned by $angle degrees, $method" upright turned 1e-10 $against
    done
    # the case has everything in it
-   judge "block turned, $method: unloads, reloads, slips, shear of both senses" -F, '
-      FNR == 1 { for (k = 1; k <= NF; k++) at[$k] = k; next }
-      { n++; seen[$(at["branch"])]++; shear[$(at["branch_x"])]++; slips += $(at["slip"]); if ($(at["tau_x"]) > 0) right++; else left++ }
-      END {
-         if (!seen["LOAD"] || !seen["UNLOAD"] || !seen["RELOAD"]) print "normal branches " seen["LOAD"], seen["UNLOAD"], seen["RELOAD"]
-         if (!shear["LOAD"] || !shear["UNLOAD"] || !shear["RELOAD"]) print "shear branches " shear["LOAD"], shear["UNLOAD"], shear["RELOAD"]
-         if (!slips || slips == n || !right || !left) print "slips " slips ", right " right ", left " left
-         print "checked " n
-      }' "$work/upright.joint.csv"
+   ask "block turned, $method: unloads, reloads, slips, shear of both senses" upright \
+      all 'sum(branch = "LOAD") > 0 and sum(branch = "UNLOAD") > 0 and sum(branch = "RELOAD") > 0' \
+      all 'sum(branch_x = "LOAD") > 0 and sum(branch_x = "UNLOAD") > 0 and sum(branch_x = "RELOAD") > 0' \
+      all 'sum(slip) > 0 and sum(slip) < count() and max(tau_x) > 0 and min(tau_x) <= 0'
 done

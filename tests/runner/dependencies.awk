@@ -1,6 +1,6 @@
 # Which object needs which, as lines of a makefile, from the `use` lines of Fortran sources; a file is named as its module.
 #
-#    awk -v folder=build/release -v objects='build/release/kinds.o ...' -f dependencies.awk src/*/*.f90
+#    awk -f dependencies.awk -v folder=build/release -v objects='build/release/kinds.o ...' src/*/*.f90
 #
 # FOLDER: where the objects of these sources go; OBJECTS: all that they may need. A module without an object is passed over.
 

@@ -51,6 +51,7 @@ after_module { refuse("nothing but comments may follow the module") }
    if (pending != "") take_routine()
    check_module()
    check_name()
+   if (!contained) check_data()
    print
 }
 
@@ -115,6 +116,15 @@ function check_name(    name) {
    name = substr(statement, RSTART, RLENGTH)
    sub(/.* /, "", name)
    if (name in taken) refuse("the name '" name "' belongs to pFUnit")
+}
+
+# What the module declares above `contains`, public unless it says otherwise.
+function check_data(    name, declared) {
+   if (statement ~ /^ *contains *$/) contained = 1
+   if (statement ~ /^ *private *$/) is_private = 1
+   if (is_private || statement ~ /^ *use |private/ || !index(statement, "::")) return
+   declared = substr(statement, index(statement, "::") + 2)
+   for (name in taken) if (declared ~ ("(^|[ ,])" name " *([=,(]|$)")) refuse("the name '" name "' belongs to pFUnit: make it private")
 }
 
 # ---- Assertions ----------------------------------------------------------------------------------

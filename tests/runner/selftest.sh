@@ -435,6 +435,8 @@ END
       tests_of_lines <<< '' | sed "s/case_1/$line/" | suite
       refused 11 "a test named $line"
    done
+   tests_of_lines <<< '' | suite; sed -i 's/^   implicit none$/&\n   integer, private :: suite\n   integer :: v2, t = 1/' $pf
+   refused 8 'a public variable named t'
    tests_of_lines <<< '' | sed 's/()/(this)/' | suite
    refused 11 'a test with an argument'
    tests_of_lines <<< '' | sed 's/@test/& ! why/' | suite

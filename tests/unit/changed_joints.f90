@@ -1,8 +1,7 @@
 !> Models by TREE whose joints have stiffnesses that differ by a share from those of some_stiffnesses, and loads on what moves.
 module changed_joints
    use case_control, only: solver_tree
-   use deck_models, only: box_partly_held, low_plate, model_of_cards, some_forces, some_stiffnesses, two_floating_boxes, &
-                          two_plane_blocks
+   use deck_models, only: model_of_cards, sample_cards, some_forces, some_stiffnesses
    use equations, only: equation_system, form_body_stiffness, form_structure_stiffness, start_equations
    use failures, only: failure_type
    use kinds, only: wp
@@ -17,7 +16,8 @@ module changed_joints
 
 contains
 
-   !> Model WHICH of four by TREE, laid out for so many FACTORISATIONS, factorised with stiffnesses that differ by a SHARE.
+   !> Sample model WHICH, the fourth of those with joints being the low plate, by TREE, laid out for so many FACTORISATIONS,
+   !! factorised with stiffnesses that differ by a SHARE.
    subroutine prepare(which, factorisations, share, model, system)
       integer, intent(in)                :: which, factorisations
       real(wp), intent(in)               :: share
@@ -27,10 +27,7 @@ contains
       type(failure_type) :: failure
       character(:), allocatable :: problem
 
-      if (which == 1) call model_of_cards(two_plane_blocks, model, problem)
-      if (which == 2) call model_of_cards(two_floating_boxes, model, problem)
-      if (which == 3) call model_of_cards(box_partly_held, model, problem)
-      if (which == 4) call model_of_cards(low_plate, model, problem)
+      call model_of_cards(sample_cards(merge(5, which, which == 4)), model, problem)
       if (problem /= '') error stop 'changed_joints: the model has errors'
       call start_equations(model, by_tree, failure, solver_tree, factorisations)
       select type (by_tree)

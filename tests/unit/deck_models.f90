@@ -9,7 +9,7 @@ module deck_models
    implicit none
    private
 
-   public :: read_lines, read_cards, build, model_of_cards, some_forces, some_stiffnesses
+   public :: read_lines, read_cards, build, model_of_cards, sample_cards, some_forces, some_stiffnesses
 
    character(*), parameter, public :: plane_laws = 'MAT1,1,9500.,,.25;PSHELL,1,1,20.;PJOINT,1,3,,,,,.1;JNORM,3,8.-3,.5,50.;'
    character(*), parameter, public :: solid_laws = 'MAT1,1,9500.,,.25;PSOLID,1,1;PJOINT,1,3,,,,,.1;JNORM,3,8.-3,.5,50.;'
@@ -89,6 +89,19 @@ contains
       problem = ''
       if (errors%n > 0) problem = errors%items(1)%message
    end subroutine model_of_cards
+
+
+   !> The cards of sample model WHICH, 1 to 5 in the order above.
+   pure function sample_cards(which) result(cards)
+      integer, intent(in)       :: which
+      character(:), allocatable :: cards
+
+      if (which == 1) cards = two_plane_blocks
+      if (which == 2) cards = two_floating_boxes
+      if (which == 3) cards = box_partly_held
+      if (which == 4) cards = plate
+      if (which == 5) cards = low_plate
+   end function sample_cards
 
 
    !> Forces on every component of every node, between -1/2 and 1/2 times 1000.

@@ -6,7 +6,7 @@ module small_graphs
    implicit none
    private
 
-   public :: graph_of, grid, wide_grid, join, mixed, eliminated, are_in_line
+   public :: graph_of, grid, wide_grid, random_graph, join, mixed, eliminated, are_in_line
 
 contains
 
@@ -43,7 +43,23 @@ contains
    end subroutine grid
 
 
-   !> The same in linear time.
+   !> N nodes with at most so many edges, at random; another graph for every SEED.
+   subroutine random_graph(n, n_edges, seed, graph)
+      integer, intent(in)                :: n, n_edges, seed
+      type(node_graph_type), intent(out) :: graph
+      logical :: edges(n, n)
+      integer :: ends(n), k
+
+      edges = .false.
+      do k = 1, n_edges
+         ends = mixed(n, 100*seed + k)
+         call join(edges, ends(1:1), ends(2:2))
+      end do
+      call graph_of(edges, graph)
+   end subroutine random_graph
+
+
+   !> A grid as above in linear time.
    subroutine wide_grid(m, n, graph)
       integer, intent(in)                :: m, n
       type(node_graph_type), intent(out) :: graph

@@ -1,0 +1,204 @@
+!> Loads: which forces act, and which displacements are prescribed, at the end of every stage.
+module load_build
+   use body_elements, only: element_weight
+   use bulk_data, only: has_component
+   use deck_check, only: checked_deck
+   use element_kinds, only: max_nodes, max_side_nodes
+   use kinds, only: wp
+   use load_checks, only: check_load_cards, has_set, nor_others
+   use model_data, only: corners_of, model_type, stage_load_type, surface_type
+   use section_coupling, only: add_section_share
+   use pressed_sides, only: add_pressure, find_pressed_sides, pressed_side
+   use surface_build, only: side_influence
+   use text_tools, only: integer_text
+   implicit none
+   private
+
+   public :: build_loads
+
+contains
+
+   !> The total load at the end of each stage.
+   subroutine build_loads(deck, model)
+      type(checked_deck), intent(in)  :: deck
+      type(model_type), intent(inout) :: model
+      type(pressed_side), allocatable :: pressed(:)
+      integer :: i, k, s
+
+      call check_load_cards(deck, model)
+      call find_pressed_sides(deck, model, pressed)
+      allocate (model%stage_loads(size(deck%control%stages)))
+      do s = 1, size(deck%control%stages)
+         associate (loads => model%stage_loads(s), reference => deck%control%stages(s)%load)
+            allocate (loads%node(size(deck%bulk%force)), loads%force(3, size(deck%bulk%force)))
+            if (reference%id == 0) cycle
+            i = findloc(deck%bulk%load%set, reference%id, dim=1)
+            if (i > 0) then
+               associate (load => deck%bulk%load(i))
+                  do k = 1, size(load%sets)
+                     call add_set(deck, model, pressed, load%sets(k), load%scale*load%factors(k), loads)
+                  end do
+               end associate
+            else
+               call add_set(deck, model, pressed, reference%id, 1.0_wp, loads)
+               if (.not. has_set(deck%bulk, reference%id)) call deck%errors%add(reference%line, &
+                  'LOAD: there is no FORCE or LOAD with set '//integer_text(reference%id)//nor_others)
+            end if
+         end associate
+      end do
+   end subroutine build_loads
+
+
+   !> Add FACTOR times everything of SET to LOADS: nodal forces one by one, distributed loads summed up at every node.
+   subroutine add_set(deck, model, pressed, set, factor, loads)
+      type(checked_deck), intent(in)       :: deck
+      type(model_type), intent(in)         :: model
+      type(pressed_side), intent(in)       :: pressed(:)
+      integer, intent(in)                  :: set
+      real(wp), intent(in)                 :: factor
+      type(stage_load_type), intent(inout) :: loads
+      real(wp), allocatable :: spread_out(:, :)
+      integer :: i, node, s
+
+      associate (bulk => deck%bulk)
+         do i = 1, size(bulk%force)
+            if (bulk%force(i)%set == set) call add_force(model%node_table%find(bulk%force(i)%node), &
+                                                         factor*bulk%force(i)%force, loads)
+         end do
+         do i = 1, size(bulk%displacement)
+            if (bulk%displacement(i)%set == set) call add_displacement(i)
+         end do
+         if (all(bulk%pressure%set /= set) .and. all(bulk%surface_load%set /= set) .and. all(bulk%gravity%set /= set)) return
+         allocate (spread_out(3, model%n_nodes), source=0.0_wp)
+         do i = 1, size(bulk%pressure)
+            if (bulk%pressure(i)%set == set .and. pressed(i)%element > 0) &
+               call add_pressure(model, pressed(i), factor*bulk%pressure(i)%pressure, spread_out)
+         end do
+         do i = 1, size(bulk%surface_load)
+            if (bulk%surface_load(i)%set /= set) cycle
+            s = findloc(model%surfaces%id, bulk%surface_load(i)%surface, dim=1)
+            if (s == 0) cycle
+            if (bulk%surface_load(i)%is_pressure) then
+               call add_surface_pressure(model, model%surfaces(s), factor*bulk%surface_load(i)%pressure, spread_out)
+            else
+               call add_surface_force(model, model%surfaces(s), factor*bulk%surface_load(i)%force, spread_out)
+            end if
+         end do
+         do i = 1, size(bulk%gravity)
+            if (bulk%gravity(i)%set == set) call add_gravity(model, factor*bulk%gravity(i)%acceleration, spread_out)
+         end do
+      end associate
+      do node = 1, model%n_nodes
+         if (any(abs(spread_out(:, node)) > 0.0_wp)) call add_force(node, spread_out(:, node), loads)
+      end do
+
+   contains
+
+      subroutine add_displacement(card)
+         integer, intent(in) :: card
+         integer :: at, d
+
+         associate (displacement => deck%bulk%displacement(card))
+            at = model%node_table%find(displacement%node)
+            if (at == 0) return
+            if (.not. allocated(loads%moved)) allocate (loads%moved(model%dimension, model%n_nodes), source=0.0_wp)
+            do d = 1, model%dimension
+               if (.not. has_component(displacement%components, d)) cycle
+               loads%moved(d, at) = loads%moved(d, at) + factor*displacement%value
+               if (model%twin(at) > 0) loads%moved(d, model%twin(at)) = loads%moved(d, at) ! a split node: both of it
+            end do
+         end associate
+      end subroutine add_displacement
+
+   end subroutine add_set
+
+
+   !> A FORCE at NODE, at the end of the list.
+   subroutine add_force(node, force, loads)
+      integer, intent(in)                  :: node
+      real(wp), intent(in)                 :: force(3)
+      type(stage_load_type), intent(inout) :: loads
+      integer,  allocatable :: longer(:)
+      real(wp), allocatable :: wider(:, :)
+      integer :: room
+
+      if (loads%n == size(loads%node)) then
+         room = 2*loads%n + 8
+         allocate (longer(room), wider(3, room))
+         longer(:loads%n) = loads%node
+         wider(:, :loads%n) = loads%force
+         call move_alloc(longer, loads%node)
+         call move_alloc(wider, loads%force)
+      end if
+      loads%n = loads%n + 1
+      loads%node(loads%n) = node
+      loads%force(:, loads%n) = force
+   end subroutine add_force
+
+
+   !> Nodal forces of a pressure P on a surface, positive into its body.
+   pure subroutine add_surface_pressure(model, surface, p, force)
+      type(model_type), intent(in)   :: model
+      type(surface_type), intent(in) :: surface
+      real(wp), intent(in)           :: p
+      real(wp), intent(inout)        :: force(:, :) !! (3, n_nodes)
+      real(wp) :: area(max_side_nodes), normal(3, max_side_nodes)
+      integer  :: k, s
+
+      do s = 1, surface%n
+         call side_influence(model, surface, s, area, normal)
+         do k = 1, surface%corners(s)
+            force(:, surface%nodes(k, s)) = force(:, surface%nodes(k, s)) - p*normal(:, k)
+         end do
+         call add_section_share(model, surface%element(s), surface%nodes(:surface%corners(s), s), -p*normal, force)
+      end do
+   end subroutine add_surface_pressure
+
+
+   !> Nodal forces of a total force spread evenly over the area of a surface.
+   pure subroutine add_surface_force(model, surface, total, force)
+      type(model_type), intent(in)   :: model
+      type(surface_type), intent(in) :: surface
+      real(wp), intent(in)           :: total(3)
+      real(wp), intent(inout)        :: force(:, :) !! (3, n_nodes)
+      real(wp) :: area(max_side_nodes), normal(3, max_side_nodes), sum_of_areas
+      integer  :: k, pass, s
+
+      sum_of_areas = 0.0_wp
+      do pass = 1, 2
+         do s = 1, surface%n
+            call side_influence(model, surface, s, area, normal)
+            if (pass == 1) then
+               sum_of_areas = sum_of_areas + sum(area)
+               cycle
+            end if
+            do k = 1, surface%corners(s)
+               force(:, surface%nodes(k, s)) = force(:, surface%nodes(k, s)) + area(k)/sum_of_areas*total
+            end do
+            call add_section_share(model, surface%element(s), surface%nodes(:surface%corners(s), s), &
+                                   spread(total/sum_of_areas, 2, max_side_nodes)*spread(area, 1, 3), force)
+         end do
+         if (sum_of_areas <= 0.0_wp) return
+      end do
+   end subroutine add_surface_force
+
+
+   !> Nodal forces of the weight of all bodies.
+   pure subroutine add_gravity(model, acceleration, force)
+      type(model_type), intent(in) :: model
+      real(wp), intent(in)         :: acceleration(3)
+      real(wp), intent(inout)      :: force(:, :) !! (3, n_nodes)
+      real(wp) :: f(model%dimension, max_nodes)
+      integer  :: e
+
+      do e = 1, model%n_elements
+         associate (nodes => corners_of(model, e), d => model%dimension)
+            if (any(nodes == 0) .or. model%element_property(e) == 0) cycle
+            call element_weight(model, e, acceleration(:d), f)
+            force(:d, nodes) = force(:d, nodes) + f(:, :size(nodes))
+            call add_section_share(model, e, nodes, f, force)
+         end associate
+      end do
+   end subroutine add_gravity
+
+end module load_build

@@ -1,0 +1,58 @@
+!> From a deck to the structure that is solved.
+module model_build
+   use bar_build, only: build_bars
+   use connected_parts, only: find_parts
+   use deck_check, only: checked_deck
+   use deck_errors, only: deck_error_list
+   use deck_input, only: deck_type
+   use determinate_joints, only: find_determinate_joints
+   use first_pressures, only: find_first_pressures
+   use joint_build, only: build_joints
+   use joint_split, only: split_shared_surfaces
+   use load_build, only: build_loads
+   use mesh_build, only: build_mesh, marked_sides
+   use model_data, only: model_type, n_sections
+   use section_build, only: build_sections
+   use stage_plan, only: plan_stages, stage_plan_type
+   use support_build, only: build_supports
+   use surface_build, only: build_surfaces
+   implicit none
+   private
+
+   public :: build_model
+
+contains
+
+   !> Build MODEL and the PLAN of its stages from DECK; what does not fit together goes to ERRORS, and then neither
+   !! is fit to be solved.
+   subroutine build_model(deck, model, plan, errors)
+      type(deck_type), intent(in), target          :: deck
+      type(model_type), intent(out)                :: model
+      type(stage_plan_type), intent(out)           :: plan
+      type(deck_error_list), intent(inout), target :: errors
+      type(checked_deck) :: checked
+      type(marked_sides) :: sides
+
+      if (.not. deck%is_whole) return
+      call checked%start(deck, errors)
+      call checked%check_ids()
+      call build_mesh(checked, model, sides)
+      call build_surfaces(checked, sides, model)
+      call split_shared_surfaces(checked, model)
+      call build_joints(checked, model)
+      call build_bars(checked, model)
+      call build_supports(checked, model)
+      call build_sections(checked, model)
+      call build_loads(checked, model)
+      call plan_stages(deck, plan, errors)
+      if (.not. any(model%used)) call errors%add(0, 'nothing to solve: expected body elements or interface elements')
+      if (errors%any()) return
+      call find_parts(model, .false.)          ! bolts that are being tightened connect nothing yet
+      call find_determinate_joints(model)
+      call find_first_pressures(plan%stages(1)%shares(1), model, errors)
+      if (all(model%bars%bolt == 0) .and. n_sections(model) == 0) return
+      call find_parts(model, .true.)
+      call find_determinate_joints(model)
+   end subroutine build_model
+
+end module model_build

@@ -1,0 +1,268 @@
+!> Marked surfaces: which body elements their sides belong to, which way they face, the areas of their nodes.
+module surface_build
+   use deck_check, only: checked_deck
+   use element_kinds, only: element_table, max_side_nodes
+   use element_loads, only: side_areas, side_forces
+   use id_table, only: id_table_type, sorted_order
+   use kinds, only: wp
+   use mesh_build, only: marked_sides
+   use model_data, only: model_type, surface_type
+   use reverse_lists, only: list_owners
+   use surface_sides, only: nodes_of
+   use text_tools, only: integer_text
+   implicit none
+   private
+
+   public :: build_surfaces, find_surface, surface_nodes, side_of_element, side_influence
+
+   !> The nodes of a surface, each once, in ascending order of their numbers.
+   type, public :: surface_node_list
+      integer :: n = 0
+      integer, allocatable  :: node(:)      !! (n) positions
+      real(wp), allocatable :: area(:)      !! (n) areas of influence a_i [length^2]
+      real(wp), allocatable :: normal(:, :) !! (3, n) unit normals out of the body
+   end type surface_node_list
+
+contains
+
+   !> One surface for every PMARK card, with the sides that name it.
+   subroutine build_surfaces(deck, sides, model)
+      type(checked_deck), intent(in)  :: deck
+      type(marked_sides), intent(in)  :: sides
+      type(model_type), intent(inout) :: model
+      type(id_table_type)  :: marks
+      integer, allocatable :: surface(:), first(:), members(:)
+      integer :: i, k
+
+      call marks%build(deck%bulk%pmark%id)
+      allocate (model%surfaces(size(deck%bulk%pmark)), surface(sides%n))
+      do i = 1, sides%n
+         surface(i) = marks%find(sides%mark(i))
+         if (surface(i) == 0 .and. sides%mark(i) > 0) call report_missing(deck, sides, i)
+      end do
+      call list_owners(size(model%surfaces), reshape(surface, [1, sides%n]), first, members)
+      do k = 1, size(model%surfaces)
+         associate (this => model%surfaces(k), card => deck%bulk%pmark(k), n => first(k + 1) - first(k))
+            this%id = card%id
+            allocate (this%nodes(merge(2, max_side_nodes, model%dimension == 2), n), source=0)
+            allocate (this%element(n), this%other(n), this%line(n), this%corners(n))
+            do i = first(k), first(k + 1) - 1
+               if (any(sides%nodes(:sides%corners(members(i)), members(i)) == 0)) cycle ! said already
+               call add_side(deck, sides, members(i), model, this)
+            end do
+            call check_repeated(deck, model, this)
+            if (n > 0 .or. card%id == 0 .or. marks%find(card%id) < k) cycle ! the last: a number given twice, said elsewhere
+            call deck%field_error(card%line, 'PID', 'surface '//integer_text(card%id)//' has no '// &
+               trim(merge('face: expected a CTRIA3, CQUAD4', 'edge: expected a CBAR, CROD    ', model%dimension == 3))// &
+               ' or side of a block with this PID')
+         end associate
+      end do
+   end subroutine build_surfaces
+
+
+   !> Which SURFACE of MODEL the FIELD of the card on LINE names by its ID; 0, and an error, where there is none.
+   subroutine find_surface(deck, line, field, id, model, surface)
+      type(checked_deck), intent(in) :: deck
+      integer, intent(in)            :: line, id
+      character(*), intent(in)       :: field
+      type(model_type), intent(in)   :: model
+      integer, intent(out)           :: surface
+
+      surface = findloc(model%surfaces%id, id, dim=1)
+      if (surface == 0) call deck%field_error(line, field, 'there is no PMARK '//integer_text(id))
+   end subroutine find_surface
+
+
+   !> There is no PMARK with the mark of side I. A face of solids may be meant to be something else.
+   subroutine report_missing(deck, sides, i)
+      type(checked_deck), intent(in) :: deck
+      type(marked_sides), intent(in) :: sides
+      integer, intent(in)            :: i
+      character(:), allocatable :: words
+
+      words = 'there is no PMARK '//integer_text(sides%mark(i))
+      if (sides%of_block(i) > 0) then
+         call deck%field_error(sides%line(i), 'S'//integer_text(sides%of_block(i)), words)
+      else
+         if (sides%corners(i) > 2) &
+            words = words//': in a model of solids CTRIA3 and CQUAD4 mark surfaces, and plane bodies cannot be mixed in'
+         call deck%field_error(sides%line(i), 'PID', words)
+      end if
+   end subroutine report_missing
+
+
+   !> Add side I to its surface, in the order of the element that it belongs to: of two the one that has it in the sense of its
+   !! card, the other is then behind it.
+   subroutine add_side(deck, sides, i, model, surface)
+      type(checked_deck), intent(in)    :: deck
+      type(marked_sides), intent(in)    :: sides
+      integer, intent(in)               :: i
+      type(model_type), intent(in)      :: model
+      type(surface_type), intent(inout) :: surface
+      integer :: owner, other, found, e, j, side, own_side
+      logical :: same_sense, owner_same
+
+      owner = 0
+      other = 0
+      own_side = 0
+      owner_same = .false.
+      associate (nodes => sides%nodes(:sides%corners(i), i))
+         do j = model%first_at(nodes(1)), model%first_at(nodes(1) + 1) - 1
+            e = model%elements_at(j)
+            if (e == owner) cycle ! a corner that stands on the card twice
+            call side_of_element(model, e, nodes, side, same_sense)
+            if (side == 0) cycle
+            found = e
+            if (owner == 0 .or. (same_sense .and. .not. owner_same)) then
+               found = owner
+               owner = e
+               own_side = side
+               owner_same = same_sense
+            end if
+            if (found > 0) other = found
+         end do
+         if (owner == 0) then
+            call deck%errors%add(sides%line(i), 'the '//side_name(model, nodes)//' is no side of a body element')
+            return
+         end if
+         surface%n = surface%n + 1
+         surface%line(surface%n) = sides%line(i)
+         surface%corners(surface%n) = size(nodes)
+         surface%element(surface%n) = owner
+         surface%other(surface%n) = other
+         surface%nodes(:size(nodes), surface%n) = &
+            model%element_nodes(element_table(model%element_kind(owner))%side_nodes(:size(nodes), own_side), owner)
+      end associate
+   end subroutine add_side
+
+
+   !> A side in words, by its nodes.
+   pure function side_name(model, nodes) result(words)
+      type(model_type), intent(in) :: model
+      integer, intent(in)          :: nodes(:)
+      character(:), allocatable    :: words
+      integer :: k
+
+      if (size(nodes) == 2) then
+         words = 'edge between nodes '//integer_text(model%node_id(nodes(1)))//' and '//integer_text(model%node_id(nodes(2)))
+         return
+      end if
+      words = 'face of nodes '//integer_text(model%node_id(nodes(1)))
+      do k = 2, size(nodes)
+         words = words//merge(', ', '  ', k < size(nodes))
+         if (k == size(nodes)) words = trim(words)//' and '
+         words = words//integer_text(model%node_id(nodes(k)))
+      end do
+   end function side_name
+
+
+   !> Which SIDE of element E has the NODES, in any order; 0: none. SAME_SENSE: its own order goes round them as they stand.
+   pure subroutine side_of_element(model, e, nodes, side, same_sense)
+      type(model_type), intent(in) :: model
+      integer, intent(in)          :: e, nodes(:)
+      integer, intent(out)         :: side
+      logical, intent(out)         :: same_sense
+      integer :: at, k, n
+
+      n = size(nodes)
+      same_sense = .false.
+      associate (kind => element_table(model%element_kind(e)))
+         do side = 1, kind%n_sides
+            if (kind%side_size(side) /= n) cycle
+            associate (own => model%element_nodes(kind%side_nodes(:n, side), e))
+               if (any([(all(own /= nodes(k)), k = 1, n)])) cycle
+               if (any([(all(nodes /= own(k)), k = 1, n)])) cycle
+               at = findloc(own, nodes(1), dim=1)
+               if (n == 2) then
+                  same_sense = at == 1
+               else
+                  same_sense = own(modulo(at, n) + 1) == nodes(2)
+               end if
+               return
+            end associate
+         end do
+      end associate
+      side = 0
+   end subroutine side_of_element
+
+
+   !> No side stands twice on a surface: its area would count twice.
+   subroutine check_repeated(deck, model, surface)
+      type(checked_deck), intent(in) :: deck
+      type(model_type), intent(in)   :: model
+      type(surface_type), intent(in) :: surface
+      integer, allocatable :: order(:), lowest(:)
+      integer :: j, k, m
+
+      allocate (lowest(surface%n))
+      do k = 1, surface%n
+         lowest(k) = minval(surface%nodes(:surface%corners(k), k))
+      end do
+      call sorted_order(lowest, order)
+      do k = 2, surface%n
+         do j = k - 1, 1, -1
+            if (lowest(order(k)) /= lowest(order(j))) exit
+            if (surface%corners(order(k)) /= surface%corners(order(j))) cycle
+            associate (this => surface%nodes(:surface%corners(order(k)), order(k)), &
+                       that => surface%nodes(:surface%corners(order(j)), order(j)))
+               if (any([(all(that /= this(m)), m = 1, size(this))])) cycle
+               call deck%errors%add(max(surface%line(order(k)), surface%line(order(j))), 'surface '//integer_text(surface%id)// &
+                  ': the '//side_name(model, this)//' is marked twice')
+            end associate
+         end do
+      end do
+   end subroutine check_repeated
+
+
+   !> Areas of influence of the corners of side S of SURFACE, a_i = integral of N_i over it [length^2] (section 4.1).
+   pure subroutine side_influence(model, surface, s, area, normal)
+      type(model_type), intent(in)   :: model
+      type(surface_type), intent(in) :: surface
+      integer, intent(in)            :: s
+      real(wp), intent(out)          :: area(max_side_nodes)        !! 0 behind the last corner
+      real(wp), intent(out)          :: normal(3, max_side_nodes)   !! integral of N_i times the outward normal [length^2]
+      real(wp) :: force(model%dimension, max_side_nodes)
+      integer  :: n
+
+      area = 0.0_wp
+      normal = 0.0_wp
+      n = surface%corners(s)
+      if (model%element_property(surface%element(s)) == 0) return ! said already
+      associate (property => model%properties(model%element_property(surface%element(s))), &
+                 x => model%x(:model%dimension, surface%nodes(:n, s)))
+         call side_areas(property%state, property%thickness, x, area)
+         call side_forces(property%state, property%thickness, x, spread(-1.0_wp, 1, n), force)
+      end associate
+      normal(:model%dimension, :n) = force(:, :n)
+   end subroutine side_influence
+
+
+   !> The nodes of SURFACE with their areas of influence, the sum over the sides at a node, and their normals, the mean of the
+   !! sides' by area.
+   pure subroutine surface_nodes(model, surface, list)
+      type(model_type), intent(in)         :: model
+      type(surface_type), intent(in)       :: surface
+      type(surface_node_list), intent(out) :: list
+      type(id_table_type) :: place
+      real(wp) :: area(max_side_nodes), normal(3, max_side_nodes)
+      integer  :: s, k, node
+
+      list%node = nodes_of(surface)
+      list%n = size(list%node)
+      call place%build(list%node)
+      allocate (list%area(list%n), source=0.0_wp)
+      allocate (list%normal(3, list%n), source=0.0_wp)
+      do s = 1, surface%n
+         call side_influence(model, surface, s, area, normal)
+         do k = 1, surface%corners(s)
+            node = place%find(surface%nodes(k, s))
+            list%area(node) = list%area(node) + area(k)
+            list%normal(:, node) = list%normal(:, node) + normal(:, k)
+         end do
+      end do
+      do k = 1, list%n
+         list%normal(:, k) = list%normal(:, k)/max(norm2(list%normal(:, k)), tiny(1.0_wp))
+      end do
+   end subroutine surface_nodes
+
+end module surface_build

@@ -1,0 +1,84 @@
+!> Towers of nodes, each on a joint, for tests of the ways through an increment.
+module towers
+   use equations, only: equation_system, form_body_stiffness, start_equations
+   use failures, only: failure_type
+   use interface_operator, only: hang_on
+   use joint_laws, only: joint_law
+   use kinds, only: wp
+   use model_data, only: model_type
+   use normal_stiffness, only: normal_law
+   use shear_curves, only: one_cubic
+   use stage_plan, only: stage_plan_type
+   implicit none
+   private
+
+   public :: make_tower, put_load, rough
+
+   real(wp), parameter, public :: area = 100.0_wp !! of every interface element
+
+contains
+
+   !> N nodes in a row upwards: node 1 on the base, node i + 1 on node i, normals downwards, each in a joint of its own with LAW;
+   !! free along the normal, and along x too where SIDEWAYS.
+   subroutine make_tower(n, law, sideways, model, plan, system)
+      integer, intent(in)                :: n
+      type(joint_law), intent(in)        :: law
+      logical, intent(in)                :: sideways
+      type(model_type), intent(out)      :: model
+      type(stage_plan_type), intent(out) :: plan
+      class(equation_system), allocatable, intent(out) :: system
+      type(failure_type) :: failure
+      integer :: i
+
+      model%n_nodes = n
+      allocate (model%node_id(n), model%x(3, n), model%used(n), model%held(2, n), model%element_nodes(4, 0))
+      allocate (model%first_at(n + 1), model%elements_at(0), model%interface(n), model%joints(n), model%stage_loads(2))
+      model%node_id = [(100 + i, i=1, n)]
+      model%x = 0.0_wp
+      model%used = .true.
+      model%held = .false.
+      model%held(1, :) = .not. sideways
+      model%first_at = 1
+      do i = 1, n
+         model%interface(i)%joint = i
+         call hang_on(model%interface(i), i, i - 1)
+         model%interface(i)%area = area
+         model%interface(i)%axes = reshape([1.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 1.0_wp, 0.0_wp, -1.0_wp, 0.0_wp], [3, 3])
+         model%joints(i)%law = law
+         model%joints(i)%p_av = 0.5_wp
+         model%joints(i)%first = i
+         model%joints(i)%last = i
+      end do
+      allocate (plan%stages(2))
+      do i = 1, 2
+         plan%stages(i)%id = i
+         plan%stages(i)%shares = [1.0_wp]
+      end do
+      call start_equations(model, system, failure)
+      call form_body_stiffness(model, system, failure)
+   end subroutine make_tower
+
+
+   !> Load at the end of stage S: FORCE at node NODE.
+   subroutine put_load(model, s, node, force)
+      type(model_type), intent(inout) :: model
+      integer, intent(in)             :: s, node
+      real(wp), intent(in)            :: force(2)
+
+      model%stage_loads(s)%n = 1
+      model%stage_loads(s)%node = [node]
+      model%stage_loads(s)%force = reshape([force, 0.0_wp], [3, 1])
+   end subroutine put_load
+
+
+   !> A law with shear and friction.
+   pure function rough() result(law)
+      type(joint_law) :: law
+
+      law%normal = normal_law(c=8.0e-3_wp, m=0.5_wp, e_u=500.0_wp)
+      law%shear(1) = one_cubic([100.0_wp, 300.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp])
+      law%has_friction = .true.
+      law%mu = 0.2_wp
+   end function rough
+
+end module towers
