@@ -50,6 +50,10 @@ for t in 2 3 4 5 6 7 8 9 10 11 12; do
    done | awk -v t=$t '{ reach[NR] = $2 - 40 } END { print t "," reach[1] "," reach[2] }' >> "$work/flange.csv"
 done
 
+for chart in a b; do
+   awk -v title="Fig. 6($chart)" -f "$here/chart.awk" "$here/README.md" > "$here/fig6$chart.svg"
+   echo "$here/fig6$chart.svg"
+done
 for script in "$here"/*.gp; do
    name=$(basename "$script" .gp)
    for terminal in 'pngcairo size 1000,700 font "Helvetica,14"' 'svg size 1000,700 font "Helvetica,14" background "white"'; do
