@@ -84,7 +84,7 @@ contains
    end subroutine generate_block
 
 
-   !> Where the node of a block at the graded places R, S, T in the unit square or cube stands: its bilinear image, in a box the point
+   !> Where the node of a block at the graded places R, S, T in the unit square or cube stands: at its bilinear image, in a box
    !! between the corners.
    pure function point(card, r, s, t) result(x)
       type(block_card), intent(in) :: card

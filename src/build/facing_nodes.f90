@@ -27,6 +27,7 @@ contains
       real(wp) :: tolerance, distance, shortest, worst
       integer  :: k, found, lonely, shared, turned, worst_node, e
       logical, allocatable :: taken(:)
+      character(:), allocatable :: place
 
       associate (card => deck%bulk%joint(j), edges => model%surfaces(surface))
          shortest = huge(1.0_wp)
@@ -58,10 +59,14 @@ contains
             end if
          end do
          if (lonely > 0) then
+            place = ''
+            do k = 1, model%dimension
+               place = place//real_text(model%x(k, worst_node))//', '
+            end do
             call deck%field_error(card%line, 'SIDE2', 'the sides do not face each other node by node: '// &
                plural(lonely, 'node')//' of '//integer_text(side1%n)//' of SIDE1 found no partner within '// &
                real_text(tolerance)//'; the farthest is node '//integer_text(model%node_id(worst_node))//' at '// &
-               place_text(model, worst_node)//', '//real_text(worst)//' away')
+               place//real_text(worst)//' away')
          else if (shared > 0) then
             call deck%field_error(card%line, trim(merge('TOL  ', 'SIDE2', card%tolerance > 0.0_wp)), 'within '// &
                real_text(tolerance)//' '//plural(shared, 'node')//' of SIDE1 found a partner that another one has', &
@@ -75,16 +80,5 @@ contains
          end if
       end associate
    end subroutine pair_nodes
-
-
-   !> Where a node lies, for messages.
-   function place_text(model, node) result(text)
-      type(model_type), intent(in) :: model
-      integer, intent(in)          :: node
-      character(:), allocatable    :: text
-
-      text = real_text(model%x(1, node))//', '//real_text(model%x(2, node))
-      if (model%dimension == 3) text = text//', '//real_text(model%x(3, node))
-   end function place_text
 
 end module facing_nodes

@@ -6,7 +6,7 @@ module joint_split
    use kinds, only: wp
    use model_data, only: model_type
    use reverse_lists, only: list_owners
-   use surface_sides, only: elements_behind, face_one_way, list_sides, side_list
+   use surface_sides, only: elements_behind, face_one_way, list_sides, nodes_of, side_list
    use text_tools, only: integer_text
    implicit none
    private
@@ -26,8 +26,7 @@ contains
       type(checked_deck), intent(in)  :: deck
       type(model_type), intent(inout) :: model
       type(id_table_type)  :: surfaces
-      integer, allocatable :: met(:)
-      integer :: j, n_twins, s
+      integer :: j, n_twins, node, s
 
       allocate (model%twin(model%n_nodes), source=0)
       call surfaces%build(model%surfaces%id)
@@ -36,17 +35,17 @@ contains
          if (deck%bulk%joint(j)%sides(2) /= 0) cycle
          s = surfaces%find(deck%bulk%joint(j)%sides(1))
          if (s == 0) cycle
-         associate (surface => model%surfaces(s), line => deck%bulk%joint(j)%line)
+         associate (surface => model%surfaces(s), line => deck%bulk%joint(j)%line, nodes => nodes_of(model%surfaces(s)))
             if (.not. any(surface%other(:surface%n) > 0)) cycle
             if (any(surface%other(:surface%n) == 0)) then
                call deck%field_error(line, 'SIDE1', 'bodies lie on both sides of some '//merge('edges', 'faces', &
                   model%dimension == 2)//' of surface '//integer_text(surface%id)//' and on one side of others')
                cycle
             end if
-            met = pack(surface%nodes(:, :surface%n), is_split(model, surface%nodes(:, :surface%n)))
-            if (size(met) > 0) then
+            if (any(model%twin(nodes) > 0)) then
+               node = nodes(findloc(model%twin(nodes) > 0, .true., dim=1))
                call deck%field_error(line, 'SIDE1', 'surface '//integer_text(surface%id)//' meets another surface that is '// &
-                  'split, at node '//integer_text(model%node_id(minval(met)))//': mesh the bodies apart there and give both '// &
+                  'split, at node '//integer_text(model%node_id(node))//': mesh the bodies apart there and give both '// &
                   'faces, SIDE1 and SIDE2')
                cycle
             end if
@@ -58,16 +57,6 @@ contains
       call list_owners(model%n_nodes, model%element_nodes, model%first_at, model%elements_at)
       call move_other_surfaces(model)
    end subroutine split_shared_surfaces
-
-
-   !> Whether a surface that was split before holds NODE.
-   elemental logical function is_split(model, node)
-      type(model_type), intent(in) :: model
-      integer, intent(in)          :: node !! 0: none
-
-      is_split = .false.
-      if (node > 0) is_split = model%twin(node) > 0
-   end function is_split
 
 
    !> Give the elements behind surface S twins of its nodes, behind the N_TWINS that there are. They are no nodes of the model yet.

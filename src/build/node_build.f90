@@ -38,9 +38,9 @@ contains
       n = size(deck%bulk%grid)
       total = n + raw%block_start(size(blocks) + 1)
       allocate (raw%id(total), raw%line(total), raw%x(3, total), raw%place(total - n))
+      raw%id(:n) = deck%bulk%grid%id
+      raw%line(:n) = deck%bulk%grid%line
       do i = 1, n
-         raw%id(i) = deck%bulk%grid(i)%id
-         raw%line(i) = deck%bulk%grid(i)%line
          raw%x(:, i) = deck%bulk%grid(i)%x
       end do
       do b = 1, size(blocks)
@@ -102,20 +102,14 @@ contains
       real(wp), intent(in)              :: x(:, :), others(:, :) !! (3, n) [length]
       real(wp), intent(in)              :: reach                 !! [length]
       integer, allocatable, intent(out) :: nodes(:)
-      real(wp) :: low(3), high(3)
-      integer, allocatable :: found(:)
-      integer  :: k, n
+      logical, allocatable :: is_near(:)
+      integer :: k
 
-      low = minval(others, dim=2) - reach
-      high = maxval(others, dim=2) + reach
-      allocate (found(size(x, 2)))
-      n = 0
-      do k = 1, size(x, 2)
-         if (any(x(:, k) < low .or. x(:, k) > high)) cycle
-         n = n + 1
-         found(n) = k
+      allocate (is_near(size(x, 2)), source=.true.)
+      do k = 1, 3
+         is_near = is_near .and. x(k, :) >= minval(others(k, :)) - reach .and. x(k, :) <= maxval(others(k, :)) + reach
       end do
-      nodes = found(:n)
+      nodes = pack([(k, k = 1, size(x, 2))], is_near)
    end subroutine nodes_near
 
 

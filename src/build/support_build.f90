@@ -17,7 +17,7 @@ contains
    subroutine build_supports(deck, model)
       type(checked_deck), intent(in)  :: deck
       type(model_type), intent(inout) :: model
-      integer :: i, node, set, set_line
+      integer :: i, set, set_line
 
       allocate (model%held(model%dimension, model%n_nodes), source=.false.)
       allocate (model%used(model%n_nodes))
@@ -26,9 +26,7 @@ contains
          model%used(model%interface(i)%node) = .true.
       end do
       do i = 1, n_bars(model)
-         do node = 1, 2
-            if (model%bars(i)%nodes(node) > 0) model%used(model%bars(i)%nodes(node)) = .true.
-         end do
+         model%used(pack(model%bars(i)%nodes, model%bars(i)%nodes > 0)) = .true.
       end do
       do i = 1, size(deck%bulk%grid)
          if (deck%bulk%grid(i)%ps == 0) cycle

@@ -143,15 +143,11 @@ contains
       character(:), allocatable    :: words
       integer :: k
 
-      if (size(nodes) == 2) then
-         words = 'edge between nodes '//integer_text(model%node_id(nodes(1)))//' and '//integer_text(model%node_id(nodes(2)))
-         return
-      end if
-      words = 'face of nodes '//integer_text(model%node_id(nodes(1)))
-      do k = 2, size(nodes)
-         words = words//merge(', ', '  ', k < size(nodes))
-         if (k == size(nodes)) words = trim(words)//' and '
-         words = words//integer_text(model%node_id(nodes(k)))
+      words = trim(merge('edge between nodes', 'face of nodes     ', size(nodes) == 2))
+      do k = 1, size(nodes)
+         if (k == size(nodes)) words = words//' and'
+         words = words//' '//integer_text(model%node_id(nodes(k)))
+         if (k < size(nodes) - 1) words = words//','
       end do
    end function side_name
 

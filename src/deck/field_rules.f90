@@ -1,5 +1,5 @@
-!> The rules that the table of a card is made of: one a field, with what the field may hold, and the same in words. Of several names a
-!! rule makes as many fields alike.
+!> The rules that the table of a card is made of: one a field, with what the field may hold, and the same in words. Of
+!! several names a rule makes as many fields alike.
 module field_rules
    use kinds, only: wp
    use text_tools, only: integer_text, real_text

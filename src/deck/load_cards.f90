@@ -45,8 +45,8 @@ contains
                bulk%support(n) = support_card(line=line, set=integers(1), components=integers(2))
                call list_nodes(cards, bulk%support(n))
             case default
-               bulk%support(n) = support_card(line=line, set=integers(1), components=integers(2), surface=integers(3), &
-                                              first=[integer ::], last=[integer ::], at=[integer ::])
+               bulk%support(n) = support_card(line=line, set=integers(1), components=integers(2), surface=integers(3))
+               allocate (bulk%support(n)%first(0), bulk%support(n)%last(0), bulk%support(n)%at(0))
             end select
          end associate
       end do

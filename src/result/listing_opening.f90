@@ -3,7 +3,7 @@ module listing_opening
    use deck_cards, only: card_name, is_continuation
    use case_control, only: method_newton, method_step, pressure_eq10
    use deck_input, only: deck_type
-   use equation_solver, only: equation_system, solver_description
+   use equation_solver, only: equation_system
    use line_scan, only: is_include
    use kinds, only: long, wp
    use listing_table, only: axes, column, cut, heading, listing_table_type, page_type, page_width
@@ -98,7 +98,6 @@ contains
       type(deck_type), intent(in)           :: deck
       type(model_type), intent(in)          :: model
       class(equation_system), intent(in)    :: system
-      type(solver_description) :: solver
       integer :: i
 
       call heading(file, 'MODEL SUMMARY')
@@ -113,12 +112,11 @@ contains
       call count_line('INTERFACE ELEMENTS', size(model%interface, kind=long))
       call count_line('SUPPORTED COMPONENTS', count(model%held(:, :n_points(model)), kind=long))
       call count_line('UNKNOWNS', int(system%n, long))
-      call system%describe(solver)
-      do i = 1, size(solver%words)
-         if (solver%words(i) /= '') call count_line(trim(solver%words(i)), solver%numbers(i))
+      do i = 1, size(system%description%words)
+         if (system%description%words(i) /= '') call count_line(trim(system%description%words(i)), system%description%numbers(i))
       end do
       call count_line('STAGES', size(deck%control%stages, kind=long))
-      associate (control => deck%control)
+      associate (control => deck%control, solver => system%description)
          select case (control%method)
          case (method_step)
             call file%put('  METHOD STEP   PRESSURE '//trim(merge('EQ10', 'SUMF', control%pressure == pressure_eq10))// &
