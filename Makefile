@@ -35,6 +35,7 @@ help:
 	@echo 'make accept CASE=name    take the results of input/name.bdf as the new reference'
 	@echo 'make bench      speed and memory, MODELS=small: only of small models'
 	@echo 'make figures    the pictures, from the CSV files of the decks'
+	@echo 'make figures DECK=path   pressure, deflection and loops of the joints of any deck'
 	@echo 'make clean'
 
 # The program, optimised and with run-time checks -----------------------------------------------------------------
@@ -125,9 +126,15 @@ accept: bin/jointfem
 
 include tests/bench/bench.mk
 
+# The figures of the paper, or with DECK=path those of one deck
 .PHONY: figures
+ifdef DECK
+figures: bin/jointfem
+	@reference_output/figures/deck.sh bin/jointfem '$(DECK)' $(BUILD)/figures
+else
 figures: bin/jointfem bin/jointfit $(QUERY)
 	@reference_output/figures/draw.sh bin/jointfem bin/jointfit $(QUERY) $(BUILD)/figures
+endif
 
 .PHONY: clean
 clean:

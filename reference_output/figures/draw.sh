@@ -8,21 +8,29 @@ source tests/exact/contact_edges.sh
 here=$(dirname "$0")
 command -v gnuplot > /dev/null || { echo 'make figures needs gnuplot: apt-get install gnuplot-nox'; exit 1; }
 mkdir -p "$work"
-decks='normal_loop shear_loop shear_pressure friction_none friction_once friction_full
+decks='normal_loop shear_cycles shear_step shear_pressure friction_none friction_once friction_full
        prism03 prism05 prism10 prism15 prism_newton prism_back'
 for deck in $decks; do "$program" -q -o "$work" "input/$deck.bdf"; done
 
-# the error of STEP against NEWTON, both in increments: NEWTON with 40, STEP with 3 to 320
+# the prism by STEP in 3 to 320 increments, against NEWTON in 40: deflection of node 51, pressures, largest error
 prism() { # METHOD INCREMENTS FIRST
    sed -E "s/^METHOD.*/METHOD = $1/; s/^JINCR.*/JINCR,$2,$2,ARITH,$3/; s/^( *INCR =).*/\\1 $2/" input/prism05.bdf \
       > "$work/$1_$2.bdf"
    "$program" -q -o "$work" "$work/$1_$2.bdf"
 }
+at_the_end() { # METHOD INCREMENTS: the increments, the deflection of node 51, the pressures of nodes 6, 11, ..., 51
+   awk -F, -v n=$2 '$2 == n { pressure[$6] = $14; lambda[$6] = $13 }
+      END { printf "%d,%s", n, lambda[51]; for (k = 6; k <= 51; k += 5) printf ",%s", pressure[k]; print "" }' "$work/$1_$2.joint.csv"
+}
 prism NEWTON 40 0.025
+columns='increments,lambda,p6,p11,p16,p21,p26,p31,p36,p41,p46,p51'
+{ echo "$columns"; at_the_end NEWTON 40; } > "$work/newton.csv"
+echo "$columns" > "$work/by_increments.csv"
 echo 'increments,error' > "$work/errors.csv"
 for n in 3 5 10 15 20 40 80 160 320; do
    first=$(awk -v n=$n 'BEGIN { printf "%.7f", n < 20 ? 0.05 : 1 / n }')
    prism STEP $n "$first"
+   at_the_end STEP $n >> "$work/by_increments.csv"
    echo "$n,$("$query" "$work/STEP_$n.joint.csv" rows "increment = $n" with "$work/NEWTON_40.joint.csv" on node1 on increment=40 \
       print 'max(abs(lambda - other.lambda))')" >> "$work/errors.csv"
 done
@@ -42,12 +50,16 @@ for t in 2 3 4 5 6 7 8 9 10 11 12; do
    done | awk -v t=$t '{ reach[NR] = $2 - 40 } END { print t "," reach[1] "," reach[2] }' >> "$work/flange.csv"
 done
 
+for chart in a b; do
+   awk -v title="Fig. 6($chart)" -f "$here/chart.awk" "$here/README.md" > "$here/fig6$chart.svg"
+   echo "$here/fig6$chart.svg"
+done
 for script in "$here"/*.gp; do
    name=$(basename "$script" .gp)
    for terminal in 'pngcairo size 1000,700 font "Helvetica,14"' 'svg size 1000,700 font "Helvetica,14" background "white"'; do
       suffix=${terminal%% *}
       suffix=${suffix%cairo}
-      gnuplot -e "set terminal $terminal; set output '$here/$name.$suffix'; folder = '$work/'" "$here/style.inc" "$script"
+      gnuplot -e "set terminal $terminal; set output '$here/$name.$suffix'; folder = '$work/'; includes = '$here/'" "$here/style.inc" "$script"
    done
    echo "$here/$name.png, .svg"
 done

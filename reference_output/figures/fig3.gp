@@ -1,14 +1,26 @@
-set title 'Fig. 3  Tangent steps of the step-wise method: node 51 of the prism, 5 increments'
+set title 'Fig. 3  Loading by increments: node 51 of the prism, 5 increments'
 set xlabel 'closing deflection {/Symbol l} [10^{-3} mm]'
 set ylabel 'pressure p [kgf/mm^2]'
-set key top left
-set label 1 'O' at 0, 0 offset 1, 0.8
-row(n, c) = real(system(sprintf("awk -F, '$2 == %d && $6 == 51 { print $%d }' %sprism05.joint.csv", n, c, folder)))
-do for [i = 0:4] { set label 10 + i sprintf('A_%d', i) at 1000*row(i + 1, 13), row(i + 1, 14) offset 0.8, -0.6 }
-do for [i = 1:4] { set label 20 + i sprintf('B_%d', i) at 8*sqrt(row(i, 14)), row(i, 14) offset -2.5, 0.3 }
-plot [0:8] [0:0.95] \
-   (x/8.0)**2 with lines ls 9 title '{/Symbol l} = c p^m', \
+set key top left Left reverse
+n = 5
+array L[n]
+array P[n]
+cell(i, c) = real(system(sprintf("awk -F, '$2 == %d && $6 == 51 { print $%d }' %sprism05.joint.csv", i, c, folder)))
+do for [i = 1:n] { L[i] = 1000*cell(i, 13); P[i] = cell(i, 14) }
+on_curve(p) = 8.0*sqrt(p)
+tangent(x, p) = p + sqrt(p)/4.0*(x - on_curve(p))
+set label 1 'O = A_0' at 0, 0 offset 0.8, -0.7
+do for [i = 1:n] {
+   set label 10 + i sprintf('A_%d', i) at on_curve(P[i]), P[i] offset -2.2, 0.7
+   set label 20 + i sprintf('B_%d', i) at L[i], P[i] offset 0.7, -0.6
+   set arrow 30 + i from on_curve(P[i]), P[i] to L[i], P[i] nohead ls 3 lw 3
+   if (i < n) { set arrow 40 + i from on_curve(P[i]) - 0.6, tangent(on_curve(P[i]) - 0.6, P[i]) \
+                   to on_curve(P[i]) + 1.4, tangent(on_curve(P[i]) + 1.4, P[i]) nohead ls 4 lw 1.5 dt 2 }
+}
+plot [0:8] [-0.03:0.65] \
+   (x/8.0)**2 with lines ls 1 dt 1 lw 1 title 'the law, {/Symbol l} = c p^m', \
    "< awk -F, 'NR == 1 { print \"lambda,pressure\"; print \"0,0\"; next } $6 == 51 { print $13 \",\" $14 }' " . folder . "prism05.joint.csv" \
-   using (1000*column('lambda')):'pressure' with linespoints ls 2 title 'steps along the tangents; the first is a secant', \
-   "< awk -F, 'NR == 1 { print \"lambda,pressure\"; next } $6 == 51 && $2 < 5 { print 8e-3*sqrt($14) \",\" $14 }' " . folder . "prism05.joint.csv" \
-   using (1000*column('lambda')):'pressure' with points ls 3 title 'points of the curve whose tangents the steps have'
+      using (1000*column('lambda')):'pressure' with linespoints ls 2 title 'increments, to the computed points B_i', \
+   NaN with lines ls 4 lw 1.5 dt 2 title 'tangents at A_i, which begin at B_i', \
+   NaN with lines ls 3 lw 3 title 'error A_i B_i', \
+   P using (on_curve(P[$1])):(P[$1]) with points ls 1 title 'A_i on the curve'

@@ -1,4 +1,4 @@
-set title 'Fig. 5  The approach to the friction limit, {/Symbol t} = {/Symbol m}p: node 1 of the pushed block'
+set title 'The approach to the friction limit, {/Symbol t} = {/Symbol m}p: node 1 of the pushed block'
 set xlabel 'push [kgf]'
 set ylabel 'shear stress over pressure, {/Symbol t}/p'
 set key top left
