@@ -1,6 +1,6 @@
 !> Warnings about fitted cubics whose slope turns negative where the card may be used: a joint has no negative stiffness.
 module slope_check
-   use fit_data, only: branch_words, fit_load, fit_reload, fit_unload
+   use data_columns, only: branch_words, fit_load, fit_reload, fit_unload
    use kinds, only: wp
    use surface_fit, only: surface_fit_type
    use text_tools, only: real_text
