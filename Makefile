@@ -63,14 +63,10 @@ $(BUILD)/checked/%.o: %.f90
 	@mkdir -p $(@D)
 	$(FC) $(FFLAGS_CHECKED) -J$(@D) -c -o $@ $<
 
-# Which module uses which: file names are module names.
-$(BUILD)/dependencies.mk: $(SOURCES) Makefile
+$(BUILD)/dependencies.mk: $(SOURCES) tests/runner/dependencies.awk Makefile
 	@mkdir -p $(@D)
-	@awk -v modules='$(MODULES)' 'BEGIN { n = split(modules, m, " "); for (i = 1; i <= n; i++) known[m[i]] = 1 } \
-	   FNR == 1 { me = FILENAME; sub(/.*\//, "", me); sub(/\.f90$$/, "", me) } \
-	   $$1 == "use" { used = $$2; sub(/,.*/, "", used); if (used in known) { \
-	      print "$(BUILD)/release/" me ".o: $(BUILD)/release/" used ".o"; \
-	      print "$(BUILD)/checked/" me ".o: $(BUILD)/checked/" used ".o" } }' $(SOURCES) > $@
+	@for way in release checked; do awk -v folder=$(BUILD)/$$way -v objects="$$(printf "$(BUILD)/$$way/%s.o " $(MODULES))" \
+	   -f tests/runner/dependencies.awk $(SOURCES); done > $@
 
 ifneq ($(MAKECMDGOALS),clean)
 -include $(BUILD)/dependencies.mk

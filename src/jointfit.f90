@@ -1,13 +1,13 @@
 !> jointfit: the cards of a joint's laws, JNORM and JSHEAR, from test data.
 program jointfit
    use c_library, only: end_run
-   use command_tools, only: use_threads
    use deck_errors, only: deck_error_list
    use fit_command, only: fit_command_type, read_fit_command
    use fit_comments, only: write_cards
    use fit_data, only: read_test_data, test_data_type
    use fit_plot, only: write_plot
    use fit_run, only: begin_output, end_fit, report_data_errors, report_fit, report_unreadable_data
+   use machine, only: use_threads
    use output_file, only: output_file_type
    use slope_check, only: check_slopes
    use surface_fit, only: fit_surface, surface_fit_type

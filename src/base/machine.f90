@@ -1,14 +1,14 @@
-!> What the machine has, and what the program has taken of it.
+!> What the machine has, and what the program takes of it: memory and threads.
 module machine
    use, intrinsic :: iso_c_binding, only: c_int, c_size_t
    use control_groups, only: memory_left_by_groups
    use kernel_figures, only: kernel_figure, no_figure
    use kinds, only: long, wp
-   use omp_lib, only: omp_get_max_threads
+   use omp_lib, only: omp_get_max_threads, omp_set_num_threads
    implicit none
    private
 
-   public :: available_memory, memory_for, peak_memory, keep_memory
+   public :: available_memory, memory_for, peak_memory, keep_memory, use_threads
 
    integer(c_int), parameter :: trim_threshold = -1, top_pad = -2, mmap_max = -4 ! parameters of mallopt, malloc.h of glibc
 
@@ -33,6 +33,11 @@ module machine
       type(heap_figures) function mallinfo2() bind(c)
          import :: heap_figures
       end function mallinfo2
+
+      subroutine openblas_set_num_threads(n) bind(c, name='openblas_set_num_threads')
+         import :: c_int
+         integer(c_int), value :: n
+      end subroutine openblas_set_num_threads
    end interface
 
 contains
@@ -83,5 +88,14 @@ contains
 
       bytes = kernel_figure('/proc/self/status', 'VmHWM:', 1024)
    end function peak_memory
+
+
+   !> N threads at most, 0: as many as there are cores. BLAS has one in each: one order of additions, the same digits everywhere.
+   subroutine use_threads(n)
+      integer, intent(in) :: n
+
+      call openblas_set_num_threads(1_c_int)
+      if (n > 0) call omp_set_num_threads(n)
+   end subroutine use_threads
 
 end module machine

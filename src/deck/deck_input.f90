@@ -7,7 +7,7 @@ module deck_input
    use card_names, only: card_name, is_continuation
    use deck_cards, only: read_card
    use deck_errors, only: deck_error_list
-   use deck_text, only: deck_text_type, read_deck_text
+   use deck_text, only: deck_text_of_bytes, deck_text_type, read_deck_text
    use element_cards, only: read_element
    use element_kinds, only: kind_hexa8, kind_penta6, kind_quad4, kind_tetra4, kind_tria3
    use include_lines, only: is_include
@@ -20,7 +20,7 @@ module deck_input
    implicit none
    private
 
-   public :: read_deck
+   public :: read_deck, read_deck_of_text
 
    type, public :: deck_type
       type(deck_text_type)    :: text
@@ -46,11 +46,31 @@ contains
       type(deck_type), intent(out)         :: deck
       type(deck_error_list), intent(inout) :: errors
       logical, intent(out)                 :: readable
+
+      call read_deck_text(path, deck%text, errors, readable)
+      if (readable) call read_lines(deck, errors)
+   end subroutine read_deck
+
+
+   !> Read the deck whose file would hold these BYTES; what is wrong in it goes to ERRORS.
+   subroutine read_deck_of_text(bytes, deck, errors)
+      character(*), intent(in)             :: bytes
+      type(deck_type), intent(out)         :: deck
+      type(deck_error_list), intent(inout) :: errors
+
+      call deck_text_of_bytes(bytes, deck%text, errors)
+      call read_lines(deck, errors)
+   end subroutine read_deck_of_text
+
+
+   !> Case control and bulk data of the deck whose text is there.
+   subroutine read_lines(deck, errors)
+      type(deck_type), intent(inout)       :: deck
+      type(deck_error_list), intent(inout) :: errors
       integer :: cursor
       logical :: found_bulk, is_whole
 
-      call read_deck_text(path, deck%text, errors, readable)
-      if (.not. (readable .and. deck%text%is_text)) return
+      if (.not. deck%text%is_text) return
       is_whole = .not. errors%any()
       cursor = 1
       call read_case_control(deck%text, cursor, deck%control, found_bulk, errors)
@@ -61,7 +81,7 @@ contains
       call make_room(deck%text, cursor, deck%bulk)
       call read_bulk_data(deck%text, cursor, deck%bulk, errors)
       deck%is_whole = is_whole
-   end subroutine read_deck
+   end subroutine read_lines
 
 
    !> Count the cards by name and give every kind its room.

@@ -4,13 +4,13 @@ module deck_text
    use kinds, only: long
    use line_scan, only: line_place, scan_line
    use c_library, only: read_all_bytes, true_path
-   use command_tools, only: standard_input
+   use command_arguments, only: standard_input
    use deck_errors, only: deck_error_list
    use text_tools, only: integer_text
    implicit none
    private
 
-   public :: read_deck_text
+   public :: read_deck_text, deck_text_of_bytes
 
    integer, parameter :: max_files = 500 ! a deck and its INCLUDE files
    integer, parameter :: max_depth = 20  ! of INCLUDE in INCLUDE
@@ -58,15 +58,43 @@ contains
       type(deck_error_list), intent(inout) :: errors
       logical, intent(out)                 :: readable
 
+      call start_text(text)
+      call add_file(text, path, 0, 0, errors, readable)
+      if (readable) call refuse_empty(text, errors)
+   end subroutine read_deck_text
+
+
+   !> The deck with these BYTES, lines and line ends as a file holds them. It is named 'text'; what it includes is looked for in
+   !! the current folder.
+   subroutine deck_text_of_bytes(bytes, text, errors)
+      character(*), intent(in)             :: bytes
+      type(deck_text_type), intent(out)    :: text
+      type(deck_error_list), intent(inout) :: errors
+
+      call start_text(text)
+      text%n_files = 1
+      text%files(1) = source_file(path='text', true_path='', bytes=bytes)
+      call add_lines(text, 1, 0, errors)
+      call refuse_empty(text, errors)
+   end subroutine deck_text_of_bytes
+
+
+   subroutine start_text(text)
+      type(deck_text_type), intent(inout) :: text
+
       allocate (text%files(max_files))
       allocate (text%lines(1024), text%parts(2*max_files))
-      call add_file(text, path, 0, 0, errors, readable)
-      if (.not. readable) return
-      if (len_trim(text%files(1)%bytes) == 0) then
-         call errors%add(0, 'the deck is empty')
-         text%is_text = .false.
-      end if
-   end subroutine read_deck_text
+   end subroutine start_text
+
+
+   subroutine refuse_empty(text, errors)
+      type(deck_text_type), intent(inout)  :: text
+      type(deck_error_list), intent(inout) :: errors
+
+      if (len_trim(text%files(1)%bytes) > 0) return
+      call errors%add(0, 'the deck is empty')
+      text%is_text = .false.
+   end subroutine refuse_empty
 
 
    !> Line I as it stands in its file, without the line end.
@@ -162,17 +190,14 @@ contains
    end function part_of
 
 
-   !> Read one file and add its lines; an INCLUDE line is added and then followed.
+   !> Read one file and add its lines.
    recursive subroutine add_file(text, path, parent, depth, errors, readable)
       type(deck_text_type), intent(inout)  :: text
       character(*), intent(in)             :: path
       integer, intent(in)                  :: parent, depth
       type(deck_error_list), intent(inout) :: errors
       logical, intent(out)                 :: readable
-      integer :: me, number, bad
-      integer(long) :: start, next, length
-      type(line_place) :: line
-      logical :: has_tab, followed
+      integer :: me
 
       me = text%n_files + 1
       text%files(me)%path = path
@@ -182,6 +207,20 @@ contains
       if (.not. readable) return
       text%files(me)%true_path = true_path(path)
       text%n_files = me
+      call add_lines(text, me, depth, errors)
+   end subroutine add_file
+
+
+   !> Add the lines of file ME; an INCLUDE line is added and then followed.
+   recursive subroutine add_lines(text, me, depth, errors)
+      type(deck_text_type), intent(inout)  :: text
+      integer, intent(in)                  :: me, depth
+      type(deck_error_list), intent(inout) :: errors
+      integer :: number, bad
+      integer(long) :: start, next, length
+      type(line_place) :: line
+      logical :: has_tab, followed
+
       length = len(text%files(me)%bytes, long)
       start = 1
       if (length >= 3) then
@@ -203,7 +242,7 @@ contains
          if (followed) call text%start_part(me, number)
          start = next
       end do
-   end subroutine add_file
+   end subroutine add_lines
 
 
    !> The lines pushed from now on stand in FILE, the first of them as its line NUMBER.

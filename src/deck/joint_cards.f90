@@ -7,7 +7,7 @@ module joint_cards
    use field_rules, only: blank_field, field_rule, integer_field, real_field, word_field
    use kinds, only: wp
    use load_shares, only: arithmetic_shares, geometric_shares
-   use normal_stiffness, only: branch_load, branch_reload, branch_unload
+   use shear_stiffness, only: cubic, shear_law
    use text_tools, only: integer_text, real_text
    implicit none
    private
@@ -16,7 +16,6 @@ module joint_cards
 
    integer, parameter :: most_increments = 100000
    integer, parameter :: most_reanalyses = 1000
-   integer, parameter :: branches(3) = [branch_load, branch_unload, branch_reload] ! of the lines of JSHEAR
 
 contains
 
@@ -131,7 +130,8 @@ contains
       type(card_values), intent(inout)     :: values
       type(deck_error_list), intent(inout) :: errors
       type(field_rule), save, allocatable :: table(:)
-      integer :: branch, first, k
+      type(cubic) :: curves(3)
+      integer :: first, k
 
       if (.not. allocated(table)) table = [integer_field('SID'), real_field('A11'), coefficient('A12'), coefficient('A21'), &
          coefficient('A22'), coefficient('A31'), coefficient('A32'), blank_field('blank'), &
@@ -145,21 +145,18 @@ contains
       associate (jshear => bulk%jshear(bulk%n_jshear), x => values%reals)
          jshear%line = card%line
          jshear%id = values%integers(1)
-         jshear%law%given = .true.
-         do k = 1, size(branches)
-            branch = branches(k)
+         do k = 1, 3
             first = 8*k - 7
             if (k == 1) first = 2
             if (.not. any(values%given(first:first + 5))) then
-               jshear%law%coefficients(:, :, branch) = jshear%law%coefficients(:, :, branch_load)
+               curves(k) = curves(1)
             else
-               jshear%law%coefficients(:, :, branch) = reshape(x(first:first + 5), [2, 3])
+               curves(k) = cubic(reshape(x(first:first + 5), [2, 3]))
                if (k > 1 .and. .not. values%given(first)) call field_error(card, first, trim(table(first)%name)// &
                   ': blank, expected a real number: the first coefficient of a branch that is given', errors)
             end if
          end do
-         jshear%law%p_max = x(25)
-         jshear%law%d_max = x(26)
+         jshear%law = shear_law(given=.true., load=curves(1), unload=curves(2), reload=curves(3), p_max=x(25), d_max=x(26))
       end associate
 
    contains

@@ -1,7 +1,7 @@
 !> Bars: two nodes and a stiffness E A/L along the line between them.
 module bar_elements
    use kinds, only: wp
-   use model_data, only: model_type, n_bars
+   use model_data, only: bar_type, model_type
    implicit none
    private
 
@@ -9,15 +9,12 @@ module bar_elements
 
 contains
 
-   !> How much longer bar I is under the displacements U [length].
-   pure real(wp) function bar_elongation(model, u, i) result(elongation)
-      type(model_type), intent(in) :: model
-      real(wp), intent(in)         :: u(:, :) !! (dimension, n_nodes) [length]
-      integer, intent(in)          :: i
+   !> How much longer BAR is under the displacements of its nodes [length].
+   pure real(wp) function bar_elongation(bar, u) result(elongation)
+      type(bar_type), intent(in) :: bar
+      real(wp), intent(in)       :: u(:, :) !! (dimension, 2) [length]
 
-      associate (bar => model%bars(i))
-         elongation = dot_product(u(:, bar%nodes(2)) - u(:, bar%nodes(1)), bar%direction(:model%dimension))
-      end associate
+      elongation = dot_product(u(:, 2) - u(:, 1), bar%direction(:size(u, 1)))
    end function bar_elongation
 
 
@@ -35,15 +32,18 @@ contains
    end subroutine add_pull
 
 
-   !> Add to F the forces that hold all elastic bars in their displaced shape.
-   pure subroutine add_bar_forces(model, u, f)
+   !> Add to F the forces that hold the elastic bars in their displaced shape.
+   pure subroutine add_bar_forces(model, is_elastic, u, f)
       type(model_type), intent(in) :: model
+      logical, intent(in)          :: is_elastic(:) !! (bars)
       real(wp), intent(in)         :: u(:, :) !! (dimension, n_nodes) [length]
       real(wp), intent(inout)      :: f(:, :) !! (dimension, n_nodes) [force]
       integer :: i
 
-      do i = 1, n_bars(model)
-         if (model%bars(i)%is_elastic) call add_pull(model, i, -model%bars(i)%stiffness*bar_elongation(model, u, i), f)
+      do i = 1, size(is_elastic)
+         associate (bar => model%bars(i))
+            if (is_elastic(i)) call add_pull(model, i, -bar%stiffness*bar_elongation(bar, u(:, bar%nodes)), f)
+         end associate
       end do
    end subroutine add_bar_forces
 

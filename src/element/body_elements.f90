@@ -1,6 +1,5 @@
 !> The elements of the bodies, each by its kind: stiffness, stresses, forces. The one place that knows which kinds there are.
 module body_elements
-   use bar_elements, only: add_bar_forces
    use elasticity, only: max_stresses, n_stresses, plane_strain, solid
    use element_kinds, only: max_coupled_dofs
    use element_loads, only: body_forces
@@ -98,7 +97,7 @@ contains
    end subroutine element_weight
 
 
-   !> Forces that hold the bodies, and the bars, in their displaced shape: F = sum of [k] {u} of their elements.
+   !> Forces that hold the bodies in their displaced shape: F = sum of [k] {u} of their elements.
    pure subroutine internal_forces(model, u, f)
       type(model_type), intent(in) :: model
       real(wp), intent(in)         :: u(:, :) !! (dimension, n_nodes) [length]
@@ -121,7 +120,6 @@ contains
             end do
          end associate
       end do
-      call add_bar_forces(model, u, f)
    end subroutine internal_forces
 
 

@@ -1,7 +1,7 @@
 !> The command line of jointfit: options and data files.
 module fit_command
    use branch_fit, only: fit_choice
-   use command_tools, only: argument_text, complain, is_option, name_input, say, version
+   use command_arguments, only: argument_text, complain, input_argument, input_of, is_option, say, version
    use data_columns, only: branch_number, reading_type
    use data_entries, only: read_number
    use data_units, only: read_system
@@ -16,12 +16,6 @@ module fit_command
 
    character(*), parameter :: program = 'jointfit'
 
-   !> One data file of the command.
-   type, public :: data_argument
-      character(:), allocatable :: path  !! to read; /dev/stdin for `-`
-      character(:), allocatable :: name  !! as the user wrote it
-   end type data_argument
-
    type, public :: fit_command_type
       integer  :: id        = 1          !! --id: of the first file's card
       logical  :: small     = .false.    !! --small: fields of eight columns
@@ -34,7 +28,7 @@ module fit_command
       character(:), allocatable :: plot  !! --plot: a file for gnuplot, empty: none
       type(fit_choice)   :: fit          !! --p-tolerance, --joint-fit, --one-pressure
       type(reading_type) :: reading      !! --units, --data-units, --ignore, --decimal-comma
-      type(data_argument), allocatable :: files(:)
+      type(input_argument), allocatable :: files(:)
    end type fit_command_type
 
 contains
@@ -46,7 +40,6 @@ contains
       logical, intent(out)                :: finished
       integer, intent(out)                :: status
       character(:), allocatable :: argument
-      type(data_argument) :: file
       integer :: i
       logical :: ok, options
 
@@ -61,8 +54,7 @@ contains
          i = i + 1
          argument = argument_text(i)
          if (.not. is_option(argument, options)) then
-            call name_input(argument, file%name, file%path)
-            command%files = [command%files, file]
+            command%files = [command%files, input_of(argument)]
             cycle
          end if
          select case (argument)

@@ -1,7 +1,7 @@
 !> What stands above the fitted cards: data, residuals, range, coefficients, warnings.
 module fit_comments
    use branch_fit, only: branch_fit_type, residual_type
-   use command_tools, only: version
+   use command_arguments, only: version
    use data_columns, only: branch_letters, branch_words, column_d, column_p, column_symbols, data_normal, fit_load, &
                            fit_reload, fit_unload, n_columns
    use fit_command, only: fit_command_type

@@ -2,12 +2,12 @@
 module fit_run
    use, intrinsic :: iso_fortran_env, only: error_unit
    use c_library, only: end_run
-   use command_tools, only: why_unreadable
+   use command_arguments, only: complain_of_input, input_argument
    use data_columns, only: branch_words, data_normal, fit_reload, fit_unload
    use deck_errors, only: deck_error_list
    use deck_text, only: deck_text_type
    use error_report, only: print_errors
-   use fit_command, only: data_argument, fit_command_type
+   use fit_command, only: fit_command_type
    use output_file, only: output_file_type
    use surface_fit, only: surface_fit_type
    implicit none
@@ -22,10 +22,10 @@ module fit_run
 contains
 
    subroutine report_unreadable_data(file)
-      type(data_argument), intent(in) :: file
+      type(input_argument), intent(in) :: file
 
       exit_status = max(exit_status, status_unreadable)
-      write (error_unit, '(3a)') file%name, ': ', why_unreadable(file%path, 'a file of test data')
+      call complain_of_input(file, 'a file of test data')
    end subroutine report_unreadable_data
 
 
@@ -41,7 +41,7 @@ contains
 
    !> The warnings of a fit, and that there is no card for want of loading data.
    subroutine report_fit(file, fit)
-      type(data_argument), intent(in)    :: file
+      type(input_argument), intent(in)   :: file
       type(surface_fit_type), intent(in) :: fit
       character(:), allocatable :: word
       integer :: k

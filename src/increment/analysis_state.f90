@@ -1,15 +1,18 @@
 !> Everything that changes from increment to increment, and what all methods do with it alike.
 module analysis_state
-   use equations, only: equation_system
+   use case_control, only: case_control_type, pressure_eq10
+   use equation_solver, only: equation_system
+   use failures, only: failure_type
+   use interface_operator, only: add_global_force, interface_element, joint_movement
    use joint_laws, only: element_state, element_stiffness_of
    use kinds, only: wp
-   use model_data, only: joint_movement, model_type, n_bars
+   use model_data, only: model_type, n_bars, n_sections
    use normal_stiffness, only: branch_open
    implicit none
    private
 
-   public :: start_analysis, interface_stiffness, find_unbalanced, subtract_joint_forces, element_force, tally_work, &
-             record_pass, note_largest, free_norm
+   public :: start_analysis, all_held, interface_stiffness, find_movements, find_unbalanced, subtract_joint_forces, &
+             element_force, tally_work, record_pass, note_largest, free_norm
 
    !> Work done on one joint in the present stage [force x length].
    type, public :: joint_energy
@@ -25,35 +28,46 @@ module analysis_state
       integer  :: part = 0                          !! NEWTON: which part of a divided increment; BACK: -1
    end type pass_record
 
-   !> Arrays over nodes are (dimension, n_nodes). In the increments displacements and unbalanced forces are those of the nodes
-   !! that the equations retain; recover_bodies completes them.
+   !> Arrays over nodes are (dimension, n_nodes). Of displacements and forces the increments see the retained nodes alone, in arrays
+   !! (dimension, retained); recover_bodies completes them.
    type, public :: analysis_type
       integer  :: stage = 0, increment = 0
       real(wp) :: share = 0.0_wp                    !! of the stage's load change, this increment
       real(wp) :: fraction = 0.0_wp                 !! of it, so far: exactly 1 at the end of the stage
       logical  :: carry = .false.
+      logical  :: eq10 = .false.                    !! STEP: p on the loading curve by Eq. (10) as printed
       real(wp) :: load_tolerance = 1.0e-10_wp       !! NEWTON: share of the largest load that may be left unbalanced
       real(wp) :: tolerance = 0.0_wp                !! the same as a force, for the largest load so far
+      ! over all nodes
       real(wp), allocatable :: load_before(:, :)    !! at the start of the stage [force]
       real(wp), allocatable :: load_after(:, :)     !! at its end; what is not elastic in bolts included
       real(wp), allocatable :: applied(:, :)        !! now
-      real(wp), allocatable :: felt_before(:, :)    !! the same loads as retained nodes feel them: what acts on the others
-      real(wp), allocatable :: felt_after(:, :)     !! condensed, and what moved supports push included
-      real(wp), allocatable :: felt(:, :)
-      real(wp), allocatable :: change(:, :)         !! of that in this increment
-      integer, allocatable  :: retained(:)          !! the nodes that the equations retain
       integer, allocatable  :: loaded(:)            !! nodes on which loads act in this stage
       logical  :: is_moved = .false.                !! whether supports are out of their places in this stage
       logical  :: moves = .false.                   !! whether they are moved in this increment
       real(wp), allocatable :: moved_before(:, :)   !! displacements of held components at the start of the stage [length]
       real(wp), allocatable :: moved_after(:, :)    !! at its end
       real(wp), allocatable :: moved(:, :)          !! now
-      real(wp), allocatable :: move(:, :)           !! in this increment
-      real(wp), allocatable :: body(:, :)           !! [k_b] {u} as retained nodes feel it
+      real(wp), allocatable :: all_u(:, :)          !! displacements, as recover_bodies found them last [length]
+      real(wp), allocatable :: all_unbalanced(:, :) !! applied - internal forces, likewise; on held components minus the reaction
+      integer, allocatable  :: place(:)             !! (n_nodes) of a node among the retained ones, 0: nowhere
+      ! over retained nodes
+      logical, allocatable  :: held(:, :)           !! supported, or locked since
+      real(wp), allocatable :: felt_before(:, :)    !! the loads as retained nodes feel them: what acts on the others
+      real(wp), allocatable :: felt_after(:, :)     !! condensed, and what moved supports push included
+      real(wp), allocatable :: felt(:, :)
+      real(wp), allocatable :: change(:, :)         !! of that in this increment
+      real(wp), allocatable :: move(:, :)           !! of supports in this increment [length]
+      real(wp), allocatable :: body(:, :)           !! [k_b] {u}
       real(wp), allocatable :: u(:, :), du(:, :)    !! displacements, and of this increment [length]
-      real(wp), allocatable :: unbalanced(:, :)     !! applied - internal forces; on held components minus the reaction
+      real(wp), allocatable :: unbalanced(:, :)     !! felt - internal forces
+      ! of bars and of the sections of solid bolts
+      logical, allocatable  :: is_elastic(:)        !! of bars: no bolt, or locked
       real(wp), allocatable :: pull(:)              !! of locked bolts: tension at the lengths of the model at rest [force]
-      type(element_state), allocatable :: states(:) !! of the interface elements
+      logical, allocatable  :: is_locked(:)         !! of sections
+      ! of interface elements and joints
+      type(element_state), allocatable :: states(:)
+      real(wp), allocatable :: movement(:, :)       !! (3, n) of end 1 against end 2, in all, in the element's axes [length]
       real(wp), allocatable :: k(:, :)              !! (3, n) their stiffness (k_sx, k_sy, k_n) in the next increment
       type(joint_energy), allocatable  :: energy(:) !! of the joints
       type(pass_record), allocatable   :: passes(:) !! of the last increment
@@ -67,103 +81,126 @@ module analysis_state
 contains
 
    !> A structure at rest without load.
-   subroutine start_analysis(model, system, carry, tolerance, analysis)
-      type(model_type), intent(in)      :: model
-      type(equation_system), intent(in) :: system
-      logical, intent(in)               :: carry
-      real(wp), intent(in)              :: tolerance !! of NEWTON [-]
-      type(analysis_type), intent(out)  :: analysis
+   subroutine start_analysis(model, system, control, analysis)
+      type(model_type), intent(in)        :: model
+      class(equation_system), intent(in)  :: system
+      type(case_control_type), intent(in) :: control
+      type(analysis_type), intent(out)    :: analysis
 
+      analysis%carry = control%carry
+      analysis%eq10 = control%pressure == pressure_eq10
+      analysis%load_tolerance = control%tolerance
       allocate (analysis%applied(model%dimension, model%n_nodes), source=0.0_wp)
-      allocate (analysis%load_before, analysis%load_after, analysis%u, analysis%du, analysis%body, analysis%unbalanced, &
-                source=analysis%applied)
-      allocate (analysis%felt_before, analysis%felt_after, analysis%felt, analysis%change, source=analysis%applied)
-      allocate (analysis%moved_before, analysis%moved_after, analysis%moved, analysis%move, source=analysis%applied)
-      allocate (analysis%retained, source=system%retained)
+      allocate (analysis%load_before, analysis%load_after, analysis%moved_before, analysis%moved_after, analysis%moved, &
+                analysis%all_u, analysis%all_unbalanced, source=analysis%applied)
+      allocate (analysis%place, source=system%place)
+      allocate (analysis%held, source=system%held_now())
+      allocate (analysis%u(model%dimension, size(system%retained)), source=0.0_wp)
+      allocate (analysis%du, analysis%body, analysis%unbalanced, analysis%felt_before, analysis%felt_after, analysis%felt, &
+                analysis%change, analysis%move, source=analysis%u)
       allocate (analysis%pull(n_bars(model)), source=0.0_wp)
-      analysis%carry = carry
-      analysis%load_tolerance = tolerance
+      allocate (analysis%is_locked(n_sections(model)), source=.false.)
+      allocate (analysis%is_elastic(n_bars(model)), source=.true.)
+      if (n_bars(model) > 0) analysis%is_elastic = model%bars%bolt == 0
       allocate (analysis%states(size(model%interface)), analysis%energy(size(model%joints)), analysis%passes(16))
-      allocate (analysis%k(3, size(model%interface)), source=0.0_wp)
+      allocate (analysis%k(3, size(model%interface)), analysis%movement(3, size(model%interface)), source=0.0_wp)
+      analysis%states%normal%p_av = model%joints(model%interface%joint)%p_av
    end subroutine start_analysis
 
 
+   !> Which components of all nodes are held now: supported, or locked.
+   pure function all_held(model, analysis) result(held)
+      type(model_type), intent(in)    :: model
+      type(analysis_type), intent(in) :: analysis
+      logical :: held(model%dimension, model%n_nodes)
+      integer :: i
+
+      held = model%held
+      do i = 1, n_sections(model)
+         if (analysis%is_locked(i)) held(1, model%sections(i)%node) = .true.
+      end do
+   end function all_held
+
+
    !> NORM and SHEAR for every interface element: its branches after the last increment, its stiffness for the next one.
-   subroutine interface_stiffness(model, analysis)
+   subroutine interface_stiffness(model, system, analysis, failure)
       type(model_type), intent(in)       :: model
+      class(equation_system), intent(in) :: system
       type(analysis_type), intent(inout) :: analysis
+      type(failure_type), intent(in)     :: failure
       integer :: before, i
 
+      if (failure%raised) return
+      call find_movements(system, analysis)
       analysis%n_removed = 0
       do i = 1, size(model%interface)
          before = analysis%states(i)%normal%branch
          call element_stiffness_of(model%joints(model%interface(i)%joint)%law, model%interface(i)%area, &
-                                   joint_movement(model, analysis%u, i), analysis%states(i), analysis%k(:, i))
+                                   analysis%eq10, analysis%movement(:, i), analysis%states(i), analysis%k(:, i))
          if (analysis%states(i)%normal%branch == branch_open .and. before /= branch_open) &
             analysis%n_removed = analysis%n_removed + 1
       end do
-      call find_unbalanced(model, analysis)
+      call find_unbalanced(system, analysis)
    end subroutine interface_stiffness
 
 
-   !> Force that interface element I carries, in global axes, as it acts on its node 2 or the base [force].
-   pure function element_force(model, analysis, i) result(force)
-      type(model_type), intent(in)    :: model
-      type(analysis_type), intent(in) :: analysis
-      integer, intent(in)             :: i
+   !> The movements of all interface elements under the displacements now.
+   subroutine find_movements(system, analysis)
+      class(equation_system), intent(in) :: system
+      type(analysis_type), intent(inout) :: analysis
+      integer :: i
+
+      do i = 1, size(system%interface)
+         analysis%movement(:, i) = joint_movement(system%interface(i), analysis%u)
+      end do
+   end subroutine find_movements
+
+
+   !> Force that an interface ELEMENT in this STATE carries, in global axes, as it acts on its end 2 or the base [force].
+   pure function element_force(element, state) result(force)
+      type(interface_element), intent(in) :: element
+      type(element_state), intent(in)     :: state
       real(wp) :: force(3)
 
-      associate (state => analysis%states(i), element => model%interface(i))
-         force = matmul(element%axes, [state%shear%tau*element%area, state%normal%sumf])
-      end associate
+      force = matmul(element%axes, [state%shear%tau*element%area, state%normal%sumf])
    end function element_force
 
 
    !> Load minus the forces in bodies and joints on retained nodes: what the increment leaves unbalanced.
-   subroutine find_unbalanced(model, analysis)
-      type(model_type), intent(in)       :: model
+   subroutine find_unbalanced(system, analysis)
+      class(equation_system), intent(in) :: system
       type(analysis_type), intent(inout) :: analysis
 
-      associate (r => analysis%retained)
-         analysis%unbalanced(:, r) = analysis%felt(:, r) - analysis%body(:, r)
-      end associate
-      call subtract_joint_forces(model, analysis)
+      analysis%unbalanced = analysis%felt - analysis%body
+      call subtract_joint_forces(system%interface, analysis%states, analysis%unbalanced)
    end subroutine find_unbalanced
 
 
-   !> Take the forces in joints from the unbalanced ones.
-   subroutine subtract_joint_forces(model, analysis)
-      type(model_type), intent(in)       :: model
-      type(analysis_type), intent(inout) :: analysis
-      real(wp) :: force(3)
-      integer  :: i
+   !> Take the forces of interface ELEMENTS in these STATES from the nodal forces F.
+   pure subroutine subtract_joint_forces(elements, states, f)
+      type(interface_element), intent(in) :: elements(:)
+      type(element_state), intent(in)     :: states(:)
+      real(wp), intent(inout)             :: f(:, :) !! (dimension, nodes that the elements number) [force]
+      integer :: i
 
-      do i = 1, size(model%interface)
-         force = element_force(model, analysis, i)
-         associate (nodes => model%interface(i)%nodes, d => model%dimension)
-            analysis%unbalanced(:, nodes(1)) = analysis%unbalanced(:, nodes(1)) - force(:d)
-            if (nodes(2) > 0) analysis%unbalanced(:, nodes(2)) = analysis%unbalanced(:, nodes(2)) + force(:d)
-         end associate
+      do i = 1, size(elements)
+         call add_global_force(elements(i), -element_force(elements(i), states(i)), f)
       end do
    end subroutine subtract_joint_forces
 
 
-   !> Euclidean norm of nodal forces over the free components of NODES [force].
-   pure real(wp) function free_norm(model, f, nodes) result(norm)
-      type(model_type), intent(in) :: model
-      real(wp), intent(in)         :: f(:, :)  !! (dimension, n_nodes)
-      integer, intent(in)          :: nodes(:)
+   !> Euclidean norm of nodal forces F over the components that are not HELD [force].
+   pure real(wp) function free_norm(f, held) result(norm)
+      real(wp), intent(in) :: f(:, :)    !! (dimension, nodes)
+      logical, intent(in)  :: held(:, :) !! likewise
       real(wp) :: largest
       integer  :: i
 
-      largest = 0.0_wp
-      do i = 1, size(nodes)
-         largest = max(largest, maxval(abs(f(:, nodes(i))), mask=.not. model%held(:, nodes(i))))
-      end do
+      largest = maxval(abs(f), mask=.not. held)
       norm = 0.0_wp
       if (largest <= 0.0_wp) return
-      do i = 1, size(nodes)
-         norm = norm + sum((f(:, nodes(i))/largest)**2, mask=.not. model%held(:, nodes(i)))
+      do i = 1, size(f, 2)
+         norm = norm + sum((f(:, i)/largest)**2, mask=.not. held(:, i))
       end do
       norm = largest*sqrt(norm)
    end function free_norm
@@ -177,6 +214,7 @@ contains
       energy%put_in = energy%put_in + max(0.0_wp, work)
       energy%given_back = energy%given_back + max(0.0_wp, -work)
    end subroutine tally_work
+
 
    !> Keep the largest pressure and deflection that there have been.
    pure subroutine note_largest(analysis)

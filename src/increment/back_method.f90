@@ -1,15 +1,14 @@
 !> METHOD = BACK, after Back, Burdekin and Cowley: the whole load at once with secant stiffnesses at the last pressures, two
 !! consecutive pressures averaged, until they settle. Loading only.
 module back_method
-   use analysis_state, only: analysis_type, find_unbalanced, record_pass, pass_record, tally_work
-   use coupled_solution, only: solve_moved
-   use equations, only: body_forces, check_solution, equation_system, form_structure_stiffness, solve_equations
+   use analysis_state, only: analysis_type, find_movements, find_unbalanced, pass_record, record_pass, tally_work
+   use equations, only: equation_system, forces_in_bodies, form_structure_stiffness, solve_equations
    use failures, only: failure_type
-   use joint_laws, only: element_state, joint_law
+   use interface_operator, only: joint_movement
+   use joint_laws, only: back_stiffness, exceeds_limit, loading_work, rest_margin
    use kinds, only: wp
-   use model_data, only: joint_movement, model_type
+   use model_data, only: joint_node_id, model_type
    use normal_stiffness, only: branch_load, branch_open, pressure_floor
-   use shear_stiffness, only: shear_law
    use stage_plan, only: stage_plan_type, where_in_plan
    use text_tools, only: integer_text, real_text
    implicit none
@@ -20,163 +19,128 @@ module back_method
    integer, parameter  :: most_iterations = 1000
    real(wp), parameter :: settled = 1.0e-11_wp !! of the largest pressure: change from one iteration to the next
 
+   !> The interface elements in one iteration, n of them.
+   type :: iterate_type
+      real(wp), allocatable :: p(:), p_new(:)     ! pressures of the secants, and those that they lead to
+      real(wp), allocatable :: movement(:, :)     ! (3, n) that they lead to
+      real(wp), allocatable :: k_shear(:, :)      ! (2, n) shear secants of that movement
+      real(wp), allocatable :: k_int(:, :, :)     ! (3, 3, n) stiffness, in joint axes
+   end type iterate_type
+
 contains
 
-   !> The whole load in one go: secant k_n = p**(1-m) a/c, and P(d)/d a for shear, not above mu p/|delta| a.
+   !> The whole load in one go: secants, a solution, what it says of the secants, until they agree.
    subroutine back_increment(model, plan, analysis, system, failure)
       type(model_type), intent(in)         :: model
       type(stage_plan_type), intent(in)    :: plan
       type(analysis_type), intent(inout)   :: analysis
-      type(equation_system), intent(inout) :: system
+      class(equation_system), intent(inout) :: system
       type(failure_type), intent(inout)    :: failure
-      real(wp), allocatable :: p(:), p_new(:), k_shear(:, :), movement(:, :), k_int(:, :, :)
+      type(iterate_type) :: now
       real(wp) :: change
-      integer  :: i, iteration, k, n, worst
+      integer  :: iteration, n, worst
 
       n = size(model%interface)
-      allocate (p(n), p_new(n), k_shear(2, n), movement(3, n), k_int(3, 3, n), source=0.0_wp)
-      do i = 1, n
-         p(i) = model%joints(model%interface(i)%joint)%law%normal%p_av
-      end do
+      allocate (now%p_new(n), now%k_shear(2, n), now%movement(3, n), now%k_int(3, 3, n), source=0.0_wp)
+      now%p = analysis%states%normal%p_av
       do iteration = 1, most_iterations
-         do i = 1, n
-            call secants(i)
-         end do
-         call form_structure_stiffness(model, k_int, where_in_plan(plan, analysis%stage, analysis%increment), system, failure, &
-                                       many_solutions=.false.)
+         call take_secants(model, analysis, iteration, now)
+         call form_structure_stiffness(model, now%k_int, where_in_plan(plan, analysis%stage, analysis%increment), system, &
+                                       failure, one_solution=.true.)
+         call solve_equations(model, system, analysis%felt, analysis%u, failure, &
+                              moved=merge(analysis%moved(:, system%retained), 0.0_wp, analysis%moves))
          if (failure%raised) return
-         if (analysis%moves) then
-            call solve_moved(model, system, k_int, analysis%felt, analysis%moved, analysis%u)
-         else
-            call solve_equations(system, analysis%felt, analysis%u)
-         end if
-         call check_solution(model, system, failure)
-         if (failure%raised) return
-         do i = 1, n
-            movement(:, i) = joint_movement(model, analysis%u, i)
-            p_new(i) = max(0.0_wp, k_int(3, 3, i)*movement(3, i)/model%interface(i)%area)
-         end do
          if (n == 0) exit
-         change = maxval(abs(p_new - p))
-         do i = 1, n ! the shear secants must be those of the deflections that they led to
-            k_shear(:, i) = shear_secants(i)
-            do k = 1, 2
-               change = max(change, abs((k_shear(k, i) - k_int(k, k, i))*movement(k, i))/model%interface(i)%area)
-            end do
-         end do
-         call record_pass(analysis, pass_record(before=maxval(abs(p)), after=change, part=-1))
-         if (change <= settled*max(maxval(p), pressure_floor*maxval(model%joints%law%normal%p_av))) exit
-         p = 0.5_wp*(p + p_new)
+         call read_off(model, system, analysis, now, change)
+         call record_pass(analysis, pass_record(before=maxval(abs(now%p)), after=change, part=-1))
+         if (change <= settled*max(maxval(now%p), pressure_floor*maxval(analysis%states%normal%p_av))) exit
+         now%p = 0.5_wp*(now%p + now%p_new)
       end do
       if (iteration > most_iterations) then
-         worst = maxloc(abs(p_new - p), dim=1)
+         worst = maxloc(abs(now%p_new - now%p), dim=1)
          call failure%raise(where_in_plan(plan, analysis%stage, analysis%increment)//': the pressures have not settled after '// &
             integer_text(most_iterations)//' iterations; the one of node '// &
-            integer_text(model%node_id(model%interface(worst)%nodes(1)))//' still changes by '//real_text(change))
+            integer_text(joint_node_id(model, worst, 1))//' still changes by '//real_text(change))
          return
       end if
-      call store()
-
-   contains
-
-      !> Normal secant at the pressure, shear secants halfway between the last two.
-      subroutine secants(j)
-         integer, intent(in) :: j
-         real(wp) :: k_x, k_y
-
-         associate (law => model%joints(model%interface(j)%joint)%law%normal, area => model%interface(j)%area)
-            k_x = k_int(1, 1, j)
-            k_y = k_int(2, 2, j)
-            k_int(:, :, j) = 0.0_wp
-            if (p(j) < pressure_floor*law%p_av .and. movement(3, j) < 0.0_wp) return ! open
-            k_int(3, 3, j) = max(p(j), pressure_floor*law%p_av)**(1.0_wp - law%m)*area/law%c
-            if (iteration == 1) k_shear(:, j) = shear_secants(j)
-            k_int(1, 1, j) = k_shear(1, j)
-            k_int(2, 2, j) = k_shear(2, j)
-            if (iteration < 3) return
-            k_int(1, 1, j) = 0.5_wp*(k_shear(1, j) + k_x)
-            k_int(2, 2, j) = 0.5_wp*(k_shear(2, j) + k_y)
-         end associate
-      end subroutine secants
-
-      !> P(d)/d a in both directions, at the movement and pressure of element J, and not above mu p a/|delta|.
-      function shear_secants(j) result(secant)
-         integer, intent(in) :: j
-         real(wp) :: secant(2), moved
-         integer  :: direction
-
-         associate (law => model%joints(model%interface(j)%joint)%law, area => model%interface(j)%area)
-            secant = 0.0_wp
-            do direction = 1, 2
-               if (law%shear(direction)%given) secant(direction) = area*shear_secant(law%shear(direction), &
-                                                                  movement(direction, j), max(p(j), 0.0_wp))
-            end do
-            moved = norm2(movement(:2, j))
-            if (law%has_friction .and. moved > 0.0_wp) secant = min(secant, law%mu*max(p(j), 0.0_wp)*area/moved)
-         end associate
-      end function shear_secants
-
-      subroutine store()
-
-         do i = 1, n
-            associate (state => analysis%states(i), element => model%interface(i))
-               state%normal%branch = merge(branch_load, branch_open, movement(3, i) > 0.0_wp)
-               state%normal%lambda = movement(3, i)
-               state%normal%k_n = k_int(3, 3, i)
-               state%normal%sumf = max(0.0_wp, k_int(3, 3, i)*movement(3, i))
-               state%normal%pressure = state%normal%sumf/element%area
-               do k = 1, 2
-                  state%shear(k)%sense = sign(1.0_wp, movement(k, i))
-                  state%shear(k)%delta = movement(k, i)
-                  state%shear(k)%k_s = k_int(k, k, i)
-                  state%shear(k)%tau = k_int(k, k, i)*movement(k, i)/element%area
-               end do
-               associate (law => model%joints(element%joint)%law)
-                  state%slips = law%has_friction .and. any(law%shear%given) .and. &
-                                norm2(state%shear%tau) >= (1.0_wp - 1.0e-6_wp)*law%mu*state%normal%pressure .and. &
-                                norm2(state%shear%tau) > 0.0_wp
-                  call tally_work(analysis%energy(element%joint), [element%area*sum(shear_work(law, state)), &
-                     element%area*state%normal%pressure*state%normal%lambda/(1.0_wp + 1.0_wp/law%normal%m)])
-               end associate
-            end associate
-         end do
-         call body_forces(system, analysis%u, analysis%body)
-         call find_unbalanced(model, analysis)
-      end subroutine store
-
+      call store(model, now, analysis)
+      call forces_in_bodies(system, analysis%u, analysis%body)
+      call find_movements(system, analysis)
+      call find_unbalanced(system, analysis)
    end subroutine back_increment
 
 
-   !> Work of the shear stresses on the way to where they are, in both directions: along the loading curve, and where the limit
-   !! was reached along the limit from the deflection on at which the initial slope reaches it [pressure x length].
-   pure function shear_work(law, state) result(work)
-      type(joint_law), intent(in)     :: law
-      type(element_state), intent(in) :: state
-      real(wp) :: work(2), a(3), d, tau, slope
-      integer  :: k
+   !> Normal secants at the pressures, shear secants halfway between the last two; an open element has none.
+   subroutine take_secants(model, analysis, iteration, now)
+      type(model_type), intent(in)      :: model
+      type(analysis_type), intent(in)   :: analysis
+      integer, intent(in)               :: iteration
+      type(iterate_type), intent(inout) :: now
+      real(wp) :: k(3)
+      integer  :: d, i
 
-      work = 0.0_wp
-      do k = 1, 2
-         if (.not. law%shear(k)%given) cycle
-         d = abs(state%shear(k)%delta)
-         tau = abs(state%shear(k)%tau)
-         a = law%shear(k)%coefficients(1, :, branch_load) + law%shear(k)%coefficients(2, :, branch_load)*state%normal%pressure
-         work(k) = d**2*(a(1)/2.0_wp + d*(a(2)/3.0_wp + d*a(3)/4.0_wp))
-         slope = shear_secant(law%shear(k), 0.0_wp, state%normal%pressure)
-         if (state%slips .and. slope > 0.0_wp) work(k) = tau*(d - 0.5_wp*tau/slope)
+      do i = 1, size(model%interface)
+         associate (element => model%interface(i), p_av => analysis%states(i)%normal%p_av)
+            k = back_stiffness(model%joints(element%joint)%law, element%area, p_av, now%p(i), now%movement(:, i))
+         end associate
+         if (iteration > 1) k(:2) = now%k_shear(:, i)
+         if (iteration > 2) k(:2) = 0.5_wp*(k(:2) + [now%k_int(1, 1, i), now%k_int(2, 2, i)])
+         if (k(3) <= 0.0_wp) k = 0.0_wp
+         do d = 1, 3
+            now%k_int(d, d, i) = k(d)
+         end do
       end do
-   end function shear_work
+   end subroutine take_secants
 
 
-   !> P(d)/d of the loading curve at |DELTA| under the pressure P; its first slope at rest [pressure/length].
-   pure real(wp) function shear_secant(law, delta, p) result(secant)
-      type(shear_law), intent(in) :: law
-      real(wp), intent(in)        :: delta, p
-      real(wp) :: a(3), d
+   !> What the solution moves and presses, and by how much stresses differ from those of the secants [pressure]. The shear secants
+   !! must be those of the deflections that they led to.
+   subroutine read_off(model, system, analysis, now, change)
+      type(model_type), intent(in)       :: model
+      class(equation_system), intent(in) :: system
+      type(analysis_type), intent(in)    :: analysis
+      type(iterate_type), intent(inout)  :: now
+      real(wp), intent(out)              :: change
+      real(wp) :: k(3), tau_change(2)
+      integer  :: i
 
-      d = abs(delta)
-      a = law%coefficients(1, :, branch_load) + law%coefficients(2, :, branch_load)*p
-      secant = max(0.0_wp, a(1) + d*(a(2) + d*a(3)))
-   end function shear_secant
+      change = 0.0_wp
+      do i = 1, size(model%interface)
+         associate (element => model%interface(i), movement => now%movement(:, i), p_av => analysis%states(i)%normal%p_av)
+            now%movement(:, i) = joint_movement(system%interface(i), analysis%u)
+            now%p_new(i) = max(0.0_wp, now%k_int(3, 3, i)*movement(3)/element%area)
+            k = back_stiffness(model%joints(element%joint)%law, element%area, p_av, now%p(i), movement)
+            now%k_shear(:, i) = k(:2)
+            tau_change = abs((k(:2) - [now%k_int(1, 1, i), now%k_int(2, 2, i)])*movement(:2))/element%area
+            change = max(change, abs(now%p_new(i) - now%p(i)), tau_change(1), tau_change(2))
+         end associate
+      end do
+   end subroutine read_off
+
+
+   !> The secants have settled: the states of the elements.
+   subroutine store(model, now, analysis)
+      type(model_type), intent(in)       :: model
+      type(iterate_type), intent(in)     :: now
+      type(analysis_type), intent(inout) :: analysis
+      integer :: i
+
+      do i = 1, size(model%interface)
+         associate (state => analysis%states(i), element => model%interface(i), movement => now%movement(:, i), &
+                    law => model%joints(model%interface(i)%joint)%law)
+            state%normal%branch = merge(branch_load, branch_open, movement(3) > 0.0_wp)
+            state%normal%lambda = movement(3)
+            state%normal%k_n = now%k_int(3, 3, i)
+            state%normal%sumf = max(0.0_wp, now%k_int(3, 3, i)*movement(3))
+            state%normal%pressure = state%normal%sumf/element%area
+            state%shear%sense = sign(1.0_wp, movement(:2))
+            state%shear%delta = movement(:2)
+            state%shear%k_s = [now%k_int(1, 1, i), now%k_int(2, 2, i)]
+            state%shear%tau = state%shear%k_s*movement(:2)/element%area
+            state%slips = exceeds_limit(law, state, rest_margin)
+            call tally_work(analysis%energy(element%joint), loading_work(law, element%area, state))
+         end associate
+      end do
+   end subroutine store
 
 end module back_method

@@ -10,39 +10,58 @@ module bolt_locking
    implicit none
    private
 
-   public :: lock_bolts, bar_tension, section_tension
+   public :: lock_bolts, bar_tension, elongation_now, section_tension, overlap_now
 
 contains
 
-   !> Lock the bolts that the stage before STAGE has tightened: the part of the force of bars that is not elastic becomes a load,
+   !> Lock the bolts that the stage just completed has tightened: the part of the force of bars that is not elastic becomes a load,
    !! and the overlap of solids a displacement that is prescribed as it is.
-   subroutine lock_bolts(stage, model, system, analysis)
-      integer, intent(in)                  :: stage
-      type(model_type), intent(inout)      :: model
-      type(equation_system), intent(inout) :: system
-      type(analysis_type), intent(inout)   :: analysis
+   subroutine lock_bolts(model, system, analysis)
+      type(model_type), intent(in)          :: model
+      class(equation_system), intent(inout) :: system
+      type(analysis_type), intent(inout)    :: analysis
       integer :: i
 
       do i = 1, n_bars(model)
          associate (bar => model%bars(i))
-            if (bar%bolt == 0 .or. bar%stage /= stage - 1) cycle
-            bar%is_elastic = .true.
-            analysis%pull(i) = bar%preload - bar%stiffness*bar_elongation(model, analysis%u, i)
+            if (bar%bolt == 0 .or. bar%stage /= analysis%stage) cycle
+            analysis%is_elastic(i) = .true.
+            analysis%pull(i) = bar%preload - bar%stiffness*elongation_now(model, analysis, i)
             call add_pull(model, i, analysis%pull(i) - bar%preload, analysis%applied)
             call add_bar(model, i, system)
          end associate
       end do
       do i = 1, n_sections(model)
          associate (section => model%sections(i))
-            if (section%stage /= stage - 1) cycle
-            section%is_locked = .true.
-            model%held(1, section%node) = .true.
+            if (section%stage /= analysis%stage) cycle
+            analysis%is_locked(i) = .true.
+            analysis%held(1, analysis%place(section%node)) = .true.
             analysis%applied(1, section%node) = analysis%applied(1, section%node) - section%preload
-            analysis%moved(1, section%node) = analysis%u(1, section%node)
+            analysis%moved(1, section%node) = overlap_now(model, analysis, i)
             call lock_unknown(section%node, 1, system)
          end associate
       end do
    end subroutine lock_bolts
+
+
+   !> How much longer bar I is now [length].
+   pure real(wp) function elongation_now(model, analysis, i) result(elongation)
+      type(model_type), intent(in)    :: model
+      type(analysis_type), intent(in) :: analysis
+      integer, intent(in)             :: i
+
+      elongation = bar_elongation(model%bars(i), analysis%u(:, analysis%place(model%bars(i)%nodes)))
+   end function elongation_now
+
+
+   !> Overlap g at the section of solid bolt I now [length].
+   pure real(wp) function overlap_now(model, analysis, i) result(overlap)
+      type(model_type), intent(in)    :: model
+      type(analysis_type), intent(in) :: analysis
+      integer, intent(in)             :: i
+
+      overlap = analysis%u(1, analysis%place(model%sections(i)%node))
+   end function overlap_now
 
 
    !> Tension of bar I now [force].
@@ -53,8 +72,8 @@ contains
 
       tension = 0.0_wp
       associate (bar => model%bars(i))
-         if (bar%is_elastic) then
-            tension = analysis%pull(i) + bar%stiffness*bar_elongation(model, analysis%u, i)
+         if (analysis%is_elastic(i)) then
+            tension = analysis%pull(i) + bar%stiffness*elongation_now(model, analysis, i)
          else if (bar%stage == analysis%stage) then
             tension = analysis%fraction*bar%preload
          end if
@@ -69,7 +88,7 @@ contains
       integer, intent(in)             :: i
 
       associate (section => model%sections(i))
-         tension = -analysis%unbalanced(1, section%node)
+         tension = -analysis%unbalanced(1, analysis%place(section%node))
          if (section%stage == analysis%stage) tension = tension + analysis%fraction*section%preload
       end associate
    end function section_tension

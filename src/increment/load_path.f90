@@ -1,27 +1,27 @@
 !> The way of the load: from stage to stage, from increment to increment, and what it does to all nodes of the bodies.
 module load_path
-   use analysis_state, only: analysis_type, joint_energy, subtract_joint_forces
-   use bar_elements, only: add_pull
+   use analysis_state, only: all_held, analysis_type, joint_energy, subtract_joint_forces
+   use bar_elements, only: add_bar_forces, add_pull
    use body_elements, only: internal_forces
-   use equations, only: body_forces, condense_load, equation_system, recover_displacements
+   use equations, only: condense_load, equation_system, forces_in_bodies, recover_displacements
    use kinds, only: wp
    use model_data, only: model_type, n_bars, n_sections
    use stage_plan, only: stage_plan_type
    implicit none
    private
 
-   public :: start_stage, start_increment, recover_bodies
+   public :: start_stage, start_increment, recover_bodies, support_force
 
 contains
 
    !> The next stage begins where the last one ended; the joint remembers.
-   subroutine start_stage(model, system, stage, analysis)
+   subroutine start_stage(model, system, analysis)
       type(model_type), intent(in)       :: model
-      type(equation_system), intent(in)  :: system
-      integer, intent(in)                :: stage
+      class(equation_system), intent(in) :: system
       type(analysis_type), intent(inout) :: analysis
-      integer :: i
+      integer :: i, stage
 
+      stage = analysis%stage + 1
       analysis%stage = stage
       analysis%increment = 0
       analysis%fraction = 0.0_wp
@@ -45,51 +45,68 @@ contains
             associate (load => analysis%load_after(1, section%node))
                if (section%stage == stage) load = load + section%preload
             end associate
-            if (section%is_locked) analysis%moved_after(1, section%node) = analysis%moved_before(1, section%node)
+            if (analysis%is_locked(i)) analysis%moved_after(1, section%node) = analysis%moved_before(1, section%node)
          end associate
       end do
       analysis%loaded = pack([(i, i = 1, model%n_nodes)], &
                              any(abs(analysis%load_before) > 0.0_wp .or. abs(analysis%load_after) > 0.0_wp, dim=1))
       analysis%is_moved = any(abs(analysis%moved_before) > 0.0_wp .or. abs(analysis%moved_after) > 0.0_wp)
-      if (stage > 1) call condense(model, system, analysis%load_before, analysis%moved_before, analysis%felt_before)
-      call condense(model, system, analysis%load_after, analysis%moved_after, analysis%felt_after)
+      associate (is_elastic => analysis%is_elastic)
+         if (stage > 1) call condense(model, system, is_elastic, analysis%load_before, analysis%moved_before, analysis%felt_before)
+         call condense(model, system, is_elastic, analysis%load_after, analysis%moved_after, analysis%felt_after)
+      end associate
       analysis%felt = analysis%felt_before
-      call body_forces(system, analysis%u, analysis%body)
+      call forces_in_bodies(system, analysis%u, analysis%body)
    end subroutine start_stage
 
 
    !> What retained nodes feel of LOAD on all nodes where held components are MOVED.
-   subroutine condense(model, system, load, moved, felt)
-      type(model_type), intent(in)      :: model
-      type(equation_system), intent(in) :: system
-      real(wp), intent(in)              :: load(:, :), moved(:, :)
-      real(wp), intent(out)             :: felt(:, :)
+   subroutine condense(model, system, is_elastic, load, moved, felt)
+      type(model_type), intent(in)       :: model
+      class(equation_system), intent(in) :: system
+      logical, intent(in)                :: is_elastic(:)
+      real(wp), intent(in)               :: load(:, :), moved(:, :)
+      real(wp), intent(out)              :: felt(:, :)
 
-      call condense_load(system, load - forces_of(model, system, moved), felt)
+      call condense_load(system, load - forces_of(model, system, is_elastic, moved), felt)
    end subroutine condense
 
 
-   !> Forces that the bodies need to have MOVED what has no equation, the others at rest.
-   function forces_of(model, system, moved) result(f)
-      type(model_type), intent(in)      :: model
-      type(equation_system), intent(in) :: system
-      real(wp), intent(in)              :: moved(:, :)
+   !> Forces that bodies and elastic bars need to have MOVED what has no equation, the others at rest.
+   function forces_of(model, system, is_elastic, moved) result(f)
+      type(model_type), intent(in)       :: model
+      class(equation_system), intent(in) :: system
+      logical, intent(in)                :: is_elastic(:) !! (bars)
+      real(wp), intent(in)               :: moved(:, :)
       real(wp), allocatable :: f(:, :)
 
       allocate (f, source=merge(moved, 0.0_wp, system%number == 0))
       if (any(abs(f) > 0.0_wp)) then
-         call internal_forces(model, merge(moved, 0.0_wp, system%number == 0), f)
+         call all_forces(model, is_elastic, merge(moved, 0.0_wp, system%number == 0), f)
       else
          f = 0.0_wp
       end if
    end function forces_of
 
 
+   !> F of bodies and elastic bars under the displacements U of all nodes.
+   subroutine all_forces(model, is_elastic, u, f)
+      type(model_type), intent(in) :: model
+      logical, intent(in)          :: is_elastic(:)
+      real(wp), intent(in)         :: u(:, :)
+      real(wp), intent(out)        :: f(:, :)
+
+      call internal_forces(model, u, f)
+      call add_bar_forces(model, is_elastic, u, f)
+   end subroutine all_forces
+
+
    !> {dF} of the next increment: its share of the stage's load change, and what is unbalanced where CARRY asks for it.
-   subroutine start_increment(plan, analysis)
+   subroutine start_increment(plan, system, analysis)
       type(stage_plan_type), intent(in)  :: plan
+      class(equation_system), intent(in) :: system
       type(analysis_type), intent(inout) :: analysis
-      real(wp), allocatable :: moved(:, :)
+      real(wp), allocatable :: before(:, :)
 
       associate (shares => plan%stages(analysis%stage)%shares)
          analysis%increment = analysis%increment + 1
@@ -101,17 +118,16 @@ contains
          analysis%applied(:, nodes) = between(analysis%load_before(:, nodes), analysis%load_after(:, nodes))
       end associate
       analysis%moves = .false.
+      analysis%move = 0.0_wp
       if (analysis%is_moved) then
-         allocate (moved, source=between(analysis%moved_before, analysis%moved_after))
-         analysis%move = moved - analysis%moved
-         analysis%moved = moved
-         analysis%moves = any(abs(analysis%move) > 0.0_wp)
+         allocate (before, source=analysis%moved)
+         analysis%moved = between(analysis%moved_before, analysis%moved_after)
+         analysis%moves = any(abs(analysis%moved - before) > 0.0_wp)
+         analysis%move = analysis%moved(:, system%retained) - before(:, system%retained)
       end if
-      associate (r => analysis%retained)
-         analysis%change(:, r) = between(analysis%felt_before(:, r), analysis%felt_after(:, r)) - analysis%felt(:, r)
-         analysis%felt(:, r) = analysis%felt(:, r) + analysis%change(:, r)
-         if (analysis%carry) analysis%change(:, r) = analysis%change(:, r) + analysis%unbalanced(:, r)
-      end associate
+      analysis%change = between(analysis%felt_before, analysis%felt_after) - analysis%felt
+      analysis%felt = analysis%felt + analysis%change
+      if (analysis%carry) analysis%change = analysis%change + analysis%unbalanced
       analysis%n_passes = 0
       analysis%n_parts = 1
 
@@ -128,17 +144,49 @@ contains
    end subroutine start_increment
 
 
-   !> Displacements of all nodes; unbalanced forces likewise, from the elements themselves: on held components minus the reaction.
+   !> Displacements of all nodes, and what is unbalanced on them, from the elements themselves: on held components minus the reaction.
    subroutine recover_bodies(model, system, analysis)
       type(model_type), intent(in)       :: model
-      type(equation_system), intent(in)  :: system
+      class(equation_system), intent(in) :: system
       type(analysis_type), intent(inout) :: analysis
 
-      call recover_displacements(system, analysis%applied - forces_of(model, system, analysis%moved), analysis%u)
-      where (system%number == 0) analysis%u = analysis%moved
-      call internal_forces(model, analysis%u, analysis%unbalanced)
-      analysis%unbalanced = analysis%applied - analysis%unbalanced
-      call subtract_joint_forces(model, analysis)
+      call recover(model, system, analysis, analysis%applied, analysis%moved, analysis%u, analysis%all_u, analysis%all_unbalanced)
+      analysis%u = analysis%all_u(:, system%retained)
+      analysis%unbalanced = analysis%all_unbalanced(:, system%retained)
    end subroutine recover_bodies
+
+
+   !> The same as ALL_U and UNBALANCED for other displacements U of retained nodes under the LOAD on all nodes, supports being MOVED,
+   !! the joints as they are.
+   subroutine recover(model, system, analysis, load, moved, u, all_u, unbalanced)
+      type(model_type), intent(in)       :: model
+      class(equation_system), intent(in) :: system
+      type(analysis_type), intent(in)    :: analysis
+      real(wp), intent(in)               :: load(:, :), moved(:, :), u(:, :)
+      real(wp), intent(out)              :: all_u(:, :), unbalanced(:, :)
+
+      call recover_displacements(system, load - forces_of(model, system, analysis%is_elastic, moved), u, all_u)
+      where (system%number == 0) all_u = moved
+      call all_forces(model, analysis%is_elastic, all_u, unbalanced)
+      unbalanced = load - unbalanced
+      call subtract_joint_forces(model%interface, analysis%states, unbalanced)
+   end subroutine recover
+
+
+   !> What the supports take under the displacements U of retained nodes, so much of the increment being LEFT [force].
+   real(wp) function support_force(model, system, analysis, u, left) result(force)
+      type(model_type), intent(in)       :: model
+      class(equation_system), intent(in) :: system
+      type(analysis_type), intent(in)    :: analysis
+      real(wp), intent(in)               :: u(:, :) !! (dimension, retained) [length]
+      real(wp), intent(in)               :: left    !! [-], 0 to 1
+      real(wp), dimension(model%dimension, model%n_nodes) :: all_u, unbalanced
+
+      associate (ahead => left*analysis%share)
+         call recover(model, system, analysis, analysis%applied - ahead*(analysis%load_after - analysis%load_before), &
+                      analysis%moved - ahead*(analysis%moved_after - analysis%moved_before), u, all_u, unbalanced)
+      end associate
+      force = norm2(pack(unbalanced, all_held(model, analysis)))
+   end function support_force
 
 end module load_path

@@ -1,21 +1,22 @@
 !> A trial of METHOD = NEWTON: displacements, joints, what is unbalanced; the step along a direction; how it becomes the state.
 module newton_trial
-   use analysis_state, only: analysis_type, free_norm, tally_work
-   use load_path, only: recover_bodies
-   use equations, only: body_forces, equation_system
+   use analysis_state, only: analysis_type, find_movements, free_norm, subtract_joint_forces, tally_work
+   use equations, only: equation_system, forces_in_bodies
+   use interface_operator, only: joint_movement
    use joint_laws, only: element_state, follow_element, rest_when_open
    use kinds, only: wp
-   use model_data, only: joint_movement, model_type
+   use model_data, only: model_type
    implicit none
    private
 
-   public :: start_trial, evaluate, swap, take_whole_step, search, commit, support_force
+   public :: start_trial, evaluate, swap, take_whole_step, search, commit
 
    real(wp), parameter :: enough = 0.8_wp             ! line search: the unbalanced work falls to this share or is searched
 
-   !> A trial: displacements, the joints that follow from them, and what is out of balance. Arrays over nodes hold retained nodes.
+   !> A trial: displacements, the joints that follow from them, and what is out of balance. Arrays over nodes are those of the
+   !! retained ones.
    type, public :: trial_type
-      real(wp), allocatable :: u(:, :), body(:, :)    ! (dimension, n_nodes) displacements, forces in the bodies
+      real(wp), allocatable :: u(:, :), body(:, :)    ! (dimension, retained) displacements, forces in the bodies
       type(element_state), allocatable :: states(:)
       real(wp), allocatable :: tangent(:, :, :)       ! (3, 3, n) in joint axes
       real(wp), allocatable :: work(:, :)             ! (2, n) since the committed state
@@ -26,17 +27,16 @@ module newton_trial
 contains
 
    !> The committed state as a trial.
-   subroutine start_trial(model, system, analysis, trial)
-      type(model_type), intent(in)      :: model
-      type(equation_system), intent(in) :: system
-      type(analysis_type), intent(in)   :: analysis
-      type(trial_type), intent(out)     :: trial
+   subroutine start_trial(system, analysis, trial)
+      class(equation_system), intent(in) :: system
+      type(analysis_type), intent(in)    :: analysis
+      type(trial_type), intent(out)      :: trial
 
       trial%u = analysis%u
       allocate (trial%body, trial%residual, mold=analysis%u)
-      allocate (trial%tangent(3, 3, size(model%interface)), trial%work(2, size(model%interface)))
+      allocate (trial%tangent(3, 3, size(analysis%states)), trial%work(2, size(analysis%states)))
       trial%states = analysis%states
-      call body_forces(system, trial%u, trial%body)
+      call forces_in_bodies(system, trial%u, trial%body)
    end subroutine start_trial
 
 
@@ -64,72 +64,47 @@ contains
    end subroutine hand_over
 
 
-   !> What the supports take under the displacements U of retained nodes, so much of the increment being LEFT [force].
-   real(wp) function support_force(model, system, analysis, u, left) result(force)
-      type(model_type), intent(in)      :: model
-      type(equation_system), intent(in) :: system
-      type(analysis_type), intent(in)   :: analysis
-      real(wp), intent(in)              :: u(:, :)
-      real(wp), intent(in)              :: left !! [-], 0 to 1
-      type(analysis_type) :: trial
-
-      trial = analysis
-      trial%u = u
-      trial%moved = analysis%moved - left*analysis%move
-      trial%applied = analysis%applied - left*analysis%share*(analysis%load_after - analysis%load_before)
-      call recover_bodies(model, system, trial)
-      force = norm2(pack(trial%unbalanced, model%held))
-   end function support_force
-
-
    !> Joints and residual of TRIAL, whose displacements and body forces are set.
-   subroutine evaluate(model, load, analysis, trial)
-      type(model_type), intent(in)    :: model
-      real(wp), intent(in)            :: load(:, :)
-      type(analysis_type), intent(in) :: analysis
-      type(trial_type), intent(inout) :: trial
-      real(wp) :: force(3)
-      integer  :: i
+   subroutine evaluate(model, system, load, analysis, trial)
+      type(model_type), intent(in)       :: model
+      class(equation_system), intent(in) :: system
+      real(wp), intent(in)               :: load(:, :)
+      type(analysis_type), intent(in)    :: analysis
+      type(trial_type), intent(inout)    :: trial
+      integer :: i
 
-      associate (r => analysis%retained)
-         trial%residual(:, r) = load(:, r) - trial%body(:, r)
-      end associate
-      do i = 1, size(model%interface)
-         associate (element => model%interface(i), state => trial%states(i), d => model%dimension)
+      do i = 1, size(system%interface)
+         associate (element => system%interface(i))
             call follow_element(model%joints(element%joint)%law, element%area, analysis%states(i), &
-                                joint_movement(model, trial%u, i), state, trial%tangent(:, :, i), trial%work(:, i))
-            force = matmul(element%axes, [state%shear%tau*element%area, state%normal%sumf])
-            trial%residual(:, element%nodes(1)) = trial%residual(:, element%nodes(1)) - force(:d)
-            if (element%nodes(2) > 0) &
-               trial%residual(:, element%nodes(2)) = trial%residual(:, element%nodes(2)) + force(:d)
+                                joint_movement(element, trial%u), trial%states(i), trial%tangent(:, :, i), trial%work(:, i))
          end associate
       end do
-      trial%size = free_norm(model, trial%residual, analysis%retained)
+      trial%residual = load - trial%body
+      call subtract_joint_forces(system%interface, trial%states, trial%residual)
+      trial%size = free_norm(trial%residual, analysis%held)
    end subroutine evaluate
 
 
    !> The step that moves the supports: it cannot be shortened.
    subroutine take_whole_step(model, system, load, analysis, now, direction, next)
       type(model_type), intent(in)      :: model
-      type(equation_system), intent(in) :: system
+      class(equation_system), intent(in) :: system
       real(wp), intent(in)              :: load(:, :)
       type(analysis_type), intent(in)   :: analysis
       type(trial_type), intent(in)      :: now
       real(wp), intent(in)              :: direction(:, :)
       type(trial_type), intent(inout)   :: next
 
-      associate (r => analysis%retained)
-         next%u(:, r) = now%u(:, r) + direction(:, r)
-      end associate
-      call body_forces(system, next%u, next%body)
-      call evaluate(model, load, analysis, next)
+      next%u = now%u + direction
+      call forces_in_bodies(system, next%u, next%body)
+      call evaluate(model, system, load, analysis, next)
    end subroutine take_whole_step
 
 
    !> Line search: the step along DIRECTION at which the unbalanced forces do (next to) no work on it any more.
    subroutine search(model, system, load, analysis, now, direction, next, step)
       type(model_type), intent(in)      :: model
-      type(equation_system), intent(in) :: system
+      class(equation_system), intent(in) :: system
       real(wp), intent(in)              :: load(:, :)
       type(analysis_type), intent(in)   :: analysis
       type(trial_type), intent(in)      :: now
@@ -141,7 +116,7 @@ contains
       integer  :: attempt
 
       allocate (body, mold=direction)
-      call body_forces(system, direction, body)
+      call forces_in_bodies(system, direction, body)
       g_0 = work_on(now)
       step = 1.0_wp
       call try(step, g)
@@ -174,11 +149,9 @@ contains
          real(wp), intent(in)  :: alpha
          real(wp), intent(out) :: g_alpha
 
-         associate (r => analysis%retained)
-            next%u(:, r) = now%u(:, r) + alpha*direction(:, r)
-            next%body(:, r) = now%body(:, r) + alpha*body(:, r)
-         end associate
-         call evaluate(model, load, analysis, next)
+         next%u = now%u + alpha*direction
+         next%body = now%body + alpha*body
+         call evaluate(model, system, load, analysis, next)
          g_alpha = work_on(next)
       end subroutine try
 
@@ -186,37 +159,33 @@ contains
       real(wp) function work_on(trial) result(work)
          type(trial_type), intent(in) :: trial
 
-         associate (r => analysis%retained)
-            work = sum(trial%residual(:, r)*direction(:, r), mask=.not. model%held(:, r))
-         end associate
+         work = sum(trial%residual*direction, mask=.not. analysis%held)
       end function work_on
 
    end subroutine search
 
 
    !> The trial is in equilibrium: it becomes the state of the structure.
-   subroutine commit(model, trial, analysis)
+   subroutine commit(model, system, trial, analysis)
       type(model_type), intent(in)       :: model
+      class(equation_system), intent(in) :: system
       type(trial_type), intent(in)       :: trial
       type(analysis_type), intent(inout) :: analysis
       integer :: i
 
-      associate (r => analysis%retained)
-         analysis%u(:, r) = trial%u(:, r)
-      end associate
+      analysis%u = trial%u
+      analysis%unbalanced = trial%residual
+      analysis%states = trial%states
+      call find_movements(system, analysis)
       do i = 1, size(model%interface)
          call tally_work(analysis%energy(model%interface(i)%joint), trial%work(:, i))
-         analysis%states(i) = trial%states(i)
          associate (state => analysis%states(i))
             state%normal%k_n = trial%tangent(3, 3, i)
             state%shear(1)%k_s = trial%tangent(1, 1, i)
             state%shear(2)%k_s = trial%tangent(2, 2, i)
-            call rest_when_open(state, joint_movement(model, analysis%u, i))
+            call rest_when_open(state, analysis%movement(:, i))
          end associate
       end do
-      associate (r => analysis%retained)
-         analysis%unbalanced(:, r) = trial%residual(:, r)
-      end associate
    end subroutine commit
 
 end module newton_trial

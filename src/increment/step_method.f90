@@ -1,12 +1,12 @@
 !> METHOD = STEP, the step-wise tangent-stiffness method: one routine a box of the flow chart (Fig. 6a).
 module step_method
    use analysis_state, only: analysis_type, pass_record, record_pass, tally_work
-   use coupled_solution, only: solve_moved
-   use equations, only: body_forces, check_solution, equation_system, form_structure_stiffness, solve_equations
+   use equations, only: equation_system, forces_in_bodies, form_structure_stiffness, solve_equations
    use failures, only: failure_type
-   use joint_laws, only: exceeds_limit, friction_excess
+   use interface_operator, only: add_force, joint_movement
+   use joint_laws, only: exceeds_limit, flag_margin, friction_excess
    use kinds, only: wp
-   use model_data, only: joint_movement, model_type
+   use model_data, only: joint_node_id, model_type
    use stage_plan, only: stage_plan_type, where_in_plan
    use text_tools, only: integer_text, real_text
    implicit none
@@ -24,11 +24,11 @@ contains
       type(model_type), intent(in)         :: model
       type(stage_plan_type), intent(in)    :: plan
       type(analysis_type), intent(in)      :: analysis
-      type(equation_system), intent(inout) :: system
+      class(equation_system), intent(inout) :: system
       type(failure_type), intent(inout)    :: failure
 
       call form_structure_stiffness(model, diagonal(analysis%k), where_in_plan(plan, analysis%stage, analysis%increment), &
-                                    system, failure, many_solutions=any(model%joints%law%has_friction))
+                                    system, failure, one_solution=.not. any(model%joints%law%has_friction))
    end subroutine structure_stiffness
 
 
@@ -49,19 +49,13 @@ contains
    subroutine solve_increment(model, plan, system, analysis, failure)
       type(model_type), intent(in)       :: model
       type(stage_plan_type), intent(in)  :: plan
-      type(equation_system), intent(inout) :: system
+      class(equation_system), intent(inout) :: system
       type(analysis_type), intent(inout) :: analysis
       type(failure_type), intent(inout)  :: failure
 
+      call solve_equations(model, system, analysis%change, analysis%du, failure, moved=analysis%move)
       if (failure%raised) return
-      if (analysis%moves) then
-         call solve_moved(model, system, diagonal(analysis%k), analysis%change, analysis%move, analysis%du)
-      else
-         call solve_equations(system, analysis%change, analysis%du)
-      end if
-      call check_solution(model, system, failure)
-      if (failure%raised) return
-      if (all(abs(analysis%du(:, analysis%retained)) <= largest_number)) return
+      if (all(abs(analysis%du) <= largest_number)) return
       call failure%raise(where_in_plan(plan, analysis%stage, analysis%increment)// &
                          ': the displacements are beyond all numbers; are loads and stiffnesses in consistent units?')
    end subroutine solve_increment
@@ -70,7 +64,7 @@ contains
    !> Add the increment's displacements, deflections and forces to their sums.
    subroutine accumulate(model, system, analysis, failure)
       type(model_type), intent(in)       :: model
-      type(equation_system), intent(in)  :: system
+      class(equation_system), intent(in) :: system
       type(analysis_type), intent(inout) :: analysis
       type(failure_type), intent(in)     :: failure
       integer :: i, k
@@ -97,18 +91,16 @@ contains
    !! increment. Of F the bodies take what these do not: [k_b] {du} = F - sum of [k_int] {du}.
    subroutine add_displacements(model, system, f, analysis)
       type(model_type), intent(in)       :: model
-      type(equation_system), intent(in)  :: system
-      real(wp), intent(in)               :: f(:, :) !! (dimension, n_nodes), on retained nodes [force]
+      class(equation_system), intent(in) :: system
+      real(wp), intent(in)               :: f(:, :) !! (dimension, retained) [force]
       type(analysis_type), intent(inout) :: analysis
-      real(wp) :: force(3), movement(3), work(2), tau
+      real(wp) :: movement(3), work(2), tau
       integer  :: i, k
 
-      associate (r => analysis%retained)
-         analysis%u(:, r) = analysis%u(:, r) + analysis%du(:, r)
-         analysis%body(:, r) = analysis%body(:, r) + f(:, r)
-      end associate
+      analysis%u = analysis%u + analysis%du
+      analysis%body = analysis%body + f
       do i = 1, size(model%interface)
-         movement = joint_movement(model, analysis%du, i)
+         movement = joint_movement(system%interface(i), analysis%du)
          associate (state => analysis%states(i), area => model%interface(i)%area)
             work(1) = 0.0_wp
             do k = 1, 2
@@ -123,13 +115,9 @@ contains
             state%normal%pressure = state%normal%sumf/area
          end associate
          call tally_work(analysis%energy(model%interface(i)%joint), work)
-         force = matmul(model%interface(i)%axes, analysis%k(:, i)*movement)
-         associate (nodes => model%interface(i)%nodes, d => model%dimension)
-            analysis%body(:, nodes(1)) = analysis%body(:, nodes(1)) - force(:d)
-            if (nodes(2) > 0) analysis%body(:, nodes(2)) = analysis%body(:, nodes(2)) + force(:d)
-         end associate
+         call add_force(system%interface(i), -analysis%k(:, i)*movement, analysis%body)
       end do
-      if (size(system%locked) > 0) call body_forces(system, analysis%u, analysis%body) ! a locked unknown takes more than F
+      if (size(system%locked) > 0) call forces_in_bodies(system, analysis%u, analysis%body) ! a locked unknown takes more than F
    end subroutine add_displacements
 
 
@@ -138,7 +126,7 @@ contains
    subroutine limit_friction(model, plan, system, analysis, failure)
       type(model_type), intent(in)       :: model
       type(stage_plan_type), intent(in)  :: plan
-      type(equation_system), intent(inout) :: system
+      class(equation_system), intent(inout) :: system
       type(analysis_type), intent(inout) :: analysis
       type(failure_type), intent(inout)  :: failure
       real(wp), allocatable :: excess(:, :), relief(:, :)
@@ -147,13 +135,15 @@ contains
       logical  :: again
 
       if (failure%raised .or. .not. any(model%joints%law%has_friction)) return
-      allocate (excess(2, size(model%interface)), relief(model%dimension, model%n_nodes))
+      allocate (excess(2, size(model%interface)))
+      allocate (relief, mold=analysis%u)
       call find_excess(model, analysis, excess, total)
       do pass = 1, most_passes
          if (total <= 0.0_wp) return
-         call release(model, pass, excess, analysis, relief, again)
+         call release(model, system, pass, excess, analysis, relief, again)
          if (.not. again) return
-         call solve_equations(system, relief, analysis%du)
+         call solve_equations(model, system, relief, analysis%du, failure)
+         if (failure%raised) return
          call add_displacements(model, system, relief, analysis)
          call find_excess(model, analysis, excess, total_after)
          call record_pass(analysis, pass_record(before=total, after=total_after, changes=count(analysis%states%slips)))
@@ -163,7 +153,8 @@ contains
       call failure%raise(where_in_plan(plan, analysis%stage, analysis%increment)//': after '//integer_text(most_passes)// &
          ' re-analyses the friction of joint '//integer_text(model%joints(model%interface(worst)%joint)%id)// &
          ' is still exceeded, by '//real_text(total)//' in all, most at node '// &
-         integer_text(model%node_id(model%interface(worst)%nodes(1)))//' in its tangential direction: the joint slips as a whole')
+         integer_text(joint_node_id(model, worst, 1))// &
+         ' in its tangential direction: the joint slips as a whole')
    end subroutine limit_friction
 
 
@@ -178,7 +169,8 @@ contains
       do i = 1, size(model%interface)
          excess(:, i) = friction_excess(model%joints(model%interface(i)%joint)%law, model%interface(i)%area, analysis%states(i))
          total = total + norm2(excess(:, i))
-         if (exceeds_limit(model%joints(model%interface(i)%joint)%law, analysis%states(i))) analysis%states(i)%slips = .true.
+         if (exceeds_limit(model%joints(model%interface(i)%joint)%law, analysis%states(i), flag_margin)) &
+            analysis%states(i)%slips = .true.
       end do
    end subroutine find_excess
 
@@ -190,36 +182,34 @@ contains
       integer :: i
 
       do i = 1, size(model%interface)
-         is_endless(i) = model%joints(model%interface(i)%joint)%law%n_reanalyses < 0
+         is_endless(i) = model%joints(model%interface(i)%joint)%n_reanalyses < 0
       end do
    end function is_endless
 
 
    !> Relieve the elements whose joints ask for re-analysis number PASS of their excess; RELIEF are the nodal forces that it
    !! becomes, AGAIN whether there are any. NREAN = -1 goes on as long as any excess is left.
-   subroutine release(model, pass, excess, analysis, relief, again)
+   subroutine release(model, system, pass, excess, analysis, relief, again)
       type(model_type), intent(in)       :: model
+      class(equation_system), intent(in) :: system
       integer, intent(in)                :: pass
       real(wp), intent(in)               :: excess(:, :)
       type(analysis_type), intent(inout) :: analysis
       real(wp), intent(out)              :: relief(:, :)
       logical, intent(out)               :: again
-      real(wp) :: force(3)
-      integer  :: i, k
+      integer :: i, k
 
       relief = 0.0_wp
       again = .false.
       do i = 1, size(model%interface)
-         associate (element => model%interface(i), d => model%dimension, passes => &
-                    model%joints(model%interface(i)%joint)%law%n_reanalyses)
+         associate (element => system%interface(i), passes => &
+                    model%joints(model%interface(i)%joint)%n_reanalyses)
             if (norm2(excess(:, i)) <= 0.0_wp .or. (passes >= 0 .and. pass > passes)) cycle
             again = .true.
             do k = 1, 2
                analysis%states(i)%shear(k)%tau = analysis%states(i)%shear(k)%tau - excess(k, i)/element%area
             end do
-            force = matmul(element%axes(:, :2), excess(:, i))
-            relief(:, element%nodes(1)) = relief(:, element%nodes(1)) + force(:d)
-            if (element%nodes(2) > 0) relief(:, element%nodes(2)) = relief(:, element%nodes(2)) - force(:d)
+            call add_force(element, [excess(:, i), 0.0_wp], relief)
          end associate
       end do
    end subroutine release

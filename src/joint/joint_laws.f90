@@ -1,24 +1,27 @@
-!> All laws of a joint together, the state of one of its elements, and the Coulomb limit between them.
+!> All laws of a joint together, the state of one of its elements, and the Coulomb limit between them; element by element what
+!! the methods ask of them: STEP stiffnesses, NEWTON the exact way, BACK secants.
 module joint_laws
    use kinds, only: wp
-   use normal_path, only: follow_normal
-   use normal_stiffness, only: branch_open, is_virgin, norm, normal_law, normal_state
+   use normal_stiffness, only: branch_open, follow_normal, is_virgin, norm, normal_law, normal_secant, normal_state, &
+                               pressure_floor, stored_work
    use shear_path, only: follow_shear
-   use shear_stiffness, only: shear, shear_law, shear_state, start_shear
+   use shear_stiffness, only: cubic_secant, cubic_slope, cubic_work, shear, shear_law, shear_state
    implicit none
    private
 
-   public :: element_stiffness_of, friction_excess, exceeds_limit, follow_element, rest_when_open
+   public :: element_stiffness_of, follow_element, rest_when_open
+   public :: friction_limit, friction_excess, exceeds_limit
+   public :: back_stiffness, loading_work
 
    real(wp), parameter :: slip_margin = 1.0e-9_wp ! of the limit: rounding does not make a joint slip
-   real(wp), parameter :: flag_margin = 1.0e-7_wp ! of the limit: what a relief leaves is no slip in the next increment
+   real(wp), parameter, public :: flag_margin = 1.0e-7_wp  !! of it: what a relief leaves is no slip in the next increment
+   real(wp), parameter, public :: rest_margin = -1.0e-6_wp !! of it: secants that have settled are at the limit they are cut to
 
    type, public :: joint_law
       type(normal_law) :: normal
       type(shear_law)  :: shear(2)           !! along x and y of the joint
       logical  :: has_friction = .false.
       real(wp) :: mu = 0.0_wp                !! coefficient of friction
-      integer  :: n_reanalyses = 1           !! NREAN; -1: until the excess is gone
    end type joint_law
 
    !> State of one interface element. Directions are its axes: x, y, z.
@@ -32,19 +35,20 @@ module joint_laws
 contains
 
    !> NORM, and SHEAR once a direction: stiffness K = (k_sx, k_sy, k_n) of one element for the next increment.
-   pure subroutine element_stiffness_of(law, area, movement, state, k)
+   pure subroutine element_stiffness_of(law, area, eq10, movement, state, k)
       type(joint_law), intent(in)        :: law
       real(wp), intent(in)               :: area        !! a_i [length^2]
+      logical, intent(in)                :: eq10        !! p by Eq. (10) as printed
       real(wp), intent(in)               :: movement(3) !! of end 1 against end 2, in all [length]
       type(element_state), intent(inout) :: state
       real(wp), intent(out)              :: k(3)        !! [force/length]
       real(wp) :: pressure
       integer  :: i
 
-      call norm(law%normal, area, state%normal, k(3))
+      call norm(law%normal, area, eq10, state%normal, k(3))
       call rest_when_open(state, movement)
       pressure = state%normal%pressure
-      if (is_virgin(law%normal, area, state%normal)) pressure = law%normal%p_av
+      if (is_virgin(area, state%normal)) pressure = state%normal%p_av
       k(:2) = 0.0_wp
       if (state%normal%branch == branch_open) return
       do i = 1, 2
@@ -59,38 +63,44 @@ contains
       real(wp), intent(in)               :: movement(3)
 
       if (state%normal%branch /= branch_open) return
-      call start_shear(state%shear(1))
-      call start_shear(state%shear(2))
+      state%shear = shear_state()
       state%origin = movement(:2)
    end subroutine rest_when_open
 
 
-   !> By how much the shear force exceeds the Coulomb limit mu p a_i (section 4.4): a vector in the direction of tau, zero
-   !! within the limit [force].
+   !> The Coulomb limit tau_f = mu p (section 4.4) of the resultant of tau [pressure].
+   pure real(wp) function friction_limit(law, pressure) result(limit)
+      type(joint_law), intent(in) :: law
+      real(wp), intent(in)        :: pressure
+
+      limit = law%mu*max(0.0_wp, pressure)
+   end function friction_limit
+
+
+   !> Whether the shear stress is above the limit by more than the share MARGIN of it.
+   pure logical function exceeds_limit(law, state, margin)
+      type(joint_law), intent(in)     :: law
+      type(element_state), intent(in) :: state
+      real(wp), intent(in)            :: margin
+
+      exceeds_limit = .false.
+      if (law%has_friction) &
+         exceeds_limit = norm2(state%shear%tau) > friction_limit(law, state%normal%pressure)*(1.0_wp + margin)
+   end function exceeds_limit
+
+
+   !> By how much the shear force exceeds the limit: a vector in the direction of tau, zero within the limit [force].
    pure function friction_excess(law, area, state) result(excess)
       type(joint_law), intent(in)     :: law
       real(wp), intent(in)            :: area
       type(element_state), intent(in) :: state
-      real(wp) :: excess(2), tau(2), limit
+      real(wp) :: excess(2), tau(2)
 
       excess = 0.0_wp
-      if (.not. law%has_friction) return
+      if (.not. exceeds_limit(law, state, slip_margin)) return
       tau = state%shear%tau
-      limit = law%mu*max(0.0_wp, state%normal%pressure)
-      if (norm2(tau) <= limit*(1.0_wp + slip_margin)) return
-      excess = tau*(1.0_wp - limit/norm2(tau))*area
+      excess = tau*(1.0_wp - friction_limit(law, state%normal%pressure)/norm2(tau))*area
    end function friction_excess
-
-
-   !> Whether the shear stress is so far above the limit that the element is said to slip.
-   pure logical function exceeds_limit(law, state)
-      type(joint_law), intent(in)     :: law
-      type(element_state), intent(in) :: state
-
-      exceeds_limit = .false.
-      if (.not. law%has_friction) return
-      exceeds_limit = norm2(state%shear%tau) > law%mu*max(0.0_wp, state%normal%pressure)*(1.0_wp + flag_margin)
-   end function exceeds_limit
 
 
    !> Follow all laws of one element exactly from its state BEFORE, in equilibrium, to MOVEMENT: the branches, and Coulomb as a
@@ -103,7 +113,7 @@ contains
       type(element_state), intent(out) :: after
       real(wp), intent(out)            :: tangent(3, 3) !! d (forces x, y, z)/d movement [force/length], not symmetric
       real(wp), intent(out)            :: work(2)       !! done by shear, by normal forces [force x length]
-      real(wp) :: by_delta(2), by_p(2), slope, shear_work, limit, size_of_tau, along(2), trial(2)
+      real(wp) :: by_delta(2), by_p(2), slope, shear_work, limit, size_of_tau, along(2)
       integer  :: i
 
       after = before
@@ -113,35 +123,61 @@ contains
       after%slips = .false.
       tangent(3, 3) = slope*area
       if (after%normal%branch == branch_open) then
-         do i = 1, 2
-            after%shear(i)%tau = 0.0_wp
-         end do
+         after%shear%tau = 0.0_wp
          return
       end if
       do i = 1, 2
-         call follow_shear(law%shear(i), before%shear(i), before%normal%pressure, movement(i) - before%origin(i), &
-                           after%normal%pressure, after%shear(i), by_delta(i), by_p(i), shear_work)
+         call follow_shear(law%shear(i), before%shear(i), movement(i) - before%origin(i), &
+                           [before%normal%pressure, after%normal%pressure], after%shear(i), by_delta(i), by_p(i), shear_work)
          work(1) = work(1) + area*shear_work
          tangent(i, i) = area*by_delta(i)
          tangent(i, 3) = area*by_p(i)*slope
       end do
-      if (.not. law%has_friction) return
-      trial = after%shear%tau
-      limit = law%mu*after%normal%pressure
-      size_of_tau = norm2(trial)
-      if (size_of_tau <= limit*(1.0_wp + slip_margin)) return
-      after%slips = .true.                                         ! tau = limit * trial/|trial|
-      along = trial/size_of_tau
+      after%slips = exceeds_limit(law, after, slip_margin)
+      if (.not. after%slips) return
+      limit = friction_limit(law, after%normal%pressure)            ! tau = limit * trial/|trial|
+      size_of_tau = norm2(after%shear%tau)
+      along = after%shear%tau/size_of_tau
       tangent(:2, :2) = limit/size_of_tau*(tangent(:2, :2) - matmul(spread(along, 2, 1), &
                                            matmul(spread(along, 1, 1), tangent(:2, :2))))
       tangent(:2, 3) = limit/size_of_tau*(tangent(:2, 3) - along*dot_product(along, tangent(:2, 3))) &
                        + law%mu*slope*area*along
-      work(1) = 0.0_wp
-      do i = 1, 2
-         after%shear(i)%tau = limit*along(i)
-         work(1) = work(1) + 0.5_wp*area*(before%shear(i)%tau + after%shear(i)%tau) &
-                   *(after%shear(i)%delta - before%shear(i)%delta)
-      end do
+      after%shear%tau = limit*along
+      work(1) = sum(0.5_wp*area*(before%shear%tau + after%shear%tau)*(after%shear%delta - before%shear%delta))
    end subroutine follow_element
+
+
+   !> BACK: secants K = (k_sx, k_sy, k_n) of the loading curves, those of shear P(d)/d at the MOVEMENT and cut to the Coulomb limit,
+   !! the normal one of Eq. (9), all at the pressure P; k_n is zero where the element is open, without pressure and apart.
+   pure function back_stiffness(law, area, p_av, p, movement) result(k)
+      type(joint_law), intent(in) :: law
+      real(wp), intent(in)        :: area, p_av, p, movement(3)
+      real(wp) :: k(3), moved
+
+      moved = norm2(movement(:2))
+      k(:2) = area*cubic_secant(law%shear%load, abs(movement(:2)), max(0.0_wp, p))
+      if (law%has_friction .and. moved > 0.0_wp) k(:2) = min(k(:2), friction_limit(law, p)*area/moved)
+      k(3) = 0.0_wp
+      if (p >= pressure_floor*p_av .or. movement(3) >= 0.0_wp) k(3) = normal_secant(law%normal, area, max(p, pressure_floor*p_av))
+   end function back_stiffness
+
+
+   !> Work done by shear, by normal forces on the way of an element from rest to STATE [force x length]: along the loading curves,
+   !! and where it slips along the limit, from the deflection on at which the first slope reaches it.
+   pure function loading_work(law, area, state) result(work)
+      type(joint_law), intent(in)     :: law
+      real(wp), intent(in)            :: area
+      type(element_state), intent(in) :: state
+      real(wp) :: work(2), by_shear(2), d(2), slope(2), tau(2)
+
+      associate (lambda => state%normal%lambda, p => state%normal%pressure, loading => law%shear%load)
+         d = abs(state%shear%delta)
+         tau = abs(state%shear%tau)
+         slope = cubic_slope(loading, 0.0_wp, p)
+         by_shear = cubic_work(loading, d, p)
+         where (state%slips .and. slope > 0.0_wp) by_shear = tau*(d - 0.5_wp*tau/slope)
+         work = area*[sum(by_shear), stored_work(law%normal, lambda, p, p)]
+      end associate
+   end function loading_work
 
 end module joint_laws

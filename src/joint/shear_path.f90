@@ -3,8 +3,9 @@
 !! changing in proportion. At constant pressure this is the polynomial itself.
 module shear_path
    use kinds, only: wp
-   use normal_stiffness, only: branch_load, branch_reload, branch_unload
-   use shear_stiffness, only: least_movement, shear_law, shear_slope, shear_slope_derivatives, shear_state
+   use normal_stiffness, only: branch_load
+   use shear_stiffness, only: branch_end, cubic_of, cubic_slope_derivatives, join_loading, least_movement, shear_law, &
+                              shear_slope, shear_state, turn
    implicit none
    private
 
@@ -15,27 +16,25 @@ module shear_path
    real(wp), parameter :: gauss_3(3) = 0.5_wp + [-0.5_wp, 0.0_wp, 0.5_wp]*sqrt(0.6_wp)  ! on 0..1
    real(wp), parameter :: weight_3(3) = [5.0_wp, 8.0_wp, 5.0_wp]/18.0_wp
 
-   !> The straight way of one step: delta and p at the fraction f of it.
+   !> The straight way of one step: (delta, p) is start + f change at the fraction f of it.
    type :: way_type
-      real(wp) :: delta_0 = 0.0_wp, d_delta = 0.0_wp
-      real(wp) :: p_0 = 0.0_wp, d_p = 0.0_wp
+      real(wp) :: start(2) = 0.0_wp, change(2) = 0.0_wp
    end type way_type
 
 contains
 
-   !> Follow the law from the state BEFORE, at pressure P_BEFORE, to the deflection DELTA at pressure P.
-   pure subroutine follow_shear(law, before, p_before, delta, p, after, by_delta, by_p, work)
+   !> Follow the law from the state BEFORE to the deflection DELTA, the pressure going from P(1) to P(2).
+   pure subroutine follow_shear(law, before, delta, p, after, by_delta, by_p, work)
       type(shear_law), intent(in)    :: law
       type(shear_state), intent(in)  :: before
-      real(wp), intent(in)           :: p_before !! [pressure]
       real(wp), intent(in)           :: delta    !! [length]
-      real(wp), intent(in)           :: p        !! [pressure]
+      real(wp), intent(in)           :: p(2)     !! [pressure]
       type(shear_state), intent(out) :: after
       real(wp), intent(out)          :: by_delta !! d tau/d DELTA [pressure/length]
-      real(wp), intent(out)          :: by_p     !! d tau/d P [-]
+      real(wp), intent(out)          :: by_p     !! d tau/d P(2) [-]
       real(wp), intent(out)          :: work     !! integral of tau d delta [pressure x length]
       type(way_type) :: way
-      real(wp) :: from, to, movement
+      real(wp) :: from, to
       integer  :: pieces
       logical  :: at_corner
 
@@ -43,51 +42,29 @@ contains
       after%delta_before = before%delta
       after%tau_before = before%tau
       after%delta = delta
-      work = 0.0_wp
+      by_delta = 0.0_wp
       by_p = 0.0_wp
-      movement = delta - before%delta
-      way = way_type(before%delta, movement, p_before, p - p_before)
-      if (abs(movement) <= least_movement(law, before, p) .or. .not. law%given) then
-         by_delta = 0.0_wp
-         if (law%given) by_delta = shear_slope(law, after%branch, after%sense*delta, p)
-         after%tau = before%tau + by_delta*movement
+      work = 0.0_wp
+      if (.not. law%given) return
+      way = way_type(start=[before%delta, p(1)], change=[delta - before%delta, p(2) - p(1)])
+      if (abs(way%change(1)) <= least_movement(law, before, p(2))) then
+         by_delta = shear_slope(law, after, [delta, p(2)])
+         after%tau = before%tau + by_delta*way%change(1)
          return
       end if
-      call turn(after, before, movement)
-      by_delta = 0.0_wp
+      call turn(after%sense*way%change(1) < 0.0_wp, after)
       from = 0.0_wp
       do pieces = 1, 4 ! load, unload, load of the other sense are the most there can be; the fourth is never left
          call end_of_piece(after, way, from, to, at_corner)
          call follow_piece(law, after, way, from, to, by_delta, by_p, work)
          if (.not. at_corner) exit
-         by_delta = by_delta - to*shear_slope_at(law, after, way, to)
-         if (after%branch == branch_unload) after%sense = -after%sense
-         after%branch = branch_load
-         by_delta = by_delta + to*shear_slope_at(law, after, way, to)
+         by_delta = by_delta - to*shear_slope(law, after, way%start + to*way%change)
+         call join_loading(after)
+         by_delta = by_delta + to*shear_slope(law, after, way%start + to*way%change)
          if (to >= 1.0_wp) exit
          from = to
       end do
    end subroutine follow_shear
-
-
-   !> The branch on which the step begins, by the sense of its movement.
-   pure subroutine turn(state, before, movement)
-      type(shear_state), intent(inout) :: state
-      type(shear_state), intent(in)    :: before
-      real(wp), intent(in)             :: movement
-
-      if (state%sense*movement < 0.0_wp) then
-         if (state%branch == branch_load) then
-            state%d_r = state%sense*before%delta
-            state%tau_r = state%sense*before%tau
-         end if
-         state%branch = branch_unload
-      else if (state%branch == branch_unload) then
-         state%d_s = state%sense*before%delta
-         state%tau_s = state%sense*before%tau
-         state%branch = branch_reload
-      end if
-   end subroutine turn
 
 
    !> The fraction TO of the way at which the branch of STATE ends: 1, or before that the corner where it joins a loading
@@ -98,13 +75,11 @@ contains
       real(wp), intent(in)          :: from
       real(wp), intent(out)         :: to
       logical, intent(out)          :: at_corner
-      real(wp) :: corner
 
       to = 1.0_wp
       at_corner = .false.
       if (state%branch == branch_load) return
-      corner = state%sense*merge(state%d_r, -state%d_r, state%branch == branch_reload)
-      to = (corner - way%delta_0)/way%d_delta
+      to = (state%sense*branch_end(state) - way%start(1))/way%change(1)
       at_corner = to < 1.0_wp + rounding
       if (abs(to - 1.0_wp) <= rounding) to = 1.0_wp
       to = min(1.0_wp, max(from, to))
@@ -113,14 +88,15 @@ contains
 
    !> Along one branch from fraction FROM to TO: stress, its derivatives, work.
    !! tau = integral of g d delta, g the slope; with f the fraction of the way,
-   !!    d tau/d delta_end = integral of (g + f D dg/d delta) d f,   d tau/d p_end = integral of f D dg/dp d f,   D = d_delta
+   !!    d tau/d delta_end = integral of (g + f D dg/d delta) d f,   d tau/d p_end = integral of f D dg/dp d f,
+   !! D being the change of delta.
    pure subroutine follow_piece(law, state, way, from, to, by_delta, by_p, work)
       type(shear_law), intent(in)      :: law
       type(shear_state), intent(inout) :: state
       type(way_type), intent(in)       :: way
       real(wp), intent(in)             :: from, to
       real(wp), intent(inout)          :: by_delta, by_p, work
-      real(wp) :: f, step, slope_by_d, slope_by_p, tau
+      real(wp) :: f, place(2), step, slope_by_d, slope_by_p, tau
       integer  :: i
 
       step = to - from
@@ -128,14 +104,14 @@ contains
       do i = 1, 3
          f = from + step*gauss_3(i)
          tau = state%tau + stress_gain(law, state, way, from, f)
-         work = work + weight_3(i)*step*way%d_delta*tau
+         work = work + weight_3(i)*step*way%change(1)*tau
       end do
       do i = 1, 2
          f = from + step*gauss_2(i)
-         call shear_slope_derivatives(law, state%branch, state%sense*(way%delta_0 + f*way%d_delta), way%p_0 + f*way%d_p, &
-                                      slope_by_d, slope_by_p)
-         by_delta = by_delta + 0.5_wp*step*(shear_slope_at(law, state, way, f) + f*way%d_delta*state%sense*slope_by_d)
-         by_p = by_p + 0.5_wp*step*f*way%d_delta*slope_by_p
+         place = way%start + f*way%change
+         call cubic_slope_derivatives(cubic_of(law, state%branch), state%sense*place(1), place(2), slope_by_d, slope_by_p)
+         by_delta = by_delta + 0.5_wp*step*(shear_slope(law, state, place) + f*way%change(1)*state%sense*slope_by_d)
+         by_p = by_p + 0.5_wp*step*f*way%change(1)*slope_by_p
       end do
       state%tau = state%tau + stress_gain(law, state, way, from, to)
    end subroutine follow_piece
@@ -147,22 +123,14 @@ contains
       type(shear_state), intent(in) :: state
       type(way_type), intent(in)    :: way
       real(wp), intent(in)          :: from, to
-      integer :: i
+      real(wp) :: f
+      integer  :: i
 
       gain = 0.0_wp
       do i = 1, 2
-         gain = gain + 0.5_wp*(to - from)*way%d_delta*shear_slope_at(law, state, way, from + (to - from)*gauss_2(i))
+         f = from + (to - from)*gauss_2(i)
+         gain = gain + 0.5_wp*(to - from)*way%change(1)*shear_slope(law, state, way%start + f*way%change)
       end do
    end function stress_gain
-
-
-   pure real(wp) function shear_slope_at(law, state, way, f) result(slope)
-      type(shear_law), intent(in)   :: law
-      type(shear_state), intent(in) :: state
-      type(way_type), intent(in)    :: way
-      real(wp), intent(in)          :: f
-
-      slope = shear_slope(law, state%branch, state%sense*(way%delta_0 + f*way%d_delta), way%p_0 + f*way%d_p)
-   end function shear_slope_at
 
 end module shear_path

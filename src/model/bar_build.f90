@@ -105,7 +105,6 @@ contains
             model%bars(k)%bolt = card%id
             model%bars(k)%preload = card%preload
             model%bars(k)%stage = stage
-            model%bars(k)%is_elastic = .false.
          end associate
       end do
    end subroutine tighten

@@ -6,7 +6,8 @@ module cjoint_build
    use id_table, only: id_table_type
    use interface_axes, only: joint_axes, outward
    use kinds, only: wp
-   use model_data, only: interface_element, model_type
+   use interface_operator, only: hang_on, interface_element
+   use model_data, only: model_type
    use text_tools, only: integer_text
    implicit none
    private
@@ -45,23 +46,25 @@ contains
       type(model_type), intent(in)         :: model
       type(interface_element), allocatable, intent(out) :: elements(:)
       type(deck_error_list), intent(inout) :: errors
-      integer :: k, node
+      integer :: k, node, nodes(2)
 
       allocate (elements(size(members)))
       do k = 1, size(members)
          associate (card => deck%bulk%cjoint(members(k)), element => elements(k))
             element%id = card%id
             element%area = card%area
+            nodes = 0
             do node = 1, 2
                if (card%nodes(node) == 0) cycle
-               element%nodes(node) = model%node_table%find(card%nodes(node))
-               if (element%nodes(node) == 0) call add_field_error(deck%text, card%line, node + 2, 'node G'// &
+               nodes(node) = model%node_table%find(card%nodes(node))
+               if (nodes(node) == 0) call add_field_error(deck%text, card%line, node + 2, 'node G'// &
                   integer_text(node), 'there is no GRID '//integer_text(card%nodes(node)), errors)
             end do
+            call hang_on(element, nodes(1), nodes(2))
             if (model%dimension == 2 .and. abs(card%normal(3)) > 0.0_wp) call add_field_error(deck%text, card%line, 8, 'NZ', &
                'not zero, but a plane model lies in x-y', errors)
             if (norm2(card%normal) > 0.0_wp) &
-               element%axes = joint_axes(model, outward(model, element%nodes, card%normal/norm2(card%normal)))
+               element%axes = joint_axes(model, outward(model, nodes, card%normal/norm2(card%normal)))
          end associate
       end do
    end subroutine cjoint_elements

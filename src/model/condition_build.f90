@@ -25,9 +25,7 @@ contains
       allocate (model%used(model%n_nodes))
       model%used = model%first_at(2:) > model%first_at(:model%n_nodes)
       do i = 1, size(model%interface)
-         do node = 1, 2
-            if (model%interface(i)%nodes(node) > 0) model%used(model%interface(i)%nodes(node)) = .true.
-         end do
+         model%used(model%interface(i)%node) = .true.
       end do
       do i = 1, n_bars(model)
          do node = 1, 2

@@ -1,6 +1,7 @@
 !> Joints that statics alone can speak of: where no other support or joint can take a share, the loads give the normal resultant.
 module determinate_joints
    use disjoint_sets, only: join, root_of
+   use interface_operator, only: nodes_of_end
    use kinds, only: wp
    use model_data, only: joint_type, model_type, n_points, n_sections, stage_load_type
    implicit none
@@ -97,7 +98,9 @@ contains
       integer, intent(in)          :: i, side
 
       part_of = model%n_parts + 1
-      if (model%interface(i)%nodes(side) > 0) part_of = model%part(model%interface(i)%nodes(side))
+      associate (nodes => nodes_of_end(model%interface(i), side))
+         if (size(nodes) > 0) part_of = model%part(nodes(1)) ! a face lies on one part
+      end associate
    end function part_of
 
 

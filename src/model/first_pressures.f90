@@ -40,7 +40,7 @@ contains
                end if
             end if
             if (joint%p0 > 0.0_wp) then
-               joint%law%normal%p_av = joint%p0
+               joint%p_av = joint%p0
             else if (.not. joint%determinate) then
                call errors%add(joint%line, 'joint '//integer_text(joint%id)//' does not carry all the load (supports or '// &
                   'other joints take a share), so the pressure of the first increment is not known: give P0 on its PJOINT')
@@ -48,7 +48,7 @@ contains
                call errors%add(joint%line, 'the first increment does not press joint '//integer_text(joint%id)// &
                   ' together (normal force '//real_text(resultant)//'), so its pressure is not known: give P0 on its PJOINT')
             else
-               joint%law%normal%p_av = resultant/joint%area
+               joint%p_av = resultant/joint%area
             end if
          end associate
       end do
@@ -109,13 +109,13 @@ contains
    pure logical function touches_body(model, joint)
       type(model_type), intent(in) :: model
       type(joint_type), intent(in) :: joint
-      integer :: i, node, side
+      integer :: i, k, node
 
       touches_body = .false.
       do i = joint%first, joint%last
-         do side = 1, 2
-            node = model%interface(i)%nodes(side)
-            if (node > 0) touches_body = touches_body .or. model%first_at(node + 1) > model%first_at(node)
+         do k = 1, size(model%interface(i)%node)
+            node = model%interface(i)%node(k)
+            touches_body = touches_body .or. model%first_at(node + 1) > model%first_at(node)
          end do
       end do
    end function touches_body

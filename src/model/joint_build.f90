@@ -8,8 +8,9 @@ module joint_build
    use id_table, only: id_table_type
    use interface_axes, only: joint_axes
    use kinds, only: wp
+   use interface_operator, only: hang_on, interface_element
    use law_build, only: default_slope, law_tables, list_laws, resolve_laws
-   use model_data, only: interface_element, joint_type, model_type
+   use model_data, only: joint_type, model_type
    use reverse_lists, only: list_owners
    use surface_build, only: surface_node_list, surface_nodes
    use text_tools, only: integer_text
@@ -160,7 +161,7 @@ contains
       allocate (elements(side1%n))
       do k = 1, side1%n
          elements(k)%id = highest + k
-         elements(k)%nodes = [side1%node(k), partner(k)]
+         call hang_on(elements(k), side1%node(k), partner(k))
          elements(k)%area = side1%area(k)
          elements(k)%axes = joint_axes(model, side1%normal(:, k))
       end do

@@ -1,6 +1,5 @@
 !> The laws of the joints: from PJOINT, JNORM and JSHEAR cards to the joints that name them.
 module law_build
-   use case_control, only: pressure_eq10
    use deck_cards, only: add_field_error
    use deck_errors, only: deck_error_list
    use deck_input, only: deck_type
@@ -51,11 +50,10 @@ contains
          if (pjoint%p0_given) joint%p0 = pjoint%p0
          law%has_friction = pjoint%mu_given
          law%mu = pjoint%mu
-         law%n_reanalyses = pjoint%n_reanalyses
+         joint%n_reanalyses = pjoint%n_reanalyses
          k = tables%jnorm%find(pjoint%normal_law)
          if (k > 0) then ! else said where PJOINT is checked
-            law%normal = normal_law(c=deck%bulk%jnorm(k)%c, m=deck%bulk%jnorm(k)%m, e_u=deck%bulk%jnorm(k)%e_u, &
-                                    eq10=deck%control%pressure == pressure_eq10)
+            law%normal = normal_law(c=deck%bulk%jnorm(k)%c, m=deck%bulk%jnorm(k)%m, e_u=deck%bulk%jnorm(k)%e_u)
             joint%e_u_given = deck%bulk%jnorm(k)%e_u_given
          end if
          do direction = 1, 2
@@ -72,13 +70,12 @@ contains
       type(model_type), intent(in)         :: model
       type(joint_type), intent(inout)      :: joint
       type(deck_error_list), intent(inout) :: errors
-      integer :: i, node, side
+      integer :: i, k, node
 
       if (joint%e_u_given .or. joint%law%normal%c <= 0.0_wp) return
       do i = joint%first, joint%last
-         do side = 1, 2
-            node = model%interface(i)%nodes(side)
-            if (node == 0) cycle
+         do k = 1, size(model%interface(i)%node)
+            node = model%interface(i)%node(k)
             if (model%first_at(node) == model%first_at(node + 1)) cycle
             associate (property => model%element_property(model%elements_at(model%first_at(node))))
                if (property > 0) joint%law%normal%e_u = model%properties(property)%e

@@ -1,15 +1,16 @@
 !> The structure as it is solved: nodes, bodies, joints, supports, loads, all references resolved to positions.
-!! Built once from a deck; nothing in it changes afterwards but that bolts are locked.
+!! Built once from a deck; nothing in it changes afterwards.
 module model_data
    use elasticity, only: plane_stress
    use element_kinds, only: element_table
    use id_table, only: id_table_type
+   use interface_operator, only: interface_element, named_node
    use joint_laws, only: joint_law
    use kinds, only: wp
    implicit none
    private
 
-   public :: joint_movement, corners_of, n_bars, n_sections, n_points
+   public :: corners_of, joint_node_id, n_bars, n_sections, n_points
 
    !> Section and material of body elements.
    type, public :: property_type
@@ -41,22 +42,15 @@ module model_data
       integer  :: first = 0, last = -1       !! its interface elements
       type(joint_law) :: law                 !! normal, shear, friction
       logical  :: e_u_given = .false.        !! whether the deck gives the unloading slope
+      integer  :: n_reanalyses = 1           !! NREAN after the Coulomb check; -1: until the excess is gone
       real(wp) :: p0 = 0.0_wp                !! initial pressure given by the user, 0: none
+      real(wp) :: p_av = 0.0_wp              !! pressure of the first increment, Eq. (9): that, or by statics [pressure], > 0
       real(wp) :: area = 0.0_wp              !! A_int, sum of the areas of influence [length^2]
       real(wp) :: normal(3) = 0.0_wp         !! mean normal, from side 1 to side 2
       logical  :: determinate = .false.      !! whether statics alone gives its normal resultant
       logical, allocatable :: carries(:)     !! (parts) the parts whose load it carries, where determinate
       real(wp) :: direction = 1.0_wp         !! +1: those parts are on side 1; -1: on side 2
    end type joint_type
-
-   !> One interface element: the "beam" between two facing nodes, or a node and the rigid base.
-   type, public :: interface_element
-      integer  :: id = 0
-      integer  :: joint = 0
-      integer  :: nodes(2) = 0               !! positions; nodes(2) = 0: rigid base
-      real(wp) :: area = 0.0_wp              !! a_i [length^2]
-      real(wp) :: axes(3, 3) = 0.0_wp        !! columns: x, y in the joint, z its normal from node 1 to node 2
-   end type interface_element
 
    !> Forces on nodes and displacements of supports: the total load at the end of a stage.
    type, public :: stage_load_type
@@ -74,8 +68,7 @@ module model_data
       real(wp) :: stiffness = 0.0_wp         !! E A/L [force/length]
       integer  :: bolt = 0                   !! BOLT id, 0: none
       real(wp) :: preload = 0.0_wp           !! of a bolt [force]
-      integer  :: stage = 0                  !! position of the stage that tightens it
-      logical  :: is_elastic = .true.        !! a bolt is from the end of that stage on: the one thing that changes in a model
+      integer  :: stage = 0                  !! position of the stage that tightens it; a bolt is elastic from its end on
    end type bar_type
 
    !> The section at which a solid bolt is cut. Its nodes move with the marked side; for the elements behind it they are where
@@ -88,8 +81,7 @@ module model_data
       real(wp) :: direction(3) = 0.0_wp      !! unit, from the side behind to the marked side: g > 0 shortens the bolt
       real(wp) :: area = 0.0_wp              !! [length^2]
       real(wp) :: preload = 0.0_wp           !! tension [force]
-      integer  :: stage = 0                  !! position of the stage that tightens it
-      logical  :: is_locked = .false.        !! from the end of that stage on: g is held, as it then is
+      integer  :: stage = 0                  !! position of the stage that tightens it; from its end on g is held as it then is
    end type section_type
 
    type, public :: model_type
@@ -125,23 +117,6 @@ module model_data
 
 contains
 
-   !> Movement of end 1 of interface element I against end 2 in its own axes: tangential x, y, and the closing deflection
-   !! lambda [length].
-   pure function joint_movement(model, u, i) result(movement)
-      type(model_type), intent(in) :: model
-      real(wp), intent(in)         :: u(:, :) !! (dimension, n_nodes) [length]
-      integer, intent(in)          :: i
-      real(wp) :: movement(3), between(3)
-
-      associate (element => model%interface(i), d => model%dimension)
-         between = 0.0_wp
-         between(:d) = u(:, element%nodes(1))
-         if (element%nodes(2) > 0) between(:d) = between(:d) - u(:, element%nodes(2))
-         movement = matmul(between, element%axes)
-      end associate
-   end function joint_movement
-
-
    !> How many bars there are.
    pure integer function n_bars(model)
       type(model_type), intent(in) :: model
@@ -166,6 +141,16 @@ contains
 
       n_points = model%n_nodes - n_sections(model)
    end function n_points
+
+
+   !> The number of the node that interface element I names for END 1 or 2: 0 for a rigid base, -1 where several share the end.
+   pure integer function joint_node_id(model, i, end) result(id)
+      type(model_type), intent(in) :: model
+      integer, intent(in)          :: i, end
+
+      id = named_node(model%interface(i), end)
+      if (id > 0) id = model%node_id(id)
+   end function joint_node_id
 
 
    !> The corners of element E.

@@ -1,12 +1,13 @@
 !> NAME.joint.csv: every interface element after every increment, in full precision.
 module joint_history
+   use csv_line, only: csv_line_type
+   use interface_operator, only: at_first_end
    use kinds, only: wp
-   use model_data, only: joint_movement, model_type
+   use model_data, only: joint_node_id, model_type
    use normal_stiffness, only: branch_name
    use output_file, only: output_file_type
    use stage_plan, only: stage_plan_type
    use analysis_state, only: analysis_type
-   use text_line, only: text_line_type
    use text_tools, only: clean
    implicit none
    private
@@ -30,79 +31,34 @@ contains
       type(model_type), intent(in)          :: model
       type(stage_plan_type), intent(in)     :: plan
       type(analysis_type), intent(in)       :: analysis
-      type(text_line_type) :: line
-      integer :: i, k, node2, same
+      type(csv_line_type) :: line
+      integer  :: i, k, same
 
-      call line%clear()                   ! the columns that all rows have in common
-      call line%add_integer(plan%stages(analysis%stage)%id)
-      call add_number(analysis%increment)
-      call add_real(analysis%fraction)
-      same = line%length
+      call line%add([plan%stages(analysis%stage)%id, analysis%increment])
+      call line%add(clean([analysis%fraction]))
+      same = line%length                  ! the columns that all rows have in common
       do i = 1, size(model%interface)
          line%length = same
          associate (element => model%interface(i), state => analysis%states(i)%normal)
-            node2 = 0
-            if (element%nodes(2) > 0) node2 = model%node_id(element%nodes(2))
-            call add_number(model%joints(element%joint)%id)
-            call add_number(element%id)
-            call add_number(model%node_id(element%nodes(1)))
-            call add_number(node2)
-            do k = 1, 3
-               call add_real(model%x(k, element%nodes(1)))
-            end do
-            call add_real(element%area)
-            call line%add(','//branch_name(state%branch))
-            call add_real(state%lambda)
-            call add_real(state%pressure)
-            call add_real(state%sumf)
-            call add_real(state%k_n)
-            call add_shear(1)
-            call add_shear(2)
-            call line%add(merge(',1', ',0', analysis%states(i)%slips))
-            call file%put(line%text(:line%length))
+            call line%add([model%joints(element%joint)%id, element%id, joint_node_id(model, i, 1), joint_node_id(model, i, 2)])
+            call line%add(clean([at_first_end(element, model%x), element%area]))
+            call line%add(branch_name(state%branch))
+            call line%add(clean([state%lambda, state%pressure, state%sumf, state%k_n]))
          end associate
+         do k = 1, 2
+            associate (state => analysis%states(i)%shear(k))
+               if (model%joints(model%interface(i)%joint)%law%shear(k)%given) then
+                  call line%add(branch_name(state%branch))
+                  call line%add(clean([state%delta, state%tau, state%k_s]))
+               else                       ! without a shear law the movement alone is a result
+                  call line%add('')
+                  call line%add(clean([analysis%movement(k, i), 0.0_wp, 0.0_wp]))
+               end if
+            end associate
+         end do
+         call line%add(merge('1', '0', analysis%states(i)%slips))
+         call file%put(line%text(:line%length))
       end do
-
-   contains
-
-      subroutine add_number(value)
-         integer, intent(in) :: value
-
-         call line%add(',')
-         call line%add_integer(value)
-      end subroutine add_number
-
-
-      !> A number with the 17 digits that make it come back the same.
-      subroutine add_real(value)
-         real(wp), intent(in) :: value
-
-         call line%add(',')
-         call line%add_full(clean(value))
-      end subroutine add_real
-
-
-      !> branch, delta, tau, k_s of element I in direction K. Without a shear law the movement alone is a result.
-      subroutine add_shear(direction)
-         integer, intent(in) :: direction
-         real(wp) :: movement(3)
-
-         associate (state => analysis%states(i)%shear(direction))
-            if (model%joints(model%interface(i)%joint)%law%shear(direction)%given) then
-               call line%add(','//branch_name(state%branch))
-               call add_real(state%delta)
-               call add_real(state%tau)
-               call add_real(state%k_s)
-            else
-               movement = joint_movement(model, analysis%u, i)
-               call line%add(',')
-               call add_real(movement(direction))
-               call add_real(0.0_wp)
-               call add_real(0.0_wp)
-            end if
-         end associate
-      end subroutine add_shear
-
    end subroutine write_history
 
 end module joint_history

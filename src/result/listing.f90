@@ -1,23 +1,21 @@
 !> The listing NAME.out: increments of each stage, and the tables that OUTPUT asks for.
 module listing
-   use case_control, only: method_back, method_newton, output_all, output_joint, output_last
+   use analysis_state, only: analysis_type, free_norm
+   use case_control, only: output_all, output_joint, output_last
    use deck_input, only: deck_type
    use determinate_joints, only: carried_resultant
-   use equations, only: equation_system
+   use equation_solver, only: equation_system
    use kinds, only: wp
-   use listing_bars, only: list_bars, list_sections, note_bars, note_sections
+   use listing_bars, only: note_bars, note_sections
    use listing_bodies, only: list_bodies
-   use listing_joints, only: list_energy, list_interface, list_passes, list_resultants, note_passes, note_resultants
+   use listing_joints, only: list_energy, list_interface, note_passes, note_resultants
    use listing_opening, only: write_opening
-   use listing_page, only: heading, in_column, label_type, noise, page_width, unit_labels
    use listing_plot, only: plot_joints
-   use model_data, only: model_type, stage_load_type
+   use listing_table, only: column, label_type, listing_table_type, noise, page_type
+   use model_data, only: joint_node_id, model_type, stage_load_type
    use normal_stiffness, only: branch_open
-   use output_file, only: output_file_type
    use range_watch, only: range_watch_type, watch_balance, watch_ranges
-   use row_buffer, only: row_buffer_type
    use stage_plan, only: stage_plan_type
-   use analysis_state, only: analysis_type, free_norm
    use text_tools, only: clean, integer_text, plural, upper
    implicit none
    private
@@ -25,13 +23,11 @@ module listing
    public :: start_listing, list_increment, list_stage, finish_listing
 
    type, public :: listing_type
-      type(output_file_type) :: file
-      type(label_type) :: labels
+      type(page_type) :: page
       integer :: method = 0
-      type(row_buffer_type) :: increments, resultants, passes, bars, sections ! of the stage so far
-      integer  :: n_increments = 0, n_removed = 0
+      type(listing_table_type) :: increments, resultants, passes, bars, sections ! of the stage so far
+      integer :: n_increments = 0, n_removed = 0
       type(range_watch_type) :: watch
-      real(wp) :: largest_force = 0.0_wp            ! ever applied, for the noise
    end type listing_type
 
 contains
@@ -43,12 +39,16 @@ contains
       type(deck_type), intent(in)       :: deck
       type(model_type), intent(in)      :: model
       type(stage_plan_type), intent(in) :: plan
-      type(equation_system), intent(in) :: system
+      class(equation_system), intent(in) :: system
 
-      call listing%file%start(path)
-      listing%labels = unit_labels(deck%control)
+      call listing%page%file%start(path)
       listing%method = deck%control%method
-      call write_opening(listing%file, deck, model, plan, system)
+      associate (length => trim(deck%control%length_unit), force => trim(deck%control%force_unit))
+         if (length /= '') listing%page%labels = label_type( &
+            length=length, force=force, pressure=force//'/'//length//'2', area=length//'2', stiffness=force//'/'//length, &
+            moment=force//' '//length, slope=force//'/'//length//'2/'//length)
+      end associate
+      call write_opening(listing%page, deck, model, plan, system)
    end subroutine start_listing
 
 
@@ -58,32 +58,24 @@ contains
       type(model_type), intent(in)      :: model
       type(stage_plan_type), intent(in) :: plan
       type(analysis_type), intent(in)   :: analysis
-      type(stage_load_type) :: now
-      real(wp) :: unbalanced
-      integer  :: j
 
       listing%n_increments = listing%n_increments + 1
       listing%n_removed = listing%n_removed + analysis%n_removed
-      listing%largest_force = max(listing%largest_force, maxval(abs(analysis%applied(:, analysis%loaded))))
-      if (analysis%is_moved) listing%largest_force = &
-         max(listing%largest_force, maxval(abs(analysis%unbalanced), mask=model%held)) ! what moves the supports
-      call current_load(model, analysis, now)
-      unbalanced = free_norm(model, analysis%unbalanced, analysis%retained)
-      do j = 1, size(model%joints)
-         call listing%increments%add(increment_row(listing, model, analysis, now, unbalanced, j))
-      end do
-      if (size(model%joints) == 0) call listing%increments%add(increment_row(listing, model, analysis, now, unbalanced, 0))
-      call note_resultants(model, analysis, listing%largest_force, listing%resultants)
-      call note_passes(analysis, listing%passes)
-      call note_bars(model, analysis, listing%largest_force, listing%bars)
-      call note_sections(model, analysis, listing%largest_force, listing%sections)
-      call watch_ranges(model, plan, analysis, listing%watch)
-      associate (stage => plan%stages(analysis%stage))
+      associate (stage => plan%stages(analysis%stage), page => listing%page)
+         page%stage = 'STAGE '//integer_text(stage%id)
+         page%now = ', '//page%stage//', INCREMENT '//integer_text(analysis%increment)
+         page%largest_force = max(page%largest_force, maxval(abs(analysis%applied(:, analysis%loaded))))
+         if (analysis%is_moved) page%largest_force = &
+            max(page%largest_force, maxval(abs(analysis%all_unbalanced), mask=model%held)) ! what moves the supports
+         call note_increment(page, trim(stage%label), model, analysis, listing%increments)
+         call note_resultants(page, model, analysis, listing%resultants)
+         call note_passes(page, listing%method, analysis, listing%passes)
+         call note_bars(page, model, analysis, listing%bars)
+         call note_sections(page, model, analysis, listing%sections)
+         call watch_ranges(model, plan, analysis, listing%watch)
          if (analysis%increment == size(stage%shares)) return ! the tables of the end of the stage follow
-         if (stage%output == output_all .or. stage%output == output_joint) call list_interface( &
-            listing%file, listing%labels, model, plan, analysis)
-         if (stage%output == output_all) &
-            call list_bodies(listing%file, listing%labels, listing%largest_force, model, plan, analysis)
+         if (stage%output == output_all .or. stage%output == output_joint) call list_interface(page, model, analysis)
+         if (stage%output == output_all) call list_bodies(page, stage%stress, model, analysis)
       end associate
    end subroutine list_increment
 
@@ -94,116 +86,94 @@ contains
       type(model_type), intent(in)      :: model
       type(stage_plan_type), intent(in) :: plan
       type(analysis_type), intent(in)   :: analysis
-      character(page_width) :: line
-      character(:), allocatable :: words
 
-      words = 'STAGE '//integer_text(plan%stages(analysis%stage)%id)
-      associate (stage => plan%stages(analysis%stage), file => listing%file)
-         call heading(file, 'INCREMENTS OF STAGE '//integer_text(stage%id)//'   '//trim(stage%label))
-         call file%put('  INCR   SHARE   LOAD      JOINT OPEN   LAMBDA MAX    AT NODE        P MAX    AT NODE  JOINT FORCE'// &
-                       '  APPLIED TO DIFFERENCE UNBALANCED')
-         if (listing%labels%force /= '') then
-            line = ''
-            line(44:) = in_column(listing%labels%length, 9)
-            line(62:) = in_column(listing%labels%pressure, 13)
-            line(90:) = in_column(listing%labels%force, 9)
-            line(102:) = in_column(listing%labels%force, 9)
-            line(113:) = in_column(listing%labels%force, 9)
-            line(124:) = in_column(listing%labels%force, 9)
-            call file%put(line)
-         end if
-         call listing%increments%flush(file)
-         call watch_balance(model, plan, analysis, listing%largest_force, listing%watch)
-         if (listing%watch%rows%n > 0) then
-            call file%put('')
-            call listing%watch%rows%flush(file)
-         end if
-         call list_passes_of_method(listing, words)
-         call list_resultants(file, listing%labels, words, model%dimension, listing%resultants)
-         call list_bars(file, listing%labels, words, listing%bars)
-         call list_sections(file, listing%labels, words, listing%sections)
-         call list_energy(file, listing%labels, words, model, analysis)
-         if (stage%output >= output_last) call list_interface(file, listing%labels, model, plan, analysis)
-         if (stage%plot) call plot_joints(file, listing%labels, model, plan, analysis)
-         if (stage%output == output_all .or. stage%output == output_last) &
-            call list_bodies(file, listing%labels, listing%largest_force, model, plan, analysis)
+      associate (stage => plan%stages(analysis%stage), page => listing%page)
+         call listing%increments%print_kept(page%file)
+         call watch_balance(model, plan, analysis, page%largest_force, listing%watch)
+         call listing%watch%rows%print_kept(page%file)
+         call listing%passes%print_kept(page%file)
+         call listing%resultants%print_kept(page%file)
+         call listing%bars%print_kept(page%file)
+         call listing%sections%print_kept(page%file)
+         call list_energy(page, model, analysis)
+         if (stage%output >= output_last) call list_interface(page, model, analysis)
+         if (stage%plot) call plot_joints(page, model, analysis)
+         if (stage%output == output_all .or. stage%output == output_last) call list_bodies(page, stage%stress, model, analysis)
       end associate
    end subroutine list_stage
 
 
-   !> What was done in the increments of the stage besides solving once.
-   subroutine list_passes_of_method(listing, stage)
-      type(listing_type), intent(inout) :: listing
-      character(*), intent(in)          :: stage
+   !> Note the increment just completed, of the stage with LABEL: a row a joint, or one where there are none.
+   subroutine note_increment(page, label, model, analysis, table)
+      type(page_type), intent(in)             :: page
+      character(*), intent(in)                :: label
+      type(model_type), intent(in)            :: model
+      type(analysis_type), intent(in)         :: analysis
+      type(listing_table_type), intent(inout) :: table
+      type(stage_load_type) :: now !! the load that acts
+      real(wp) :: unbalanced
+      integer  :: j
 
-      select case (listing%method)
-      case (method_newton)
-         call list_passes(listing%file, 'CONVERGENCE HISTORY, '//stage//': UNBALANCED FORCE BEFORE AND AFTER EACH ITERATION', &
-                          '  INCR  PART    ITER        BEFORE         AFTER     STEP  CHANGES', listing%passes)
-      case (method_back)
-         call list_passes(listing%file, 'ITERATIONS, '//stage//': LARGEST PRESSURE, AND ITS LARGEST CHANGE', &
-                          '  INCR  ITER      PRESSURE        CHANGE', listing%passes)
-      case default
-         call list_passes(listing%file, 'RE-ANALYSES AFTER THE COULOMB CHECK, '//stage//': EXCESS OVER THE LIMITS', &
-                          '  INCR  PASS        BEFORE         AFTER  REMOVED %   SLIPPING', listing%passes)
-      end select
-   end subroutine list_passes_of_method
-
-
-   !> One line of the table of increments: joint J after the increment just completed (J = 0: no joints).
-   function increment_row(listing, model, analysis, now, unbalanced, j) result(row)
-      type(listing_type), intent(in)    :: listing
-      type(model_type), intent(in)      :: model
-      type(analysis_type), intent(in)   :: analysis
-      type(stage_load_type), intent(in) :: now        !! the load that acts
-      real(wp), intent(in)              :: unbalanced !! norm of what is unbalanced on the free components [force]
-      integer, intent(in)               :: j
-      character(page_width) :: row
-      real(wp) :: force, applied, floor
-      integer  :: i, at_lambda, at_p, n_open
-
-      floor = noise*listing%largest_force
-      write (row, '(i6, f8.5, f7.4)') analysis%increment, analysis%share, analysis%fraction
-      if (j > 0) then
-         associate (joint => model%joints(j), state => analysis%states%normal)
-            n_open = 0; force = 0.0_wp
-            at_lambda = joint%first; at_p = joint%first
-            do i = joint%first, joint%last
-               if (state(i)%branch == branch_open) n_open = n_open + 1
-               force = force + state(i)%sumf*dot_product(model%interface(i)%axes(:, 3), joint%normal)
-               ! of values that rounding alone tells apart the first counts
-               if (state(i)%lambda > state(at_lambda)%lambda + noise*analysis%largest_lambda) at_lambda = i
-               if (state(i)%pressure > state(at_p)%pressure + noise*analysis%largest_p) at_p = i
-            end do
-            write (row(22:), '(i11, i5, 2(es13.5, i11), es13.5)') joint%id, n_open, &
-               clean(state(at_lambda)%lambda, noise*analysis%largest_lambda), &
-               model%node_id(model%interface(at_lambda)%nodes(1)), &
-               clean(state(at_p)%pressure, noise*analysis%largest_p), model%node_id(model%interface(at_p)%nodes(1)), &
-               clean(force, floor)
-            if (joint%determinate) then
-               applied = carried_resultant(model, joint, now)
-               write (row(99:), '(es12.5, es11.3)') clean(applied, floor), clean(force - applied, floor)
-            end if
-         end associate
-      end if
-      write (row(122:), '(es11.3)') clean(unbalanced, floor)
-   end function increment_row
-
-
-   !> The load that acts now, as a list of nodal forces.
-   pure subroutine current_load(model, analysis, now)
-      type(model_type), intent(in)       :: model
-      type(analysis_type), intent(in)    :: analysis
-      type(stage_load_type), intent(out) :: now
-      integer :: i
-
+      associate (labels => page%labels)
+         ! in this table the unit of LAMBDA stands two characters behind its numbers
+         if (table%is_empty()) call table%start('INCREMENTS OF '//page%stage//'   '//label, &
+            [column('INCR', 'i6'), column('SHARE', 'f8.5'), column('LOAD', 'f7.4'), column('JOINT', 'i11'), column('OPEN', 'i5'), &
+             column('LAMBDA MAX', 'es13.5', labels%length, unit_shift=2), column('AT NODE', 'i11'), &
+             column('P MAX', 'es13.5', labels%pressure), column('AT NODE', 'i11'), &
+             column('JOINT FORCE', 'es13.5', labels%force), column('APPLIED TO', 'es12.5', labels%force), &
+             column(['DIFFERENCE', 'UNBALANCED'], 'es11.3', labels%force)])
+      end associate
       now%n = size(analysis%loaded)
       allocate (now%node, source=analysis%loaded)
       allocate (now%force(3, now%n), source=0.0_wp)
-      do i = 1, now%n
-         now%force(:model%dimension, i) = analysis%applied(:, now%node(i))
+      now%force(:model%dimension, :) = analysis%applied(:, now%node)
+      unbalanced = clean(free_norm(analysis%unbalanced, analysis%held), noise*page%largest_force)
+      do j = min(1, size(model%joints)), size(model%joints)
+         call table%add([analysis%increment])
+         call table%add([analysis%share, analysis%fraction])
+         if (j > 0) call add_joint(model, analysis, now, j, noise*page%largest_force, table)
+         if (j == 0) call table%skip(9)
+         call table%add([unbalanced])
+         call table%keep_row()
       end do
-   end subroutine current_load
+   end subroutine note_increment
+
+
+   !> What a row of the table of increments says of joint J.
+   subroutine add_joint(model, analysis, now, j, floor, table)
+      type(model_type), intent(in)            :: model
+      type(analysis_type), intent(in)         :: analysis
+      type(stage_load_type), intent(in)       :: now   !! the load that acts
+      integer, intent(in)                     :: j
+      real(wp), intent(in)                    :: floor !! of forces
+      type(listing_table_type), intent(inout) :: table
+      real(wp) :: force, applied
+      integer  :: i, at_lambda, at_p, n_open
+
+      associate (joint => model%joints(j), state => analysis%states%normal)
+         n_open = 0; force = 0.0_wp
+         at_lambda = joint%first; at_p = joint%first
+         do i = joint%first, joint%last
+            if (state(i)%branch == branch_open) n_open = n_open + 1
+            force = force + state(i)%sumf*dot_product(model%interface(i)%axes(:, 3), joint%normal)
+            ! of values that rounding alone tells apart the first counts
+            if (state(i)%lambda > state(at_lambda)%lambda + noise*analysis%largest_lambda) at_lambda = i
+            if (state(i)%pressure > state(at_p)%pressure + noise*analysis%largest_p) at_p = i
+         end do
+         call table%add([joint%id, n_open])
+         call table%add([clean(state(at_lambda)%lambda, noise*analysis%largest_lambda)])
+         call table%add([joint_node_id(model, at_lambda, 1)])
+         call table%add([clean(state(at_p)%pressure, noise*analysis%largest_p)])
+         call table%add([joint_node_id(model, at_p, 1)])
+         call table%add([clean(force, floor)])
+         if (joint%determinate) then
+            applied = carried_resultant(model, joint, now)
+            call table%add(clean([applied, force - applied], floor))
+         else
+            call table%skip(2)
+         end if
+      end associate
+   end subroutine add_joint
 
 
    !> Close the listing under its name.
@@ -212,11 +182,11 @@ contains
       type(stage_plan_type), intent(in) :: plan
       logical, intent(out)              :: ok
 
-      call listing%file%put('')
-      call listing%file%put(' END OF LISTING   '//upper(plural(size(plan%stages), 'stage')//', '// &
+      call listing%page%file%put('')
+      call listing%page%file%put(' END OF LISTING   '//upper(plural(size(plan%stages), 'stage')//', '// &
          plural(listing%n_increments, 'increment')//', '//plural(listing%n_removed, 'interface element'))//' REMOVED, '// &
          upper(plural(listing%watch%n_warnings, 'warning')))
-      call listing%file%finish(ok)
+      call listing%page%file%finish(ok)
    end subroutine finish_listing
 
 end module listing

@@ -1,16 +1,18 @@
 !> The first pages of the listing: heading, deck echo, summary of the model, joints and stages.
 module listing_opening
-   use case_control, only: case_control_type, method_newton, method_step, pressure_eq10
+   use card_names, only: card_name, is_continuation
+   use case_control, only: method_newton, method_step, pressure_eq10
    use deck_input, only: deck_type
-   use equations, only: equation_system
+   use equation_solver, only: equation_system, solver_description
+   use include_lines, only: is_include
    use kinds, only: long, wp
-   use listing_echo, only: write_echo
-   use listing_page, only: cut, heading, in_column, label_type, page_width, unit_labels
+   use listing_table, only: axes, column, cut, heading, listing_table_type, page_type, page_width
    use model_data, only: model_type, n_bars, n_points, n_sections
    use normal_stiffness, only: branch_load, branch_name, branch_reload, branch_unload, pressure_floor
    use output_file, only: output_file_type
+   use shear_stiffness, only: cubic, cubic_of
    use stage_plan, only: stage_plan_type
-   use text_tools, only: clean, real_text
+   use text_tools, only: clean, integer_text, plural, real_text, upper
    implicit none
    private
 
@@ -19,22 +21,77 @@ module listing_opening
 contains
 
    !> Everything that can be said before the first increment.
-   subroutine write_opening(file, deck, model, plan, system)
+   subroutine write_opening(page, deck, model, plan, system)
+      type(page_type), intent(inout)    :: page
+      type(deck_type), intent(in)       :: deck
+      type(model_type), intent(in)      :: model
+      type(stage_plan_type), intent(in) :: plan
+      class(equation_system), intent(in) :: system
+
+      call page%file%put(' '//repeat('-', page_width - 1))
+      call page%file%put('  J O I N T F E M      TANGENT-STIFFNESS FINITE ELEMENT ANALYSIS OF JOINTED STRUCTURES')
+      call page%file%put('  '//cut(deck%control%title, page_width - 2))
+      call page%file%put(' '//repeat('-', page_width - 1))
+      call write_echo(page%file, deck)
+      call write_summary(page%file, deck, model, system)
+      if (size(model%joints) > 0) call write_joints(page, model)
+      call write_shear_laws(page%file, model)
+      call write_stages(page, model, plan)
+   end subroutine write_opening
+
+
+   !> The deck as read, cards counted, under a field ruler. INCLUDE files are counted, not shown.
+   subroutine write_echo(file, deck)
       type(output_file_type), intent(inout) :: file
       type(deck_type), intent(in)           :: deck
-      type(model_type), intent(in)          :: model
-      type(stage_plan_type), intent(in)     :: plan
-      type(equation_system), intent(in)     :: system
+      character(:), allocatable :: line
+      character(10) :: counter
+      integer :: i, cards, hidden
+      logical :: in_bulk
 
-      call file%put(' '//repeat('-', page_width - 1))
-      call file%put('  J O I N T F E M      TANGENT-STIFFNESS FINITE ELEMENT ANALYSIS OF JOINTED STRUCTURES')
-      call file%put('  '//cut(deck%control%title, page_width - 2))
-      call file%put(' '//repeat('-', page_width - 1))
-      call write_echo(file, deck)
-      call write_summary(file, deck, model, system)
-      call write_joints(file, deck%control, model)
-      call write_stages(file, deck%control, model, plan)
-   end subroutine write_opening
+      if (.not. deck%control%echo) then
+         call heading(file, 'DECK: '//integer_text(deck%bulk%n_cards)//' CARDS, NOT ECHOED')
+         return
+      end if
+      call heading(file, 'DECK ECHO')
+      cards = 0
+      hidden = 0
+      in_bulk = .false.
+      do i = 1, deck%text%n
+         line = deck%text%card_part(i)
+         counter = ''
+         if (in_bulk .and. line /= '' .and. .not. is_continuation(line)) then
+            if (card_name(line) /= 'ENDDATA' .and. .not. is_include(line)) then
+               cards = cards + 1
+               write (counter, '(i9, a)') cards, '-'
+            end if
+         end if
+         if (deck%text%file_number(i) > 1) then
+            hidden = hidden + 1
+         else
+            call count_hidden(file, hidden)
+            call file%put(' '//counter//' '//cut(deck%text%line(i), page_width - 13))
+         end if
+         if (.not. in_bulk .and. index(adjustl(upper(line)), 'BEGIN') == 1) then
+            in_bulk = .true.
+            call file%put('   CARD')
+            call file%put('  COUNT-    .   1  ..   2  ..   3  ..   4  ..   5  ..   6  ..   7  ..   8  ..   9  ..  10  .')
+         end if
+      end do
+      call count_hidden(file, hidden)
+      call file%put('')
+      call file%put('  TOTAL COUNT '//integer_text(cards)//' CARDS')
+   end subroutine write_echo
+
+
+   subroutine count_hidden(file, hidden)
+      type(output_file_type), intent(inout) :: file
+      integer, intent(inout)                :: hidden
+
+      if (hidden > 0) call file%put('            ('//upper(plural(hidden, 'line'))// &
+                                          ' OF INCLUDE FILES, NOT ECHOED)')
+      hidden = 0
+   end subroutine count_hidden
 
 
    !> What the model has of everything, and how it is solved.
@@ -42,8 +99,9 @@ contains
       type(output_file_type), intent(inout) :: file
       type(deck_type), intent(in)           :: deck
       type(model_type), intent(in)          :: model
-      type(equation_system), intent(in)     :: system
-      character(:), allocatable :: solver
+      class(equation_system), intent(in)    :: system
+      type(solver_description) :: solver
+      integer :: i
 
       call heading(file, 'MODEL SUMMARY')
       call count_line('NODES', int(n_points(model), long))
@@ -57,26 +115,20 @@ contains
       call count_line('INTERFACE ELEMENTS', size(model%interface, kind=long))
       call count_line('SUPPORTED COMPONENTS', count(model%held(:, :n_points(model)), kind=long))
       call count_line('UNKNOWNS', int(system%n, long))
-      if (system%is_tree) then
-         call count_line('FRONTS', size(system%tree%tree%fronts, kind=long))
-         call count_line('ENTRIES OF THE FACTOR', system%tree%factor_entries)
-         call count_line('UNKNOWNS LEFT AFTER CONDENSATION', size(system%equations, kind=long))
-         solver = 'TREE, JOINTS '//system%tree%way
-      else
-         call count_line('PROFILE OF THE STIFFNESS MATRIX, ENTRIES', system%skyline%profile)
-         call count_line('   IN THE ORDER OF THE NODE NUMBERS', system%skyline%profile_as_numbered)
-         solver = 'SKYLINE'
-      end if
+      call system%describe(solver)
+      do i = 1, size(solver%words)
+         if (solver%words(i) /= '') call count_line(trim(solver%words(i)), solver%numbers(i))
+      end do
       call count_line('STAGES', size(deck%control%stages, kind=long))
       associate (control => deck%control)
          select case (control%method)
          case (method_step)
             call file%put('  METHOD STEP   PRESSURE '//trim(merge('EQ10', 'SUMF', control%pressure == pressure_eq10))// &
-                          '   CARRY '//trim(merge('YES', 'NO ', control%carry))//'   SOLVER '//solver)
+                          '   CARRY '//trim(merge('YES', 'NO ', control%carry))//'   SOLVER '//solver%name)
          case (method_newton)
-            call file%put('  METHOD NEWTON   TOL '//real_text(control%tolerance)//'   SOLVER '//solver)
+            call file%put('  METHOD NEWTON   TOL '//real_text(control%tolerance)//'   SOLVER '//solver%name)
          case default
-            call file%put('  METHOD BACK   SOLVER '//solver)
+            call file%put('  METHOD BACK   SOLVER '//solver%name)
          end select
       end associate
       if (deck%control%length_unit /= '') call file%put('  UNITS, LABELS ONLY: LENGTH '// &
@@ -97,45 +149,28 @@ contains
 
 
    !> Laws and areas of the joints.
-   subroutine write_joints(file, control, model)
-      type(output_file_type), intent(inout) :: file
-      type(case_control_type), intent(in)   :: control
-      type(model_type), intent(in)          :: model
-      type(label_type) :: labels
-      character(page_width) :: line
-      integer :: j
+   subroutine write_joints(page, model)
+      type(page_type), intent(inout) :: page
+      type(model_type), intent(in)   :: model
+      type(listing_table_type) :: table
+      integer :: d, j
 
-      if (size(model%joints) == 0) return
-      labels = unit_labels(control)
-      call heading(file, 'JOINTS')
-      if (model%dimension == 3) then
-         call file%put('      JOINT ELEMENTS        A_INT            C      M            E_U   FIRST P (EQ.9)  LEAST P ON'// &
-                       ' LOAD  NORMAL X  NORMAL Y  NORMAL Z')
-      else
-         call file%put('      JOINT ELEMENTS        A_INT            C      M            E_U   FIRST P (EQ.9)  LEAST P ON'// &
-                       ' LOAD   NORMAL X   NORMAL Y')
-      end if
-      if (control%length_unit /= '') then
-         line = ''
-         line(21:) = in_column(labels%area, 13)
-         line(54:) = in_column(trim(labels%pressure)//'/'//labels%length, 15)
-         line(69:) = in_column(labels%pressure, 17)
-         line(86:) = in_column(labels%pressure, 17)
-         call file%put(line)
-      end if
+      d = model%dimension
+      associate (labels => page%labels)
+         call table%start('JOINTS', [column('JOINT', 'i11'), column('ELEMENTS', 'i9'), column('A_INT', 'es13.5', labels%area), &
+                                     column('C', 'es13.5'), column('M', 'f7.4'), column('E_U', 'es15.5', labels%slope), &
+                                     column(['FIRST P (EQ.9) ', 'LEAST P ON LOAD'], 'es17.5', labels%pressure), &
+                                     column('NORMAL '//axes(:d), merge('f10.6', 'f11.6', d == 3))])
+      end associate
+      call table%print_head(page%file)
       do j = 1, size(model%joints)
          associate (joint => model%joints(j), law => model%joints(j)%law%normal)
-            write (line, '(i11, i9, es13.5, es13.5, f7.4, es15.5, es17.5, es17.5)') joint%id, &
-               joint%last - joint%first + 1, joint%area, law%c, law%m, law%e_u, law%p_av, pressure_floor*law%p_av
-            if (model%dimension == 3) then
-               write (line(103:), '(3f10.6)') clean(joint%normal, 1.0e-9_wp)
-            else
-               write (line(103:), '(2f11.6)') clean(joint%normal(:2), 1.0e-9_wp)
-            end if
-            call file%put(line)
+            call table%add([joint%id, joint%last - joint%first + 1])
+            call table%add([joint%area, law%c, law%m, law%e_u, joint%p_av, pressure_floor*joint%p_av])
+            call table%add(clean(joint%normal(:d), 1.0e-9_wp))
+            call table%print_row(page%file)
          end associate
       end do
-      call write_shear_laws(file, model)
    end subroutine write_joints
 
 
@@ -144,21 +179,28 @@ contains
       type(output_file_type), intent(inout) :: file
       type(model_type), intent(in)          :: model
       integer, parameter :: branches(3) = [branch_load, branch_unload, branch_reload]
-      character(page_width) :: line
+      type(listing_table_type) :: table
+      character(page_width)    :: line
+      type(cubic) :: curve
       integer :: b, j, k
 
       if (.not. any(model%joints%law%shear(1)%given .or. model%joints%law%shear(2)%given .or. &
                     model%joints%law%has_friction)) return
-      call heading(file, 'SHEAR LAWS: TAU = (C11 + C12 P) D + (C21 + C22 P) D**2 + (C31 + C32 P) D**3')
-      call file%put('     JOINT AXIS  BRANCH          C11          C12          C21          C22          C31          C32')
+      call table%start('SHEAR LAWS: TAU = (C11 + C12 P) D + (C21 + C22 P) D**2 + (C31 + C32 P) D**3', &
+                       [column('JOINT', 'i11', heading_shift=-1), column('AXIS', 'a4'), column('BRANCH', 'a8'), &
+                        column(['C11', 'C12', 'C21', 'C22', 'C31', 'C32'], 'es13.5')])
+      call table%print_head(file)
       do j = 1, size(model%joints)
          associate (law => model%joints(j)%law)
             do k = 1, model%dimension - 1
                if (.not. law%shear(k)%given) cycle
                do b = 1, 3
-                  write (line, '(i11, 3x, a1, 2x, a6, 6es13.5)') model%joints(j)%id, merge('X', 'Y', k == 1), &
-                     branch_name(branches(b)), law%shear(k)%coefficients(:, :, branches(b))
-                  call file%put(line)
+                  curve = cubic_of(law%shear(k), branches(b))
+                  call table%add([model%joints(j)%id])
+                  call table%add(axes(k))
+                  call table%add(branch_name(branches(b)))
+                  call table%add(pack(curve%coefficients, .true.))
+                  call table%print_row(file)
                end do
                if (law%shear(k)%p_max < huge(1.0_wp)) then
                   write (line, '(17x, a, es13.5)') 'TESTED UP TO P =', law%shear(k)%p_max
@@ -171,7 +213,7 @@ contains
             end do
             if (law%has_friction) then
                write (line, '(i11, a, f10.6, a, i5)') model%joints(j)%id, '   FRICTION MU =', law%mu, '   RE-ANALYSES', &
-                  law%n_reanalyses
+                  model%joints(j)%n_reanalyses
                call file%put(line)
             end if
          end associate
@@ -180,39 +222,29 @@ contains
 
 
    !> The load history: totals at the end of every stage.
-   subroutine write_stages(file, control, model, plan)
-      type(output_file_type), intent(inout) :: file
-      type(case_control_type), intent(in)   :: control
-      type(model_type), intent(in)          :: model
-      type(stage_plan_type), intent(in)     :: plan
-      type(label_type) :: labels
-      character(page_width) :: line
+   subroutine write_stages(page, model, plan)
+      type(page_type), intent(inout)    :: page
+      type(model_type), intent(in)      :: model
+      type(stage_plan_type), intent(in) :: plan
+      type(listing_table_type) :: table
       real(wp) :: total(3), largest
       integer  :: s
 
-      labels = unit_labels(control)
-      call heading(file, 'STAGES')
-      if (model%dimension == 3) then
-         call file%put('     STAGE  INCREMENTS   FIRST SHARE    LAST SHARE   TOTAL LOAD X   TOTAL LOAD Y   TOTAL LOAD Z   LABEL')
-      else
-         call file%put('     STAGE  INCREMENTS   FIRST SHARE    LAST SHARE   TOTAL LOAD X   TOTAL LOAD Y   LABEL')
-      end if
-      if (labels%force /= '') then
-         line = ''
-         line(51:) = in_column(labels%force, 15)
-         line(66:) = in_column(labels%force, 15)
-         if (model%dimension == 3) line(81:) = in_column(labels%force, 15)
-         call file%put(line)
-      end if
+      call table%start('STAGES', [column('STAGE', 'i11', heading_shift=-1), column('INCREMENTS', 'i11'), &
+                                  column(['FIRST SHARE', 'LAST SHARE '], 'es14.5'), &
+                                  column('TOTAL LOAD '//axes(:model%dimension), 'es15.5', page%labels%force), &
+                                  column('   LABEL', 'a')])
+      call table%print_head(page%file)
       do s = 1, size(plan%stages)
          associate (stage => plan%stages(s), loads => model%stage_loads(s))
             total = sum(loads%force(:, :loads%n), dim=2)
             largest = 0.0_wp
             if (loads%n > 0) largest = maxval(abs(loads%force(:, :loads%n)))
-            write (line, '(i11, i11, 2es14.5, 3es15.5)') stage%id, size(stage%shares), stage%shares(1), &
-               stage%shares(size(stage%shares)), clean(total(:model%dimension), 1.0e-9_wp*largest)
-            line(54 + 15*model%dimension:) = cut(stage%label, 33)
-            call file%put(line)
+            call table%add([stage%id, size(stage%shares)])
+            call table%add([stage%shares(1), stage%shares(size(stage%shares))])
+            call table%add(clean(total(:model%dimension), 1.0e-9_wp*largest))
+            call table%add('   '//cut(stage%label, 33))
+            call table%print_row(page%file)
          end associate
       end do
    end subroutine write_stages

@@ -1,11 +1,10 @@
 !> Line-printer plots of a joint, as the period had them: pressure and deflection along the interface.
 module listing_plot
    use analysis_state, only: analysis_type
+   use interface_operator, only: at_first_end
    use kinds, only: wp
-   use listing_page, only: heading, label_type, page_width, where_now
-   use model_data, only: model_type
-   use output_file, only: output_file_type
-   use stage_plan, only: stage_plan_type
+   use listing_table, only: heading, page_type, page_width
+   use model_data, only: joint_node_id, model_type
    use text_tools, only: clean, integer_text
    implicit none
    private
@@ -17,12 +16,10 @@ module listing_plot
 contains
 
    !> A plot a joint: a line an interface element, P as *, LAMBDA as +, both as # where they meet.
-   subroutine plot_joints(file, labels, model, plan, analysis)
-      type(output_file_type), intent(inout) :: file
-      type(label_type), intent(in)      :: labels
-      type(model_type), intent(in)      :: model
-      type(stage_plan_type), intent(in) :: plan
-      type(analysis_type), intent(in)   :: analysis
+   subroutine plot_joints(page, model, analysis)
+      type(page_type), intent(inout)  :: page
+      type(model_type), intent(in)    :: model
+      type(analysis_type), intent(in) :: analysis
       character(page_width) :: line
       real(wp) :: p_most, lambda_most, lambda_least
       integer  :: i, j
@@ -32,23 +29,23 @@ contains
             p_most = max(maxval(state(joint%first:joint%last)%pressure), tiny(1.0_wp))
             lambda_least = min(0.0_wp, minval(state(joint%first:joint%last)%lambda))
             lambda_most = max(0.0_wp, maxval(state(joint%first:joint%last)%lambda), lambda_least + tiny(1.0_wp))
-            call heading(file, 'PLOT OF JOINT '//integer_text(joint%id)//where_now(plan, analysis))
-            write (line, '(2x, a, es13.5, 1x, a)') '*  P       FROM  0.00000E+00 TO', clean(p_most), trim(labels%pressure)
-            call file%put(line)
+            call heading(page%file, 'PLOT OF JOINT '//integer_text(joint%id)//page%now)
+            write (line, '(2x, a, es13.5, 1x, a)') '*  P       FROM  0.00000E+00 TO', clean(p_most), trim(page%labels%pressure)
+            call page%file%put(line)
             write (line, '(2x, a, es13.5, a, es13.5, 1x, a)') '+  LAMBDA  FROM', clean(lambda_least), ' TO', &
-               clean(lambda_most), trim(labels%length)
-            call file%put(line)
-            call file%put('      NODE            X  +'//repeat('---------+', 10))
+               clean(lambda_most), trim(page%labels%length)
+            call page%file%put(line)
+            call page%file%put('      NODE            X  +'//repeat('---------+', 10))
             do i = joint%first, joint%last
-               write (line, '(i10, es13.5)') model%node_id(model%interface(i)%nodes(1)), &
-                  clean(model%x(1, model%interface(i)%nodes(1)))
+               write (line, '(i10, es13.5)') joint_node_id(model, i, 1), &
+                  clean(at_first_end(model%interface(i), model%x(1:1, :)))
                line(26:26) = '|'
                line(25 + width:25 + width) = '|'
                call mark((state(i)%lambda - lambda_least)/(lambda_most - lambda_least), '+')
                call mark(state(i)%pressure/p_most, '*')
-               call file%put(line)
+               call page%file%put(line)
             end do
-            call file%put('                         +'//repeat('---------+', 10))
+            call page%file%put('                         +'//repeat('---------+', 10))
          end associate
       end do
 

@@ -1,11 +1,11 @@
 !> Warnings: shear laws used outside their range (once an interface element and stage), and stages that end far from balance.
 module range_watch
    use analysis_state, only: analysis_type, free_norm
-   use joint_laws, only: friction_excess
+   use joint_laws, only: friction_excess, friction_limit
    use kinds, only: wp
-   use model_data, only: model_type
+   use listing_table, only: listing_table_type
+   use model_data, only: joint_node_id, model_type
    use normal_stiffness, only: branch_open
-   use row_buffer, only: row_buffer_type
    use shear_stiffness, only: shear_slope
    use stage_plan, only: stage_plan_type, where_in_plan
    use text_tools, only: integer_text, real_text, upper
@@ -18,7 +18,7 @@ module range_watch
 
    type, public :: range_watch_type
       integer :: n_warnings = 0               !! in all
-      type(row_buffer_type) :: rows           !! of the stage so far
+      type(listing_table_type) :: rows        !! of the stage so far
       integer, allocatable, private :: stage(:) ! in which an element was last warned of
    end type range_watch_type
 
@@ -42,12 +42,11 @@ contains
                p = analysis%states(i)%normal%pressure
                d = abs(analysis%states(i)%shear(k)%delta)
                if (.not. law%given .or. analysis%states(i)%normal%branch == branch_open) cycle
-               steep = shear_slope(law, analysis%states(i)%shear(k)%branch, analysis%states(i)%shear(k)%sense &
-                                   *analysis%states(i)%shear(k)%delta, max(0.0_wp, p)) > 0.0_wp
+               steep = shear_slope(law, analysis%states(i)%shear(k), [analysis%states(i)%shear(k)%delta, max(0.0_wp, p)]) > 0.0_wp
                if (p <= law%p_max .and. d <= law%d_max .and. steep) cycle
                watch%stage(i) = analysis%stage
                watch%n_warnings = watch%n_warnings + 1
-               call watch%rows%add('  WARNING: NODE '//integer_text(model%node_id(model%interface(i)%nodes(1)))//', '// &
+               call watch%rows%keep_line('  WARNING: NODE '//integer_text(joint_node_id(model, i, 1))//', '// &
                   upper(where_in_plan(plan, analysis%stage, analysis%increment))// &
                   trim(merge(': OUTSIDE THE TESTED RANGE OF', ': NO POSITIVE SLOPE IN       ', steep))// &
                   ' THE SHEAR LAW, P = '//real_text(p)//', D = '//real_text(d))
@@ -70,10 +69,10 @@ contains
       integer  :: i
 
       words = '  WARNING: '//upper(where_in_plan(plan, analysis%stage, analysis%increment))//': '
-      unbalanced = free_norm(model, analysis%unbalanced, analysis%retained)
+      unbalanced = free_norm(analysis%unbalanced, analysis%held)
       if (unbalanced > much*largest_force) then
          watch%n_warnings = watch%n_warnings + 1
-         call watch%rows%add(words//real_text(unbalanced)//' OF FORCE ARE LEFT UNBALANCED BY REMOVED ELEMENTS: '// &
+         call watch%rows%keep_line(words//real_text(unbalanced)//' OF FORCE ARE LEFT UNBALANCED BY REMOVED ELEMENTS: '// &
                              'SEE CARRY = YES, METHOD = NEWTON')
       end if
       excess = 0.0_wp
@@ -81,12 +80,12 @@ contains
       do i = 1, size(model%interface)
          associate (law => model%joints(model%interface(i)%joint)%law, area => model%interface(i)%area)
             excess = excess + norm2(friction_excess(law, area, analysis%states(i)))
-            limit = limit + law%mu*max(0.0_wp, analysis%states(i)%normal%pressure)*area
+            limit = limit + friction_limit(law, analysis%states(i)%normal%pressure)*area
          end associate
       end do
       if (excess > much*limit .and. excess > 0.0_wp) then
          watch%n_warnings = watch%n_warnings + 1
-         call watch%rows%add(words//'FRICTION LIMITS ARE STILL EXCEEDED BY '//real_text(excess)//' IN ALL: SEE NREAN')
+         call watch%rows%keep_line(words//'FRICTION LIMITS ARE STILL EXCEEDED BY '//real_text(excess)//' IN ALL: SEE NREAN')
       end if
    end subroutine watch_balance
 

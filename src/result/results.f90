@@ -2,7 +2,7 @@
 module results
    use c_library, only: remove_file
    use deck_input, only: deck_type
-   use equations, only: equation_system
+   use equation_solver, only: equation_system
    use incomplete_results, only: all_complete
    use joint_history, only: write_history, write_history_header
    use listing, only: finish_listing, list_increment, list_stage, listing_type, start_listing
@@ -10,39 +10,41 @@ module results
    use output_file, only: output_file_type
    use stage_plan, only: stage_plan_type
    use analysis_state, only: analysis_type
-   use vtu_results, only: discard_vtu, finish_vtu, remove_old_vtu, start_vtu, vtu_results_type, write_vtu
+   use vtu_results, only: discard_vtu, finish_vtu, is_vtu_ending, remove_old_vtu, start_vtu, vtu_results_type, write_vtu
    implicit none
    private
 
-   public :: start_results, print_increment, print_stage, finish_results, discard_results, remove_old_results
+   public :: start_results, print_increment, print_stage, finish_results, discard_results, remove_old_results, is_result_ending
+
+   character(*), parameter, public :: listing_ending = '.out', history_ending = '.joint.csv'
 
    type, public :: results_type
       type(listing_type)     :: listing
       type(output_file_type) :: history
       type(vtu_results_type) :: vtu
-      character(:), allocatable :: listing_path, history_path !! empty: standard output, none
+      character(:), allocatable :: base !! what the names of the files begin with, folder included
    end type results_type
 
 contains
 
-   !> Open the files LISTING_PATH (empty: standard output) and HISTORY_PATH (empty: none) and write what opens them.
-   !! OK is false where that fails.
-   subroutine start_results(listing_path, history_path, deck, model, plan, system, results, ok)
-      character(*), intent(in)          :: listing_path, history_path
+   !> Open the files whose names begin with BASE and write what opens them; without it the listing goes to the standard output,
+   !! and nothing else is written. OK is false where that fails.
+   subroutine start_results(base, deck, model, plan, system, results, ok)
+      character(*), intent(in)          :: base
       type(deck_type), intent(in)       :: deck
       type(model_type), intent(in)      :: model
       type(stage_plan_type), intent(in) :: plan
-      type(equation_system), intent(in) :: system
+      class(equation_system), intent(in) :: system
       type(results_type), intent(inout) :: results
       logical, intent(out)              :: ok
 
-      results%listing_path = listing_path
-      results%history_path = history_path
-      call start_vtu(results%vtu, base_of(history_path), plan)
-      call start_listing(results%listing, listing_path, deck, model, plan, system)
-      ok = .not. results%listing%file%failed()
-      if (history_path /= '') then
-         call results%history%start(history_path)
+      results%base = base
+      call start_vtu(results%vtu, base, plan)
+      if (base == '') call start_listing(results%listing, '', deck, model, plan, system)
+      if (base /= '') call start_listing(results%listing, base//listing_ending, deck, model, plan, system)
+      ok = .not. results%listing%page%file%failed()
+      if (base /= '') then
+         call results%history%start(base//history_ending)
          call write_history_header(results%history)
          ok = ok .and. .not. results%history%failed()
       end if
@@ -85,7 +87,7 @@ contains
       if (ok) call finish_listing(results%listing, plan, ok)
       if (.not. ok) then
          call discard_results(results)
-         if (results%history_path /= '') call remove_file(results%history_path)
+         if (results%base /= '') call remove_file(results%base//history_ending)
       end if
       call all_complete()
    end subroutine finish_results
@@ -95,7 +97,7 @@ contains
    subroutine discard_results(results)
       type(results_type), intent(inout) :: results
 
-      call results%listing%file%discard()
+      call results%listing%page%file%discard()
       call results%history%discard()
       call discard_vtu(results%vtu)
       call all_complete()
@@ -103,21 +105,21 @@ contains
 
 
    !> Remove what an earlier run of the same deck left: it is not the result of this deck any more, wherever the run ends.
-   subroutine remove_old_results(listing_path, history_path)
-      character(*), intent(in) :: listing_path, history_path
+   subroutine remove_old_results(base)
+      character(*), intent(in) :: base
 
-      if (listing_path /= '') call remove_file(listing_path)
-      if (history_path /= '') call remove_file(history_path)
-      call remove_old_vtu(base_of(history_path))
+      if (base == '') return
+      call remove_file(base//listing_ending)
+      call remove_file(base//history_ending)
+      call remove_old_vtu(base)
    end subroutine remove_old_results
 
 
-   !> NAME of NAME.joint.csv, folder included; empty for no file.
-   pure function base_of(history_path) result(name)
-      character(*), intent(in)  :: history_path
-      character(:), allocatable :: name
+   !> Whether the name of a result may end so, behind its base.
+   pure logical function is_result_ending(ending)
+      character(*), intent(in) :: ending
 
-      name = history_path(:max(0, len(history_path) - len('.joint.csv')))
-   end function base_of
+      is_result_ending = ending == listing_ending .or. ending == history_ending .or. is_vtu_ending(ending)
+   end function is_result_ending
 
 end module results

@@ -1,13 +1,23 @@
-!> A VTK XML unstructured grid, NAME.vtu, for ParaView: points, cells, and arrays of values on either.
+!> A VTK XML unstructured grid, NAME.vtu, for ParaView: points, cells, and arrays of values on either; and NAME.pvd, which lists
+!! such files.
 !!
 !! Every array is handed over once and goes to the disk at once; nothing of it is kept or copied. Use:
 !!
 !!    call file%start('beam.1.vtu')
-!!    call file%points(x)                            ! in this order: points, cells, and then the values
+!!    call file%points(x)                               ! in this order: points, cells, and then the values
 !!    call file%cells(connectivity, ends, types)
-!!    call file%point_data('displacement', u)        ! real or integer; (n) scalars, (3,n) vectors,
-!!    call file%cell_data('stress', sigma)           ! (6,n) symmetric tensors: xx yy zz xy yz xz
+!!    call file%add(point_data, 'displacement', u)      ! real or integer; (n) scalars, (3,n) vectors,
+!!    call file%add(cell_data, 'stress', sigma)         ! (6,n) symmetric tensors: xx yy zz xy yz xz
 !!    call file%finish(ok)
+!!
+!! The file, "appended raw":
+!!
+!!    byte 1              the XML header, filled up with blanks; its last byte is the underscore that begins the data
+!!    byte data_start     the arrays as they lie in memory, each after its length in bytes (UInt64)
+!!    then                the closing tags
+!!
+!! The header needs the place of every array, so it is written last, into the room that was left for it. As with every result,
+!! the file has the name PATH.part until it is complete.
 !!
 !! A call that fails, or that contradicts what went before (an array of another size than the points, a node number that
 !! is no point, no points at all, more arrays than the header holds), makes FAILED true; the calls after it do nothing,
@@ -15,33 +25,55 @@
 !! Arrays that are not contiguous are copied by the compiler at the call.
 module vtu_file
    use, intrinsic :: iso_fortran_env, only: int8, int32, int64, real64
-   use appended_data, only: appended_data_type
-   use vtu_header, only: in_cell_data, in_cells, in_point_data, in_points
+   use c_library, only: remove_file, rename_file
+   use incomplete_results, only: note_incomplete, suffix
+   use output_file, only: output_file_type
+   use text_tools, only: integer_text
    implicit none
    private
 
-   ! Types of cell, with the nodes in the order of CTRIA3, CQUAD4, CTETRA and CHEXA. The normal of the first triangle of
-   ! a wedge points outward, that of CPENTA inward: a CPENTA goes in as G1 G3 G2 G4 G6 G5.
-   integer(int8), parameter, public :: vtk_vertex = 1_int8, vtk_line = 3_int8, vtk_triangle = 5_int8, &
-                                       vtk_quad = 9_int8, vtk_tetra = 10_int8, vtk_hexahedron = 12_int8, &
-                                       vtk_wedge = 13_int8
+   public :: write_collection, xml_text
+
+   integer(int8), parameter, public :: vtk_vertex = 1_int8 !! a type of cell; those of bodies: element_kinds
+
+   integer, parameter, public :: data_start = 16384 !! length of the header [bytes]: enough for a hundred arrays
+
+   !> The sections of the header that arrays stand in; those of the values are for the caller.
+   integer, parameter, public :: point_data = 3, cell_data = 4
+   integer, parameter         :: in_points = 1, in_cells = 2
+   character(*), parameter    :: section_tags(4) = [character(9) :: 'Points', 'Cells', 'PointData', 'CellData']
+
+   character(*), parameter :: newline = new_line('a')
+   character(*), parameter :: closing = newline//'  </AppendedData>'//newline//'</VTKFile>'//newline ! behind the data
+
+   integer, parameter :: wrong_call = -huge(0) ! a status of our own
+
+   type :: array_type
+      character(:), allocatable :: name
+      character(:), allocatable :: number      ! VTK's word for the kind: Float64, Int32, UInt8
+      integer :: section    = 0
+      integer :: components = 1
+      integer(int64) :: offset = 0             ! of its length, from data_start [bytes]
+   end type array_type
 
    type, public :: vtu_file_type
       private
-      type(appended_data_type) :: data
-      integer(int64) :: n_points = -1, n_cells = -1 ! -1: not yet given
+      character(:), allocatable :: path
+      integer :: unit   = 0
+      integer :: status = 0                  ! of the first call that failed
+      integer :: n_points = -1, n_cells = -1 ! -1: not yet given
+      integer(int64) :: n_bytes = 0          ! of data so far
+      type(array_type), allocatable :: arrays(:)
+      logical, public :: is_open = .false.
    contains
       procedure :: start
       procedure :: points
       procedure :: cells
-      generic   :: point_data => point_reals, point_tuples, point_integers, point_integer_tuples
-      generic   :: cell_data  => cell_reals, cell_tuples, cell_integers, cell_integer_tuples
-      procedure :: is_open
+      generic   :: add => add_reals, add_integers
       procedure :: failed
       procedure :: finish
       procedure :: discard
-      procedure, private :: point_reals, point_tuples, point_integers, point_integer_tuples
-      procedure, private :: cell_reals, cell_tuples, cell_integers, cell_integer_tuples
+      procedure, private :: add_reals, add_integers
    end type vtu_file_type
 
 contains
@@ -51,9 +83,18 @@ contains
       class(vtu_file_type), intent(inout) :: self
       character(*), intent(in)            :: path
 
-      call self%data%start(path)
+      call self%discard()
+      self%path = path
       self%n_points = -1
       self%n_cells = -1
+      self%n_bytes = 0
+      if (allocated(self%arrays)) deallocate (self%arrays)
+      allocate (self%arrays(0))
+      call note_incomplete(path)
+      open (newunit=self%unit, file=path//suffix, status='replace', action='write', access='stream', &
+            form='unformatted', iostat=self%status)
+      self%is_open = self%status == 0
+      if (self%is_open) write (self%unit, iostat=self%status) repeat(' ', data_start)
    end subroutine start
 
 
@@ -62,9 +103,9 @@ contains
       class(vtu_file_type), intent(inout)  :: self
       real(real64), intent(in), contiguous :: x(:, :) !! (3,n): x, y, z of each point [length]
 
-      if (size(x, 1) /= 3 .or. self%n_points >= 0) call self%data%refuse()
-      self%n_points = size(x, 2, int64)
-      call put_reals(self, in_points, 'points', size(x, 1), self%n_points, x)
+      call require(self, size(x, 1) == 3 .and. self%n_points < 0)
+      self%n_points = size(x, 2)
+      call self%add(in_points, 'points', x)
    end subroutine points
 
 
@@ -73,186 +114,232 @@ contains
       class(vtu_file_type), intent(inout)    :: self
       integer(int32), intent(in), contiguous :: connectivity(:) !! nodes of the first cell, the second, ...: 1 to n
       integer(int32), intent(in), contiguous :: ends(:)         !! (n_cells) where each cell's nodes end in CONNECTIVITY
-      integer(int8), intent(in), contiguous  :: types(:)        !! (n_cells) vtk_quad, ...
+      integer(int8), intent(in), contiguous  :: types(:)        !! (n_cells) VTK's numbers: vtk_vertex, ...
       integer, parameter :: room = 8192
       integer(int32) :: block(room)
-      integer(int64) :: first, n, total
+      integer :: first, i, n, total
 
-      if (self%n_points < 0 .or. self%n_cells >= 0 .or. size(ends) /= size(types)) call self%data%refuse()
-      self%n_cells = size(ends, kind=int64)
-      total = size(connectivity, kind=int64)
-      if (.not. ends_fit(ends, total)) call self%data%refuse()
-
-      call self%data%begin_array(in_cells, 'connectivity', 'Int32', 1, 4*total)
-      do first = 1, total, room ! VTK counts the points from 0
-         if (self%data%failed()) return
-         n = min(int(room, int64), total - first + 1)
-         block(:n) = connectivity(first:first + n - 1) - 1
-         if (minval(block(:n)) < 0 .or. maxval(block(:n)) >= self%n_points) call self%data%refuse()
-         call self%data%put(block(:n))
+      call require(self, self%n_points >= 0 .and. self%n_cells < 0 .and. size(ends) == size(types))
+      self%n_cells = size(ends)
+      total = size(connectivity)
+      n = 0 ! they never fall, and end where CONNECTIVITY does
+      do i = 1, size(ends)
+         call require(self, ends(i) >= n)
+         n = ends(i)
       end do
-      call put_integers(self, in_cells, 'offsets', 1, self%n_cells, ends)
-      call self%data%begin_array(in_cells, 'types', 'UInt8', 1, self%n_cells)
-      call self%data%put(types)
+      call require(self, n == total)
+      call begin_array(self, in_cells, 'connectivity', 'Int32', 4, [total], total)
+      do first = 1, total, room ! VTK counts the points from 0
+         n = min(room, total - first + 1)
+         block(:n) = connectivity(first:first + n - 1) - 1
+         call require(self, minval(block(:n)) >= 0 .and. maxval(block(:n)) < self%n_points)
+         if (self%status /= 0) return
+         write (self%unit, iostat=self%status) block(:n)
+      end do
+      call self%add(in_cells, 'offsets', ends)
+      call begin_array(self, in_cells, 'types', 'UInt8', 1, shape(types), self%n_cells)
+      if (self%status == 0) write (self%unit, iostat=self%status) types
    end subroutine cells
 
 
-   !> Whether ENDS never falls, and ends at TOTAL.
-   pure logical function ends_fit(ends, total)
-      integer(int32), intent(in) :: ends(:)
-      integer(int64), intent(in) :: total
-      integer(int64) :: i, before
-
-      before = 0
-      ends_fit = .false.
-      do i = 1, size(ends, kind=int64)
-         if (ends(i) < before) return
-         before = ends(i)
-      end do
-      ends_fit = before == total
-   end function ends_fit
-
-   ! Values: each of these is one form of point_data or cell_data. The array's last extent runs over points or cells.
-
-   subroutine point_reals(self, name, values)
+   !> An array of values: (n), or (components, n), one for every point or every cell.
+   subroutine add_reals(self, section, name, values)
       class(vtu_file_type), intent(inout)  :: self
+      integer, intent(in)                  :: section !! point_data, cell_data
       character(*), intent(in)             :: name
-      real(real64), intent(in), contiguous :: values(:)
+      real(real64), intent(in), contiguous :: values(..)
 
-      call put_reals(self, in_point_data, name, 1, size(values, kind=int64), values)
-   end subroutine point_reals
-
-
-   subroutine point_tuples(self, name, values)
-      class(vtu_file_type), intent(inout)  :: self
-      character(*), intent(in)             :: name
-      real(real64), intent(in), contiguous :: values(:, :)
-
-      call put_reals(self, in_point_data, name, size(values, 1), size(values, 2, int64), values)
-   end subroutine point_tuples
+      call begin_array(self, section, name, 'Float64', 8, shape(values), n_tuples(self, section))
+      if (self%status /= 0) return
+      select rank (values)
+      rank (1)
+         write (self%unit, iostat=self%status) values
+      rank (2)
+         write (self%unit, iostat=self%status) values
+      end select
+   end subroutine add_reals
 
 
-   subroutine point_integers(self, name, values)
+   subroutine add_integers(self, section, name, values)
       class(vtu_file_type), intent(inout)    :: self
+      integer, intent(in)                    :: section
       character(*), intent(in)               :: name
-      integer(int32), intent(in), contiguous :: values(:)
+      integer(int32), intent(in), contiguous :: values(..)
 
-      call put_integers(self, in_point_data, name, 1, size(values, kind=int64), values)
-   end subroutine point_integers
-
-
-   subroutine point_integer_tuples(self, name, values)
-      class(vtu_file_type), intent(inout)    :: self
-      character(*), intent(in)               :: name
-      integer(int32), intent(in), contiguous :: values(:, :)
-
-      call put_integers(self, in_point_data, name, size(values, 1), size(values, 2, int64), values)
-   end subroutine point_integer_tuples
-
-
-   subroutine cell_reals(self, name, values)
-      class(vtu_file_type), intent(inout)  :: self
-      character(*), intent(in)             :: name
-      real(real64), intent(in), contiguous :: values(:)
-
-      call put_reals(self, in_cell_data, name, 1, size(values, kind=int64), values)
-   end subroutine cell_reals
-
-
-   subroutine cell_tuples(self, name, values)
-      class(vtu_file_type), intent(inout)  :: self
-      character(*), intent(in)             :: name
-      real(real64), intent(in), contiguous :: values(:, :)
-
-      call put_reals(self, in_cell_data, name, size(values, 1), size(values, 2, int64), values)
-   end subroutine cell_tuples
-
-
-   subroutine cell_integers(self, name, values)
-      class(vtu_file_type), intent(inout)    :: self
-      character(*), intent(in)               :: name
-      integer(int32), intent(in), contiguous :: values(:)
-
-      call put_integers(self, in_cell_data, name, 1, size(values, kind=int64), values)
-   end subroutine cell_integers
-
-
-   subroutine cell_integer_tuples(self, name, values)
-      class(vtu_file_type), intent(inout)    :: self
-      character(*), intent(in)               :: name
-      integer(int32), intent(in), contiguous :: values(:, :)
-
-      call put_integers(self, in_cell_data, name, size(values, 1), size(values, 2, int64), values)
-   end subroutine cell_integer_tuples
-
-
-   !> One array of N tuples of COMPONENTS reals. Of any rank at the call; here of rank one, so that it is written as one block.
-   subroutine put_reals(self, section, name, components, n, values)
-      type(vtu_file_type), intent(inout) :: self
-      integer, intent(in)                :: section, components
-      character(*), intent(in)           :: name
-      integer(int64), intent(in)         :: n
-      real(real64), intent(in)           :: values(components*n)
-
-      if (n /= expected(self, section)) call self%data%refuse()
-      call self%data%begin_array(section, name, 'Float64', components, 8*size(values, kind=int64))
-      call self%data%put(values)
-   end subroutine put_reals
-
-
-   !> One array of N tuples of COMPONENTS integers, likewise.
-   subroutine put_integers(self, section, name, components, n, values)
-      type(vtu_file_type), intent(inout) :: self
-      integer, intent(in)                :: section, components
-      character(*), intent(in)           :: name
-      integer(int64), intent(in)         :: n
-      integer(int32), intent(in)         :: values(components*n)
-
-      if (n /= expected(self, section)) call self%data%refuse()
-      call self%data%begin_array(section, name, 'Int32', components, 4*size(values, kind=int64))
-      call self%data%put(values)
-   end subroutine put_integers
+      call begin_array(self, section, name, 'Int32', 4, shape(values), n_tuples(self, section))
+      if (self%status /= 0) return
+      select rank (values)
+      rank (1)
+         write (self%unit, iostat=self%status) values
+      rank (2)
+         write (self%unit, iostat=self%status) values
+      end select
+   end subroutine add_integers
 
 
    !> How many tuples an array of SECTION has: one a point or one a cell; -1 where neither is known yet.
-   pure integer(int64) function expected(self, section)
+   pure integer function n_tuples(self, section)
       type(vtu_file_type), intent(in) :: self
       integer, intent(in)             :: section
 
-      expected = merge(self%n_points, self%n_cells, section == in_points .or. section == in_point_data)
-   end function expected
+      n_tuples = merge(self%n_points, self%n_cells, section == in_points .or. section == point_data)
+   end function n_tuples
 
 
-   pure logical function is_open(self)
-      class(vtu_file_type), intent(in) :: self
+   !> Note an array for the header, and write its length. Its values follow.
+   subroutine begin_array(self, section, name, number, bytes, shape, n)
+      type(vtu_file_type), intent(inout) :: self
+      integer, intent(in)                :: section
+      character(*), intent(in)           :: name, number
+      integer, intent(in)                :: bytes    !! of a number
+      integer, intent(in)                :: shape(:) !! (n) or (components, n)
+      integer, intent(in)                :: n        !! as it has to be
+      integer        :: components
+      integer(int64) :: n_bytes
 
-      is_open = self%data%is_open
-   end function is_open
+      components = product(shape(:size(shape) - 1))
+      n_bytes = int(bytes, int64)*components*n
+      ! an empty array constructor has an extent of -1 in gfortran 12
+      call require(self, self%is_open .and. components > 0 .and. max(0, shape(size(shape))) == n)
+      if (self%status /= 0) return
+      self%arrays = [self%arrays, array_type(name, number, section, components, self%n_bytes)]
+      write (self%unit, iostat=self%status) n_bytes
+      self%n_bytes = self%n_bytes + storage_size(n_bytes)/8 + n_bytes
+   end subroutine begin_array
+
+
+   !> The file has failed unless a call FITS what went before.
+   pure subroutine require(self, fits)
+      type(vtu_file_type), intent(inout) :: self
+      logical, intent(in)                :: fits
+
+      if (self%status == 0 .and. .not. fits) self%status = wrong_call
+   end subroutine require
 
 
    !> Whether anything could not be written.
    pure logical function failed(self)
       class(vtu_file_type), intent(in) :: self
 
-      failed = self%data%failed()
+      failed = self%status /= 0
    end function failed
 
 
-   !> Complete the file and give it its name. OK is false, and no file is left by us, where that failed.
+   !> Write the header, close the file and give it its name. OK is false, and no file is left by us, where that failed.
    subroutine finish(self, ok)
       class(vtu_file_type), intent(inout) :: self
       logical, intent(out)                :: ok
+      character(:), allocatable :: header
+      integer(int64) :: n_written
 
-      if (self%n_cells < 0) call self%data%refuse()
-      call self%data%finish(self%n_points, self%n_cells, ok)
+      ok = .false.
+      if (.not. self%is_open) return
+      header = header_text(self%n_points, self%n_cells, self%arrays)
+      call require(self, self%n_cells >= 0 .and. len(header) == data_start)
+      if (self%status == 0) write (self%unit, iostat=self%status) closing
+      if (self%status == 0) write (self%unit, pos=1, iostat=self%status) header
+      if (self%status == 0) flush (self%unit, iostat=self%status)
+      if (self%status /= 0) then
+         call self%discard()
+         return
+      end if
+      close (self%unit, iostat=self%status)
+      self%is_open = .false.
+      if (self%status == 0) then ! that the disk is full may show in nothing but the size
+         inquire (file=self%path//suffix, size=n_written)
+         if (n_written == data_start + self%n_bytes + len(closing)) call rename_file(self%path//suffix, self%path, ok)
+         call require(self, ok)
+      end if
+      if (.not. ok) call remove_file(self%path//suffix)
    end subroutine finish
 
 
    !> Leave nothing behind.
    subroutine discard(self)
       class(vtu_file_type), intent(inout) :: self
+      integer :: status
 
-      call self%data%discard()
+      if (.not. self%is_open) return
+      close (self%unit, iostat=status)
+      self%is_open = .false.
+      call remove_file(self%path//suffix)
    end subroutine discard
+
+
+   !> The header, at least data_start bytes long: longer where the arrays are too many.
+   pure function header_text(n_points, n_cells, arrays) result(text)
+      integer, intent(in)          :: n_points, n_cells
+      type(array_type), intent(in) :: arrays(:)
+      character(:), allocatable    :: text
+      character(*), parameter :: last = '  <AppendedData encoding="raw">'//newline//'_'
+      character(*), parameter :: orders(0:1) = [character(12) :: 'BigEndian', 'LittleEndian']
+      character(20) :: offset
+      integer :: section, i
+
+      text = '<?xml version="1.0"?>'//newline//'<VTKFile type="UnstructuredGrid" version="1.0" byte_order="'// &
+             trim(orders(transfer(1_int32, 1_int8)))//'" header_type="UInt64">'//newline// &
+             '  <UnstructuredGrid>'//newline//'    <Piece NumberOfPoints="'//integer_text(n_points)// &
+             '" NumberOfCells="'//integer_text(n_cells)//'">'//newline
+      do section = 1, size(section_tags)
+         text = text//'      <'//trim(section_tags(section))//'>'//newline
+         do i = 1, size(arrays)
+            associate (array => arrays(i))
+               if (array%section /= section) cycle
+               text = text//'        <DataArray type="'//array%number//'" Name="'//xml_text(array%name)//'"'
+               if (array%components > 1) & ! some readers make a matrix of one column where the 1 is spelled out
+                  text = text//' NumberOfComponents="'//integer_text(array%components)//'"'
+               write (offset, '(i0)') array%offset
+               text = text//' format="appended" offset="'//trim(offset)//'"/>'//newline
+            end associate
+         end do
+         text = text//'      </'//trim(section_tags(section))//'>'//newline
+      end do
+      text = text//'    </Piece>'//newline//'  </UnstructuredGrid>'//newline
+      text = text//repeat(' ', max(0, data_start - len(text) - len(last)))//last
+   end function header_text
+
+
+   !> TEXT as it may stand between the quotes of an XML attribute.
+   pure function xml_text(text) result(escaped)
+      character(*), intent(in)  :: text
+      character(:), allocatable :: escaped
+      character(*), parameter :: special = '&<>"', entities(4) = [character(6) :: '&amp;', '&lt;', '&gt;', '&quot;']
+      integer :: i, k
+
+      escaped = ''
+      do i = 1, len(text)
+         k = index(special, text(i:i))
+         if (k == 0) escaped = escaped//text(i:i)
+         if (k > 0) escaped = escaped//trim(entities(k))
+      end do
+   end function xml_text
+
+
+   !> The list of .vtu files that ParaView opens: which belong together, and at what time. OK is false, and no file is left by us,
+   !! where it cannot be written.
+   subroutine write_collection(path, times, parts, names, ok)
+      character(*), intent(in) :: path
+      real(real64), intent(in) :: times(:) !! the number of the stage, for example; below 1E9
+      integer, intent(in)      :: parts(:) !! 0, 1, ... within one time, bodies and joint for example
+      character(*), intent(in) :: names(:) !! the .vtu files, as seen from the folder of the list
+      logical, intent(out)     :: ok
+      type(output_file_type) :: file
+      character(24) :: time
+      integer :: i
+
+      call file%start(path)
+      call file%put('<?xml version="1.0"?>')
+      call file%put('<VTKFile type="Collection" version="1.0">')
+      call file%put('  <Collection>')
+      do i = 1, size(names)
+         write (time, '(es24.16e3)') times(i)
+         if (abs(times(i) - nint(times(i))) <= 0.0_real64) time = integer_text(nint(times(i)))
+         call file%put('    <DataSet timestep="'//trim(adjustl(time))//'" group="" part="'//integer_text(parts(i))//'"')
+         call file%put('             file="'//xml_text(trim(names(i)))//'"/>') ! a line of its own: names may be long
+      end do
+      call file%put('  </Collection>')
+      call file%put('</VTKFile>')
+      call file%finish(ok)
+   end subroutine write_collection
 
 end module vtu_file

@@ -7,13 +7,13 @@ module vtu_results
    use c_library, only: remove_file
    use element_kinds, only: element_table, kind_penta6, max_nodes
    use elasticity, only: max_stresses, n_stresses
+   use interface_operator, only: at_first_end
    use kinds, only: wp
    use model_data, only: corners_of, model_type, n_points
-   use pvd_file, only: pvd_file_type
    use stage_plan, only: stage_plan_type
    use stress_measures, only: principal_stresses, von_mises
    use text_tools, only: integer_text
-   use vtu_file, only: vtk_vertex, vtu_file_type
+   use vtu_file, only: cell_data, point_data, vtk_vertex, vtu_file_type, write_collection
    implicit none
    private
 
@@ -21,15 +21,20 @@ module vtu_results
 
    integer, parameter :: most_old = 999 ! stages whose old files are looked for
 
+   !> A file of the run.
+   type :: part_type
+      type(vtu_file_type) :: file
+      character(24) :: ending = ''                ! of its name
+      integer :: stage = 0
+      integer :: part = 0                         ! of the stage: 0 the bodies, 1 the joint
+   end type part_type
+
    type, public :: vtu_results_type
       private
-      character(:), allocatable :: name             ! files begin with it; empty: none are written
-      type(vtu_file_type), allocatable :: files(:)  ! bodies, joint of every stage that has them
-      character(:), allocatable :: endings(:)       ! of their names
-      integer, allocatable :: stages(:)
+      character(:), allocatable :: name           ! files begin with it; empty: none are written
+      type(part_type), allocatable :: parts(:)
       integer :: n = 0
-      logical :: many = .false.                     ! more than one stage
-      type(pvd_file_type) :: list
+      logical :: many = .false.                   ! more than one stage
    end type vtu_results_type
 
 contains
@@ -43,9 +48,8 @@ contains
       results%name = name
       results%n = 0
       results%many = size(plan%stages) > 1
-      if (allocated(results%files)) deallocate (results%files, results%endings, results%stages)
-      allocate (results%files(2*size(plan%stages)), results%stages(2*size(plan%stages)))
-      allocate (character(24) :: results%endings(2*size(plan%stages)))
+      if (allocated(results%parts)) deallocate (results%parts)
+      allocate (results%parts(2*size(plan%stages)))
    end subroutine start_vtu
 
 
@@ -58,26 +62,28 @@ contains
 
       if (results%name == '' .or. .not. plan%stages(analysis%stage)%vtu) return
       if (model%n_elements > 0) then
-         call open_next('.vtu')
-         call write_bodies(results%files(results%n), model, analysis)
+         call open_next('.vtu', 0)
+         call write_bodies(results%parts(results%n)%file, model, analysis)
       end if
       if (size(model%interface) > 0) then
-         call open_next('.joint.vtu')
-         call write_joint(results%files(results%n), model, analysis)
+         call open_next('.joint.vtu', 1)
+         call write_joint(results%parts(results%n)%file, model, analysis)
       end if
 
    contains
 
-      subroutine open_next(ending)
+      subroutine open_next(ending, part)
          character(*), intent(in) :: ending
-         character(:), allocatable :: whole
+         integer, intent(in)      :: part
 
-         whole = ending
-         if (results%many) whole = '.'//integer_text(plan%stages(analysis%stage)%id)//ending
          results%n = results%n + 1
-         results%endings(results%n) = whole
-         results%stages(results%n) = plan%stages(analysis%stage)%id
-         call results%files(results%n)%start(results%name//whole)
+         associate (next => results%parts(results%n))
+            next%stage = plan%stages(analysis%stage)%id
+            next%part = part
+            next%ending = ending
+            if (results%many) next%ending = '.'//integer_text(next%stage)//ending
+            call next%file%start(results%name//trim(next%ending))
+         end associate
       end subroutine open_next
 
    end subroutine write_vtu
@@ -99,7 +105,7 @@ contains
       allocate (u(3, m), at_node(6, m), source=0.0_wp)
       allocate (at_centre(6, model%n_elements), principal(3, model%n_elements))
       allocate (corners(count(model%element_nodes > 0)), ends(model%n_elements), types(model%n_elements))
-      u(:model%dimension, :) = analysis%u(:, :m)
+      u(:model%dimension, :) = analysis%all_u(:, :m)
       n = 0
       do e = 1, model%n_elements
          associate (nodes => corners_of(model, e))
@@ -112,9 +118,9 @@ contains
             ends(e) = n
             types(e) = int(element_table(model%element_kind(e))%vtk_type, int8)
             c = n_stresses(model%properties(model%element_property(e))%state)
-            at_centre(:, e) = full_stress(model, e, element_stress(model, e, analysis%u))
+            at_centre(:, e) = full_stress(model, e, element_stress(model, e, analysis%all_u))
             principal(:, e) = principal_stresses(at_centre(:, e))
-            call element_corner_stress(model, e, analysis%u, corner(:c, :size(nodes)))
+            call element_corner_stress(model, e, analysis%all_u, corner(:c, :size(nodes)))
             do i = 1, size(nodes)
                at_node(:, nodes(i)) = at_node(:, nodes(i)) + full_stress(model, e, corner(:c, i))/ &
                                       real(model%first_at(nodes(i) + 1) - model%first_at(nodes(i)), wp)
@@ -127,15 +133,15 @@ contains
       end do
       call file%points(model%x(:, :m))
       call file%cells(corners, ends, types)
-      call file%point_data('node', model%node_id(:m))
-      call file%point_data('displacement', u)
-      call file%point_data('stress', at_node)
-      call file%point_data('von_mises', [(von_mises(at_node(:, i)), i = 1, m)])
-      call file%cell_data('element', model%element_id)
-      call file%cell_data('property', properties)
-      call file%cell_data('stress_at_centre', at_centre)
-      call file%cell_data('principal_stress', principal)
-      call file%cell_data('von_mises_at_centre', [(von_mises(at_centre(:, e)), e = 1, model%n_elements)])
+      call file%add(point_data, 'node', model%node_id(:m))
+      call file%add(point_data, 'displacement', u)
+      call file%add(point_data, 'stress', at_node)
+      call file%add(point_data, 'von_mises', [(von_mises(at_node(:, i)), i = 1, m)])
+      call file%add(cell_data, 'element', model%element_id)
+      call file%add(cell_data, 'property', properties)
+      call file%add(cell_data, 'stress_at_centre', at_centre)
+      call file%add(cell_data, 'principal_stress', principal)
+      call file%add(cell_data, 'von_mises_at_centre', [(von_mises(at_centre(:, e)), e = 1, model%n_elements)])
    end subroutine write_bodies
 
 
@@ -153,22 +159,22 @@ contains
       allocate (u(3, n), source=0.0_wp)
       do i = 1, n
          associate (element => model%interface(i))
-            x(:, i) = model%x(:, element%nodes(1))
-            u(:model%dimension, i) = analysis%u(:, element%nodes(1))
+            x(:, i) = at_first_end(element, model%x)
+            u(:model%dimension, i) = at_first_end(element, analysis%all_u)
             tau(:, i) = matmul(element%axes(:, :2), analysis%states(i)%shear%tau)
          end associate
       end do
       call file%points(x)
       call file%cells([(i, i = 1, n)], [(i, i = 1, n)], [(vtk_vertex, i = 1, n)])
-      call file%point_data('element', model%interface%id)
-      call file%point_data('joint', model%joints(model%interface%joint)%id)
-      call file%point_data('displacement', u)
-      call file%point_data('lambda', analysis%states%normal%lambda)
-      call file%point_data('p', analysis%states%normal%pressure)
-      call file%point_data('branch', analysis%states%normal%branch)
-      call file%point_data('tau', tau)
-      call file%point_data('slip', merge(1, 0, analysis%states%slips))
-      call file%point_data('area', model%interface%area)
+      call file%add(point_data, 'element', model%interface%id)
+      call file%add(point_data, 'joint', model%joints(model%interface%joint)%id)
+      call file%add(point_data, 'displacement', u)
+      call file%add(point_data, 'lambda', analysis%states%normal%lambda)
+      call file%add(point_data, 'p', analysis%states%normal%pressure)
+      call file%add(point_data, 'branch', analysis%states%normal%branch)
+      call file%add(point_data, 'tau', tau)
+      call file%add(point_data, 'slip', merge(1, 0, analysis%states%slips))
+      call file%add(point_data, 'area', model%interface%area)
    end subroutine write_joint
 
 
@@ -180,25 +186,17 @@ contains
       integer :: i
 
       ok = .true.
-      if (results%n == 0) return
       do i = 1, results%n
-         call results%files(i)%finish(ok)
+         call results%parts(i)%file%finish(ok)
          if (.not. ok) exit
       end do
-      if (ok .and. results%many) then
+      if (ok .and. results%many .and. results%n > 0) then
          base = results%name(index(results%name, '/', back=.true.) + 1:)
-         call results%list%start(results%name//'.pvd')
-         do i = 1, results%n
-            call results%list%add(real(results%stages(i), wp), merge(1, 0, index(results%endings(i), '.joint') > 0), &
-                                  base//trim(results%endings(i)))
-         end do
-         call results%list%finish(ok)
+         associate (parts => results%parts(:results%n))
+            call write_collection(results%name//'.pvd', real(parts%stage, wp), parts%part, base//parts%ending, ok)
+         end associate
       end if
-      if (ok) return
-      do i = 1, results%n
-         call results%files(i)%discard()
-         call remove_file(results%name//trim(results%endings(i)))
-      end do
+      if (.not. ok) call discard_vtu(results)
    end subroutine finish_vtu
 
 
@@ -208,13 +206,10 @@ contains
       integer :: i
 
       do i = 1, results%n
-         call results%files(i)%discard()
-         call remove_file(results%name//trim(results%endings(i)))
+         call results%parts(i)%file%discard()
+         call remove_file(results%name//trim(results%parts(i)%ending))
       end do
-      if (results%n > 0) then
-         call results%list%discard()
-         call remove_file(results%name//'.pvd')
-      end if
+      if (results%n > 0) call remove_file(results%name//'.pvd')
       results%n = 0
    end subroutine discard_vtu
 
@@ -239,7 +234,6 @@ contains
       logical :: there
       integer :: k
 
-      if (name == '') return
       call remove_file(name//'.vtu')
       call remove_file(name//'.joint.vtu')
       inquire (file=name//'.pvd', exist=there)

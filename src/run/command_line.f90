@@ -1,9 +1,9 @@
 !> The command line: options and decks.
 module command_line
    use c_library, only: true_path
-   use command_tools, only: argument_text, complain, is_option, name_input, say, standard_input, version
+   use command_arguments, only: argument_text, complain, input_argument, input_of, is_option, say, standard_input, version
    use deck_numbers, only: parse_integer
-   use text_tools, only: integer_text
+   use results, only: history_ending, is_result_ending, listing_ending
    use vtu_results, only: is_vtu_ending
    implicit none
    private
@@ -12,13 +12,9 @@ module command_line
 
    character(*), parameter :: program = 'jointfem'
 
-   !> One deck of the command and the files that its results go to.
-   type, public :: deck_argument
-      character(:), allocatable :: path     !! to read; /dev/stdin for `-`
-      character(:), allocatable :: name     !! as the user wrote it
-      character(:), allocatable :: base     !! what the names of the results begin with, folder included; empty: none
-      character(:), allocatable :: listing  !! file, empty: standard output
-      character(:), allocatable :: history  !! file, empty: none
+   !> One deck of the command.
+   type, extends(input_argument), public :: deck_argument
+      character(:), allocatable :: base !! what the names of its results begin with, folder included; empty: standard output
    end type deck_argument
 
    type, public :: command_type
@@ -53,7 +49,7 @@ contains
          i = i + 1
          argument = argument_text(i)
          if (.not. is_option(argument, options)) then
-            call add_deck(command, argument)
+            command%decks = [command%decks, deck_argument(input_of(argument), base='')]
             cycle
          end if
          select case (argument)
@@ -103,19 +99,6 @@ contains
    end subroutine read_command_line
 
 
-   subroutine add_deck(command, argument)
-      type(command_type), intent(inout) :: command
-      character(*), intent(in)          :: argument
-      type(deck_argument) :: deck
-
-      call name_input(argument, deck%name, deck%path)
-      deck%base = ''
-      deck%listing = ''
-      deck%history = ''
-      command%decks = [command%decks, deck]
-   end subroutine add_deck
-
-
    !> beam.bdf gives beam.out and beam.joint.csv. No two decks may write the same files, none may overwrite a deck.
    subroutine name_results(command, ok)
       type(command_type), intent(inout) :: command
@@ -127,11 +110,9 @@ contains
          associate (deck => command%decks(i))
             if (deck%path == standard_input) cycle
             deck%base = command%folder//base_name(deck%path)
-            deck%listing = deck%base//'.out'
-            deck%history = deck%base//'.joint.csv'
             do k = 1, i - 1
-               if (command%decks(k)%listing == deck%listing) then
-                  call complain(program, command%decks(k)%name//' and '//deck%name//' would both write '//deck%listing)
+               if (command%decks(k)%base == deck%base) then
+                  call complain(program, command%decks(k)%name//' and '//deck%name//' would both write '//deck%base//listing_ending)
                   return
                end if
                if (share_vtu(command%decks(k), deck)) return
@@ -170,32 +151,16 @@ contains
       character(*), intent(in)        :: file
       type(deck_argument), intent(in) :: deck
       character(:), allocatable :: base
-
-      is_result_of = .false.
-      if (deck%listing == '') return
-      if (file == in_true_folder(deck%listing)) is_result_of = .true.
-      if (file == in_true_folder(deck%history)) is_result_of = .true.
-      if (file == true_path(deck%listing)) is_result_of = .true.
-      if (file == true_path(deck%history)) is_result_of = .true.
-      base = in_true_folder(deck%base)
-      if (len(file) <= len(base)) return
-      if (file(:len(base)) == base .and. is_vtu_ending(file(len(base) + 1:))) is_result_of = .true.
-   end function is_result_of
-
-
-   !> PATH with its folder resolved, whether or not the file is there.
-   function in_true_folder(path) result(resolved)
-      character(*), intent(in)  :: path
-      character(:), allocatable :: resolved
       integer :: slash
 
-      slash = index(path, '/', back=.true.)
-      if (slash == 0) then
-         resolved = true_path('.')//'/'//path
-      else
-         resolved = true_path(path(:slash))//'/'//path(slash + 1:)
-      end if
-   end function in_true_folder
+      is_result_of = .false.
+      if (deck%base == '') return
+      if (file == true_path(deck%base//listing_ending)) is_result_of = .true.
+      if (file == true_path(deck%base//history_ending)) is_result_of = .true.
+      slash = index(deck%base, '/', back=.true.)
+      base = true_path(deck%base(:slash)//'.')//'/'//deck%base(slash + 1:) ! whether or not a file is there
+      if (index(file, base) == 1 .and. is_result_ending(file(len(base) + 1:))) is_result_of = .true.
+   end function is_result_of
 
 
    !> PATH without its folder and its last extension.

@@ -2,8 +2,9 @@
 !! have changed little since, a few steps cost less than a factorisation.
 !! Source: Hestenes, Stiefel, J. Res. NBS 49 (1952) 409-436, preconditioned as in Golub, Van Loan, Matrix Computations, 11.5.
 module conjugate_gradients
-   use front_solve, only: add_joints, solve_moving
+   use front_solve, only: solve_moving
    use front_tree, only: front_tree_type
+   use interface_equations, only: add_products
    use kinds, only: wp
    implicit none
    private
@@ -18,10 +19,9 @@ contains
    !! r = [k] z, the product p = [k] d goes along with the direction d: no step multiplies by a matrix other than CHANGE. STEPS
    !! is how many it took, more than MOST_STEPS where that was not enough: X is of no use then. Enough is where d leaves of the
    !! ENERGY, of what X had, and of d, no more than the square of TOLERANCE, a share of a length.
-   subroutine iterate_moving(tree, equations, change, energy, tolerance, most_steps, r, x, steps)
+   subroutine iterate_moving(tree, change, energy, tolerance, most_steps, r, x, steps)
       type(front_tree_type), intent(in) :: tree
-      integer, intent(in)               :: equations(:)    !! those that move
-      real(wp), intent(in)              :: change(:, :, :) !! (6, 6, n) of interface elements since [k] [force/length]
+      real(wp), intent(in)              :: change(:, :, :) !! (3, 3, n) of interface elements since [k] [force/length]
       real(wp), intent(in)              :: energy          !! [force*length], twice the work
       real(wp), intent(in)              :: tolerance
       integer, intent(in)               :: most_steps
@@ -32,7 +32,7 @@ contains
       real(wp) :: alpha, before, enough, now, start
 
       allocate (z(tree%n), direction(tree%n), of_factor(tree%n), product(tree%n))
-      associate (e => equations)
+      associate (e => tree%equations)
          z(e) = r(e)                ! what stands at locked equations meets zeros: solve_moving leaves none else there
          call solve_moving(tree, z)
          now = dot_product(r(e), z(e))
@@ -44,7 +44,7 @@ contains
          of_factor(e) = r(e)
          do steps = 1, most_steps
             product(e) = of_factor(e)
-            call add_joints(tree, change, direction, product)
+            call add_products(tree%joints, change, direction, product)
             alpha = dot_product(direction(e), product(e))
             if (.not. alpha > 0.0_wp) exit
             alpha = now/alpha

@@ -1,303 +1,253 @@
-!> The equations of the structure, whichever solver has them: SKYLINE or TREE. The increments see displacements and forces of
-!! nodes, and of these only the retained ones: all nodes with SKYLINE, with TREE those that are left when the bodies have been
-!! condensed. One order of use: start_equations, form_body_stiffness; condense_load for every load; in every increment
-!! form_structure_stiffness, then solve_equations and body_forces as often as needed; recover_displacements for all nodes.
+!> The equations of the structure, whichever solver has them: what the increments see of it. That is nodes and forces on nodes, and
+!! of these only the retained ones: all nodes with SKYLINE, with TREE those that are left when the bodies have been condensed.
+!! Arrays over retained nodes are (dimension, retained), those over all nodes (dimension, n_nodes).
 module equations
    use bar_elements, only: bar_stiffness
-   use case_control, only: solver_auto, solver_skyline, solver_tree
-   use equation_numbering, only: equation_numbers, gather, number_joints, put
-   use fault_report, only: report_fault
+   use case_control, only: solver_auto
+   use equation_solver, only: equation_system
    use failures, only: failure_type
-   use front_factor, only: add_to_moving, factorise_fixed
-   use front_solve, only: eliminate_fixed, moving_times_vector, recover_fixed
-   use front_tree, only: largest_diagonal
-   use kinds, only: long, wp
-   use model_data, only: model_type, n_bars, n_sections
-   use moving_solution, only: forget_moving, form_moving, moving_factor_type, solve_with_joints
+   use interface_operator, only: add_global_force, global_stiffness, relative_movement
+   use kinds, only: wp
+   use model_data, only: model_type, n_bars
    use node_graph, only: build_node_graph, node_graph_type
-   use skyline, only: skyline_times_vector, solve_skyline
-   use skyline_solver, only: form_skyline_bodies, form_skyline_structure, lay_out_skyline, scatter, skyline_solver_type, &
-                             start_skyline_solver
-   use tree_solver, only: start_tree_solver, tree_solver_type
+   use solver_choice, only: choose_solver
    implicit none
    private
 
-   public :: start_equations, form_body_stiffness, add_bar, lock_unknown, condense_load, form_structure_stiffness, &
-             solve_equations, check_solution, body_forces, recover_displacements
-
-   ! AUTO takes SKYLINE for small structures, where the time does not matter and the method can be read, and for narrow ones,
-   ! where it is the faster:
-   integer, parameter :: small = 1000           ! unknowns
-   integer, parameter :: narrow = 16            ! entries in a column, on the average
-   integer, parameter :: most_tried = 100000    ! unknowns up to which the profile is looked at
-
-   type, extends(equation_numbers), public :: equation_system
-      logical :: is_tree = .false.              !! which of the two
-      type(skyline_solver_type) :: skyline
-      type(tree_solver_type)    :: tree
-      integer, allocatable  :: retained(:)      !! nodes that the increments see, ascending
-      integer, allocatable  :: equations(:)     !! their equations
-      integer, allocatable  :: locked(:)        !! equations whose unknowns have been held since they were numbered
-      integer, allocatable  :: joint_equations(:, :) !! (6, n) of interface elements, with SKYLINE
-      real(wp) :: stiffest = 0.0_wp             !! largest diagonal entry of [k_b] [force/length]
-      real(wp), allocatable :: k_int(:, :, :)   !! (6, 6, n) of the interface elements now, global axes [force/length]
-      type(moving_factor_type) :: factor        !! with TREE: what that knows of k_int
-      integer :: fault = 0                      !! of the last factorisation, as in front_factor
-      character(:), allocatable :: where        !! stage and increment, for messages
-   end type equation_system
+   public :: equation_system, start_equations, form_body_stiffness, add_bar, lock_unknown, condense_load, &
+             form_structure_stiffness, solve_equations, forces_in_bodies, recover_displacements
 
 contains
 
    !> Choose the solver, order and number the unknowns. SOLVER as in case control; so many FACTORISATIONS are to be expected.
    subroutine start_equations(model, system, failure, solver, factorisations)
-      type(model_type), intent(in)         :: model
-      type(equation_system), intent(out)   :: system
-      type(failure_type), intent(inout)    :: failure
-      integer, intent(in), optional        :: solver         !! AUTO
-      integer, intent(in), optional        :: factorisations !! 20
+      type(model_type), intent(in)      :: model
+      class(equation_system), allocatable, intent(out) :: system
+      type(failure_type), intent(inout) :: failure
+      integer, intent(in), optional     :: solver         !! AUTO
+      integer, intent(in), optional     :: factorisations !! 20
       type(node_graph_type) :: graph
-      logical, allocatable  :: in_joint(:)
-      integer :: i, n, repeated, wanted
+      integer :: i, n, wanted
 
       wanted = solver_auto
       if (present(solver)) wanted = solver
-      repeated = 20
-      if (present(factorisations)) repeated = factorisations
       n = 0
       do i = 1, model%n_nodes
          if (model%used(i)) n = n + count(.not. model%held(:, i))
       end do
-      allocate (system%locked(0))
       if (n == 0) then
          call failure%raise('nothing to solve: all components of all nodes are supported')
          return
       end if
       call build_node_graph(model, graph)
-      system%is_tree = wanted == solver_tree .or. (wanted == solver_auto .and. n > small)
-      if (.not. system%is_tree .or. (wanted == solver_auto .and. n <= most_tried)) then
-         call lay_out_skyline(model, graph, system, system%skyline)
-         if (wanted == solver_auto .and. system%skyline%profile <= int(narrow, long)*n) system%is_tree = .false.
-      end if
-      if (system%is_tree) then
-         call mark_joints(model, in_joint)
-         call start_tree_solver(model, graph, in_joint, repeated, system, system%tree, failure)
-         if (failure%raised) return
-         associate (tree => system%tree%tree)
-            system%equations = pack([(i, i = 1, system%n)], tree%fronts(tree%of_equation)%moves)
-         end associate
-         call system%factor%reuse%set_costs(system%tree%moving_operations, system%tree%moving_entries)
-         in_joint(system%node(system%equations)) = .true.
-         system%retained = pack([(i, i = 1, model%n_nodes)], in_joint)
-      else
-         call start_skyline_solver(system%skyline, failure)
-         system%equations = [(i, i = 1, system%n)]
-         system%retained = pack([(i, i = 1, model%n_nodes)], model%used)
-         call number_joints(model, system%number, system%joint_equations)
-      end if
+      call choose_solver(model, graph, n, wanted, system)
+      if (present(factorisations)) system%factorisations = factorisations
+      allocate (system%locked(0))
+      call system%start(model, graph, failure)
+      if (.not. failure%raised) call place_retained(model, system)
    end subroutine start_equations
 
 
-   !> The nodes whose stiffness changes in the run: those of interface elements, and of bolts.
-   subroutine mark_joints(model, in_joint)
-      type(model_type), intent(in)      :: model
-      logical, allocatable, intent(out) :: in_joint(:) !! (n_nodes)
-      integer :: i, k
+   !> Where the retained nodes stand among themselves, and the interface elements on them.
+   subroutine place_retained(model, system)
+      type(model_type), intent(in)          :: model
+      class(equation_system), intent(inout) :: system
+      integer :: i
 
-      allocate (in_joint(model%n_nodes), source=.false.)
-      do i = 1, size(model%interface)
-         do k = 1, 2
-            if (model%interface(i)%nodes(k) > 0) in_joint(model%interface(i)%nodes(k)) = .true.
-         end do
+      allocate (system%place(model%n_nodes), source=0)
+      system%place(system%retained) = [(i, i = 1, size(system%retained))]
+      system%interface = model%interface
+      do i = 1, size(system%interface)
+         system%interface(i)%node = system%place(model%interface(i)%node)
       end do
-      do i = 1, n_bars(model)
-         in_joint(model%bars(i)%nodes) = .true.
-      end do
-      do i = 1, n_sections(model)
-         in_joint(model%sections(i)%node) = .true.
-      end do
-   end subroutine mark_joints
+      allocate (system%k_int(3, 3, size(system%interface)))
+   end subroutine place_retained
 
 
-   !> [k_b] of all bodies, bars included; TREE eliminates of it what no joint moves.
+   !> [k_b] of all bodies, bars included; what no joint moves is eliminated where the solver does so.
    subroutine form_body_stiffness(model, system, failure)
-      type(model_type), intent(in)         :: model
-      type(equation_system), intent(inout) :: system
-      type(failure_type), intent(inout)    :: failure
+      type(model_type), intent(in)          :: model
+      class(equation_system), intent(inout) :: system
+      type(failure_type), intent(inout)     :: failure
       integer :: fault, i
 
-      if (system%is_tree) then
-         call factorise_fixed(model, system%tree%tree, fault)
-         call report_fault(model, system, fault, '', failure)
-         if (failure%raised) return
-         system%stiffest = largest_diagonal(system%tree%tree)
-      else
-         call form_skyline_bodies(model, system, system%skyline)
-         associate (body => system%skyline%body)
-            system%stiffest = maxval(body%values(body%diagonal(1:)))
-         end associate
-      end if
+      call system%form_bodies(model, fault)
+      call system%report_fault(model, fault, '', failure)
+      if (failure%raised) return
       do i = 1, n_bars(model)
-         if (model%bars(i)%is_elastic) call add_bar(model, i, system)
+         if (model%bars(i)%bolt == 0) call add_bar(model, i, system)
       end do
    end subroutine form_body_stiffness
 
 
    !> Add bar I to the stiffness of the bodies.
    subroutine add_bar(model, i, system)
-      type(model_type), intent(in)         :: model
-      integer, intent(in)                  :: i
-      type(equation_system), intent(inout) :: system
+      type(model_type), intent(in)          :: model
+      integer, intent(in)                   :: i
+      class(equation_system), intent(inout) :: system
 
       associate (nodes => model%bars(i)%nodes)
-         associate (equations => [system%number(:, nodes(1)), system%number(:, nodes(2))])
-            if (system%is_tree) then
-               call add_to_moving(system%tree%tree, equations, bar_stiffness(model, i))
-            else
-               call scatter(system%skyline%body, equations, bar_stiffness(model, i))
-            end if
-         end associate
-         system%stiffest = max(system%stiffest, model%bars(i)%stiffness)
-         call forget_moving(system%factor)
+         call system%add_to_bodies([system%number(:, nodes(1)), system%number(:, nodes(2))], bar_stiffness(model, i))
       end associate
+      system%stiffest = max(system%stiffest, model%bars(i)%stiffness)
    end subroutine add_bar
 
 
    !> Hold component D of NODE, a retained one, from now on: it keeps its equation, and every solution has zero there.
    subroutine lock_unknown(node, d, system)
-      integer, intent(in)                  :: node, d
-      type(equation_system), intent(inout) :: system
+      integer, intent(in)                   :: node, d
+      class(equation_system), intent(inout) :: system
 
-      if (system%number(d, node) == 0) return
-      system%locked = [system%locked, system%number(d, node)]
-      call forget_moving(system%factor)
-      if (system%is_tree) system%tree%tree%locked(system%number(d, node)) = .true.
+      if (system%number(d, node) > 0) call system%lock(system%number(d, node))
    end subroutine lock_unknown
 
 
-   !> G: what retained nodes feel of the nodal forces F on all nodes; zero elsewhere.
+   !> G: what retained nodes feel of the nodal forces F.
    subroutine condense_load(system, f, g)
-      type(equation_system), intent(in) :: system
-      real(wp), intent(in)              :: f(:, :) !! (dimension, n_nodes) [force]
-      real(wp), intent(out)             :: g(:, :) !! likewise
-      real(wp), allocatable :: x(:)
-      integer :: i
+      class(equation_system), intent(in) :: system
+      real(wp), intent(in)               :: f(:, :) !! of all nodes [force]
+      real(wp), intent(out)              :: g(:, :) !! of retained nodes; zero on held components
+      real(wp), allocatable :: x(:), felt(:)
 
-      if (.not. system%is_tree) then
-         g = f
-         return
-      end if
-      allocate (x(system%n))
-      call gather(system, [(i, i = 1, system%n)], f, x)
-      call eliminate_fixed(system%tree%tree, x)
-      g = 0.0_wp
-      call put(system, system%equations, x, g)
+      allocate (x(system%n), felt(system%n))
+      call gather_all(system, f, x)
+      call system%condense(x, felt)
+      call put(system, felt, g)
    end subroutine condense_load
 
 
-   !> [k_s] = [k_b] + sum of [k_int], Eq. (8), factorised; with TREE, and where one solution is all that is wanted, an earlier
-   !! factor may do for that instead. A structure without stiffness in some direction is a failure that names the node; WHERE
-   !! says in which increment.
-   subroutine form_structure_stiffness(model, k_int, where, system, failure, many_solutions)
-      type(model_type), intent(in)         :: model
-      real(wp), intent(in)                 :: k_int(:, :, :) !! (3, 3, n) of interface elements, in their axes [force/length]
-      character(*), intent(in)             :: where
-      type(equation_system), intent(inout) :: system
-      type(failure_type), intent(inout)    :: failure
-      logical, intent(in), optional        :: many_solutions !! true
-      real(wp) :: k_global(3, 3)
-      integer  :: i
-      logical  :: one_solution
+   !> [k_s] = [k_b] + sum of [k_int], Eq. (8), ready to solve, once where ONE_SOLUTION says so. A structure without stiffness in
+   !! some direction is a failure that names the node; WHERE says in which increment.
+   subroutine form_structure_stiffness(model, k_int, where, system, failure, one_solution)
+      type(model_type), intent(in)          :: model
+      real(wp), intent(in)                  :: k_int(:, :, :) !! (3, 3, n) of interface elements, in their axes [force/length]
+      character(*), intent(in)              :: where
+      class(equation_system), intent(inout) :: system
+      type(failure_type), intent(inout)     :: failure
+      logical, intent(in), optional         :: one_solution   !! false
+      integer :: fault, i
 
-      one_solution = .false.
-      if (present(many_solutions)) one_solution = .not. many_solutions
-      system%where = where
-      if (.not. allocated(system%k_int)) allocate (system%k_int(6, 6, size(model%interface)))
-      do i = 1, size(model%interface)
-         k_global = matmul(model%interface(i)%axes, matmul(k_int(:, :, i), transpose(model%interface(i)%axes)))
-         system%k_int(:3, :3, i) = k_global
-         system%k_int(4:, 4:, i) = k_global
-         system%k_int(:3, 4:, i) = -k_global
-         system%k_int(4:, :3, i) = -k_global
+      system%one_solution = .false.
+      if (present(one_solution)) system%one_solution = one_solution
+      system%where = where//': '
+      do i = 1, size(system%interface)
+         system%k_int(:, :, i) = global_stiffness(system%interface(i), k_int(:, :, i))
       end do
-      if (system%is_tree) then
-         call form_moving(system%tree%tree, system%k_int, one_solution, system%factor, system%fault)
-      else
-         call form_skyline_structure(system%k_int, system%joint_equations, system%locked, system%skyline, system%fault)
-      end if
-      call check_solution(model, system, failure)
+      call system%form_structure(fault)
+      call system%report_fault(model, fault, system%where, failure)
    end subroutine form_structure_stiffness
 
 
-   !> A factorisation that failed, in form_structure_stiffness or since then in solve_equations, as a failure.
-   subroutine check_solution(model, system, failure)
-      type(model_type), intent(in)      :: model
-      type(equation_system), intent(in) :: system
-      type(failure_type), intent(inout) :: failure
+   !> Displacements U of retained nodes under the forces F on them; held components are MOVED, which the forces in the bodies count
+   !! for already, or stay zero, as locked ones do. Where only now the stiffness is factorised that may be a failure.
+   subroutine solve_equations(model, system, f, u, failure, moved)
+      type(model_type), intent(in)          :: model
+      class(equation_system), intent(inout) :: system
+      real(wp), intent(in)                  :: f(:, :)     !! of retained nodes [force]
+      real(wp), intent(inout)               :: u(:, :)     !! likewise [length]
+      type(failure_type), intent(inout)     :: failure
+      real(wp), intent(in), optional        :: moved(:, :) !! likewise, zero on free components [length]; zero
+      real(wp), allocatable :: x(:), less(:, :)
+      integer :: fault, i
+      logical :: moves
 
-      call report_fault(model, system, system%fault, system%where//': ', failure)
-   end subroutine check_solution
-
-
-   !> Displacements U of the retained nodes under the forces F on them; held components, locked ones too, stay zero. Where only
-   !! now the stiffness had to be factorised, that may have failed: check_solution says so.
-   subroutine solve_equations(system, f, u)
-      type(equation_system), intent(inout) :: system
-      real(wp), intent(in)                 :: f(:, :) !! (dimension, n_nodes) [force]
-      real(wp), intent(inout)              :: u(:, :) !! (dimension, n_nodes), set where retained [length]
-      real(wp), allocatable :: x(:)
-
+      if (failure%raised) return
       allocate (x(system%n))
-      call gather(system, system%equations, f, x)
-      if (system%is_tree) then
-         call solve_with_joints(system%tree%tree, system%equations, system%locked, system%k_int, system%factor, x, system%fault)
-      else if (system%fault == 0) then
-         x(system%locked) = 0.0_wp
-         call solve_skyline(system%skyline%structure, x)
+      moves = .false.
+      if (present(moved)) moves = any(abs(moved) > 0.0_wp)
+      if (moves) then
+         allocate (less, source=f)
+         do i = 1, size(system%interface)
+            associate (element => system%interface(i))
+               call add_global_force(element, -matmul(system%k_int(:, :, i), relative_movement(element, moved)), less)
+            end associate
+         end do
+         call gather(system, less, x)
+      else
+         call gather(system, f, x)
       end if
-      if (system%fault /= 0) return
-      u(:, system%retained) = 0.0_wp
-      call put(system, system%equations, x, u)
+      call system%solve(x, fault)
+      call system%report_fault(model, fault, system%where, failure)
+      if (failure%raised) return
+      call put(system, x, u)
+      if (moves) u = u + moved
    end subroutine solve_equations
 
 
-   !> F = [k_b] {U} on the free components of retained nodes, the others condensed into it.
-   subroutine body_forces(system, u, f)
-      type(equation_system), intent(in) :: system
-      real(wp), intent(in)              :: u(:, :) !! (dimension, n_nodes) [length]
-      real(wp), intent(inout)           :: f(:, :) !! (dimension, n_nodes), set where retained; zero on held components [force]
+   !> F = [k_b] {U} on the free components of retained nodes, the others condensed into it; zero on held ones.
+   subroutine forces_in_bodies(system, u, f)
+      class(equation_system), intent(in) :: system
+      real(wp), intent(in)               :: u(:, :) !! of retained nodes [length]
+      real(wp), intent(inout)            :: f(:, :) !! likewise [force]
       real(wp), allocatable :: x(:), y(:)
 
       allocate (x(system%n), y(system%n))
-      call gather(system, system%equations, u, x)
-      if (system%is_tree) then
-         call moving_times_vector(system%tree%tree, x, y)
-      else
-         call skyline_times_vector(system%skyline%body, x, y)
-      end if
-      f(:, system%retained) = 0.0_wp
-      call put(system, system%equations, y, f)
-   end subroutine body_forces
+      call gather(system, u, x)
+      call system%multiply(x, y)
+      call put(system, y, f)
+   end subroutine forces_in_bodies
 
 
-   !> Displacements of all nodes from those of the retained ones and the forces F on all nodes. Held components are not touched.
-   subroutine recover_displacements(system, f, u)
-      type(equation_system), intent(in) :: system
-      real(wp), intent(in)              :: f(:, :) !! (dimension, n_nodes) [force]
-      real(wp), intent(inout)           :: u(:, :) !! (dimension, n_nodes), of retained nodes; set for the others [length]
-      real(wp), allocatable :: x(:)
-      integer :: i
+   !> Displacements of all nodes from those of the retained ones and the forces F on all nodes; held components are zero.
+   subroutine recover_displacements(system, f, u, all_u)
+      class(equation_system), intent(in) :: system
+      real(wp), intent(in)               :: f(:, :)     !! of all nodes [force]
+      real(wp), intent(in)               :: u(:, :)     !! of retained nodes [length]
+      real(wp), intent(out)              :: all_u(:, :) !! of all nodes
+      real(wp), allocatable :: x(:), at_retained(:)
+      integer :: k
 
-      if (.not. system%is_tree) return
-      allocate (x(system%n))
-      call gather(system, [(i, i = 1, system%n)], f, x)
-      call eliminate_fixed(system%tree%tree, x)
-      do i = 1, size(system%equations)
-         associate (k => system%equations(i))
-            x(k) = u(system%direction(k), system%node(k))
-         end associate
+      allocate (x(system%n), at_retained(system%n))
+      call gather_all(system, f, at_retained)
+      call system%condense(at_retained, x)
+      call gather(system, u, at_retained)
+      call system%recover(at_retained, x)
+      all_u = 0.0_wp
+      do k = 1, system%n
+         all_u(system%direction(k), system%node(k)) = x(k)
       end do
-      call recover_fixed(system%tree%tree, x)
-      call put(system, [(i, i = 1, system%n)], x, u)
    end subroutine recover_displacements
+
+
+   !> X(equation) of an ARRAY over all nodes.
+   subroutine gather_all(system, array, x)
+      class(equation_system), intent(in) :: system
+      real(wp), intent(in)               :: array(:, :)
+      real(wp), intent(out)              :: x(:)
+      integer :: k
+
+      do k = 1, system%n
+         x(k) = array(system%direction(k), system%node(k))
+      end do
+   end subroutine gather_all
+
+
+   !> X(equation), where the increments solve, of an ARRAY over retained nodes; not touched elsewhere.
+   subroutine gather(system, array, x)
+      class(equation_system), intent(in) :: system
+      real(wp), intent(in)               :: array(:, :)
+      real(wp), intent(inout)            :: x(:)
+      integer :: i, k
+
+      do i = 1, size(system%equations)
+         k = system%equations(i)
+         x(k) = array(system%direction(k), system%place(system%node(k)))
+      end do
+   end subroutine gather
+
+
+   !> An ARRAY over retained nodes of X(equation); zero on held components.
+   subroutine put(system, x, array)
+      class(equation_system), intent(in) :: system
+      real(wp), intent(in)               :: x(:)
+      real(wp), intent(out)              :: array(:, :)
+      integer :: i, k
+
+      array = 0.0_wp
+      do i = 1, size(system%equations)
+         k = system%equations(i)
+         array(system%direction(k), system%place(system%node(k))) = x(k)
+      end do
+   end subroutine put
 
 end module equations

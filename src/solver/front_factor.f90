@@ -1,6 +1,7 @@
 !> Factorisation in a tree of fronts: once for those that do not move, in every increment for the others. Independent subtrees
 !! are tasks of OpenMP; every addition has its place in one order, whatever the number of threads.
 module front_factor
+   use equation_solver, only: no_memory, pivot_tolerance
    use front_assembly, only: add_elements, add_matrix, add_update, place_in
    use front_blocks, only: add_to_block, keep_block, restore_block
    use front_kernel, only: eliminate, top_row
@@ -13,8 +14,6 @@ module front_factor
 
    public :: factorise_fixed, factorise_moving, add_to_moving
 
-   integer, parameter, public :: no_memory = -1 !! as FAULT: an allocation failed
-   real(wp), parameter :: pivot_tolerance = 1.0e-12_wp ! of the diagonal entry: below it there is no stiffness
    real(wp), parameter :: task_work = 2.0e6_wp         ! operations of a subtree that is worth a task
 
 contains
@@ -174,10 +173,10 @@ contains
    end subroutine keep_start
 
 
-   !> Eliminate all fronts that move, with the matrices K of the interface elements between their equations. FAULT as above.
+   !> Eliminate all fronts that move, with the stiffnesses K of the interface elements. FAULT as above.
    subroutine factorise_moving(tree, k, fault)
       type(front_tree_type), intent(inout) :: tree
-      real(wp), intent(in)                 :: k(:, :, :) !! (6, 6, n), rows as in tree%joint_equations
+      real(wp), intent(in)                 :: k(:, :, :) !! (3, 3, n) between their ends, global axes [force/length]
       integer, intent(out)                 :: fault
       integer, allocatable :: faults(:)
       integer :: f, i
@@ -234,7 +233,7 @@ contains
          front%diagonal = front%start%diagonal
          do i = 1, size(front%springs)
             c = front%springs(i)
-            call add_matrix(front, tree%joint_equations(:, c), k(:, :, c))
+            call add_matrix(front, tree%joints%rows_of(c), tree%joints%matrix_of(c, k(:, :, c)))
          end do
          do i = 1, size(front%children)
             c = front%children(i)

@@ -10,7 +10,10 @@ module front_layout
    implicit none
    private
 
-   public :: lay_out_fronts, postpone_joints, front_operations
+   public :: choose_layout, lay_out_fronts, postpone_joints, front_operations, bytes_needed
+
+   real(wp), parameter :: entry_operations = 25.0_wp      !! what it costs to move one entry of a front, in operations on it
+   integer, parameter  :: part_nodes(3) = [200, 800, 3200] !! sizes of subtrees that are tried
 
    !> Fronts stand in the order of elimination: children before parents, a subtree without gaps.
    type, public :: front_layout_type
@@ -31,6 +34,66 @@ module front_layout
    end type front_layout_type
 
 contains
+
+   !> The LAYOUT with least work for so many FACTORISATIONS, and in words which WAY it has with the joints. Parts are tried only
+   !! where joints inside take less than joints last.
+   subroutine choose_layout(graph, order, weight, in_joint, factorisations, layout, way)
+      type(node_graph_type), intent(in)      :: graph
+      integer, intent(in)                    :: order(:), weight(:), factorisations
+      logical, intent(in)                    :: in_joint(:)
+      type(front_layout_type), intent(inout) :: layout
+      character(:), allocatable, intent(out) :: way
+      integer, allocatable :: postponed(:)
+      integer :: i
+
+      way = 'LAST'
+      call lay_out_fronts(graph, order, weight, in_joint, .true., layout)
+      call compare_with(order, 'INSIDE')
+      if (way == 'LAST') return
+      do i = 1, size(part_nodes)
+         postponed = order
+         call postpone_joints(graph, in_joint, part_nodes(i), postponed)
+         call compare_with(postponed, 'LAST IN PARTS')
+      end do
+
+   contains
+
+      subroutine compare_with(other, its_way)
+         integer, intent(in)      :: other(:)
+         character(*), intent(in) :: its_way
+         type(front_layout_type)  :: candidate
+
+         call lay_out_fronts(graph, other, weight, in_joint, .false., candidate)
+         if (total_work(candidate, factorisations) >= total_work(layout, factorisations)) return
+         layout = candidate
+         way = its_way
+      end subroutine compare_with
+
+   end subroutine choose_layout
+
+
+   !> Operations of the whole run.
+   pure real(wp) function total_work(layout, factorisations)
+      type(front_layout_type), intent(in) :: layout
+      integer, intent(in)                 :: factorisations
+
+      total_work = layout%fixed_operations &
+                   + factorisations*(layout%moving_operations + entry_operations*layout%moving_entries)
+   end function total_work
+
+
+   !> The factor; what moving fronts begin with: what is left to them, and elements, which are kept entry by entry and with two
+   !! indices, those of a regular mesh; the update matrices on the way.
+   pure real(wp) function bytes_needed(layout, n, dimension)
+      type(front_layout_type), intent(in) :: layout
+      integer, intent(in)                 :: n         !! unknowns
+      integer, intent(in)                 :: dimension
+      real(wp) :: of_elements
+
+      of_elements = 0.5_wp*dimension*3**dimension*n
+      bytes_needed = 8.0_wp*(layout%panel_entries + layout%peak_entries) + 16.0_wp*(layout%kept_entries + of_elements)
+   end function bytes_needed
+
 
    !> Lay out the fronts of GRAPH eliminated along ORDER. With JOINTS_LAST the nodes with IN_JOINT go to the end, all into one
    !! front.
@@ -107,21 +170,59 @@ contains
    subroutine number_fronts(supers, layout)
       type(supernodes_type), intent(inout)   :: supers
       type(front_layout_type), intent(inout) :: layout
-      integer, allocatable :: number(:), front_of(:), sequence(:), new_order(:), columns(:), new_place(:)
-      integer :: f, i, k, member, n, s
-      real(wp) :: rows
+      integer, allocatable :: number(:), sequence(:), new_place(:)
+
+      call number_trees(supers, number, sequence)
+      layout%n = size(sequence)
+      call number_columns(supers, sequence, new_place, layout)
+      call link_fronts(supers, number, sequence, new_place, layout)
+   end subroutine number_fronts
+
+
+   !> Depth first, children first: NUMBER(s) is that of supernode s, 0 where it was merged; SEQUENCE is the other way round.
+   pure subroutine number_trees(supers, number, sequence)
+      type(supernodes_type), intent(inout) :: supers !! its lists of children are gone then
+      integer, allocatable, intent(out)    :: number(:), sequence(:)
+      integer :: child, n, node, root
 
       allocate (number(supers%n), sequence(supers%n), source=0)
       n = 0
-      do s = 1, supers%n
-         if (supers%parent(s) == 0) call walk(s)
+      do root = 1, supers%n
+         if (supers%parent(root) /= 0) cycle
+         node = root
+         do
+            do while (supers%child(node) /= 0)
+               child = supers%child(node)
+               supers%child(node) = supers%sibling(child)
+               supers%sibling(child) = node   ! the way back
+               node = child
+            end do
+            n = n + 1
+            number(node) = n
+            sequence(n) = node
+            if (node == root) exit
+            node = supers%sibling(node)
+         end do
       end do
-      layout%n = n
-      allocate (layout%first_pivot(n + 1), layout%first_row(n + 1), layout%parent(n), layout%moves(n))
+      sequence = sequence(:n)
+   end subroutine number_trees
+
+
+   !> The columns of every front in one run, in the order of the fronts; what the fronts are worth. NEW_PLACE(old place).
+   subroutine number_columns(supers, sequence, new_place, layout)
+      type(supernodes_type), intent(in)      :: supers
+      integer, intent(in)                    :: sequence(:)
+      integer, allocatable, intent(out)      :: new_place(:)
+      type(front_layout_type), intent(inout) :: layout
+      integer, allocatable :: new_order(:), columns(:)
+      integer  :: f, i, k, member, s
+      real(wp) :: rows
+
+      allocate (layout%first_pivot(layout%n + 1), layout%first_row(layout%n + 1), layout%moves(layout%n))
       allocate (new_order(size(layout%order)), new_place(size(layout%order)), columns(size(layout%order)))
       layout%first_pivot(1) = 1
       layout%first_row(1) = 1
-      do f = 1, n
+      do f = 1, layout%n
          s = sequence(f)
          k = 0
          member = supers%member(s)
@@ -151,10 +252,19 @@ contains
          end if
       end do
       layout%order = new_order
-      allocate (layout%rows(layout%first_row(layout%n + 1) - 1), front_of(supers%n))
+   end subroutine number_columns
+
+
+   !> The rows of every front beyond its columns, its parent, and what stands in update matrices.
+   subroutine link_fronts(supers, number, sequence, new_place, layout)
+      type(supernodes_type), intent(in)      :: supers
+      integer, intent(in)                    :: number(:), sequence(:), new_place(:)
+      type(front_layout_type), intent(inout) :: layout
+      integer  :: f, s
+      real(wp) :: rows
+
+      allocate (layout%rows(layout%first_row(layout%n + 1) - 1), layout%parent(layout%n))
       layout%parent = 0
-      layout%peak_entries = 0.0_wp
-      layout%kept_entries = 0.0_wp
       do f = 1, layout%n
          s = sequence(f)
          layout%rows(layout%first_row(f):layout%first_row(f + 1) - 1) = &
@@ -170,30 +280,6 @@ contains
          if (layout%moves(number(s)) .and. .not. layout%moves(f)) &
             layout%kept_entries = layout%kept_entries + 0.5_wp*rows*(rows + 1.0_wp)
       end do
-
-   contains
-
-      !> Number a tree from its root S, children first.
-      subroutine walk(root)
-         integer, intent(in) :: root
-         integer :: node, child
-
-         node = root
-         do
-            do while (supers%child(node) /= 0)
-               child = supers%child(node)
-               supers%child(node) = supers%sibling(child)
-               supers%sibling(child) = node   ! the way back
-               node = child
-            end do
-            n = n + 1
-            number(node) = n
-            sequence(n) = node
-            if (node == root) exit
-            node = supers%sibling(node)
-         end do
-      end subroutine walk
-
-   end subroutine number_fronts
+   end subroutine link_fronts
 
 end module front_layout

@@ -8,7 +8,7 @@ module front_solve
    implicit none
    private
 
-   public :: eliminate_fixed, recover_fixed, solve_moving, moving_times_vector, add_joints
+   public :: eliminate_fixed, recover_fixed, solve_moving, moving_times_vector
 
 contains
 
@@ -124,27 +124,5 @@ contains
          end associate
       end do
    end subroutine moving_times_vector
-
-
-   !> Y = Y + sum of [k_int] X.
-   pure subroutine add_joints(tree, k_int, x, y)
-      type(front_tree_type), intent(in) :: tree
-      real(wp), intent(in)              :: k_int(:, :, :)
-      real(wp), intent(in)              :: x(:)
-      real(wp), intent(inout)           :: y(:)
-      real(wp) :: u(6), f(6)
-      integer  :: i, j
-
-      do i = 1, size(k_int, 3)
-         u = 0.0_wp
-         do j = 1, 6
-            if (tree%joint_equations(j, i) > 0) u(j) = x(tree%joint_equations(j, i))
-         end do
-         f = matmul(k_int(:, :, i), u)
-         do j = 1, 6
-            if (tree%joint_equations(j, i) > 0) y(tree%joint_equations(j, i)) = y(tree%joint_equations(j, i)) + f(j)
-         end do
-      end do
-   end subroutine add_joints
 
 end module front_solve

@@ -2,9 +2,9 @@
 !! they are eliminated once. The others are assembled and eliminated again and again.
 !! Sources: Duff, Reid, ACM Trans. Math. Softw. 9 (1983) 302-325; Liu, SIAM Review 34 (1992) 82-109.
 module front_tree
-   use equation_numbering, only: number_joints
    use front_blocks, only: kept_block
    use front_layout, only: front_layout_type, front_operations
+   use interface_equations, only: interface_equations_type, list_interface_equations
    use kinds, only: wp
    use model_data, only: model_type
    use reverse_lists, only: list_owners
@@ -46,10 +46,11 @@ module front_tree
       integer :: n = 0                            !! equations
       integer, allocatable :: number(:, :)        !! (dimension, n_nodes) equation of a component, 0: held
       integer, allocatable :: of_equation(:)      !! (n) front that eliminates it
-      integer, allocatable :: joint_equations(:, :) !! (6, n) of interface elements: components of node 1, of node 2; 0: held
+      type(interface_equations_type) :: joints
       logical, allocatable :: locked(:)           !! (n) unknowns that do not change any more; of fronts that move
       type(front_type), allocatable :: fronts(:)  !! children before parents
       integer, allocatable :: moving(:)           !! those that move, ascending
+      integer, allocatable :: equations(:)        !! that they eliminate, ascending
       integer :: most_rows = 0                    !! pivots and rows beyond them of the largest
       logical :: is_parallel = .false.            !! whether the model is worth more than one thread
       real(wp) :: assembly_time = 0.0_wp          !! of the elements, all threads together [s]
@@ -132,6 +133,7 @@ contains
          end associate
       end do
       tree%moving = pack([(f, f = 1, layout%n)], layout%moves(:layout%n))
+      tree%equations = pack([(i, i = 1, tree%n)], tree%fronts(tree%of_equation)%moves)
       tree%most_rows = maxval(tree%fronts%p + tree%fronts%r)
       tree%is_parallel = layout%fixed_operations + layout%moving_operations > parallel_work
    end subroutine start_front_tree
@@ -159,8 +161,8 @@ contains
          front(e) = front_of(tree, pack(tree%number(:, coupled_nodes(model, e)), .true.))
       end do
       call collect(front, tree, for_springs=.false.)
-      call number_joints(model, tree%number, tree%joint_equations)
-      front = [(front_of(tree, tree%joint_equations(:, e)), e = 1, size(model%interface))]
+      call list_interface_equations(model%interface, tree%number, tree%joints)
+      front = [(front_of(tree, tree%joints%rows_of(e)), e = 1, size(model%interface))]
       call collect(front, tree, for_springs=.true.)
    end subroutine hand_out_elements
 

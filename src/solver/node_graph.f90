@@ -21,12 +21,12 @@ contains
    subroutine build_node_graph(model, graph)
       type(model_type), intent(in)  :: model
       type(node_graph_type), intent(out) :: graph
-      integer, allocatable :: mark(:), ends(:, :), first_end(:), ends_at(:)
+      integer, allocatable :: mark(:), joined(:, :), first_list(:), lists_at(:)
       integer :: e, i, k, node, other, pass, n
 
       graph%n = model%n_nodes
-      call list_ends(model, ends)
-      call list_owners(graph%n, ends, first_end, ends_at)
+      call list_joined(model, joined)
+      call list_owners(graph%n, joined, first_list, lists_at)
       allocate (graph%first(graph%n + 1), mark(graph%n))
       do pass = 1, 2 ! count, then fill
          mark = 0
@@ -41,9 +41,10 @@ contains
                end do
                call visit(section_node(model, e))
             end do
-            do i = first_end(node), first_end(node + 1) - 1
-               call visit(ends(1, ends_at(i)))   ! of the two one is the node itself, which is marked
-               call visit(ends(2, ends_at(i)))
+            do i = first_list(node), first_list(node + 1) - 1
+               do k = 1, size(joined, 1)
+                  call visit(joined(k, lists_at(i)))
+               end do
             end do
          end do
          graph%first(graph%n + 1) = n + 1
@@ -56,7 +57,7 @@ contains
          integer, intent(in) :: candidate
 
          other = candidate
-         if (other == 0) return ! behind the last corner, or no section
+         if (other == 0) return ! behind the last of a list, or no section
          if (mark(other) == node) return
          mark(other) = node
          n = n + 1
@@ -66,25 +67,24 @@ contains
    end subroutine build_node_graph
 
 
-   !> ENDS(2, n): the nodes of interface elements that have two, and of bars.
-   pure subroutine list_ends(model, ends)
+   !> JOINED(:, n): the nodes of interface elements, and of bars; 0 behind the last.
+   pure subroutine list_joined(model, joined)
       type(model_type), intent(in)      :: model
-      integer, allocatable, intent(out) :: ends(:, :)
-      integer :: i, n
+      integer, allocatable, intent(out) :: joined(:, :)
+      integer :: i, most
 
-      allocate (ends(2, size(model%interface) + n_bars(model)))
-      n = 0
+      most = 2
       do i = 1, size(model%interface)
-         if (model%interface(i)%nodes(2) == 0) cycle
-         n = n + 1
-         ends(:, n) = model%interface(i)%nodes
+         most = max(most, size(model%interface(i)%node))
+      end do
+      allocate (joined(most, size(model%interface) + n_bars(model)), source=0)
+      do i = 1, size(model%interface)
+         joined(:size(model%interface(i)%node), i) = model%interface(i)%node
       end do
       do i = 1, n_bars(model)
-         n = n + 1
-         ends(:, n) = model%bars(i)%nodes
+         joined(:2, size(model%interface) + i) = model%bars(i)%nodes
       end do
-      ends = ends(:, :n)
-   end subroutine list_ends
+   end subroutine list_joined
 
 
    !> The PART of GRAPH with NODES alone, numbered in their sequence.

@@ -3,79 +3,87 @@
 module skyline_solver
    use body_elements, only: coupled_stiffness
    use element_kinds, only: max_coupled_dofs
-   use equation_numbering, only: equation_numbers, number_unknowns
+   use equation_solver, only: equation_system, pivot_tolerance, solver_description
    use failures, only: failure_type
+   use interface_equations, only: interface_equations_type, list_interface_equations
    use kinds, only: long, wp
-   use machine, only: memory_for
+   use memory_need, only: shortage
    use model_data, only: model_type, n_bars
    use section_coupling, only: coupled_nodes
    use node_graph, only: node_graph_type
    use profile_ordering, only: reverse_cuthill_mckee
-   use skyline, only: add_to_skyline, factorise_skyline, skyline_matrix, start_skyline
+   use skyline, only: add_to_skyline, factorise_skyline, skyline_matrix, skyline_times_vector, solve_skyline, start_skyline
    use text_tools, only: integer_text
    implicit none
    private
 
-   public :: lay_out_skyline, start_skyline_solver, form_skyline_bodies, form_skyline_structure, scatter
-
-   real(wp), parameter :: pivot_tolerance = 1.0e-12_wp ! of the diagonal entry: below it there is no stiffness
-
-   type, public :: skyline_solver_type
+   type, extends(equation_system), public :: skyline_solver_type
       integer(long) :: profile = 0                  !! entries in the skyline
       integer(long) :: profile_as_numbered = 0      !! what they would be in the order of the node numbers
       integer, allocatable :: first_row(:)          !! (n) of every column
+      type(interface_equations_type) :: joints
       type(skyline_matrix) :: body                  !! [k_b]
       type(skyline_matrix) :: structure             !! [k_s], then its factor
+   contains
+      procedure :: lay_out
+      procedure :: start
+      procedure :: form_bodies
+      procedure :: add_to_bodies
+      procedure :: form_structure
+      procedure :: solve
+      procedure :: multiply
+      procedure :: describe
    end type skyline_solver_type
 
 contains
 
    !> Number the unknowns and lay out the profile: reverse Cuthill-McKee, or the nodes' own order where that is tighter.
-   subroutine lay_out_skyline(model, graph, numbers, solver)
-      type(model_type), intent(in)             :: model
-      type(node_graph_type), intent(in)        :: graph
-      class(equation_numbers), intent(inout)   :: numbers
-      type(skyline_solver_type), intent(inout) :: solver
+   subroutine lay_out(self, model, graph)
+      class(skyline_solver_type), intent(inout) :: self
+      type(model_type), intent(in)              :: model
+      type(node_graph_type), intent(in)         :: graph
       integer, allocatable :: order(:), first_row_as_numbered(:)
       integer :: i
 
       call reverse_cuthill_mckee(graph, order)
-      call number_unknowns(model, [(i, i = 1, model%n_nodes)], numbers)
-      call lay_out_profile(model, numbers, first_row_as_numbered, solver%profile_as_numbered)
-      call number_unknowns(model, order, numbers)
-      call lay_out_profile(model, numbers, solver%first_row, solver%profile)
-      if (solver%profile < solver%profile_as_numbered) return
-      call number_unknowns(model, [(i, i = 1, model%n_nodes)], numbers)
-      call move_alloc(first_row_as_numbered, solver%first_row)
-      solver%profile = solver%profile_as_numbered
-   end subroutine lay_out_skyline
+      call self%number_unknowns(model, [(i, i = 1, model%n_nodes)])
+      call lay_out_profile(model, self, first_row_as_numbered, self%profile_as_numbered)
+      call self%number_unknowns(model, order)
+      call lay_out_profile(model, self, self%first_row, self%profile)
+      if (self%profile < self%profile_as_numbered) return
+      call self%number_unknowns(model, [(i, i = 1, model%n_nodes)])
+      call move_alloc(first_row_as_numbered, self%first_row)
+      self%profile = self%profile_as_numbered
+   end subroutine lay_out
 
 
-   !> Make room for the matrix that is laid out.
-   subroutine start_skyline_solver(solver, failure)
-      type(skyline_solver_type), intent(inout) :: solver
-      type(failure_type), intent(inout)        :: failure
-      integer(long) :: there
-      logical :: ok
+   !> Lay out the profile, where that has not been done, and make room for the matrix. All equations are left to the increments.
+   subroutine start(self, model, graph, failure)
+      class(skyline_solver_type), intent(inout) :: self
+      type(model_type), intent(in)              :: model
+      type(node_graph_type), intent(in)         :: graph
+      type(failure_type), intent(inout)         :: failure
+      character(:), allocatable :: words
+      real(wp) :: share
+      integer  :: i
+      logical  :: ok
 
-      associate (n => size(solver%first_row), needed => 16*solver%profile)
-         there = memory_for(real(needed, wp))
-         if (needed > there) then
-            call failure%raise('the skyline of '//integer_text(n)//' equations needs '// &
-                               integer_text(int(needed/1048576))//' MiB, and the machine has '// &
-                               integer_text(int(there/1048576))//' MiB to give; SOLVER = TREE needs less')
-         else
-            call start_skyline(solver%first_row, solver%body, ok)
-            if (.not. ok) call failure%raise('no memory for the skyline of '//integer_text(n)//' equations')
-         end if
-      end associate
-   end subroutine start_skyline_solver
+      if (.not. allocated(self%first_row)) call self%lay_out(model, graph)
+      call shortage('the skyline of '//integer_text(self%n)//' equations needs', 16.0_wp*self%profile, words, share)
+      if (words /= '') call failure%raise(words//'; SOLVER = TREE needs less')
+      if (failure%raised) return
+      call start_skyline(self%first_row, self%body, ok)
+      if (.not. ok) call failure%raise('no memory for the skyline of '//integer_text(self%n)//' equations')
+      self%equations = [(i, i = 1, self%n)]
+      self%retained = pack([(i, i = 1, model%n_nodes)], model%used)
+      call list_interface_equations(model%interface, self%number, self%joints)
+   end subroutine start
 
 
    !> First row of every column: the lowest equation that shares an element or interface element.
    subroutine lay_out_profile(model, numbers, first_row, profile)
       type(model_type), intent(in)        :: model
-      class(equation_numbers), intent(in) :: numbers
+      class(equation_system), intent(in)  :: numbers
       integer, allocatable, intent(out)   :: first_row(:)
       integer(long), intent(out)          :: profile
       integer :: e, i
@@ -85,7 +93,7 @@ contains
          call couple(coupled_nodes(model, e))
       end do
       do i = 1, size(model%interface)
-         call couple(pack(model%interface(i)%nodes, model%interface(i)%nodes > 0))
+         call couple(model%interface(i)%node)
       end do
       do i = 1, n_bars(model)
          call couple(model%bars(i)%nodes)
@@ -120,40 +128,47 @@ contains
 
 
    !> [k_b]: the stiffness of all bodies.
-   subroutine form_skyline_bodies(model, numbers, solver)
-      type(model_type), intent(in)             :: model
-      class(equation_numbers), intent(in)      :: numbers
-      type(skyline_solver_type), intent(inout) :: solver
+   subroutine form_bodies(self, model, fault)
+      class(skyline_solver_type), intent(inout) :: self
+      type(model_type), intent(in)              :: model
+      integer, intent(out)                      :: fault
       real(wp) :: k(max_coupled_dofs, max_coupled_dofs)
       integer  :: d, e, n, rows(max_coupled_dofs)
 
+      fault = 0
       d = model%dimension
       do e = 1, model%n_elements
          call coupled_stiffness(model, e, k)
          associate (nodes => coupled_nodes(model, e))
             n = d*size(nodes)
-            rows(:n) = [numbers%number(:, nodes)]
+            rows(:n) = [self%number(:, nodes)]
          end associate
-         call scatter(solver%body, rows(:n), k(:n, :n))
+         call scatter(self%body, rows(:n), k(:n, :n))
       end do
-   end subroutine form_skyline_bodies
+      self%stiffest = maxval(self%body%values(self%body%diagonal(1:)))
+   end subroutine form_bodies
 
 
-   !> [k_s] = [k_b] + sum of [k_int], Eq. (8), factorised. The LOCKED equations take no part. FAULT is 0 or the first equation
-   !! without stiffness.
-   subroutine form_skyline_structure(k_int, equations, locked, solver, fault)
-      real(wp), intent(in)                     :: k_int(:, :, :)  !! (6, 6, n) of interface elements [force/length]
-      integer, intent(in)                      :: equations(:, :) !! (6, n) their equations, 0: held
-      integer, intent(in)                      :: locked(:)
-      type(skyline_solver_type), intent(inout) :: solver
-      integer, intent(out)                     :: fault
+   subroutine add_to_bodies(self, rows, k)
+      class(skyline_solver_type), intent(inout) :: self
+      integer, intent(in)                       :: rows(:)
+      real(wp), intent(in)                      :: k(:, :)
+
+      call scatter(self%body, rows, k)
+   end subroutine add_to_bodies
+
+
+   !> [k_s] = [k_b] + sum of [k_int], Eq. (8), factorised. The locked equations take no part.
+   subroutine form_structure(self, fault)
+      class(skyline_solver_type), intent(inout) :: self
+      integer, intent(out)                      :: fault
       integer :: i, j
       integer(long) :: place
 
-      solver%structure = solver%body
-      associate (matrix => solver%structure)
-         do i = 1, size(equations, 2)
-            call scatter(matrix, equations(:, i), k_int(:, :, i))
+      self%structure = self%body
+      associate (matrix => self%structure, locked => self%locked)
+         do i = 1, self%joints%n
+            call scatter(matrix, self%joints%rows_of(i), self%joints%matrix_of(i, self%k_int(:, :, i)))
          end do
          do i = 1, size(locked)
             do j = locked(i), matrix%n
@@ -165,7 +180,37 @@ contains
          end do
          call factorise_skyline(matrix, pivot_tolerance, fault)
       end associate
-   end subroutine form_skyline_structure
+   end subroutine form_structure
+
+
+   subroutine solve(self, x, fault)
+      class(skyline_solver_type), intent(inout) :: self
+      real(wp), intent(inout)                   :: x(:)
+      integer, intent(out)                      :: fault
+
+      fault = 0
+      x(self%locked) = 0.0_wp
+      call solve_skyline(self%structure, x)
+   end subroutine solve
+
+
+   subroutine multiply(self, x, y)
+      class(skyline_solver_type), intent(in) :: self
+      real(wp), intent(in)                   :: x(:)
+      real(wp), intent(inout)                :: y(:)
+
+      call skyline_times_vector(self%body, x, y)
+   end subroutine multiply
+
+
+   subroutine describe(self, description)
+      class(skyline_solver_type), intent(in) :: self
+      type(solver_description), intent(out)  :: description
+
+      description%name = 'SKYLINE'
+      description%words(:2) = [character(40) :: 'PROFILE OF THE STIFFNESS MATRIX, ENTRIES', '   IN THE ORDER OF THE NODE NUMBERS']
+      description%numbers(:2) = [self%profile, self%profile_as_numbered]
+   end subroutine describe
 
 
    !> Add an element matrix to the upper triangle; row 0 is a held component.

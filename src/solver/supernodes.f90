@@ -150,7 +150,7 @@ contains
       type(supernodes_type), intent(inout) :: supers
       logical, intent(in)                  :: keep_last
       integer, allocatable :: candidates(:), next_candidate(:)
-      real(wp) :: pivots, zeros, added, left, most
+      real(wp) :: pivots, zeros, added
       integer  :: c, next, s
       logical  :: merge
 
@@ -184,15 +184,7 @@ contains
             end if
             c = next
          end do
-         left = 0.0_wp
-         most = 0.0_wp
-         c = supers%child(s)
-         do while (c /= 0)
-            most = max(most, left + supers%peak(c))
-            left = left + update_entries(c)
-            c = supers%sibling(c)
-         end do
-         supers%peak(s) = max(most, left + update_entries(s))
+         supers%peak(s) = peak_of(supers, s)
          if (supers%parent(s) > 0) then
             next_candidate(s) = candidates(supers%parent(s))
             candidates(supers%parent(s)) = s
@@ -219,7 +211,7 @@ contains
          before = 0
          at = supers%child(s)
          do while (at /= 0)
-            if (supers%peak(at) - update_entries(at) < supers%peak(new) - update_entries(new)) exit
+            if (supers%peak(at) - update_entries(supers, at) < supers%peak(new) - update_entries(supers, new)) exit
             before = at
             at = supers%sibling(at)
          end do
@@ -231,13 +223,35 @@ contains
          end if
       end subroutine insert
 
-      pure real(wp) function update_entries(of)
-         integer, intent(in) :: of
-
-         update_entries = touched_entries(supers%beyond(of), supers%beyond(of))
-      end function update_entries
-
    end subroutine merge_supernodes
+
+
+   !> Most entries that stand in update matrices while the subtree of S is eliminated, its children in their order.
+   pure real(wp) function peak_of(supers, s) result(peak)
+      type(supernodes_type), intent(in) :: supers
+      integer, intent(in)               :: s
+      real(wp) :: left ! by the children so far
+      integer  :: c
+
+      peak = 0.0_wp
+      left = 0.0_wp
+      c = supers%child(s)
+      do while (c /= 0)
+         peak = max(peak, left + supers%peak(c))
+         left = left + update_entries(supers, c)
+         c = supers%sibling(c)
+      end do
+      peak = max(peak, left + update_entries(supers, s))
+   end function peak_of
+
+
+   !> Entries of the update matrix that S leaves.
+   pure real(wp) function update_entries(supers, s)
+      type(supernodes_type), intent(in) :: supers
+      integer, intent(in)               :: s
+
+      update_entries = touched_entries(supers%beyond(s), supers%beyond(s))
+   end function update_entries
 
 
    !> Entries of P columns of a lower triangle with R rows beyond them.

@@ -4,48 +4,67 @@
 !! joints inside: they stay where the dissection puts them;
 !! joints last in parts: in every subtree up to some size they come last, the bodies are condensed piece by piece.
 module tree_solver
-   use equation_numbering, only: equation_numbers, number_unknowns
+   use equation_solver, only: equation_system, solver_description
    use failures, only: failure_type
-   use front_layout, only: front_layout_type, lay_out_fronts, postpone_joints
-   use front_tree, only: front_tree_type, start_front_tree
+   use conjugate_gradients, only: iterate_moving
+   use earlier_solutions, only: earlier_solutions_type, forget_solutions, guess_solution, note_solution
+   use factor_reuse, only: factor_reuse_type, forget_factor, may_reuse, note_factor, note_failure, note_steps
+   use front_factor, only: add_to_moving, factorise_fixed, factorise_moving
+   use front_layout, only: bytes_needed, choose_layout, front_layout_type
+   use front_solve, only: eliminate_fixed, moving_times_vector, recover_fixed, solve_moving
+   use front_tree, only: front_tree_type, largest_diagonal, start_front_tree
    use kinds, only: long, wp
-   use least_factor, only: least_factor_bytes
    use memory_need, only: check_memory
-   use model_data, only: model_type
+   use model_data, only: model_type, n_bars, n_sections
    use nested_dissection, only: dissect
    use node_graph, only: node_graph_type
    use text_tools, only: integer_text
    implicit none
    private
 
-   public :: start_tree_solver
+   real(wp), parameter :: step_tolerance = 1.0e-13_wp !! of conjugate gradients: share of the energy of the solution, as a length
 
-   real(wp), parameter :: entry_operations = 25.0_wp !! what it costs to move one entry of a front, in operations on it
+   !> What is known of the stiffness now, beside the factor in the fronts.
+   type, public :: moving_factor_type
+      logical :: is_own = .false.                     !! whether the factor is that of the stiffness now, not an earlier one
+      logical :: is_awaited = .false.                 !! whether the one solution that is wanted is still to come
+      real(wp), allocatable :: k_int(:, :, :)         !! (3, 3, n) of interface elements, that the factor is of [force/length]
+      type(factor_reuse_type) :: reuse                !! when to use an earlier one
+      type(earlier_solutions_type) :: earlier         !! with which conjugate gradients begin
+   end type moving_factor_type
 
-   integer, parameter :: part_nodes(3) = [200, 800, 3200] ! sizes of subtrees that are tried
-
-   type, public :: tree_solver_type
-      type(front_tree_type) :: tree
+   type, extends(equation_system), public :: tree_solver_type
+      type(front_tree_type) :: fronts
+      type(moving_factor_type) :: factor          !! of the stiffness with the joints, and what is known of it
       character(:), allocatable :: way            !! in which the joints are laid out
       integer(long) :: factor_entries = 0
       real(wp) :: fixed_operations  = 0.0_wp      !! of one factorisation of the fronts that do not move
       real(wp) :: moving_operations = 0.0_wp      !! of the others, in every increment that factorises
-      real(wp) :: moving_entries = 0.0_wp         !! of the fronts that move
+   contains
+      procedure :: start
+      procedure :: form_bodies
+      procedure :: add_to_bodies
+      procedure :: lock
+      procedure :: condense
+      procedure :: form_structure
+      procedure :: solve
+      procedure :: multiply
+      procedure :: recover
+      procedure :: describe
    end type tree_solver_type
 
 contains
 
-   !> Order, number the unknowns, lay out the fronts for so many FACTORISATIONS with new stiffnesses of the joints.
-   subroutine start_tree_solver(model, graph, in_joint, factorisations, numbers, solver, failure)
+   !> Order, number the unknowns, lay out the fronts for as many factorisations with new stiffnesses of the joints as are expected.
+   !! The equations of the fronts that move are left to the increments.
+   subroutine start(self, model, graph, failure)
+      class(tree_solver_type), intent(inout) :: self
       type(model_type), intent(in)           :: model
       type(node_graph_type), intent(in)      :: graph
-      logical, intent(in)                    :: in_joint(:) !! (n_nodes) whether joints or bolts act on a node
-      integer, intent(in)                    :: factorisations
-      class(equation_numbers), intent(inout) :: numbers
-      type(tree_solver_type), intent(out)    :: solver
       type(failure_type), intent(inout)      :: failure
       type(front_layout_type) :: layout
       integer, allocatable    :: order(:), weight(:)
+      logical, allocatable    :: in_joint(:)
       integer :: i
       logical :: ok
 
@@ -53,82 +72,208 @@ contains
       do i = 1, model%n_nodes
          weight(i) = merge(count(.not. model%held(:, i)), 0, model%used(i))
       end do
-      call check_memory(sum(weight), 1, 'at least', least_factor_bytes(graph, weight), failure)
-      if (failure%raised) return
       call dissect(graph, weight > 0, order, ok)
       if (.not. ok) then
          call failure%raise('no memory to order '//integer_text(count(weight > 0))//' nodes')
          return
       end if
-      call choose_layout(graph, order, weight, in_joint, factorisations, layout, solver%way)
-      call check_memory(sum(weight), model%dimension, 'about', bytes_needed(layout, sum(weight), model%dimension), failure)
+      call mark_joints(model, in_joint)
+      call choose_layout(graph, order, weight, in_joint, self%factorisations, layout, self%way)
+      call check_memory(sum(weight), model%dimension, bytes_needed(layout, sum(weight), model%dimension), failure)
       if (failure%raised) return
-      call number_unknowns(model, layout%order, numbers)
-      call start_front_tree(model, numbers%number, layout, solver%tree)
-      solver%factor_entries = int(layout%factor_entries, long)
-      solver%fixed_operations = layout%fixed_operations
-      solver%moving_operations = layout%moving_operations
-      solver%moving_entries = layout%moving_entries
-   end subroutine start_tree_solver
+      call self%number_unknowns(model, layout%order)
+      call start_front_tree(model, self%number, layout, self%fronts)
+      self%factor_entries = int(layout%factor_entries, long)
+      self%fixed_operations = layout%fixed_operations
+      self%moving_operations = layout%moving_operations
+      call self%factor%reuse%set_costs(layout%moving_operations, layout%moving_entries)
+      self%equations = self%fronts%equations
+      in_joint(self%node(self%equations)) = .true.
+      self%retained = pack([(i, i = 1, model%n_nodes)], in_joint)
+   end subroutine start
 
 
-   !> The LAYOUT with least work for so many FACTORISATIONS, and in words which WAY it has with the joints. Parts are tried only
-   !! where joints inside take less than joints last.
-   subroutine choose_layout(graph, order, weight, in_joint, factorisations, layout, way)
-      type(node_graph_type), intent(in)      :: graph
-      integer, intent(in)                    :: order(:), weight(:), factorisations
-      logical, intent(in)                    :: in_joint(:)
-      type(front_layout_type), intent(inout) :: layout
-      character(:), allocatable, intent(out) :: way
-      integer, allocatable :: postponed(:)
+   !> The nodes whose stiffness changes in the run: those of interface elements, and of bolts.
+   subroutine mark_joints(model, in_joint)
+      type(model_type), intent(in)      :: model
+      logical, allocatable, intent(out) :: in_joint(:) !! (n_nodes)
       integer :: i
 
-      way = 'LAST'
-      call lay_out_fronts(graph, order, weight, in_joint, .true., layout)
-      call compare_with(order, 'INSIDE')
-      if (way == 'LAST') return
-      do i = 1, size(part_nodes)
-         postponed = order
-         call postpone_joints(graph, in_joint, part_nodes(i), postponed)
-         call compare_with(postponed, 'LAST IN PARTS')
+      allocate (in_joint(model%n_nodes), source=.false.)
+      do i = 1, size(model%interface)
+         in_joint(model%interface(i)%node) = .true.
       end do
-
-   contains
-
-      subroutine compare_with(other, its_way)
-         integer, intent(in)      :: other(:)
-         character(*), intent(in) :: its_way
-         type(front_layout_type)  :: candidate
-
-         call lay_out_fronts(graph, other, weight, in_joint, .false., candidate)
-         if (total_work(candidate, factorisations) >= total_work(layout, factorisations)) return
-         layout = candidate
-         way = its_way
-      end subroutine compare_with
-
-   end subroutine choose_layout
+      do i = 1, n_bars(model)
+         in_joint(model%bars(i)%nodes) = .true.
+      end do
+      do i = 1, n_sections(model)
+         in_joint(model%sections(i)%node) = .true.
+      end do
+   end subroutine mark_joints
 
 
-   !> Operations of the whole run.
-   pure real(wp) function total_work(layout, factorisations)
-      type(front_layout_type), intent(in) :: layout
-      integer, intent(in)                 :: factorisations
+   !> [k_b]; the fronts that do not move are eliminated.
+   subroutine form_bodies(self, model, fault)
+      class(tree_solver_type), intent(inout) :: self
+      type(model_type), intent(in)           :: model
+      integer, intent(out)                   :: fault
 
-      total_work = layout%fixed_operations &
-                   + factorisations*(layout%moving_operations + entry_operations*layout%moving_entries)
-   end function total_work
+      call factorise_fixed(model, self%fronts, fault)
+      if (fault == 0) self%stiffest = largest_diagonal(self%fronts)
+   end subroutine form_bodies
 
 
-   !> The factor; what moving fronts begin with: what is left to them, and elements, which are kept entry by entry and with two
-   !! indices, those of a regular mesh; the update matrices on the way.
-   pure real(wp) function bytes_needed(layout, n, dimension)
-      type(front_layout_type), intent(in) :: layout
-      integer, intent(in)                 :: n         !! unknowns
-      integer, intent(in)                 :: dimension
-      real(wp) :: of_elements
+   subroutine add_to_bodies(self, rows, k)
+      class(tree_solver_type), intent(inout) :: self
+      integer, intent(in)                    :: rows(:)
+      real(wp), intent(in)                   :: k(:, :)
 
-      of_elements = 0.5_wp*dimension*3**dimension*n
-      bytes_needed = 8.0_wp*(layout%panel_entries + layout%peak_entries) + 16.0_wp*(layout%kept_entries + of_elements)
-   end function bytes_needed
+      call add_to_moving(self%fronts, rows, k)
+      call forget(self)
+   end subroutine add_to_bodies
+
+
+   subroutine lock(self, equation)
+      class(tree_solver_type), intent(inout) :: self
+      integer, intent(in)                    :: equation
+
+      self%locked = [self%locked, equation]
+      self%fronts%locked(equation) = .true.
+      call forget(self)
+   end subroutine lock
+
+
+   !> What the fronts that move feel of F; at the other equations L y = f, for recover.
+   subroutine condense(self, f, x)
+      class(tree_solver_type), intent(in) :: self
+      real(wp), intent(in)                :: f(:)
+      real(wp), intent(out)               :: x(:)
+
+      x = f
+      call eliminate_fixed(self%fronts, x)
+   end subroutine condense
+
+
+   !> Factorise the fronts that move with the joints as they are now, unless an earlier factor may do.
+   subroutine form_structure(self, fault)
+      class(tree_solver_type), intent(inout) :: self
+      integer, intent(out)                   :: fault
+      logical :: reuse
+
+      fault = 0
+      reuse = .false.
+      associate (factor => self%factor)
+         if (self%one_solution) call may_reuse(factor%reuse, reuse)
+         factor%is_awaited = self%one_solution .and. factor%reuse%most_steps > 0
+         factor%is_own = .false.
+      end associate
+      if (.not. reuse) call factorise(self, fault)
+   end subroutine form_structure
+
+
+   subroutine factorise(self, fault)
+      class(tree_solver_type), intent(inout) :: self
+      integer, intent(out)                   :: fault
+
+      call factorise_moving(self%fronts, self%k_int, fault)
+      self%factor%is_own = fault == 0
+      if (fault == 0) then
+         self%factor%k_int = self%k_int
+         call note_factor(self%factor%reuse)
+      else
+         call forget_factor(self%factor%reuse)
+      end if
+   end subroutine factorise
+
+
+   !> By the factor; where that is an earlier one by conjugate gradients, and only where these do not get there by a new factor.
+   subroutine solve(self, x, fault)
+      class(tree_solver_type), intent(inout) :: self
+      real(wp), intent(inout)                :: x(:)
+      integer, intent(out)                   :: fault
+      real(wp) :: b(size(self%equations))
+      logical  :: found
+
+      fault = 0
+      b = x(self%equations)
+      found = .false.
+      if (.not. self%factor%is_own) then
+         call iterate(self, b, x, found)
+         if (.not. found) call factorise(self, fault)
+         if (fault /= 0) return
+      end if
+      if (.not. found) then
+         x(self%equations) = b
+         x(self%locked) = 0.0_wp
+         call solve_moving(self%fronts, x)
+      end if
+      if (self%factor%is_awaited) call note_solution(self%fronts, self%k_int, b, x, self%factor%earlier)
+      self%factor%is_awaited = .false.
+   end subroutine solve
+
+
+   !> Conjugate gradients with the factor there is; whether the solution is FOUND in time.
+   subroutine iterate(self, b, x, found)
+      class(tree_solver_type), intent(inout) :: self
+      real(wp), intent(in)                   :: b(:)
+      real(wp), intent(inout)                :: x(:)
+      logical, intent(out)                   :: found
+      real(wp) :: residual(self%n), work
+      integer  :: steps
+
+      associate (factor => self%factor)
+         call guess_solution(self%fronts, self%k_int, factor%earlier, b, x, residual, work)
+         call iterate_moving(self%fronts, self%k_int - factor%k_int, work, step_tolerance, factor%reuse%most_steps, residual, x, &
+                             steps)
+         found = steps <= factor%reuse%most_steps
+         if (found) then
+            call note_steps(factor%reuse, steps)
+         else
+            call note_failure(factor%reuse)
+         end if
+      end associate
+   end subroutine iterate
+
+
+   !> The bodies, or what is held, are others now: neither the factor nor solutions are of use any more.
+   subroutine forget(self)
+      class(tree_solver_type), intent(inout) :: self
+
+      call forget_factor(self%factor%reuse)
+      call forget_solutions(self%factor%earlier)
+   end subroutine forget
+
+
+   subroutine multiply(self, x, y)
+      class(tree_solver_type), intent(in) :: self
+      real(wp), intent(in)                :: x(:)
+      real(wp), intent(inout)             :: y(:)
+
+      call moving_times_vector(self%fronts, x, y)
+   end subroutine multiply
+
+
+   !> L^T x = y in the fronts that do not move.
+   subroutine recover(self, u, x)
+      class(tree_solver_type), intent(in) :: self
+      real(wp), intent(in)                :: u(:)
+      real(wp), intent(inout)             :: x(:)
+
+      x(self%equations) = u(self%equations)
+      call recover_fixed(self%fronts, x)
+   end subroutine recover
+
+
+   subroutine describe(self, description)
+      class(tree_solver_type), intent(in)   :: self
+      type(solver_description), intent(out) :: description
+
+      description%name = 'TREE, JOINTS '//self%way
+      description%words = [character(40) :: 'FRONTS', 'ENTRIES OF THE FACTOR', 'UNKNOWNS LEFT AFTER CONDENSATION']
+      description%numbers = [size(self%fronts%fronts, kind=long), self%factor_entries, size(self%equations, kind=long)]
+      description%fixed_operations = self%fixed_operations
+      description%moving_operations = self%moving_operations
+      description%assembly_time = self%fronts%assembly_time
+   end subroutine describe
 
 end module tree_solver

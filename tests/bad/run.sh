@@ -4,8 +4,7 @@
 #
 #     run.sh PROGRAM
 #
-# Every NAME.bdf here has one fault (its first line says which) and a NAME.expected: the exit status, then fragments
-# of text that must stand in what the program says; a fragment that ends in `line 9` is not met by `line 99`.
+# The decks come out of the tables of this folder (README.md), the commands are those of commands.sh.
 # Ends with "N passed, N failed"; exit status 1 if anything failed, 2 wrong usage.
 set -u
 export LC_ALL=C
@@ -70,6 +69,9 @@ check() {
    pass
 }
 
+# prints WHAT PATTERN: the standard output of the last run has such a line
+prints() { if grep -q "$2" "$work/stdout"; then pass; else fail "$1: no line '$2' on the standard output"; fi; }
+
 # holds FOLDER WHAT FILES...: exactly these files are in FOLDER
 holds() {
    local folder=$1 what=$2 found
@@ -82,17 +84,22 @@ holds() {
 
 fresh() { rm -rf "$1"; mkdir "$1"; }
 
-# ---- every deck of this folder ----
+# ---- the decks of the tables ----
 
 mkdir "$work/decks"
-cp "$here"/*.bdf "$here"/*.inc "$work/decks"
+cd "$here" || exit 2
+cp ./*.inc "$work/decks"
+awk -v bases=base -v into="$work/decks" -f expand.awk *.table 2>"$work/stderr" || fail 'the tables'
+for deck in base/*.bdf; do
+   run --check "$deck"
+   [ "$status" -eq 0 ] || fail "$deck, on which bad decks stand, is not good itself"
+done
 cd "$work/decks" || exit 2
 
 # check_deck NAME: run it where results of an earlier run lie, and look at everything
 check_deck() {
    local name=$1 expected missing
-   if [ ! -f "$here/$name.expected" ]; then fail "$name: there is no $name.expected"; return; fi
-   expected=$(sed -n '1s/^status //p' "$here/$name.expected")
+   read -r _ expected < "$name.expected"
    fresh ../results
    echo old > "../results/$name.out"
    echo old > "../results/$name.joint.csv"
@@ -102,306 +109,17 @@ check_deck() {
    if [ -n "$(unseemly)" ]; then fail "$name: it says '$(unseemly)'"; return; fi
    if [ -s "$work/stdout" ]; then fail "$name: text on the standard output"; return; fi
    if [ "$expected" -eq 2 ] && [ -n "$(wrong_numbers)" ]; then fail "$name: $(wrong_numbers)"; return; fi
-   missing=$(missing_fragment "$here/$name.expected")
+   missing=$(missing_fragment "$name.expected")
    if [ -n "$missing" ]; then fail "$name: the message lacks '$missing'"; return; fi
    if [ -n "$(ls -A ../results)" ]; then fail "$name: files left: $(ls -A ../results | tr '\n' ' ')"; return; fi
    pass
 }
 
 for deck in *.bdf; do check_deck "${deck%.bdf}"; done
-for expected in "$here"/*.expected; do
-   [ -f "${expected%.expected}.bdf" ] || fail "$(basename "$expected") has no deck"
-done
 
-# ---- the command line ----
+# ---- commands ----
 
-mkdir "$work/command"
-cd "$work/command" || exit 2
-cat > good.bdf <<'END'
-$ a plate on a rigid base, pressed down
-SPC = 1
-SUBCASE 1
-  LOAD = 10
-  INCR = 5
-BEGIN BULK
-GRID    1               0.0     0.0
-GRID    2               10.0    0.0
-GRID    3               10.0    5.0
-GRID    4               0.0     5.0
-CQUAD4  1       1       1       2       3       4
-CBAR    2       20      1       2
-PMARK   20
-PSHELL  1       1       2.0
-MAT1    1       9500.0          0.25
-JOINT   1       1       20
-PJOINT  1       1
-JNORM   1       8.0-3   0.5
-SPC1    1       1       1       2
-FORCE   10      3               50.0    0.0     -1.0
-FORCE   10      4               50.0    0.0     -1.0
-JINCR   5       20      ARITH   0.02
-ENDDATA
-END
-sed 's/^GRID    1  /GRID    1O /' good.bdf > faulty.bdf
-sed 's/^SPC1/$&/; s/^SPC = 1/LABEL = FREE/' good.bdf > free.bdf
-cp good.bdf other.bdf
-mkdir results
-
-run;                                  check 'no deck' 1 'no deck given'
-run -q;                               check 'options, no deck' 1 'no deck given'
-run --quick good.bdf;                 check 'unknown option' 1 '--quick'
-run -x good.bdf;                      check 'unknown short option' 1 '-x'
-for n in 0 -1 x 1.5 '' 99999999999; do
-   run --threads "$n" good.bdf;       check "--threads '$n'" 1 '--threads' 'expected a number of 1 or more'
-done
-run good.bdf --threads;               check '--threads without value' 1 '--threads needs a value'
-run good.bdf -o;                      check '-o without value' 1 '-o needs a value'
-run -o results nowhere.bdf;           check 'missing file' 1 'nowhere.bdf: no such file'
-run -o results '';                    check 'empty name' 1
-run -o results results;               check 'a directory as deck' 1 'results' 'a directory'
-if [ "$(id -u)" -ne 0 ]; then
-   cp good.bdf locked.bdf; chmod 000 locked.bdf
-   run -o results locked.bdf;         check 'a deck that may not be read' 1 'locked.bdf: cannot be read'
-   rm -f locked.bdf
-fi
-holds results 'no file after wrong commands'
-holds . 'none here either' faulty.bdf free.bdf good.bdf other.bdf results
-
-for option in --help -h; do
-   run "$option"; check "$option" 0
-   if grep -q '^usage: jointfem' "$work/stdout" && [ ! -s "$work/stderr" ]; then pass; else fail "$option: no usage on the standard output"; fi
-done
-run --version; check '--version' 0
-if grep -qE '^jointfem [0-9]+\.[0-9]+' "$work/stdout"; then pass; else fail '--version: no version'; fi
-
-run --check -o results good.bdf;      check '--check of a good deck' 0
-if grep -q '^good.bdf: no errors' "$work/stdout"; then pass; else fail '--check: it does not say that there are no errors'; fi
-run --check -o results faulty.bdf;    check '--check of a faulty deck' 2 'DECK ERROR 1 OF' 'faulty.bdf, line 7'
-run --check -o results faulty.bdf good.bdf; check '--check of two decks' 2 'faulty.bdf, line 7'
-if grep -q '^good.bdf: no errors' "$work/stdout"; then pass; else fail '--check: the second deck was not checked'; fi
-holds results '--check writes nothing'
-
-# ---- two decks, one name; results over a deck ----
-
-mkdir one two
-cp good.bdf one/beam.bdf; cp good.bdf two/beam.bdf; cp good.bdf one/beam.dat
-run -o results one/beam.bdf two/beam.bdf; check 'two decks of one name' 1 'one/beam.bdf' 'two/beam.bdf'
-run -o results one/beam.bdf one/beam.dat; check 'two decks that differ in the extension' 1 'one/beam.dat'
-run -o results good.bdf good.bdf;     check 'the same deck twice' 1 'good.bdf'
-cp good.bdf one/beam.1.bdf; cp good.bdf two/beam.12.joint.bdf; cp good.bdf one/beam.joint.bdf; cp good.bdf one/beam.1a.bdf
-run -o results one/beam.bdf one/beam.1.bdf; check 'a deck named as a stage of another' 1 'one/beam.bdf and one/beam.1.bdf could both write results/beam.1.vtu'
-run -o results two/beam.12.joint.bdf good.bdf one/beam.bdf; check 'a deck named as the joint of a stage' 1 'both write results/beam.12.joint.vtu'
-run -o results one/beam.bdf one/beam.joint.bdf; check 'a deck named as the joint of another' 1 'both write results/beam.joint.vtu'
-holds results 'no file after decks of one name'
-run -o results one/beam.bdf one/beam.1a.bdf good.bdf; check 'decks named nearly as a stage' 0
-fresh results
-
-# unharmed WHAT DECK ARGUMENTS: a command whose results would go over the file DECK is refused and DECK stays as it is
-unharmed() {
-   local what=$1 deck=$2
-   shift 2
-   fresh over
-   cp good.bdf over/good.bdf
-   cp "${from:-good.bdf}" "over/$deck"
-   cp "over/$deck" over.copy
-   ln -s . over/link
-   cd over || exit 2
-   run "$@"
-   cd ..
-   if ! cmp -s over.copy "over/$deck"; then fail "$what: the deck is destroyed (exit status $status)"
-   else check "$what" 1
-   fi
-}
-unharmed 'a deck beam.out' beam.out beam.out
-unharmed 'a deck ./beam.out' beam.out ./beam.out
-unharmed '-o . beam.out' beam.out -o . beam.out
-unharmed 'a deck link/beam.out' beam.out link/beam.out
-unharmed '-o link beam.out' beam.out -o link beam.out
-unharmed 'a deck good.out beside good.bdf' good.out good.bdf ./good.out
-unharmed 'a deck beam.vtu' beam.vtu beam.vtu
-unharmed 'a deck good.2.joint.vtu beside good.bdf' good.2.joint.vtu good.bdf good.2.joint.vtu
-unharmed 'a deck beam.pvd' beam.pvd -o link ./beam.pvd
-from=faulty.bdf unharmed 'a faulty deck ./beam.out' beam.out ./beam.out
-for included in mesh.1.vtu mesh.out; do
-   fresh over
-   grep GRID good.bdf > over/$included
-   sed "s/^GRID    1 .*/INCLUDE '$included'/; /^GRID/d" good.bdf > over/mesh.bdf
-   cp over/$included over.copy
-   cd over || exit 2
-   run mesh.bdf
-   cd ..
-   if ! cmp -s over.copy over/$included; then fail "an INCLUDE file $included: it is destroyed"
-   else check "an INCLUDE file $included" 1 "would overwrite the INCLUDE file $included"
-   fi
-done
-
-# ---- what an earlier run left ----
-
-for bad in faulty free; do
-   fresh results
-   cp good.bdf beam.bdf
-   run -o results beam.bdf;           check 'a good deck' 0
-   holds results 'results of a good deck' beam.joint.csv beam.out
-   cp $bad.bdf beam.bdf
-   run --check -o results beam.bdf
-   holds results "--check of a $bad deck removes nothing" beam.joint.csv beam.out
-   run -o results beam.bdf
-   if [ "$status" -eq 2 ] || [ "$status" -eq 3 ]; then pass; else fail "$bad.bdf: exit status $status"; fi
-   holds results "$bad.bdf: the results of an earlier run are removed"
-done
-rm -f beam.bdf
-
-# ---- several decks: all run, the highest status counts ----
-
-fresh results
-run -o results nowhere.bdf good.bdf;  check 'a missing deck and a good one' 1 'nowhere.bdf'
-holds results 'the good deck ran' good.joint.csv good.out
-fresh results
-run -o results free.bdf faulty.bdf nowhere.bdf good.bdf other.bdf
-check 'five decks' 3 'free.bdf' 'mechanism' 'faulty.bdf, line 7' 'nowhere.bdf: no such file'
-holds results 'the good ones of five ran' good.joint.csv good.out other.joint.csv other.out
-fresh results
-run -o results good.bdf faulty.bdf;   check 'a good deck and a faulty one' 2
-cp good.bdf ./-beam.bdf
-run -o results -- -beam.bdf;          check 'a deck behind --' 0
-holds results 'results of a deck behind --' -beam.joint.csv -beam.out good.joint.csv good.out
-rm -f ./-beam.bdf
-
-# ---- standard input and output ----
-
-fresh results
-fresh here
-cd here || exit 2
-run - < ../good.bdf;                  check 'a deck from the standard input' 0
-cp "$work/stdout" ../listing
-run - < ../faulty.bdf;                check 'a faulty deck from the standard input' 2 'DECK ERROR 1 OF' 'line 7'
-run - < ../free.bdf;                  check 'a mechanism from the standard input' 3 'mechanism'
-if [ -s "$work/stdout" ]; then fail 'a mechanism from the standard input: a listing all the same'; else pass; fi
-run - < /dev/null;                    check 'an empty standard input' 2 'empty'
-run - <&-;                            check 'a closed standard input' 1
-cd ..
-holds here 'a deck from the standard input writes no files'
-run -o results good.bdf
-if [ -s listing ] && cmp -s listing results/good.out; then pass; else fail 'the listing on the standard output is not that of the file'; fi
-cp over/mesh.bdf include.bdf
-cp over.copy mesh.out
-run - < include.bdf;                  check 'INCLUDE in a deck from the standard input: relative to the current folder' 0
-rm -f include.bdf mesh.out
-
-# full ARGUMENTS: like run, onto a standard output that is full
-full() { timeout 60 "$program" "$@" >/dev/full 2>"$work/stderr"; status=$?; }
-full - < good.bdf;                    check 'a full standard output' 4 'cannot be written'
-full --check good.bdf;                check 'a full standard output, --check' 4
-full --help;                          check 'a full standard output, --help' 4
-full --version;                       check 'a full standard output, --version' 4
-timeout 60 "$program" - < good.bdf >&- 2>"$work/stderr"; status=$?
-check 'a closed standard output' 4
-timeout 60 "$program" faulty.bdf 2>/dev/full; status=$?
-: > "$work/stderr"
-check 'a full standard error' 2
-
-# ---- output that cannot be written ----
-
-fresh results
-run -o nowhere good.bdf;              check 'a folder that is not there' 4 'nowhere/good.out'
-run -o good.bdf good.bdf;             check 'a file for a folder' 4
-cmp -s good.bdf other.bdf || fail 'a file for a folder: the deck is destroyed'
-mkdir results/good.out
-run -o results good.bdf;              check 'a folder of the name of the listing' 4
-holds results 'and no other file' good.out
-fresh results
-mkdir -p results/good.joint.csv/kept
-run -o results good.bdf;              check 'a folder of the name of the history' 4
-holds results 'and no other file again' good.joint.csv
-if [ "$(id -u)" -ne 0 ]; then
-   fresh results
-   chmod 500 results
-   run -o results good.bdf;           check 'a folder that may not be written to' 4
-   holds results 'a folder that may not be written to' ''
-   chmod 700 results
-fi
-
-# A full disk: a file system of SIZE in memory, where users may mount one. All or nothing, and not all in 4 kilobytes.
-fresh results
-run -o results good.bdf
-if unshare -rm mount -t tmpfs -o size=4k none results 2>/dev/null; then
-   for size in 4k 8k 12k 16k 20k 24k 64k; do
-      fresh disk
-      fresh kept
-      status=$(unshare -rm bash -c 'mount -t tmpfs -o size="$1" none disk
-         timeout 60 "$2" -o disk good.bdf >/dev/null 2>"$3"; echo $?
-         cp -R disk/. kept' - "$size" "$program" "$work/stderr")
-      if [ "$status" = 4 ] && [ -z "$(ls -A kept)" ] && grep -q 'cannot be written' "$work/stderr"; then pass
-      elif [ "$status" = 0 ] && [ "$size" != 4k ] && diff -r results kept >/dev/null; then pass
-      else fail "a disk of $size: exit status $status with $(ls -A kept | tr '\n' ' ')"
-      fi
-   done
-   rm -rf disk kept
-else
-   echo 'skipped: a full disk (no user may mount a file system here)'
-fi
-
-# ---- an interrupted run ----
-
-fresh results
-sed -e 's/^GRID.*//; s/^CQUAD4.*/BLOCK2  1       1       100     60      0.0     0.0/
-   s/^CBAR.*/+       150.0   100.0\n+       20/; s/^SPC1.*/SPCM    1       1       20/
-   s/^FORCE.* 3 .*/FORCE   10      61              50.0    0.0     -1.0/; s/^FORCE.* 4 .*//
-   s/^JINCR.*/JINCR   5       10000   ARITH   1.0-4/' good.bdf > long.bdf
-"$program" -o results long.bdf >"$work/stdout" 2>"$work/stderr" &
-runner=$!
-for ((i = 0; i < 200; i++)); do
-   [ -n "$(find results -name '*.part' -size +8k)" ] && break
-   kill -0 $runner 2>/dev/null || break
-   sleep 0.05
-done
-kill -9 $runner 2>/dev/null
-{ wait $runner; status=$?; } 2>/dev/null
-check 'a run that is killed' 137
-if ls -A results | grep -q '\.part$'; then pass; else fail 'a run that is killed: it had not begun to write'; fi
-if ls -A results | grep -q -v '\.part$'; then fail "a run that is killed: it left $(ls -A results | tr '\n' ' ')"; else pass; fi
-sed 's/10000   ARITH   1.0-4/2/' long.bdf > short.bdf
-mv short.bdf long.bdf
-run -o results long.bdf;              check 'the same deck again, with fewer increments' 0
-holds results 'the same deck again' long.joint.csv long.out
-
-# ---- lines of 100 megabytes, many files ----
-
-# long_line WHAT STATUS LARGEST_MESSAGE: run long.bdf, which must end in 30 seconds with a message that can be read
-long_line() {
-   timeout 30 "$program" -o results long.bdf >"$work/stdout" 2>"$work/stderr"; status=$?
-   if [ "$(wc -c < "$work/stderr")" -gt 100000 ]; then
-      fail "$1: exit status $status, a message of $(wc -c < "$work/stderr") bytes" 2>/dev/null
-      return
-   fi
-   check "$1" 2 'DECK ERROR 1 OF' "$2"
-}
-letters() { head -c 100000000 /dev/zero | tr '\0' "$1"; }
-fresh results
-{ echo '$ a long key'; letters A; echo; cat good.bdf; } > long.bdf
-long_line 'a line of 100 MB in case control' 'long.bdf, line 2'
-{ sed '/^PMARK/,$d' good.bdf; printf 'PMARK   20      '; letters A; echo; sed '1,/^PMARK/d' good.bdf; } > long.bdf
-long_line 'a card of 100 MB' 'past column 80'
-{ sed '/^PMARK/,$d' good.bdf; printf 'PMARK,20'; letters ,; echo; sed '1,/^PMARK/d' good.bdf; } > long.bdf
-long_line 'a card of 100 million commas' 'more than 8 entries'
-{ sed '/^PMARK/q' good.bdf; printf 'INCLUDE '; letters A; echo; sed '1,/^PMARK/d' good.bdf; } > long.bdf
-long_line 'an INCLUDE of 100 MB' 'INCLUDE'
-letters A > long.bdf
-long_line 'a file of 100 MB in one line' 'DECK ERROR'
-rm -f long.bdf
-holds results 'no file after long lines'
-
-for ((i = 1; i <= 30; i++)); do echo "INCLUDE 'deep$((i + 1)).inc'" > deep$i.inc; done
-echo '$ the end' > deep31.inc
-sed "/^PMARK/a INCLUDE 'deep1.inc'" good.bdf > deep.bdf
-run -o results deep.bdf;              check 'INCLUDE 30 deep' 2 'INCLUDE'
-echo '$ nothing' > nothing.inc
-{ sed '/^PMARK/q' good.bdf; for ((i = 1; i <= 700; i++)); do echo "INCLUDE 'nothing.inc'"; done; sed '1,/^PMARK/d' good.bdf; } > many.bdf
-run -o results many.bdf;              check '700 INCLUDE files' 2 'INCLUDE'
-{ sed '/^PMARK/q' good.bdf; for ((i = 1; i <= 3000; i++)); do echo "RBE2    $i"; done; sed '1,/^PMARK/d' good.bdf; } > many.bdf
-run -o results many.bdf;              check '3000 errors' 2 'DECK ERROR 1 OF 3000' 'DECK ERROR 200 OF 3000'
-if [ -z "$(wrong_numbers)" ]; then pass; else fail "3000 errors: $(wrong_numbers)"; fi
-holds results 'no file after many INCLUDEs'
+. "$here/commands.sh"
 
 echo "$passed passed, $failed failed"
 [ "$failed" -eq 0 ]

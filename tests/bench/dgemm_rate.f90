@@ -3,7 +3,7 @@
 program dgemm_rate
    use, intrinsic :: iso_c_binding, only: c_associated, c_char, c_f_pointer, c_int, c_ptr
    use blas_lapack, only: dgemm
-   use command_tools, only: use_threads
+   use machine, only: use_threads
    use kinds, only: long, wp
    implicit none
    integer, parameter :: n = 2000, repeats = 5

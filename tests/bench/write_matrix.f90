@@ -16,7 +16,7 @@
 program write_matrix
    use, intrinsic :: iso_fortran_env, only: error_unit
    use body_elements, only: element_stiffness
-   use command_tools, only: argument_text
+   use command_arguments, only: argument_text
    use deck_errors, only: deck_error_list
    use deck_input, only: deck_type, read_deck
    use element_kinds, only: max_dofs
@@ -116,7 +116,9 @@ contains
       do i = 1, size(model%interface)
          associate (element => model%interface(i))
             state = element_state()
-            call element_stiffness_of(model%joints(element%joint)%law, element%area, [0.0_wp, 0.0_wp, 0.0_wp], state, k_int)
+            state%normal%p_av = model%joints(element%joint)%p_av
+            call element_stiffness_of(model%joints(element%joint)%law, element%area, .false., [0.0_wp, 0.0_wp, 0.0_wp], state, &
+                                      k_int)
             k_global = matmul(element%axes*spread(k_int, 1, 3), transpose(element%axes))
             k(:d, :d) = k_global(:d, :d)
             k(d + 1:2*d, d + 1:2*d) = k_global(:d, :d)

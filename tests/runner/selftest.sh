@@ -31,10 +31,13 @@ FFLAGS_CHECKED  := -O1 -g -std=f2018 -Wall -Wextra -fcheck=all -ffpe-trap=invali
 BUILD           := build
 CHECKED_MODULES := build/checked
 CHECKED_LIBRARY := build/checked/libsubject.a
+CHECKED_OBJECTS := build/checked/subject.o
 PF_FILES        := \$(sort \$(wildcard tests/unit/*.pf))
 include $here/unit_tests.mk
-\$(CHECKED_LIBRARY): src/subject.f90
-	mkdir -p \$(@D) && \$(FC) \$(FFLAGS_CHECKED) -J\$(@D) -c \$< -o \$(@D)/subject.o && ar rcs \$@ \$(@D)/subject.o
+\$(CHECKED_OBJECTS): src/subject.f90
+	mkdir -p \$(@D) && \$(FC) \$(FFLAGS_CHECKED) -J\$(@D) -c \$< -o \$@
+\$(CHECKED_LIBRARY): \$(CHECKED_OBJECTS)
+	ar rcs \$@ \$<
 END
 
 # Write a test file from the routines on standard input; its first line becomes line 10.
@@ -366,6 +369,16 @@ END
    run
    check "$runner: a changed file is built" shows test_other
    check "$runner: nothing else is built" lacks "-o build/unit-$runner/test_case.o"
+   touch src/subject.f90
+   run
+   check "$runner: what uses a changed module is built" shows "-o build/unit-$runner/test_case.o"
+   sed -i 's/subroutine unused/subroutine also_unused/; s/call quit/call unused/; s/use subject.*/use test_case, only: unused/' \
+      tests/unit/test_other.pf
+   run
+   touch $pf
+   run
+   check "$runner: what uses a changed test file is built" shows "-o build/unit-$runner/test_other.o"
+   check "$runner: and runs" ended '2 passed, 0 failed' success
    rm tests/unit/test_other.pf
    run
    check "$runner: a file is gone" ended '1 passed, 0 failed' success

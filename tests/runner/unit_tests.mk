@@ -4,9 +4,10 @@
 #    make unit-test RUNNER=fallback    the translator and the module funit beside this file
 #    make unit-test RUNNER=pfunit      the pFUnit that is installed under PFUNIT_DIR
 #
-# The including makefile sets, above the include, FC, FFLAGS_CHECKED, BUILD, PF_FILES, CHECKED_LIBRARY, CHECKED_MODULES and
-# LIBRARIES, and names its own default target; it has a rule for CHECKED_LIBRARY. The run fails when a test fails, when none
-# ran, when fewer ran than are written, and when the program ends before its summary. The last line is `N passed, N failed`.
+# The including makefile sets, above the include, FC, FFLAGS_CHECKED, BUILD, PF_FILES, CHECKED_LIBRARY, its CHECKED_OBJECTS, their
+# folder CHECKED_MODULES and LIBRARIES, and names its own default target; it has a rule for CHECKED_LIBRARY. The run fails when a
+# test fails, when none ran, when fewer ran than are written, and when the program ends before its summary. The last line is
+# `N passed, N failed`.
 
 AWK ?= awk
 RUNNER ?= $(if $(PFUNIT_DIR),pfunit,fallback)
@@ -16,7 +17,8 @@ UNIT_FOLDER  := $(BUILD)/unit-$(RUNNER)
 UNIT_PROGRAM := $(UNIT_FOLDER)/unit_tests
 UNIT_NAMES   := $(notdir $(basename $(PF_FILES)))
 UNIT_OBJECTS := $(UNIT_NAMES:%=$(UNIT_FOLDER)/%.o)
-UNIT_HELPERS := $(patsubst tests/unit/%.f90,$(UNIT_FOLDER)/%.o,$(sort $(wildcard tests/unit/*.f90)))
+UNIT_SHARED  := $(sort $(wildcard tests/unit/*.f90))
+UNIT_HELPERS := $(UNIT_SHARED:tests/unit/%.f90=$(UNIT_FOLDER)/%.o)
 UNIT_COMPILE  = $(FC) $(FFLAGS_CHECKED) -ffree-line-length-none -J$(UNIT_FOLDER)
 UNIT_CHECK    = $(AWK) -f $(UNIT_RUNNER)/pf_to_fortran.awk
 
@@ -46,21 +48,25 @@ export UNIT_REPORT
 unit-test: $(UNIT_PROGRAM)
 	@written=$$(cat /dev/null $(PF_FILES) | \
 	   $(AWK) 'tolower($$1) == "@test" { n++ } tolower($$1) == "@disable" { n-- } END { print n + 0 }'); \
-	status=0; $(UNIT_PROGRAM) > $(UNIT_FOLDER)/unit_tests.log 2>&1 || status=$$?; \
+	scratch=$$(mktemp -d $(UNIT_FOLDER)/scratch.XXXXXX); trap 'rm -rf $$scratch' EXIT; \
+	status=0; UNIT_SCRATCH=$$scratch $(UNIT_PROGRAM) > $(UNIT_FOLDER)/unit_tests.log 2>&1 || status=$$?; \
 	$(AWK) -v written=$$written -v status=$$status "$$UNIT_REPORT" $(UNIT_FOLDER)/unit_tests.log
 
 $(UNIT_FOLDER):
 	@mkdir -p $@
 
 # Modules that several test files use.
-$(UNIT_HELPERS): $(UNIT_FOLDER)/%.o: tests/unit/%.f90 $(CHECKED_LIBRARY) | $(UNIT_FOLDER)
+$(UNIT_HELPERS): $(UNIT_FOLDER)/%.o: tests/unit/%.f90 | $(UNIT_FOLDER) $(CHECKED_LIBRARY)
 	$(UNIT_COMPILE) -I$(CHECKED_MODULES) -c $< -o $@
-$(UNIT_FOLDER)/changed_joints.o: $(UNIT_FOLDER)/deck_models.o
 
-$(UNIT_OBJECTS): $(UNIT_HELPERS)
-# What reads .vtu files back and what solves a model are written once.
-$(UNIT_FOLDER)/test_vtu_results.o: $(UNIT_FOLDER)/test_vtu_file.o
-$(UNIT_FOLDER)/test_patch_decks.o $(UNIT_FOLDER)/test_bolted_decks.o: $(UNIT_FOLDER)/test_solid_model.o
+# An object waits for the library, and is made anew for the modules alone that it uses.
+$(UNIT_FOLDER)/dependencies.mk: $(PF_FILES) $(UNIT_SHARED) $(UNIT_RUNNER)/dependencies.awk | $(UNIT_FOLDER)
+	@$(AWK) -v folder=$(UNIT_FOLDER) -v objects='$(UNIT_OBJECTS) $(UNIT_HELPERS) $(CHECKED_OBJECTS)' \
+	   -f $(UNIT_RUNNER)/dependencies.awk /dev/null $(PF_FILES) $(UNIT_SHARED) > $@
+
+ifneq ($(MAKECMDGOALS),clean)
+-include $(UNIT_FOLDER)/dependencies.mk
+endif
 
 ifeq ($(RUNNER),fallback)
 
@@ -68,7 +74,7 @@ ifeq ($(RUNNER),fallback)
 $(UNIT_NAMES:%=$(UNIT_FOLDER)/%.f90): $(UNIT_FOLDER)/%.f90: tests/unit/%.pf $(UNIT_RUNNER)/pf_to_fortran.awk | $(UNIT_FOLDER)
 	@$(UNIT_CHECK) $< > $@.part && mv $@.part $@
 
-$(UNIT_OBJECTS): $(UNIT_FOLDER)/%.o: $(UNIT_FOLDER)/%.f90 $(UNIT_FOLDER)/funit.o $(CHECKED_LIBRARY)
+$(UNIT_OBJECTS): $(UNIT_FOLDER)/%.o: $(UNIT_FOLDER)/%.f90 $(UNIT_FOLDER)/funit.o | $(CHECKED_LIBRARY)
 	$(UNIT_COMPILE) -I$(CHECKED_MODULES) -c $< -o $@
 
 $(UNIT_FOLDER)/funit.o: $(UNIT_RUNNER)/funit.f90 | $(UNIT_FOLDER)
@@ -103,7 +109,7 @@ $(UNIT_NAMES:%=$(UNIT_FOLDER)/%.F90): $(UNIT_FOLDER)/%.F90: \
 	@$(UNIT_CHECK) $< > /dev/null
 	@python3 $(PFUNIT_BIN_DIR)/funitproc -quiet $< $@.part > /dev/null && mv $@.part $@
 
-$(UNIT_OBJECTS): $(UNIT_FOLDER)/%.o: $(UNIT_FOLDER)/%.F90 $(CHECKED_LIBRARY)
+$(UNIT_OBJECTS): $(UNIT_FOLDER)/%.o: $(UNIT_FOLDER)/%.F90 | $(CHECKED_LIBRARY)
 	$(UNIT_COMPILE) -I$(CHECKED_MODULES) $(PFUNIT_EXTRA_FFLAGS) -c $< -o $@
 
 $(UNIT_FOLDER)/suites.inc: unit-force | $(UNIT_FOLDER)

@@ -3,11 +3,11 @@ module changed_joints
    use case_control, only: solver_tree
    use deck_models, only: box_partly_held, low_plate, model_of_cards, some_forces, some_stiffnesses, two_floating_boxes, &
                           two_plane_blocks
-   use equation_numbering, only: gather
    use equations, only: equation_system, form_body_stiffness, form_structure_stiffness, start_equations
    use failures, only: failure_type
    use kinds, only: wp
    use model_data, only: model_type
+   use tree_solver, only: tree_solver_type
    implicit none
    private
 
@@ -22,7 +22,8 @@ contains
       integer, intent(in)                :: which, factorisations
       real(wp), intent(in)               :: share
       type(model_type), intent(out)      :: model
-      type(equation_system), intent(out) :: system
+      type(tree_solver_type), intent(out) :: system
+      class(equation_system), allocatable :: by_tree
       type(failure_type) :: failure
       character(:), allocatable :: problem
 
@@ -31,7 +32,11 @@ contains
       if (which == 3) call model_of_cards(box_partly_held, model, problem)
       if (which == 4) call model_of_cards(low_plate, model, problem)
       if (problem /= '') error stop 'changed_joints: the model has errors'
-      call start_equations(model, system, failure, solver_tree, factorisations)
+      call start_equations(model, by_tree, failure, solver_tree, factorisations)
+      select type (by_tree)
+      type is (tree_solver_type)
+         system = by_tree
+      end select
       call form_body_stiffness(model, system, failure)
       call form_structure_stiffness(model, changed(model, share), 'here', system, failure)
       if (failure%raised) error stop 'changed_joints: no factor'
@@ -55,11 +60,14 @@ contains
    !> Forces on the equations that move, UNTOUCHED on the others.
    subroutine load(model, system, x)
       type(model_type), intent(in)       :: model
-      type(equation_system), intent(in)  :: system
+      type(tree_solver_type), intent(in) :: system
       real(wp), allocatable, intent(out) :: x(:)
+      integer :: i
 
       allocate (x(system%n), source=untouched)
-      call gather(system, system%equations, some_forces(model), x)
+      associate (f => some_forces(model), e => system%equations)
+         x(e) = [(f(system%direction(e(i)), system%node(e(i))), i = 1, size(e))]
+      end associate
    end subroutine load
 
 end module changed_joints

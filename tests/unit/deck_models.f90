@@ -1,8 +1,7 @@
-!> Models for tests of the solvers, built from cards.
+!> Decks and models from text in memory, and some models for tests of the solvers.
 module deck_models
-   use c_library, only: remove_file
    use deck_errors, only: deck_error_list
-   use deck_input, only: deck_type, read_deck
+   use deck_input, only: deck_type, read_deck_of_text
    use kinds, only: wp
    use model_build, only: build_model
    use model_data, only: model_type
@@ -10,7 +9,7 @@ module deck_models
    implicit none
    private
 
-   public :: model_of_cards, some_forces, some_stiffnesses
+   public :: read_lines, read_cards, build, model_of_cards, some_forces, some_stiffnesses
 
    character(*), parameter, public :: plane_laws = 'MAT1,1,9500.,,.25;PSHELL,1,1,20.;PJOINT,1,3,,,,,.1;JNORM,3,8.-3,.5,50.;'
    character(*), parameter, public :: solid_laws = 'MAT1,1,9500.,,.25;PSOLID,1,1;PJOINT,1,3,,,,,.1;JNORM,3,8.-3,.5,50.;'
@@ -38,37 +37,57 @@ module deck_models
 
 contains
 
-   !> The model with these CARDS; a semicolon ends a line. PROBLEM: the first error, '' where there is none.
+   !> The deck with these LINES; a semicolon ends a line.
+   subroutine read_lines(lines, deck, errors)
+      character(*), intent(in)           :: lines
+      type(deck_type), intent(out)       :: deck
+      type(deck_error_list), intent(out) :: errors
+      character(len(lines)) :: bytes
+      integer :: i
+
+      do i = 1, len(lines)
+         bytes(i:i) = merge(new_line('a'), lines(i:i), lines(i:i) == ';')
+      end do
+      call read_deck_of_text(bytes, deck, errors)
+   end subroutine read_lines
+
+
+   !> The deck with these CARDS and one stage.
+   subroutine read_cards(cards, deck, errors)
+      character(*), intent(in)           :: cards
+      type(deck_type), intent(out)       :: deck
+      type(deck_error_list), intent(out) :: errors
+
+      call read_lines('SUBCASE 1;BEGIN BULK;'//cards//';ENDDATA', deck, errors)
+   end subroutine read_cards
+
+
+   !> The model, and the plan, of the deck with these LINES.
+   subroutine build(lines, model, errors, plan)
+      character(*), intent(in)           :: lines
+      type(model_type), intent(out)      :: model
+      type(deck_error_list), intent(out) :: errors
+      type(stage_plan_type), intent(out), optional :: plan
+      type(deck_type)       :: deck
+      type(stage_plan_type) :: own_plan
+
+      call read_lines(lines, deck, errors)
+      call build_model(deck, model, own_plan, errors)
+      if (present(plan)) plan = own_plan
+   end subroutine build
+
+
+   !> The model with these CARDS and one stage. PROBLEM: the first error, '' where there is none.
    subroutine model_of_cards(cards, model, problem)
       character(*), intent(in)               :: cards
       type(model_type), intent(out)          :: model
       character(:), allocatable, intent(out) :: problem
       type(deck_error_list) :: errors
-      type(deck_type)       :: deck
-      type(stage_plan_type) :: plan
-      character(1000) :: path
-      integer :: first, last, unit
-      logical :: readable
 
-      call get_command_argument(0, path)
-      path(index(path, '/', back=.true.) + 1:) = 'deck_models.bdf'
-      open (newunit=unit, file=path, status='replace', action='write')
-      if (index(cards, 'SPC') > 0) write (unit, '(a)') 'SPC=1'
-      write (unit, '(a)') 'SUBCASE 1', 'BEGIN BULK'
-      first = 1
-      do while (first <= len(cards))
-         last = index(cards(first:)//';', ';') + first - 2
-         write (unit, '(a)') cards(first:last)
-         first = last + 2
-      end do
-      write (unit, '(a)') 'ENDDATA'
-      close (unit)
-      call read_deck(trim(path), deck, errors, readable)
-      call remove_file(trim(path))
-      call build_model(deck, model, plan, errors)
+      call build(trim(merge('SPC=1;', '      ', index(cards, 'SPC') > 0))//'SUBCASE 1;BEGIN BULK;'//cards//';ENDDATA', &
+                 model, errors)
       problem = ''
       if (errors%n > 0) problem = errors%items(1)%message
-      if (.not. readable) problem = 'unreadable'
    end subroutine model_of_cards
 
 

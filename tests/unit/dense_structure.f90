@@ -22,7 +22,7 @@ module dense_structure
 
 contains
 
-   !> Elements, and bars that are elastic.
+   !> Elements, and bars that are no bolts.
    function dense_bodies(model) result(k)
       type(model_type), intent(in) :: model
       real(wp), allocatable :: k(:, :)
@@ -35,7 +35,7 @@ contains
          call add(rows_of(model, corners_of(model, e)), k_e)
       end do
       do i = 1, n_bars(model)
-         if (.not. model%bars(i)%is_elastic) cycle
+         if (model%bars(i)%bolt > 0) cycle
          associate (d => model%dimension, bar => model%bars(i))
             pull(:d) = bar%direction(:d)
             pull(d + 1:) = -bar%direction(:d)
@@ -64,18 +64,20 @@ contains
       type(model_type), intent(in) :: model
       real(wp), intent(in)         :: k_int(:, :, :) !! (3, 3, n)
       real(wp), allocatable :: k(:, :)
-      real(wp) :: movement(3, 2*model%dimension) ! in the axes, of the nodes' displacements
-      integer  :: i, m
+      real(wp), allocatable :: movement(:, :) ! (3, rows) in the axes, of the nodes' displacements
+      integer  :: a, i
       integer, allocatable :: rows(:)
 
       allocate (k(model%dimension*model%n_nodes, model%dimension*model%n_nodes), source=0.0_wp)
       do i = 1, size(model%interface)
          associate (d => model%dimension, element => model%interface(i))
-            movement(:, :d) = transpose(element%axes(:d, :))
-            movement(:, d + 1:) = -movement(:, :d)
-            rows = rows_of(model, pack(element%nodes, element%nodes > 0))
-            m = size(rows)
-            k(rows, rows) = k(rows, rows) + matmul(transpose(movement(:, :m)), matmul(k_int(:, :, i), movement(:, :m)))
+            rows = rows_of(model, element%node)
+            allocate (movement(3, size(rows)))
+            do a = 1, size(element%node)
+               movement(:, d*(a - 1) + 1:d*a) = element%weight(a)*transpose(element%axes(:d, :))
+            end do
+            k(rows, rows) = k(rows, rows) + matmul(transpose(movement), matmul(k_int(:, :, i), movement))
+            deallocate (movement)
          end associate
       end do
    end function dense_joints

@@ -6,9 +6,10 @@
 !! Exit status 1 where a file could not be written.
 program write_sample
    use, intrinsic :: iso_fortran_env, only: int32, int64, int8, real64
-   use pvd_file, only: pvd_file_type
-   use vtu_file, only: vtk_hexahedron, vtk_line, vtk_quad, vtk_tetra, vtk_triangle, vtk_vertex, vtk_wedge, vtu_file_type
+   use vtu_file, only: cell_data, point_data, vtk_vertex, vtu_file_type, write_collection
    implicit none
+   integer(int8), parameter :: vtk_line = 3_int8, vtk_triangle = 5_int8, vtk_quad = 9_int8, vtk_tetra = 10_int8, &
+                               vtk_hexahedron = 12_int8, vtk_wedge = 13_int8
    character(1024) :: folder, number
    integer :: n
    logical :: ok, all_ok
@@ -47,16 +48,16 @@ contains
       call file%start(path)
       call file%points(reshape([((real(i*j - 5, real64)/7, j=1, 3), i=1, n)], [3, n]))
       call file%cells([((mod(3*c + 5*j, n) + 1, j=1, length(c)), c=1, m)], [(sum(length(:c)), c=1, m)], types)
-      call file%point_data('displacement', stage*reshape([((real(i - 2*j, real64)/3, j=1, 3), i=1, n)], [3, n]))
-      call file%point_data('stress', stage*reshape([((real(i*j, real64)/11, j=1, 6), i=1, n)], [6, n]))
-      call file%point_data('lambda & <p>', stage*[(1/real(i, real64), i=1, n)])
-      call file%point_data('node', stage*[(100*i, i=1, n)])
-      call file%point_data('triple', stage*reshape([((i - j, j=1, 3), i=1, n)], [3, n]))
-      call file%cell_data('energy', stage*[(real(c, real64)/13, c=1, m)])
-      call file%cell_data('flow', stage*reshape([((real(j - c, real64)/17, j=1, 3), c=1, m)], [3, m]))
-      call file%cell_data('strain', stage*reshape([((real(c*j, real64)/19, j=1, 6), c=1, m)], [6, m]))
-      call file%cell_data('property', stage*[(7*c, c=1, m)])
-      call file%cell_data('pair', stage*reshape([((c*j, j=1, 2), c=1, m)], [2, m]))
+      call file%add(point_data, 'displacement', stage*reshape([((real(i - 2*j, real64)/3, j=1, 3), i=1, n)], [3, n]))
+      call file%add(point_data, 'stress', stage*reshape([((real(i*j, real64)/11, j=1, 6), i=1, n)], [6, n]))
+      call file%add(point_data, 'lambda & <p>', stage*[(1/real(i, real64), i=1, n)])
+      call file%add(point_data, 'node', stage*[(100*i, i=1, n)])
+      call file%add(point_data, 'triple', stage*reshape([((i - j, j=1, 3), i=1, n)], [3, n]))
+      call file%add(cell_data, 'energy', stage*[(real(c, real64)/13, c=1, m)])
+      call file%add(cell_data, 'flow', stage*reshape([((real(j - c, real64)/17, j=1, 3), c=1, m)], [3, m]))
+      call file%add(cell_data, 'strain', stage*reshape([((real(c*j, real64)/19, j=1, 6), c=1, m)], [6, m]))
+      call file%add(cell_data, 'property', stage*[(7*c, c=1, m)])
+      call file%add(cell_data, 'pair', stage*reshape([((c*j, j=1, 2), c=1, m)], [2, m]))
       call file%finish(ok)
    end subroutine write_solid
 
@@ -71,7 +72,7 @@ contains
       call file%start(path)
       call file%points(reshape([(real(i, real64)/3, i=1, 15)], [3, 5]))
       call file%cells([1, 2, 3, 4, 5], [1, 2, 3, 4, 5], [(vtk_vertex, i=1, 5)])
-      call file%cell_data('branch', [1, 2, 3, 4, 1])
+      call file%add(cell_data, 'branch', [1, 2, 3, 4, 1])
       call file%finish(ok)
    end subroutine write_joint
 
@@ -84,7 +85,7 @@ contains
       call file%start(path)
       call file%points(reshape([real(real64) ::], [3, 0]))
       call file%cells([integer(int32) ::], [integer(int32) ::], [integer(int8) ::])
-      call file%cell_data('branch', [integer(int32) ::])
+      call file%add(cell_data, 'branch', [integer(int32) ::])
       call file%finish(ok)
    end subroutine write_nothing
 
@@ -92,14 +93,10 @@ contains
    subroutine write_list(path, ok)
       character(*), intent(in) :: path
       logical, intent(out)     :: ok
-      type(pvd_file_type) :: file
+      real(real64), parameter  :: third = 1.0_real64/3
 
-      call file%start(path)
-      call file%add(1.0_real64, 0, 'sample.1.vtu')
-      call file%add(1.0_real64, 1, 'sample.1.joint.vtu')
-      call file%add(1.0_real64/3, 0, 'sample.2 & <3>.vtu')
-      call file%add(1.0_real64/3, 1, 'sample.2.joint.vtu')
-      call file%finish(ok)
+      call write_collection(path, [1.0_real64, 1.0_real64, third, third], [0, 1, 0, 1], [character(20) :: &
+                            'sample.1.vtu', 'sample.1.joint.vtu', 'sample.2 & <3>.vtu', 'sample.2.joint.vtu'], ok)
    end subroutine write_list
 
 
@@ -125,10 +122,10 @@ contains
       call file%start(path)
       call file%points(vectors)
       call file%cells(nodes, ends, types)
-      call file%point_data('displacement', vectors)
-      call file%point_data('stress', tensors)
-      call file%cell_data('stress', tensors)
-      call file%cell_data('property', ends)
+      call file%add(point_data, 'displacement', vectors)
+      call file%add(point_data, 'stress', tensors)
+      call file%add(cell_data, 'stress', tensors)
+      call file%add(cell_data, 'property', ends)
       call file%finish(ok)
       call system_clock(last)
       if (.not. ok) return

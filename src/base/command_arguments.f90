@@ -1,0 +1,93 @@
+!> The arguments of a command, the same for both programs: options, input files, and the answers to what is wrong with either.
+module command_arguments
+   use, intrinsic :: iso_fortran_env, only: error_unit
+   use c_library, only: write_bytes
+   implicit none
+   private
+
+   public :: argument_text, is_option, input_of, say, complain, complain_of_input
+
+   character(*), parameter, public :: version = '0.1.0'
+   character(*), parameter, public :: standard_input = '/dev/stdin' !! the path of the file that `-` means
+
+   !> An input file of the command.
+   type, public :: input_argument
+      character(:), allocatable :: path !! to read; /dev/stdin for `-`
+      character(:), allocatable :: name !! as the user wrote it
+   end type input_argument
+
+contains
+
+   !> Argument I of the command, whole; empty where there is none.
+   function argument_text(i) result(text)
+      integer, intent(in)       :: i
+      character(:), allocatable :: text
+      integer :: length
+
+      length = 0
+      if (i <= command_argument_count()) call get_command_argument(i, length=length)
+      allocate (character(length) :: text)
+      if (length > 0) call get_command_argument(i, text)
+   end function argument_text
+
+
+   !> Whether ARGUMENT is an option and no file: it begins with a dash, is not the `-` of the standard input, and stands before
+   !! the `--` that ends the options.
+   pure logical function is_option(argument, before_dashes)
+      character(*), intent(in) :: argument
+      logical, intent(in)      :: before_dashes
+
+      is_option = before_dashes .and. argument /= '-' .and. index(argument, '-') == 1
+   end function is_option
+
+
+   !> The file that ARGUMENT means.
+   pure function input_of(argument) result(input)
+      character(*), intent(in) :: argument
+      type(input_argument)     :: input
+
+      input = input_argument(path=argument, name=argument)
+      if (argument == '-') input = input_argument(path=standard_input, name='standard input')
+   end function input_of
+
+
+   !> Write TEXT and a line end on the standard output; STATUS is 0, or 4 where it cannot be written.
+   subroutine say(text, status)
+      character(*), intent(in) :: text
+      integer, intent(out)     :: status
+      logical :: ok
+
+      call write_bytes(1, text//new_line('a'), ok)
+      status = merge(0, 4, ok)
+   end subroutine say
+
+
+   !> Say on the standard error what is wrong with the command of PROGRAM.
+   subroutine complain(program, message)
+      character(*), intent(in) :: program, message
+
+      write (error_unit, '(a)') program//': '//message, program//' --help shows the usage'
+   end subroutine complain
+
+
+   !> Say on the standard error why INPUT cannot be read; EXPECTED is what it should have been, 'a deck'.
+   subroutine complain_of_input(input, expected)
+      class(input_argument), intent(in) :: input
+      character(*), intent(in)          :: expected
+      character(:), allocatable :: words
+      logical :: there, is_folder
+
+      is_folder = .false.
+      inquire (file=input%path, exist=there)
+      if (input%path /= '') inquire (file=input%path//'/.', exist=is_folder)
+      if (is_folder) then
+         words = 'a directory, expected '//expected
+      else if (there .and. input%path /= '') then
+         words = 'cannot be read'
+      else
+         words = 'no such file'
+      end if
+      write (error_unit, '(3a)') input%name, ': ', words
+   end subroutine complain_of_input
+
+end module command_arguments

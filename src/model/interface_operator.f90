@@ -1,0 +1,146 @@
+!> What an interface element hangs on, and what follows from that: the one place that knows it. Each of its two ends is a list of
+!! nodes with weights that add up to 1; end 2 of an element on a rigid base has none. The movement of end 1 against end 2 is the
+!! sum of the weights times the nodes' displacements, those of end 2 negative: the one list (node, weight) says it all.
+!!
+!!      end 1    o  o    v_k, sum 1        movement   d = sum v_k u_k - sum w_j u_j
+!!                \/                       force F    -v_k F on the nodes of end 1, +w_j F on those of end 2
+!!                [k]                      stiffness  s_a s_b [k] between nodes a and b, s = v or -w
+!!                /\
+!!      end 2    o  o    w_j, sum 1        Two facing nodes are the lists (1), (1).
+module interface_operator
+   use kinds, only: wp
+   implicit none
+   private
+
+   public :: hang_on, named_node, nodes_of_end, at_first_end, relative_movement, joint_movement, add_force, add_global_force, &
+             global_stiffness
+
+   !> One interface element: the "beam" between two faces, or a face and the rigid base.
+   type, public :: interface_element
+      integer  :: id = 0
+      integer  :: joint = 0
+      integer  :: n_1 = 0                    !! nodes of end 1; those behind them are of end 2
+      integer, allocatable  :: node(:)       !! positions
+      real(wp), allocatable :: weight(:)     !! of the displacement of each: their sum is the movement of end 1 against end 2
+      real(wp) :: area = 0.0_wp              !! a_i [length^2]
+      real(wp) :: axes(3, 3) = 0.0_wp        !! columns: x, y in the joint, z its normal from end 1 to end 2
+   end type interface_element
+
+contains
+
+   !> Hang ELEMENT on two facing nodes, each the whole of its end; no NODE_2 (0) is a rigid base, no NODE_1 an element that hangs
+   !! on nothing, of a deck with errors.
+   pure subroutine hang_on(element, node_1, node_2)
+      type(interface_element), intent(inout) :: element
+      integer, intent(in)                    :: node_1, node_2
+
+      associate (is_there => [node_1, node_2] > 0)
+         element%n_1 = merge(1, 0, is_there(1))
+         element%node = pack([node_1, node_2], is_there)
+         element%weight = pack([1.0_wp, -1.0_wp], is_there)
+      end associate
+   end subroutine hang_on
+
+
+   !> The nodes of END 1 or 2; none: a rigid base.
+   pure function nodes_of_end(element, end) result(nodes)
+      type(interface_element), intent(in) :: element
+      integer, intent(in)                 :: end
+      integer, allocatable :: nodes(:)
+
+      if (end == 1) then
+         nodes = element%node(:element%n_1)
+      else
+         nodes = element%node(element%n_1 + 1:)
+      end if
+   end function nodes_of_end
+
+
+   !> The node that output and messages name for END 1 or 2: 0 for a rigid base, -1 where several nodes share the end.
+   pure integer function named_node(element, end) result(node)
+      type(interface_element), intent(in) :: element
+      integer, intent(in)                 :: end
+      integer :: first, n
+
+      first = merge(1, element%n_1 + 1, end == 1)
+      n = merge(element%n_1, size(element%node) - element%n_1, end == 1)
+      node = merge(0, -1, n == 0)
+      if (n == 1) node = element%node(first)
+   end function named_node
+
+
+   !> What nodal VALUES are at end 1: of their places, say, the one where the force acts.
+   pure function at_first_end(element, values) result(mean)
+      type(interface_element), intent(in) :: element
+      real(wp), intent(in)                :: values(:, :) !! (components, nodes)
+      real(wp) :: mean(size(values, 1))
+      integer  :: a
+
+      mean = 0.0_wp
+      do a = 1, element%n_1
+         mean = mean + element%weight(a)*values(:, element%node(a))
+      end do
+   end function at_first_end
+
+
+   !> Movement of end 1 against end 2 in global axes; its third component is zero in the plane [length].
+   pure function relative_movement(element, u) result(between)
+      type(interface_element), intent(in) :: element
+      real(wp), intent(in)                :: u(:, :) !! (dimension, nodes) [length]
+      real(wp) :: between(3)
+      integer  :: a, d
+
+      d = size(u, 1)
+      between = 0.0_wp
+      do a = 1, size(element%node)
+         between(:d) = between(:d) + element%weight(a)*u(:, element%node(a))
+      end do
+   end function relative_movement
+
+
+   !> The same in the element's own axes: tangential x, y, and the closing deflection lambda, Eq. (8) [length].
+   pure function joint_movement(element, u) result(movement)
+      type(interface_element), intent(in) :: element
+      real(wp), intent(in)                :: u(:, :) !! (dimension, nodes) [length]
+      real(wp) :: movement(3), between(3)
+
+      between = relative_movement(element, u)
+      movement = matmul(between, element%axes)
+   end function joint_movement
+
+
+   !> Add FORCE, in the element's axes, to the nodal forces F: as it is on end 1, opposed on end 2. The force of an element on its
+   !! nodes is minus that of its stresses.
+   pure subroutine add_force(element, force, f)
+      type(interface_element), intent(in) :: element
+      real(wp), intent(in)                :: force(3) !! [force]
+      real(wp), intent(inout)             :: f(:, :)  !! (dimension, nodes) [force]
+
+      call add_global_force(element, matmul(element%axes, force), f)
+   end subroutine add_force
+
+
+   !> The same for a FORCE in global axes.
+   pure subroutine add_global_force(element, force, f)
+      type(interface_element), intent(in) :: element
+      real(wp), intent(in)                :: force(3)
+      real(wp), intent(inout)             :: f(:, :)
+      integer :: a, d
+
+      d = size(f, 1)
+      do a = 1, size(element%node)
+         f(:, element%node(a)) = f(:, element%node(a)) + element%weight(a)*force(:d)
+      end do
+   end subroutine add_global_force
+
+
+   !> Stiffness K of the element's own axes in global axes [force/length].
+   pure function global_stiffness(element, k) result(in_global)
+      type(interface_element), intent(in) :: element
+      real(wp), intent(in)                :: k(3, 3)
+      real(wp) :: in_global(3, 3)
+
+      in_global = matmul(element%axes, matmul(k, transpose(element%axes)))
+   end function global_stiffness
+
+end module interface_operator

@@ -1,0 +1,297 @@
+!> The page of the listing, and the tables on it. A table is a list of columns, each said once: its heading, the edit descriptor
+!! of its values, its unit. The line of headings, the line of units and every row come from it:
+!!
+!!    call table%start('REACTIONS', [column('NODE', 'i11'), column('R'//axes, 'es13.5', labels%force)])
+!!    call table%print_head(file)
+!!    call table%add([node])
+!!    call table%add(reaction)
+!!    call table%print_row(file)
+!!
+!! The values of a row are added from left to right. The tables of a whole stage keep their rows until they are printed.
+module listing_table
+   use kinds, only: wp
+   use number_text, only: integer_width, short_width, write_integer, write_short
+   use output_file, only: output_file_type
+   implicit none
+   private
+
+   public :: column, heading, cut
+
+   integer, parameter, public      :: page_width = 132
+   real(wp), parameter, public     :: noise = 1.0e-9_wp !! of the largest number of its kind: below it only rounding is printed
+   character(1), parameter, public :: axes(3) = ['X', 'Y', 'Z']
+
+   !> What the numbers of the listing are measured in, blank where the deck does not say.
+   type, public :: label_type
+      character(20) :: length = '', force = '', pressure = '', area = '', stiffness = '', moment = ''
+      character(20) :: slope = ''     !! of pressure over length
+   end type label_type
+
+   !> The page as all tables find it.
+   type, public :: page_type
+      type(output_file_type) :: file
+      type(label_type)       :: labels
+      character(:), allocatable :: stage, now !! where the run is: 'STAGE 2'; ', STAGE 2, INCREMENT 5' behind a title
+      real(wp) :: largest_force = 0.0_wp      !! ever applied, for the noise
+   end type page_type
+
+   type :: column_type
+      character(48) :: heading = ''
+      character(10) :: form = ''
+      character(20) :: unit = ''
+      integer :: width = 0            ! 0: text from here on
+      integer :: last = 0             ! character of the row that its values end at
+      integer :: heading_shift = 0, unit_shift = 0
+      logical :: is_short = .false.   ! as number_text writes it, fast
+   end type column_type
+
+   type, public :: listing_table_type
+      private
+      character(:), allocatable :: title
+      character(page_width) :: row = ''
+      type(column_type), allocatable :: columns(:)
+      integer :: used = 0             ! columns of the row
+      integer :: n_kept = 0
+      character(page_width), allocatable :: kept(:)
+   contains
+      procedure :: is_empty
+      procedure :: start
+      procedure :: print_head
+      generic   :: add => add_integers, add_reals, add_text
+      procedure :: skip
+      procedure :: print_row
+      procedure :: keep_row
+      procedure :: keep_line
+      procedure :: print_kept
+      procedure, private :: add_integers, add_reals, add_text
+   end type listing_table_type
+
+contains
+
+   !> A column. Its values are written as FORM says, an edit descriptor: i11, es13.5, f9.4, a8; 'a' is text up to the end of the
+   !! row. Heading and unit end where the values end, or as many characters behind that as is said.
+   elemental function column(heading, form, unit, heading_shift, unit_shift) result(item)
+      character(*), intent(in)           :: heading, form
+      character(*), intent(in), optional :: unit          !! default: none
+      integer, intent(in), optional      :: heading_shift, unit_shift
+      type(column_type) :: item
+      integer :: point
+
+      item%heading = heading
+      item%form = '('//form//')'
+      if (present(unit)) item%unit = unit
+      if (present(heading_shift)) item%heading_shift = heading_shift
+      if (present(unit_shift)) item%unit_shift = unit_shift
+      point = index(form//'.', '.')
+      if (form /= 'a') read (form(scan(form, '0123456789'):point - 1), *) item%width
+      item%is_short = index(form, 'es') == 1 .and. form(point:) == '.5' .and. item%width >= short_width
+   end function column
+
+
+   !> Whether nothing is kept: a table of a stage begins anew.
+   pure logical function is_empty(self)
+      class(listing_table_type), intent(in) :: self
+
+      is_empty = self%n_kept == 0
+   end function is_empty
+
+
+   !> Begin a table of these COLUMNS, without rows. TITLE is empty where the headings follow other words.
+   pure subroutine start(self, title, columns)
+      class(listing_table_type), intent(inout) :: self
+      character(*), intent(in)                 :: title
+      type(column_type), intent(in)            :: columns(:)
+      integer :: i
+
+      self%title = title
+      self%columns = columns
+      do i = 1, size(columns)
+         self%columns(i)%last = sum(columns(:i)%width)
+      end do
+      self%used = 0
+      self%n_kept = 0
+   end subroutine start
+
+
+   !> Title, headings, and units where there are any.
+   subroutine print_head(self, file)
+      class(listing_table_type), intent(in) :: self
+      type(output_file_type), intent(inout) :: file
+      character(page_width + 1) :: headings, units
+      integer :: i
+
+      headings = ''
+      units = ''
+      do i = 1, size(self%columns)
+         associate (column => self%columns(i))
+            if (column%width == 0) then
+               headings(column%last + 1:) = column%heading
+            else
+               call place(headings, trim(column%heading), column%last + column%heading_shift)
+               call place(units, column%unit(:min(len_trim(column%unit), column%width)), column%last + column%unit_shift)
+            end if
+         end associate
+      end do
+      if (self%title /= '') call heading(file, self%title)
+      call file%put(headings)
+      if (units /= '') call file%put(units)
+   end subroutine print_head
+
+
+   !> WORDS in LINE, so that they end at character LAST.
+   pure subroutine place(line, words, last)
+      character(*), intent(inout) :: line
+      character(*), intent(in)    :: words
+      integer, intent(in)         :: last
+
+      line(last - len(words) + 1:last) = words
+   end subroutine place
+
+
+   !> The next values of the row: stars where one is wider than its column.
+   pure subroutine add_integers(self, values)
+      class(listing_table_type), intent(inout) :: self
+      integer, intent(in)                      :: values(:)
+      character(integer_width) :: digits
+      integer :: i, length
+
+      do i = 1, size(values)
+         call write_integer(values(i), digits, length)
+         self%used = self%used + 1
+         associate (column => self%columns(self%used))
+            if (length > column%width) then
+               call place(self%row, repeat('*', column%width), column%last)
+            else
+               call place(self%row, digits(:length), column%last)
+            end if
+         end associate
+      end do
+   end subroutine add_integers
+
+
+   pure subroutine add_reals(self, values)
+      class(listing_table_type), intent(inout) :: self
+      real(wp), intent(in)                     :: values(:)
+      integer :: i
+
+      do i = 1, size(values)
+         self%used = self%used + 1
+         associate (column => self%columns(self%used))
+            if (column%is_short) then
+               call write_short(values(i), self%row(column%last - short_width + 1:column%last))
+            else
+               write (self%row(column%last - column%width + 1:column%last), column%form) values(i)
+            end if
+         end associate
+      end do
+   end subroutine add_reals
+
+
+   !> WORDS with all their blanks, at the end of their column.
+   pure subroutine add_text(self, words)
+      class(listing_table_type), intent(inout) :: self
+      character(*), intent(in)                 :: words
+
+      self%used = self%used + 1
+      associate (column => self%columns(self%used))
+         if (column%width == 0) then
+            self%row(column%last + 1:) = words
+         else
+            call place(self%row, words, column%last)
+         end if
+      end associate
+   end subroutine add_text
+
+
+   !> The next N columns stay blank.
+   pure subroutine skip(self, n)
+      class(listing_table_type), intent(inout) :: self
+      integer, intent(in)                      :: n
+
+      self%used = self%used + n
+   end subroutine skip
+
+
+   !> The row is complete: print it.
+   subroutine print_row(self, file)
+      class(listing_table_type), intent(inout) :: self
+      type(output_file_type), intent(inout)    :: file
+
+      call file%put(self%row)
+      self%row = ''
+      self%used = 0
+   end subroutine print_row
+
+
+   !> The row is complete: keep it until the table is printed.
+   pure subroutine keep_row(self)
+      class(listing_table_type), intent(inout) :: self
+
+      call self%keep_line(self%row)
+      self%row = ''
+      self%used = 0
+   end subroutine keep_row
+
+
+   !> Keep a LINE that runs through all columns.
+   pure subroutine keep_line(self, line)
+      class(listing_table_type), intent(inout) :: self
+      character(*), intent(in)                 :: line
+      character(page_width), allocatable :: longer(:)
+
+      if (.not. allocated(self%kept)) allocate (self%kept(64))
+      if (self%n_kept == size(self%kept)) then ! an array constructor that finds no memory would end the program without a word
+         allocate (longer(2*self%n_kept))
+         longer(:self%n_kept) = self%kept
+         call move_alloc(longer, self%kept)
+      end if
+      self%n_kept = self%n_kept + 1
+      self%kept(self%n_kept) = line
+   end subroutine keep_line
+
+
+   !> Print what was kept, under title and headings where the table has some, and forget it.
+   subroutine print_kept(self, file)
+      class(listing_table_type), intent(inout) :: self
+      type(output_file_type), intent(inout)    :: file
+      integer :: i
+
+      if (self%n_kept == 0) return
+      if (allocated(self%columns)) then
+         call self%print_head(file)
+      else
+         call file%put('')
+      end if
+      do i = 1, self%n_kept
+         call file%put(self%kept(i))
+      end do
+      self%n_kept = 0
+   end subroutine print_kept
+
+
+   !> A heading of a table, with an empty line before it.
+   subroutine heading(file, words)
+      type(output_file_type), intent(inout) :: file
+      character(*), intent(in)              :: words
+
+      call file%put('')
+      call file%put(' '//cut(words, page_width - 1))
+      call file%put('')
+   end subroutine heading
+
+
+   !> At most WIDTH characters of LINE, tabs and other controls as blanks.
+   pure function cut(line, width) result(part)
+      character(*), intent(in)  :: line
+      integer, intent(in)       :: width
+      character(:), allocatable :: part
+      integer :: i
+
+      part = line(:min(len(line), width))
+      if (len(line) > width) part(width - 2:) = '...'
+      do i = 1, len(part)
+         if (iachar(part(i:i)) < 32) part(i:i) = ' '
+      end do
+   end function cut
+
+end module listing_table

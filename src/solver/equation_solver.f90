@@ -1,0 +1,225 @@
+!> What a solver of the equations is: SKYLINE and TREE extend this type, and so would a third one, which is a file of its own and a
+!! line in solver_choice. Used through the module equations, in one order: start, form_bodies; condense for every load; in every
+!! increment form_structure, then solve and multiply as often as needed; recover for all nodes.
+!!
+!! A solver numbers the unknowns, and the increments solve for some of these EQUATIONS: all, or those that are left when the
+!! bodies have been condensed. Vectors go over all equations, and are set or read at these alone unless it says otherwise.
+!! FAULT is 0, no_memory, or an equation without stiffness.
+module equation_solver
+   use failures, only: failure_type
+   use interface_operator, only: interface_element
+   use kinds, only: long, wp
+   use model_data, only: model_type, n_points
+   use node_graph, only: node_graph_type
+   use text_tools, only: integer_text
+   implicit none
+   private
+
+   integer, parameter, public :: no_memory = -1                !! as FAULT: an allocation failed
+   real(wp), parameter, public :: pivot_tolerance = 1.0e-12_wp !! of the diagonal entry: below it there is no stiffness
+
+   !> A solver in numbers, for the listing and --times.
+   type, public :: solver_description
+      character(:), allocatable :: name              !! and its way, as the listing has it
+      character(40) :: words(3) = ''                 !! what NUMBERS count; '' behind the last
+      integer(long) :: numbers(3) = 0
+      real(wp) :: fixed_operations  = 0.0_wp         !! multiplications and additions of what is factorised once
+      real(wp) :: moving_operations = 0.0_wp         !! of what is factorised in every increment
+      real(wp) :: assembly_time     = 0.0_wp         !! of the elements, all threads together [s]
+   end type solver_description
+
+   type, abstract, public :: equation_system
+      integer :: n = 0                               !! unknowns
+      integer, allocatable  :: number(:, :)          !! (dimension, n_nodes) equation, 0: held or without element
+      integer, allocatable  :: node(:), direction(:) !! (n) what an equation belongs to
+      integer, allocatable  :: equations(:)          !! that the increments solve for, ascending
+      integer, allocatable  :: retained(:)           !! nodes that the increments see, ascending: those of the equations, and of
+                                                     !! interface elements
+      integer, allocatable  :: place(:)              !! (n_nodes) where a node stands among the retained ones, 0: nowhere
+      integer, allocatable  :: locked(:)             !! equations whose unknowns have been held since they were numbered
+      type(interface_element), allocatable :: interface(:) !! the model's, each NODE a place among the retained ones
+      real(wp) :: stiffest = 0.0_wp                  !! largest diagonal entry of [k_b] [force/length]
+      real(wp), allocatable :: k_int(:, :, :)        !! (3, 3, n) between the ends of interface elements now, global axes
+                                                     !! [force/length]
+      logical :: one_solution = .false.              !! whether with this k_int the increment solves but once
+      integer :: factorisations = 20                 !! that are to be expected
+      character(:), allocatable :: where             !! stage and increment, for messages
+   contains
+      procedure(start_solver), deferred     :: start
+      procedure(form_bodies), deferred      :: form_bodies
+      procedure(add_to_bodies), deferred    :: add_to_bodies
+      procedure :: number_unknowns
+      procedure :: report_fault
+      procedure :: lock
+      procedure :: held_now
+      procedure :: condense
+      procedure(form_structure), deferred   :: form_structure
+      procedure(solve_vector), deferred     :: solve
+      procedure(multiply_vector), deferred  :: multiply
+      procedure :: recover
+      procedure(describe_solver), deferred  :: describe
+   end type equation_system
+
+   abstract interface
+      !> Order and number the unknowns, say which EQUATIONS and RETAINED nodes are left to the increments; no matrix yet.
+      subroutine start_solver(self, model, graph, failure)
+         import :: equation_system, failure_type, model_type, node_graph_type
+         class(equation_system), intent(inout) :: self
+         type(model_type), intent(in)          :: model
+         type(node_graph_type), intent(in)     :: graph
+         type(failure_type), intent(inout)     :: failure
+      end subroutine start_solver
+
+      !> [k_b] of the elements, and what is done with it once; STIFFEST.
+      subroutine form_bodies(self, model, fault)
+         import :: equation_system, model_type
+         class(equation_system), intent(inout) :: self
+         type(model_type), intent(in)          :: model
+         integer, intent(out)                  :: fault
+      end subroutine form_bodies
+
+      !> Add the symmetric matrix K of the equations ROWS, which are retained, 0: held, to [k_b].
+      subroutine add_to_bodies(self, rows, k)
+         import :: equation_system, wp
+         class(equation_system), intent(inout) :: self
+         integer, intent(in)                   :: rows(:)
+         real(wp), intent(in)                  :: k(:, :)
+      end subroutine add_to_bodies
+
+      !> [k_s] = [k_b] + sum of K_INT, Eq. (8), ready to solve; where ONE_SOLUTION is all that is wanted an earlier factor may do
+      !! for that. The unknowns of LOCKED equations are held.
+      subroutine form_structure(self, fault)
+         import :: equation_system
+         class(equation_system), intent(inout) :: self
+         integer, intent(out)                  :: fault
+      end subroutine form_structure
+
+      !> X, the load, becomes the solution; zero where LOCKED. Where only now the stiffness is factorised that may fail.
+      subroutine solve_vector(self, x, fault)
+         import :: equation_system, wp
+         class(equation_system), intent(inout) :: self
+         real(wp), intent(inout)               :: x(:)
+         integer, intent(out)                  :: fault
+      end subroutine solve_vector
+
+      !> Y = [k_b] X, the other equations condensed into it.
+      subroutine multiply_vector(self, x, y)
+         import :: equation_system, wp
+         class(equation_system), intent(in) :: self
+         real(wp), intent(in)               :: x(:)
+         real(wp), intent(inout)            :: y(:)
+      end subroutine multiply_vector
+
+      !> The solver in words and numbers.
+      subroutine describe_solver(self, description)
+         import :: equation_system, solver_description
+         class(equation_system), intent(in)    :: self
+         type(solver_description), intent(out) :: description
+      end subroutine describe_solver
+   end interface
+
+contains
+
+   !> Number the free components, node after node in ORDER.
+   subroutine number_unknowns(self, model, order)
+      class(equation_system), intent(inout) :: self
+      type(model_type), intent(in)          :: model
+      integer, intent(in)                   :: order(:)
+      integer :: d, i
+
+      self%n = 0
+      self%number = spread([(0, d = 1, model%dimension)], 2, model%n_nodes)
+      self%node = [(0, i = 1, count(.not. model%held(:, order)))]
+      self%direction = self%node
+      do i = 1, size(order)
+         if (.not. model%used(order(i))) cycle
+         do d = 1, model%dimension
+            if (model%held(d, order(i))) cycle
+            self%n = self%n + 1
+            self%number(d, order(i)) = self%n
+            self%node(self%n) = order(i)
+            self%direction(self%n) = d
+         end do
+      end do
+      self%node = self%node(:self%n)
+      self%direction = self%direction(:self%n)
+   end subroutine number_unknowns
+
+
+   !> From now on the unknown of EQUATION is held: every solution has zero there.
+   subroutine lock(self, equation)
+      class(equation_system), intent(inout) :: self
+      integer, intent(in)                   :: equation
+
+      self%locked = [self%locked, equation]
+   end subroutine lock
+
+
+   !> Which components of retained nodes no solution moves: (dimension, retained).
+   pure function held_now(self) result(held)
+      class(equation_system), intent(in) :: self
+      logical :: held(size(self%number, 1), size(self%retained))
+      integer :: i
+
+      held = self%number(:, self%retained) == 0
+      do i = 1, size(self%locked)
+         associate (k => self%locked(i))
+            held(self%direction(k), self%place(self%node(k))) = .true.
+         end associate
+      end do
+   end function held_now
+
+
+   !> X: of the load F on all equations what is felt at the EQUATIONS, at the others what recover needs. Here all of it is felt.
+   subroutine condense(self, f, x)
+      class(equation_system), intent(in) :: self
+      real(wp), intent(in)               :: f(:) !! (n) [force]
+      real(wp), intent(out)              :: x(:) !! (n) likewise
+
+      x(self%equations) = f(self%equations)
+   end subroutine condense
+
+
+   !> The displacements X of all equations: those at the EQUATIONS from U, the others by what condense left in X.
+   subroutine recover(self, u, x)
+      class(equation_system), intent(in) :: self
+      real(wp), intent(in)               :: u(:) !! (n) [length], read at the EQUATIONS
+      real(wp), intent(inout)            :: x(:) !! (n) [force] on entry, [length] on return
+
+      x(self%equations) = u(self%equations)
+   end subroutine recover
+
+
+   !> FAULT, an equation without stiffness or no_memory, in words.
+   subroutine report_fault(self, model, fault, where, failure)
+      class(equation_system), intent(in) :: self
+      type(model_type), intent(in)       :: model
+      integer, intent(in)                :: fault
+      character(*), intent(in)           :: where
+      type(failure_type), intent(inout)  :: failure
+
+      if (fault == no_memory) then
+         call failure%raise(where//'no memory for the factor of '//integer_text(self%n)//' equations')
+      else if (fault > 0) then
+         call failure%raise(where//'the structure is a mechanism: '// &
+            what_is_loose(model, self%node(fault), self%direction(fault))// &
+            ' (not supported there, or every joint that held it is open)')
+      end if
+   end subroutine report_fault
+
+
+   !> What has no stiffness, in words.
+   pure function what_is_loose(model, node, d) result(words)
+      type(model_type), intent(in) :: model
+      integer, intent(in)          :: node, d
+      character(:), allocatable    :: words
+      character(1), parameter :: direction_name(3) = ['X', 'Y', 'Z']
+
+      if (node <= n_points(model)) then
+         words = 'node '//integer_text(model%node_id(node))//' has no stiffness in direction '//direction_name(d)
+      else
+         words = 'nothing holds BOLT '//integer_text(model%sections(node - n_points(model))%bolt)//' together at its section'
+      end if
+   end function what_is_loose
+
+end module equation_solver

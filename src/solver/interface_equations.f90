@@ -1,0 +1,107 @@
+!> Interface elements as the equations see them: which equations each couples, with which weights, and what its stiffness is
+!! between them: s_a s_b [k] for the nodes a and b, s their weights.
+module interface_equations
+   use interface_operator, only: interface_element
+   use kinds, only: wp
+   implicit none
+   private
+
+   public :: list_interface_equations, add_products
+
+   type, public :: interface_equations_type
+      integer :: n = 0                               !! interface elements
+      integer, allocatable, private  :: first(:)     ! (n + 1) the nodes of element i are first(i) to first(i + 1) - 1
+      integer, allocatable, private  :: equation(:, :) ! (dimension, all nodes of all elements), 0: held
+      real(wp), allocatable, private :: weight(:)
+   contains
+      procedure :: rows_of
+      procedure :: matrix_of
+   end type interface_equations_type
+
+contains
+
+   !> The equations of all ELEMENTS where NUMBER says which component has which.
+   pure subroutine list_interface_equations(elements, number, equations)
+      type(interface_element), intent(in)         :: elements(:)
+      integer, intent(in)                         :: number(:, :) !! (dimension, n_nodes), 0: held
+      type(interface_equations_type), intent(out) :: equations
+      integer :: i, last, n
+
+      equations%n = size(elements)
+      allocate (equations%first(equations%n + 1))
+      n = 0
+      do i = 1, equations%n
+         equations%first(i) = n + 1
+         n = n + size(elements(i)%node)
+      end do
+      equations%first(equations%n + 1) = n + 1
+      allocate (equations%equation(size(number, 1), n), equations%weight(n))
+      do i = 1, equations%n
+         last = equations%first(i + 1) - 1
+         equations%equation(:, equations%first(i):last) = number(:, elements(i)%node)
+         equations%weight(equations%first(i):last) = elements(i)%weight
+      end do
+   end subroutine list_interface_equations
+
+
+   !> The equations of element I, 0 for what is held: the components of its first node, of the next, ...
+   pure function rows_of(self, i) result(rows)
+      class(interface_equations_type), intent(in) :: self
+      integer, intent(in)                         :: i
+      integer, allocatable :: rows(:)
+
+      associate (first => self%first(i), last => self%first(i + 1) - 1)
+         rows = reshape(self%equation(:, first:last), [size(self%equation, 1)*(last - first + 1)])
+      end associate
+   end function rows_of
+
+
+   !> Stiffness of element I between its rows_of, where K is that between its ends.
+   pure function matrix_of(self, i, k) result(matrix)
+      class(interface_equations_type), intent(in) :: self
+      integer, intent(in)                         :: i
+      real(wp), intent(in)                        :: k(3, 3) !! global axes [force/length]
+      real(wp), allocatable :: matrix(:, :)
+      integer :: a, b, d, n
+
+      d = size(self%equation, 1)
+      n = self%first(i + 1) - self%first(i)
+      allocate (matrix(d*n, d*n))
+      associate (s => self%weight(self%first(i):self%first(i + 1) - 1))
+         do b = 1, n
+            do a = 1, n
+               matrix(d*(a - 1) + 1:d*a, d*(b - 1) + 1:d*b) = s(a)*s(b)*k(:d, :d)
+            end do
+         end do
+      end associate
+   end function matrix_of
+
+
+   !> Y = Y + sum of [k_int] X over all elements, with the stiffnesses K between their ends.
+   pure subroutine add_products(equations, k, x, y)
+      type(interface_equations_type), intent(in) :: equations
+      real(wp), intent(in)                       :: k(:, :, :) !! (3, 3, n) global axes [force/length]
+      real(wp), intent(in)                       :: x(:)       !! by equation [length]
+      real(wp), intent(inout)                    :: y(:)       !! likewise [force]
+      real(wp) :: between(3), force(3)
+      integer  :: a, c, d, i
+
+      d = size(equations%equation, 1)
+      do i = 1, equations%n
+         between = 0.0_wp
+         do a = equations%first(i), equations%first(i + 1) - 1
+            do c = 1, d
+               if (equations%equation(c, a) > 0) between(c) = between(c) + equations%weight(a)*x(equations%equation(c, a))
+            end do
+         end do
+         force(:d) = matmul(k(:d, :d, i), between(:d))
+         do a = equations%first(i), equations%first(i + 1) - 1
+            do c = 1, d
+               if (equations%equation(c, a) > 0) y(equations%equation(c, a)) = y(equations%equation(c, a)) &
+                                                                               + equations%weight(a)*force(c)
+            end do
+         end do
+      end do
+   end subroutine add_products
+
+end module interface_equations

@@ -1,0 +1,54 @@
+!> What is needed against what the machine has. A factor is looked at when its layout is known, and before it is made.
+module memory_need
+   use failures, only: failure_type
+   use kinds, only: wp
+   use machine, only: memory_for
+   use text_tools, only: integer_text
+   implicit none
+   private
+
+   public :: check_memory, shortage
+
+contains
+
+   !> A failure where so many BYTES for the factor of N equations are more than can be had; its message says what would fit.
+   subroutine check_memory(n, dimension, bytes, failure)
+      integer, intent(in)               :: n          !! unknowns
+      integer, intent(in)               :: dimension  !! of the model
+      real(wp), intent(in)              :: bytes
+      type(failure_type), intent(inout) :: failure
+      real(wp), parameter :: inverse_growth(2:3) = [0.9_wp, 0.75_wp] ! bytes grow like n log n, n**(4/3)
+      character(:), allocatable :: words
+      real(wp) :: share
+
+      call shortage('the factor of '//integer_text(n)//' equations needs about', bytes, words, share)
+      if (words /= '') call failure%raise(words//'; of this shape about '// &
+                                          integer_text(int(n*share**inverse_growth(dimension)))//' equations would fit')
+   end subroutine check_memory
+
+
+   !> WORDS that say what NEEDS so many BYTES and what the machine has, and the SHARE that can be had; '' where all can.
+   subroutine shortage(needs, bytes, words, share)
+      character(*), intent(in)               :: needs
+      real(wp), intent(in)                   :: bytes
+      character(:), allocatable, intent(out) :: words
+      real(wp), intent(out)                  :: share !! [-]
+      real(wp) :: there
+
+      there = real(memory_for(bytes), wp)
+      words = ''
+      share = 1.0_wp
+      if (bytes <= there) return
+      share = there/bytes
+      words = needs//' '//mebibytes(bytes)//' MiB, and the machine has '//mebibytes(there)//' MiB to give'
+   end subroutine shortage
+
+
+   pure function mebibytes(bytes) result(text)
+      real(wp), intent(in)      :: bytes
+      character(:), allocatable :: text
+
+      text = integer_text(int(min(bytes/1048576.0_wp, real(huge(1), wp))))
+   end function mebibytes
+
+end module memory_need

@@ -1,0 +1,23 @@
+# Which object needs which, as lines of a makefile, from the `use` lines of Fortran sources; a file is named as its module.
+#
+#    awk -v folder=build/release -v objects='build/release/kinds.o ...' -f dependencies.awk src/*/*.f90
+#
+# FOLDER: where the objects of these sources go; OBJECTS: all that they may need. A module without an object is passed over.
+
+BEGIN {
+   n = split(objects, path, " ")
+   for (i = 1; i <= n; i++) object[name_of(path[i])] = path[i]
+}
+
+FNR == 1 { me = name_of(FILENAME) }
+
+$1 == "use" {
+   used = $2
+   sub(/,.*/, "", used)
+   if (used in object) print folder "/" me ".o: " object[used]
+}
+
+function name_of(path) {
+   gsub(/.*\/|\.[a-z0-9]*$/, "", path)
+   return path
+}
