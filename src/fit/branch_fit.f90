@@ -160,6 +160,7 @@ contains
       fit%group = [(k, k = 1, size(p))]
       fit%group_p = p
       fit%cubic = c
+      allocate (fit%start(0))
       call fit_coefficient_lines(one_pressure, fit)
       do k = 1, 3
          call drop_rounding(fit%lines(:, k), fit%p_high, 1.0_wp, maxval(abs(c(k, :))))

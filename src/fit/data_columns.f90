@@ -1,6 +1,6 @@
 !> The words of a data file: its columns, the units in its headings, the branches; and the header line that names the columns.
 module data_columns
-   use data_entries, only: entry_type, split_unit
+   use data_entries, only: entry_type, split_entries, split_unit
    use data_units, only: has_force, unit_system, unit_value
    use deck_errors, only: deck_error_list
    use kinds, only: wp
@@ -29,18 +29,18 @@ module data_columns
                                               sum(2**[column_c, column_p, column_branch])]
    integer, parameter         :: allowed(3) = needed + sum(2**[column_branch, column_run])*[1, 1, 0]
    character(*), parameter, public :: known_headers = 'expected a line with the names of the columns: '// &
-      '''d tau p branch'', ''lambda p'' or ''c1 c2 c3 p branch'''
+      '''d tau p branch'', ''lambda p'' or ''c1 c2 c3 p branch'', or --columns with them'
 
    !> How the command wants its files to be read.
    type, public :: reading_type
-      type(unit_system) :: deck, data           !! --units, --data-units
-      character(:), allocatable :: ignored      !! --ignore: names in capitals, a comma before and behind each
+      type(unit_system) :: deck                 !! --units
+      character(:), allocatable :: columns      !! --columns: the header of every file, empty: it has its own
       logical :: decimal_comma = .false.        !! --decimal-comma
    end type reading_type
 
    type, public :: header_type
-      integer :: line   = 0                     !! in the text of the file, 0: none yet
-      integer :: part   = 0                     !! of the file that it begins
+      integer :: line   = 0                     !! in the text of the file
+      integer :: part   = 0                     !! of the file that it begins, 0: no header yet
       integer :: kind   = 0                     !! data_shear, data_normal or data_cubics
       integer :: holds  = 0                     !! sum of 2**column
       logical :: decimal_comma = .false.        !! of the rows below it
@@ -60,30 +60,38 @@ contains
 
 
    !> Read the header LINE. A file may hold several, each for the rows below it, of one kind.
-   subroutine read_header(line, at, entries, reading, header, errors)
+   subroutine read_header(line, at, reading, header, errors)
       character(*), intent(in)             :: line
-      integer, intent(in)                  :: at
-      type(entry_type), intent(in)         :: entries(:)
+      integer, intent(in)                  :: at      !! its place in the file, 0: it is from the command
       type(reading_type), intent(in)       :: reading
       type(header_type), intent(inout)     :: header !! the one before, and now this one
       type(deck_error_list), intent(inout) :: errors
-      character(:), allocatable :: name, unit
-      integer :: columns(size(entries)), errors_before, holds, k, kind
+      type(entry_type), allocatable :: entries(:)
+      character(:), allocatable     :: name, unit
+      integer, allocatable          :: columns(:)
+      integer :: errors_before, holds, k, kind
 
       errors_before = errors%n
+      call split_entries(line, entries, .true.)
+      columns = [(0, k = 1, size(entries))]
       do k = 1, size(entries)
          associate (first => entries(k)%first, last => entries(k)%last)
             call split_unit(line(first:last), name, unit)
             columns(k) = findloc(column_names == upper(name), .true., 1)
-            if (index(reading%ignored, ','//upper(name)//',') > 0) then
-               columns(k) = 0
+            if (name == '-') then
+               cycle
             else if (columns(k) == 0) then
-               call errors%add(at, ''''//name//''' is no column that jointfit knows (--ignore '//name// &
-                               ' leaves it out); '//known_headers, first, last)
+               call errors%add(at, ''''//name//''' is no column that jointfit knows (--columns tells what it is, - that it '// &
+                               'does not count); '//known_headers, first, last)
             else if (any(columns(:k - 1) == columns(k))) then
                call errors%add(at, 'column '''//name//''' a second time', first, last)
-            else
-               call take_unit(columns(k), unit, at, reading, header, errors)
+            else if (unit /= '') then
+               associate (known => header%units(columns(k)))
+                  if (known /= '' .and. unit /= known .and. reading%deck%length <= 0.0_wp) &
+                     call errors%add(at, name//' in '//unit//', but above in '//trim(known)//': --units mm,n converts both', &
+                                     first, last)
+                  known = unit
+               end associate
             end if
          end associate
       end do
@@ -107,25 +115,7 @@ contains
    end subroutine read_header
 
 
-   !> COLUMN is in UNIT, empty: not said. Without conversion a column has one unit in the whole file.
-   subroutine take_unit(column, unit, at, reading, header, errors)
-      integer, intent(in)                  :: column, at
-      character(*), intent(in)             :: unit
-      type(reading_type), intent(in)       :: reading
-      type(header_type), intent(inout)     :: header
-      type(deck_error_list), intent(inout) :: errors
-
-      associate (known => header%units(column))
-         if (known /= '' .and. unit /= '' .and. unit /= known .and. reading%deck%length <= 0.0_wp) &
-            call errors%add(at, trim(column_symbols(column))//' in '//unit//', but above in '//trim(known)// &
-                            ': --units mm,n converts both to the units of the deck')
-         if (unit /= '') known = unit
-      end associate
-   end subroutine take_unit
-
-
-   !> The factors from the units of the data to those of the cards. The units are those of --data-units, of the headings, or of
-   !! FILE, the line UNITS =, in this order.
+   !> The factors from the units of the data, those of the headings or of FILE, the line UNITS =, to those of the cards.
    subroutine set_factors(reading, file, header, errors)
       type(reading_type), intent(in)       :: reading
       type(unit_system), intent(in)        :: file
@@ -138,19 +128,18 @@ contains
       do k = 1, size(header%columns)
          column = header%columns(k)
          if (column == 0 .or. column == column_branch .or. column == column_run) cycle
-         if (reading%data%length > 0.0_wp) then
-            unit = unit_in(reading%data, column)
-         else if (header%units(column) /= '') then
-            unit = 0.0_wp
-            if (length_power(column) >= 0) unit = unit_value(trim(header%units(column)), stress_power(column))
-            if (unit <= 0.0_wp) call errors%add(header%line, ''''//trim(header%units(column))//''' is no unit of '// &
-               trim(column_symbols(column))//' that jointfit knows; --data-units um,MPa tells those of all columns')
-         else
-            unit = unit_in(file, column)
-            if (unit <= 0.0_wp) call errors%add(header%line, 'the unit of '//trim(column_symbols(column))//' is not said, and '// &
-               '--units needs it: write it into the heading, as lambda [um], or give --data-units um,MPa')
-         end if
+         unit = unit_in(file, column)
+         if (header%units(column) /= '' .and. length_power(column) >= 0) &
+            unit = unit_value(trim(header%units(column)), stress_power(column))
          header%factors(column) = unit/unit_in(reading%deck, column)
+         if (unit > 0.0_wp) cycle
+         if (header%units(column) /= '') then
+            call errors%add(header%line, ''''//trim(header%units(column))//''' is no unit of '//trim(column_symbols(column))// &
+                            ' that --units knows: expected um, mm, m, in; MPa, kgf/cm2, bar, psi and the like')
+         else
+            call errors%add(header%line, 'the unit of '//trim(column_symbols(column))//' is not said, and --units needs it: '// &
+                            'expected a heading as lambda [um], here or in --columns, or a line UNITS = um, MPa')
+         end if
       end do
    end subroutine set_factors
 
@@ -169,21 +158,16 @@ contains
    subroutine check_system(header, warnings)
       type(header_type), intent(in)        :: header
       type(deck_error_list), intent(inout) :: warnings
-      real(wp) :: length, stress
+      character(16) :: length, stress(2)
+      real(wp) :: values(2)
 
-      associate (l => header%units(merge(column_d, column_lambda, header%kind == data_shear)), &
-                 p => header%units(column_p), tau => header%units(column_tau))
-         length = unit_value(trim(l), 0)
-         stress = unit_value(trim(p), 1)
-         if (header%kind == data_shear .and. p /= '' .and. tau /= '' .and. tau /= p) then
-            call warnings%add(0, 'tau in '//trim(tau)//' and p in '//trim(p)//': the card mixes them, --units mm,n converts '// &
-                              'both to the units of a deck')
-         else if (length > 0.0_wp .and. stress > 0.0_wp) then
-            if (.not. has_force(length, stress)) &
-               call warnings%add(0, 'the card is in '//trim(l)//' and '//trim(p)//', with which no unit of force goes: '// &
-                                 '--units mm,n converts to the units of a deck')
-         end if
-      end associate
+      length = header%units(merge(column_d, column_lambda, header%kind == data_shear))
+      stress = header%units(merge([column_p, column_tau], column_p, header%kind == data_shear))
+      values = [unit_value(trim(length), 0), unit_value(trim(stress(1)), 1)]
+      if (any(values <= 0.0_wp) .or. any(stress == '')) return
+      if (stress(1) == stress(2) .and. has_force(values(1), values(2))) return
+      if (stress(1) /= stress(2)) length = stress(2)
+      call warnings%add(0, trim(length)//' and '//trim(stress(1))//' are no units of one deck: --units mm,n converts both')
    end subroutine check_system
 
 end module data_columns

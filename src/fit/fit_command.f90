@@ -27,7 +27,7 @@ module fit_command
       logical  :: unordered = .false.    !! --unordered: rows that do not name their branch are loading
       character(:), allocatable :: plot  !! --plot: a file for gnuplot, empty: none
       type(fit_choice)   :: fit          !! --p-tolerance, --joint-fit, --one-pressure
-      type(reading_type) :: reading      !! --units, --data-units, --ignore, --decimal-comma
+      type(reading_type) :: reading      !! --units, --columns, --decimal-comma
       type(input_argument), allocatable :: files(:)
    end type fit_command_type
 
@@ -45,7 +45,7 @@ contains
 
       allocate (command%files(0))
       command%plot = ''
-      command%reading%ignored = ','
+      command%reading%columns = ''
       finished = .true.
       status = 1
       options = .true.
@@ -78,7 +78,7 @@ contains
             command%reading%decimal_comma = .true.
          case ('--small', '--large')
             command%small = argument == '--small'
-         case ('--id', '--branch', '--as', '--p-tolerance', '--dmax', '--noise', '--units', '--data-units', '--ignore', '--plot')
+         case ('--id', '--branch', '--as', '--p-tolerance', '--dmax', '--noise', '--units', '--columns', '--plot')
             i = i + 1
             call read_value(argument, argument_text(i), command, ok)
             if (.not. ok) return
@@ -91,8 +91,6 @@ contains
          call complain(program, 'no data file given')
       else if (command%as > 0 .and. command%only == 0) then
          call complain(program, '--as needs --branch: which branch of the data is meant?')
-      else if (command%reading%data%length > 0.0_wp .and. command%reading%deck%length <= 0.0_wp) then
-         call complain(program, '--data-units needs --units: which units is the deck in?')
       else
          if (command%as == 0) command%as = command%only
          finished = .false.
@@ -132,13 +130,10 @@ contains
       case ('--units')
          call read_system(value, command%reading%deck, ok)
          expected = 'the units of length and force of the deck, as mm,n or mm,kgf or m,n'
-      case ('--data-units')
-         call read_system(value, command%reading%data, ok)
-         expected = 'the units of length and stress of the data, as um,MPa or um,kgf/cm2'
-      case ('--ignore')
-         command%reading%ignored = command%reading%ignored//upper(value)//','
+      case ('--columns')
+         command%reading%columns = value
          ok = value /= ''
-         expected = 'names of columns, as time,remark'
+         expected = 'the names of the columns, as ''p [MPa], lambda [um]'''
       case ('--plot')
          command%plot = value
          ok = value /= ''

@@ -50,7 +50,7 @@ contains
       type(unit_system) :: system                ! of the line UNITS =
       character(:), allocatable :: line
       integer :: i, k
-      logical :: above                           ! no row yet since the last header
+      logical :: above                           ! a header stands above, and no row yet below it
 
       call read_deck_text(path, data%text, errors, readable)
       if (.not. readable) return
@@ -60,8 +60,13 @@ contains
          errors%items(errors%n)%message = 'the file is empty, or no text: expected test data as plain text'
          return
       end if
-      call make_room(data, data%text%n)
-      above = .false.
+      associate (rows => data%text%n)
+         allocate (data%value(n_columns, rows), source=0.0_wp)
+         allocate (data%branch(rows), data%run(rows), data%part(rows), data%line(rows), source=0)
+         allocate (data%place(2, n_columns, rows), source=0)
+         allocate (data%joined(rows), source=.false.)
+      end associate
+      above = reading%columns /= ''
       do i = 1, data%text%n
          line = data_part(data%text%line(i))
          call split_entries(line, entries, header%decimal_comma .or. reading%decimal_comma)
@@ -69,35 +74,26 @@ contains
          if (index(upper(adjustl(line)), 'UNITS') == 1 .and. index(line, '=') > 0) then
             call read_units(line, i, data, system, errors)
          else if (.not. any([(is_number(line(entries(k)%first:entries(k)%last)), k = 1, size(entries))])) then
-            call read_header(line, i, entries, reading, header, errors)
+            if (reading%columns == '') call read_header(line, i, reading, header, errors)
             above = .true.
-         else if (header%line == 0) then
-            call errors%add(i, 'numbers before the header line: '//known_headers)
-            return
-         else if (size(header%columns) > 0) then
+         else
+            if (above .and. reading%columns /= '') call read_header(reading%columns, 0, reading, header, errors)
+            if (header%part == 0) then
+               call errors%add(i, 'numbers before the header line: '//known_headers)
+               return
+            end if
             if (above) call set_factors(reading, system, header, errors)
             above = .false.
-            call read_row(line, i, entries, header, data, errors)
+            if (size(header%columns) > 0) call read_row(line, i, entries, header, data, errors)
          end if
       end do
-      if (header%line == 0) then
+      if (header%part == 0) then
          call errors%add(0, 'no header line: '//known_headers)
       else if (data%n == 0 .and. .not. errors%any()) then
          call errors%add(0, 'no test data below the header line')
       end if
       call keep_header(header, reading, data, errors)
    end subroutine read_test_data
-
-
-   subroutine make_room(data, rows)
-      type(test_data_type), intent(inout) :: data
-      integer, intent(in)                 :: rows
-
-      allocate (data%value(n_columns, rows), source=0.0_wp)
-      allocate (data%branch(rows), data%run(rows), data%part(rows), data%line(rows), source=0)
-      allocate (data%place(2, n_columns, rows), source=0)
-      allocate (data%joined(rows), source=.false.)
-   end subroutine make_room
 
 
    !> What the rows below the last HEADER are.

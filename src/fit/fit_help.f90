@@ -39,9 +39,8 @@ contains
          ''//nl// &
          'the data:'//nl// &
          '   --units L,F       units of length and force of the cards: mm,n or mm,kgf or m,n and so on'//nl// &
-         '   --data-units L,S  units of length and stress of the data, where headings do not say them: um,MPa'//nl// &
          '   --decimal-comma   1,5 is 1.5 also where no semicolons stand'//nl// &
-         '   --ignore NAMES    columns to leave out: time,remark'//nl// &
+         '   --columns NAMES   the columns, whatever headings the file has; - does not count: -,p [MPa],lambda [um]'//nl// &
          '   --noise X         share of the range of the readings that is noise: smaller turns are none, a first reading'//nl// &
          '                     that is less below zero is an offset (default: found from the record, 0.01 or more)'//nl// &
          '   --zero            take the first reading of each test off all of it'//nl// &

@@ -68,9 +68,18 @@ contains
       subroutine put_labels(x, y)
          integer, intent(in) :: x, y !! columns, 0: coefficients
 
-         call out%put('set xlabel '//quoted(trim(column_symbols(x))//' '//data%unit(x)))
-         if (y > 0) call out%put('set ylabel '//quoted(trim(column_symbols(y))//' '//data%unit(y)))
+         call put_label('x', x)
+         if (y > 0) call put_label('y', y)
       end subroutine put_labels
+
+      subroutine put_label(axis, column)
+         character, intent(in) :: axis
+         integer, intent(in)   :: column
+
+         k = len_trim(data%unit(column))
+         call out%put('set '//axis//'label '//quoted(trim(column_symbols(column))// &
+                                                     merge(' ['//trim(data%unit(column))//']', repeat(' ', k + 3), k > 0)))
+      end subroutine put_label
 
    end subroutine write_plot
 

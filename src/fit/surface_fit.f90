@@ -130,7 +130,7 @@ contains
 
       words = ''
       associate (p => fit%group_p, n => size(fit%group_p))
-         if (any(p(2:) < 1.05_wp*p(:n - 1))) words = '; --p-tolerance 0.05 counts pressures within 5 % as one'
+         if (any(p(2:) < 1.05_wp*p(:n - 1))) words = ', --p-tolerance 0.05 counts pressures within 5 % as one'
       end associate
    end function tolerance_help
 

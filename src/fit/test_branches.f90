@@ -66,7 +66,8 @@ contains
          runs = runs + size(starts)
       end do
       call check_signs(data, band, band*range, errors)
-      if (.not. faulty .and. data%is_record) call report_record(data, columns, range, band, runs, maxval(test), errors)
+      if (.not. faulty .and. data%is_record) call report_record(data, command%fit%p_tolerance, columns, band, &
+         band*range, [runs, maxval(test)], errors)
    end subroutine find_branches
 
 
@@ -183,7 +184,7 @@ contains
 
 
    !> Rows that name their branches and have no runs: each stretch of one branch at one pressure is a run. Stretches of very few
-   !! rows are rows in no order: those of a branch and pressure are one run.
+   !! rows of shear are rows in no order: those of a branch and pressure are one run.
    subroutine number_stretches(data, p_tolerance)
       type(test_data_type), intent(inout) :: data
       real(wp), intent(in)                :: p_tolerance
@@ -198,29 +199,34 @@ contains
          end associate
          stretch(i) = stretch(i - 1) + merge(1, 0, new)
       end do
-      if (data%n >= few*stretch(data%n)) data%run(:data%n) = stretch
+      if (data%kind == data_normal .or. data%n >= few*stretch(data%n)) data%run(:data%n) = stretch
    end subroutine number_stretches
 
 
    !> Note how the record was cut, and say where it is hardly a record.
-   subroutine report_record(data, columns, range, band, runs, tests, errors)
+   subroutine report_record(data, p_tolerance, columns, share, band, counts, errors)
       type(test_data_type), intent(inout)  :: data
-      integer, intent(in)                  :: columns(2), runs, tests
-      real(wp), intent(in)                 :: range(2), band
+      real(wp), intent(in)                 :: p_tolerance, share, band(2) !! SHARE of the range is the BAND of each column
+      integer, intent(in)                  :: columns(2), counts(2)       !! runs and tests
       type(deck_error_list), intent(inout) :: errors
       character(:), allocatable :: rows
+      logical :: noisy
 
       rows = plural(data%n, 'row')
-      call data%notes%add(0, rows//' in the order of time, '//plural(tests, 'test')//', '//plural(runs - tests, 'turn')// &
-                          '; noise band '//real_text(0.01_wp*nint(1.0e4_wp*band))//' % of the range (--noise): '// &
-                          real_text(band*range(1))//' of '//trim(column_symbols(columns(1)))//', '//real_text(band*range(2))// &
-                          ' of '//trim(column_symbols(columns(2))))
-      if (data%kind == data_shear .and. tests > 3 .and. data%n < few*tests) then
-         call errors%add(0, plural(tests, 'test')//' in '//rows//' by the pressure: expected the rows of a test together; '// &
+      call data%notes%add(0, rows//' in the order of time, '//plural(counts(2), 'test')//', '// &
+                          plural(counts(1) - counts(2), 'turn')//'; noise band '//real_text(0.01_wp*nint(1.0e4_wp*share))// &
+                          ' % of the range (--noise): '//real_text(band(1))//' of '//trim(column_symbols(columns(1)))//', '// &
+                          real_text(band(2))//' of '//trim(column_symbols(columns(2))))
+      associate (p => data%value(column_p, :data%n - 1), p_next => data%value(column_p, 2:data%n))
+         noisy = data%kind == data_shear .and. counts(2) > 1 .and. &
+                 (data%n < few*counts(2) .or. any(abs(p_next - p) > p_tolerance*p .and. abs(p_next - p) < 0.05_wp*p))
+      end associate
+      if (noisy) then
+         call errors%add(0, plural(counts(2), 'test')//' in '//rows//' by the pressure: expected the rows of a test together; '// &
                          '--p-tolerance 0.05 counts pressures within 5 % as one')
-      else if (runs > tests .and. data%n < few*runs) then
-         call errors%add(0, 'the test turns back '//integer_text(runs - tests)//' times in '//rows//', too often for a '// &
-                         'record in the order of time; --unordered takes all rows as loading, --noise 0.1 passes over '// &
+      else if (counts(1) > counts(2) .and. data%n < few*counts(1)) then
+         call errors%add(0, 'the test turns back '//integer_text(counts(1) - counts(2))//' times in '//rows//', too often for '// &
+                         'a record in the order of time; --unordered takes all rows as loading, --noise 0.1 passes over '// &
                          'smaller turns, a column branch or run tells what the rows are')
       else if (.not. any(data%branch(:data%n) == fit_load) .and. data%kind == data_normal) then
          call errors%add(0, 'no loading: p falls from the first row on; --unordered takes all rows as loading')
