@@ -32,7 +32,7 @@ help:
 	@echo 'make check      only the decks against reference_output'
 	@echo 'make accept CASE=name    take the results of input/name.bdf as the new reference'
 	@echo 'make bench      speed and memory, MODELS=small: only of small models'
-	@echo 'make figures    the pictures, from the CSV files of the decks'
+	@echo 'make figures    the pictures, from the CSV files of the decks; DATA=file: of test data and their fit'
 	@echo 'make clean'
 
 # The program, optimised and with run-time checks -----------------------------------------------------------------
@@ -116,7 +116,13 @@ include tests/bench/bench.mk
 
 .PHONY: figures
 figures: bin/jointfem bin/jointfit
+ifdef DATA
+	@mkdir -p $(BUILD)/figures
+	bin/jointfit $(OPTIONS) --plot $(BUILD)/figures/fit.gp '$(DATA)' > $(BUILD)/figures/fit.bdf
+	gnuplot $(BUILD)/figures/fit.gp
+else
 	@reference_output/figures/draw.sh bin/jointfem bin/jointfit $(BUILD)/figures
+endif
 
 .PHONY: clean
 clean:

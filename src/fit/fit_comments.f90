@@ -102,9 +102,10 @@ contains
       character(14) :: cells(6)
       integer :: k
 
-      call comment(out, 'unload', 'E_u = '//real_text(loops%e_u)//', standard error '//real_text(100.0_wp*loops%error)// &
-                   ' %, from '//plural(size(loops%lines), 'line')//' through '//plural(loops%n_points, 'point')// &
-                   ' apart from loading; lambda about them: rms '//real_text(loops%rms))
+      call comment(out, 'unload', 'E_u = '//real_text(loops%e_u)//', standard error '// &
+                   real_text(0.01_wp*nint(1.0e4_wp*min(loops%error, 1.0e4_wp)))//' %, from '// &
+                   plural(size(loops%lines), 'line')//' through '//plural(loops%n_points, 'point')//' apart from loading')
+      call comment(out, '', 'residual of lambda about lines of this slope: rms '//real_text(loops%rms))
       cells = [character(14) :: 'line', 'p from', 'to', 'lambda, p = 0', 'E_u', 'points']
       do k = 0, size(loops%lines)
          if (k > 0) then

@@ -24,7 +24,8 @@ contains
          ''//nl// &
          'Points may have two columns more:'//nl// &
          ''//nl// &
-         '   branch   LOAD, UNLOAD or RELOAD: the rows may stand in any order'//nl// &
+         '   branch   LOAD, UNLOAD or RELOAD: each stretch of rows of one branch and pressure is a run, but rows that'//nl// &
+         '            stand in no order share one run'//nl// &
          '   run      the number of the run from one turn to the next: every run of unloading and reloading starts'//nl// &
          '            at a point of its own (b0, c0); without a column branch its direction tells what it is'//nl// &
          ''//nl// &

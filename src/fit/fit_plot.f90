@@ -101,7 +101,8 @@ contains
          fitted = fit%c*max(p, 0.0_wp)**fit%m
          if (k > 0) then
             b = fit%loops%lines(k)%branch
-            fitted = fit%loops%lines(k)%lambda + (p - fit%loops%lines(k)%p)/max(fit%loops%e_u, tiny(p))
+            fitted = 0.0_wp*p + fit%loops%lines(k)%lambda
+            if (fit%loops%e_u > 0.0_wp) fitted = fitted + (p - fit%loops%lines(k)%p)/fit%loops%e_u
          end if
          call put_block(out, plots, trim(branch_words(b)), [b, b], data%value(column_lambda, rows), p, fitted, p)
       end do

@@ -40,19 +40,20 @@ contains
       type(test_data_type), intent(in)     :: data
       real(wp), intent(in)                 :: share, band(2) !! of d and tau, or of lambda and p
       type(deck_error_list), intent(inout) :: errors
-      character(:), allocatable :: help, line
+      character(:), allocatable :: help, word
       integer :: i
 
       help = '; --zero takes the first reading off all of a test, --noise takes more than '// &
              real_text(0.01_wp*nint(1.0e4_wp*share))//' % of the range for noise'
       do i = 1, data%n
          associate (p => data%place(:, column_p, i), d => data%place(:, column_d, i))
-            line = data%text%line(data%line(i))
+            word = data%text%line(data%line(i))
+            word = word(p(1):min(p(2), len(word)))
             if (data%kind == data_normal .and. data%value(column_p, i) < -band(2)) then
-               call errors%add(data%line(i), 'P: '''//line(p(1):p(2))//''' is negative, expected 0 or more (compression is '// &
+               call errors%add(data%line(i), 'P: '''//word//''' is negative, expected 0 or more (compression is '// &
                                'positive)'//help, p(1), p(2))
             else if (data%kind == data_shear .and. data%value(column_p, i) < 0.0_wp) then
-               call errors%add(data%line(i), 'P: '''//line(p(1):p(2))//''' is negative, expected 0 or more (compression is '// &
+               call errors%add(data%line(i), 'P: '''//word//''' is negative, expected 0 or more (compression is '// &
                                'positive)', p(1), p(2))
             else if (data%kind == data_shear .and. data%has_branch .and. data%branch(i) == fit_load .and. &
                      data%value(column_d, i) < -band(1)) then

@@ -1,6 +1,6 @@
 !> The laws of one surface from its test data.
 module surface_fit
-   use branch_fit, only: branch_fit_type, fault_dependent, fault_few_points, fault_one_pressure, fit_lines_only, &
+   use branch_fit, only: branch_fit_type, fault_dependent, fault_few_points, fault_none, fault_one_pressure, fit_lines_only, &
                          fit_points
    use data_columns, only: branch_words, column_c, column_d, column_lambda, column_p, column_tau, data_normal, data_shear, &
                            fit_load, fit_reload
@@ -72,7 +72,12 @@ contains
       end if
       do b = fit_load, fit_reload
          if (count(data%branch(:data%n) == fit%source(b)) == 0) cycle
-         call fit_branch(data, command, fit%source(b), fit%branch(b), errors)
+         if (data%is_record .and. b /= fit_load) then      ! a record may hold a little of a branch
+            call fit_branch(data, command, fit%source(b), fit%branch(b), fit%warnings)
+            if (fit%branch(b)%fault /= fault_none) fit%branch(b) = branch_fit_type()
+         else
+            call fit_branch(data, command, fit%source(b), fit%branch(b), errors)
+         end if
          fit%card(:, :, b) = fit%branch(b)%lines
          if (command%fit%one_step .and. fit%branch(b)%from_points) fit%card(:, :, b) = fit%branch(b)%joint
       end do
@@ -115,7 +120,8 @@ contains
          call errors%add(data%line(rows(i)), name//', p = '//real_text(fit%group_p(fit%fault_at))//': '// &
                          plural(count(fit%group == fit%fault_at), 'point')//' that fix no cubic, expected '// &
                          trim(merge('four different d or more             ', &
-                                    'three different d or more, not zero  ', fit%constant))//tolerance_help(fit))
+                                    'three different d or more, not zero  ', fit%constant))// &
+                         '; --joint-fit needs no cubic of each pressure'//tolerance_help(fit))
       case (fault_dependent)
          call errors%add(data%line(rows(1)), name//': '//plural(size(rows), 'point')// &
                          ' that do not fix the coefficients: expected more different d and p'//tolerance_help(fit))

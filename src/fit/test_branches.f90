@@ -40,7 +40,8 @@ contains
       data%in_order = .not. (data%has_branch .or. command%unordered)
       data%is_record = data%in_order .and. .not. data%has_run
       associate (x => data%value(columns(1), :data%n), y => data%value(columns(2), :data%n))
-         range = max([maxval(x) - minval(x), maxval(y) - minval(y)], tiny(1.0_wp))
+         range = [maxval(x) - minval(x), maxval(y) - minval(y)]
+         where (range <= 0.0_wp) range = 1.0_wp
          scatter = 0.0_wp
          if (data%is_record) scatter = scatter_of(x, y)
       end associate

@@ -56,6 +56,12 @@ fit --p-tolerance 0.05 wobbly.dat
 holds 'pressures that wobble: taken with --p-tolerance' [ $status -eq 0 ]
 says 'pressures that wobble: three tests' cards '3 tests, 15 turns'
 
+# a record may hold a little of a branch
+awk -v form=words -f "$here/fig1b.awk" | awk '$4 == "RELOAD" && n[$3, $5]++ { next } { print $1, $2, $3 }' > little.dat
+fit little.dat
+holds 'a little of a branch: status 0' [ $status -eq 0 ]
+says 'a little of a branch: it is left out with a warning' stderr 'WARNING: RELOAD, p = 0.2' 'fix no cubic' '--joint-fit'
+
 # ---- normal tests with loops ----
 
 printf 'JNORM 1 1\nJNORM 2 2.5\nJNORM 3 0.5\nJNORM 4 3\n' > loops
@@ -201,6 +207,20 @@ usage '--units of one' '--units mm: expected the units of length and force' --un
 usage '--noise too wide' '--noise 0.7: expected a share' --noise 0.7 all.dat
 usage '--columns without a value' '--columns : expected the names' all.dat --columns
 usage '--plot without a value' '--plot : expected the name' all.dat --plot
+
+# ---- the worked examples of the manual ----
+
+# block HEADING N: the Nth block between ``` below ### HEADING in section 9 of input/README.md
+block() {
+   awk -v heading="### $1" -v wanted="$2" '/^### / { on = $0 == heading } !on { next }
+      /^```/ { inside = !inside; n += inside; next } inside && n == wanted' "$here/../../input/README.md"
+}
+block 'A normal test' 1 > normal.csv
+block 'A shear test' 1 > shear.csv
+fit --units mm,n normal.csv
+holds 'manual: the normal test' cmp -s cards <(block 'A normal test' 2)
+fit --units mm,n --small --id 7 shear.csv
+holds 'manual: the shear test' cmp -s <(tail -n 5 cards) <(block 'A shear test' 2)
 
 # ---- pictures ----
 
