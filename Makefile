@@ -36,6 +36,7 @@ help:
 	@echo 'make bench      speed and memory, MODELS=small: only of small models'
 	@echo 'make figures    the pictures, from the CSV files of the decks'
 	@echo 'make figures DECK=path   pressure, deflection and loops of the joints of any deck'
+	@echo 'make figures DATA=file   test data and their fit'
 	@echo 'make clean'
 
 # The program, optimised and with run-time checks -----------------------------------------------------------------
@@ -126,11 +127,16 @@ accept: bin/jointfem
 
 include tests/bench/bench.mk
 
-# The figures of the paper, or with DECK=path those of one deck
+# The figures of the paper; with DECK=path those of one deck, with DATA=file those of test data
 .PHONY: figures
 ifdef DECK
 figures: bin/jointfem
 	@reference_output/figures/deck.sh bin/jointfem '$(DECK)' $(BUILD)/figures
+else ifdef DATA
+figures: bin/jointfit
+	@mkdir -p $(BUILD)/figures
+	bin/jointfit $(OPTIONS) --plot $(BUILD)/figures/fit.gp '$(DATA)' > $(BUILD)/figures/fit.bdf
+	gnuplot $(BUILD)/figures/fit.gp
 else
 figures: bin/jointfem bin/jointfit $(QUERY)
 	@reference_output/figures/draw.sh bin/jointfem bin/jointfit $(QUERY) $(BUILD)/figures

@@ -5,25 +5,27 @@ program jointfit
    use fit_command, only: fit_command_type, read_fit_command
    use fit_comments, only: write_cards
    use fit_data, only: read_test_data, test_data_type
-   use fit_run, only: end_fit, report_data_errors, report_fit, report_unreadable_data
+   use fit_plot, only: write_plot
+   use fit_run, only: begin_output, end_fit, report_data_errors, report_fit, report_unreadable_data
    use machine, only: use_threads
    use output_file, only: output_file_type
    use slope_check, only: check_slopes
    use surface_fit, only: fit_surface, surface_fit_type
+   use test_branches, only: find_branches
    implicit none
    type(fit_command_type) :: command
-   type(output_file_type) :: out
+   type(output_file_type) :: out, plot
    integer :: i, status
    logical :: finished
 
    call read_fit_command(command, finished, status)
    if (finished) call end_run(status)
    call use_threads(1)
-   call out%start('')
+   call begin_output(command, out, plot)
    do i = 1, size(command%files)
       call fit_file(i)
    end do
-   call end_fit(out)
+   call end_fit(command, out, plot)
 
 contains
 
@@ -35,11 +37,14 @@ contains
       logical :: readable
 
       ! ------------------------------------------------------------------ READ THE TEST DATA
-      call read_test_data(command%files(i)%path, command%files(i)%name, data, errors, readable)
+      call read_test_data(command%files(i)%path, command%files(i)%name, command%reading, data, errors, readable)
       if (.not. readable) then
          call report_unreadable_data(command%files(i))
          return
       end if
+
+      ! ------------------------------------------------------------------ WHICH BRANCH IS WHICH?
+      call find_branches(data, command, errors)
 
       ! ------------------------------------------------------------------ LEAST SQUARES
       if (.not. errors%any()) call fit_surface(data, command, fit, errors)
@@ -53,6 +58,7 @@ contains
 
       ! ------------------------------------------------------------------ CARDS
       call write_cards(command%files(i)%name, data, command, command%id + i - 1, fit, out)
+      if (command%plot /= '') call write_plot(command, i, data, fit, plot)
       call report_fit(command%files(i), fit)
    end subroutine fit_file
 

@@ -2,12 +2,20 @@
 module branch_fit
    use kinds, only: wp
    use least_squares, only: fit_line, solve_least_squares
+   use pressure_groups, only: group_by_pressure
    implicit none
    private
 
-   public :: fit_points, fit_lines_only, group_by_pressure, fit_cubic, fit_cubic_in_pressure
+   public :: fit_points, fit_lines_only, fit_cubic, fit_cubic_in_pressure
 
    real(wp), parameter :: rounding = 1.0e-13_wp ! share of a coefficient in tau below which it is set to zero
+
+   !> How a branch is to be fitted.
+   type, public :: fit_choice
+      real(wp) :: p_tolerance  = 1.0e-3_wp  !! relative, of pressures that count as one
+      logical  :: one_step     = .false.    !! all points at once is wanted: what two steps lack is no fault
+      logical  :: one_pressure = .false.    !! of one pressure only: coefficients that do not depend on it
+   end type fit_choice
 
    !> What the data lack for a fit.
    integer, parameter, public :: fault_none = 0, fault_one_pressure = 1, fault_few_points = 2, fault_dependent = 3
@@ -24,11 +32,14 @@ module branch_fit
       integer :: fault     = fault_none     !! what the data lack
       integer :: fault_at  = 0              !! the pressure with too few points, of fault_few_points
       logical :: from_points = .false.      !! false: the cubics were given
-      logical :: constant  = .false.        !! the cubics have a constant term
+      logical :: constant  = .false.        !! every run of a pressure has a constant term
       logical :: two_step  = .false.        !! CUBICS and LINES are there
       integer, allocatable  :: group(:)     !! (points) the pressure that each was taken at
       real(wp), allocatable :: group_p(:)   !! (pressures)
-      real(wp), allocatable :: cubic(:, :)  !! (0:3, pressures)
+      real(wp), allocatable :: cubic(:, :)  !! (3, pressures)
+      integer, allocatable  :: curve(:)     !! (points) the run at one pressure that each belongs to
+      integer, allocatable  :: curve_at(:)  !! (curves) its first point
+      real(wp), allocatable :: start(:)     !! (curves) constant term of its cubic [stress]
       real(wp) :: lines(2, 3) = 0.0_wp      !! a line through the cubics' coefficients, term by term
       real(wp) :: joint(2, 3) = 0.0_wp      !! all points at once
       type(residual_type) :: of_cubics, of_lines, of_joint !! of tau [stress]
@@ -40,13 +51,13 @@ module branch_fit
 contains
 
    !> Fit a branch through test points: in two steps, a cubic for each pressure and then the lines of Fig. 2 through their
-   !! coefficients, and for comparison all points in one step. What the two steps lack is a fault of FIT unless ONE_STEP says
-   !! that the other is wanted.
-   subroutine fit_points(d, tau, p, constant, tolerance, one_step, fit)
+   !! coefficients, and for comparison all points in one step. What the two steps lack is a fault of FIT unless the other is
+   !! CHOSEN.
+   subroutine fit_points(d, tau, p, run, constant, chosen, fit)
       real(wp), intent(in)               :: d(:), tau(:), p(:) !! (points) [length], [stress], [pressure]
-      logical, intent(in)                :: constant           !! each group's cubic has a constant term
-      real(wp), intent(in)               :: tolerance          !! relative, of pressures that count as one
-      logical, intent(in)                :: one_step
+      integer, intent(in)                :: run(:)             !! (points) each of a pressure starts at a point of its own
+      logical, intent(in)                :: constant           !! runs have a constant term
+      type(fit_choice), intent(in)       :: chosen
       type(branch_fit_type), intent(out) :: fit
       logical :: ok
       integer :: k
@@ -58,10 +69,14 @@ contains
       fit%p_high = maxval(p)
       fit%d_low = minval(d)
       fit%d_high = maxval(d)
-      call group_by_pressure(p, tolerance, fit%group, fit%group_p)
-      call fit_two_steps(d, tau, fit)
-      if (.not. (fit%two_step .or. one_step)) return
-      call fit_cubic_in_pressure(d, tau, p, fit%group, constant, fit%joint, ok)
+      call group_by_pressure(p, chosen%p_tolerance, fit%group, fit%group_p)
+      call separate_curves(run, fit)
+      call fit_two_steps(d, tau, chosen%one_pressure, fit)
+      if (.not. (fit%two_step .or. chosen%one_step)) return
+      fit%joint = fit%lines                ! of one pressure they are the same
+      ok = size(fit%group_p) == 1 .and. fit%two_step
+      if (.not. ok) call fit_cubic_in_pressure(d, tau, p, belongs(fit, [(k, k = 1, size(d))], [(k, k = 1, size(fit%start))]), &
+                                               fit%joint, ok)
       fit%fault = merge(fault_none, fault_dependent, ok)
       if (.not. ok) return
       do k = 1, 3
@@ -72,34 +87,70 @@ contains
       if (.not. fit%two_step) return
       fit%of_lines = law_residual(d, tau, p, fit, fit%lines)
       associate (c => fit%cubic(:, fit%group))
-         fit%of_cubics = residual_of(tau - (c(1, :) + d*(c(2, :) + d*(c(3, :) + d*c(4, :)))))
+         fit%of_cubics = residual_of(tau - (fit%start(fit%curve) + d*(c(1, :) + d*(c(2, :) + d*c(3, :)))))
       end associate
    end subroutine fit_points
 
 
-   !> A cubic for each group, then a line through each of their coefficients.
-   subroutine fit_two_steps(d, tau, fit)
-      real(wp), intent(in)                 :: d(:), tau(:)
+   !> Number the runs of each pressure, in the order of their first points.
+   subroutine separate_curves(run, fit)
+      integer, intent(in)                  :: run(:)
       type(branch_fit_type), intent(inout) :: fit
       integer :: i
+
+      allocate (fit%curve(size(run)), source=0)
+      allocate (fit%curve_at(0))
+      do i = 1, size(run)
+         if (fit%curve(i) > 0) cycle
+         fit%curve_at = [fit%curve_at, i]
+         where (run == run(i) .and. fit%group == fit%group(i)) fit%curve = size(fit%curve_at)
+      end do
+      allocate (fit%start(size(fit%curve_at)), source=0.0_wp)
+   end subroutine separate_curves
+
+
+   !> A cubic for each pressure, then a line through each of their coefficients.
+   subroutine fit_two_steps(d, tau, one_pressure, fit)
+      real(wp), intent(in)                 :: d(:), tau(:)
+      logical, intent(in)                  :: one_pressure
+      type(branch_fit_type), intent(inout) :: fit
+      integer, allocatable  :: curves(:), points(:)
+      real(wp), allocatable :: start(:)
+      integer :: i, k
       logical :: ok
 
-      allocate (fit%cubic(0:3, size(fit%group_p)))
+      allocate (fit%cubic(3, size(fit%group_p)))
       do i = 1, size(fit%group_p)
-         call fit_cubic(pack(d, fit%group == i), pack(tau, fit%group == i), fit%constant, fit%cubic(:, i), ok)
+         points = pack([(k, k = 1, size(d))], fit%group == i)
+         curves = pack([(k, k = 1, size(fit%start))], fit%group(fit%curve_at) == i)
+         call fit_cubic(d(points), tau(points), belongs(fit, points, curves), fit%cubic(:, i), start, ok)
+         fit%start(curves(:size(start))) = start
          if (ok) cycle
          fit%fault = fault_few_points
          fit%fault_at = i
          return
       end do
-      call fit_coefficient_lines(fit)
+      call fit_coefficient_lines(one_pressure, fit)
    end subroutine fit_two_steps
 
 
+   !> Whether each of the POINTS belongs to each of the CURVES; without constant terms no curves are left.
+   pure function belongs(fit, points, curves) result(matrix)
+      type(branch_fit_type), intent(in) :: fit
+      integer, intent(in)               :: points(:), curves(:)
+      logical, allocatable :: matrix(:, :)
+      integer :: n
+
+      n = merge(size(curves), 0, fit%constant)
+      matrix = spread(fit%curve(points), 2, n) == spread(curves(:n), 1, size(points))
+   end function belongs
+
+
    !> Fit the lines of Fig. 2 through published cubics; the range of d is not known from them.
-   subroutine fit_lines_only(c, p, fit)
+   subroutine fit_lines_only(c, p, one_pressure, fit)
       real(wp), intent(in)               :: c(:, :) !! (3, cubics)
       real(wp), intent(in)               :: p(:)    !! (cubics) [pressure]
+      logical, intent(in)                :: one_pressure !! a single cubic is enough
       type(branch_fit_type), intent(out) :: fit
       integer :: k
 
@@ -108,9 +159,9 @@ contains
       fit%p_high = maxval(p)
       fit%group = [(k, k = 1, size(p))]
       fit%group_p = p
-      allocate (fit%cubic(0:3, size(p)), source=0.0_wp)
-      fit%cubic(1:, :) = c
-      call fit_coefficient_lines(fit)
+      fit%cubic = c
+      allocate (fit%start(0))
+      call fit_coefficient_lines(one_pressure, fit)
       do k = 1, 3
          call drop_rounding(fit%lines(:, k), fit%p_high, 1.0_wp, maxval(abs(c(k, :))))
       end do
@@ -118,10 +169,17 @@ contains
 
 
    !> a_k1 + a_k2 p through the coefficients of the cubics, all pressures counting alike.
-   subroutine fit_coefficient_lines(fit)
+   subroutine fit_coefficient_lines(one_pressure, fit)
+      logical, intent(in)                  :: one_pressure !! is enough: a_k2 = 0
       type(branch_fit_type), intent(inout) :: fit
       integer :: k
 
+      fit%two_step = one_pressure .and. size(fit%group_p) == 1
+      if (fit%two_step) then
+         fit%lines(1, :) = fit%cubic(:, 1)
+         fit%of_coefficients%at = 1
+         return
+      end if
       do k = 1, 3
          call fit_line(fit%group_p, fit%cubic(k, :), fit%lines(:, k), fit%two_step)
          if (.not. fit%two_step) fit%fault = fault_one_pressure
@@ -131,68 +189,43 @@ contains
    end subroutine fit_coefficient_lines
 
 
-   !> Put points into groups of equal pressure. In ascending order of p a group reaches from its lowest p to
-   !! (1 + TOLERANCE) times that; its pressure is the mean of its points. Groups are numbered in ascending order of p.
-   pure subroutine group_by_pressure(p, tolerance, group, group_p)
-      real(wp), intent(in)               :: p(:)       !! >= 0 [pressure]
-      real(wp), intent(in)               :: tolerance  !! >= 0 [-]
-      integer, allocatable, intent(out)  :: group(:)   !! (points) the group of each point
-      real(wp), allocatable, intent(out) :: group_p(:) !! (groups) [pressure]
-      real(wp) :: highest
+   !> tau = START + C(1) d + C(2) d^2 + C(3) d^3 through the points of one pressure, every curve with a START of its own. OK is
+   !! false where the points do not fix it: fewer than three different d other than zero, or four on one curve with a start.
+   subroutine fit_cubic(d, tau, belongs, c, start, ok)
+      real(wp), intent(in)  :: d(:), tau(:)          !! (points) [length], [stress]
+      logical, intent(in)   :: belongs(:, :)         !! (points, curves); no curves: no START, as on the loading branch
+      real(wp), intent(out) :: c(3)
+      real(wp), allocatable, intent(out) :: start(:) !! (curves) [stress]
+      logical, intent(out)  :: ok
+      real(wp) :: x(size(belongs, 2) + 3), matrix(size(d), size(belongs, 2) + 3)
       integer  :: n
 
-      allocate (group(size(p)), source=0)
-      allocate (group_p(0))
-      do while (any(group == 0))
-         n = size(group_p) + 1
-         highest = minval(p, group == 0)*(1.0_wp + tolerance)
-         where (group == 0 .and. p <= highest) group = n
-         group_p = [group_p, sum(p, group == n)/count(group == n)]
-      end do
-   end subroutine group_by_pressure
-
-
-   !> tau = C(0) + C(1) d + C(2) d^2 + C(3) d^3 through the points of one pressure. OK is false where the points do not
-   !! fix it: fewer than three different d other than zero, or four with the constant.
-   subroutine fit_cubic(d, tau, with_constant, c, ok)
-      real(wp), intent(in)  :: d(:), tau(:)  !! (points) [length], [stress]
-      logical, intent(in)   :: with_constant !! false: C(0) = 0, as on the loading branch
-      real(wp), intent(out) :: c(0:3)
-      logical, intent(out)  :: ok
-      real(wp) :: matrix(size(d), 0:3)
-      integer  :: first
-
-      first = merge(0, 1, with_constant)
-      matrix(:, 0) = 1.0_wp
-      matrix(:, 1:) = cubic_terms(d)
-      c = 0.0_wp
-      call solve_least_squares(matrix(:, first:), tau, c(first:), ok)
+      n = size(belongs, 2)
+      matrix(:, :n) = merge(1.0_wp, 0.0_wp, belongs)
+      matrix(:, n + 1:) = cubic_terms(d)
+      call solve_least_squares(matrix, tau, x, ok)
+      c = x(n + 1:)
+      start = x(:n)
    end subroutine fit_cubic
 
 
-   !> All points of a branch at once: tau = sum over k of (LINES(1,k) + LINES(2,k) p) d^k, and with constants one more
-   !! for each group of points, because every run of an unloading or reloading starts at a point of its own. OK is false
-   !! where the points do not fix the coefficients.
-   subroutine fit_cubic_in_pressure(d, tau, p, group, with_constants, lines, ok)
+   !> All points of a branch at once: tau = sum over k of (LINES(1,k) + LINES(2,k) p) d^k, and a constant for every curve,
+   !! because every run of an unloading or reloading starts at a point of its own. OK is false where the points do not fix the
+   !! coefficients.
+   subroutine fit_cubic_in_pressure(d, tau, p, belongs, lines, ok)
       real(wp), intent(in)  :: d(:), tau(:), p(:) !! (points) [length], [stress], [pressure]
-      integer, intent(in)   :: group(:)           !! (points) 1 and up
-      logical, intent(in)   :: with_constants
+      logical, intent(in)   :: belongs(:, :)      !! (points, curves)
       real(wp), intent(out) :: lines(2, 3)        !! a_k1 and a_k2 for k = 1, 2, 3
       logical, intent(out)  :: ok
       real(wp), allocatable :: matrix(:, :), x(:)
-      integer :: i, n
 
-      n = 6
-      if (with_constants) n = n + maxval(group)
       lines = 0.0_wp
-      ok = n <= size(d)
+      ok = 6 + size(belongs, 2) <= size(d)
       if (.not. ok) return
-      allocate (matrix(size(d), n), x(n))
+      allocate (matrix(size(d), 6 + size(belongs, 2)), x(6 + size(belongs, 2)))
       matrix(:, 1:3) = cubic_terms(d)
       matrix(:, 4:6) = spread(p, 2, 3)*matrix(:, 1:3)
-      do i = 7, n
-         matrix(:, i) = merge(1.0_wp, 0.0_wp, group == i - 6)
-      end do
+      matrix(:, 7:) = merge(1.0_wp, 0.0_wp, belongs)
       call solve_least_squares(matrix, tau, x, ok)
       lines(1, :) = x(1:3)
       lines(2, :) = x(4:6)
@@ -219,7 +252,7 @@ contains
    end subroutine drop_rounding
 
 
-   !> Residual of tau about the law with LINES; where the branch has constants, each group its own best.
+   !> Residual of tau about the law with LINES; where the branch has constants, each curve its own best.
    pure function law_residual(d, tau, p, fit, lines) result(residual)
       real(wp), intent(in)              :: d(:), tau(:), p(:), lines(2, 3)
       type(branch_fit_type), intent(in) :: fit
@@ -232,8 +265,8 @@ contains
       do k = 1, 3
          off = off - (lines(1, k) + lines(2, k)*p)*terms(:, k)
       end do
-      do i = 1, merge(size(fit%group_p), 0, fit%constant)
-         where (fit%group == i) off = off - sum(off, fit%group == i)/count(fit%group == i)
+      do i = 1, merge(size(fit%start), 0, fit%constant)
+         where (fit%curve == i) off = off - sum(off, fit%curve == i)/count(fit%curve == i)
       end do
       residual = residual_of(off)
    end function law_residual

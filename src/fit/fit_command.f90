@@ -1,8 +1,12 @@
 !> The command line of jointfit: options and data files.
 module fit_command
+   use branch_fit, only: fit_choice
    use command_arguments, only: argument_text, complain, input_argument, input_of, is_option, say, version
+   use data_columns, only: branch_number, reading_type
+   use data_entries, only: read_number
+   use data_units, only: read_system
    use deck_numbers, only: parse_integer
-   use fit_data, only: branch_number, read_number
+   use fit_help, only: help_text
    use kinds, only: wp
    use text_tools, only: upper
    implicit none
@@ -13,13 +17,17 @@ module fit_command
    character(*), parameter :: program = 'jointfit'
 
    type, public :: fit_command_type
-      integer  :: id          = 1         !! --id: of the first file's card
-      logical  :: joint_fit   = .false.   !! --joint-fit: the one-step coefficients go on the card
-      logical  :: small       = .false.   !! --small: fields of eight columns
-      integer  :: only        = 0         !! --branch: the branch of the data to use, 0: all
-      integer  :: as          = 0         !! --as: the branch of the card that it becomes
-      real(wp) :: p_tolerance = 1.0e-3_wp !! --p-tolerance: pressures that count as one
-      real(wp) :: d_max       = 0.0_wp    !! --dmax: DMAX of the card [length], 0: the largest d of the data
+      integer  :: id        = 1          !! --id: of the first file's card
+      logical  :: small     = .false.    !! --small: fields of eight columns
+      integer  :: only      = 0          !! --branch: the branch of the data to use, 0: all
+      integer  :: as        = 0          !! --as: the branch of the card that it becomes
+      real(wp) :: d_max     = 0.0_wp     !! --dmax: DMAX of the card [length], 0: the largest d of the data
+      real(wp) :: noise     = 0.0_wp     !! --noise: share of the range of the readings that is noise, 0: to be found
+      logical  :: zero      = .false.    !! --zero: the first reading of a test is taken off all
+      logical  :: unordered = .false.    !! --unordered: rows that do not name their branch are loading
+      character(:), allocatable :: plot  !! --plot: a file for gnuplot, empty: none
+      type(fit_choice)   :: fit          !! --p-tolerance, --joint-fit, --one-pressure
+      type(reading_type) :: reading      !! --units, --columns, --decimal-comma
       type(input_argument), allocatable :: files(:)
    end type fit_command_type
 
@@ -36,6 +44,8 @@ contains
       logical :: ok, options
 
       allocate (command%files(0))
+      command%plot = ''
+      command%reading%columns = ''
       finished = .true.
       status = 1
       options = .true.
@@ -51,16 +61,24 @@ contains
          case ('--')
             options = .false.
          case ('--help', '-h')
-            call print_help(status)
+            call say(help_text(), status)
             return
          case ('--version')
             call say(program//' '//version, status)
             return
          case ('--joint-fit')
-            command%joint_fit = .true.
+            command%fit%one_step = .true.
+         case ('--one-pressure')
+            command%fit%one_pressure = .true.
+         case ('--zero')
+            command%zero = .true.
+         case ('--unordered')
+            command%unordered = .true.
+         case ('--decimal-comma')
+            command%reading%decimal_comma = .true.
          case ('--small', '--large')
             command%small = argument == '--small'
-         case ('--id', '--branch', '--as', '--p-tolerance', '--dmax')
+         case ('--id', '--branch', '--as', '--p-tolerance', '--dmax', '--noise', '--units', '--columns', '--plot')
             i = i + 1
             call read_value(argument, argument_text(i), command, ok)
             if (.not. ok) return
@@ -102,9 +120,24 @@ contains
          ok = command%as > 0
          expected = 'LOAD, UNLOAD or RELOAD'
       case ('--p-tolerance')
-         call read_number(value, command%p_tolerance, ok)
-         ok = ok .and. command%p_tolerance >= 0.0_wp .and. command%p_tolerance < 1.0_wp
+         call read_number(value, command%fit%p_tolerance, ok)
+         ok = ok .and. command%fit%p_tolerance >= 0.0_wp .and. command%fit%p_tolerance < 1.0_wp
          expected = 'a number from 0 to below 1, as 0.01'
+      case ('--noise')
+         call read_number(value, command%noise, ok)
+         ok = ok .and. command%noise > 0.0_wp .and. command%noise < 0.5_wp
+         expected = 'a share of the range of the readings, above 0 and below 0.5, as 0.02'
+      case ('--units')
+         call read_system(value, command%reading%deck, ok)
+         expected = 'the units of length and force of the deck, as mm,n or mm,kgf or m,n'
+      case ('--columns')
+         command%reading%columns = value
+         ok = value /= ''
+         expected = 'the names of the columns, as ''p [MPa], lambda [um]'''
+      case ('--plot')
+         command%plot = value
+         ok = value /= ''
+         expected = 'the name of a file for gnuplot'
       case default                                   ! --dmax
          call read_number(value, command%d_max, ok)
          ok = ok .and. command%d_max > 0.0_wp
@@ -112,40 +145,5 @@ contains
       end select
       if (.not. ok) call complain(program, option//' '//value//': expected '//expected)
    end subroutine read_value
-
-
-   subroutine print_help(status)
-      integer, intent(out) :: status
-      character(*), parameter :: nl = new_line('a')
-
-      call say( &
-         'usage: jointfit [options] DATA...'//nl// &
-         ''//nl// &
-         'Fits the laws of a joint to test data and writes the cards for a deck of jointfem on the standard output,'//nl// &
-         'with the residuals as comments. Each file is one surface; `-` is the standard input. A line with the names'//nl// &
-         'of the columns, in any order, says what a file holds:'//nl// &
-         ''//nl// &
-         '   d tau p branch      points of shear tests; branch is LOAD, UNLOAD or RELOAD: a JSHEAR card'//nl// &
-         '   c1 c2 c3 p branch   cubics tau = c1 d + c2 d^2 + c3 d^3 published for several p: a JSHEAR card'//nl// &
-         '   lambda p            points of normal tests: a JNORM card'//nl// &
-         ''//nl// &
-         'Entries stand between blanks or commas, # and $ begin a comment, `UNITS = ...` is copied to the comments.'//nl// &
-         'The cards are in the units of the data.'//nl// &
-         ''//nl// &
-         '   --id N            id of the first card (default 1), the cards of more files count up'//nl// &
-         '   --joint-fit       shear: the coefficients fitted to all points of a branch at once, instead of the'//nl// &
-         '                     straight lines through the coefficients of the cubics of each pressure'//nl// &
-         '   --p-tolerance X   shear: pressures within this share of each other count as one (default 0.001)'//nl// &
-         '   --branch BRANCH   shear: use only this branch of the data'//nl// &
-         '   --as BRANCH       with --branch: as this branch of the card'//nl// &
-         '   --dmax X          shear: DMAX of the card (default: the largest d of the loading data)'//nl// &
-         '   --large           numbers in fields of 16 columns (default)'//nl// &
-         '   --small           numbers in fields of 8 columns'//nl// &
-         '   --version         print the version'//nl// &
-         '   --help            print this'//nl// &
-         ''//nl// &
-         'exit status: 0 all cards written, 1 wrong usage or unreadable file, 2 errors in the data, 4 output that'//nl// &
-         'cannot be written; of several files the highest.', status)
-   end subroutine print_help
 
 end module fit_command

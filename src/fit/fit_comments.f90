@@ -2,11 +2,13 @@
 module fit_comments
    use branch_fit, only: branch_fit_type, residual_type
    use command_arguments, only: version
+   use data_columns, only: branch_letters, branch_words, column_d, column_p, column_symbols, data_normal, fit_load, &
+                           fit_reload, fit_unload, n_columns
    use fit_command, only: fit_command_type
-   use fit_data, only: branch_letters, branch_words, column_d, column_p, data_normal, fit_load, fit_reload, fit_unload, &
-                       test_data_type
+   use fit_data, only: test_data_type
    use kinds, only: wp
    use law_cards, only: coefficient_line, jnorm_card, jshear_card
+   use loop_fit, only: loop_fit_type
    use normal_fit, only: normal_fit_type
    use output_file, only: output_file_type
    use surface_fit, only: surface_fit_type
@@ -29,7 +31,10 @@ contains
       integer :: k
 
       call comment(out, '', 'fitted by jointfit '//version//' to '//name)
-      if (data%units /= '') call comment(out, 'units', data%units)
+      call describe_units(data, command%reading%deck%length > 0.0_wp, out)
+      do k = 1, data%notes%n
+         call comment(out, 'record', data%notes%items(k)%message)
+      end do
       if (fit%kind == data_normal) then
          call describe_normal(fit%normal, out)
       else
@@ -39,7 +44,7 @@ contains
          call comment(out, 'WARNING', fit%warnings%items(k)%message)
       end do
       if (fit%kind == data_normal) then
-         call put_lines(out, '', jnorm_card(id, fit%normal%c, fit%normal%m, command%small))
+         call put_lines(out, '', jnorm_card(id, fit%normal%c, fit%normal%m, fit%normal%loops%e_u, command%small))
       else if (fit%has_loading) then
          call put_lines(out, '', jshear_card(id, fit%card, fit%branch%n_points > 0, fit%p_max, fit%d_max, command%small))
       else
@@ -53,16 +58,65 @@ contains
    end subroutine write_cards
 
 
+   !> What the file says of units, and in which the cards are where these are CONVERTED.
+   subroutine describe_units(data, converted, out)
+      type(test_data_type), intent(in)      :: data
+      logical, intent(in)                   :: converted
+      type(output_file_type), intent(inout) :: out
+      character(:), allocatable :: words
+      integer :: k
+
+      if (data%units /= '') call comment(out, 'units', data%units)
+      words = ''
+      do k = 1, n_columns
+         if (data%unit_read(k) /= '') words = words//', '//trim(column_symbols(k))//' ['//trim(data%unit_read(k))//']'
+      end do
+      if (converted) then
+         if (words /= '') words = ', converted from'//words(2:)
+         call comment(out, 'units', trim(data%unit(column_d))//', '//trim(data%unit(column_p))//words)
+      else if (words /= '') then
+         call comment(out, 'units', words(3:))
+      end if
+   end subroutine describe_units
+
+
    subroutine describe_normal(fit, out)
       type(normal_fit_type), intent(in)     :: fit
       type(output_file_type), intent(inout) :: out
+      character(:), allocatable :: points
 
+      points = plural(fit%n_points, 'point')
+      if (size(fit%loops%lines) > 0) points = points//' of loading'
       call comment(out, 'law', 'lambda = c p^m, c = '//real_text(fit%c)//', m = '//real_text(fit%m))
-      call comment(out, 'data', plural(fit%n_points, 'point')//', p '//range_text(fit%p_low, fit%p_high)//', lambda to '// &
-                   real_text(fit%lambda_high))
+      call comment(out, 'data', points//', p '//range_text(fit%p_low, fit%p_high)//', lambda to '//real_text(fit%lambda_high))
       call comment(out, 'residual', 'of lambda: rms '//real_text(fit%rms)//', largest '//real_text(fit%largest)// &
                    ' at p = '//real_text(fit%p_largest))
+      if (size(fit%loops%lines) > 0) call describe_loops(fit%loops, out)
    end subroutine describe_normal
+
+
+   !> The lines of unloading and reloading, none of which is part of c and m.
+   subroutine describe_loops(loops, out)
+      type(loop_fit_type), intent(in)       :: loops
+      type(output_file_type), intent(inout) :: out
+      character(14) :: cells(6)
+      integer :: k
+
+      call comment(out, 'unload', 'E_u = '//real_text(loops%e_u)//', standard error '// &
+                   real_text(0.01_wp*nint(1.0e4_wp*min(loops%error, 1.0e4_wp)))//' %, from '// &
+                   plural(size(loops%lines), 'line')//' through '//plural(loops%n_points, 'point')//' apart from loading')
+      call comment(out, '', 'residual of lambda about lines of this slope: rms '//real_text(loops%rms))
+      cells = [character(14) :: 'line', 'p from', 'to', 'lambda, p = 0', 'E_u', 'points']
+      do k = 0, size(loops%lines)
+         if (k > 0) then
+            associate (line => loops%lines(k))
+               cells = [character(14) :: branch_words(line%branch), real_text(line%p_low), real_text(line%p_high), &
+                        real_text(line%set), real_text(line%e_u), integer_text(line%n_points)]
+            end associate
+         end if
+         call comment_row(out, cells)
+      end do
+   end subroutine describe_loops
 
 
    subroutine describe_shear(data, command, fit, out)
@@ -80,7 +134,7 @@ contains
          end if
          if (fit%source(b) /= b) call comment(out, branch_words(b), 'taken from the '// &
                                               trim(branch_words(fit%source(b)))//' data')
-         call describe_branch(data, fit, b, command%joint_fit, out)
+         call describe_branch(data, fit, b, command%fit%one_step, out)
       end do
       left_out = data%n - sum(fit%branch%n_points)
       if (left_out > 0) call comment(out, '', plural(left_out, 'row')//' of other branches left out')
@@ -110,6 +164,8 @@ contains
          end if
          if (branch%two_step) then
             call table_of_cubics(branch, b, out)
+            if (size(branch%start) > size(branch%group_p) .and. branch%constant) &
+               call table_of_runs(branch, b, data%run(rows), data%value(column_d, rows), out)
             if (points) call comment(out, '', 'residual of these cubics: '//residual_words(branch%of_cubics))
             call comment(out, '', 'lines through their coefficients (Fig. 2)'//on_card(.not. (points .and. joint_fit))//':')
             call lines_of_coefficients(branch, b, branch%lines, .true., out)
@@ -135,25 +191,49 @@ contains
    end subroutine describe_branch
 
 
-   !> The cubic of each pressure, the points of Fig. 2.
+   !> The cubic of each pressure, the points of Fig. 2, with its constant where all points of a pressure share one.
    subroutine table_of_cubics(branch, b, out)
       type(branch_fit_type), intent(in)     :: branch
       integer, intent(in)                   :: b
       type(output_file_type), intent(inout) :: out
       character(14) :: cells(6)
-      character(84) :: words
-      integer :: i
+      integer :: i, first, last
 
+      first = merge(2, 3, branch%constant .and. size(branch%start) == size(branch%group_p))
+      last = merge(6, 5, branch%from_points)
       associate (letter => branch_letters(b), c => branch%cubic)
          cells = [character(14) :: 'p', letter//'0', letter//'1', letter//'2', letter//'3', 'points']
          do i = 0, size(branch%group_p)
-            if (i > 0) cells = [character(14) :: real_text(branch%group_p(i)), real_text(c(0, i)), real_text(c(1, i)), &
-                                real_text(c(2, i)), real_text(c(3, i)), integer_text(count(branch%group == i))]
-            write (words, '(6a)') cells(1), cells(merge(2, 3, branch%constant):merge(6, 5, branch%from_points))
-            call comment(out, '', '   '//words)
+            if (i > 0) cells = [character(14) :: real_text(branch%group_p(i)), '', real_text(c(1, i)), real_text(c(2, i)), &
+                                real_text(c(3, i)), integer_text(count(branch%group == i))]
+            if (i > 0 .and. first == 2) cells(2) = real_text(branch%start(branch%curve(findloc(branch%group, i, 1))))
+            call comment_row(out, [cells(1), cells(first:last)])
          end do
       end associate
    end subroutine table_of_cubics
+
+
+   !> The constant of each run, RUN and D being those of the points.
+   subroutine table_of_runs(branch, b, run, d, out)
+      type(branch_fit_type), intent(in)     :: branch
+      integer, intent(in)                   :: b, run(:)
+      real(wp), intent(in)                  :: d(:)
+      type(output_file_type), intent(inout) :: out
+      character(14) :: cells(6)
+      integer :: i
+
+      cells = [character(14) :: 'run', 'p', branch_letters(b)//'0', 'd from', 'to', 'points']
+      do i = 0, size(branch%start)
+         if (i > 0) then
+            associate (at => branch%curve_at(i), own => branch%curve == i)
+               cells = [character(14) :: integer_text(run(at)), real_text(branch%group_p(branch%group(at))), &
+                        real_text(branch%start(i)), real_text(minval(d, own)), real_text(maxval(d, own)), &
+                        integer_text(count(own))]
+            end associate
+         end if
+         call comment_row(out, cells)
+      end do
+   end subroutine table_of_runs
 
 
    !> a1 = a11 + a12 p and so on; WITH_SCATTER says how far the coefficients of the cubics lie off.
@@ -205,6 +285,17 @@ contains
       column = label
       call out%put('$ '//column//words)
    end subroutine comment
+
+
+   !> One row of a table.
+   subroutine comment_row(out, cells)
+      type(output_file_type), intent(inout) :: out
+      character(14), intent(in)             :: cells(:)
+      character(84) :: words
+
+      write (words, '(6a)') cells
+      call comment(out, '', '   '//words)
+   end subroutine comment_row
 
 
    subroutine put_lines(out, before, lines)

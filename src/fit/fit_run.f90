@@ -3,16 +3,17 @@ module fit_run
    use, intrinsic :: iso_fortran_env, only: error_unit
    use c_library, only: end_run
    use command_arguments, only: complain_of_input, input_argument
+   use data_columns, only: branch_words, data_normal, fit_reload, fit_unload
    use deck_errors, only: deck_error_list
    use deck_text, only: deck_text_type
    use error_report, only: print_errors
-   use fit_data, only: data_normal
+   use fit_command, only: fit_command_type
    use output_file, only: output_file_type
    use surface_fit, only: surface_fit_type
    implicit none
    private
 
-   public :: report_unreadable_data, report_data_errors, report_fit, end_fit
+   public :: report_unreadable_data, report_data_errors, report_fit, begin_output, end_fit
 
    integer, parameter :: status_unreadable = 1, status_data = 2, status_unwritten = 4
 
@@ -42,6 +43,7 @@ contains
    subroutine report_fit(file, fit)
       type(input_argument), intent(in)   :: file
       type(surface_fit_type), intent(in) :: fit
+      character(:), allocatable :: word
       integer :: k
 
       do k = 1, fit%warnings%n
@@ -49,16 +51,33 @@ contains
       end do
       if (fit%kind == data_normal .or. fit%has_loading) return
       exit_status = max(exit_status, status_data)
+      word = trim(branch_words(merge(fit_reload, fit_unload, fit%branch(fit_reload)%n_points > 0)))
       write (error_unit, '(2a)') file%name, ': no LOAD data, and a JSHEAR card needs the loading coefficients: those of the'// &
-         ' other branches are written as comments; --branch RELOAD --as LOAD makes a card of RELOAD data'
+         ' other branches are written as comments; --branch '//word//' --as LOAD makes a card of '//word//' data'
    end subroutine report_fit
 
 
-   !> End the run of which OUT has the cards, with the highest status of all files.
-   subroutine end_fit(out)
-      type(output_file_type), intent(inout) :: out
+   !> Begin the outputs of the run: OUT for the cards and, where the command wants it, the PLOT.
+   subroutine begin_output(command, out, plot)
+      type(fit_command_type), intent(in)    :: command
+      type(output_file_type), intent(inout) :: out, plot
+
+      call out%start('')
+      if (command%plot /= '') call plot%start(command%plot)
+   end subroutine begin_output
+
+
+   !> End the run with the highest status of all files.
+   subroutine end_fit(command, out, plot)
+      type(fit_command_type), intent(in)    :: command
+      type(output_file_type), intent(inout) :: out, plot
       logical :: ok
 
+      if (command%plot /= '') then
+         call plot%finish(ok)
+         if (.not. ok) write (error_unit, '(3a)') 'jointfit: ', command%plot, ' cannot be written'
+         exit_status = max(exit_status, merge(0, status_unwritten, ok))
+      end if
       call out%finish(ok)
       if (.not. ok) write (error_unit, '(a)') 'jointfit: the cards cannot be written to the standard output'
       call end_run(max(exit_status, merge(0, status_unwritten, ok)))

@@ -10,17 +10,19 @@ module law_cards
 
 contains
 
-   !> JNORM NID C M.
-   function jnorm_card(id, c, m, small) result(lines)
+   !> JNORM NID C M EU; a zero E_U leaves its field blank.
+   function jnorm_card(id, c, m, e_u, small) result(lines)
       integer, intent(in)  :: id
       real(wp), intent(in) :: c, m  !! [length/pressure^m], [-]
+      real(wp), intent(in) :: e_u   !! [pressure/length]
       logical, intent(in)  :: small !! fields of 8 columns, else of 16
       character(80), allocatable :: lines(:)
       character(16) :: fields(8)
 
       fields = ''
       fields(1) = integer_text(id)
-      fields(2:3) = number_fields([c, m], small)
+      fields(2:4) = number_fields([c, m, e_u], small)
+      if (e_u <= 0.0_wp) fields(4) = ''
       lines = card_lines('JNORM', fields, small)
    end function jnorm_card
 

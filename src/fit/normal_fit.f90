@@ -3,6 +3,7 @@ module normal_fit
    use deck_errors, only: deck_error_list
    use kinds, only: wp
    use least_squares, only: fit_line, solve_least_squares
+   use loop_fit, only: loop_fit_type
    use text_tools, only: real_text
    implicit none
    private
@@ -19,15 +20,16 @@ module normal_fit
       real(wp) :: p_low = 0.0_wp, p_high = 0.0_wp  !! [pressure]
       real(wp) :: lambda_high = 0.0_wp             !! [length]
       real(wp) :: rms = 0.0_wp, largest = 0.0_wp, p_largest = 0.0_wp !! residual of lambda [length], and where [pressure]
+      type(loop_fit_type) :: loops                 !! the lines of unloading and reloading
    end type normal_fit_type
 
 contains
 
-   !> Fit the power law, m being 1 at most. What the points lack goes to ERRORS, an m held at 1 to WARNINGS.
+   !> Fit the power law to points of loading, m being 1 at most. What they lack goes to ERRORS, an m held at 1 to WARNINGS.
    subroutine fit_normal(p, lambda, fit, errors, warnings)
-      real(wp), intent(in)                 :: p(:)      !! >= 0 [pressure]
+      real(wp), intent(in)                 :: p(:)      !! [pressure]; below 0, in the noise, it counts as 0
       real(wp), intent(in)                 :: lambda(:) !! [length]
-      type(normal_fit_type), intent(out)   :: fit
+      type(normal_fit_type), intent(inout) :: fit
       type(deck_error_list), intent(inout) :: errors, warnings
       real(wp) :: off(size(p))
       integer  :: at
@@ -42,11 +44,11 @@ contains
          return
       else if (fit%m > 1.0_wp) then
          if (fit%m > 1.0_wp + m_rounding) call warnings%add(0, 'the points want m = '//real_text(fit%m)// &
-                                                            ', the law allows 1 at most: m is held at 1')
+            ', the law allows 1 at most: m is held at 1; --zero helps where the readings do not begin at zero')
          fit%m = 1.0_wp
          fit%c = fit_proportional(p, lambda)
       end if
-      off = abs(lambda - fit%c*p**fit%m)
+      off = abs(lambda - fit%c*max(p, 0.0_wp)**fit%m)
       at = maxloc(off, 1)
       fit%n_points = size(p)
       fit%p_low = minval(p)
@@ -55,15 +57,33 @@ contains
       fit%rms = norm2(off)/sqrt(real(size(p), wp))
       fit%largest = off(at)
       fit%p_largest = p(at)
+      call check_unloading(fit, warnings)
    end subroutine fit_normal
 
 
+   !> A joint that is unloaded less steeply than it was loaded would come back to less than nothing.
+   subroutine check_unloading(fit, warnings)
+      type(normal_fit_type), intent(in)    :: fit
+      type(deck_error_list), intent(inout) :: warnings
+      real(wp) :: slope
+
+      if (size(fit%loops%lines) == 0) return
+      slope = fit%p_high**(1.0_wp - fit%m)/(fit%m*fit%c)
+      if (fit%loops%e_u <= 0.0_wp) then
+         call warnings%add(0, 'lambda does not fall with p where the test is unloaded: EU is left blank')
+      else if (fit%loops%e_u < slope) then
+         call warnings%add(0, 'E_u = '//real_text(fit%loops%e_u)//' is below the slope of the loading curve at p = '// &
+                           real_text(fit%p_high)//', '//real_text(slope)//': the set would be negative')
+      end if
+   end subroutine check_unloading
+
+
    !> The c and m that make the sum of (c p^m - lambda)^2 least. The straight line through ln lambda over ln p is the start;
-   !! then Gauss-Newton in lambda itself, a step that makes the sum larger being halved. Points with p = 0 or lambda <= 0
-   !! have no logarithm: they are left out of the start, and with p = 0 the law gives zero whatever c and m are.
+   !! then Gauss-Newton in lambda itself, a step that makes the sum larger being halved. Points with p <= 0 or lambda <= 0
+   !! have no logarithm: they are left out of the start, and with p <= 0 the law gives zero whatever c and m are.
    !! OK is false where fewer than two different p > 0 have lambda > 0, or the steps do not settle.
    subroutine fit_power_law(p, lambda, c, m, ok)
-      real(wp), intent(in)  :: p(:)      !! >= 0 [pressure]
+      real(wp), intent(in)  :: p(:)      !! [pressure]
       real(wp), intent(in)  :: lambda(:) !! [length]
       real(wp), intent(out) :: c         !! [length/pressure^m]
       real(wp), intent(out) :: m         !! [-]

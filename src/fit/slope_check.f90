@@ -1,6 +1,6 @@
 !> Warnings about fitted cubics whose slope turns negative where the card may be used: a joint has no negative stiffness.
 module slope_check
-   use fit_data, only: branch_words, fit_load, fit_reload, fit_unload
+   use data_columns, only: branch_words, fit_load, fit_reload, fit_unload
    use kinds, only: wp
    use surface_fit, only: surface_fit_type
    use text_tools, only: real_text
@@ -34,7 +34,7 @@ contains
             if (b /= fit_load .and. fit%d_max > 0.0_wp) way(1) = -d_max
             if (b == fit_unload .and. fit%d_max > 0.0_wp) way = way([2, 1])
             if (loses_slope(fit, b, [0.0_wp, fit%p_max], way, 'outside the tested range of the branch, but inside the '// &
-                            'range of the card')) cycle
+                            'range of the card, which --dmax sets')) cycle
          end associate
       end do
    end subroutine check_slopes

@@ -1,12 +1,14 @@
 !> The laws of one surface from its test data.
 module surface_fit
-   use branch_fit, only: branch_fit_type, fault_dependent, fault_few_points, fault_one_pressure, fit_lines_only, &
+   use branch_fit, only: branch_fit_type, fault_dependent, fault_few_points, fault_none, fault_one_pressure, fit_lines_only, &
                          fit_points
+   use data_columns, only: branch_words, column_c, column_d, column_lambda, column_p, column_tau, data_normal, data_shear, &
+                           fit_load, fit_reload
    use deck_errors, only: deck_error_list
    use fit_command, only: fit_command_type
-   use fit_data, only: branch_words, column_c, column_d, column_lambda, column_p, column_tau, data_normal, data_shear, &
-                       fit_load, fit_reload, test_data_type
+   use fit_data, only: test_data_type
    use kinds, only: wp
+   use loop_fit, only: fit_loops
    use normal_fit, only: fit_normal, normal_fit_type
    use text_tools, only: plural, real_text
    implicit none
@@ -36,12 +38,17 @@ contains
       type(deck_error_list), intent(inout) :: errors
 
       fit%kind = data%kind
-      if (data%kind == data_normal .and. command%only > 0) then
-         call errors%add(0, 'points of normal tests have no branch: --branch is for shear tests')
-      else if (data%kind == data_normal) then
-         call fit_normal(data%value(column_p, :data%n), data%value(column_lambda, :data%n), fit%normal, errors, fit%warnings)
-      else
+      fit%warnings = data%warnings
+      if (data%kind /= data_normal) then
          call fit_shear(data, command, fit, errors)
+      else if (command%only > 0) then
+         call errors%add(0, 'points of normal tests have no branch: --branch is for shear tests')
+      else
+         associate (p => data%value(column_p, :data%n), lambda => data%value(column_lambda, :data%n), &
+                    branch => data%branch(:data%n))
+            call fit_loops(p, lambda, branch, data%run(:data%n), data%joined(:data%n), fit%normal%loops)
+            call fit_normal(pack(p, branch == fit_load), pack(lambda, branch == fit_load), fit%normal, errors, fit%warnings)
+         end associate
       end if
    end subroutine fit_surface
 
@@ -65,16 +72,21 @@ contains
       end if
       do b = fit_load, fit_reload
          if (count(data%branch(:data%n) == fit%source(b)) == 0) cycle
-         call fit_branch(data, command, fit%source(b), fit%branch(b), errors)
+         if (data%is_record .and. b /= fit_load) then      ! a record may hold a little of a branch
+            call fit_branch(data, command, fit%source(b), fit%branch(b), fit%warnings)
+            if (fit%branch(b)%fault /= fault_none) fit%branch(b) = branch_fit_type()
+         else
+            call fit_branch(data, command, fit%source(b), fit%branch(b), errors)
+         end if
          fit%card(:, :, b) = fit%branch(b)%lines
-         if (command%joint_fit .and. fit%branch(b)%from_points) fit%card(:, :, b) = fit%branch(b)%joint
+         if (command%fit%one_step .and. fit%branch(b)%from_points) fit%card(:, :, b) = fit%branch(b)%joint
       end do
       associate (load => fit%branch(fit_load))
          fit%has_loading = load%n_points > 0
          fit%p_max = load%p_high
          if (load%from_points) fit%d_max = max(abs(load%d_low), abs(load%d_high))
       end associate
-      if (command%joint_fit .and. .not. data%kind == data_shear) &
+      if (command%fit%one_step .and. .not. data%kind == data_shear) &
          call fit%warnings%add(0, 'the cubics are given, there are no points for --joint-fit: the lines are on the card')
       if (command%d_max > 0.0_wp) fit%d_max = command%d_max
    end subroutine fit_shear
@@ -95,24 +107,37 @@ contains
       name = trim(branch_words(source))
       if (data%kind == data_shear) then
          call fit_points(data%value(column_d, rows), data%value(column_tau, rows), data%value(column_p, rows), &
-                         source /= fit_load, command%p_tolerance, command%joint_fit, fit)
+                         data%run(rows), source /= fit_load, command%fit, fit)
       else
-         call fit_lines_only(data%value(column_c, rows), data%value(column_p, rows), fit)
+         call fit_lines_only(data%value(column_c, rows), data%value(column_p, rows), command%fit%one_pressure, fit)
       end if
       select case (fit%fault)
       case (fault_one_pressure)
          call errors%add(data%line(rows(1)), name//': all data at one pressure, p = '//real_text(fit%p_high)// &
-                         ', expected two pressures or more')
+                         ', expected two pressures or more; --one-pressure makes a card that does not depend on it')
       case (fault_few_points)
          i = findloc(fit%group, fit%fault_at, 1)
          call errors%add(data%line(rows(i)), name//', p = '//real_text(fit%group_p(fit%fault_at))//': '// &
                          plural(count(fit%group == fit%fault_at), 'point')//' that fix no cubic, expected '// &
                          trim(merge('four different d or more             ', &
-                                    'three different d or more, not zero  ', fit%constant)))
+                                    'three different d or more, not zero  ', fit%constant))// &
+                         '; --joint-fit needs no cubic of each pressure'//tolerance_help(fit))
       case (fault_dependent)
          call errors%add(data%line(rows(1)), name//': '//plural(size(rows), 'point')// &
-                         ' that do not fix the coefficients: expected more different d and p')
+                         ' that do not fix the coefficients: expected more different d and p'//tolerance_help(fit))
       end select
    end subroutine fit_branch
+
+
+   !> The option that helps where measured pressures lie close to each other and count as different.
+   function tolerance_help(fit) result(words)
+      type(branch_fit_type), intent(in) :: fit
+      character(:), allocatable :: words
+
+      words = ''
+      associate (p => fit%group_p, n => size(fit%group_p))
+         if (any(p(2:) < 1.05_wp*p(:n - 1))) words = ', --p-tolerance 0.05 counts pressures within 5 % as one'
+      end associate
+   end function tolerance_help
 
 end module surface_fit

@@ -264,13 +264,13 @@ bad 'header only' 'no test data' <<< 'p lambda'
 bad 'unknown column' 'line 1' "'tua' is no column" '  ^^^' <<< $'d tua p branch\n1 2 3 LOAD'
 bad 'column twice' "column 'p' a second time" '          ^' <<< $'lambda p p\n1 2 3'
 bad 'columns of two kinds' 'do not go together' <<< $'d tau lambda p\n1 2 3 4'
-bad 'column missing' 'do not go together' "'d tau p branch'" <<< $'d tau p\n1 2 3'
+bad 'column missing' 'do not go together' "'d tau p branch'" <<< $'d tau branch\n1 2 LOAD'
 bad 'headers of two kinds' 'line 3' 'another kind' <<< $'lambda p\n1 2\nd tau p branch\n1 2 3 LOAD'
 bad 'letter O' 'line 3' "P: '1O' is not a number" '      ^^' <<< $'lambda p\n1.0 2\n2.0   1O\n3 4'
 bad 'not a number' "LAMBDA: 'NaN' is not a number" <<< $'p lambda\n1 NaN\n2 1'
 bad 'infinite' "'+Inf' is not a number" <<< $'p lambda\n1 +Inf\n2 1'
 bad 'decimal comma' 'entries on this line: 4, expected 2' <<< $'p lambda\n1,0 2,0\n2 1'
-bad 'semicolons' "is not a number" 'entries on this line: 1, expected 2' <<< $'p lambda\n1;2\n1;2 3'
+bad 'semicolons' "'1,2,3' is not a number" 'entries on this line: 3, expected 2' <<< $'p lambda\n1;1,2,3\n1;2 3'
 bad 'too few entries' 'line 2' 'entries on this line: 3, expected 4' <<< $'d tau p branch\n1 2 LOAD'
 bad 'too many entries' '        ^' 'entries on this line: 3, expected 2' <<< $'lambda p\n1 2  3'
 bad 'empty entry' 'nothing between two commas' <<< $'d,tau,p,branch\n1,,3,LOAD'
@@ -284,7 +284,7 @@ bad 'few points' 'line 5' 'LOAD, p = 6: 2 points that fix no cubic, expected thr
    <<< $'d tau p branch\n1 1 5 LOAD\n2 2 5 LOAD\n3 3 5 LOAD\n1 1 6 LOAD\n2 3 6 LOAD'
 bad 'few points of unloading' 'UNLOAD, p = 5: 3 points' 'expected four different d' \
    <<< $'d tau p branch\n1 1 5 LOAD\n2 2 5 LOAD\n3 3 5 LOAD\n1 1 6 LOAD\n2 3 6 LOAD\n3 4 6 LOAD\n1 1 5 UNLOAD\n2 2 5 UNLOAD\n3 3 5 UNLOAD'
-bad 'one point of normal tests' 'two or more different p' <<< $'lambda p\n1 1\n2 1\n0 0'
+bad 'one point of normal tests' 'two or more different p' <<< $'lambda p\n0 0\n1 1\n2 1'
 bad 'falling deflection' 'lambda does not grow with p: m = -1' <<< $'lambda p\n4 1\n2 2\n1 4'
 bad 'units of two kinds' 'line 3' "UNITS: 'MM, N', but above it was 'MM, KGF'" <<< $'UNITS = MM, KGF\nlambda p\nUNITS = MM, N\n1 1\n2 4'
 bad 'binary' 'no text' < <(printf 'lambda p\n1 2\0 3\n')
@@ -326,6 +326,8 @@ fit --id 5 power.dat missing.dat all.dat
 holds 'several files: the rest still runs, the highest status is returned' [ $status -eq 1 ]
 { printf 'JNORM 1 5\nJNORM 2 8e-3\nJNORM 3 1\n'; law_fields 7 60 1.5 LOAD UNLOAD RELOAD; } > both
 near 'several files: ids count up' 1e-10 both
+
+. "$here/records.sh"
 
 # ---- the cards are read by jointfem ----
 

@@ -1,0 +1,184 @@
+!> Data and fit of a surface as a script for gnuplot: the points, and lines through the fit at each of them.
+module fit_plot
+   use data_columns, only: branch_letters, branch_words, column_d, column_lambda, column_p, column_symbols, column_tau, &
+                           data_normal, data_shear, fit_load, fit_reload
+   use fit_command, only: fit_command_type
+   use fit_data, only: test_data_type
+   use kinds, only: wp
+   use normal_fit, only: normal_fit_type
+   use output_file, only: output_file_type
+   use surface_fit, only: surface_fit_type
+   use text_tools, only: integer_text, real_text
+   implicit none
+   private
+
+   public :: write_plot
+
+contains
+
+   !> Add the picture of surface NUMBER of the command to OUT: p over lambda, tau over d, or of published cubics Fig. 2, their
+   !! coefficients over p.
+   subroutine write_plot(command, number, data, fit, out)
+      type(fit_command_type), intent(in)    :: command
+      integer, intent(in)                   :: number
+      type(test_data_type), intent(in)      :: data
+      type(surface_fit_type), intent(in)    :: fit
+      type(output_file_type), intent(inout) :: out
+      character(:), allocatable :: picture, plots
+      integer :: b, k
+
+      picture = command%plot
+      k = index(picture, '.', back=.true.)
+      if (k > index(picture, '/', back=.true.) + 1) picture = picture(:k - 1)
+      if (size(command%files) > 1) picture = picture//'_'//integer_text(command%id + number - 1)
+      call out%put('# '//command%files(number)%name//' and its fit by jointfit; gnuplot draws '//picture//'.svg')
+      call out%put('reset')
+      plots = ''
+      if (fit%kind == data_normal) call put_normal(data, fit%normal, plots, out)
+      do b = fit_load, fit_reload
+         if (fit%branch(b)%n_points == 0) cycle
+         if (fit%kind == data_shear) then
+            call put_shear(data, fit, b, plots, out)
+         else
+            associate (branch => fit%branch(b))
+               do k = 1, 3
+                  call put_block(out, plots, branch_letters(b)//integer_text(k), [b, k], branch%group_p, branch%cubic(k, :), &
+                                 branch%group_p, branch%lines(1, k) + branch%lines(2, k)*branch%group_p)
+               end do
+            end associate
+         end if
+      end do
+      call out%put('set terminal svg size 900,600 noenhanced background "white"')
+      call out%put('set output '//quoted(picture//'.svg'))
+      call out%put('set title '//quoted(command%files(number)%name))
+      select case (fit%kind)
+      case (data_normal)
+         call put_labels(column_lambda, column_p)
+      case (data_shear)
+         call put_labels(column_d, column_tau)
+      case default
+         call put_labels(column_p, 0)
+      end select
+      call out%put('set key outside right')
+      call out%put('set grid')
+      call out%put('plot '//plots(3:))
+
+   contains
+
+      subroutine put_labels(x, y)
+         integer, intent(in) :: x, y !! columns, 0: coefficients
+
+         call put_label('x', x)
+         if (y > 0) call put_label('y', y)
+      end subroutine put_labels
+
+      subroutine put_label(axis, column)
+         character, intent(in) :: axis
+         integer, intent(in)   :: column
+
+         k = len_trim(data%unit(column))
+         call out%put('set '//axis//'label '//quoted(trim(column_symbols(column))// &
+                                                     merge(' ['//trim(data%unit(column))//']', repeat(' ', k + 3), k > 0)))
+      end subroutine put_label
+
+   end subroutine write_plot
+
+
+   !> The points of loading and the power law, those of each way down or up and its line of slope E_u.
+   subroutine put_normal(data, fit, plots, out)
+      type(test_data_type), intent(in)         :: data
+      type(normal_fit_type), intent(in)        :: fit
+      character(:), allocatable, intent(inout) :: plots
+      type(output_file_type), intent(inout)    :: out
+      integer, allocatable  :: rows(:)
+      real(wp), allocatable :: fitted(:), p(:)
+      integer :: b, i, k
+
+      do k = 0, size(fit%loops%lines)
+         rows = pack([(i, i = 1, data%n)], fit%loops%line_of == k)
+         p = data%value(column_p, rows)
+         b = fit_load
+         fitted = fit%c*max(p, 0.0_wp)**fit%m
+         if (k > 0) then
+            b = fit%loops%lines(k)%branch
+            fitted = 0.0_wp*p + fit%loops%lines(k)%lambda
+            if (fit%loops%e_u > 0.0_wp) fitted = fitted + (p - fit%loops%lines(k)%p)/fit%loops%e_u
+         end if
+         call put_block(out, plots, trim(branch_words(b)), [b, b], data%value(column_lambda, rows), p, fitted, p)
+      end do
+   end subroutine put_normal
+
+
+   !> The points of branch B of shear at each pressure and the law of the card, from the start of each run that suits it best.
+   subroutine put_shear(data, fit, b, plots, out)
+      type(test_data_type), intent(in)         :: data
+      type(surface_fit_type), intent(in)       :: fit
+      integer, intent(in)                      :: b
+      character(:), allocatable, intent(inout) :: plots
+      type(output_file_type), intent(inout)    :: out
+      integer, allocatable :: own(:), rows(:)
+      real(wp) :: fitted(data%n)
+      integer  :: g, i, k
+
+      rows = pack([(i, i = 1, data%n)], data%branch(:data%n) == fit%source(b))
+      associate (branch => fit%branch(b))
+         do k = 1, size(branch%start)
+            own = pack(rows, branch%curve == k)
+            g = branch%group(branch%curve_at(k))
+            associate (d => data%value(column_d, own), tau => data%value(column_tau, own), &
+                       a => fit%card(1, :, b) + branch%group_p(g)*fit%card(2, :, b))
+               fitted(own) = d*(a(1) + d*(a(2) + d*a(3)))
+               if (branch%constant) fitted(own) = fitted(own) + sum(tau - fitted(own))/size(own)
+               call put_block(out, plots, trim(branch_words(b))//', p = '//real_text(branch%group_p(g)), [b, g], d, tau, d, &
+                              fitted(own))
+            end associate
+         end do
+      end associate
+   end subroutine put_shear
+
+
+   !> A block of points X, Y with the fit at each of them, FITTED_X and FITTED_Y, drawn in a LOOK, shape and colour. Blocks of one
+   !! TITLE one after the other have one entry in the key.
+   subroutine put_block(out, plots, title, look, x, y, fitted_x, fitted_y)
+      type(output_file_type), intent(inout)    :: out
+      character(:), allocatable, intent(inout) :: plots !! the arguments of the command plot so far
+      character(*), intent(in) :: title
+      integer, intent(in)      :: look(2)
+      real(wp), intent(in)     :: x(:), y(:), fitted_x(:), fitted_y(:)
+      character(:), allocatable :: block, colour, name
+      integer :: i
+
+      i = 1
+      block = '$data_1'
+      do while (index(plots, block//' ') > 0)
+         i = i + 1
+         block = '$data_'//integer_text(i)
+      end do
+      call out%put(block//' << EOD')
+      do i = 1, size(x)
+         call out%put(real_text(x(i))//' '//real_text(y(i))//' '//real_text(fitted_x(i))//' '//real_text(fitted_y(i)))
+      end do
+      call out%put('EOD')
+      name = ' title '//quoted(title)
+      if (index(plots, name) > 0) name = ' notitle'
+      colour = ' lc '//integer_text(look(2))
+      plots = plots//', '//block//' using 1:2 with points pt '//integer_text(2*look(1) + 3)//colour//name//', '//block// &
+              ' using 3:4 with lines lw 2 dt '//integer_text(look(1))//colour//' notitle'
+   end subroutine put_block
+
+
+   !> TEXT as gnuplot takes it as it stands.
+   pure function quoted(text) result(words)
+      character(*), intent(in)  :: text
+      character(:), allocatable :: words
+      integer :: k
+
+      words = ''''
+      do k = 1, len_trim(text)
+         words = words//text(k:k)
+         if (text(k:k) == '''') words = words//''''
+      end do
+      words = words//''''
+   end function quoted
+
+end module fit_plot

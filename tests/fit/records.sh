@@ -1,0 +1,242 @@
+# Part of run.sh: tests as they come. Runs with numbers, records in the order of time, loops of normal tests, units, offsets,
+# separators, pictures.
+
+# ---- Fig. 1(b): three ways down at each of three pressures, exact ----
+
+{ echo 'JSHEAR 1 1'
+  for first in 2 9 17; do
+     law='40 90 100 50 2000'; [ $first = 2 ] && law='60 100 -500 -300 1000'
+     echo "$law" | awk -v first=$first '{ for (k = 1; k <= 5; k++) print "JSHEAR", first + k - 1, $k; print "JSHEAR", first + 5, 0 }'
+  done
+  printf 'JSHEAR 25 0.6\nJSHEAR 26 0.03\n'; } > fig1b
+for form in record run words stretches turned; do
+   awk -v form=$form -f "$here/fig1b.awk" > $form.dat
+   fit $form.dat
+   holds "Fig. 1(b), $form: status 0 and no word" [ "$status $(wc -c < stderr)" = '0 0' ]
+   near "Fig. 1(b), $form: the coefficients" 1e-9 fig1b
+   says "Fig. 1(b), $form: each way has a start of its own" cards '75 points at 3 pressures' '72 points at 3 pressures' 'b0'
+   holds "Fig. 1(b), $form: 9 of unloading, 6 of reloading" \
+      [ "$(awk '$2 ~ /^[0-9]+$/ && NF == 7' cards | wc -l)" -eq 15 ]
+   fit --joint-fit $form.dat
+   near "Fig. 1(b), $form: in one step" 1e-9 fig1b
+done
+fit record.dat
+says 'a record: its turns and its noise band are said' cards '195 rows in the order of time, 3 tests, 15 turns; noise band 1 % of the range' \
+   '3E-4 of d, 0.03015 of tau'
+awk -v form=unloading -f "$here/fig1b.awk" > unloading.dat
+fit unloading.dat
+says 'unloading alone: the continuation' cards 'The UNLOAD continuation' 'b1 = 40 + 90 p' 'b2 = 100 + 50 p' 'b3 = 2000 + 0 p'
+says 'unloading alone: the option that helps' stderr '--branch UNLOAD --as LOAD'
+fit --branch UNLOAD --as LOAD unloading.dat
+awk '$2 < 8 || $2 == 25' fig1b | awk 'NR == 1 || $2 == 25 { print; next } { print $1, $2, a[split("40 90 100 50 2000 0", a) * 0 + $2 - 1] }' > as_load
+{ cat as_load; echo 'JSHEAR 26 0.0285'; } > unload_as_load
+near 'unloading alone, as LOAD' 1e-9 unload_as_load
+awk 'NR == 1 { print "d tau p branch"; next } { print }' run.dat > numbers.dat
+fit numbers.dat
+near 'numbers in the column branch are runs' 1e-9 fig1b
+for n in 3 4 40; do
+   awk -v form=record -v n=$n -f "$here/fig1b.awk" > sparse.dat
+   fit sparse.dat
+   near "a record with $n points a way" 1e-9 fig1b
+done
+# the same test once more, at the same pressure: back at the first reading a specimen starts anew
+{ cat record.dat; sed -n '2,66p' record.dat; } > again.dat
+fit again.dat
+near 'a test is repeated' 1e-9 fig1b
+says 'a test is repeated: four tests' cards '4 tests, 20 turns'
+awk 'NR > 1 && $3 < 0.3' run.dat | sed '1i d tau p run' > one.dat
+fit --one-pressure one.dat
+says 'one pressure, with --one-pressure' cards 'a1 = 80 + 0 p' 'b1 = 58 + 0 p' 'b3 = 2000 + 0 p'
+fit one.dat
+says 'one pressure: the option that helps' stderr '--one-pressure'
+awk 'NR > 1 { $3 *= 1 + 0.004 * (NR % 5) } { print }' record.dat > wobbly.dat
+fit wobbly.dat
+says 'pressures that wobble: the option that helps' stderr '--p-tolerance 0.05'
+fit --p-tolerance 0.05 wobbly.dat
+holds 'pressures that wobble: taken with --p-tolerance' [ $status -eq 0 ]
+says 'pressures that wobble: three tests' cards '3 tests, 15 turns'
+
+# a record may hold a little of a branch
+awk -v form=words -f "$here/fig1b.awk" | awk '$4 == "RELOAD" && n[$3, $5]++ { next } { print $1, $2, $3 }' > little.dat
+fit little.dat
+holds 'a little of a branch: status 0' [ $status -eq 0 ]
+says 'a little of a branch: it is left out with a warning' stderr 'WARNING: RELOAD, p = 0.2' 'fix no cubic' '--joint-fit'
+
+# ---- normal tests with loops ----
+
+printf 'JNORM 1 1\nJNORM 2 2.5\nJNORM 3 0.5\nJNORM 4 3\n' > loops
+awk -f "$here/normal_loops.awk" > loops.dat
+fit loops.dat
+near 'loops without noise' 1e-5 loops
+says 'loops: no part of the loading' cards '200 rows in the order of time, 1 test, 6 turns' '53 points of loading' \
+   'from 6 lines through 153 points apart from loading'
+says 'loops in um and MPa: the option that helps' stderr 'um and MPa are no units of one deck: --units mm,n'
+for seed in 1 2 3 4 5 6; do
+   awk -v noise=0.01 -v seed=$seed -f "$here/normal_loops.awk" > noisy_loops.dat
+   fit noisy_loops.dat
+   awk -f "$here/card_values.awk" cards > got
+   holds "loops with 1 per cent noise, $seed: c and m within 2, E_u within 5 per cent" awk '
+      function off(expected) { return ($3 - expected) / expected < 0 ? (expected - $3) / expected : ($3 - expected) / expected }
+      $2 == 2 && off(2.5) <= 0.02 || $2 == 3 && off(0.5) <= 0.02 || $2 == 4 && off(3) <= 0.05 { good++ } END { exit good != 3 }' got
+   says "loops with noise, $seed: six lines" cards '1 test, 6 turns' 'from 6 lines'
+done
+fit --unordered noisy_loops.dat
+says 'loops with --unordered: all rows are loading' cards '200 points, p'
+holds 'loops with --unordered: no E_u' [ "$(awk -f "$here/card_values.awk" cards | wc -l)" -eq 3 ]
+awk 'NR == 1 { print "p; lambda; run"; next }
+     { split($0, v, "; "); if (NR > 3 && (v[2] - p) * way < 0) run++; if (v[2] != p) way = v[2] - p; p = v[2]; print v[2] "; " v[1] "; " run + 1 }' loops.dat > loop_runs.dat
+fit loop_runs.dat
+near 'loops with numbers of runs' 1e-5 loops
+awk 'BEGIN { print "lambda p branch" }
+     NR > 1 { split($0, v, "; "); print v[1], v[2], (v[1] > 2.5 * sqrt(v[2]) + 1e-4 ? (v[2] < p ? "UNLOAD" : "RELOAD") : "LOAD"); p = v[2] }' loops.dat > loop_words.dat
+fit loop_words.dat
+near 'loops with the names of branches' 1e-5 loops
+printf '%s\n' 'lambda p' '0 0' '1 1' '2 4' '3 9' '2 6' '1 3' '0.5 1.5' '1 3' '2 6' '3 9' '4 16' > flat.dat
+fit flat.dat
+says 'E_u below the slope of the loading curve' stderr 'E_u = 3 is below the slope of the loading curve at p = 16, 8'
+printf '%s\n' 'p lambda' '0 0' '1 2' '2 3' '3 3.5' '2 3.6' '1 3.7' '0 3.8' > back.dat
+fit back.dat
+says 'no line of unloading that rises' stderr 'lambda does not fall with p where the test is unloaded'
+holds 'no line of unloading that rises: EU is blank' [ "$(awk -f "$here/card_values.awk" cards | wc -l)" -eq 3 ]
+
+# ---- rows that are no record ----
+
+sort -R --random-source=/dev/zero noisy_power.dat | grep -v lambda | sed '1i lambda p' > shuffled.dat
+fit shuffled.dat
+holds 'rows in no order: status 2' [ $status -eq 2 ]
+says 'rows in no order: the options that help' stderr 'too often for a record' '--unordered' '--noise' 'a column branch or run'
+fit --unordered shuffled.dat
+printf 'JNORM 1 1\nJNORM 2 0.8\nJNORM 3 0.5\n' > power
+near 'rows in no order, with --unordered' 0.02 power
+printf '%s\n' 'lambda p' '2 4' '1.5 2.25' '1 1' > falling.dat
+fit falling.dat
+says 'a test that falls from the first row' stderr 'no loading: p falls' '--unordered'
+fit --unordered falling.dat
+printf 'JNORM 1 1\nJNORM 2 1\nJNORM 3 0.5\n' > root
+near 'a test that falls, with --unordered' 1e-10 root
+awk 'BEGIN { print "lambda p"; for (i = 0; i <= 40; i++) { p = i / 4; printf "%.17g %.17g\n", 0.8 * sqrt(p), p + (i % 3 == 1 ? 0.4 : 0) } }' > ripple.dat
+fit ripple.dat
+says 'a ripple on p is found to be noise' cards '1 test, 0 turns'
+fit --noise 0.01 ripple.dat
+says 'a ripple on p, with a narrow --noise' stderr 'too often for a record'
+fit --noise 0.1 loops.dat
+says '--noise is printed' cards 'noise band 10 % of the range (--noise)'
+
+# ---- the first reading ----
+
+awk 'NR > 1 { split($0, v, "; "); print v[1] - 0.05, v[2] - 0.03; next } { print "lambda p" }' loops.dat > offset.dat
+fit offset.dat
+near 'a first reading below zero is an offset' 1e-5 loops
+says 'an offset is said' cards 'the first reading of lambda, -0.05, taken off 200 rows' 'the first reading of p, -0.03, taken off 200 rows'
+awk 'NR > 1 { split($0, v, "; "); print v[1] + 3, v[2] - 1; next } { print "lambda p" }' loops.dat > far_off.dat
+fit far_off.dat
+says 'a first reading too far below zero: the options that help' stderr "P: '-1' is negative" '--zero' '--noise'
+fit --zero far_off.dat
+near '--zero' 1e-5 loops
+awk -v CONVFMT=%.17g 'NR > 1 { $1 -= 1e-4; $2 -= 0.01 } { print }' record.dat > offset_shear.dat
+fit offset_shear.dat
+near 'an offset of a shear test' 1e-8 fig1b
+awk -v CONVFMT=%.17g 'NR > 1 { $1 -= 1e-4; $2 -= 0.01 } { print }' words.dat > offset_words.dat
+fit offset_words.dat
+holds 'an offset of rows that name their branches: status 0' [ $status -eq 0 ]
+says 'an offset of rows that name their branches' cards 'the first reading of d, -1E-4'
+
+# ---- headings, separators, units ----
+
+for units in 'mm,n 2.5e-3 0.5 3000' 'mm,kgf 7.8288761e-3 0.5 305.91486' 'm,n 2.5e-9 0.5 3e12' 'in,lbf 8.1725e-6 0.5 1.1052e7'; do
+   set -- $units
+   fit --units "$1" loops.dat
+   printf 'JNORM 1 1\nJNORM 2 %s\nJNORM 3 %s\nJNORM 4 %s\n' "$2" "$3" "$4" > converted
+   near "--units $1" 2e-4 converted
+   holds "--units $1: no word" [ ! -s stderr ]
+done
+fit --units mm,kgf loops.dat
+says '--units is said' cards 'MM, KGF/MM2, converted from p [MPa], lambda [um]'
+sed 's/\./,/g' loops.dat > german.dat
+fit german.dat
+near 'semicolons and decimal commas' 1e-5 loops
+tr ';' '\t' < german.dat > tabs.dat
+fit --decimal-comma tabs.dat
+near 'tabs and decimal commas' 1e-5 loops
+fit tabs.dat
+says 'decimal commas: the option that helps' stderr 'entries on this line: 4, expected 2' '--decimal-comma'
+tr ';' ',' < loops.dat | sed 's/$/,ok/; 1s/.*/"p (MPa)","Weg","remark"/' > foreign.dat
+fit foreign.dat
+says 'foreign headings: the option that helps' stderr "'Weg' is no column that jointfit knows (--columns"
+fit --columns 'lambda [um],p [MPa],-' --units mm,n foreign.dat
+printf 'JNORM 1 1\nJNORM 2 2.5e-3\nJNORM 3 0.5\nJNORM 4 3000\n' > converted
+near '--columns' 1e-5 converted
+sed 1d loops.dat > headless.dat
+fit headless.dat
+says 'no headings: the option that helps' stderr 'numbers before the header line' '--columns'
+fit --columns 'lambda,p' headless.dat
+near '--columns without headings' 1e-5 loops
+{ echo 'UNITS = UM, MPA'; sed '1s/.*/lambda p/' loops.dat; } > named.dat
+fit --units mm,n named.dat
+near 'units of the line UNITS =' 1e-5 converted
+sed '1s/.*/d [mm], tau [N\/mm²], p [MPa]/' record.dat > units_shear.dat
+fit --units m,n units_shear.dat
+awk '{ k = $2 > 1 && $2 < 25 ? int(($2 - 2) % 8 % 7 / 2) : 0 } $2 == 25 { $3 *= 1e6 } $2 == 26 { $3 *= 1e-3 }
+     $2 > 1 && $2 < 25 { j = $2 < 8 ? $2 - 2 : $2 < 16 ? $2 - 9 : $2 - 17; k = int(j / 2) + 1; $3 *= 1e3^k; if (j % 2 == 0) $3 *= 1e6 }
+     { printf "%s %d %.17g\n", $1, $2, $3 }' fig1b > fig1b_m
+near '--units of a shear test' 1e-8 fig1b_m
+{ echo 'UNITS = UM, MPA'; awk '!/^#|UNITS/' "$here/sanad.dat"; } > units_cubics.dat
+fit --units mm,n --branch RELOAD --as LOAD units_cubics.dat
+awk '$2 > 1 && $2 < 8 { $3 *= 1e3^int($2 / 2) } { print $1, $2, sprintf("%.17g", $3) }' sanad > sanad_mm
+near '--units of cubics' 1e-10 sanad_mm
+
+# ---- more bad data ----
+
+bad 'mixed branches' 'line 3' 'BRANCH: a number, but other rows name it' <<< $'d tau p branch\n1 1 1 LOAD\n1 1 1 2'
+bad 'run of no number' "RUN: '1.5' is no number of a run" '      ^^^' <<< $'d tau p run\n1 1 1 1.5'
+bad 'cubics with a run' "BRANCH: '1', expected LOAD, UNLOAD or RELOAD" <<< $'c1 c2 c3 p branch\n1 1 1 1 1'
+bad 'units of two kinds in headings' 'line 3' 'p in kgf/mm2, but above in MPa: --units mm,n' \
+   <<< $'lambda [um] p [MPa]\n1 1\nlambda [um] p [kgf/mm2]\n2 2'
+bad 'columns that the tests do not have' 'these columns do not go together' '--columns' <<< $'d p\n1 2'
+fit --units mm,n power.dat
+says '--units without units' stderr 'the unit of p is not said' 'lambda [um]' 'UNITS = um, MPa'
+sed '1s/.*/p [stone], lambda [um]/' power.dat > stones.dat
+fit --units mm,n stones.dat
+says '--units with a unit that is none' stderr "'stone' is no unit of p"
+fit stones.dat
+holds 'a unit that is none, without --units' [ $status -eq 0 ]
+sed '1s/.*/d [mm] tau [N\/mm2] p [kgf\/mm2]/' record.dat > mixed.dat
+fit mixed.dat
+says 'two units of stress: the option that helps' stderr 'N/mm2 and kgf/mm2 are no units of one deck: --units mm,n'
+usage '--units of one' '--units mm: expected the units of length and force' --units mm all.dat
+usage '--noise too wide' '--noise 0.7: expected a share' --noise 0.7 all.dat
+usage '--columns without a value' '--columns : expected the names' all.dat --columns
+usage '--plot without a value' '--plot : expected the name' all.dat --plot
+
+# ---- the worked examples of the manual ----
+
+# block HEADING N: the Nth block between ``` below ### HEADING in section 9 of input/README.md
+block() {
+   awk -v heading="### $1" -v wanted="$2" '/^### / { on = $0 == heading } !on { next }
+      /^```/ { inside = !inside; n += inside; next } inside && n == wanted' "$here/../../input/README.md"
+}
+block 'A normal test' 1 > normal.csv
+block 'A shear test' 1 > shear.csv
+fit --units mm,n normal.csv
+holds 'manual: the normal test' cmp -s cards <(block 'A normal test' 2)
+fit --units mm,n --small --id 7 shear.csv
+holds 'manual: the shear test' cmp -s <(tail -n 5 cards) <(block 'A shear test' 2)
+
+# ---- pictures ----
+
+fit --plot fit.gp record.dat
+holds '--plot: status 0' [ $status -eq 0 ]
+says '--plot of shear' fit.gp "set output 'fit.svg'" "title 'UNLOAD, p = 0.4'" "set ylabel 'tau'"
+fit --plot fit.gp --units mm,n loops.dat
+says '--plot of a normal test' fit.gp "title 'LOAD'" "title 'RELOAD'" "set xlabel 'lambda [MM]'"
+fit --plot pictures.gp --id 5 --branch RELOAD --as LOAD "$here/sanad.dat" all.dat
+says '--plot of several files' pictures.gp "set output 'pictures_5.svg'" "set output 'pictures_6.svg'" "title 'a3'"
+fit --plot nowhere/fit.gp record.dat
+holds '--plot that cannot be written: status 4' [ $status -eq 4 ]
+says '--plot that cannot be written' stderr 'nowhere/fit.gp cannot be written'
+if command -v gnuplot > /dev/null; then
+   gnuplot fit.gp pictures.gp > said 2>&1
+   holds '--plot: gnuplot draws' [ ! -s said -a -s fit.svg -a -s pictures_5.svg -a -s pictures_6.svg ]
+else
+   echo 'skipped: pictures: there is no gnuplot'
+fi
