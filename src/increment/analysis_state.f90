@@ -9,7 +9,7 @@ module analysis_state
    use kinds, only: wp
    use model_data, only: model_type, n_bars, n_sections
    use normal_stiffness, only: branch_load, branch_open, is_virgin, normal_secant
-   use turning_points, only: note_turns, turning_point
+   use branch_starts, only: note_turns, turning_point
    implicit none
    private
 

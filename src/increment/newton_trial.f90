@@ -6,7 +6,7 @@ module newton_trial
    use joint_laws, only: element_state, follow_element, rest_when_open
    use kinds, only: wp
    use model_data, only: model_type
-   use turning_points, only: note_turns
+   use branch_starts, only: note_turns
    implicit none
    private
 

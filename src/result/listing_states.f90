@@ -7,7 +7,7 @@ module listing_states
    use model_data, only: model_type, joint_node_id
    use normal_stiffness, only: branch_name, branch_reload, branch_unload
    use text_tools, only: clean, integer_text, upper
-   use turning_points, only: branch_shift
+   use branch_starts, only: branch_shift
    implicit none
    private
 

@@ -1,6 +1,6 @@
 !> Where the shear branches of the interface elements began: (delta, tau) of the last turn, kept for the listing alone. A branch of
 !! unloading or reloading is shifted so that it passes through it (b0 and c0 of section 4.3).
-module turning_points
+module branch_starts
    use joint_laws, only: element_state
    use kinds, only: wp
    use normal_stiffness, only: branch_load
@@ -54,4 +54,4 @@ contains
       shift = state%sense*turn%tau - d*(a(1) + d*(a(2) + d*a(3)))
    end function branch_shift
 
-end module turning_points
+end module branch_starts
