@@ -41,6 +41,7 @@ while read -r deck stage newton; do
    echo
    # sixteen times as many increments leave less than half of it, also where the order is 1/2 or a little below
    set -- $errors
+   [ $# -eq 5 ] || { fail "$deck: an error is missing"; continue; }
    holds "$deck: the error does not fall" "$1 > $2 and $2 > $3 and $3 > $4 and $4 > $5 and $5 < 0.5*$1"
 done <<'DECKS'
 prism05 1 40
