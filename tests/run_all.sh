@@ -29,6 +29,7 @@ part() {
 }
 
 part 'unit tests' ${MAKE:-make} --no-print-directory -s unit-test
+part 'modules use what stands to the left' tests/folders.sh README.md src
 part 'the test runner itself' env -u MAKELEVEL tests/runner/selftest.sh
 part 'decks against their references' tests/check.sh "$program" "$compare" "$build/check"
 part 'decks through the program with run-time checks' tests/check.sh "$checked" "$compare" "$build/check-checked"

@@ -1,8 +1,7 @@
 !> The few services of the C library that Fortran has no word for: reading and writing files by bytes with
 !! every failure told, renaming and removing a file, the true path of a file, and whether a stream is a terminal.
 module c_library
-   use, intrinsic :: iso_c_binding, only: c_associated, c_char, c_f_pointer, c_int, c_null_char, c_null_ptr, &
-                                          c_ptr, c_size_t
+   use, intrinsic :: iso_c_binding, only: c_associated, c_char, c_int, c_null_char, c_ptr, c_size_t
    implicit none
    private
 
@@ -12,87 +11,58 @@ module c_library
    logical, public, protected :: has_ended = .false. !! by end_run
 
    interface
-      function c_fopen(path, mode) bind(c, name='fopen') result(stream)
-         import :: c_char, c_ptr
-         character(kind=c_char), intent(in) :: path(*), mode(*)
-         type(c_ptr) :: stream
-      end function c_fopen
+      integer(c_int) function c_open(path, flags) bind(c, name='open')
+         import :: c_char, c_int
+         character(kind=c_char), intent(in) :: path(*)
+         integer(c_int), value :: flags
+      end function c_open
 
-      function c_fread(buffer, size, count, stream) bind(c, name='fread') result(got)
-         import :: c_char, c_ptr, c_size_t
-         character(kind=c_char), intent(out) :: buffer(*)
-         integer(c_size_t), value :: size, count
-         type(c_ptr), value       :: stream
-         integer(c_size_t)        :: got
-      end function c_fread
-
-      function c_ferror(stream) bind(c, name='ferror') result(status)
-         import :: c_int, c_ptr
-         type(c_ptr), value :: stream
-         integer(c_int)     :: status
-      end function c_ferror
-
-      function c_fclose(stream) bind(c, name='fclose') result(status)
-         import :: c_int, c_ptr
-         type(c_ptr), value :: stream
-         integer(c_int)     :: status
-      end function c_fclose
-
-      function c_creat(path, mode) bind(c, name='creat') result(descriptor)
+      integer(c_int) function c_creat(path, mode) bind(c, name='creat')
          import :: c_char, c_int
          character(kind=c_char), intent(in) :: path(*)
          integer(c_int), value :: mode
-         integer(c_int)        :: descriptor
       end function c_creat
 
-      function c_write(descriptor, bytes, count) bind(c, name='write') result(written)
+      !> What has been read, 0 at the end of the file, -1 on failure.
+      integer(c_size_t) function c_read(descriptor, bytes, count) bind(c, name='read')
+         import :: c_char, c_int, c_size_t
+         integer(c_int), value               :: descriptor
+         character(kind=c_char), intent(out) :: bytes(*)
+         integer(c_size_t), value            :: count
+      end function c_read
+
+      !> What has been written, -1 on failure.
+      integer(c_size_t) function c_write(descriptor, bytes, count) bind(c, name='write')
          import :: c_char, c_int, c_size_t
          integer(c_int), value              :: descriptor
          character(kind=c_char), intent(in) :: bytes(*)
          integer(c_size_t), value           :: count
-         integer(c_size_t)                  :: written  ! -1 on failure
       end function c_write
 
-      function c_close(descriptor) bind(c, name='close') result(status)
+      integer(c_int) function c_close(descriptor) bind(c, name='close')
          import :: c_int
          integer(c_int), value :: descriptor
-         integer(c_int)        :: status
       end function c_close
 
-      function c_rename(old, new) bind(c, name='rename') result(status)
+      integer(c_int) function c_rename(old, new) bind(c, name='rename')
          import :: c_char, c_int
          character(kind=c_char), intent(in) :: old(*), new(*)
-         integer(c_int) :: status
       end function c_rename
 
-      function c_unlink(path) bind(c, name='unlink') result(status)
+      integer(c_int) function c_unlink(path) bind(c, name='unlink')
          import :: c_char, c_int
          character(kind=c_char), intent(in) :: path(*)
-         integer(c_int) :: status
       end function c_unlink
 
-      function c_realpath(path, resolved) bind(c, name='realpath') result(text)
+      type(c_ptr) function c_realpath(path, resolved) bind(c, name='realpath')
          import :: c_char, c_ptr
-         character(kind=c_char), intent(in) :: path(*)
-         type(c_ptr), value :: resolved
-         type(c_ptr)        :: text
+         character(kind=c_char), intent(in)  :: path(*)
+         character(kind=c_char), intent(out) :: resolved(*)
       end function c_realpath
 
-      function c_strlen(text) bind(c, name='strlen') result(length)
-         import :: c_ptr, c_size_t
-         type(c_ptr), value :: text
-         integer(c_size_t)  :: length
-      end function c_strlen
-
-      subroutine c_free(memory) bind(c, name='free')
-         import :: c_ptr
-         type(c_ptr), value :: memory
-      end subroutine c_free
-
-      function c_isatty(descriptor) bind(c, name='isatty') result(answer)
+      integer(c_int) function c_isatty(descriptor) bind(c, name='isatty')
          import :: c_int
          integer(c_int), value :: descriptor
-         integer(c_int)        :: answer
       end function c_isatty
 
       subroutine c_exit(status) bind(c, name='exit')
@@ -110,36 +80,30 @@ contains
       character(:), allocatable, intent(out) :: bytes
       logical, intent(out)                   :: ok
       integer(c_size_t), parameter :: first_room = 1048576 ! where the size of the file is not known
+      integer(c_int), parameter    :: to_read = 0          ! O_RDONLY
       character(:), allocatable :: wider
-      character(1)      :: one_more
       integer(c_size_t) :: used, got, room
-      integer(c_int)    :: status
-      type(c_ptr)       :: stream
+      integer(c_int)    :: descriptor
 
-      ok = .false.
-      stream = c_fopen(path//c_null_char, 'rb'//c_null_char)
-      if (.not. c_associated(stream)) return
+      descriptor = c_open(path//c_null_char, to_read)
+      ok = descriptor >= 0
+      if (.not. ok) return
       inquire (file=path, size=room)
       if (room <= 0) room = first_room
-      allocate (character(room) :: bytes)
+      allocate (character(room + 1) :: bytes) ! one more than there are: the end shows at once
       used = 0
       do
-         if (used == len(bytes, c_size_t)) then ! at the end, or larger than it was said to be
-            got = c_fread(one_more, 1_c_size_t, 1_c_size_t, stream)
-            if (got == 0) exit
+         if (used == len(bytes, c_size_t)) then
             allocate (character(2*used) :: wider)
             wider(:used) = bytes
-            wider(used + 1:used + 1) = one_more
             call move_alloc(wider, bytes)
-            used = used + 1
          end if
-         got = c_fread(bytes(used + 1:), 1_c_size_t, len(bytes, c_size_t) - used, stream)
-         if (got == 0) exit
+         got = c_read(descriptor, bytes(used + 1:), len(bytes, c_size_t) - used)
+         if (got <= 0) exit
          used = used + got
       end do
-      ok = c_ferror(stream) == 0
-      status = c_fclose(stream)
-      if (used < len(bytes, c_size_t)) bytes = bytes(:used)
+      ok = c_close(descriptor) == 0 .and. got == 0
+      bytes = bytes(:used)
    end subroutine read_all_bytes
 
 
@@ -212,31 +176,19 @@ contains
    function true_path(path) result(resolved)
       character(*), intent(in)  :: path
       character(:), allocatable :: resolved
-      character(kind=c_char), pointer :: letters(:)
-      type(c_ptr) :: text
-      integer     :: i, length
+      integer, parameter :: longest = 4096 ! PATH_MAX, the null character included
+      character(longest) :: text
 
-      text = c_realpath(path//c_null_char, c_null_ptr)
-      if (.not. c_associated(text)) then
-         resolved = path
-         return
-      end if
-      length = int(c_strlen(text))
-      call c_f_pointer(text, letters, [length])
-      allocate (character(length) :: resolved)
-      do i = 1, length
-         resolved(i:i) = letters(i)
-      end do
-      call c_free(text)
+      resolved = path
+      if (c_associated(c_realpath(path//c_null_char, text))) resolved = text(:index(text, c_null_char) - 1)
    end function true_path
 
 
    !> Whether the stream DESCRIPTOR (1 standard output, 2 standard error) is a terminal.
-   function is_terminal(descriptor) result(answer)
+   logical function is_terminal(descriptor)
       integer, intent(in) :: descriptor
-      logical :: answer
 
-      answer = c_isatty(int(descriptor, c_int)) /= 0
+      is_terminal = c_isatty(int(descriptor, c_int)) /= 0
    end function is_terminal
 
 

@@ -1,8 +1,7 @@
 !> What the machine has, and what the program takes of it: memory and threads.
 module machine
    use, intrinsic :: iso_c_binding, only: c_int, c_size_t
-   use control_groups, only: memory_left_by_groups
-   use kernel_figures, only: kernel_figure, no_figure
+   use kernel_figures, only: kernel_figure, memory_left_by_groups, no_figure
    use kinds, only: long, wp
    use omp_lib, only: omp_get_max_threads, omp_set_num_threads
    implicit none

@@ -1,10 +1,13 @@
 !> The bulk data of a deck as read: one array a kind of card, cards in the order of the deck, nothing resolved yet.
 !! LINE is always the index of the card's first line in the deck text, for messages.
 module bulk_data
+   use elasticity, only: plane_stress
    use kinds, only: wp
    use shear_stiffness, only: shear_law
    implicit none
    private
+
+   public :: has_component
 
    type, public :: grid_card
       integer  :: line = 0, id = 0, ps = 0
@@ -12,28 +15,22 @@ module bulk_data
       logical  :: doubtful = .false.                    ! some field could not be read
    end type grid_card
 
+   integer, parameter, public :: edge_cbar = 0, edge_crod = -1 !! kinds of edge
+
    !> An element with nodes: bodies, and the edges CBAR and CROD (marks, or a CROD that is a bolt).
    type, public :: element_card
       integer :: line = 0, id = 0, property = 0
-      integer :: kind = 0                               ! of element_kinds; 0: an edge
+      integer :: kind = 0                               ! of element_kinds; of an edge one of those above
       integer :: nodes(8) = 0
    end type element_card
 
-   type, public :: pshell_card
+   !> PSHELL, PAXIS and PSOLID alike.
+   type, public :: property_card
       integer  :: line = 0, id = 0, material = 0
-      real(wp) :: thickness = 0.0_wp
-      logical  :: plane_strain = .false.
+      integer  :: state = plane_stress                  ! of elasticity
+      real(wp) :: thickness = 0.0_wp                    ! of a PSHELL
       logical  :: incompatible = .false.                ! modes of Wilson and Taylor
-   end type pshell_card
-
-   type, public :: paxis_card
-      integer  :: line = 0, id = 0, material = 0
-   end type paxis_card
-
-   type, public :: psolid_card
-      integer  :: line = 0, id = 0, material = 0
-      logical  :: incompatible = .false.
-   end type psolid_card
+   end type property_card
 
    type, public :: prod_card
       integer  :: line = 0, id = 0, material = 0
@@ -101,27 +98,18 @@ module bulk_data
       integer, allocatable  :: at(:)                    ! data field of each set
    end type load_card
 
-   type, public :: block2_card
+   !> BLOCK2 and BLOCK3.
+   type, public :: block_card
       integer  :: line = 0, id = 0, property = 0
-      integer  :: divisions(2) = 1                      ! along side 1-2 and along side 1-4
-      real(wp) :: corner(2, 4) = 0.0_wp
-      real(wp) :: grading(2) = 1.0_wp                   ! last division over first
+      integer  :: dimension = 2
+      integer  :: divisions(3) = [1, 1, 0]              ! of a BLOCK2 along sides 1-2 and 1-4, and 0
+      real(wp) :: corner(3, 4) = 0.0_wp                 ! of a BLOCK3 two opposite ones
+      real(wp) :: grading(3) = 1.0_wp                   ! last division over first
       integer  :: first_node = 1, first_element = 1
-      integer  :: marks(4) = 0                          ! PMARK of sides 1-2, 2-3, 3-4, 4-1
+      integer  :: marks(6) = 0                          ! PMARK of sides 1-2, 2-3, 3-4, 4-1, or x low, x high, y low, ...
       integer  :: weld = 0                              ! block whose coincident nodes are used
       logical  :: doubtful = .false.                    ! some field could not be read
-   end type block2_card
-
-   type, public :: block3_card
-      integer  :: line = 0, id = 0, property = 0
-      integer  :: divisions(3) = 1
-      real(wp) :: corner(3, 2) = 0.0_wp                 ! the two opposite ones
-      real(wp) :: grading(3) = 1.0_wp
-      integer  :: first_node = 1, first_element = 1
-      integer  :: marks(6) = 0                          ! PMARK of the sides x low, x high, y low, y high, z low, z high
-      integer  :: weld = 0
-      logical  :: doubtful = .false.
-   end type block3_card
+   end type block_card
 
    type, public :: pmark_card
       integer :: line = 0, id = 0
@@ -163,38 +151,41 @@ module bulk_data
       real(wp), allocatable :: shares(:)                ! of the stage's load change, add up to 1
    end type jincr_card
 
-   !> All of them; the arrays have just the room needed, the counts say how much of it is filled.
+   !> All of them.
    type, public :: bulk_data_type
-      integer :: n_cards = 0 !! cards of all kinds
-      integer :: n_grid = 0, n_element = 0, n_edge = 0, n_pshell = 0, n_mat1 = 0, n_support = 0, n_force = 0, &
-                 n_load = 0, n_block2 = 0, n_pmark = 0, n_joint = 0, n_cjoint = 0, n_pjoint = 0, n_jnorm = 0, n_jshear = 0, &
-                 n_jincr = 0, n_paxis = 0, n_psolid = 0, n_prod = 0, n_pressure = 0, n_surface_load = 0, n_gravity = 0, &
-                 n_displacement = 0, n_bolt = 0, n_block3 = 0
-      type(grid_card), allocatable    :: grid(:)
-      type(element_card), allocatable :: element(:) ! of bodies; faces of marked surfaces too
-      type(element_card), allocatable :: edge(:)    ! CBAR and CROD: marks on surfaces
-      type(pshell_card), allocatable  :: pshell(:)
-      type(mat1_card), allocatable    :: mat1(:)
-      type(support_card), allocatable :: support(:)
-      type(force_card), allocatable   :: force(:)
-      type(load_card), allocatable    :: load(:)
-      type(block2_card), allocatable  :: block2(:)
-      type(pmark_card), allocatable   :: pmark(:)
-      type(paxis_card), allocatable   :: paxis(:)
-      type(psolid_card), allocatable  :: psolid(:)
-      type(prod_card), allocatable    :: prod(:)
-      type(pressure_card), allocatable :: pressure(:)
+      integer :: n_cards = 0                               !! of all kinds
+      type(grid_card), allocatable         :: grid(:)
+      type(element_card), allocatable      :: element(:)   !! of bodies; faces of marked surfaces too
+      type(element_card), allocatable      :: edge(:)      !! CBAR and CROD
+      type(property_card), allocatable     :: pshell(:), paxis(:), psolid(:)
+      type(prod_card), allocatable         :: prod(:)
+      type(mat1_card), allocatable         :: mat1(:)
+      type(support_card), allocatable      :: support(:)
+      type(force_card), allocatable        :: force(:)
+      type(pressure_card), allocatable     :: pressure(:)
       type(surface_load_card), allocatable :: surface_load(:)
-      type(gravity_card), allocatable :: gravity(:)
+      type(gravity_card), allocatable      :: gravity(:)
       type(displacement_card), allocatable :: displacement(:)
-      type(bolt_card), allocatable    :: bolt(:)
-      type(block3_card), allocatable  :: block3(:)
-      type(joint_card), allocatable   :: joint(:)
-      type(cjoint_card), allocatable  :: cjoint(:)
-      type(pjoint_card), allocatable  :: pjoint(:)
-      type(jnorm_card), allocatable   :: jnorm(:)
-      type(jshear_card), allocatable  :: jshear(:)
-      type(jincr_card), allocatable   :: jincr(:)
+      type(load_card), allocatable         :: load(:)
+      type(bolt_card), allocatable         :: bolt(:)
+      type(block_card), allocatable        :: block(:)
+      type(pmark_card), allocatable        :: pmark(:)
+      type(joint_card), allocatable        :: joint(:)
+      type(cjoint_card), allocatable       :: cjoint(:)
+      type(pjoint_card), allocatable       :: pjoint(:)
+      type(jnorm_card), allocatable        :: jnorm(:)
+      type(jshear_card), allocatable       :: jshear(:)
+      type(jincr_card), allocatable        :: jincr(:)
    end type bulk_data_type
+
+contains
+
+   !> Whether digit D, 1 to 6, is among COMPONENTS.
+   pure logical function has_component(components, d)
+      integer, intent(in) :: components, d
+      integer :: k
+
+      has_component = any([(modulo(components/10**k, 10) == d, k = 0, 5)])
+   end function has_component
 
 end module bulk_data

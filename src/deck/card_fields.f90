@@ -3,21 +3,22 @@ module card_fields
    use card_lines, only: card_type
    use deck_errors, only: deck_error_list
    use deck_numbers, only: parse_integer, parse_real
-   use field_rules, only: expectation, field_rule, in_range, is_component_list, kind_blank, kind_components, kind_integer, &
-                          kind_real, kind_word
+   use field_rules, only: expectation, field_rule, in_range, kind_blank, kind_components, kind_integer, kind_real, kind_word
    use kinds, only: wp
    implicit none
    private
 
-   public :: decode_card, decode_integer, decode_real, check_direction, field_error
+   public :: decode_card, decode_integer, decode_real
+
+   integer, parameter :: most_rules = 32
 
    !> The fields of one card, decoded. Field k is in INTEGERS(k) or REALS(k) or WORDS(k) by its rule.
    type, public :: card_values
-      integer, allocatable      :: integers(:)
-      real(wp), allocatable     :: reals(:)
-      character(8), allocatable :: words(:)
-      logical, allocatable      :: given(:)    !! false: blank, the default was taken
-      logical                   :: ok = .true. !! false: some field was wrong
+      integer      :: integers(most_rules) = 0
+      real(wp)     :: reals(most_rules) = 0.0_wp
+      character(8) :: words(most_rules) = ''
+      logical      :: given(most_rules) = .false. !! false: blank, the default was taken
+      logical      :: ok = .true.                 !! false: some field was wrong
    end type card_values
 
 contains
@@ -26,51 +27,30 @@ contains
    !! follows is left to the card's own routine. All that is wrong goes to ERRORS.
    subroutine decode_card(card, rules, open_ended, values, errors)
       type(card_type), intent(in)          :: card
-      type(field_rule), intent(in)         :: rules(:)
+      type(field_rule), intent(in)         :: rules(:)   !! at most MOST_RULES
       logical, intent(in)                  :: open_ended
       type(card_values), intent(inout)     :: values
       type(deck_error_list), intent(inout) :: errors
       integer :: k, errors_before
 
       errors_before = errors%n
-      call make_room(values, size(rules))
       values%given(:size(rules)) = .false.
       do k = 1, size(rules)
-         if (k > card%n) then
-            call take_default(card, k, rules(k), values, errors)
-         else if (card%fields(k)%length == 0) then
-            call take_default(card, k, rules(k), values, errors)
-         else
-            values%given(k) = .true.
+         if (k <= card%n) values%given(k) = card%fields(k)%length > 0
+         if (values%given(k)) then
             call decode_field(card, k, rules(k), values, errors)
+         else
+            call take_default(card, k, rules(k), values, errors)
          end if
       end do
       if (.not. open_ended) then
          do k = size(rules) + 1, card%n
-            if (card%fields(k)%length > 0) then
-               call field_error(card, k, ''''//trim(card%fields(k)%text)//''' where the field must be blank', errors)
-            end if
+            if (card%fields(k)%length > 0) &
+               call card%field_error(k, ''''//trim(card%fields(k)%text)//''' where the field must be blank', errors)
          end do
       end if
       values%ok = errors%n == errors_before
    end subroutine decode_card
-
-
-   subroutine make_room(values, n)
-      type(card_values), intent(inout) :: values
-      integer, intent(in)              :: n
-      integer :: room
-
-      if (allocated(values%given)) then
-         if (size(values%given) >= n) return
-         deallocate (values%integers, values%reals, values%words, values%given)
-      end if
-      room = max(n, 32)
-      allocate (values%integers(room), source=0)
-      allocate (values%reals(room), source=0.0_wp)
-      allocate (values%words(room), source='        ')
-      allocate (values%given(room), source=.false.)
-   end subroutine make_room
 
 
    subroutine take_default(card, k, rule, values, errors)
@@ -80,9 +60,7 @@ contains
       type(card_values), intent(inout)     :: values
       type(deck_error_list), intent(inout) :: errors
 
-      if (rule%required) then
-         call field_error(card, k, trim(rule%name)//': blank, expected '//expectation(rule), errors)
-      end if
+      if (rule%required) call card%field_error(k, trim(rule%name)//': blank, expected '//expectation(rule), errors)
       values%integers(k) = 0
       values%reals(k) = rule%default
       if (rule%kind == kind_integer .or. rule%kind == kind_components) values%integers(k) = nint(rule%default)
@@ -99,16 +77,12 @@ contains
       logical :: ok
 
       select case (rule%kind)
-      case (kind_integer)
-         call integer_by_rule(card, k, rule, values%integers(k), ok, errors)
-         if (ok .and. (values%integers(k) < rule%least .or. values%integers(k) > rule%most)) then
-            call out_of_range(card, k, rule, errors)
-            values%integers(k) = 0
-         end if
-      case (kind_components)
-         call integer_by_rule(card, k, rule, values%integers(k), ok, errors)
-         if (ok .and. .not. is_component_list(values%integers(k))) then
-            call out_of_range(card, k, rule, errors)
+      case (kind_integer, kind_components)
+         call parse_integer(card%fields(k)%text(:card%fields(k)%length), values%integers(k), ok)
+         if (.not. ok) then
+            call decode_integer(card, k, rule%name, expectation(rule), values%integers(k), ok, errors)
+         else if (.not. in_range(rule, real(values%integers(k), wp))) then
+            call wrong_entry(card, k, rule%name, 'is out of range, expected '//expectation(rule), errors)
             values%integers(k) = 0
          end if
       case (kind_real)
@@ -120,46 +94,29 @@ contains
          call parse_real(card%fields(k)%text(:card%fields(k)%length), values%reals(k), ok)
          if (.not. ok) call decode_real(card, k, rule%name, expectation(rule), values%reals(k), ok, errors)
          if (ok .and. .not. in_range(rule, values%reals(k))) then
-            call out_of_range(card, k, rule, errors)
+            call wrong_entry(card, k, rule%name, 'is out of range, expected '//expectation(rule), errors)
             values%reals(k) = rule%default
          end if
       case (kind_word)
          values%words(k) = card%fields(k)%text(:8)
-         if (index(rule%words, '|'//trim(card%fields(k)%text)//'|') == 0 .or. index(card%fields(k)%text, '|') > 0) then
-            call out_of_range(card, k, rule, errors)
-         end if
+         if (index(rule%words, '|'//trim(card%fields(k)%text)//'|') == 0 .or. index(card%fields(k)%text, '|') > 0) &
+            call wrong_entry(card, k, rule%name, 'is out of range, expected '//expectation(rule), errors)
       case (kind_blank)
-         if (.not. is_zero(card%fields(k)%text)) then
-            call field_error(card, k, trim(rule%name)//': '''//trim(card%fields(k)%text)// &
-                             ''' where the field must be blank', errors)
-         end if
+         if (verify(trim(card%fields(k)%text), '0.+-') > 0 .or. index(card%fields(k)%text, '0') == 0) & ! a zero is a blank too
+            call wrong_entry(card, k, rule%name, 'where the field must be blank', errors)
       end select
    end subroutine decode_field
 
 
-   !> The integer in data field K of CARD by its RULE; the words for an error are made only where there is one.
-   subroutine integer_by_rule(card, k, rule, value, ok, errors)
+   !> An error about data field K of CARD, NAME, that says of its entry what the WORDS say.
+   subroutine wrong_entry(card, k, name, words, errors)
       type(card_type), intent(in)          :: card
       integer, intent(in)                  :: k
-      type(field_rule), intent(in)         :: rule
-      integer, intent(out)                 :: value
-      logical, intent(out)                 :: ok
+      character(*), intent(in)             :: name, words
       type(deck_error_list), intent(inout) :: errors
 
-      call parse_integer(card%fields(k)%text(:card%fields(k)%length), value, ok)
-      if (.not. ok) call decode_integer(card, k, rule%name, expectation(rule), value, ok, errors)
-   end subroutine integer_by_rule
-
-
-   subroutine out_of_range(card, k, rule, errors)
-      type(card_type), intent(in)          :: card
-      integer, intent(in)                  :: k
-      type(field_rule), intent(in)         :: rule
-      type(deck_error_list), intent(inout) :: errors
-
-      call field_error(card, k, trim(rule%name)//': '''//trim(card%fields(k)%text)//''' is out of range, expected '// &
-                       expectation(rule), errors)
-   end subroutine out_of_range
+      call card%field_error(k, trim(name)//': '''//trim(card%fields(k)%text)//''' '//words, errors)
+   end subroutine wrong_entry
 
 
    !> The integer in data field K of CARD. Not OK, and said so with what was EXPECTED, where it is none.
@@ -175,12 +132,10 @@ contains
       if (ok) return
       value = 0
       if (is_number_shape(card%fields(k)%text, '0123456789+-') .and. scan(trim(card%fields(k)%text(2:)), '+-') == 0) then
-         call field_error(card, k, trim(name)//': '''//trim(card%fields(k)%text)//''' is too large for an integer, expected '// &
-                          expected, errors)
-         return
+         call wrong_entry(card, k, name, 'is too large for an integer, expected '//expected, errors)
+      else
+         call wrong_entry(card, k, name, 'is not an integer, expected '//expected, errors)
       end if
-      call field_error(card, k, trim(name)//': '''//trim(card%fields(k)%text)// &
-                                     ''' is not an integer, expected '//expected, errors)
    end subroutine decode_integer
 
 
@@ -198,36 +153,15 @@ contains
       call parse_real(card%fields(k)%text, value, ok)
       if (ok) return
       value = 0.0_wp
-      if (is_number_shape(card%fields(k)%text, '0123456789.+-ED') .and. scan(card%fields(k)%text, '.ED') > 0) then
-         call field_error(card, k, trim(name)//': '''//trim(card%fields(k)%text)//''' is too large or too small for a '// &
-                          'real number, or not one, expected '//expected, errors)
-         return
-      end if
       call parse_integer(card%fields(k)%text, whole, is_integer)
-      if (is_integer) then
-         call field_error(card, k, trim(name)//': '''//trim(card%fields(k)%text)// &
-                          ''' is an integer, expected '//expected//': write it with a decimal point', errors)
+      if (is_number_shape(card%fields(k)%text, '0123456789.+-ED') .and. scan(card%fields(k)%text, '.ED') > 0) then
+         call wrong_entry(card, k, name, 'is too large or too small for a real number, or not one, expected '//expected, errors)
+      else if (is_integer) then
+         call wrong_entry(card, k, name, 'is an integer, expected '//expected//': write it with a decimal point', errors)
       else
-         call field_error(card, k, trim(name)//': '''//trim(card%fields(k)%text)// &
-                          ''' is not a real number, expected '//expected, errors)
+         call wrong_entry(card, k, name, 'is not a real number, expected '//expected, errors)
       end if
    end subroutine decode_real
-
-
-   !> The direction of WHAT in three data fields from FIRST on must not be zero. RULES is the table that CARD was decoded by.
-   subroutine check_direction(card, rules, first, what, values, errors)
-      type(card_type), intent(in)          :: card
-      type(field_rule), intent(in)         :: rules(:)
-      integer, intent(in)                  :: first
-      character(*), intent(in)             :: what
-      type(card_values), intent(in)        :: values
-      type(deck_error_list), intent(inout) :: errors
-
-      if (.not. values%ok .or. maxval(abs(values%reals(first:first + 2))) > 0.0_wp) return
-      call field_error(card, first, trim(rules(first)%name)//': '//what//' has no direction, expected '// &
-                       trim(rules(first)%name)//', '//trim(rules(first + 1)%name)//', '//trim(rules(first + 2)%name)// &
-                       ' not all zero', errors)
-   end subroutine check_direction
 
 
    !> Whether TEXT consists of LETTERS only, begins and ends like a number.
@@ -238,29 +172,5 @@ contains
                         verify(trim(text), letters) == 0 .and. scan(text(1:1), '0123456789+-.') == 1 .and. &
                         scan(text(len_trim(text):len_trim(text)), '0123456789.') == 1
    end function is_number_shape
-
-
-   !> An error about data field K of CARD, its place and columns taken from the card.
-   subroutine field_error(card, k, message, errors)
-      type(card_type), intent(in)          :: card
-      integer, intent(in)                  :: k
-      character(*), intent(in)             :: message
-      type(deck_error_list), intent(inout) :: errors
-
-      if (k <= card%n) then
-         associate (field => card%fields(k))
-            call errors%add(field%line, card%where_is(k)//', '//message, field%first, field%last)
-         end associate
-      else
-         call errors%add(card%line, card%where_is(k)//', '//message)
-      end if
-   end subroutine field_error
-
-
-   pure logical function is_zero(text)
-      character(*), intent(in) :: text
-
-      is_zero = verify(trim(text), '0.+-') == 0 .and. index(text, '0') > 0
-   end function is_zero
 
 end module card_fields

@@ -24,34 +24,63 @@ module card_lines
       integer :: line = 0                    !! index of its first line
       integer :: n    = 0
       type(card_field), allocatable :: fields(:)
+      character(8) :: marker = ''            !! what stands in field 10 of the line that was cut last
+      logical, private :: half = .false.     ! that line is large field and waits for its second half
    contains
+      procedure :: start
       procedure :: where_is
+      procedure :: field_error
    end type card_type
 
 contains
 
-   !> Cut one line into fields and put them at the end of CARD. HALF says whether a large-field line before this one
-   !! waits for its second half; MARKER returns what stands in field 10.
-   subroutine cut_line(line, comma, at, has_tabs, card, half, marker, errors)
-      character(*), intent(in)             :: line
-      integer, intent(in)                  :: comma, at
-      logical, intent(in)                  :: has_tabs
+   !> Make SELF the card that begins on LINE, without its name and fields yet.
+   subroutine start(self, line)
+      class(card_type), intent(inout) :: self
+      integer, intent(in)             :: line
+
+      self%line = line
+      self%n = 0
+      self%marker = ''
+      self%half = .false.
+      if (.not. allocated(self%fields)) allocate (self%fields(64))
+   end subroutine start
+
+
+   !> Cut one line into fields and put them at the end of CARD.
+   recursive subroutine cut_line(line, comma, at, has_tabs, card, errors)
+      character(*), intent(in)             :: line     !! its card part
+      integer, intent(in)                  :: comma    !! column of its first comma, 0: none
+      integer, intent(in)                  :: at       !! its index in the deck text
+      logical, intent(in)                  :: has_tabs !! there may be tabs in it
       type(card_type), intent(inout)       :: card
-      logical, intent(inout)               :: half
-      character(8), intent(out)            :: marker
       type(deck_error_list), intent(inout) :: errors
       character(:), allocatable :: plain
       integer :: tab
+      logical :: large
 
-      tab = 0
-      if (has_tabs) tab = index(line, achar(9))
-      if (tab == 0) then
-         call cut_plain_line(line, comma, at, card, half, marker, errors)
-      else
-         call errors%add(at, 'a tab in column '//integer_text(tab)//': expected blanks, fields are columns of eight', tab, tab)
-         plain = without_tabs(line)
-         call cut_plain_line(plain, index(plain, ','), at, card, half, marker, errors)
+      if (has_tabs) then
+         tab = index(line, achar(9))
+         if (tab > 0) then
+            call errors%add(at, 'a tab in column '//integer_text(tab)//': expected blanks, fields are columns of eight', tab, tab)
+            plain = without_tabs(line)
+            call cut_line(plain, index(plain, ','), at, .false., card, errors)
+            return
+         end if
       end if
+      card%marker = ''
+      large = index(line(:merge(comma - 1, min(8, len(line)), comma > 0)), '*') > 0
+      if (card%half .and. .not. large) then
+         do while (modulo(card%n, 8) /= 0) ! the second half of a large-field line is not there
+            call push(card, '', at, 0, 0, errors)
+         end do
+      end if
+      if (comma > 0) then
+         call cut_free(line, comma, at, card, large, errors)
+      else
+         call cut_fixed(line, at, card, large, errors)
+      end if
+      card%half = large .and. modulo(card%n, 8) == 4
    end subroutine cut_line
 
 
@@ -73,35 +102,12 @@ contains
    end function without_tabs
 
 
-   !> CUT_LINE for a line without tabs.
-   subroutine cut_plain_line(line, comma, at, card, half, marker, errors)
-      character(*), intent(in)             :: line
-      integer, intent(in)                  :: comma, at
-      type(card_type), intent(inout)       :: card
-      logical, intent(inout)               :: half
-      character(8), intent(out)            :: marker
-      type(deck_error_list), intent(inout) :: errors
-      logical :: large
-
-      marker = ''
-      large = index(line(:merge(comma - 1, min(8, len(line)), comma > 0)), '*') > 0
-      if (half .and. .not. large) call pad_to_line(card, at)
-      if (comma > 0) then
-         call cut_free(line, comma, at, card, large, marker, errors)
-      else
-         call cut_fixed(line, at, card, large, marker, errors)
-      end if
-      half = large .and. modulo(card%n, 8) == 4
-   end subroutine cut_plain_line
-
-
    !> Fixed fields: eight of 8 columns, or four of 16, behind the name; columns 73-80 are the continuation mark.
-   subroutine cut_fixed(line, at, card, large, marker, errors)
+   subroutine cut_fixed(line, at, card, large, errors)
       character(*), intent(in)             :: line
       integer, intent(in)                  :: at
       type(card_type), intent(inout)       :: card
       logical, intent(in)                  :: large
-      character(8), intent(inout)          :: marker
       type(deck_error_list), intent(inout) :: errors
       integer :: width, k, first, last
 
@@ -118,19 +124,19 @@ contains
             call push(card, '', at, first, last, errors)
          end if
       end do
-      if (len(line) > 72) marker = adjustl(line(73:min(80, len(line))))
-      if (marker /= '' .and. scan(marker(1:1), '+*') == 0) call errors%add(at, ''''//trim(marker)// &
+      if (len(line) <= 72) return
+      card%marker = adjustl(line(73:min(80, len(line))))
+      if (card%marker /= '' .and. scan(card%marker(1:1), '+*') == 0) call errors%add(at, ''''//trim(card%marker)// &
          ''' in columns 73 to 80: expected a continuation mark that begins with + or *, or blanks', 73, min(80, len(line)))
    end subroutine cut_fixed
 
 
    !> Free field: entries between commas, eight (large: four) of them, and one more for the continuation mark.
-   subroutine cut_free(line, comma, at, card, large, marker, errors)
+   subroutine cut_free(line, comma, at, card, large, errors)
       character(*), intent(in)             :: line
       integer, intent(in)                  :: comma, at
       type(card_type), intent(inout)       :: card
       logical, intent(in)                  :: large
-      character(8), intent(inout)          :: marker
       type(deck_error_list), intent(inout) :: errors
       integer :: k, first, last, most
 
@@ -146,8 +152,8 @@ contains
          first = last + 2
       end do
       if (first > len(line)) return
-      marker = adjustl(line(first:))
-      if (index(line(first:), ',') > 0 .or. .not. (marker(1:1) == '+' .or. marker(1:1) == '*')) then
+      card%marker = adjustl(line(first:))
+      if (index(line(first:), ',') > 0 .or. scan(card%marker(1:1), '+*') == 0) then
          call errors%add(at, 'more than '//integer_text(most)//' entries behind the name: go on in a continuation line', &
                          first, len(line))
       end if
@@ -191,23 +197,9 @@ contains
             field%text(i:i) = achar(code)
          end do
       end associate
-      if (to - from + 1 > field_width) then
-         call errors%add(at, card%where_is(card%n)//': an entry of more than '//integer_text(field_width)// &
-                         ' characters', first, last)
-      end if
+      if (to - from + 1 > field_width) call errors%add(at, card%where_is(card%n)//': an entry of more than '// &
+                                                       integer_text(field_width)//' characters', first, last)
    end subroutine push
-
-
-   !> Blank fields up to the end of the eight that a line of a card gives.
-   subroutine pad_to_line(card, at)
-      type(card_type), intent(inout) :: card
-      integer, intent(in)            :: at
-      type(deck_error_list) :: nothing_to_say
-
-      do while (modulo(card%n, 8) /= 0)
-         call push(card, '', at, 0, 0, nothing_to_say)
-      end do
-   end subroutine pad_to_line
 
 
    !> Words for data field K: 'CQUAD4, field 7'; NASTRAN counts 2 to 9 on every line of a card.
@@ -219,5 +211,22 @@ contains
       words = trim(self%name)//', field '//integer_text(modulo(k - 1, 8) + 2)
       if (k > 8) words = words//' of continuation '//integer_text((k - 1)/8)
    end function where_is
+
+
+   !> An error about data field K, its place and columns taken from the card.
+   subroutine field_error(self, k, message, errors)
+      class(card_type), intent(in)         :: self
+      integer, intent(in)                  :: k
+      character(*), intent(in)             :: message
+      type(deck_error_list), intent(inout) :: errors
+
+      if (k >= 1 .and. k <= self%n) then
+         associate (field => self%fields(k))
+            call errors%add(field%line, self%where_is(k)//', '//message, field%first, field%last)
+         end associate
+      else
+         call errors%add(self%line, self%where_is(k)//', '//message)
+      end if
+   end subroutine field_error
 
 end module card_lines

@@ -1,6 +1,6 @@
 !> Case control: everything before BEGIN BULK. What to do, stage by stage; the bulk data says with what.
 module case_control
-   use case_entries, only: check_repeated, choose, cut_entry, entry_type, read_number, set_reference, value_error
+   use case_entries, only: check_repeated, choose, cut_entry, entry_type, global_keys, read_number, set_reference, value_error
    use deck_errors, only: deck_error_list
    use deck_numbers, only: parse_real
    use deck_text, only: deck_text_type
@@ -11,11 +11,10 @@ module case_control
 
    public :: read_case_control
 
-   integer, parameter, public :: method_step = 1, method_newton = 2, method_back = 3        !! METHOD =
-   integer, parameter, public :: pressure_sumf = 1, pressure_eq10 = 2                      !! PRESSURE =
+   integer, parameter, public :: method_step = 1, method_newton = 2, method_back = 3                !! METHOD =
+   integer, parameter, public :: pressure_sumf = 1, pressure_eq10 = 2                               !! PRESSURE =
+   integer, parameter, public :: solver_auto = 1, solver_skyline = 2, solver_tree = 3               !! SOLVER =
    integer, parameter, public :: output_none = 0, output_last = 1, output_joint = 2, output_all = 3 !! OUTPUT =
-
-   integer, parameter, public :: solver_auto = 0, solver_skyline = 1, solver_tree = 2      !! SOLVER =
 
    !> One SUBCASE: a stage of the load history.
    type, public :: stage_type
@@ -93,64 +92,50 @@ contains
       type(case_control_type), intent(inout) :: control
       type(stage_type), intent(inout)        :: common
       type(deck_error_list), intent(inout)   :: errors
-      integer :: n
+      integer :: choice, n
       logical :: ok
 
       n = size(control%stages)
+      if (n > 0 .and. any(global_keys == entry%key)) &
+         call errors%add(entry%line, entry%key//': holds for all stages, expected above the first SUBCASE')
+      choice = 0
       select case (entry%key)
-      case ('INCLUDE')  ! its lines follow in the deck text
-         return
-      case ('CEND')     ! NASTRAN's end of executive control
+      case ('INCLUDE', 'CEND') ! lines of an INCLUDE file follow in the deck text; CEND is NASTRAN's end of executive control
          return
       case ('SUBCASE')
          call start_stage(entry, control, common, errors)
-         return
       case ('LABEL', 'LOAD', 'INCR', 'SPC', 'OUTPUT')
          if (n == 0) then
             call read_stage_entry(entry, common, errors)
          else
             call read_stage_entry(entry, control%stages(n), errors)
          end if
-         return
-      case ('SOL', 'TITLE', 'UNITS', 'METHOD', 'TOL', 'PRESSURE', 'CARRY', 'SOLVER', 'ECHO')
-         if (n > 0) call errors%add(entry%line, entry%key//': holds for all stages, expected above the first SUBCASE')
-      case default
-         call errors%add(entry%line, ''''//entry%key(:min(40, len(entry%key)))//''' is no key of case control; '// &
-                         'expected TITLE, UNITS, METHOD, TOL, PRESSURE, CARRY, SOLVER, ECHO, SPC, SUBCASE, LABEL, LOAD, '// &
-                         'INCR, OUTPUT or BEGIN BULK')
-         return
-      end select
-      select case (entry%key)
       case ('SOL')
-         call choose(entry, '|101|', errors)
+         call choose(entry, '|101|', choice, errors)
       case ('TITLE')
          control%title = entry%value
       case ('UNITS')
          call read_units(entry, control, errors)
       case ('METHOD')
-         call choose(entry, '|STEP|NEWTON|BACK|', errors)
-         select case (upper(entry%value))
-         case ('NEWTON'); control%method = method_newton
-         case ('BACK');   control%method = method_back
-         case default;    control%method = method_step
-         end select
+         call choose(entry, '|STEP|NEWTON|BACK|', control%method, errors)
       case ('TOL')
          call parse_real(upper(entry%value), control%tolerance, ok)
          if (.not. ok .or. control%tolerance < 1.0e-14_wp .or. control%tolerance > 0.01_wp) &
             call value_error(entry, 'a real number from 1.E-14 to 0.01', errors)
       case ('PRESSURE')
-         call choose(entry, '|SUMF|EQ10|', errors)
-         control%pressure = merge(pressure_eq10, pressure_sumf, upper(entry%value) == 'EQ10')
+         call choose(entry, '|SUMF|EQ10|', control%pressure, errors)
       case ('CARRY')
-         call choose(entry, '|NO|YES|', errors)
-         control%carry = upper(entry%value) == 'YES'
+         call choose(entry, '|NO|YES|', choice, errors)
+         control%carry = choice == 2
       case ('SOLVER')
-         call choose(entry, '|AUTO|SKYLINE|TREE|', errors)
-         if (upper(entry%value) == 'SKYLINE') control%solver = solver_skyline
-         if (upper(entry%value) == 'TREE') control%solver = solver_tree
+         call choose(entry, '|AUTO|SKYLINE|TREE|', control%solver, errors)
       case ('ECHO')
-         call choose(entry, '|YES|NO|', errors)
-         control%echo = upper(entry%value) /= 'NO'
+         call choose(entry, '|YES|NO|', choice, errors)
+         control%echo = choice /= 2
+      case default
+         call errors%add(entry%line, ''''//entry%key(:min(40, len(entry%key)))//''' is no key of case control; '// &
+                         'expected TITLE, UNITS, METHOD, TOL, PRESSURE, CARRY, SOLVER, ECHO, SPC, SUBCASE, LABEL, LOAD, '// &
+                         'INCR, OUTPUT or BEGIN BULK')
       end select
    end subroutine read_entry
 
@@ -233,7 +218,7 @@ contains
       levels = 0
       twice = .false.
       rest = upper(entry%value)
-      if (rest == '') call choose(entry, '|ALL|JOINT|LAST|NONE|PLOT|STRESS|VTU|', errors)
+      if (rest == '') call value_error(entry, 'ALL or JOINT or LAST or NONE or PLOT or STRESS or VTU', errors)
       do while (rest /= '')
          comma = index(rest//',', ',')
          levels = levels + 1

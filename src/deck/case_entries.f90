@@ -2,13 +2,17 @@
 module case_entries
    use deck_errors, only: deck_error_list
    use deck_numbers, only: parse_integer
+   use field_rules, only: list_of
    use text_tools, only: upper
    implicit none
    private
 
    public :: cut_entry, check_repeated, choose, read_number, value_error
 
-   character(*), parameter :: known_keys = '|SOL|TITLE|UNITS|METHOD|TOL|PRESSURE|CARRY|SOLVER|ECHO|SPC|LABEL|LOAD|INCR|OUTPUT|'
+   !> Keys that hold for all stages, and those of a stage.
+   character(8), parameter, public :: global_keys(9) = [character(8) :: 'SOL', 'TITLE', 'UNITS', 'METHOD', 'TOL', 'PRESSURE', &
+      'CARRY', 'SOLVER', 'ECHO']
+   character(6), parameter :: stage_keys(5) = ['SPC   ', 'LABEL ', 'LOAD  ', 'INCR  ', 'OUTPUT']
 
    !> A key with a number, and the line it stands on (0: not given).
    type, public :: set_reference
@@ -64,7 +68,7 @@ contains
 
       if (entry%key == 'SUBCASE') then
          keys_seen = '|'
-      else if (index(known_keys, '|'//entry%key//'|') == 0) then
+      else if (.not. (any(global_keys == entry%key) .or. any(stage_keys == entry%key))) then
          return ! INCLUDE, and what is said elsewhere to be no key
       else if (index(keys_seen, '|'//entry%key//'|') > 0) then
          call errors%add(entry%line, entry%key//': given twice in the same place')
@@ -74,37 +78,33 @@ contains
    end subroutine check_repeated
 
 
-   !> The value must be one of WORDS, '|A|B|'.
-   subroutine choose(entry, words, errors)
+   !> The value must be one of WORDS, '|A|B|': CHOICE is which, and stays where it is none.
+   subroutine choose(entry, words, choice, errors)
       type(entry_type), intent(in)         :: entry
       character(*), intent(in)             :: words
+      integer, intent(inout)               :: choice
       type(deck_error_list), intent(inout) :: errors
+      integer :: at, i
 
-      if (entry%value /= '' .and. index(words, '|'//upper(entry%value)//'|') > 0 .and. index(entry%value, '|') == 0) return
-      call value_error(entry, words(2:len(words) - 1), errors)
+      at = index(words, '|'//upper(entry%value)//'|')
+      if (at == 0 .or. entry%value == '' .or. index(entry%value, '|') > 0) then
+         call value_error(entry, list_of(words, ' or '), errors)
+      else
+         choice = count([(words(i:i) == '|', i = 1, at)])
+      end if
    end subroutine choose
 
 
-   !> The value of ENTRY is not what was EXPECTED, words with | for 'or'.
+   !> The value of ENTRY is not what was EXPECTED.
    subroutine value_error(entry, expected, errors)
       type(entry_type), intent(in)         :: entry
       character(*), intent(in)             :: expected
       type(deck_error_list), intent(inout) :: errors
-      character(:), allocatable :: words
-      integer :: i
 
-      words = ''
-      do i = 1, len(expected)
-         if (expected(i:i) == '|') then
-            words = words//' or '
-         else
-            words = words//expected(i:i)
-         end if
-      end do
       if (entry%value == '') then
-         call errors%add(entry%line, entry%key//': no value, expected '//words)
+         call errors%add(entry%line, entry%key//': no value, expected '//expected)
       else
-         call errors%add(entry%line, entry%key//': '''//entry%value(:min(60, len(entry%value)))//''', expected '//words, &
+         call errors%add(entry%line, entry%key//': '''//entry%value(:min(60, len(entry%value)))//''', expected '//expected, &
                          entry%first, entry%last)
       end if
    end subroutine value_error

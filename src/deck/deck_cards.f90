@@ -1,14 +1,14 @@
-!> Cards put together from their lines: the first one and its continuations.
+!> Cards put together from their lines: what stands in field 1, the first line of a card and its continuations.
 module deck_cards
    use card_lines, only: card_type, cut_line
-   use card_names, only: card_name, check_first_field, check_marker, is_continuation
    use deck_errors, only: deck_error_list
    use deck_text, only: deck_text_type
    use kinds, only: long
+   use text_tools, only: upper
    implicit none
    private
 
-   public :: read_card, add_field_error
+   public :: read_card, add_field_error, card_name, is_continuation, check_first_field
 
 contains
 
@@ -19,25 +19,26 @@ contains
       integer, intent(inout)               :: cursor
       type(card_type), intent(inout)       :: card
       type(deck_error_list), intent(inout) :: errors
-      character(8) :: marker
       integer(long) :: first, last
-      integer :: file, comma
-      logical :: half, carries_on  ! HALF: the first line of a large-field pair has been read
+      integer :: comma, errors_before, file
 
-      card%line = cursor
-      card%n = 0
-      half = .false.
-      marker = ''
-      if (.not. allocated(card%fields)) allocate (card%fields(64))
+      call card%start(cursor)
       call text%find(cursor, file, first, last, comma)
-      call first_line(text%files(file)%bytes(first:last), comma, cursor, text%has_tabs, card, half, marker, errors)
+      card%name = card_name(text%files(file)%bytes(first:last), comma)
+      errors_before = errors%n
+      call check_first_field(text%files(file)%bytes(first:last), comma, cursor, errors)
+      if (errors%n > errors_before) card%name = '' ! not to be understood
       do
+         call cut_line(text%files(file)%bytes(first:last), comma, cursor, text%has_tabs, card, errors)
          cursor = cursor + 1
+         do while (cursor <= text%n)
+            call text%find(cursor, file, first, last, comma)
+            if (last >= first) exit
+            cursor = cursor + 1
+         end do
          if (cursor > text%n) exit
-         call text%find(cursor, file, first, last, comma)
-         if (last < first) cycle
-         call next_line(text%files(file)%bytes(first:last), comma, cursor, text%has_tabs, card, half, marker, carries_on, errors)
-         if (.not. carries_on) exit
+         if (.not. is_continuation(text%files(file)%bytes(first:last), comma)) exit
+         call check_marker(text%files(file)%bytes(first:last), comma, cursor, card%marker, errors)
       end do
       do while (card%n > 0)
          if (card%fields(card%n)%length > 0) exit
@@ -46,46 +47,8 @@ contains
    end subroutine read_card
 
 
-   !> The line that a card begins with. LINE (its card part) stands at index AT and has its first comma in column COMMA; it may
-   !! hold a tab only where the deck HAS_TABS.
-   subroutine first_line(line, comma, at, has_tabs, card, half, marker, errors)
-      character(*), intent(in)             :: line
-      integer, intent(in)                  :: comma, at
-      logical, intent(in)                  :: has_tabs
-      type(card_type), intent(inout)       :: card
-      logical, intent(inout)               :: half
-      character(8), intent(inout)          :: marker
-      type(deck_error_list), intent(inout) :: errors
-      integer :: errors_before
-
-      card%name = card_name(line, comma)
-      errors_before = errors%n
-      call check_first_field(line, comma, at, errors)
-      if (errors%n > errors_before) card%name = '' ! not to be understood
-      call cut_line(line, comma, at, has_tabs, card, half, marker, errors)
-   end subroutine first_line
-
-
-   !> A line behind it: CARRIES_ON tells whether it belongs to the card.
-   subroutine next_line(line, comma, at, has_tabs, card, half, marker, carries_on, errors)
-      character(*), intent(in)             :: line
-      integer, intent(in)                  :: comma, at
-      logical, intent(in)                  :: has_tabs
-      type(card_type), intent(inout)       :: card
-      logical, intent(inout)               :: half
-      character(8), intent(inout)          :: marker
-      logical, intent(out)                 :: carries_on
-      type(deck_error_list), intent(inout) :: errors
-
-      carries_on = is_continuation(line, comma)
-      if (.not. carries_on) return
-      call check_marker(line, comma, at, marker, errors)
-      call cut_line(line, comma, at, has_tabs, card, half, marker, errors)
-   end subroutine next_line
-
-
    !> Add an error about data field K of the card that begins on line LINE, found long after it was read: the card is
-   !! cut once more to point at the columns. NAME is the name of the field in the manual.
+   !! cut once more to point at the columns. NAME is what the message calls the field.
    subroutine add_field_error(text, line, k, name, message, errors)
       type(deck_text_type), intent(in)     :: text
       integer, intent(in)                  :: line, k
@@ -93,18 +56,107 @@ contains
       type(deck_error_list), intent(inout) :: errors
       type(card_type)       :: card
       type(deck_error_list) :: said_already
-      integer :: cursor, first
+      integer :: cursor
 
       cursor = line
       call read_card(text, cursor, card, said_already)
-      if (k > card%n .or. k < 1) then
-         call errors%add(line, card%where_is(k)//', '//name//': '//message)
-         return
-      end if
-      associate (field => card%fields(k))
-         first = field%first
-         call errors%add(field%line, card%where_is(k)//', '//name//': '//message, first, field%last)
-      end associate
+      call card%field_error(k, name//': '//message, errors)
    end subroutine add_field_error
+
+
+   !> The name in field 1 of LINE (its card part), without the * of large field; blank for a continuation.
+   pure function card_name(line, comma) result(name)
+      character(*), intent(in)      :: line
+      integer, intent(in), optional :: comma !! column of the first comma, 0: none; left out, it is looked for
+      character(8) :: name
+      integer :: i, first, last, n, code
+
+      name = ''
+      if (is_continuation(line, comma)) return
+      last = end_of_first_field(line, comma)
+      first = 1
+      do while (first <= last)
+         if (line(first:first) /= ' ') exit
+         first = first + 1
+      end do
+      n = min(8, last - first + 1)
+      do i = 1, n
+         code = iachar(line(first + i - 1:first + i - 1))
+         if (code == iachar('*') .and. i > 1 .and. name(1:1) /= '*') exit
+         if (code >= iachar('a') .and. code <= iachar('z')) code = code - 32
+         name(i:i) = achar(code)
+      end do
+   end function card_name
+
+
+   !> Whether LINE carries on the card before it: +, * or blank in field 1.
+   pure logical function is_continuation(line, comma)
+      character(*), intent(in)      :: line
+      integer, intent(in), optional :: comma !! as above
+
+      is_continuation = .false.
+      if (len(line) == 0) return
+      select case (line(1:1))
+      case ('+', '*', ',')
+         is_continuation = .true.
+      case (' ')
+         is_continuation = len_trim(line(:end_of_first_field(line, comma))) == 0 .and. len_trim(line) > 0
+      end select
+   end function is_continuation
+
+
+   !> The last column of field 1 of LINE.
+   pure integer function end_of_first_field(line, comma) result(last)
+      character(*), intent(in)      :: line
+      integer, intent(in), optional :: comma !! as above
+
+      if (present(comma)) then
+         last = comma - 1
+      else
+         last = index(line, ',') - 1
+      end if
+      if (last < 0) last = min(8, len(line))
+   end function end_of_first_field
+
+
+   !> Nothing but the name, and perhaps the * of large field, may stand in field 1 of LINE, whose first comma is in column COMMA.
+   subroutine check_first_field(line, comma, at, errors)
+      character(*), intent(in)             :: line
+      integer, intent(in)                  :: comma, at
+      type(deck_error_list), intent(inout) :: errors
+      integer :: first, last, star
+
+      last = end_of_first_field(line, comma)
+      first = max(1, verify(line(:last), ' '))
+      associate (entry => line(first:len_trim(line(:last))))
+         star = index(entry, '*')
+         if (star > 1 .and. star < len(entry)) then
+            call errors%add(at, '''*'' inside field 1, expected it behind the name', 1, last)
+         else if (len(entry) > 8 .or. index(entry, ' ') > 0) then
+            call errors%add(at, ''''//entry(:min(len(entry), 40))//''' in field 1: expected the name of a card alone', 1, last)
+         end if
+      end associate
+   end subroutine check_first_field
+
+
+   !> The name that the user gave a continuation (`+AB`) must be the one in field 10 of the line before, MARKER.
+   subroutine check_marker(line, comma, at, marker, errors)
+      character(*), intent(in)             :: line
+      integer, intent(in)                  :: comma, at
+      character(8), intent(in)             :: marker
+      type(deck_error_list), intent(inout) :: errors
+      character(8) :: given
+
+      given = line(:min(8, end_of_first_field(line, comma)))
+      if (given(2:) == '') return
+      if (upper(given(2:)) == upper(marker(2:))) return
+      if (marker(2:) == '') then
+         call errors%add(at, 'continuation '''//trim(given)//''': the line before it has no such mark in its last field; '// &
+                         'expected '//given(1:1)//' alone, or the same mark there', 1, len_trim(given))
+      else
+         call errors%add(at, 'continuation '''//trim(given)//''' does not follow its card: the line before it ends in '''// &
+                         trim(marker)//'''', 1, len_trim(given))
+      end if
+   end subroutine check_marker
 
 end module deck_cards

@@ -1,8 +1,7 @@
 !> The lines of a deck in the order in which they count, INCLUDE files opened in their place.
 module deck_text
-   use include_lines, only: folder, included_path, is_include
    use kinds, only: long
-   use line_scan, only: line_place, scan_line
+   use line_scan, only: included_path, is_include, line_place, scan_line
    use c_library, only: read_all_bytes, true_path
    use command_arguments, only: standard_input
    use deck_errors, only: deck_error_list
@@ -44,8 +43,6 @@ module deck_text
       procedure :: place
       procedure :: file_number
       procedure, private :: part_of
-      procedure, private :: start_part
-      procedure, private :: push_line
    end type deck_text_type
 
 contains
@@ -60,22 +57,20 @@ contains
 
       call start_text(text)
       call add_file(text, path, 0, 0, errors, readable)
-      if (readable) call refuse_empty(text, errors)
    end subroutine read_deck_text
 
 
    !> The deck with these BYTES, lines and line ends as a file holds them. It is named 'text'; what it includes is looked for in
    !! the current folder.
    subroutine deck_text_of_bytes(bytes, text, errors)
-      character(*), intent(in)           :: bytes
-      type(deck_text_type), intent(out)  :: text
-      type(deck_error_list), intent(out) :: errors
+      character(*), intent(in)             :: bytes
+      type(deck_text_type), intent(out)    :: text
+      type(deck_error_list), intent(out)   :: errors
 
       call start_text(text)
       text%n_files = 1
       text%files(1) = source_file(path='text', true_path='', bytes=bytes)
       call add_lines(text, 1, 0, errors)
-      call refuse_empty(text, errors)
    end subroutine deck_text_of_bytes
 
 
@@ -85,16 +80,6 @@ contains
       allocate (text%files(max_files))
       allocate (text%lines(1024), text%parts(2*max_files))
    end subroutine start_text
-
-
-   subroutine refuse_empty(text, errors)
-      type(deck_text_type), intent(inout)  :: text
-      type(deck_error_list), intent(inout) :: errors
-
-      if (len_trim(text%files(1)%bytes) > 0) return
-      call errors%add(0, 'the deck is empty')
-      text%is_text = .false.
-   end subroutine refuse_empty
 
 
    !> Line I as it stands in its file, without the line end.
@@ -216,58 +201,45 @@ contains
       type(deck_text_type), intent(inout)  :: text
       integer, intent(in)                  :: me, depth
       type(deck_error_list), intent(inout) :: errors
+      type(line_place), allocatable :: wider(:)
       integer :: number, bad
       integer(long) :: start, next, length
-      type(line_place) :: line
-      logical :: has_tab, followed
+      logical :: has_tab, starts_part
 
       length = len(text%files(me)%bytes, long)
+      if (me == 1 .and. len_trim(text%files(me)%bytes) == 0) then
+         call errors%add(0, 'the deck is empty')
+         text%is_text = .false.
+      end if
       start = 1
       if (length >= 3) then
          if (text%files(me)%bytes(1:3) == char(239)//char(187)//char(191)) start = 4 ! UTF-8 byte order mark
       end if
-      number = 1
-      call text%start_part(me, number)
+      number = 0
+      starts_part = .true. ! with the file, and behind the lines of another one
       do while (start <= length)
-         call scan_line(text%files(me)%bytes, start, line, next, has_tab, bad)
-         call text%push_line(line)
+         number = number + 1
+         if (starts_part) then
+            text%n_parts = text%n_parts + 1
+            text%parts(text%n_parts) = part_type(text%n + 1, me, number)
+         end if
+         if (text%n == size(text%lines)) then
+            allocate (wider(2*text%n))
+            wider(:text%n) = text%lines
+            call move_alloc(wider, text%lines)
+         end if
+         text%n = text%n + 1
+         call scan_line(text%files(me)%bytes, start, text%lines(text%n), next, has_tab, bad)
          text%has_tabs = text%has_tabs .or. has_tab
          if (bad >= 0) then
             call errors%add(text%n, 'byte '//integer_text(bad)//' on this line is no text: a deck is a text file')
             text%is_text = .false.
             return
          end if
-         number = number + 1
-         call follow_include(text, me, depth, followed, errors)
-         if (followed) call text%start_part(me, number)
+         call follow_include(text, me, depth, starts_part, errors)
          start = next
       end do
    end subroutine add_lines
-
-
-   !> The lines pushed from now on stand in FILE, the first of them as its line NUMBER.
-   subroutine start_part(self, file, number)
-      class(deck_text_type), intent(inout) :: self
-      integer, intent(in)                  :: file, number
-
-      self%n_parts = self%n_parts + 1
-      self%parts(self%n_parts) = part_type(self%n + 1, file, number)
-   end subroutine start_part
-
-
-   subroutine push_line(self, line)
-      class(deck_text_type), intent(inout) :: self
-      type(line_place), intent(in)         :: line
-      type(line_place), allocatable :: wider(:)
-
-      if (self%n == size(self%lines)) then
-         allocate (wider(2*self%n))
-         wider(:self%n) = self%lines
-         call move_alloc(wider, self%lines)
-      end if
-      self%n = self%n + 1
-      self%lines(self%n) = line
-   end subroutine push_line
 
 
    !> Where the last line read is an INCLUDE, read that file here and now.
@@ -290,7 +262,7 @@ contains
          call errors%add(here, 'INCLUDE: expected a file name, INCLUDE ''mesh.bdf''')
          return
       end if
-      if (path(1:1) /= '/') path = folder(text%files(me)%path)//path
+      if (path(1:1) /= '/') path = text%files(me)%path(:index(text%files(me)%path, '/', back=.true.))//path
       resolved = true_path(path)
       ancestor = me
       do while (ancestor > 0)

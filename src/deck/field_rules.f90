@@ -1,11 +1,12 @@
-!> The rules that the table of a card is made of: one a field, with what the field may hold, and the same in words.
+!> The rules that the table of a card is made of: one a field, with what the field may hold, and the same in words. Of
+!! several names a rule makes as many fields alike.
 module field_rules
    use kinds, only: wp
    use text_tools, only: integer_text, real_text
    implicit none
    private
 
-   public :: integer_field, real_field, word_field, blank_field, component_field, in_range, is_component_list, expectation
+   public :: integer_field, real_field, word_field, blank_field, component_field, in_range, expectation, list_of
 
    integer, parameter, public :: kind_integer = 1, kind_real = 2, kind_word = 3, kind_blank = 4, kind_components = 5
 
@@ -26,7 +27,7 @@ module field_rules
 contains
 
    !> Rule for an integer: an id by default (1 and up).
-   pure function integer_field(name, default, least, most) result(rule)
+   elemental function integer_field(name, default, least, most) result(rule)
       character(*), intent(in)      :: name
       integer, intent(in), optional :: default !! none: the field must be filled
       integer, intent(in), optional :: least, most
@@ -43,7 +44,7 @@ contains
 
 
    !> Rule for a real; ABOVE and BELOW exclude the bound, LEAST and MOST include it.
-   pure function real_field(name, default, above, below, least, most, whole) result(rule)
+   elemental function real_field(name, default, above, below, least, most, whole) result(rule)
       character(*), intent(in)       :: name
       real(wp), intent(in), optional :: default !! none: the field must be filled
       real(wp), intent(in), optional :: above, below, least, most
@@ -65,7 +66,7 @@ contains
 
 
    !> Rule for a word out of a list, WORDS = '|ARITH|GEOM|LIST|'; a blank field takes the first.
-   pure function word_field(name, words) result(rule)
+   elemental function word_field(name, words) result(rule)
       character(*), intent(in) :: name, words
       type(field_rule) :: rule
 
@@ -76,7 +77,7 @@ contains
 
 
    !> Rule for a list of NASTRAN's components: different digits of 1 to 6.
-   pure function component_field(name, default) result(rule)
+   elemental function component_field(name, default) result(rule)
       character(*), intent(in)      :: name
       integer, intent(in), optional :: default !! none: the field must be filled
       type(field_rule) :: rule
@@ -87,7 +88,7 @@ contains
 
 
    !> Rule for a field that must stay blank (NAME says what NASTRAN has there); a zero is a blank too.
-   pure function blank_field(name) result(rule)
+   elemental function blank_field(name) result(rule)
       character(*), intent(in) :: name
       type(field_rule) :: rule
 
@@ -96,11 +97,15 @@ contains
    end function blank_field
 
 
-   !> Whether VALUE keeps to the bounds of RULE.
+   !> Whether VALUE keeps to a RULE of integers or reals.
    pure logical function in_range(rule, value)
       type(field_rule), intent(in) :: rule
       real(wp), intent(in)         :: value
 
+      if (rule%kind == kind_components) then
+         in_range = is_component_list(nint(value))
+         return
+      end if
       in_range = value >= rule%least .and. value <= rule%most
       if (rule%above) in_range = in_range .and. value > rule%least
       if (rule%below) in_range = in_range .and. value < rule%most
@@ -129,11 +134,11 @@ contains
          words = 'a list of components, different digits of 1 to 6'
       case (kind_real)
          words = 'a real number'
-         if (has_least) words = words//' '//bound('above', 'of at least', rule%least, rule%above)
+         if (has_least) words = words//trim(merge(' above      ', ' of at least', rule%above))//' '//real_text(rule%least)
          if (has_least .and. has_most) words = words//' and'
-         if (has_most) words = words//' '//bound('below', 'at most', rule%most, rule%below)
+         if (has_most) words = words//trim(merge(' below  ', ' at most', rule%below))//' '//real_text(rule%most)
       case (kind_word)
-         words = 'one of '//list_of(trim(rule%words))
+         words = 'one of '//list_of(trim(rule%words), ', ')
       case default
          words = 'blank'
       end select
@@ -141,29 +146,16 @@ contains
    end function expectation
 
 
-   !> 'above 0', 'of at least 0': a bound that is out or in.
-   pure function bound(out, in, value, is_out) result(words)
-      character(*), intent(in)  :: out, in
-      real(wp), intent(in)      :: value
-      logical, intent(in)       :: is_out
-      character(:), allocatable :: words
-
-      words = in
-      if (is_out) words = out
-      words = words//' '//real_text(value)
-   end function bound
-
-
-   !> '|STEP|BACK|' as 'STEP, BACK'.
-   pure function list_of(words) result(list)
-      character(*), intent(in)  :: words
+   !> WORDS = '|STEP|BACK|' as a list with this SEPARATOR between them.
+   pure function list_of(words, separator) result(list)
+      character(*), intent(in)  :: words, separator
       character(:), allocatable :: list
       integer :: i
 
       list = ''
       do i = 2, len(words) - 1
          if (words(i:i) == '|') then
-            list = list//', '
+            list = list//separator
          else
             list = list//words(i:i)
          end if

@@ -1,11 +1,15 @@
-!> One line of a deck, found in the bytes of its file: where it ends, its card part, its first comma.
+!> One line of a deck, found in the bytes of its file: where it ends, its card part, its first comma; and the file that it brings in
+!! where it is an INCLUDE 'mesh.bdf'.
 module line_scan
    use, intrinsic :: iso_fortran_env, only: int8
    use kinds, only: long
+   use text_tools, only: upper
    implicit none
    private
 
-   public :: scan_line
+   public :: scan_line, is_include, included_path
+
+   integer, parameter :: longest_include = 10000 ! characters; no path is longer
 
    !> Where a line stands. Its card part is the line without its comment ($ to the end) and without blanks at its end.
    type, public :: line_place
@@ -80,5 +84,44 @@ contains
       ends_line = i == len(bytes, long)
       if (.not. ends_line) ends_line = bytes(i + 1:i + 1) == achar(10)
    end function ends_line
+
+
+   !> Whether LINE (its card part) is an INCLUDE: the word, then a blank, a quote or an equals sign.
+   pure logical function is_include(line)
+      character(*), intent(in) :: line
+      integer :: first
+
+      is_include = .false.
+      first = verify(line, ' ')
+      if (first == 0 .or. len(line) > longest_include) return
+      if (len(line) < first + 6) return
+      if (line(first:first) /= 'I' .and. line(first:first) /= 'i') return ! most lines
+      if (upper(line(first:first + 6)) /= 'INCLUDE') return
+      is_include = .true.
+      if (len(line) > first + 6) is_include = scan(line(first + 7:first + 7), ' ''"=') == 1
+   end function is_include
+
+
+   !> The file name in what follows the word INCLUDE: in quotes of either kind, or bare.
+   pure function included_path(words) result(path)
+      character(*), intent(in)  :: words
+      character(:), allocatable :: path
+      integer :: closing
+
+      path = trim(adjustl(words))
+      if (path == '') return
+      if (path(1:1) == '=') path = trim(adjustl(path(2:)))
+      if (path == '') return
+      if (path(1:1) == '''' .or. path(1:1) == '"') then
+         closing = index(path(2:), path(1:1))
+         if (closing == 0) then
+            path = ''
+         else if (len_trim(path) > closing + 1) then
+            path = ''
+         else
+            path = path(2:closing)
+         end if
+      end if
+   end function included_path
 
 end module line_scan

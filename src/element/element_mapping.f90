@@ -11,7 +11,7 @@ module element_mapping
    implicit none
    private
 
-   public :: make_element_law, has_incompatible_modes, map_element, map_point, element_volume, smallest_jacobian
+   public :: make_element_law, map_element, map_point, smallest_jacobian
 
    integer, parameter, public  :: max_shapes = max_nodes + 3 !! shape functions of an element and incompatible modes
    real(wp), parameter, public :: two_pi = 2.0_wp*acos(-1.0_wp)
@@ -43,22 +43,14 @@ contains
       integer, intent(in)  :: kind, state                 !! kind_tria3 ... kind_hexa8; plane_stress ... solid
       real(wp), intent(in) :: e, nu                       !! [pressure], > 0; [-], -1 < nu < 0.5
       real(wp), intent(in) :: thickness                   !! of a plane body [length], > 0
-      logical, intent(in)  :: incompatible                !! wanted; taken where the kind has modes
+      logical, intent(in)  :: incompatible                !! wanted; the plane quadrilateral and the hexahedron have modes
 
       law%kind = kind
       law%state = state
       law%thickness = thickness
-      law%incompatible = incompatible .and. has_incompatible_modes(kind, state)
+      law%incompatible = incompatible .and. (kind == kind_hexa8 .or. (kind == kind_quad4 .and. state /= axisymmetric))
       call elasticity_matrix(state, e, nu, law%d)
    end function make_element_law
-
-
-   !> Whether incompatible modes exist for a kind of element: the plane quadrilateral and the hexahedron.
-   pure logical function has_incompatible_modes(kind, state)
-      integer, intent(in) :: kind, state
-
-      has_incompatible_modes = kind == kind_hexa8 .or. (kind == kind_quad4 .and. state /= axisymmetric)
-   end function has_incompatible_modes
 
 
    !> Take up the corners of an element.
@@ -67,13 +59,11 @@ contains
       real(wp), intent(in)           :: x(:, :)           !! corners (dimension, nodes) in the order of the card [length]
       type(element_map), intent(out) :: map
       real(wp) :: dn(3, max_nodes)
-      integer  :: d, i
+      integer  :: d
 
       d = element_table(law%kind)%dimension
       map%n = element_table(law%kind)%n_nodes
-      do i = 1, map%n
-         map%x(:d, i) = x(:d, i)
-      end do
+      map%x(:d, :map%n) = x(:d, :map%n)
       if (.not. law%incompatible) return
       map%n_modes = d
       call shape_derivatives(law%kind, centre_point(:, law%kind), dn)
@@ -179,25 +169,6 @@ contains
 
       c = [a(2)*b(3) - a(3)*b(2), a(3)*b(1) - a(1)*b(3), a(1)*b(2) - a(2)*b(1)]
    end function cross
-
-
-   !> Volume of an element: area times thickness in the plane, of the whole ring in an axisymmetric body [length^3].
-   pure real(wp) function element_volume(law, x) result(total)
-      type(element_law), intent(in) :: law
-      real(wp), intent(in)          :: x(:, :)            !! corners (dimension, nodes) [length]
-      type(integration_rule) :: rule
-      type(element_map)      :: map
-      real(wp) :: g(3, max_shapes), volume
-      integer  :: i
-
-      call map_element(law, x, map)
-      call body_rule(law%kind, law%state == axisymmetric, rule)
-      total = 0.0_wp
-      do i = 1, rule%n
-         call map_point(law, map, rule%point(:, i), g, volume)
-         total = total + rule%weight(i)*volume
-      end do
-   end function element_volume
 
 
    !> The smallest det J over the integration points and the corners, divided by the longest edge to the power of the dimension

@@ -2,7 +2,7 @@
 !! corners stand in the order of the corners, each in the direction of its corner from the centre.
 !! Source: Zienkiewicz, Taylor, Zhu, The Finite Element Method, 6th ed., section 5.11.
 module quadrature
-   use element_kinds, only: kind_hexa8, kind_penta6, kind_quad4, kind_tetra4, kind_tria3, max_nodes
+   use element_kinds, only: kind_tria3, max_nodes, n_kinds
    use kinds, only: wp
    implicit none
    private
@@ -35,51 +35,31 @@ module quadrature
       reshape(gauss*[-1, -1, -1, 1, -1, -1, 1, 1, -1, -1, 1, -1, -1, -1, 1, 1, -1, 1, 1, 1, 1, -1, 1, 1], [3, 8]), &
       [1, 1, 1, 1, 1, 1, 1, 1])
 
+   type(integration_rule), parameter :: none = integration_rule(0, o, o)
+   type(integration_rule), parameter :: of_body(0:n_kinds) = &
+      [none, triangle_1, quadrilateral_4, tetrahedron_1, wedge_6, hexahedron_8]
+   type(integration_rule), parameter :: of_side(4) = [none, edge_2, triangle_3, quadrilateral_4]
+
 contains
 
    !> The rule over the body of an element. It integrates the volume, the nodal forces of a constant body force and, where
    !! strains are constant, the stiffness exactly, in an axisymmetric model too.
    pure subroutine body_rule(kind, axisymmetric, rule)
-      integer, intent(in) :: kind
+      integer, intent(in) :: kind            !! kind_tria3 ... kind_hexa8; 0: no points
       logical, intent(in) :: axisymmetric    !! a triangle then needs three points, for the radius in the integrand
       type(integration_rule), intent(out) :: rule
 
-      select case (kind)
-      case (kind_tria3)
-         if (axisymmetric) then
-            rule = triangle_3
-         else
-            rule = triangle_1
-         end if
-      case (kind_quad4)
-         rule = quadrilateral_4
-      case (kind_tetra4)
-         rule = tetrahedron_1
-      case (kind_penta6)
-         rule = wedge_6
-      case (kind_hexa8)
-         rule = hexahedron_8
-      case default
-         rule = integration_rule(0, o, o)
-      end select
+      rule = of_body(kind)
+      if (kind == kind_tria3 .and. axisymmetric) rule = triangle_3
    end subroutine body_rule
 
 
-   !> The rule over a side: an edge (2 nodes, coordinate from -1 to 1), a triangle (3) or a quadrilateral (4).
+   !> The rule over a side: an edge (2 nodes, coordinate from -1 to 1), a triangle (3) or a quadrilateral (4); 1: no points.
    pure subroutine side_rule(n_nodes, rule)
       integer, intent(in) :: n_nodes
       type(integration_rule), intent(out) :: rule
 
-      select case (n_nodes)
-      case (2)
-         rule = edge_2
-      case (3)
-         rule = triangle_3
-      case (4)
-         rule = quadrilateral_4
-      case default
-         rule = integration_rule(0, o, o)
-      end select
+      rule = of_side(n_nodes)
    end subroutine side_rule
 
 end module quadrature

@@ -27,7 +27,8 @@ contains
       integer  :: n
 
       call map_element(law, x, map)
-      call take_displacements(law, u, q)
+      q = 0.0_wp ! of the modes, and the third component in the plane
+      q(:size(u, 1), :map%n) = u(:, :map%n)
       call map_point(law, map, centre_point(:, law%kind), g, volume)
       call strain_at(law, map%n, g, q, strain)
       n = n_stresses(law%state)
@@ -50,7 +51,8 @@ contains
 
       m = n_stresses(law%state)
       call map_element(law, x, map)
-      call take_displacements(law, u, q)
+      q = 0.0_wp ! of the modes, and the third component in the plane
+      q(:size(u, 1), :map%n) = u(:, :map%n)
       if (map%n_modes > 0) call recover_modes(law, x, q)
       call body_rule(law%kind, law%state == axisymmetric, rule)
       do k = 1, rule%n
@@ -78,21 +80,6 @@ contains
       scaled = point/gauss
       if (kind == kind_tria3 .or. kind == kind_penta6) scaled(:2) = 2.0_wp*point(:2) - 1.0_wp/3.0_wp
    end function in_points
-
-
-   pure subroutine take_displacements(law, u, q)
-      type(element_law), intent(in) :: law
-      real(wp), intent(in)          :: u(:, :)
-      real(wp), intent(out)         :: q(3, max_shapes) !! zero for the modes, and for the third component in the plane
-      integer :: i
-
-      q = 0.0_wp
-      associate (kind => element_table(law%kind))
-         do i = 1, kind%n_nodes
-            q(:kind%dimension, i) = u(:kind%dimension, i)
-         end do
-      end associate
-   end subroutine take_displacements
 
 
    !> Parameters of the incompatible modes, which the condensation has left behind: no force works on them.

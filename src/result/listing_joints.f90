@@ -157,7 +157,21 @@ contains
       character(6) :: increment
       integer :: i
 
-      if (table%is_empty()) call start_passes(page%stage, method, table)
+      if (table%is_empty()) then
+         select case (method)
+         case (method_newton)
+            call table%start('CONVERGENCE HISTORY, '//page%stage//': UNBALANCED FORCE BEFORE AND AFTER EACH ITERATION', &
+                             [column(['INCR', 'PART'], 'i6'), column('ITER', 'i8'), column(['BEFORE', 'AFTER '], 'es14.3'), &
+                              column('STEP', 'f9.4'), column('CHANGES', 'i9')])
+         case (method_back)
+            call table%start('ITERATIONS, '//page%stage//': LARGEST PRESSURE, AND ITS LARGEST CHANGE', &
+                             [column(['INCR', 'ITER'], 'i6'), column(['PRESSURE', 'CHANGE  '], 'es14.5')])
+         case default
+            call table%start('RE-ANALYSES AFTER THE COULOMB CHECK, '//page%stage//': EXCESS OVER THE LIMITS', &
+                             [column(['INCR', 'PASS'], 'i6'), column(['BEFORE', 'AFTER '], 'es14.5'), &
+                              column('REMOVED %', 'f10.2', heading_shift=1), column('SLIPPING', 'i9', heading_shift=3)])
+         end select
+      end if
       do i = 1, analysis%n_passes
          if (analysis%n_passes > 3*shown .and. i > shown .and. i < analysis%n_passes) then
             write (increment, '(i6)') analysis%increment
@@ -182,27 +196,6 @@ contains
          end associate
       end do
    end subroutine note_passes
-
-
-   pure subroutine start_passes(stage, method, table)
-      character(*), intent(in)                :: stage
-      integer, intent(in)                     :: method
-      type(listing_table_type), intent(inout) :: table
-
-      select case (method)
-      case (method_newton)
-         call table%start('CONVERGENCE HISTORY, '//stage//': UNBALANCED FORCE BEFORE AND AFTER EACH ITERATION', &
-                          [column(['INCR', 'PART'], 'i6'), column('ITER', 'i8'), column(['BEFORE', 'AFTER '], 'es14.3'), &
-                           column('STEP', 'f9.4'), column('CHANGES', 'i9')])
-      case (method_back)
-         call table%start('ITERATIONS, '//stage//': LARGEST PRESSURE, AND ITS LARGEST CHANGE', &
-                          [column(['INCR', 'ITER'], 'i6'), column(['PRESSURE', 'CHANGE  '], 'es14.5')])
-      case default
-         call table%start('RE-ANALYSES AFTER THE COULOMB CHECK, '//stage//': EXCESS OVER THE LIMITS', &
-                          [column(['INCR', 'PASS'], 'i6'), column(['BEFORE', 'AFTER '], 'es14.5'), &
-                           column('REMOVED %', 'f10.2', heading_shift=1), column('SLIPPING', 'i9', heading_shift=3)])
-      end select
-   end subroutine start_passes
 
 
    !> Work done on the joints in the stage, by shear and by normal forces; the difference is lost where the stage closes a loop.

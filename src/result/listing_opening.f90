@@ -1,10 +1,10 @@
 !> The first pages of the listing: heading, deck echo, summary of the model, joints and stages.
 module listing_opening
-   use card_names, only: card_name, is_continuation
+   use deck_cards, only: card_name, is_continuation
    use case_control, only: method_newton, method_step, pressure_eq10
    use deck_input, only: deck_type
-   use equation_solver, only: equation_system, solver_description
-   use include_lines, only: is_include
+   use equation_solver, only: equation_system
+   use line_scan, only: is_include
    use kinds, only: long, wp
    use listing_table, only: axes, column, cut, heading, listing_table_type, page_type, page_width
    use model_data, only: model_type, n_bars, n_points, n_sections
@@ -46,7 +46,7 @@ contains
       type(deck_type), intent(in)           :: deck
       character(:), allocatable :: line
       character(10) :: counter
-      integer :: i, cards, hidden
+      integer :: i, cards, hidden !! lines of INCLUDE files since the last one shown
       logical :: in_bulk
 
       if (.not. deck%control%echo) then
@@ -69,7 +69,7 @@ contains
          if (deck%text%file_number(i) > 1) then
             hidden = hidden + 1
          else
-            call count_hidden(file, hidden)
+            call count_hidden()
             call file%put(' '//counter//' '//cut(deck%text%line(i), page_width - 13))
          end if
          if (.not. in_bulk .and. index(adjustl(upper(line)), 'BEGIN') == 1) then
@@ -78,20 +78,18 @@ contains
             call file%put('  COUNT-    .   1  ..   2  ..   3  ..   4  ..   5  ..   6  ..   7  ..   8  ..   9  ..  10  .')
          end if
       end do
-      call count_hidden(file, hidden)
+      call count_hidden()
       call file%put('')
       call file%put('  TOTAL COUNT '//integer_text(cards)//' CARDS')
+
+   contains
+
+      subroutine count_hidden()
+         if (hidden > 0) call file%put('            ('//upper(plural(hidden, 'line'))//' OF INCLUDE FILES, NOT ECHOED)')
+         hidden = 0
+      end subroutine count_hidden
+
    end subroutine write_echo
-
-
-   subroutine count_hidden(file, hidden)
-      type(output_file_type), intent(inout) :: file
-      integer, intent(inout)                :: hidden
-
-      if (hidden > 0) call file%put('            ('//upper(plural(hidden, 'line'))// &
-                                          ' OF INCLUDE FILES, NOT ECHOED)')
-      hidden = 0
-   end subroutine count_hidden
 
 
    !> What the model has of everything, and how it is solved.
@@ -100,7 +98,6 @@ contains
       type(deck_type), intent(in)           :: deck
       type(model_type), intent(in)          :: model
       class(equation_system), intent(in)    :: system
-      type(solver_description) :: solver
       integer :: i
 
       call heading(file, 'MODEL SUMMARY')
@@ -115,12 +112,11 @@ contains
       call count_line('INTERFACE ELEMENTS', size(model%interface, kind=long))
       call count_line('SUPPORTED COMPONENTS', count(model%held(:, :n_points(model)), kind=long))
       call count_line('UNKNOWNS', int(system%n, long))
-      call system%describe(solver)
-      do i = 1, size(solver%words)
-         if (solver%words(i) /= '') call count_line(trim(solver%words(i)), solver%numbers(i))
+      do i = 1, size(system%description%words)
+         if (system%description%words(i) /= '') call count_line(trim(system%description%words(i)), system%description%numbers(i))
       end do
       call count_line('STAGES', size(deck%control%stages, kind=long))
-      associate (control => deck%control)
+      associate (control => deck%control, solver => system%description)
          select case (control%method)
          case (method_step)
             call file%put('  METHOD STEP   PRESSURE '//trim(merge('EQ10', 'SUMF', control%pressure == pressure_eq10))// &

@@ -1,7 +1,6 @@
-!> A VTK XML unstructured grid, NAME.vtu, for ParaView: points, cells, and arrays of values on either; and NAME.pvd, which lists
-!! such files.
+!> A VTK XML unstructured grid, NAME.vtu, for ParaView: points, cells, and arrays of values on either.
 !!
-!! Every array is handed over once and goes to the disk at once; nothing of it is kept or copied. Use:
+!! Every array is handed over once and goes to the disk at once; nothing of it is kept. Use:
 !!
 !!    call file%start('beam.1.vtu')
 !!    call file%points(x)                               ! in this order: points, cells, and then the values
@@ -24,15 +23,15 @@
 !! and FINISH leaves no file.
 !! Arrays that are not contiguous are copied by the compiler at the call.
 module vtu_file
+   use, intrinsic :: iso_c_binding, only: c_f_pointer, c_loc
    use, intrinsic :: iso_fortran_env, only: int8, int32, int64, real64
    use c_library, only: remove_file, rename_file
    use incomplete_results, only: note_incomplete, suffix
-   use output_file, only: output_file_type
    use text_tools, only: integer_text
    implicit none
    private
 
-   public :: write_collection, xml_text
+   public :: xml_text
 
    integer(int8), parameter, public :: vtk_vertex = 1_int8 !! a type of cell; those of bodies: element_kinds
 
@@ -115,30 +114,19 @@ contains
       integer(int32), intent(in), contiguous :: connectivity(:) !! nodes of the first cell, the second, ...: 1 to n
       integer(int32), intent(in), contiguous :: ends(:)         !! (n_cells) where each cell's nodes end in CONNECTIVITY
       integer(int8), intent(in), contiguous  :: types(:)        !! (n_cells) VTK's numbers: vtk_vertex, ...
-      integer, parameter :: room = 8192
-      integer(int32) :: block(room)
-      integer :: first, i, n, total
+      integer :: i, n
 
       call require(self, self%n_points >= 0 .and. self%n_cells < 0 .and. size(ends) == size(types))
+      call require(self, all(connectivity >= 1 .and. connectivity <= self%n_points))
       self%n_cells = size(ends)
-      total = size(connectivity)
       n = 0 ! they never fall, and end where CONNECTIVITY does
       do i = 1, size(ends)
          call require(self, ends(i) >= n)
          n = ends(i)
       end do
-      call require(self, n == total)
-      call begin_array(self, in_cells, 'connectivity', 'Int32', 4, [total], total)
-      do first = 1, total, room ! VTK counts the points from 0
-         n = min(room, total - first + 1)
-         block(:n) = connectivity(first:first + n - 1) - 1
-         call require(self, minval(block(:n)) >= 0 .and. maxval(block(:n)) < self%n_points)
-         if (self%status /= 0) return
-         write (self%unit, iostat=self%status) block(:n)
-      end do
+      call write_array(self, in_cells, 'connectivity', 'Int32', 4, n, connectivity - 1) ! VTK counts the points from 0
       call self%add(in_cells, 'offsets', ends)
-      call begin_array(self, in_cells, 'types', 'UInt8', 1, shape(types), self%n_cells)
-      if (self%status == 0) write (self%unit, iostat=self%status) types
+      call write_array(self, in_cells, 'types', 'UInt8', 1, self%n_cells, types)
    end subroutine cells
 
 
@@ -149,14 +137,7 @@ contains
       character(*), intent(in)             :: name
       real(real64), intent(in), contiguous :: values(..)
 
-      call begin_array(self, section, name, 'Float64', 8, shape(values), n_tuples(self, section))
-      if (self%status /= 0) return
-      select rank (values)
-      rank (1)
-         write (self%unit, iostat=self%status) values
-      rank (2)
-         write (self%unit, iostat=self%status) values
-      end select
+      call write_array(self, section, name, 'Float64', 8, n_tuples(self, section), values)
    end subroutine add_reals
 
 
@@ -166,14 +147,7 @@ contains
       character(*), intent(in)               :: name
       integer(int32), intent(in), contiguous :: values(..)
 
-      call begin_array(self, section, name, 'Int32', 4, shape(values), n_tuples(self, section))
-      if (self%status /= 0) return
-      select rank (values)
-      rank (1)
-         write (self%unit, iostat=self%status) values
-      rank (2)
-         write (self%unit, iostat=self%status) values
-      end select
+      call write_array(self, section, name, 'Int32', 4, n_tuples(self, section), values)
    end subroutine add_integers
 
 
@@ -186,26 +160,29 @@ contains
    end function n_tuples
 
 
-   !> Note an array for the header, and write its length. Its values follow.
-   subroutine begin_array(self, section, name, number, bytes, shape, n)
+   !> Note an array for the header, and write its length and its bytes.
+   subroutine write_array(self, section, name, number, bytes, n, values)
       type(vtu_file_type), intent(inout) :: self
       integer, intent(in)                :: section
       character(*), intent(in)           :: name, number
-      integer, intent(in)                :: bytes    !! of a number
-      integer, intent(in)                :: shape(:) !! (n) or (components, n)
-      integer, intent(in)                :: n        !! as it has to be
+      integer, intent(in)                :: bytes      !! of a number
+      integer, intent(in)                :: n          !! tuples, as it has to be
+      type(*), intent(in), contiguous, target :: values(..) !! (n) or (components, n)
+      integer(int8), pointer :: as_bytes(:)
       integer        :: components
       integer(int64) :: n_bytes
 
-      components = product(shape(:size(shape) - 1))
+      components = 1
+      if (rank(values) == 2) components = size(values, 1)
       n_bytes = int(bytes, int64)*components*n
       ! an empty array constructor has an extent of -1 in gfortran 12
-      call require(self, self%is_open .and. components > 0 .and. max(0, shape(size(shape))) == n)
+      call require(self, self%is_open .and. components > 0 .and. max(0, size(values, rank(values))) == n)
       if (self%status /= 0) return
       self%arrays = [self%arrays, array_type(name, number, section, components, self%n_bytes)]
-      write (self%unit, iostat=self%status) n_bytes
+      call c_f_pointer(c_loc(values), as_bytes, [n_bytes])
+      write (self%unit, iostat=self%status) n_bytes, as_bytes
       self%n_bytes = self%n_bytes + storage_size(n_bytes)/8 + n_bytes
-   end subroutine begin_array
+   end subroutine write_array
 
 
    !> The file has failed unless a call FITS what went before.
@@ -313,33 +290,5 @@ contains
          if (k > 0) escaped = escaped//trim(entities(k))
       end do
    end function xml_text
-
-
-   !> The list of .vtu files that ParaView opens: which belong together, and at what time. OK is false, and no file is left by us,
-   !! where it cannot be written.
-   subroutine write_collection(path, times, parts, names, ok)
-      character(*), intent(in) :: path
-      real(real64), intent(in) :: times(:) !! the number of the stage, for example; below 1E9
-      integer, intent(in)      :: parts(:) !! 0, 1, ... within one time, bodies and joint for example
-      character(*), intent(in) :: names(:) !! the .vtu files, as seen from the folder of the list
-      logical, intent(out)     :: ok
-      type(output_file_type) :: file
-      character(24) :: time
-      integer :: i
-
-      call file%start(path)
-      call file%put('<?xml version="1.0"?>')
-      call file%put('<VTKFile type="Collection" version="1.0">')
-      call file%put('  <Collection>')
-      do i = 1, size(names)
-         write (time, '(es24.16e3)') times(i)
-         if (abs(times(i) - nint(times(i))) <= 0.0_real64) time = integer_text(nint(times(i)))
-         call file%put('    <DataSet timestep="'//trim(adjustl(time))//'" group="" part="'//integer_text(parts(i))//'"')
-         call file%put('             file="'//xml_text(trim(names(i)))//'"/>') ! a line of its own: names may be long
-      end do
-      call file%put('  </Collection>')
-      call file%put('</VTKFile>')
-      call file%finish(ok)
-   end subroutine write_collection
 
 end module vtu_file

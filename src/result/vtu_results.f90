@@ -10,14 +10,15 @@ module vtu_results
    use interface_operator, only: at_first_end
    use kinds, only: wp
    use model_data, only: corners_of, model_type, n_points
+   use output_file, only: output_file_type
    use stage_plan, only: stage_plan_type
    use stress_measures, only: principal_stresses, von_mises
    use text_tools, only: integer_text
-   use vtu_file, only: cell_data, point_data, vtk_vertex, vtu_file_type, write_collection
+   use vtu_file, only: cell_data, point_data, vtk_vertex, vtu_file_type, xml_text
    implicit none
    private
 
-   public :: start_vtu, write_vtu, finish_vtu, discard_vtu, remove_old_vtu, is_vtu_ending
+   public :: start_vtu, write_vtu, finish_vtu, discard_vtu, remove_old_vtu, is_vtu_ending, write_collection
 
    integer, parameter :: most_old = 999 ! stages whose old files are looked for
 
@@ -104,7 +105,8 @@ contains
       m = n_points(model)
       allocate (u(3, m), at_node(6, m), source=0.0_wp)
       allocate (at_centre(6, model%n_elements), principal(3, model%n_elements))
-      allocate (corners(count(model%element_nodes > 0)), ends(model%n_elements), types(model%n_elements))
+      allocate (corners(count(model%element_nodes > 0)))
+      allocate (ends(model%n_elements), types(model%n_elements), properties(model%n_elements))
       u(:model%dimension, :) = analysis%all_u(:, :m)
       n = 0
       do e = 1, model%n_elements
@@ -117,6 +119,7 @@ contains
             n = n + size(nodes)
             ends(e) = n
             types(e) = int(element_table(model%element_kind(e))%vtk_type, int8)
+            properties(e) = model%properties(model%element_property(e))%id
             c = n_stresses(model%properties(model%element_property(e))%state)
             at_centre(:, e) = full_stress(model, e, element_stress(model, e, analysis%all_u))
             principal(:, e) = principal_stresses(at_centre(:, e))
@@ -126,10 +129,6 @@ contains
                                       real(model%first_at(nodes(i) + 1) - model%first_at(nodes(i)), wp)
             end do
          end associate
-      end do
-      allocate (properties(model%n_elements))
-      do e = 1, model%n_elements
-         properties(e) = model%properties(model%element_property(e))%id
       end do
       call file%points(model%x(:, :m))
       call file%cells(corners, ends, types)
@@ -193,11 +192,36 @@ contains
       if (ok .and. results%many .and. results%n > 0) then
          base = results%name(index(results%name, '/', back=.true.) + 1:)
          associate (parts => results%parts(:results%n))
-            call write_collection(results%name//'.pvd', real(parts%stage, wp), parts%part, base//parts%ending, ok)
+            call write_collection(results%name//'.pvd', parts%stage, parts%part, base//parts%ending, ok)
          end associate
       end if
       if (.not. ok) call discard_vtu(results)
    end subroutine finish_vtu
+
+
+   !> The list of .vtu files that ParaView opens: which belong together, and at what time. OK is false, and no file is left by us,
+   !! where it cannot be written.
+   subroutine write_collection(path, times, parts, names, ok)
+      character(*), intent(in) :: path
+      integer, intent(in)      :: times(:) !! the numbers of the stages
+      integer, intent(in)      :: parts(:) !! 0, 1, ... within one time
+      character(*), intent(in) :: names(:) !! the .vtu files, as seen from the folder of the list
+      logical, intent(out)     :: ok
+      type(output_file_type) :: file
+      integer :: i
+
+      call file%start(path)
+      call file%put('<?xml version="1.0"?>')
+      call file%put('<VTKFile type="Collection" version="1.0">')
+      call file%put('  <Collection>')
+      do i = 1, size(names)
+         call file%put('    <DataSet timestep="'//integer_text(times(i))//'" group="" part="'//integer_text(parts(i))//'"')
+         call file%put('             file="'//xml_text(trim(names(i)))//'"/>') ! a line of its own: names may be long
+      end do
+      call file%put('  </Collection>')
+      call file%put('</VTKFile>')
+      call file%finish(ok)
+   end subroutine write_collection
 
 
    !> Leave nothing behind, files that have their names already included.

@@ -3,6 +3,7 @@
 module progress
    use, intrinsic :: iso_fortran_env, only: error_unit
    use c_library, only: is_terminal
+   use equation_solver, only: solver_description
    use kinds, only: long, wp
    use machine, only: peak_memory
    use stage_plan, only: stage_plan_type
@@ -22,10 +23,9 @@ module progress
       integer :: done  = 0, total = 0
       integer(long) :: entered = 0, increments_began = 0, last = 0, rate = 1
       integer(long) :: ticks(size(phase_name)) = 0
-      real(wp) :: fixed_operations = 0.0_wp, moving_operations = 0.0_wp, assembly_time = 0.0_wp
       character(:), allocatable :: deck
+      type(solver_description), public :: solver !! its operations, for the end
    contains
-      procedure :: count_operations
       procedure :: start
       procedure :: enter
       procedure :: expect
@@ -66,18 +66,6 @@ contains
       self%phase = phase
       if (self%shown .and. phase < phase_increments) call show(self, trim(phase_name(phase)))
    end subroutine enter
-
-
-   !> Operations, multiplications and additions taken together, of what is factorised once, and in an increment; and the seconds
-   !! that the elements took, within the phase of the factor.
-   subroutine count_operations(self, fixed, moving, assembly_time)
-      class(progress_type), intent(inout) :: self
-      real(wp), intent(in)                :: fixed, moving, assembly_time
-
-      self%fixed_operations = fixed
-      self%moving_operations = moving
-      self%assembly_time = assembly_time
-   end subroutine count_operations
 
 
    !> From now on increments are counted, those of PLAN.
@@ -142,9 +130,9 @@ contains
       do i = 1, size(phase_name)
          write (error_unit, '(3a, f12.4, a)') self%deck, ': ', phase_name(i), real(self%ticks(i), wp)/self%rate, ' s'
       end do
-      write (error_unit, '(3a, f12.4, a)') self%deck, ': ', 'elements  ', self%assembly_time, ' s of factor'
-      write (error_unit, '(3a, es12.4)') self%deck, ': ', 'operations fixed  ', self%fixed_operations, &
-         self%deck, ': ', 'operations moving ', self%moving_operations
+      write (error_unit, '(3a, f12.4, a)') self%deck, ': ', 'elements  ', self%solver%assembly_time, ' s of factor'
+      write (error_unit, '(3a, es12.4)') self%deck, ': ', 'operations fixed  ', self%solver%fixed_operations, &
+         self%deck, ': ', 'operations moving ', self%solver%moving_operations
       write (error_unit, '(3a, i12, a)') self%deck, ': ', 'memory    ', nint(peak_memory()/1048576.0_wp), ' MiB'
    end subroutine finish
 

@@ -8,16 +8,16 @@ module run_boxes
    use command_line, only: command_type, deck_argument, is_result_of, read_command_line
    use deck_errors, only: deck_error_list
    use deck_input, only: deck_type, read_deck
-   use equation_solver, only: equation_system, solver_description
+   use equation_solver, only: equation_system
    use equations, only: form_body_stiffness, start_equations
-   use failed_allocation, only: watch_allocations
    use error_report, only: print_errors
    use failures, only: failure_type
+   use incomplete_results, only: watch_allocations
    use load_path, only: recover_bodies
    use machine, only: keep_memory, use_threads
+   use memory_need, only: check_model_size
    use model_build, only: build_model
    use model_data, only: model_type, n_points
-   use model_size, only: check_model_size
    use progress, only: phase_build, phase_factor, phase_increments, phase_order, phase_recover, phase_write, progress_type
    use results, only: discard_results, finish_results, history_ending, list_results => print_increment, listing_ending, &
                       print_stage_results => print_stage, remove_old_results, results_type, start_results
@@ -124,7 +124,6 @@ contains
       type(model_type), intent(in)      :: model
       type(stage_plan_type), intent(in) :: plan
       class(equation_system), allocatable, intent(out) :: system
-      type(solver_description) :: solver
       logical :: ok
 
       if (is_over(run)) return
@@ -134,8 +133,7 @@ contains
       if (.not. run%failure%raised) call form_body_stiffness(model, system, run%failure)
       if (run%failure%raised) return
       call run%progress%enter(phase_write)
-      call system%describe(solver)
-      call run%progress%count_operations(solver%fixed_operations, solver%moving_operations, solver%assembly_time)
+      run%progress%solver = system%description
       call start_results(run%argument%base, deck, model, plan, system, run%results, ok)
       if (.not. ok) run%ending = is_unwritten
    end subroutine form_bodies

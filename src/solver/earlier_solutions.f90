@@ -55,9 +55,9 @@ contains
    end subroutine forget_solutions
 
 
-   !> X on the equations that move, not touched elsewhere: with it the energy x'([k_b] + sum of [k_int]) x/2 - b'x is least of all sums of
-   !! earlier solutions; zero where there is none. They are made orthogonal in that energy, the last one first. With it comes
-   !! RESIDUAL = b - ([k_b] + sum of [k_int]) x, and WORK = x'([k_b] + sum of [k_int]) x.
+   !> X on the equations that move, not touched elsewhere: with it the energy x'([k_b] + sum of [k_int]) x/2 - b'x is least of all
+   !! sums of earlier solutions; zero where there is none. They are made orthogonal in that energy, the last one first. With it
+   !! comes RESIDUAL = b - ([k_b] + sum of [k_int]) x, and WORK = x'([k_b] + sum of [k_int]) x.
    subroutine guess_solution(tree, k_int, earlier, b, x, residual, work)
       type(front_tree_type), intent(in)        :: tree
       real(wp), intent(in)                     :: k_int(:, :, :) !! (3, 3, n) [force/length]

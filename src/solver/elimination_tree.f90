@@ -5,7 +5,7 @@ module elimination_tree
    implicit none
    private
 
-   public :: number_places, find_parents, order_depth_first, count_rows
+   public :: number_places, find_parents, number_depth_first, order_depth_first, count_rows
 
 contains
 
@@ -55,46 +55,56 @@ contains
    !> Renumber a tree depth first, so that every subtree is without gaps; ORDER follows.
    subroutine order_depth_first(parent, order)
       integer, intent(inout) :: parent(:), order(:)
-      integer, allocatable :: child(:), sibling(:), number(:), new_parent(:), new_order(:)
-      integer :: j, n, roots, node, done
+      integer, allocatable :: child(:), sibling(:), number(:), sequence(:)
+      logical, allocatable :: is_root(:)
+      integer :: j, n
 
       n = size(parent)
-      allocate (child(n), sibling(n), number(n), source=0)
-      roots = 0
+      allocate (is_root, source=parent == 0 .or. parent > n)
+      allocate (child(n), sibling(n), source=0)
       do j = n, 1, -1
-         if (parent(j) == 0 .or. parent(j) > n) then
-            sibling(j) = roots
-            roots = j
-         else
-            sibling(j) = child(parent(j))
-            child(parent(j)) = j
-         end if
+         if (is_root(j)) cycle
+         sibling(j) = child(parent(j))
+         child(parent(j)) = j
       end do
-      done = 0
-      do while (roots /= 0)
-         node = roots
-         roots = sibling(roots)
-         walk: do
-            do while (child(node) /= 0)   ! down to the first child that is not numbered
-               j = child(node)
-               child(node) = sibling(j)
-               node = j
-            end do
-            done = done + 1
-            number(node) = done
-            if (parent(node) == 0 .or. parent(node) > n) exit walk
-            node = parent(node)
-         end do walk
-      end do
-      allocate (new_parent(n), new_order(n))
+      call number_depth_first(is_root, child, sibling, number, sequence)
       do j = 1, n
-         new_order(number(j)) = order(j)
-         new_parent(number(j)) = parent(j)
-         if (parent(j) > 0 .and. parent(j) <= n) new_parent(number(j)) = number(parent(j))
+         if (.not. is_root(j)) parent(j) = number(parent(j))
       end do
-      parent = new_parent
-      order = new_order
+      parent = parent(sequence)
+      order = order(sequence)
    end subroutine order_depth_first
+
+
+   !> Number trees depth first, children first, from lists of children: NUMBER(i) is that of node i, 0 where no root leads to it;
+   !! SEQUENCE is the other way round.
+   pure subroutine number_depth_first(is_root, child, sibling, number, sequence)
+      logical, intent(in)               :: is_root(:)
+      integer, intent(inout)            :: child(:), sibling(:) !! the first child, the next of its parent, 0: none; gone then
+      integer, allocatable, intent(out) :: number(:), sequence(:)
+      integer :: first, n, node, root
+
+      allocate (number(size(is_root)), sequence(size(is_root)), source=0)
+      n = 0
+      do root = 1, size(is_root)
+         if (.not. is_root(root)) cycle
+         node = root
+         do
+            do while (child(node) /= 0)
+               first = child(node)
+               child(node) = sibling(first)
+               sibling(first) = node   ! the way back
+               node = first
+            end do
+            n = n + 1
+            number(node) = n
+            sequence(n) = node
+            if (node == root) exit
+            node = sibling(node)
+         end do
+      end do
+      sequence = sequence(:n)
+   end subroutine number_depth_first
 
 
    !> BEYOND(j): rows below the diagonal in column j of the factor. Row i has an entry in column j where j lies on the way up

@@ -44,6 +44,7 @@ module equation_solver
       logical :: one_solution = .false.              !! whether with this k_int the increment solves but once
       integer :: factorisations = 20                 !! that are to be expected
       character(:), allocatable :: where             !! stage and increment, for messages
+      type(solver_description) :: description        !! of the solver, once it has started
    contains
       procedure(start_solver), deferred     :: start
       procedure(form_bodies), deferred      :: form_bodies
@@ -57,7 +58,6 @@ module equation_solver
       procedure(solve_vector), deferred     :: solve
       procedure(multiply_vector), deferred  :: multiply
       procedure :: recover
-      procedure(describe_solver), deferred  :: describe
    end type equation_system
 
    abstract interface
@@ -109,13 +109,6 @@ module equation_solver
          real(wp), intent(in)               :: x(:)
          real(wp), intent(inout)            :: y(:)
       end subroutine multiply_vector
-
-      !> The solver in words and numbers.
-      subroutine describe_solver(self, description)
-         import :: equation_system, solver_description
-         class(equation_system), intent(in)    :: self
-         type(solver_description), intent(out) :: description
-      end subroutine describe_solver
    end interface
 
 contains

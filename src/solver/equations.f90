@@ -107,11 +107,11 @@ contains
       class(equation_system), intent(in) :: system
       real(wp), intent(in)               :: f(:, :) !! of all nodes [force]
       real(wp), intent(out)              :: g(:, :) !! of retained nodes; zero on held components
-      real(wp), allocatable :: x(:), felt(:)
+      real(wp), allocatable :: felt(:)
+      integer :: k
 
-      allocate (x(system%n), felt(system%n))
-      call gather_all(system, f, x)
-      call system%condense(x, felt)
+      allocate (felt(system%n))
+      call system%condense([(f(system%direction(k), system%node(k)), k = 1, system%n)], felt)
       call put(system, felt, g)
    end subroutine condense_load
 
@@ -198,8 +198,7 @@ contains
       integer :: k
 
       allocate (x(system%n), at_retained(system%n))
-      call gather_all(system, f, at_retained)
-      call system%condense(at_retained, x)
+      call system%condense([(f(system%direction(k), system%node(k)), k = 1, system%n)], x)
       call gather(system, u, at_retained)
       call system%recover(at_retained, x)
       all_u = 0.0_wp
@@ -207,19 +206,6 @@ contains
          all_u(system%direction(k), system%node(k)) = x(k)
       end do
    end subroutine recover_displacements
-
-
-   !> X(equation) of an ARRAY over all nodes.
-   subroutine gather_all(system, array, x)
-      class(equation_system), intent(in) :: system
-      real(wp), intent(in)               :: array(:, :)
-      real(wp), intent(out)              :: x(:)
-      integer :: k
-
-      do k = 1, system%n
-         x(k) = array(system%direction(k), system%node(k))
-      end do
-   end subroutine gather_all
 
 
    !> X(equation), where the increments solve, of an ARRAY over retained nodes; not touched elsewhere.

@@ -25,22 +25,9 @@ contains
       type(front_tree_type), intent(inout) :: tree
       integer, intent(out)                 :: fault
       integer, allocatable :: faults(:)
-      integer :: f, k
+      integer :: k
 
-      allocate (faults(size(tree%fronts)), source=0)
-      !$omp parallel default(shared) if(tree%is_parallel)
-      !$omp single
-      do f = 1, size(tree%fronts)
-         if (tree%fronts(f)%moves) cycle
-         if (tree%fronts(f)%parent > 0) then
-            if (.not. tree%fronts(tree%fronts(f)%parent)%moves) cycle
-         end if
-         !$omp task default(shared) firstprivate(f) if(tree%fronts(f)%work > task_work)
-         call fixed_subtree(model, tree, f, faults)
-         !$omp end task
-      end do
-      !$omp end single
-      !$omp end parallel
+      call eliminate_fronts(tree, faults, model=model)
       fault = first_fault(faults)
       if (fault /= 0) return
       !$omp parallel do schedule(dynamic, 8) default(shared) if(tree%is_parallel)
@@ -65,39 +52,65 @@ contains
    end function first_fault
 
 
-   !> Eliminate front F after its subtree.
-   recursive subroutine fixed_subtree(model, tree, f, faults)
-      type(model_type), intent(in)         :: model
-      type(front_tree_type), intent(inout) :: tree
-      integer, intent(in)                  :: f
-      integer, intent(inout)               :: faults(:)
-      integer :: c, k
+   !> Eliminate all fronts that do not move, those of MODEL, or all that do, with the stiffnesses K: one of the two is there.
+   subroutine eliminate_fronts(tree, faults, model, k)
+      type(front_tree_type), intent(inout)   :: tree
+      integer, allocatable, intent(out)      :: faults(:)  !! (fronts)
+      type(model_type), intent(in), optional :: model
+      real(wp), intent(in), optional         :: k(:, :, :)
+      integer :: f
+      logical :: moving
 
-      do k = 1, size(tree%fronts(f)%children)
-         c = tree%fronts(f)%children(k)
+      allocate (faults(size(tree%fronts)), source=0)
+      moving = present(k)
+      !$omp parallel default(shared) if(tree%is_parallel)
+      !$omp single
+      do f = 1, size(tree%fronts)
+         if (tree%fronts(f)%moves .neqv. moving) cycle
+         if (tree%fronts(f)%parent > 0) then
+            if (tree%fronts(tree%fronts(f)%parent)%moves .eqv. moving) cycle
+         end if
+         !$omp task default(shared) firstprivate(f) if(tree%fronts(f)%work > task_work)
+         call eliminate_subtree(tree, f, faults, model, k)
+         !$omp end task
+      end do
+      !$omp end single
+      !$omp end parallel
+   end subroutine eliminate_fronts
+
+
+   !> Eliminate front F after those of its subtree that move as it does, or do not.
+   recursive subroutine eliminate_subtree(tree, f, faults, model, k)
+      type(front_tree_type), intent(inout)   :: tree
+      integer, intent(in)                    :: f
+      integer, intent(inout)                 :: faults(:)
+      type(model_type), intent(in), optional :: model
+      real(wp), intent(in), optional         :: k(:, :, :)
+      integer :: c, i
+
+      do i = 1, size(tree%fronts(f)%children)
+         c = tree%fronts(f)%children(i)
+         if (tree%fronts(c)%moves .neqv. tree%fronts(f)%moves) cycle
          !$omp task default(shared) firstprivate(c) if(tree%fronts(c)%work > task_work)
-         call fixed_subtree(model, tree, c, faults)
+         call eliminate_subtree(tree, c, faults, model, k)
          !$omp end task
       end do
       !$omp taskwait
-      if (any(faults(tree%fronts(f)%children) /= 0)) then
-         faults(f) = first_fault(faults(tree%fronts(f)%children))
-         return
-      end if
-      call start_front(model, tree, tree%fronts(f), faults(f))
-      if (faults(f) /= 0) return
-      tree%fronts(f)%largest = maxval(tree%fronts(f)%diagonal(:tree%fronts(f)%p))
-      call eliminate_front(tree%fronts(f), faults(f))
-   end subroutine fixed_subtree
-
-
-   subroutine eliminate_front(front, fault)
-      type(front_type), intent(inout) :: front
-      integer, intent(out)            :: fault
-
-      call eliminate(front%p, front%r, front%panel, front%update, front%diagonal, pivot_tolerance, fault)
-      if (fault > 0) fault = front%first + fault - 1
-   end subroutine eliminate_front
+      associate (front => tree%fronts(f), fault => faults(f))
+         fault = first_fault(faults(front%children))
+         if (fault /= 0) return
+         if (front%moves) then
+            call restart_front(tree, front, k, fault)
+         else
+            call start_front(model, tree, front, fault)
+         end if
+         if (fault /= 0) return
+         if (.not. front%moves) front%largest = maxval(front%diagonal(:front%p))
+         call eliminate(front%p, front%r, front%panel, front%update, front%diagonal, pivot_tolerance, fault)
+         if (fault > 0) fault = front%first + fault - 1
+         if (front%parent == 0) deallocate (front%update)
+      end associate
+   end subroutine eliminate_subtree
 
 
    !> Add the elements of FRONT; the time that takes is kept.
@@ -181,18 +194,7 @@ contains
       integer, allocatable :: faults(:)
       integer :: f, i
 
-      allocate (faults(size(tree%fronts)), source=0)
-      !$omp parallel default(shared) if(tree%is_parallel)
-      !$omp single
-      do i = 1, size(tree%moving)
-         f = tree%moving(i)
-         if (tree%fronts(f)%parent > 0) cycle
-         !$omp task default(shared) firstprivate(f) if(tree%fronts(f)%work > task_work)
-         call moving_subtree(tree, f, k, faults)
-         !$omp end task
-      end do
-      !$omp end single
-      !$omp end parallel
+      call eliminate_fronts(tree, faults, k=k)
       fault = first_fault(faults)
       if (fault == 0) return
       do i = 1, size(tree%moving)
@@ -202,50 +204,32 @@ contains
    end subroutine factorise_moving
 
 
-   !> Assemble and eliminate front F after the moving fronts of its subtree.
-   recursive subroutine moving_subtree(tree, f, k, faults)
+   !> What moving FRONT begins with in an increment: what was kept, its interface elements, and what its children that move leave.
+   subroutine restart_front(tree, front, k, fault)
       type(front_tree_type), intent(inout) :: tree
-      integer, intent(in)                  :: f
+      type(front_type), intent(inout)      :: front
       real(wp), intent(in)                 :: k(:, :, :)
-      integer, intent(inout)               :: faults(:)
+      integer, intent(out)                 :: fault !! 0, or no_memory
       integer :: c, i, status
 
-      do i = 1, size(tree%fronts(f)%children)
-         c = tree%fronts(f)%children(i)
-         if (.not. tree%fronts(c)%moves) cycle
-         !$omp task default(shared) firstprivate(c) if(tree%fronts(c)%work > task_work)
-         call moving_subtree(tree, c, k, faults)
-         !$omp end task
+      allocate (front%update(front%r, front%r), stat=status)
+      fault = merge(0, no_memory, status == 0)
+      if (fault /= 0) return
+      call restore_block(front%start%panel, front%panel)
+      call restore_block(front%start%update, front%update)
+      front%diagonal = front%start%diagonal
+      do i = 1, size(front%springs)
+         c = front%springs(i)
+         call add_matrix(front, tree%joints%rows_of(c), tree%joints%matrix_of(c, k(:, :, c)))
       end do
-      !$omp taskwait
-      if (any(faults(tree%fronts(f)%children) /= 0)) then
-         faults(f) = first_fault(faults(tree%fronts(f)%children))
-         return
-      end if
-      associate (front => tree%fronts(f))
-         allocate (front%update(front%r, front%r), stat=status)
-         if (status /= 0) then
-            faults(f) = no_memory
-            return
-         end if
-         call restore_block(front%start%panel, front%panel)
-         call restore_block(front%start%update, front%update)
-         front%diagonal = front%start%diagonal
-         do i = 1, size(front%springs)
-            c = front%springs(i)
-            call add_matrix(front, tree%joints%rows_of(c), tree%joints%matrix_of(c, k(:, :, c)))
-         end do
-         do i = 1, size(front%children)
-            c = front%children(i)
-            if (.not. tree%fronts(c)%moves) cycle
-            call add_update(tree%fronts(c), front)
-            deallocate (tree%fronts(c)%update)
-         end do
-         call lock(tree%locked(front%first:front%first + front%p - 1), front)
-         call eliminate_front(front, faults(f))
-         if (front%parent == 0) deallocate (front%update)
-      end associate
-   end subroutine moving_subtree
+      do i = 1, size(front%children)
+         c = front%children(i)
+         if (.not. tree%fronts(c)%moves) cycle
+         call add_update(tree%fronts(c), front)
+         deallocate (tree%fronts(c)%update)
+      end do
+      call lock(tree%locked(front%first:front%first + front%p - 1), front)
+   end subroutine restart_front
 
 
    !> The rows and columns of LOCKED pivots become those of the identity.

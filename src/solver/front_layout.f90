@@ -2,7 +2,7 @@
 !! Everything here is symbolic and counts nodes; WEIGHT(node) is how many unknowns a node has.
 !! Source: Liu, SIAM Review 34 (1992) 82-109.
 module front_layout
-   use elimination_tree, only: count_rows, find_parents, number_places, order_depth_first
+   use elimination_tree, only: count_rows, find_parents, number_depth_first, number_places, order_depth_first
    use front_kernel, only: touched_entries
    use kinds, only: wp
    use node_graph, only: node_graph_type
@@ -172,40 +172,11 @@ contains
       type(front_layout_type), intent(inout) :: layout
       integer, allocatable :: number(:), sequence(:), new_place(:)
 
-      call number_trees(supers, number, sequence)
+      call number_depth_first(supers%parent == 0, supers%child, supers%sibling, number, sequence)
       layout%n = size(sequence)
       call number_columns(supers, sequence, new_place, layout)
       call link_fronts(supers, number, sequence, new_place, layout)
    end subroutine number_fronts
-
-
-   !> Depth first, children first: NUMBER(s) is that of supernode s, 0 where it was merged; SEQUENCE is the other way round.
-   pure subroutine number_trees(supers, number, sequence)
-      type(supernodes_type), intent(inout) :: supers !! its lists of children are gone then
-      integer, allocatable, intent(out)    :: number(:), sequence(:)
-      integer :: child, n, node, root
-
-      allocate (number(supers%n), sequence(supers%n), source=0)
-      n = 0
-      do root = 1, supers%n
-         if (supers%parent(root) /= 0) cycle
-         node = root
-         do
-            do while (supers%child(node) /= 0)
-               child = supers%child(node)
-               supers%child(node) = supers%sibling(child)
-               supers%sibling(child) = node   ! the way back
-               node = child
-            end do
-            n = n + 1
-            number(node) = n
-            sequence(n) = node
-            if (node == root) exit
-            node = supers%sibling(node)
-         end do
-      end do
-      sequence = sequence(:n)
-   end subroutine number_trees
 
 
    !> The columns of every front in one run, in the order of the fronts; what the fronts are worth. NEW_PLACE(old place).

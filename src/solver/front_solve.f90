@@ -81,12 +81,9 @@ contains
       integer, intent(in)               :: f
       real(wp), intent(inout)           :: x(tree%n)
       real(wp), intent(out)             :: work(:)
-      integer :: i
 
       associate (front => tree%fronts(f), p => tree%fronts(f)%p, r => tree%fronts(f)%r, first => tree%fronts(f)%first)
-         do i = 1, r
-            work(i) = x(front%rows(i))
-         end do
+         work(:r) = x(front%rows)
          if (r > 0) call dgemv('T', r, p, -1.0_wp, front%panel(p + 1, 1), p + r, work, 1, 1.0_wp, x(first), 1)
          call dtrsv('L', 'T', 'N', p, front%panel, p + r, x(first), 1)
       end associate
@@ -110,9 +107,7 @@ contains
          associate (front => tree%fronts(tree%moving(k)))
             associate (p => front%p, last => front%first + front%p - 1)
                x_f(:p) = x(front%first:last)
-               do i = 1, front%r
-                  x_f(p + i) = x(front%rows(i))
-               end do
+               x_f(p + 1:p + front%r) = x(front%rows)
                y_f(:p + front%r) = 0.0_wp
                call block_times_vector(front%start%panel, x_f, y_f)
                call block_times_vector(front%start%update, x_f(p + 1:), y_f(p + 1:))

@@ -64,11 +64,11 @@ contains
       integer, intent(in)                 :: number(:, :)   !! numbered along layout%order
       type(front_layout_type), intent(in) :: layout
       type(front_tree_type), intent(out)  :: tree
-      integer, allocatable :: first(:), weight(:), n_children(:)
+      integer, allocatable :: first(:), weight(:), first_child(:), children(:)
       integer :: d, f, i, k, node, n_rows
 
       tree%number = number
-      allocate (tree%fronts(layout%n), n_children(layout%n))
+      allocate (tree%fronts(layout%n))
       allocate (first(size(layout%order)), weight(size(layout%order)))
       tree%n = 0
       do k = 1, size(layout%order)
@@ -78,7 +78,6 @@ contains
       end do
       allocate (tree%of_equation(tree%n))
       allocate (tree%locked(tree%n), source=.false.)
-      n_children = 0
       do f = 1, layout%n
          associate (front => tree%fronts(f), low => layout%first_pivot(f), high => layout%first_pivot(f + 1) - 1, &
                     rows => layout%rows(layout%first_row(f):layout%first_row(f + 1) - 1))
@@ -86,7 +85,6 @@ contains
             front%p = sum(weight(low:high))
             front%moves = layout%moves(f)
             front%parent = layout%parent(f)
-            if (front%parent > 0) n_children(front%parent) = n_children(front%parent) + 1
             front%r = sum(weight(rows))
             allocate (front%rows(front%r))
             n_rows = 0
@@ -100,15 +98,11 @@ contains
             tree%of_equation(front%first:front%first + front%p - 1) = f
          end associate
       end do
+      call list_owners(layout%n, reshape(layout%parent, [1, layout%n]), first_child, children)
       do f = 1, layout%n
-         allocate (tree%fronts(f)%children(n_children(f)))
-      end do
-      n_children = 0
-      do f = 1, layout%n
+         tree%fronts(f)%children = children(first_child(f):first_child(f + 1) - 1)
          if (tree%fronts(f)%parent == 0) cycle
          associate (front => tree%fronts(f), parent => tree%fronts(tree%fronts(f)%parent))
-            n_children(front%parent) = n_children(front%parent) + 1
-            parent%children(n_children(front%parent)) = f
             allocate (front%in_parent(front%r))
             k = 0
             do i = 1, front%r
@@ -153,39 +147,26 @@ contains
    subroutine hand_out_elements(model, tree)
       type(model_type), intent(in)         :: model
       type(front_tree_type), intent(inout) :: tree
-      integer, allocatable :: front(:)
-      integer :: e
+      integer, allocatable :: front(:, :), first(:), list(:)
+      integer :: e, f
 
-      allocate (front(model%n_elements))
+      allocate (front(1, max(model%n_elements, size(model%interface))))
       do e = 1, model%n_elements
-         front(e) = front_of(tree, pack(tree%number(:, coupled_nodes(model, e)), .true.))
+         front(1, e) = front_of(tree, pack(tree%number(:, coupled_nodes(model, e)), .true.))
       end do
-      call collect(front, tree, for_springs=.false.)
-      call list_interface_equations(model%interface, tree%number, tree%joints)
-      front = [(front_of(tree, tree%joints%rows_of(e)), e = 1, size(model%interface))]
-      call collect(front, tree, for_springs=.true.)
-   end subroutine hand_out_elements
-
-
-   !> Lists of what belongs to each front: number i to FRONT(i), to none where that is 0.
-   subroutine collect(front, tree, for_springs)
-      integer, intent(in)                  :: front(:)
-      type(front_tree_type), intent(inout) :: tree
-      logical, intent(in)                  :: for_springs
-      integer, allocatable :: first(:), list(:)
-      integer :: f
-
-      call list_owners(size(tree%fronts), reshape(front, [1, size(front)]), first, list)
+      call list_owners(size(tree%fronts), front(:, :model%n_elements), first, list)
       do f = 1, size(tree%fronts)
-         associate (of_front => list(first(f):first(f + 1) - 1))
-            if (for_springs) then
-               tree%fronts(f)%springs = of_front
-            else
-               tree%fronts(f)%elements = of_front
-            end if
-         end associate
+         tree%fronts(f)%elements = list(first(f):first(f + 1) - 1)
       end do
-   end subroutine collect
+      call list_interface_equations(model%interface, tree%number, tree%joints)
+      do e = 1, size(model%interface)
+         front(1, e) = front_of(tree, tree%joints%rows_of(e))
+      end do
+      call list_owners(size(tree%fronts), front(:, :size(model%interface)), first, list)
+      do f = 1, size(tree%fronts)
+         tree%fronts(f)%springs = list(first(f):first(f + 1) - 1)
+      end do
+   end subroutine hand_out_elements
 
 
    !> The front that eliminates the first of EQUATIONS, 0 where all are 0.

@@ -1,5 +1,7 @@
-!> What is needed against what the machine has. A factor is looked at when its layout is known, and before it is made.
+!> What is needed against what the machine has. Of a model it is told from its cards before a node is made: what no order of
+!! elimination changes. A factor is looked at when its layout is known, and before it is made.
 module memory_need
+   use deck_input, only: deck_type
    use failures, only: failure_type
    use kinds, only: wp
    use machine, only: memory_for
@@ -7,9 +9,30 @@ module memory_need
    implicit none
    private
 
-   public :: check_memory, shortage
+   public :: check_model_size, check_memory, shortage
+
+   real(wp), parameter :: node_bytes = 500.0_wp !! of a node, its elements, the graph, arrays over nodes; a factor takes far more
 
 contains
+
+   !> A failure where the memory does not hold the nodes of the deck's blocks and GRID cards.
+   subroutine check_model_size(deck, failure)
+      type(deck_type), intent(in)       :: deck
+      type(failure_type), intent(inout) :: failure
+      character(:), allocatable :: words
+      real(wp) :: nodes, share
+      integer  :: b
+
+      associate (bulk => deck%bulk)
+         nodes = size(bulk%grid)
+         do b = 1, size(bulk%block)
+            nodes = nodes + product(bulk%block(b)%divisions + 1.0_wp)
+         end do
+      end associate
+      call shortage('the nodes of the model need at least', node_bytes*nodes, words, share)
+      if (words /= '') call failure%raise(words)
+   end subroutine check_model_size
+
 
    !> A failure where so many BYTES for the factor of N equations are more than can be had; its message says what would fit.
    subroutine check_memory(n, dimension, bytes, failure)

@@ -64,8 +64,9 @@ contains
    end subroutine order_by_metis
 
 
-   !> Cut GRAPH by separators into N_PARTS, a power of 2: PLACE of every node in a separator_tree; all in place 1 where METIS
-   !! does not say which nodes the separators are. OK is false where there is not the memory: METIS would end the program.
+   !> Cut GRAPH by separators into N_PARTS, a power of 2: PLACE of every node in the tree of nested_dissection; all in place 1
+   !! where METIS does not say which nodes the separators are. OK is false where there is not the memory: METIS would end the
+   !! program.
    subroutine separate_by_metis(graph, n_parts, place, ok)
       type(node_graph_type), intent(in) :: graph
       integer, intent(in)               :: n_parts

@@ -1,16 +1,19 @@
 !> The order of elimination: nested dissection of the node graph. METIS dissects; large graphs of plane meshes it sees coarsely
 !! first, nodes by fours: the separators of the coarse graph, thinned, are as good as those of the fine one, and the whole takes
 !! half the time. In space they are worse, by a tenth of the operations, and the order is a small part of the whole.
+!!
+!! Separators cut a graph in two, the halves again, and so on: a binary tree, its places numbered as in a heap, the children of h
+!! are 2h and 2h + 1. Inner places hold the separators, the leaves what is left between them. Neighbours stand in places of which
+!! one is above the other.
+!! Source of the coarse graph: heavy-edge matching, Karypis, Kumar, SIAM J. Sci. Comput. 20 (1998) 359-392, section 3.1.
 module nested_dissection
-   use graph_coarsening, only: coarsen, weigh_links
    use metis, only: order_by_metis, separate_by_metis
    use node_graph, only: node_graph_type, part_of_graph
    use reverse_lists, only: list_owners
-   use separator_tree, only: thin_separators
    implicit none
    private
 
-   public :: dissect, dissect_coarsely
+   public :: dissect, dissect_coarsely, weigh_links, coarsen, thin_separators
 
    integer, parameter :: large = 20000      ! nodes from which on a graph is coarsened
    integer, parameter :: flat = 10          ! neighbours of a node, on the average, up to which a mesh is taken for a plane one
@@ -96,5 +99,120 @@ contains
       end subroutine order_subtree
 
    end subroutine dissect_coarsely
+
+
+   !> WEIGHT of every link to a neighbour: one, and one for every neighbour that both have.
+   pure subroutine weigh_links(graph, weight)
+      type(node_graph_type), intent(in) :: graph
+      integer, allocatable, intent(out) :: weight(:) !! as graph%neighbours
+      integer, allocatable :: mark(:)
+      integer :: i, j, k, l
+
+      allocate (weight(size(graph%neighbours)), source=1)
+      allocate (mark(graph%n), source=0)
+      do i = 1, graph%n
+         mark(graph%neighbours(graph%first(i):graph%first(i + 1) - 1)) = i
+         do k = graph%first(i), graph%first(i + 1) - 1
+            j = graph%neighbours(k)
+            do l = graph%first(j), graph%first(j + 1) - 1
+               if (mark(graph%neighbours(l)) == i) weight(k) = weight(k) + 1
+            end do
+         end do
+      end do
+   end subroutine weigh_links
+
+
+   !> A graph with half the nodes: every node is joined with the neighbour, not joined yet, to which its link weighs most; the
+   !! COARSE graph has the links between them, their weights added up.
+   pure subroutine coarsen(graph, weight, coarse, coarse_weight, of_node)
+      type(node_graph_type), intent(in)  :: graph
+      integer, intent(in)                :: weight(:)        !! as graph%neighbours
+      type(node_graph_type), intent(out) :: coarse
+      integer, allocatable, intent(out)  :: coarse_weight(:) !! as coarse%neighbours
+      integer, allocatable, intent(out)  :: of_node(:)       !! (graph%n) what of COARSE a node is in
+      integer, allocatable :: members(:, :), at(:)
+      integer :: best, c, i, j, k, m, most, n
+
+      allocate (of_node(graph%n), source=0)
+      allocate (members(2, graph%n), source=0)
+      coarse%n = 0
+      do i = 1, graph%n
+         if (of_node(i) > 0) cycle
+         best = 0
+         most = 0
+         do k = graph%first(i), graph%first(i + 1) - 1
+            if (of_node(graph%neighbours(k)) > 0 .or. weight(k) <= most) cycle
+            best = graph%neighbours(k)
+            most = weight(k)
+         end do
+         coarse%n = coarse%n + 1
+         members(:, coarse%n) = [i, best]
+         of_node(i) = coarse%n
+         if (best > 0) of_node(best) = coarse%n
+      end do
+
+      allocate (coarse%first(coarse%n + 1), coarse%neighbours(size(graph%neighbours)))
+      allocate (coarse_weight(size(graph%neighbours)), source=0)
+      allocate (at(coarse%n), source=0)               ! where a neighbour stands in the list
+      n = 0
+      do c = 1, coarse%n
+         coarse%first(c) = n + 1
+         do m = 1, 2
+            i = members(m, c)
+            if (i == 0) cycle
+            do k = graph%first(i), graph%first(i + 1) - 1
+               j = of_node(graph%neighbours(k))
+               if (j == c) cycle
+               if (at(j) < coarse%first(c)) then
+                  n = n + 1
+                  at(j) = n
+                  coarse%neighbours(n) = j
+               end if
+               coarse_weight(at(j)) = coarse_weight(at(j)) + weight(k)
+            end do
+         end do
+      end do
+      coarse%first(coarse%n + 1) = n + 1
+      coarse%neighbours = coarse%neighbours(:n)
+      coarse_weight = coarse_weight(:n)
+   end subroutine coarsen
+
+
+
+   !> Separators of a coarse graph are thick in the fine one: PLACE(node). Every node that does not have neighbours on both sides
+   !! of its separator goes down to the side where it has some, and on, until it separates or is in a leaf.
+   pure subroutine thin_separators(graph, n_leaves, place)
+      type(node_graph_type), intent(in) :: graph
+      integer, intent(in)               :: n_leaves  !! a power of 2; they are places n_leaves to 2 n_leaves - 1
+      integer, intent(inout)            :: place(:)  !! (graph%n)
+      logical :: on_one_side, on_the_other
+      integer :: i
+
+      do i = 1, graph%n
+         do while (place(i) < n_leaves)
+            on_one_side = is_below(2*place(i))
+            on_the_other = is_below(2*place(i) + 1)
+            if (on_one_side .eqv. on_the_other) exit
+            place(i) = 2*place(i) + merge(0, 1, on_one_side)
+         end do
+      end do
+
+   contains
+
+      !> Whether a neighbour of node I stands in the subtree of place TOP.
+      pure logical function is_below(top)
+         integer, intent(in) :: top
+         integer :: k, shift
+
+         is_below = .false.
+         do k = graph%first(i), graph%first(i + 1) - 1
+            shift = leadz(top) - leadz(place(graph%neighbours(k)))
+            if (shift < 0) cycle
+            is_below = shiftr(place(graph%neighbours(k)), shift) == top
+            if (is_below) return
+         end do
+      end function is_below
+
+   end subroutine thin_separators
 
 end module nested_dissection

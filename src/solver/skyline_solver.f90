@@ -3,7 +3,7 @@
 module skyline_solver
    use body_elements, only: coupled_stiffness
    use element_kinds, only: max_coupled_dofs
-   use equation_solver, only: equation_system, pivot_tolerance, solver_description
+   use equation_solver, only: equation_system, pivot_tolerance
    use failures, only: failure_type
    use interface_equations, only: interface_equations_type, list_interface_equations
    use kinds, only: long, wp
@@ -32,7 +32,6 @@ module skyline_solver
       procedure :: form_structure
       procedure :: solve
       procedure :: multiply
-      procedure :: describe
    end type skyline_solver_type
 
 contains
@@ -77,6 +76,12 @@ contains
       self%equations = [(i, i = 1, self%n)]
       self%retained = pack([(i, i = 1, model%n_nodes)], model%used)
       call list_interface_equations(model%interface, self%number, self%joints)
+      associate (description => self%description)
+         description%name = 'SKYLINE'
+         description%words(:2) = [character(40) :: 'PROFILE OF THE STIFFNESS MATRIX, ENTRIES', &
+                                  '   IN THE ORDER OF THE NODE NUMBERS']
+         description%numbers(:2) = [self%profile, self%profile_as_numbered]
+      end associate
    end subroutine start
 
 
@@ -201,16 +206,6 @@ contains
 
       call skyline_times_vector(self%body, x, y)
    end subroutine multiply
-
-
-   subroutine describe(self, description)
-      class(skyline_solver_type), intent(in) :: self
-      type(solver_description), intent(out)  :: description
-
-      description%name = 'SKYLINE'
-      description%words(:2) = [character(40) :: 'PROFILE OF THE STIFFNESS MATRIX, ENTRIES', '   IN THE ORDER OF THE NODE NUMBERS']
-      description%numbers(:2) = [self%profile, self%profile_as_numbered]
-   end subroutine describe
 
 
    !> Add an element matrix to the upper triangle; row 0 is a held component.

@@ -4,7 +4,7 @@
 !! joints inside: they stay where the dissection puts them;
 !! joints last in parts: in every subtree up to some size they come last, the bodies are condensed piece by piece.
 module tree_solver
-   use equation_solver, only: equation_system, solver_description
+   use equation_solver, only: equation_system
    use failures, only: failure_type
    use conjugate_gradients, only: iterate_moving
    use earlier_solutions, only: earlier_solutions_type, forget_solutions, guess_solution, note_solution
@@ -25,7 +25,7 @@ module tree_solver
    real(wp), parameter :: step_tolerance = 1.0e-13_wp !! of conjugate gradients: share of the energy of the solution, as a length
 
    !> What is known of the stiffness now, beside the factor in the fronts.
-   type, public :: moving_factor_type
+   type :: moving_factor_type
       logical :: is_own = .false.                     !! whether the factor is that of the stiffness now, not an earlier one
       logical :: is_awaited = .false.                 !! whether the one solution that is wanted is still to come
       real(wp), allocatable :: k_int(:, :, :)         !! (3, 3, n) of interface elements, that the factor is of [force/length]
@@ -37,9 +37,6 @@ module tree_solver
       type(front_tree_type) :: fronts
       type(moving_factor_type) :: factor          !! of the stiffness with the joints, and what is known of it
       character(:), allocatable :: way            !! in which the joints are laid out
-      integer(long) :: factor_entries = 0
-      real(wp) :: fixed_operations  = 0.0_wp      !! of one factorisation of the fronts that do not move
-      real(wp) :: moving_operations = 0.0_wp      !! of the others, in every increment that factorises
    contains
       procedure :: start
       procedure :: form_bodies
@@ -50,7 +47,6 @@ module tree_solver
       procedure :: solve
       procedure :: multiply
       procedure :: recover
-      procedure :: describe
    end type tree_solver_type
 
 contains
@@ -83,11 +79,15 @@ contains
       if (failure%raised) return
       call self%number_unknowns(model, layout%order)
       call start_front_tree(model, self%number, layout, self%fronts)
-      self%factor_entries = int(layout%factor_entries, long)
-      self%fixed_operations = layout%fixed_operations
-      self%moving_operations = layout%moving_operations
       call self%factor%reuse%set_costs(layout%moving_operations, layout%moving_entries)
       self%equations = self%fronts%equations
+      associate (description => self%description)
+         description%name = 'TREE, JOINTS '//self%way
+         description%words = [character(40) :: 'FRONTS', 'ENTRIES OF THE FACTOR', 'UNKNOWNS LEFT AFTER CONDENSATION']
+         description%numbers = [int(layout%n, long), int(layout%factor_entries, long), size(self%equations, kind=long)]
+         description%fixed_operations = layout%fixed_operations
+         description%moving_operations = layout%moving_operations
+      end associate
       in_joint(self%node(self%equations)) = .true.
       self%retained = pack([(i, i = 1, model%n_nodes)], in_joint)
    end subroutine start
@@ -119,6 +119,7 @@ contains
       integer, intent(out)                   :: fault
 
       call factorise_fixed(model, self%fronts, fault)
+      self%description%assembly_time = self%fronts%assembly_time
       if (fault == 0) self%stiffest = largest_diagonal(self%fronts)
    end subroutine form_bodies
 
@@ -262,18 +263,5 @@ contains
       x(self%equations) = u(self%equations)
       call recover_fixed(self%fronts, x)
    end subroutine recover
-
-
-   subroutine describe(self, description)
-      class(tree_solver_type), intent(in)   :: self
-      type(solver_description), intent(out) :: description
-
-      description%name = 'TREE, JOINTS '//self%way
-      description%words = [character(40) :: 'FRONTS', 'ENTRIES OF THE FACTOR', 'UNKNOWNS LEFT AFTER CONDENSATION']
-      description%numbers = [size(self%fronts%fronts, kind=long), self%factor_entries, size(self%equations, kind=long)]
-      description%fixed_operations = self%fixed_operations
-      description%moving_operations = self%moving_operations
-      description%assembly_time = self%fronts%assembly_time
-   end subroutine describe
 
 end module tree_solver

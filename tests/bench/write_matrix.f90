@@ -15,7 +15,7 @@
 !!    real(wp)        closing(6, m)       lambda = sum of closing*displacement
 program write_matrix
    use, intrinsic :: iso_fortran_env, only: error_unit
-   use body_elements, only: element_stiffness
+   use body_elements, only: coupled_stiffness
    use command_arguments, only: argument_text
    use deck_errors, only: deck_error_list
    use deck_input, only: deck_type, read_deck
@@ -110,7 +110,7 @@ contains
       d = model%dimension
       k = 0.0_wp
       do e = 1, model%n_elements
-         if (present(rows)) call element_stiffness(model, e, k)
+         if (present(rows)) call coupled_stiffness(model, e, k)
          call visit(equations_of(corners_of(model, e)), k, place, rows, values)
       end do
       do i = 1, size(model%interface)

@@ -1,7 +1,7 @@
 !> The stiffness of a whole structure as one dense matrix, solved and condensed by LAPACK: what the solvers are compared with.
 !! Row (node - 1) dimension + direction, held components and all.
 module dense_structure
-   use body_elements, only: element_stiffness
+   use body_elements, only: coupled_stiffness
    use element_kinds, only: max_dofs
    use kinds, only: wp
    use model_data, only: corners_of, model_type, n_bars
@@ -31,7 +31,7 @@ contains
 
       allocate (k(model%dimension*model%n_nodes, model%dimension*model%n_nodes), source=0.0_wp)
       do e = 1, model%n_elements
-         call element_stiffness(model, e, k_e)
+         call coupled_stiffness(model, e, k_e)
          call add(rows_of(model, corners_of(model, e)), k_e)
       end do
       do i = 1, n_bars(model)

@@ -1,12 +1,15 @@
 !> Elements for tests of shapes, stiffnesses and loads.
 module sample_elements
+   use elasticity, only: axisymmetric
    use element_kinds, only: element_table, max_nodes
+   use element_mapping, only: element_law, element_map, map_element, map_point, max_shapes
    use kinds, only: wp
+   use quadrature, only: body_rule, integration_rule
    use shape_functions, only: corner_point
    implicit none
    private
 
-   public :: distorted
+   public :: distorted, element_volume
 
 contains
 
@@ -24,5 +27,24 @@ contains
          end do
       end do
    end function distorted
+
+
+   !> Volume of an element: area times thickness in the plane, of the whole ring in an axisymmetric body [length^3].
+   pure real(wp) function element_volume(law, x) result(total)
+      type(element_law), intent(in) :: law
+      real(wp), intent(in)          :: x(:, :)            !! corners (dimension, nodes) [length]
+      type(integration_rule) :: rule
+      type(element_map)      :: map
+      real(wp) :: g(3, max_shapes), volume
+      integer  :: i
+
+      call map_element(law, x, map)
+      call body_rule(law%kind, law%state == axisymmetric, rule)
+      total = 0.0_wp
+      do i = 1, rule%n
+         call map_point(law, map, rule%point(:, i), g, volume)
+         total = total + rule%weight(i)*volume
+      end do
+   end function element_volume
 
 end module sample_elements

@@ -1,8 +1,6 @@
 !> The laws of the joints: from PJOINT, JNORM and JSHEAR cards to the joints that name them.
 module law_build
-   use deck_cards, only: add_field_error
-   use deck_errors, only: deck_error_list
-   use deck_input, only: deck_type
+   use deck_check, only: checked_deck
    use id_table, only: id_table_type
    use kinds, only: wp
    use model_data, only: joint_type, model_type
@@ -22,28 +20,27 @@ contains
 
    !> The TABLES of the law cards of DECK.
    subroutine list_laws(deck, tables)
-      type(deck_type), intent(in)     :: deck
+      type(checked_deck), intent(in)  :: deck
       type(law_tables), intent(inout) :: tables
 
-      call tables%pjoint%build(deck%bulk%pjoint(:deck%bulk%n_pjoint)%id)
-      call tables%jnorm%build(deck%bulk%jnorm(:deck%bulk%n_jnorm)%id)
-      call tables%jshear%build(deck%bulk%jshear(:deck%bulk%n_jshear)%id)
+      call tables%pjoint%build(deck%bulk%pjoint%id)
+      call tables%jnorm%build(deck%bulk%jnorm%id)
+      call tables%jshear%build(deck%bulk%jshear%id)
    end subroutine list_laws
 
 
    !> The laws of a joint, by the id of its PJOINT.
-   subroutine resolve_laws(deck, tables, id, joint, errors)
-      type(deck_type), intent(in)          :: deck
-      type(law_tables), intent(in)         :: tables
-      integer, intent(in)                  :: id
-      type(joint_type), intent(inout)      :: joint
-      type(deck_error_list), intent(inout) :: errors
+   subroutine resolve_laws(deck, tables, id, joint)
+      type(checked_deck), intent(in)  :: deck
+      type(law_tables), intent(in)    :: tables
+      integer, intent(in)             :: id
+      type(joint_type), intent(inout) :: joint
       integer :: direction, i, k
 
       if (id == 0) return
       i = tables%pjoint%find(id)
       if (i == 0) then
-         call add_field_error(deck%text, joint%line, 2, 'PJID', 'there is no PJOINT '//integer_text(id), errors)
+         call deck%field_error(joint%line, 'PJID', 'there is no PJOINT '//integer_text(id))
          return
       end if
       associate (pjoint => deck%bulk%pjoint(i), law => joint%law)
@@ -66,10 +63,10 @@ contains
 
 
    !> The unloading slope that the card leaves blank: E of the body at the joint, per unit length.
-   subroutine default_slope(model, joint, errors)
-      type(model_type), intent(in)         :: model
-      type(joint_type), intent(inout)      :: joint
-      type(deck_error_list), intent(inout) :: errors
+   subroutine default_slope(deck, model, joint)
+      type(checked_deck), intent(in)  :: deck
+      type(model_type), intent(in)    :: model
+      type(joint_type), intent(inout) :: joint
       integer :: i, k, node
 
       if (joint%e_u_given .or. joint%law%normal%c <= 0.0_wp) return
@@ -83,7 +80,7 @@ contains
             return
          end do
       end do
-      if (joint%last >= joint%first) call errors%add(joint%line, 'joint '//integer_text(joint%id)// &
+      if (joint%last >= joint%first) call deck%errors%add(joint%line, 'joint '//integer_text(joint%id)// &
          ': the JNORM of this joint leaves EU blank, and there is no body at the joint to take E from: give EU')
    end subroutine default_slope
 

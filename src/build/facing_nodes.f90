@@ -1,8 +1,6 @@
 !> Which nodes of the two sides of a joint face each other.
 module facing_nodes
-   use deck_cards, only: add_field_error
-   use deck_errors, only: deck_error_list
-   use deck_input, only: deck_type
+   use deck_check, only: checked_deck
    use kinds, only: wp
    use model_data, only: model_type
    use position_search, only: position_search_type
@@ -19,17 +17,17 @@ module facing_nodes
 contains
 
    !> For every node of side 1 the node of side 2 at the same place.
-   subroutine pair_nodes(deck, j, model, surface, side1, side2, partner, errors)
-      type(deck_type), intent(in)          :: deck
-      integer, intent(in)                  :: j, surface
-      type(model_type), intent(in)         :: model
-      type(surface_node_list), intent(in)  :: side1, side2
-      integer, intent(inout)               :: partner(:)
-      type(deck_error_list), intent(inout) :: errors
+   subroutine pair_nodes(deck, j, model, surface, side1, side2, partner)
+      type(checked_deck), intent(in)      :: deck
+      integer, intent(in)                 :: j, surface
+      type(model_type), intent(in)        :: model
+      type(surface_node_list), intent(in) :: side1, side2
+      integer, intent(inout)              :: partner(:)
       type(position_search_type) :: search
       real(wp) :: tolerance, distance, shortest, worst
       integer  :: k, found, lonely, shared, turned, worst_node, e
       logical, allocatable :: taken(:)
+      character(:), allocatable :: place
 
       associate (card => deck%bulk%joint(j), edges => model%surfaces(surface))
          shortest = huge(1.0_wp)
@@ -61,32 +59,26 @@ contains
             end if
          end do
          if (lonely > 0) then
-            call add_field_error(deck%text, card%line, 4, 'SIDE2', 'the sides do not face each other node by node: '// &
+            place = ''
+            do k = 1, model%dimension
+               place = place//real_text(model%x(k, worst_node))//', '
+            end do
+            call deck%field_error(card%line, 'SIDE2', 'the sides do not face each other node by node: '// &
                plural(lonely, 'node')//' of '//integer_text(side1%n)//' of SIDE1 found no partner within '// &
                real_text(tolerance)//'; the farthest is node '//integer_text(model%node_id(worst_node))//' at '// &
-               place_text(model, worst_node)//', '//real_text(worst)//' away', errors)
+               place//real_text(worst)//' away')
          else if (shared > 0) then
-            call add_field_error(deck%text, card%line, merge(5, 4, card%tolerance > 0.0_wp), 'TOL', 'within '// &
-               real_text(tolerance)//' '//plural(shared, 'node')//' of SIDE1 found a partner that another one has', errors)
+            call deck%field_error(card%line, trim(merge('TOL  ', 'SIDE2', card%tolerance > 0.0_wp)), 'within '// &
+               real_text(tolerance)//' '//plural(shared, 'node')//' of SIDE1 found a partner that another one has', &
+               called='TOL')
          else if (turned > 0) then
-            call add_field_error(deck%text, card%line, 4, 'SIDE2', 'the sides do not face each other: at '// &
-               plural(turned, 'node')//' their normals do not point against each other', errors)
+            call deck%field_error(card%line, 'SIDE2', 'the sides do not face each other: at '//plural(turned, 'node')// &
+                                  ' their normals do not point against each other')
          else if (side2%n /= side1%n) then
-            call add_field_error(deck%text, card%line, 4, 'SIDE2', 'SIDE2 has '//plural(side2%n, 'node')//', SIDE1 '// &
-               integer_text(side1%n)//': every node needs its partner', errors)
+            call deck%field_error(card%line, 'SIDE2', 'SIDE2 has '//plural(side2%n, 'node')//', SIDE1 '// &
+                                  integer_text(side1%n)//': every node needs its partner')
          end if
       end associate
    end subroutine pair_nodes
-
-
-   !> Where a node lies, for messages.
-   function place_text(model, node) result(text)
-      type(model_type), intent(in) :: model
-      integer, intent(in)          :: node
-      character(:), allocatable    :: text
-
-      text = real_text(model%x(1, node))//', '//real_text(model%x(2, node))
-      if (model%dimension == 3) text = text//', '//real_text(model%x(3, node))
-   end function place_text
 
 end module facing_nodes

@@ -1,10 +1,10 @@
 !> Supports: which components of which nodes are held.
-module condition_build
-   use bulk_data, only: support_card
-   use deck_cards, only: add_field_error
-   use deck_errors, only: deck_error_list
-   use deck_input, only: deck_type
+module support_build
+   use bulk_data, only: has_component, support_card
+   use deck_check, only: checked_deck
    use model_data, only: model_type, n_bars
+   use surface_build, only: find_surface
+   use surface_sides, only: nodes_of
    use text_tools, only: integer_text
    implicit none
    private
@@ -14,12 +14,10 @@ module condition_build
 contains
 
    !> Nodes that some element holds, and the components that the SPC set of case control and PS of GRID support.
-   subroutine build_supports(deck, model, errors)
-      type(deck_type), intent(in)          :: deck
-      type(model_type), intent(inout)      :: model
-      type(deck_error_list), intent(inout) :: errors
-      integer :: i, node, set, set_line
-      logical :: found
+   subroutine build_supports(deck, model)
+      type(checked_deck), intent(in)  :: deck
+      type(model_type), intent(inout) :: model
+      integer :: i, set, set_line
 
       allocate (model%held(model%dimension, model%n_nodes), source=.false.)
       allocate (model%used(model%n_nodes))
@@ -28,11 +26,9 @@ contains
          model%used(model%interface(i)%node) = .true.
       end do
       do i = 1, n_bars(model)
-         do node = 1, 2
-            if (model%bars(i)%nodes(node) > 0) model%used(model%bars(i)%nodes(node)) = .true.
-         end do
+         model%used(pack(model%bars(i)%nodes, model%bars(i)%nodes > 0)) = .true.
       end do
-      do i = 1, deck%bulk%n_grid
+      do i = 1, size(deck%bulk%grid)
          if (deck%bulk%grid(i)%ps == 0) cycle
          call hold(model, model%node_table%find(deck%bulk%grid(i)%id), deck%bulk%grid(i)%ps)
       end do
@@ -41,45 +37,38 @@ contains
          set = deck%control%stages(1)%supports%id
          set_line = deck%control%stages(1)%supports%line
       end if
-      found = .false.
-      do i = 1, deck%bulk%n_support
-         found = found .or. deck%bulk%support(i)%set == set
-         call apply_support(deck, deck%bulk%support(i), deck%bulk%support(i)%set == set, model, errors)
+      do i = 1, size(deck%bulk%support)
+         call apply_support(deck, deck%bulk%support(i), deck%bulk%support(i)%set == set, model)
       end do
-      if (set > 0 .and. .not. found) call errors%add(set_line, 'SPC: there is no SPC, SPC1 or SPCM with set '// &
-                                                     integer_text(set))
+      if (set > 0 .and. all(deck%bulk%support%set /= set)) &
+         call deck%errors%add(set_line, 'SPC: there is no SPC, SPC1 or SPCM with set '//integer_text(set))
    end subroutine build_supports
 
 
    !> Check one support card, and hold its nodes where it is of the ACTIVE set.
-   subroutine apply_support(deck, support, active, model, errors)
-      type(deck_type), intent(in)          :: deck
-      type(support_card), intent(in)       :: support
-      logical, intent(in)                  :: active
-      type(model_type), intent(inout)      :: model
-      type(deck_error_list), intent(inout) :: errors
-      integer :: e, k, node, surface
+   subroutine apply_support(deck, support, active, model)
+      type(checked_deck), intent(in)  :: deck
+      type(support_card), intent(in)  :: support
+      logical, intent(in)             :: active
+      type(model_type), intent(inout) :: model
+      integer, allocatable :: nodes(:)
+      integer :: k, node, surface
       logical :: any_node
 
       if (support%surface > 0) then
-         surface = findloc(model%surfaces%id, support%surface, dim=1)
-         if (surface == 0) then
-            call add_field_error(deck%text, support%line, 3, 'PID', 'there is no PMARK '//integer_text(support%surface), errors)
-            return
-         end if
-         if (.not. active) return
-         do e = 1, model%surfaces(surface)%n
-            do k = 1, model%surfaces(surface)%corners(e)
-               call hold(model, model%surfaces(surface)%nodes(k, e), support%components)
-            end do
+         call find_surface(deck, support%line, 'PID', support%surface, model, surface)
+         if (surface == 0 .or. .not. active) return
+         nodes = nodes_of(model%surfaces(surface))
+         do k = 1, size(nodes)
+            call hold(model, nodes(k), support%components)
          end do
          return
       end if
       do k = 1, size(support%first)
          if (support%first(k) == support%last(k)) then
             node = model%node_table%find(support%first(k))
-            if (node == 0 .and. support%first(k) > 0) call add_field_error(deck%text, support%line, support%at(k), 'G', &
-               'there is no GRID '//integer_text(support%first(k)), errors)
+            if (node == 0 .and. support%first(k) > 0) call deck%field_error(support%line, support%at(k), &
+               'there is no GRID '//integer_text(support%first(k)), called='G')
             if (node > 0 .and. active) call hold(model, node, support%components)
             cycle
          end if
@@ -90,8 +79,8 @@ contains
             any_node = .true.
             if (active) call hold(model, node, support%components)
          end do
-         if (.not. any_node) call add_field_error(deck%text, support%line, support%at(k), 'G', 'there is no GRID from '// &
-            integer_text(support%first(k))//' to '//integer_text(support%last(k)), errors)
+         if (.not. any_node) call deck%field_error(support%line, support%at(k), 'there is no GRID from '// &
+            integer_text(support%first(k))//' to '//integer_text(support%last(k)), called='G')
       end do
    end subroutine apply_support
 
@@ -120,18 +109,14 @@ contains
    pure subroutine hold(model, node, components)
       type(model_type), intent(inout) :: model
       integer, intent(in)             :: node, components
-      integer :: rest, digit
+      integer :: d
 
       if (node == 0) return
-      rest = components
-      do while (rest > 0)
-         digit = modulo(rest, 10)
-         if (digit >= 1 .and. digit <= model%dimension) then
-            model%held(digit, node) = .true.
-            if (model%twin(node) > 0) model%held(digit, model%twin(node)) = .true. ! a split node: both of it
-         end if
-         rest = rest/10
+      do d = 1, model%dimension
+         if (.not. has_component(components, d)) cycle
+         model%held(d, node) = .true.
+         if (model%twin(node) > 0) model%held(d, model%twin(node)) = .true. ! a split node: both of it
       end do
    end subroutine hold
 
-end module condition_build
+end module support_build

@@ -1,19 +1,19 @@
 !> Marked surfaces: which body elements their sides belong to, which way they face, the areas of their nodes.
 module surface_build
-   use deck_cards, only: add_field_error
-   use deck_errors, only: deck_error_list
-   use deck_input, only: deck_type
+   use deck_check, only: checked_deck
    use element_kinds, only: element_table, max_side_nodes
    use element_loads, only: side_areas, side_forces
-   use id_table, only: distinct, id_table_type, sorted_order
+   use id_table, only: id_table_type, sorted_order
    use kinds, only: wp
+   use mesh_build, only: marked_sides
    use model_data, only: model_type, surface_type
-   use side_build, only: marked_sides
+   use reverse_lists, only: list_owners
+   use surface_sides, only: nodes_of
    use text_tools, only: integer_text
    implicit none
    private
 
-   public :: build_surfaces, surface_nodes, side_of_element, side_influence
+   public :: build_surfaces, find_surface, surface_nodes, side_of_element, side_influence
 
    !> The nodes of a surface, each once, in ascending order of their numbers.
    type, public :: surface_node_list
@@ -26,85 +26,79 @@ module surface_build
 contains
 
    !> One surface for every PMARK card, with the sides that name it.
-   subroutine build_surfaces(deck, sides, model, errors)
-      type(deck_type), intent(in)          :: deck
-      type(marked_sides), intent(in)       :: sides
-      type(model_type), intent(inout)      :: model
-      type(deck_error_list), intent(inout) :: errors
+   subroutine build_surfaces(deck, sides, model)
+      type(checked_deck), intent(in)  :: deck
+      type(marked_sides), intent(in)  :: sides
+      type(model_type), intent(inout) :: model
       type(id_table_type)  :: marks
-      integer, allocatable :: surface(:), filled(:)
-      integer :: i, k, n
+      integer, allocatable :: surface(:), first(:), members(:)
+      integer :: i, k
 
-      n = deck%bulk%n_pmark
-      call marks%build(deck%bulk%pmark(:n)%id)
-      allocate (model%surfaces(n), surface(sides%n), filled(n))
-      filled = 0
+      call marks%build(deck%bulk%pmark%id)
+      allocate (model%surfaces(size(deck%bulk%pmark)), surface(sides%n))
       do i = 1, sides%n
          surface(i) = marks%find(sides%mark(i))
-         if (surface(i) > 0) then
-            filled(surface(i)) = filled(surface(i)) + 1
-         else if (sides%mark(i) > 0) then
-            call add_field_error(deck%text, sides%line(i), sides%field(i), mark_name(sides%field(i)), 'there is no PMARK '// &
-                                 integer_text(sides%mark(i))//shell_hint(sides, i), errors)
-         end if
+         if (surface(i) == 0 .and. sides%mark(i) > 0) call report_missing(deck, sides, i)
       end do
-      do k = 1, n
-         model%surfaces(k)%id = deck%bulk%pmark(k)%id
-         model%surfaces(k)%n = 0
-         allocate (model%surfaces(k)%nodes(merge(2, max_side_nodes, model%dimension == 2), filled(k)), source=0)
-         allocate (model%surfaces(k)%element(filled(k)), model%surfaces(k)%other(filled(k)), &
-                   model%surfaces(k)%line(filled(k)), model%surfaces(k)%corners(filled(k)))
-         if (filled(k) > 0 .or. model%surfaces(k)%id == 0) cycle
-         if (findloc(deck%bulk%pmark(:k)%id, model%surfaces(k)%id, dim=1) < k) cycle ! a number given twice: said elsewhere
-         if (model%dimension == 3) then
-            call add_field_error(deck%text, deck%bulk%pmark(k)%line, 1, 'PID', 'surface '// &
-               integer_text(model%surfaces(k)%id)//' has no face: expected a CTRIA3, CQUAD4 or side of a block with this PID', &
-               errors)
-         else
-            call add_field_error(deck%text, deck%bulk%pmark(k)%line, 1, 'PID', 'surface '// &
-               integer_text(model%surfaces(k)%id)//' has no edge: expected a CBAR, CROD or side of a block with this PID', errors)
-         end if
-      end do
-      do i = 1, sides%n
-         if (surface(i) == 0 .or. any(sides%nodes(:sides%corners(i), i) == 0)) cycle
-         call add_side(sides, i, model, model%surfaces(surface(i)), errors)
-      end do
-      do k = 1, n
-         call check_repeated(model, model%surfaces(k), errors)
+      call list_owners(size(model%surfaces), reshape(surface, [1, sides%n]), first, members)
+      do k = 1, size(model%surfaces)
+         associate (this => model%surfaces(k), card => deck%bulk%pmark(k), n => first(k + 1) - first(k))
+            this%id = card%id
+            allocate (this%nodes(merge(2, max_side_nodes, model%dimension == 2), n), source=0)
+            allocate (this%element(n), this%other(n), this%line(n), this%corners(n))
+            do i = first(k), first(k + 1) - 1
+               if (any(sides%nodes(:sides%corners(members(i)), members(i)) == 0)) cycle ! said already
+               call add_side(deck, sides, members(i), model, this)
+            end do
+            call check_repeated(deck, model, this)
+            if (n > 0 .or. card%id == 0 .or. marks%find(card%id) < k) cycle ! the last: a number given twice, said elsewhere
+            call deck%field_error(card%line, 'PID', 'surface '//integer_text(card%id)//' has no '// &
+               trim(merge('face: expected a CTRIA3, CQUAD4', 'edge: expected a CBAR, CROD    ', model%dimension == 3))// &
+               ' or side of a block with this PID')
+         end associate
       end do
    end subroutine build_surfaces
 
 
-   !> The field that names a mark: PID of an edge or face, S1 to S6 of a block.
-   pure function mark_name(field) result(name)
-      integer, intent(in)       :: field
-      character(:), allocatable :: name
+   !> Which SURFACE of MODEL the FIELD of the card on LINE names by its ID; 0, and an error, where there is none.
+   subroutine find_surface(deck, line, field, id, model, surface)
+      type(checked_deck), intent(in) :: deck
+      integer, intent(in)            :: line, id
+      character(*), intent(in)       :: field
+      type(model_type), intent(in)   :: model
+      integer, intent(out)           :: surface
 
-      name = 'PID'
-      if (field > 16) name = 'S'//integer_text(field - 16)
-   end function mark_name
+      surface = findloc(model%surfaces%id, id, dim=1)
+      if (surface == 0) call deck%field_error(line, field, 'there is no PMARK '//integer_text(id))
+   end subroutine find_surface
 
 
-   !> What else a face of solids without its PMARK may be meant to be.
-   pure function shell_hint(sides, i) result(words)
+   !> There is no PMARK with the mark of side I. A face of solids may be meant to be something else.
+   subroutine report_missing(deck, sides, i)
+      type(checked_deck), intent(in) :: deck
       type(marked_sides), intent(in) :: sides
       integer, intent(in)            :: i
-      character(:), allocatable      :: words
+      character(:), allocatable :: words
 
-      words = ''
-      if (sides%corners(i) > 2 .and. sides%field(i) == 2) &
-         words = ': in a model of solids CTRIA3 and CQUAD4 mark surfaces, and plane bodies cannot be mixed in'
-   end function shell_hint
+      words = 'there is no PMARK '//integer_text(sides%mark(i))
+      if (sides%of_block(i) > 0) then
+         call deck%field_error(sides%line(i), 'S'//integer_text(sides%of_block(i)), words)
+      else
+         if (sides%corners(i) > 2) &
+            words = words//': in a model of solids CTRIA3 and CQUAD4 mark surfaces, and plane bodies cannot be mixed in'
+         call deck%field_error(sides%line(i), 'PID', words)
+      end if
+   end subroutine report_missing
 
 
    !> Add side I to its surface, in the order of the element that it belongs to: of two the one that has it in the sense of its
    !! card, the other is then behind it.
-   subroutine add_side(sides, i, model, surface, errors)
-      type(marked_sides), intent(in)       :: sides
-      integer, intent(in)                  :: i
-      type(model_type), intent(in)         :: model
-      type(surface_type), intent(inout)    :: surface
-      type(deck_error_list), intent(inout) :: errors
+   subroutine add_side(deck, sides, i, model, surface)
+      type(checked_deck), intent(in)    :: deck
+      type(marked_sides), intent(in)    :: sides
+      integer, intent(in)               :: i
+      type(model_type), intent(in)      :: model
+      type(surface_type), intent(inout) :: surface
       integer :: owner, other, found, e, j, side, own_side
       logical :: same_sense, owner_same
 
@@ -128,7 +122,7 @@ contains
             if (found > 0) other = found
          end do
          if (owner == 0) then
-            call errors%add(sides%line(i), 'the '//side_name(model, nodes)//' is no side of a body element')
+            call deck%errors%add(sides%line(i), 'the '//side_name(model, nodes)//' is no side of a body element')
             return
          end if
          surface%n = surface%n + 1
@@ -149,15 +143,11 @@ contains
       character(:), allocatable    :: words
       integer :: k
 
-      if (size(nodes) == 2) then
-         words = 'edge between nodes '//integer_text(model%node_id(nodes(1)))//' and '//integer_text(model%node_id(nodes(2)))
-         return
-      end if
-      words = 'face of nodes '//integer_text(model%node_id(nodes(1)))
-      do k = 2, size(nodes)
-         words = words//merge(', ', '  ', k < size(nodes))
-         if (k == size(nodes)) words = trim(words)//' and '
-         words = words//integer_text(model%node_id(nodes(k)))
+      words = trim(merge('edge between nodes', 'face of nodes     ', size(nodes) == 2))
+      do k = 1, size(nodes)
+         if (k == size(nodes)) words = words//' and'
+         words = words//' '//integer_text(model%node_id(nodes(k)))
+         if (k < size(nodes) - 1) words = words//','
       end do
    end function side_name
 
@@ -193,10 +183,10 @@ contains
 
 
    !> No side stands twice on a surface: its area would count twice.
-   subroutine check_repeated(model, surface, errors)
-      type(model_type), intent(in)         :: model
-      type(surface_type), intent(in)       :: surface
-      type(deck_error_list), intent(inout) :: errors
+   subroutine check_repeated(deck, model, surface)
+      type(checked_deck), intent(in) :: deck
+      type(model_type), intent(in)   :: model
+      type(surface_type), intent(in) :: surface
       integer, allocatable :: order(:), lowest(:)
       integer :: j, k, m
 
@@ -212,7 +202,7 @@ contains
             associate (this => surface%nodes(:surface%corners(order(k)), order(k)), &
                        that => surface%nodes(:surface%corners(order(j)), order(j)))
                if (any([(all(that /= this(m)), m = 1, size(this))])) cycle
-               call errors%add(max(surface%line(order(k)), surface%line(order(j))), 'surface '//integer_text(surface%id)// &
+               call deck%errors%add(max(surface%line(order(k)), surface%line(order(j))), 'surface '//integer_text(surface%id)// &
                   ': the '//side_name(model, this)//' is marked twice')
             end associate
          end do
@@ -253,9 +243,7 @@ contains
       real(wp) :: area(max_side_nodes), normal(3, max_side_nodes)
       integer  :: s, k, node
 
-      associate (nodes => surface%nodes(:, :surface%n))
-         call distinct(pack(nodes, nodes > 0), list%node)
-      end associate
+      list%node = nodes_of(surface)
       list%n = size(list%node)
       call place%build(list%node)
       allocate (list%area(list%n), source=0.0_wp)

@@ -1,11 +1,11 @@
 !> Loads: which forces act, and which displacements are prescribed, at the end of every stage.
 module load_build
    use body_elements, only: element_weight
-   use deck_errors, only: deck_error_list
-   use deck_input, only: deck_type
+   use bulk_data, only: has_component
+   use deck_check, only: checked_deck
    use element_kinds, only: max_nodes, max_side_nodes
    use kinds, only: wp
-   use load_checks, only: check_load_cards, has_component, has_set, nor_others
+   use load_checks, only: check_load_cards, has_set, nor_others
    use model_data, only: corners_of, model_type, stage_load_type, surface_type
    use section_coupling, only: add_section_share
    use pressed_sides, only: add_pressure, find_pressed_sides, pressed_side
@@ -19,21 +19,20 @@ module load_build
 contains
 
    !> The total load at the end of each stage.
-   subroutine build_loads(deck, model, errors)
-      type(deck_type), intent(in)          :: deck
-      type(model_type), intent(inout)      :: model
-      type(deck_error_list), intent(inout) :: errors
+   subroutine build_loads(deck, model)
+      type(checked_deck), intent(in)  :: deck
+      type(model_type), intent(inout) :: model
       type(pressed_side), allocatable :: pressed(:)
       integer :: i, k, s
 
-      call check_load_cards(deck, model, errors)
-      call find_pressed_sides(deck, model, pressed, errors)
+      call check_load_cards(deck, model)
+      call find_pressed_sides(deck, model, pressed)
       allocate (model%stage_loads(size(deck%control%stages)))
       do s = 1, size(deck%control%stages)
          associate (loads => model%stage_loads(s), reference => deck%control%stages(s)%load)
-            allocate (loads%node(deck%bulk%n_force), loads%force(3, deck%bulk%n_force))
+            allocate (loads%node(size(deck%bulk%force)), loads%force(3, size(deck%bulk%force)))
             if (reference%id == 0) cycle
-            i = findloc(deck%bulk%load(:deck%bulk%n_load)%set, reference%id, dim=1)
+            i = findloc(deck%bulk%load%set, reference%id, dim=1)
             if (i > 0) then
                associate (load => deck%bulk%load(i))
                   do k = 1, size(load%sets)
@@ -42,7 +41,7 @@ contains
                end associate
             else
                call add_set(deck, model, pressed, reference%id, 1.0_wp, loads)
-               if (.not. has_set(deck%bulk, reference%id)) call errors%add(reference%line, &
+               if (.not. has_set(deck%bulk, reference%id)) call deck%errors%add(reference%line, &
                   'LOAD: there is no FORCE or LOAD with set '//integer_text(reference%id)//nor_others)
             end if
          end associate
@@ -52,7 +51,7 @@ contains
 
    !> Add FACTOR times everything of SET to LOADS: nodal forces one by one, distributed loads summed up at every node.
    subroutine add_set(deck, model, pressed, set, factor, loads)
-      type(deck_type), intent(in)          :: deck
+      type(checked_deck), intent(in)       :: deck
       type(model_type), intent(in)         :: model
       type(pressed_side), intent(in)       :: pressed(:)
       integer, intent(in)                  :: set
@@ -62,20 +61,20 @@ contains
       integer :: i, node, s
 
       associate (bulk => deck%bulk)
-         do i = 1, bulk%n_force
+         do i = 1, size(bulk%force)
             if (bulk%force(i)%set == set) call add_force(model%node_table%find(bulk%force(i)%node), &
                                                          factor*bulk%force(i)%force, loads)
          end do
-         do i = 1, bulk%n_displacement
+         do i = 1, size(bulk%displacement)
             if (bulk%displacement(i)%set == set) call add_displacement(i)
          end do
          if (all(bulk%pressure%set /= set) .and. all(bulk%surface_load%set /= set) .and. all(bulk%gravity%set /= set)) return
          allocate (spread_out(3, model%n_nodes), source=0.0_wp)
-         do i = 1, bulk%n_pressure
+         do i = 1, size(bulk%pressure)
             if (bulk%pressure(i)%set == set .and. pressed(i)%element > 0) &
                call add_pressure(model, pressed(i), factor*bulk%pressure(i)%pressure, spread_out)
          end do
-         do i = 1, bulk%n_surface_load
+         do i = 1, size(bulk%surface_load)
             if (bulk%surface_load(i)%set /= set) cycle
             s = findloc(model%surfaces%id, bulk%surface_load(i)%surface, dim=1)
             if (s == 0) cycle
@@ -85,7 +84,7 @@ contains
                call add_surface_force(model, model%surfaces(s), factor*bulk%surface_load(i)%force, spread_out)
             end if
          end do
-         do i = 1, bulk%n_gravity
+         do i = 1, size(bulk%gravity)
             if (bulk%gravity(i)%set == set) call add_gravity(model, factor*bulk%gravity(i)%acceleration, spread_out)
          end do
       end associate

@@ -1,12 +1,13 @@
-!> The sides of a marked surface as neighbours: which stand at a node, and turned so that all face the same way.
+!> The sides of a marked surface as neighbours: which stand at a node, turned so that all face the same way, and which body elements
+!! lie behind them.
 module surface_sides
    use id_table, only: distinct, id_table_type
-   use model_data, only: surface_type
+   use model_data, only: model_type, surface_type
    use reverse_lists, only: list_owners
    implicit none
    private
 
-   public :: list_sides, face_one_way
+   public :: nodes_of, list_sides, face_one_way, elements_behind
 
    !> The sides of a surface at every node of it: side(first(k):first(k + 1) - 1) at node(k).
    type, public :: side_list
@@ -19,6 +20,15 @@ module surface_sides
 
 contains
 
+   !> The nodes of SURFACE, each once, in ascending order.
+   pure function nodes_of(surface) result(nodes)
+      type(surface_type), intent(in) :: surface
+      integer, allocatable :: nodes(:)
+
+      call distinct(pack(surface%nodes(:, :surface%n), surface%nodes(:, :surface%n) > 0), nodes)
+   end function nodes_of
+
+
    !> The sides of SURFACE at every node.
    pure subroutine list_sides(surface, at)
       type(surface_type), intent(in) :: surface
@@ -26,9 +36,7 @@ contains
       integer, allocatable :: places(:, :)
       integer :: i, k
 
-      associate (nodes => surface%nodes(:, :surface%n))
-         call distinct(pack(nodes, nodes > 0), at%node)
-      end associate
+      at%node = nodes_of(surface)
       at%n = size(at%node)
       call at%place%build(at%node)
       allocate (places(size(surface%nodes, 1), surface%n), source=0)
@@ -103,5 +111,79 @@ contains
          if (surface%nodes(modulo(at - 2, n) + 1, other) == next) sense = -1
       end if
    end function common_sense
+
+
+   !> The elements BEHIND surface S at node K of it: those that hang together with the back of one of its sides there without
+   !! crossing the surface. None where they hang together with the front too.
+   pure subroutine elements_behind(model, s, at, k, behind)
+      type(model_type), intent(in)      :: model
+      integer, intent(in)               :: s
+      type(side_list), intent(in)       :: at        !! its sides at its nodes
+      integer, intent(in)               :: k
+      integer, allocatable, intent(out) :: behind(:)
+      integer, allocatable :: around(:), group(:)
+      logical, allocatable :: touch(:, :)
+      integer :: i, j, n, node
+      logical :: is_tip, more
+
+      node = at%node(k)
+      n = model%first_at(node + 1) - model%first_at(node)
+      allocate (around, source=model%elements_at(model%first_at(node):model%first_at(node + 1) - 1))
+      allocate (group(n), source=0)
+      do i = at%first(k), at%first(k + 1) - 1
+         where (around == model%surfaces(s)%element(at%side(i))) group = 1
+         where (around == model%surfaces(s)%other(at%side(i))) group = 2
+      end do
+      allocate (touch(n, n), source=.false.)
+      do i = 1, n
+         do j = 1, i - 1
+            touch(i, j) = common_side(model, s, at, k, around(i), around(j))
+            touch(j, i) = touch(i, j)
+         end do
+      end do
+      more = .true.
+      do while (more)                        ! spread over common sides that are not of the surface
+         more = .false.
+         do i = 1, n
+            if (group(i) /= 0) cycle
+            do j = 1, n
+               if (group(j) == 0 .or. .not. touch(i, j)) cycle
+               group(i) = group(j)
+               more = .true.
+               exit
+            end do
+         end do
+      end do
+      is_tip = .false.
+      do i = 1, n
+         if (group(i) == 1) is_tip = is_tip .or. any(touch(:, i) .and. group == 2)
+      end do
+      allocate (behind(merge(0, count(group == 2), is_tip)))
+      if (.not. is_tip) behind(:) = pack(around, group == 2)
+   end subroutine elements_behind
+
+
+   !> Whether elements A and B share a side at node PLACE of surface S that is not of it.
+   pure logical function common_side(model, s, at, place, a, b)
+      type(model_type), intent(in) :: model
+      integer, intent(in)          :: s, place, a, b
+      type(side_list), intent(in)  :: at
+      integer :: common(size(model%element_nodes, 1)), i, k, n
+
+      n = 0
+      do k = 1, size(model%element_nodes, 1)
+         if (model%element_nodes(k, a) == 0) exit
+         if (all(model%element_nodes(:, b) /= model%element_nodes(k, a))) cycle
+         n = n + 1
+         common(n) = model%element_nodes(k, a)
+      end do
+      common_side = n >= model%dimension
+      do i = at%first(place), at%first(place + 1) - 1
+         if (.not. common_side) return
+         associate (side => model%surfaces(s)%nodes(:model%surfaces(s)%corners(at%side(i)), at%side(i)))
+            common_side = any([(all(side /= common(k)), k = 1, n)])
+         end associate
+      end do
+   end function common_side
 
 end module surface_sides

@@ -42,7 +42,7 @@ contains
             stage%stress = given%stress
             stage%shares = [1.0_wp]
             if (given%increments%id == 0) cycle
-            k = findloc(deck%bulk%jincr(:deck%bulk%n_jincr)%id, given%increments%id, dim=1)
+            k = findloc(deck%bulk%jincr%id, given%increments%id, dim=1)
             if (k == 0) then
                call errors%add(given%increments%line, 'INCR: there is no JINCR '//integer_text(given%increments%id))
             else if (deck%control%method /= method_back) then

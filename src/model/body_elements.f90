@@ -12,20 +12,9 @@ module body_elements
    implicit none
    private
 
-   public :: element_stiffness, coupled_stiffness, element_stress, element_corner_stress, element_weight, &
-             internal_forces, law_of, full_stress
+   public :: coupled_stiffness, element_stress, element_corner_stress, element_weight, internal_forces, law_of, full_stress
 
 contains
-
-   !> Stiffness of element E, components of node 1 first [force/length].
-   pure subroutine element_stiffness(model, e, k)
-      type(model_type), intent(in) :: model
-      integer, intent(in)          :: e
-      real(wp), intent(inout)      :: k(:, :) !! dimension x corners rows and columns are set
-
-      call stiffness(law_of(model, e), model%x(:model%dimension, corners_of(model, e)), k)
-   end subroutine element_stiffness
-
 
    !> Stiffness between the coupled_nodes of element E, components of node 1 first [force/length].
    pure subroutine coupled_stiffness(model, e, k)
@@ -33,7 +22,7 @@ contains
       integer, intent(in)          :: e
       real(wp), intent(inout)      :: k(:, :) !! dimension x coupled nodes rows and columns are set
 
-      call element_stiffness(model, e, k)
+      call stiffness(law_of(model, e), model%x(:model%dimension, corners_of(model, e)), k)
       call extend_stiffness(model, e, k)
    end subroutine coupled_stiffness
 

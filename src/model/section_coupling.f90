@@ -7,7 +7,7 @@ module section_coupling
    implicit none
    private
 
-   public :: section_node, n_coupled, coupled_nodes, corner_displacements, extend_stiffness, add_section_share
+   public :: section_node, coupled_nodes, corner_displacements, extend_stiffness, add_section_share
 
 contains
 
@@ -22,26 +22,14 @@ contains
    end function section_node
 
 
-   !> How many nodes element E couples.
-   pure integer function n_coupled(model, e) result(n)
-      type(model_type), intent(in) :: model
-      integer, intent(in)          :: e
-
-      n = element_table(model%element_kind(e))%n_nodes
-      if (section_node(model, e) > 0) n = n + 1
-   end function n_coupled
-
-
    !> The nodes whose unknowns element E couples: its corners, and the node of a section that it touches from behind.
    pure function coupled_nodes(model, e) result(nodes)
       type(model_type), intent(in) :: model
       integer, intent(in)          :: e
-      integer :: nodes(n_coupled(model, e))
+      integer, allocatable :: nodes(:)
 
-      associate (corners => corners_of(model, e))
-         nodes(:size(corners)) = corners
-         if (size(nodes) > size(corners)) nodes(size(nodes)) = section_node(model, e)
-      end associate
+      nodes = corners_of(model, e)
+      if (section_node(model, e) > 0) nodes = [nodes, section_node(model, e)]
    end function coupled_nodes
 
 

@@ -1,9 +1,7 @@
 !> PLOAD4 and PLOADE: which side of which element a card presses on, and the nodal forces.
 module pressed_sides
    use bulk_data, only: pressure_card
-   use deck_cards, only: add_field_error
-   use deck_errors, only: deck_error_list
-   use deck_input, only: deck_type
+   use deck_check, only: checked_deck
    use element_kinds, only: element_table, kind_hexa8, kind_penta6, kind_tetra4, max_side_nodes
    use element_loads, only: side_forces
    use id_table, only: id_table_type
@@ -24,31 +22,30 @@ module pressed_sides
 contains
 
    !> The sides that PLOAD4 and PLOADE cards press on.
-   subroutine find_pressed_sides(deck, model, pressed, errors)
-      type(deck_type), intent(in)          :: deck
-      type(model_type), intent(in)         :: model
+   subroutine find_pressed_sides(deck, model, pressed)
+      type(checked_deck), intent(in)               :: deck
+      type(model_type), intent(in)                 :: model
       type(pressed_side), allocatable, intent(out) :: pressed(:)
-      type(deck_error_list), intent(inout) :: errors
       type(id_table_type) :: elements
       integer :: e, i
 
-      allocate (pressed(deck%bulk%n_pressure))
-      if (deck%bulk%n_pressure == 0) return
+      allocate (pressed(size(deck%bulk%pressure)))
+      if (size(pressed) == 0) return
       call elements%build(model%element_id)
-      do i = 1, deck%bulk%n_pressure
+      do i = 1, size(pressed)
          associate (card => deck%bulk%pressure(i))
             if (card%first == 0) cycle
             e = elements%find(card%first)
             if (e == 0) then
-               call add_field_error(deck%text, card%line, 2, 'EID', 'there is no body element '//integer_text(card%first), errors)
+               call deck%field_error(card%line, 'EID', 'there is no body element '//integer_text(card%first))
             else if (element_table(model%element_kind(e))%dimension /= merge(3, 2, card%on_face)) then
-               call add_field_error(deck%text, card%line, 2, 'EID', 'element '//integer_text(card%first)//' is a '// &
+               call deck%field_error(card%line, 'EID', 'element '//integer_text(card%first)//' is a '// &
                   trim(element_table(model%element_kind(e))%card)// &
-                  trim(merge(': PLOAD4 is for faces of solids', ': PLOADE is for plane edges    ', card%on_face)), errors)
+                  trim(merge(': PLOAD4 is for faces of solids', ': PLOADE is for plane edges    ', card%on_face)))
             else if (any(corners_of(model, e) == 0)) then
                cycle ! said already
             else
-               call find_side(deck, model, card, e, pressed(i), errors)
+               call find_side(deck, model, card, e, pressed(i))
             end if
          end associate
       end do
@@ -56,13 +53,12 @@ contains
 
 
    !> The side of element E that the CARD names by its corners.
-   subroutine find_side(deck, model, card, e, pressed, errors)
-      type(deck_type), intent(in)          :: deck
-      type(model_type), intent(in)         :: model
-      type(pressure_card), intent(in)      :: card
-      integer, intent(in)                  :: e
-      type(pressed_side), intent(inout)    :: pressed
-      type(deck_error_list), intent(inout) :: errors
+   subroutine find_side(deck, model, card, e, pressed)
+      type(checked_deck), intent(in)    :: deck
+      type(model_type), intent(in)      :: model
+      type(pressure_card), intent(in)   :: card
+      integer, intent(in)               :: e
+      type(pressed_side), intent(inout) :: pressed
       character(:), allocatable :: expected
       integer :: corner(2), k, side
       logical :: fits
@@ -72,9 +68,8 @@ contains
          if (card%corners(k) == 0) cycle
          corner(k) = own_corner(model, e, card%corners(k))
          if (corner(k) > 0) cycle
-         call add_field_error(deck%text, card%line, merge(6, 3, card%on_face) + k, merge('G1 ', merge('G34', 'G2 ', &
-            card%on_face), k == 1), 'node '//integer_text(card%corners(k))//' is no corner of element '// &
-            integer_text(card%first), errors)
+         call deck%field_error(card%line, trim(merge('G1 ', merge('G34', 'G2 ', card%on_face), k == 1)), 'node '// &
+            integer_text(card%corners(k))//' is no corner of element '//integer_text(card%first))
          return
       end do
       if (corner(1) == 0) return ! said already
@@ -97,8 +92,7 @@ contains
                if (.not. fits) cycle
             end associate
             if (kind%side_size(side) == 3 .and. abs(card%pressure(4) - card%pressure(1)) > 0.0_wp) then
-               call add_field_error(deck%text, card%line, 6, 'P4', 'a triangular face has no fourth corner, expected '// &
-                                    'a blank or P1', errors)
+               call deck%field_error(card%line, 'P4', 'a triangular face has no fourth corner, expected a blank or P1')
                return
             end if
             pressed%element = e
@@ -117,8 +111,7 @@ contains
       case default
          expected = 'expected the two ends of an edge'
       end select
-      call add_field_error(deck%text, card%line, merge(7, 4, card%on_face), 'G1', 'no side of element '// &
-                           integer_text(card%first)//' has these corners; '//expected, errors)
+      call deck%field_error(card%line, 'G1', 'no side of element '//integer_text(card%first)//' has these corners; '//expected)
    end subroutine find_side
 
 

@@ -1,16 +1,13 @@
 !> Solid bolts: BOLT cards that name a marked surface inside a body, the section at which it is cut.
 module section_build
    use bar_build, only: find_stage
-   use behind_surface, only: elements_behind
    use bulk_data, only: bolt_card
-   use deck_cards, only: add_field_error
-   use deck_errors, only: deck_error_list
-   use deck_input, only: deck_type
+   use deck_check, only: checked_deck
    use element_kinds, only: max_side_nodes
    use kinds, only: wp
    use model_data, only: model_type, section_type
-   use surface_build, only: side_influence, surface_node_list, surface_nodes
-   use surface_sides, only: list_sides, side_list
+   use surface_build, only: find_surface, side_influence, surface_node_list, surface_nodes
+   use surface_sides, only: elements_behind, list_sides, side_list
    use text_tools, only: integer_text
    implicit none
    private
@@ -18,38 +15,35 @@ module section_build
    public :: build_sections
 
    real(wp), parameter :: even = 1.0e-3_wp  ! of its size: how far the nodes of a section may lie out of its plane
-   integer, parameter  :: pmark_field = 5   ! data field of a BOLT card
 
 contains
 
    !> Fill the sections of MODEL and append their nodes.
-   subroutine build_sections(deck, model, errors)
-      type(deck_type), intent(in)          :: deck
-      type(model_type), intent(inout)      :: model
-      type(deck_error_list), intent(inout) :: errors
+   subroutine build_sections(deck, model)
+      type(checked_deck), intent(in)  :: deck
+      type(model_type), intent(inout) :: model
       integer :: i, k, n
 
-      n = count(deck%bulk%bolt(:deck%bulk%n_bolt)%surface > 0)
+      n = count(deck%bulk%bolt%surface > 0)
       if (n == 0) return
       allocate (model%sections(n))
       allocate (model%node_section(model%n_nodes), model%element_section(model%n_elements), source=0)
       k = 0
-      do i = 1, deck%bulk%n_bolt
+      do i = 1, size(deck%bulk%bolt)
          if (deck%bulk%bolt(i)%surface <= 0) cycle
          k = k + 1
-         call build_section(deck, deck%bulk%bolt(i), k, model, errors)
+         call build_section(deck, deck%bulk%bolt(i), k, model)
       end do
       if (all(model%sections%point > 0)) call append_section_nodes(model) ! if not, there are errors
    end subroutine build_sections
 
 
    !> Section K from its CARD: which way it faces, and which elements are behind it.
-   subroutine build_section(deck, card, k, model, errors)
-      type(deck_type), intent(in)          :: deck
-      type(bolt_card), intent(in)          :: card
-      integer, intent(in)                  :: k
-      type(model_type), intent(inout)      :: model
-      type(deck_error_list), intent(inout) :: errors
+   subroutine build_section(deck, card, k, model)
+      type(checked_deck), intent(in)  :: deck
+      type(bolt_card), intent(in)     :: card
+      integer, intent(in)             :: k
+      type(model_type), intent(inout) :: model
       type(surface_node_list) :: list
       real(wp), allocatable   :: centroid(:)
       character(:), allocatable :: fault
@@ -58,16 +52,16 @@ contains
       model%sections(k)%bolt = card%id
       model%sections(k)%surface = card%surface
       model%sections(k)%preload = card%preload
-      call find_stage(deck, card, model%sections(k)%stage, errors)
-      s = findloc(model%surfaces%id, card%surface, dim=1)
-      if (s == 0) then
-         call add_field_error(deck%text, card%line, pmark_field, 'PMARK', 'there is no PMARK '//integer_text(card%surface), &
-                              errors)
-         return
-      end if
+      call find_stage(deck, card, model%sections(k)%stage)
+      call find_surface(deck, card%line, 'PMARK', card%surface, model, s)
+      if (s == 0) return
       if (model%surfaces(s)%n == 0) return ! said already
-      fault = not_inside(model, s)
-      if (fault == '') then
+      fault = ''
+      if (model%surfaces(s)%was_split) then
+         fault = 'is split by a JOINT: a bolt is cut at a surface inside its body'
+      else if (any(model%surfaces(s)%other(:model%surfaces(s)%n) == 0)) then
+         fault = 'lies on the outside of a body: expected elements on both sides of it'
+      else
          call face_as_the_first(model, s, model%sections(k))
          if (model%sections(k)%area <= 0.0_wp) return ! a body without its property: said already
          call surface_nodes(model, model%surfaces(s), list)
@@ -75,24 +69,8 @@ contains
          fault = not_flat(model, model%sections(k), list, centroid)
       end if
       if (fault == '') call find_elements_behind(model, s, k, fault)
-      if (fault /= '') call add_field_error(deck%text, card%line, pmark_field, 'PMARK', 'surface '// &
-                                            integer_text(card%surface)//' '//fault, errors)
+      if (fault /= '') call deck%field_error(card%line, 'PMARK', 'surface '//integer_text(card%surface)//' '//fault)
    end subroutine build_section
-
-
-   !> Why surface S does not lie inside a body; empty where it does.
-   pure function not_inside(model, s) result(fault)
-      type(model_type), intent(in) :: model
-      integer, intent(in)          :: s
-      character(:), allocatable    :: fault
-
-      fault = ''
-      if (model%surfaces(s)%was_split) then
-         fault = 'is split by a JOINT: a bolt is cut at a surface inside its body'
-      else if (any(model%surfaces(s)%other(:model%surfaces(s)%n) == 0)) then
-         fault = 'lies on the outside of a body: expected elements on both sides of it'
-      end if
-   end function not_inside
 
 
    !> Turn the sides of surface S round that face against its first; their mean normal gives SECTION its direction and area.

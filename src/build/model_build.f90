@@ -1,21 +1,20 @@
 !> From a deck to the structure that is solved.
 module model_build
    use bar_build, only: build_bars
-   use condition_build, only: build_supports
    use connected_parts, only: find_parts
+   use deck_check, only: checked_deck
    use deck_errors, only: deck_error_list
    use deck_input, only: deck_type
    use determinate_joints, only: find_determinate_joints
    use first_pressures, only: find_first_pressures
-   use id_checks, only: check_ids
    use joint_build, only: build_joints
    use joint_split, only: split_shared_surfaces
    use load_build, only: build_loads
-   use mesh_build, only: build_mesh
+   use mesh_build, only: build_mesh, marked_sides
    use model_data, only: model_type, n_sections
    use section_build, only: build_sections
-   use side_build, only: marked_sides
    use stage_plan, only: plan_stages, stage_plan_type
+   use support_build, only: build_supports
    use surface_build, only: build_surfaces
    implicit none
    private
@@ -27,22 +26,24 @@ contains
    !> Build MODEL and the PLAN of its stages from DECK; what does not fit together goes to ERRORS, and then neither
    !! is fit to be solved.
    subroutine build_model(deck, model, plan, errors)
-      type(deck_type), intent(in)          :: deck
-      type(model_type), intent(out)        :: model
-      type(stage_plan_type), intent(out)   :: plan
-      type(deck_error_list), intent(inout) :: errors
+      type(deck_type), intent(in), target          :: deck
+      type(model_type), intent(out)                :: model
+      type(stage_plan_type), intent(out)           :: plan
+      type(deck_error_list), intent(inout), target :: errors
+      type(checked_deck) :: checked
       type(marked_sides) :: sides
 
       if (.not. deck%is_whole) return
-      call check_ids(deck, errors)
-      call build_mesh(deck, model, sides, errors)
-      call build_surfaces(deck, sides, model, errors)
-      call split_shared_surfaces(deck, model, errors)
-      call build_joints(deck, model, errors)
-      call build_bars(deck, model, errors)
-      call build_supports(deck, model, errors)
-      call build_sections(deck, model, errors)
-      call build_loads(deck, model, errors)
+      call checked%start(deck, errors)
+      call checked%check_ids()
+      call build_mesh(checked, model, sides)
+      call build_surfaces(checked, sides, model)
+      call split_shared_surfaces(checked, model)
+      call build_joints(checked, model)
+      call build_bars(checked, model)
+      call build_supports(checked, model)
+      call build_sections(checked, model)
+      call build_loads(checked, model)
       call plan_stages(deck, plan, errors)
       if (.not. any(model%used)) call errors%add(0, 'nothing to solve: expected body elements or interface elements')
       if (errors%any()) return

@@ -1,0 +1,246 @@
+!> Body elements and their properties: from their cards and the block generators to positions in the model, and whether they are
+!! sound.
+module element_build
+   use block_mesh, only: block_type
+   use bulk_data, only: element_card, property_card
+   use deck_check, only: checked_deck
+   use elasticity, only: axisymmetric, solid
+   use element_kinds, only: element_table, kind_quad4, kind_tria3, max_nodes
+   use element_mapping, only: smallest_jacobian
+   use id_table, only: id_table_type, sorted_order
+   use kinds, only: wp
+   use model_data, only: corners_of, model_type, property_type
+   use node_build, only: find_nodes, raw_nodes
+   use text_tools, only: integer_text
+   implicit none
+   private
+
+   public :: resolve_properties, collect_elements, check_element_numbers, check_elements, check_one_state, is_face
+
+contains
+
+   !> Whether an element card marks a face: in a model of solids, CQUAD4 and CTRIA3 do nothing else.
+   elemental logical function is_face(model, card)
+      type(model_type), intent(in)   :: model
+      type(element_card), intent(in) :: card
+
+      is_face = model%dimension == 3 .and. element_table(card%kind)%dimension == 2
+   end function is_face
+
+
+   !> Every PSHELL, PAXIS and PSOLID with its material.
+   subroutine resolve_properties(deck, model)
+      type(checked_deck), intent(in)  :: deck
+      type(model_type), intent(inout) :: model
+      type(property_card), allocatable :: cards(:)
+      type(id_table_type) :: materials
+      integer :: i, k
+
+      call materials%build(deck%bulk%mat1%id)
+      allocate (cards, source=[deck%bulk%pshell, deck%bulk%paxis, deck%bulk%psolid])
+      allocate (model%properties(size(cards)))
+      do i = 1, size(cards)
+         associate (card => cards(i), property => model%properties(i))
+            property = property_type(id=card%id, state=card%state, thickness=card%thickness, incompatible=card%incompatible)
+            k = materials%find(card%material)
+            if (k > 0) then
+               property%e = deck%bulk%mat1(k)%e
+               property%nu = deck%bulk%mat1(k)%nu
+               property%rho = deck%bulk%mat1(k)%rho
+            else if (card%material > 0) then
+               call deck%field_error(card%line, 2, 'there is no MAT1 '//integer_text(card%material))
+            end if
+         end associate
+      end do
+   end subroutine resolve_properties
+
+
+   !> Elements of cards and of blocks, in ascending order of their numbers.
+   subroutine collect_elements(deck, blocks, raw, position, model)
+      type(checked_deck), intent(in)  :: deck
+      type(block_type), intent(in)    :: blocks(:)
+      type(raw_nodes), intent(in)     :: raw
+      integer, intent(in)             :: position(:)
+      type(model_type), intent(inout) :: model
+      type(id_table_type)  :: properties
+      integer, allocatable :: id(:), kind(:), nodes(:, :), property(:), line(:), order(:)
+      integer :: b, corners, i, k, n, total
+
+      call properties%build(model%properties%id)
+      total = size(deck%bulk%element) + n_elements(blocks)
+      allocate (id(total), kind(total), property(total), line(total))
+      allocate (nodes(max_nodes, total), source=0)
+      n = 0
+      do i = 1, size(deck%bulk%element)
+         associate (element => deck%bulk%element(i))
+            if (is_face(model, element)) cycle
+            n = n + 1
+            id(n) = element%id
+            kind(n) = element%kind
+            line(n) = element%line
+            corners = element_table(element%kind)%n_nodes
+            call find_nodes(deck, element%line, element%nodes(:corners), model, nodes(:corners, n))
+            property(n) = properties%find(element%property)
+            call check_property(deck, model, element%line, element%property, element%kind, property(n))
+         end associate
+      end do
+      do b = 1, size(blocks)
+         associate (block => blocks(b))
+            k = properties%find(block%property)
+            call check_property(deck, model, block%line, block%property, block%kind, k)
+            corners = element_table(block%kind)%n_nodes
+            do i = 1, size(block%element_id)
+               n = n + 1
+               id(n) = block%element_id(i)
+               kind(n) = block%kind
+               line(n) = block%line
+               property(n) = k
+               nodes(:corners, n) = position(raw%place(raw%block_start(b) + block%places(:corners, i)))
+            end do
+         end associate
+      end do
+      call sorted_order(id(:n), order)
+      model%n_elements = n
+      model%element_id = id(order)
+      model%element_kind = kind(order)
+      model%element_nodes = nodes(:maxval([4, element_table(kind(:n))%n_nodes]), order)
+      model%element_property = property(order)
+      model%element_line = line(order)
+   end subroutine collect_elements
+
+
+   pure integer function n_elements(blocks)
+      type(block_type), intent(in) :: blocks(:)
+      integer :: b
+
+      n_elements = sum([(size(blocks(b)%element_id), b = 1, size(blocks))])
+   end function n_elements
+
+
+   !> The property ID of an element of a KIND must be one of its own sort; PROPERTY is its position, 0 for none, and set to 0
+   !! where it is of another.
+   subroutine check_property(deck, model, line, id, kind, property)
+      type(checked_deck), intent(in) :: deck
+      type(model_type), intent(in)   :: model
+      integer, intent(in)            :: line, id, kind
+      integer, intent(inout)         :: property
+      character(:), allocatable :: wanted
+
+      if (model%dimension == 3 .and. element_table(kind)%dimension == 2) then
+         call deck%errors%add(line, 'BLOCK2: the model has solids; plane bodies and solids cannot be mixed')
+         return
+      end if
+      wanted = 'PSHELL or PAXIS '
+      if (element_table(kind)%dimension == 3) wanted = 'PSOLID '
+      if (property > 0) then
+         if ((model%properties(property)%state == solid) .eqv. element_table(kind)%dimension == 3) return
+         property = 0
+      end if
+      if (id == 0) return
+      if (any(deck%bulk%pmark%id == id) .and. element_table(kind)%dimension == 2) then
+         call deck%field_error(line, 'PID', integer_text(id)//' is a PMARK: a surface of a plane body is '// &
+                               'marked with CBAR or CROD edges')
+      else
+         call deck%field_error(line, 'PID', 'there is no '//wanted//integer_text(id))
+      end if
+   end subroutine check_property
+
+
+   !> No element number twice, bodies, faces, edges and interface elements counted together as NASTRAN does.
+   subroutine check_element_numbers(deck, blocks)
+      type(checked_deck), intent(in) :: deck
+      type(block_type), intent(in)   :: blocks(:)
+      integer, allocatable :: id(:), line(:)
+      integer :: b, n, n_cards, k
+
+      associate (bulk => deck%bulk)
+         n_cards = size(bulk%element) + size(bulk%edge) + size(bulk%cjoint)
+         allocate (id(n_cards + n_elements(blocks)), line(n_cards + n_elements(blocks)))
+         id(:n_cards) = [bulk%element%id, bulk%edge%id, bulk%cjoint%id]
+         line(:n_cards) = [bulk%element%line, bulk%edge%line, bulk%cjoint%line]
+      end associate
+      n = n_cards
+      do b = 1, size(blocks)
+         k = size(blocks(b)%element_id)
+         id(n + 1:n + k) = blocks(b)%element_id
+         line(n + 1:n + k) = blocks(b)%line
+         n = n + k
+      end do
+      call deck%report_repeated('element', id, line, n_cards=n_cards)
+   end subroutine check_element_numbers
+
+
+   !> Plane bodies and bodies of revolution cannot be mixed: the forces of the ones are those of their thickness, of the
+   !! others those of the whole ring.
+   subroutine check_one_state(deck, model)
+      type(checked_deck), intent(in)  :: deck
+      type(model_type), intent(inout) :: model
+      logical :: rings, others
+      integer :: e
+
+      rings = .false.
+      others = .false.
+      do e = 1, model%n_elements
+         if (model%element_property(e) == 0) cycle
+         if (model%properties(model%element_property(e))%state == axisymmetric) then
+            rings = .true.
+         else
+            others = .true.
+         end if
+         if (.not. (rings .and. others)) cycle
+         call deck%errors%add(model%element_line(e), 'element '//integer_text(model%element_id(e))//': PAXIS and PSHELL '// &
+                              'cannot be mixed in one model')
+         exit
+      end do
+      model%axisymmetric = rings
+   end subroutine check_one_state
+
+
+   !> Every plane element has a positive area at all its corners, every solid a positive volume where it is integrated.
+   subroutine check_elements(deck, model)
+      type(checked_deck), intent(in) :: deck
+      type(model_type), intent(in)   :: model
+      type(id_table_type)  :: doubtful_blocks ! by their lines
+      logical, allocatable :: doubtful(:)
+      integer :: e, i, last_line, node
+
+      allocate (doubtful(model%n_nodes), source=.false.)
+      do i = 1, size(deck%bulk%grid)
+         if (.not. deck%bulk%grid(i)%doubtful) cycle
+         node = model%node_table%find(deck%bulk%grid(i)%id)
+         if (node > 0) doubtful(node) = .true.
+      end do
+      call doubtful_blocks%build(pack(deck%bulk%block%line, deck%bulk%block%doubtful))
+      last_line = 0
+      do e = 1, model%n_elements
+         if (model%element_line(e) == last_line) cycle ! once a card
+         associate (nodes => corners_of(model, e))
+            if (any(nodes == 0)) cycle
+            if (any(doubtful(nodes))) cycle
+            if (doubtful_blocks%find(model%element_line(e)) > 0) cycle
+            if (smallest_jacobian(model%element_kind(e), model%x(:model%dimension, nodes)) > 0.0_wp) cycle
+         end associate
+         last_line = model%element_line(e)
+         call deck%errors%add(model%element_line(e), 'element '//integer_text(model%element_id(e))//' has no positive '// &
+                         shape_words(model%element_kind(e)))
+      end do
+   end subroutine check_elements
+
+
+   !> What an element of a KIND lacks, and what was expected.
+   pure function shape_words(kind) result(words)
+      integer, intent(in) :: kind
+      character(:), allocatable :: words
+
+      select case (kind)
+      case (kind_quad4)
+         words = 'area at some corner; expected four nodes counter-clockwise round a convex quadrilateral'
+      case (kind_tria3)
+         words = 'area at some corner; expected three nodes counter-clockwise'
+      case default
+         words = 'volume at some integration point; expected the corners in the order of '//trim(element_table(kind)%card)// &
+                 ' in the card manual'
+      end select
+   end function shape_words
+
+end module element_build

@@ -1,0 +1,261 @@
+!> Interface elements: between two facing surfaces, between a surface and a rigid base, or given outright.
+module joint_build
+   use bulk_data, only: cjoint_card
+   use deck_check, only: checked_deck
+   use facing_nodes, only: pair_nodes
+   use id_table, only: id_table_type
+   use interface_axes, only: joint_axes, outward
+   use kinds, only: wp
+   use interface_operator, only: hang_on, interface_element
+   use law_build, only: default_slope, law_tables, list_laws, resolve_laws
+   use model_data, only: joint_type, model_type, surface_type
+   use node_build, only: find_nodes
+   use reverse_lists, only: list_owners
+   use surface_build, only: surface_node_list, surface_nodes
+   use text_tools, only: integer_text
+   implicit none
+   private
+
+   public :: build_joints
+
+   !> Where what the cards name stands.
+   type :: joint_tables
+      type(id_table_type) :: joint   !! the JOINT cards
+      type(id_table_type) :: side    !! the sides of the JOINT cards, those of card j at 2 j - 1 and 2 j
+      type(id_table_type) :: surface !! the surfaces of the model
+      type(id_table_type) :: group   !! the CJOINT cards, by their PJOINT
+      type(law_tables)    :: laws
+   end type joint_tables
+
+contains
+
+   !> Fill the joints and interface elements of MODEL. CJOINT cards with the same PJOINT make up one joint.
+   subroutine build_joints(deck, model)
+      type(checked_deck), intent(in)  :: deck
+      type(model_type), intent(inout) :: model
+      type(interface_element), allocatable :: elements(:)
+      type(joint_tables)   :: tables
+      integer, allocatable :: first(:), leader(:), members(:)
+      integer :: highest, i, j, n
+
+      associate (joints => deck%bulk%joint, cjoints => deck%bulk%cjoint)
+         call tables%joint%build(joints%id)
+         call tables%side%build([(joints(j)%sides, j = 1, size(joints))])
+         call tables%surface%build(model%surfaces%id)
+         call tables%group%build(cjoints%law)
+         call list_laws(deck, tables%laws)
+         leader = [(tables%group%find(cjoints(i)%law), i = 1, size(cjoints))] ! the first card of the group
+         allocate (model%joints(size(joints) + count(leader == [(i, i = 1, size(cjoints))])), model%interface(0))
+         highest = max(0, maxval(cjoints%id))
+         n = 0
+         do j = 1, size(joints)
+            call joint_elements(deck, tables, j, model, highest, elements)
+            call add_elements(model, n, j, joints(j)%id, joints(j)%line, elements)
+            call resolve_laws(deck, tables%laws, joints(j)%law, model%joints(j))
+         end do
+         call list_owners(size(cjoints), reshape(leader, [1, size(cjoints)]), first, members)
+         j = size(joints)
+         do i = 1, size(cjoints)
+            if (leader(i) /= i) cycle
+            j = j + 1
+            call cjoint_elements(deck, cjoints(members(first(i):first(i + 1) - 1)), model, elements)
+            call add_elements(model, n, j, group_number(deck, tables%joint, cjoints(i)%law), cjoints(i)%line, elements)
+            call resolve_laws(deck, tables%laws, cjoints(i)%law, model%joints(j))
+         end do
+      end associate
+      model%interface = model%interface(:n)
+      do j = 1, size(model%joints)
+         call sum_joint(model, model%joints(j))
+         call default_slope(deck, model, model%joints(j))
+      end do
+   end subroutine build_joints
+
+
+   !> Put the interface elements of joint J behind the first N of the model's, which may have room for more.
+   subroutine add_elements(model, n, j, id, line, elements)
+      type(model_type), intent(inout)        :: model
+      integer, intent(inout)                 :: n
+      integer, intent(in)                    :: j, id, line
+      type(interface_element), intent(inout) :: elements(:)
+      type(interface_element), allocatable    :: longer(:)
+
+      model%joints(j)%id = id
+      model%joints(j)%line = line
+      model%joints(j)%first = n + 1
+      model%joints(j)%last = n + size(elements)
+      elements%joint = j
+      if (model%joints(j)%last > size(model%interface)) then
+         allocate (longer(2*model%joints(j)%last))
+         longer(:n) = model%interface(:n)
+         call move_alloc(longer, model%interface)
+      end if
+      model%interface(n + 1:model%joints(j)%last) = elements
+      n = model%joints(j)%last
+   end subroutine add_elements
+
+
+   !> Interface elements of JOINT card J, numbered from HIGHEST + 1.
+   subroutine joint_elements(deck, tables, j, model, highest, elements)
+      type(checked_deck), intent(in)                    :: deck
+      type(joint_tables), intent(in)                    :: tables
+      integer, intent(in)                               :: j
+      type(model_type), intent(in)                      :: model
+      integer, intent(inout)                            :: highest
+      type(interface_element), allocatable, intent(out) :: elements(:)
+      type(surface_node_list) :: side1, side2
+      integer, allocatable :: partner(:)
+      integer :: surface(2), k
+
+      allocate (elements(0))
+      call find_sides(deck, tables, j, model, surface)
+      if (surface(1) == 0) return
+      call surface_nodes(model, model%surfaces(surface(1)), side1)
+      allocate (partner(side1%n), source=0)
+      if (surface(2) > 0) then
+         call surface_nodes(model, model%surfaces(surface(2)), side2)
+         call pair_nodes(deck, j, model, surface(1), side1, side2, partner)
+      else if (any(model%twin(side1%node) > 0)) then
+         call drop_tips(model, side1)
+         partner = model%twin(side1%node)
+      end if
+      if (model%axisymmetric .and. any(side1%area <= 0.0_wp)) then
+         call deck%errors%add(deck%bulk%joint(j)%line, 'surface '//integer_text(deck%bulk%joint(j)%sides(1))// &
+            ' has no area at node '//integer_text(model%node_id(side1%node(minloc(side1%area, dim=1))))//': it lies on the axis')
+         return
+      end if
+      if (highest > huge(highest) - side1%n) then
+         call deck%field_error(deck%bulk%joint(j)%line, 'JID', 'the numbers of its interface elements, which follow those of '// &
+                               'the CJOINTs, would pass 2147483647')
+         return
+      end if
+      deallocate (elements)
+      allocate (elements(side1%n))
+      do k = 1, side1%n
+         elements(k)%id = highest + k
+         call hang_on(elements(k), side1%node(k), partner(k))
+         elements(k)%area = side1%area(k)
+         elements(k)%axes = joint_axes(model, side1%normal(:, k))
+      end do
+      highest = highest + side1%n
+   end subroutine joint_elements
+
+
+   !> The surfaces of JOINT card J, SURFACE(2) = 0 where it names no SIDE2; both 0 where no joint can be made of them.
+   subroutine find_sides(deck, tables, j, model, surface)
+      type(checked_deck), intent(in) :: deck
+      type(joint_tables), intent(in) :: tables
+      integer, intent(in)            :: j
+      type(model_type), intent(in)   :: model
+      integer, intent(out)           :: surface(2)
+      integer :: first, k
+      logical :: fit
+
+      associate (card => deck%bulk%joint(j))
+         surface = 0
+         first = j
+         do k = 1, 2
+            if (card%sides(k) == 0) cycle
+            surface(k) = tables%surface%find(card%sides(k))
+            if (surface(k) == 0) call deck%field_error(card%line, 'SIDE'//integer_text(k), &
+                                                       'there is no PMARK '//integer_text(card%sides(k)))
+            first = min(first, (tables%side%find(card%sides(k)) + 1)/2)
+         end do
+         if (first < j) call deck%field_error(card%line, 'SIDE1', 'one of the sides is a side of JOINT '// &
+                                              integer_text(deck%bulk%joint(first)%id)//' already')
+         fit = surface(1) > 0 .and. (surface(2) > 0 .or. card%sides(2) == 0)
+         do k = 1, 2
+            if (surface(k) > 0) fit = fit .and. model%surfaces(surface(k))%n > 0
+         end do
+         if (fit .and. surface(2) > 0) then
+            if (is_shared(model%surfaces(surface(2)))) then
+               call deck%field_error(card%line, 'SIDE2', 'bodies lie on both sides of surface '//integer_text(card%sides(2)))
+               fit = .false.
+            else if (is_shared(model%surfaces(surface(1)))) then
+               call deck%field_error(card%line, 'SIDE1', 'bodies lie on both sides of surface '//integer_text(card%sides(1))// &
+                                     ': leave SIDE2 blank, and the program splits it')
+               fit = .false.
+            end if
+         end if
+         if (.not. fit) surface = 0
+      end associate
+   end subroutine find_sides
+
+
+   !> Whether bodies lie on both sides of some of SURFACE.
+   pure logical function is_shared(surface)
+      type(surface_type), intent(in) :: surface
+
+      is_shared = any(surface%other(:surface%n) > 0)
+   end function is_shared
+
+
+   !> Leave out the nodes at which a split surface ends inside a body.
+   pure subroutine drop_tips(model, side)
+      type(model_type), intent(in)           :: model
+      type(surface_node_list), intent(inout) :: side
+      integer, allocatable :: kept(:)
+      integer :: k
+
+      kept = pack([(k, k = 1, side%n)], model%twin(side%node) > 0)
+      side%n = size(kept)
+      side%node = side%node(kept)
+      side%area = side%area(kept)
+      side%normal = side%normal(:, kept)
+   end subroutine drop_tips
+
+
+   !> The interface elements of CJOINT CARDS.
+   subroutine cjoint_elements(deck, cards, model, elements)
+      type(checked_deck), intent(in) :: deck
+      type(cjoint_card), intent(in)  :: cards(:)
+      type(model_type), intent(in)   :: model
+      type(interface_element), allocatable, intent(out) :: elements(:)
+      integer :: k, nodes(2)
+
+      allocate (elements(size(cards)))
+      do k = 1, size(cards)
+         associate (card => cards(k), element => elements(k))
+            element%id = card%id
+            element%area = card%area
+            call find_nodes(deck, card%line, card%nodes, model, nodes)
+            call hang_on(element, nodes(1), nodes(2))
+            if (model%dimension == 2 .and. abs(card%normal(3)) > 0.0_wp) &
+               call deck%field_error(card%line, 'NZ', 'not zero, but a plane model lies in x-y')
+            if (norm2(card%normal) > 0.0_wp) &
+               element%axes = joint_axes(model, outward(model, nodes, card%normal/norm2(card%normal)))
+         end associate
+      end do
+   end subroutine cjoint_elements
+
+
+   !> The number of a joint of CJOINTs: that of its PJOINT, or where a JOINT has it already, the next that is free.
+   pure integer function group_number(deck, joints, law) result(number)
+      type(checked_deck), intent(in)  :: deck
+      type(id_table_type), intent(in) :: joints !! of the JOINT cards, by their ids
+      integer, intent(in)             :: law
+
+      number = law
+      if (joints%find(law) > 0) number = law + max(maxval(deck%bulk%joint%id), maxval(deck%bulk%pjoint%id))
+   end function group_number
+
+
+   !> Area and mean normal of a joint.
+   pure subroutine sum_joint(model, joint)
+      type(model_type), intent(in)    :: model
+      type(joint_type), intent(inout) :: joint
+      integer :: i
+
+      joint%area = 0.0_wp
+      joint%normal = 0.0_wp
+      do i = joint%first, joint%last
+         joint%area = joint%area + model%interface(i)%area
+         joint%normal = joint%normal + model%interface(i)%area*model%interface(i)%axes(:, 3)
+      end do
+      if (norm2(joint%normal) > 1.0e-6_wp*joint%area) then
+         joint%normal = joint%normal/norm2(joint%normal)
+      else
+         joint%normal = 0.0_wp
+      end if
+   end subroutine sum_joint
+
+end module joint_build

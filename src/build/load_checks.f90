@@ -1,0 +1,171 @@
+!> Load cards against the model: nodes, surfaces, sets and masses that are there, directions that the model has.
+module load_checks
+   use bulk_data, only: bulk_data_type, has_component
+   use deck_check, only: checked_deck
+   use kinds, only: wp
+   use model_data, only: model_type
+   use surface_build, only: find_surface
+   use surface_sides, only: nodes_of
+   use text_tools, only: integer_text
+   implicit none
+   private
+
+   public :: check_load_cards, has_set
+
+   character(*), parameter :: others = 'PLOAD4, PLOADE, PLOADM, FORCEM, GRAV or SPCD' ! than FORCE, of a load set
+   character(*), parameter, public :: nor_others = ', nor a '//others                 !! behind `there is no FORCE`
+
+contains
+
+   !> All load cards of the deck; what does not fit goes to ERRORS.
+   subroutine check_load_cards(deck, model)
+      type(checked_deck), intent(in) :: deck
+      type(model_type), intent(in)   :: model
+
+      call check_forces(deck, model)
+      call check_surface_loads(deck, model)
+      call check_gravity(deck, model)
+      call check_displacements(deck, model)
+      call check_combinations(deck)
+   end subroutine check_load_cards
+
+
+   !> Whether some load card is of SET.
+   pure logical function has_set(bulk, set)
+      type(bulk_data_type), intent(in) :: bulk
+      integer, intent(in)              :: set
+
+      has_set = any(bulk%force%set == set) .or. any(bulk%pressure%set == set) .or. any(bulk%surface_load%set == set) .or. &
+                any(bulk%gravity%set == set) .or. any(bulk%displacement%set == set)
+   end function has_set
+
+
+   !> Forces act on nodes that are there, in directions that they have.
+   subroutine check_forces(deck, model)
+      type(checked_deck), intent(in) :: deck
+      type(model_type), intent(in)   :: model
+      integer :: i, node
+
+      do i = 1, size(deck%bulk%force)
+         associate (card => deck%bulk%force(i))
+            node = model%node_table%find(card%node)
+            if (node == 0 .and. card%node > 0) then
+               call deck%field_error(card%line, 'G', 'there is no GRID '//integer_text(card%node))
+            else if (node > 0) then
+               if (.not. model%used(node)) call deck%field_error(card%line, 'G', 'node '//integer_text(card%node)// &
+                                                                 ' belongs to no element')
+            end if
+            call check_plane(deck, model, card%line, card%force)
+         end associate
+      end do
+   end subroutine check_forces
+
+
+   !> A plane model has no direction z; the card on LINE has its component of VECTOR in N3.
+   subroutine check_plane(deck, model, line, vector)
+      type(checked_deck), intent(in) :: deck
+      type(model_type), intent(in)   :: model
+      integer, intent(in)            :: line
+      real(wp), intent(in)           :: vector(3)
+
+      if (model%dimension == 2 .and. abs(vector(3)) > 0.0_wp) &
+         call deck%field_error(line, 'N3', 'not zero, but a plane model lies in x-y')
+   end subroutine check_plane
+
+
+   !> PLOADM and FORCEM act on surfaces that are there; a pressure, on one that has one body alone.
+   subroutine check_surface_loads(deck, model)
+      type(checked_deck), intent(in) :: deck
+      type(model_type), intent(in)   :: model
+      integer :: i, s
+
+      do i = 1, size(deck%bulk%surface_load)
+         associate (card => deck%bulk%surface_load(i))
+            if (card%surface == 0) cycle
+            call find_surface(deck, card%line, 'PID', card%surface, model, s)
+            if (s == 0) cycle
+            associate (surface => model%surfaces(s))
+               if (card%is_pressure .and. (any(surface%other(:surface%n) > 0) .or. surface%was_split)) &
+                  call deck%field_error(card%line, 'PID', 'bodies lie on both sides of surface '//integer_text(card%surface)// &
+                                        ', so which one the pressure acts on is not known')
+               if (model%axisymmetric .and. surface%n > 0 .and. all(abs(model%x(1, nodes_of(surface))) <= 0.0_wp)) &
+                  call deck%field_error(card%line, 'PID', 'surface '//integer_text(card%surface)// &
+                                        ' lies on the axis and has no area')
+            end associate
+            call check_plane(deck, model, card%line, card%force)
+         end associate
+      end do
+   end subroutine check_surface_loads
+
+
+   !> GRAV needs a mass to act on.
+   subroutine check_gravity(deck, model)
+      type(checked_deck), intent(in) :: deck
+      type(model_type), intent(in)   :: model
+      integer :: i
+
+      do i = 1, size(deck%bulk%gravity)
+         associate (card => deck%bulk%gravity(i))
+            call check_plane(deck, model, card%line, card%acceleration)
+            if (model%axisymmetric .and. abs(card%acceleration(1)) > 0.0_wp) &
+               call deck%field_error(card%line, 'N1', 'not zero, but in an axisymmetric model gravity acts along y')
+            if (all(model%properties%rho <= 0.0_wp)) &
+               call deck%errors%add(card%line, 'GRAV: no body has a mass; give RHO on its MAT1')
+         end associate
+      end do
+   end subroutine check_gravity
+
+
+   !> SPCD moves components that are held.
+   subroutine check_displacements(deck, model)
+      type(checked_deck), intent(in) :: deck
+      type(model_type), intent(in)   :: model
+      character(:), allocatable :: words
+      integer :: d, i, node
+
+      do i = 1, size(deck%bulk%displacement)
+         associate (card => deck%bulk%displacement(i))
+            if (card%node == 0) cycle
+            node = model%node_table%find(card%node)
+            if (node == 0) then
+               call deck%field_error(card%line, card%field, 'there is no GRID '//integer_text(card%node), called='G')
+               cycle
+            end if
+            do d = 1, 6
+               if (.not. has_component(card%components, d)) cycle
+               words = ''
+               if (d > model%dimension) then
+                  words = ', expected 1 to '//integer_text(model%dimension)
+               else if (.not. model%held(d, node)) then
+                  words = ' of node '//integer_text(card%node)//' is not supported: SPCD moves components that an SPC holds'
+               end if
+               if (words /= '') call deck%field_error(card%line, card%field + 1, 'component '//integer_text(d)//words, &
+                                                      called='C')
+            end do
+         end associate
+      end do
+   end subroutine check_displacements
+
+
+   !> LOAD cards combine sets that are there.
+   subroutine check_combinations(deck)
+      type(checked_deck), intent(in) :: deck
+      character(:), allocatable :: name
+      integer :: i, k
+
+      do i = 1, size(deck%bulk%load)
+         associate (card => deck%bulk%load(i))
+            do k = 1, size(card%sets)
+               if (card%sets(k) > 0 .and. .not. has_set(deck%bulk, card%sets(k))) call deck%field_error(card%line, card%at(k), &
+                  'there is no FORCE with set '//integer_text(card%sets(k))//nor_others, called='L'//integer_text(k))
+            end do
+            if (.not. has_set(deck%bulk, card%set)) cycle
+            name = others
+            if (any(deck%bulk%force%set == card%set)) name = 'FORCE'
+            call deck%field_error(card%line, 'SID', 'set '//integer_text(card%set)//' is that of a '//name// &
+                                  ' too: case control could mean either')
+         end associate
+      end do
+   end subroutine check_combinations
+
+end module load_checks

@@ -1,0 +1,161 @@
+!> A deck that was read, while what its cards say is put together: errors about fields that were read long ago, numbers given twice,
+!! laws of joints whose parts are missing.
+module deck_check
+   use bulk_data, only: bulk_data_type
+   use card_reader, only: card_kind
+   use case_control, only: case_control_type
+   use deck_cards, only: add_field_error, card_name
+   use deck_errors, only: deck_error_list
+   use deck_input, only: deck_type
+   use deck_text, only: deck_text_type
+   use id_table, only: id_table_type, sorted_order
+   use text_tools, only: integer_text
+   implicit none
+   private
+
+   !> The parts of a deck, and where what is wrong in it goes.
+   type, public :: checked_deck
+      type(deck_text_type), pointer     :: text => null()
+      type(case_control_type), pointer  :: control => null()
+      type(bulk_data_type), pointer     :: bulk => null()
+      type(deck_error_list), pointer    :: errors => null()
+      type(card_kind), pointer, private :: kinds(:) => null()
+   contains
+      procedure :: start
+      procedure, private :: kind_of_line, named_field_error, numbered_field_error
+      generic :: field_error => named_field_error, numbered_field_error
+      procedure :: check_ids
+      procedure :: report_repeated
+   end type checked_deck
+
+contains
+
+   !> Check DECK, what is wrong goes to ERRORS. Both outlive SELF.
+   subroutine start(self, deck, errors)
+      class(checked_deck), intent(inout)           :: self
+      type(deck_type), intent(in), target          :: deck
+      type(deck_error_list), intent(inout), target :: errors
+
+      self%text => deck%text
+      self%control => deck%control
+      self%bulk => deck%bulk
+      self%kinds => deck%kinds
+      self%errors => errors
+   end subroutine start
+
+
+   !> Which kind of card begins on LINE.
+   integer function kind_of_line(self, line) result(kind)
+      class(checked_deck), intent(in) :: self
+      integer, intent(in)             :: line
+
+      kind = findloc(self%kinds%name, card_name(self%text%card_part(line)), dim=1)
+   end function kind_of_line
+
+
+   !> Add an error about the FIELD, by its name in the table, of the card that begins on LINE.
+   subroutine named_field_error(self, line, field, message, called)
+      class(checked_deck), intent(in)    :: self
+      integer, intent(in)                :: line
+      character(*), intent(in)           :: field, message
+      character(*), intent(in), optional :: called !! in the message, where not by its name
+
+      call self%field_error(line, self%kinds(self%kind_of_line(line))%number_of(field), message, called)
+   end subroutine named_field_error
+
+
+   !> The same about data field K. NOUN: what it names, in front of its name.
+   subroutine numbered_field_error(self, line, k, message, called, noun)
+      class(checked_deck), intent(in)    :: self
+      integer, intent(in)                :: line, k
+      character(*), intent(in)           :: message
+      character(*), intent(in), optional :: called !! as above; must be given where the table does not reach so far
+      character(*), intent(in), optional :: noun
+      character(:), allocatable :: name
+
+      if (present(called)) then
+         name = called
+      else
+         name = trim(self%kinds(self%kind_of_line(line))%table(k)%name)
+      end if
+      if (present(noun)) name = noun//' '//name
+      call add_field_error(self%text, line, k, name, message, self%errors)
+   end subroutine numbered_field_error
+
+
+   !> Every id of its kind once among the cards that are few; properties and PMARK share theirs, as properties do in NASTRAN.
+   subroutine check_ids(self)
+      class(checked_deck), intent(in) :: self
+      integer :: direction, i
+
+      associate (bulk => self%bulk)
+         call self%report_repeated('property', [bulk%pshell%id, bulk%paxis%id, bulk%psolid%id, bulk%prod%id, bulk%pmark%id], &
+                              [bulk%pshell%line, bulk%paxis%line, bulk%psolid%line, bulk%prod%line, bulk%pmark%line])
+         call self%report_repeated('MAT1', bulk%mat1%id, bulk%mat1%line)
+         call self%report_repeated('LOAD', bulk%load%set, bulk%load%line)
+         associate (plane => bulk%block%dimension == 2)
+            call self%report_repeated('BLOCK2', pack(bulk%block%id, plane), pack(bulk%block%line, plane))
+            call self%report_repeated('BLOCK3', pack(bulk%block%id, .not. plane), pack(bulk%block%line, .not. plane))
+         end associate
+         call self%report_repeated('BOLT', bulk%bolt%id, bulk%bolt%line)
+         call self%report_repeated('JOINT', bulk%joint%id, bulk%joint%line)
+         call self%report_repeated('PJOINT', bulk%pjoint%id, bulk%pjoint%line)
+         call self%report_repeated('JNORM', bulk%jnorm%id, bulk%jnorm%line)
+         call self%report_repeated('JSHEAR', bulk%jshear%id, bulk%jshear%line)
+         call self%report_repeated('JINCR', bulk%jincr%id, bulk%jincr%line)
+         do i = 1, size(bulk%pjoint)
+            associate (card => bulk%pjoint(i))
+               do direction = 1, 2
+                  if (card%shear_laws(direction) == 0 .or. any(bulk%jshear%id == card%shear_laws(direction))) cycle
+                  call self%field_error(card%line, merge('SIDX', 'SIDY', direction == 1), 'there is no JSHEAR '// &
+                                        integer_text(card%shear_laws(direction)))
+               end do
+               if (card%normal_law == 0 .or. any(bulk%jnorm%id == card%normal_law)) cycle
+               call self%field_error(card%line, 'NID', 'there is no JNORM '//integer_text(card%normal_law))
+            end associate
+         end do
+      end associate
+   end subroutine check_ids
+
+
+   !> Say which of the numbers ID(n), given on the cards of LINE(n), are given twice; a card that gives many is named once.
+   subroutine report_repeated(self, noun, id, line, n_cards)
+      class(checked_deck), intent(in) :: self
+      character(*), intent(in)       :: noun    !! what they are the numbers of
+      integer, intent(in)            :: id(:), line(:)
+      integer, intent(in), optional  :: n_cards !! the first so many are given one by one, in data field 1 of their cards, the
+                                                      !! others by blocks, nodes from N1 and elements from E1 on; left out: all
+      type(id_table_type)  :: table
+      integer, allocatable :: again(:), order(:)
+      integer :: k, last
+      logical :: by_block
+      character(:), allocatable :: words
+
+      call table%build(id)
+      call table%list_repeated(again)
+      call sorted_order(line(again), order)
+      last = 0
+      do while (last < size(again))
+         k = last + 1
+         last = k
+         do while (last < size(again))
+            if (line(again(order(last + 1))) /= line(again(order(k)))) exit
+            last = last + 1
+         end do
+         associate (this => again(order(k)))
+            if (id(this) == 0) cycle ! a field that could not be read
+            words = noun//' '//integer_text(id(this))
+            if (last > k) words = words//', and more of this card,'
+            words = words//' is given twice, first in '//self%text%place(line(table%find(id(this))))
+            by_block = .false.
+            if (present(n_cards)) by_block = this > n_cards
+            if (by_block) then
+               call self%field_error(line(this), merge('N1', 'E1', noun == 'node'), words)
+            else
+               call self%field_error(line(this), 1, words)
+            end if
+         end associate
+      end do
+   end subroutine report_repeated
+
+end module deck_check
