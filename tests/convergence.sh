@@ -42,6 +42,7 @@ while read -r deck stage newton history; do
    echo
    # sixteen times as many increments leave less than half of it, also where the order is 1/2 or a little below
    set -- $errors
+   [ $# -eq 5 ] || { fail "$deck: an error is missing"; continue; }
    if [ "$history" ]; then
       holds "$deck: the error is small, README says that it is not" "max($4, $5) > 0.02"
       continue

@@ -18,7 +18,7 @@ module vtu_results
    implicit none
    private
 
-   public :: start_vtu, write_vtu, finish_vtu, discard_vtu, remove_old_vtu, is_vtu_ending, write_collection
+   public :: start_vtu, write_vtu, finish_vtu, discard_vtu, remove_old_vtu, is_vtu_ending
 
    integer, parameter :: most_old = 999 ! stages whose old files are looked for
 
@@ -197,31 +197,6 @@ contains
       end if
       if (.not. ok) call discard_vtu(results)
    end subroutine finish_vtu
-
-
-   !> The list of .vtu files that ParaView opens: which belong together, and at what time. OK is false, and no file is left by us,
-   !! where it cannot be written.
-   subroutine write_collection(path, times, parts, names, ok)
-      character(*), intent(in) :: path
-      integer, intent(in)      :: times(:) !! the numbers of the stages
-      integer, intent(in)      :: parts(:) !! 0, 1, ... within one time
-      character(*), intent(in) :: names(:) !! the .vtu files, as seen from the folder of the list
-      logical, intent(out)     :: ok
-      type(output_file_type) :: file
-      integer :: i
-
-      call file%start(path)
-      call file%put('<?xml version="1.0"?>')
-      call file%put('<VTKFile type="Collection" version="1.0">')
-      call file%put('  <Collection>')
-      do i = 1, size(names)
-         call file%put('    <DataSet timestep="'//integer_text(times(i))//'" group="" part="'//integer_text(parts(i))//'"')
-         call file%put('             file="'//xml_text(trim(names(i)))//'"/>') ! a line of its own: names may be long
-      end do
-      call file%put('  </Collection>')
-      call file%put('</VTKFile>')
-      call file%finish(ok)
-   end subroutine write_collection
 
 
    !> Leave nothing behind, files that have their names already included.

@@ -20,18 +20,18 @@ program write_matrix
    use deck_errors, only: deck_error_list
    use deck_input, only: deck_type, read_deck
    use element_kinds, only: max_dofs
-   use equation_numbering, only: equation_numbers, number_unknowns
    use joint_laws, only: element_state, element_stiffness_of
    use kinds, only: wp
    use model_build, only: build_model
    use model_data, only: corners_of, model_type, n_bars, n_sections
+   use skyline_solver, only: skyline_solver_type
    use stage_plan, only: stage_plan_type
    implicit none
    type(deck_type)        :: deck
    type(deck_error_list)  :: errors
    type(model_type)       :: model
    type(stage_plan_type)  :: plan
-   type(equation_numbers) :: numbers
+   type(skyline_solver_type) :: numbers ! of the unknowns; no matrix
    integer, allocatable  :: start(:), row(:), closing_row(:, :)
    real(wp), allocatable :: value(:), load(:), closing(:, :)
    integer :: i, status, unit
@@ -43,7 +43,7 @@ program write_matrix
    if (errors%any()) call stop_with('has errors')
    if (n_bars(model) > 0 .or. n_sections(model) > 0) call stop_with('has bars or bolts')
    if (allocated(model%stage_loads(1)%moved)) call stop_with('has moved supports')
-   call number_unknowns(model, [(i, i = 1, model%n_nodes)], numbers)
+   call numbers%number_unknowns(model, [(i, i = 1, model%n_nodes)])
    call assemble(start, row, value)
    call first_load(load)
    call closing_displacements(closing_row, closing)
@@ -124,7 +124,7 @@ contains
             k(d + 1:2*d, d + 1:2*d) = k_global(:d, :d)
             k(:d, d + 1:2*d) = -k_global(:d, :d)
             k(d + 1:2*d, :d) = -k_global(:d, :d)
-            call visit(equations_of(pack(element%nodes, element%nodes > 0)), k, place, rows, values)
+            call visit(equations_of(element%node), k, place, rows, values)
          end associate
       end do
    end subroutine visit_all
@@ -193,10 +193,9 @@ contains
       allocate (factors(6, size(model%interface)), source=0.0_wp)
       do i = 1, size(model%interface)
          associate (element => model%interface(i))
-            do k = 1, 2
-               if (element%nodes(k) == 0) cycle
-               rows(3*k - 2:3*k - 3 + d, i) = numbers%number(:, element%nodes(k))
-               factors(3*k - 2:3*k - 3 + d, i) = merge(1, -1, k == 1)*element%axes(:d, 3)
+            do k = 1, size(element%node)
+               rows(3*k - 2:3*k - 3 + d, i) = numbers%number(:, element%node(k))
+               factors(3*k - 2:3*k - 3 + d, i) = element%weight(k)*element%axes(:d, 3)
             end do
          end associate
       end do

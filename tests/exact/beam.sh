@@ -87,6 +87,7 @@ while read -r case m c p w; do
          beam beam $((n * 1000 / h)) $m "$c" "$p" none $h && values="$values $w0"
       done
       set -- $values
+      [ $# -eq 3 ] || { fail "beam $case, h = $h: a mesh is missing"; continue 2; }
       holds "beam $case, h = $h: w0 goes as dx**2" "(($1) - ($2))/(($2) - ($3)) = 4 within 0.5"
       [ $h = 10 ] && high=$(number "(4*$3 - $2)/3/$w - 1")
       [ $h = 5 ] && low=$(number "(4*$3 - $2)/3/$w - 1")
