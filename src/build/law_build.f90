@@ -79,11 +79,26 @@ contains
          joint%law%normal%e_u = lower*(2.0_wp*higher/(lower + higher)) ! exactly E where both are the same
       else if (higher > 0.0_wp) then
          joint%law%normal%e_u = higher
-      else if (joint%last >= joint%first) then
+      else if (joint%last >= joint%first .and. .not. has_body(model, joint)) then ! what is wrong with a body is said there
          call deck%errors%add(joint%line, 'joint '//integer_text(joint%id)// &
             ': the JNORM of this joint leaves EU blank, and there is no body at the joint to take E from: give EU')
       end if
    end subroutine default_slope
+
+
+   !> Whether any node of the interface elements of JOINT belongs to a body element.
+   pure logical function has_body(model, joint)
+      type(model_type), intent(in) :: model
+      type(joint_type), intent(in) :: joint
+      integer :: i
+
+      has_body = .false.
+      do i = joint%first, joint%last
+         associate (nodes => model%interface(i)%node)
+            if (any(model%first_at(nodes) < model%first_at(nodes + 1))) has_body = .true.
+         end associate
+      end do
+   end function has_body
 
 
    !> E of the body at END 1 or 2 of the interface elements of JOINT: the mean of its elements at the nodes there, areas of
