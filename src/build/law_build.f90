@@ -2,6 +2,7 @@
 module law_build
    use deck_check, only: checked_deck
    use id_table, only: id_table_type
+   use interface_operator, only: nodes_of_end
    use kinds, only: wp
    use model_data, only: joint_type, model_type
    use normal_stiffness, only: normal_law
@@ -62,26 +63,54 @@ contains
    end subroutine resolve_laws
 
 
-   !> The unloading slope that the card leaves blank: E of the body at the joint, per unit length.
+   !> The unloading slope that the card leaves blank: the equivalent E of both bodies, 2 E1 E2/(E1 + E2), per unit length; on a
+   !! rigid base E of the body.
    subroutine default_slope(deck, model, joint)
       type(checked_deck), intent(in)  :: deck
       type(model_type), intent(in)    :: model
       type(joint_type), intent(inout) :: joint
-      integer :: i, k, node
+      real(wp) :: e(2), lower, higher
 
       if (joint%e_u_given .or. joint%law%normal%c <= 0.0_wp) return
+      e = [modulus_of_side(model, joint, 1), modulus_of_side(model, joint, 2)]
+      lower = minval(e)
+      higher = maxval(e)
+      if (lower > 0.0_wp) then
+         joint%law%normal%e_u = lower*(2.0_wp*higher/(lower + higher)) ! exactly E where both are the same
+      else if (higher > 0.0_wp) then
+         joint%law%normal%e_u = higher
+      else if (joint%last >= joint%first) then
+         call deck%errors%add(joint%line, 'joint '//integer_text(joint%id)//': the JNORM of this joint leaves EU blank, and '// &
+                              'there is no body at the joint to take E from: give EU')
+      end if
+   end subroutine default_slope
+
+
+   !> E of the body at END 1 or 2 of the interface elements of JOINT: the mean of its elements at the nodes there, areas of
+   !! influence as weights; 0 where there is none [pressure].
+   pure real(wp) function modulus_of_side(model, joint, end) result(e)
+      type(model_type), intent(in) :: model
+      type(joint_type), intent(in) :: joint
+      integer, intent(in)          :: end
+      real(wp) :: total, weight
+      integer, allocatable :: nodes(:)
+      integer :: i, j, k
+
+      e = 0.0_wp
+      total = 0.0_wp
       do i = joint%first, joint%last
-         do k = 1, size(model%interface(i)%node)
-            node = model%interface(i)%node(k)
-            if (model%first_at(node) == model%first_at(node + 1)) cycle
-            associate (property => model%element_property(model%elements_at(model%first_at(node))))
-               if (property > 0) joint%law%normal%e_u = model%properties(property)%e
-            end associate
-            return
+         nodes = nodes_of_end(model%interface(i), end)
+         do k = 1, size(nodes)
+            do j = model%first_at(nodes(k)), model%first_at(nodes(k) + 1) - 1
+               associate (property => model%element_property(model%elements_at(j)))
+                  if (property == 0) cycle
+                  weight = model%interface(i)%area/(size(nodes)*(model%first_at(nodes(k) + 1) - model%first_at(nodes(k))))
+                  total = total + weight
+                  e = e + (model%properties(property)%e - e)*(weight/max(total, tiny(1.0_wp))) ! equal ones stay what they are
+               end associate
+            end do
          end do
       end do
-      if (joint%last >= joint%first) call deck%errors%add(joint%line, 'joint '//integer_text(joint%id)// &
-         ': the JNORM of this joint leaves EU blank, and there is no body at the joint to take E from: give EU')
-   end subroutine default_slope
+   end function modulus_of_side
 
 end module law_build

@@ -7,6 +7,7 @@ module step_method
    use joint_laws, only: exceeds_limit, flag_margin, friction_excess
    use kinds, only: wp
    use model_data, only: joint_node_id, model_type
+   use normal_stiffness, only: pressure_reached
    use stage_plan, only: stage_plan_type, where_in_plan
    use text_tools, only: integer_text, real_text
    implicit none
@@ -112,7 +113,7 @@ contains
             work(2) = (state%normal%sumf + 0.5_wp*analysis%k(3, i)*movement(3))*movement(3)
             state%normal%lambda = state%normal%lambda + movement(3)
             state%normal%sumf = state%normal%sumf + analysis%k(3, i)*movement(3)
-            state%normal%pressure = state%normal%sumf/area
+            state%normal%pressure = pressure_reached(area, analysis%eq10, state%normal)
          end associate
          call tally_work(analysis%energy(model%interface(i)%joint), work)
          call add_force(system%interface(i), -analysis%k(:, i)*movement, analysis%body)

@@ -18,8 +18,8 @@ module normal_stiffness
    implicit none
    private
 
-   public :: norm, is_virgin, follow_normal, branch_name
-   public :: loading_pressure, normal_secant, normal_tangent, line_pressure, stored_work
+   public :: norm, is_virgin, pressure_reached, follow_normal, branch_name
+   public :: loading_deflection, loading_pressure, normal_secant, normal_tangent, line_pressure, stored_work
 
    integer, parameter, public :: branch_load = 1, branch_unload = 2, branch_open = 3, branch_reload = 4
 
@@ -58,12 +58,10 @@ contains
       logical, intent(in)               :: eq10  !! p on the loading curve by Eq. (10) as printed, not SUMF/a_i
       type(normal_state), intent(inout) :: state !! accumulated; its branch and points A, B are brought up to date
       real(wp), intent(out)             :: k_n   !! [force/length]
-      logical :: was_loading
 
-      was_loading = state%branch == branch_load
+      state%pressure = pressure_reached(area, eq10, state)
       if (.not. is_virgin(area, state)) call ask_diamonds(area, state)
-      state%pressure = state%sumf/area
-      if (eq10 .and. was_loading .and. state%branch == branch_load) state%pressure = state%k_n*state%lambda/area
+      if (state%branch == branch_open) state%pressure = 0.0_wp
       select case (state%branch)
       case (branch_load)
          k_n = normal_tangent(law, area, state%pressure, state%p_av)
@@ -74,6 +72,18 @@ contains
          k_n = law%e_u*area
       end select
    end subroutine norm
+
+
+   !> p as the last increment has left it, SUMF/a_i or on the loading curve that of Eq. (10) [pressure].
+   pure real(wp) function pressure_reached(area, eq10, state) result(p)
+      real(wp), intent(in)           :: area
+      logical, intent(in)            :: eq10
+      type(normal_state), intent(in) :: state
+
+      p = state%sumf/area
+      if (.not. eq10 .or. state%branch /= branch_load .or. is_virgin(area, state) .or. force_falls(area, state)) return
+      p = state%k_n*state%lambda/area
+   end function pressure_reached
 
 
    !> The diamonds of Fig. 6(b), asked one after another of the state that the increment has reached: the branch that the element
@@ -172,7 +182,7 @@ contains
       real(wp), intent(out)           :: work   !! done on the element, integral of p a d lambda [force x length]
       real(wp) :: least, unloaded
 
-      least = rounding*max(abs(before%lambda_a), law%c*before%p_av**law%m)
+      least = rounding*max(abs(before%lambda_a), loading_deflection(law, before%p_av))
       after = before
       after%lambda_before = before%lambda
       after%sigmaf = before%sumf
@@ -218,6 +228,15 @@ contains
 
       p = (lambda/law%c)**(1.0_wp/law%m)
    end function loading_pressure
+
+
+   !> lambda of the loading curve at P >= 0, Eq. (1) [length].
+   pure real(wp) function loading_deflection(law, p) result(lambda)
+      type(normal_law), intent(in) :: law
+      real(wp), intent(in)         :: p
+
+      lambda = law%c*p**law%m
+   end function loading_deflection
 
 
    !> Secant of the loading curve from 0 to P, Eq. (9), times AREA [force/length].

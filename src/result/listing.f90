@@ -1,7 +1,7 @@
 !> The listing NAME.out: increments of each stage, and the tables that OUTPUT asks for.
 module listing
    use analysis_state, only: analysis_type, free_norm
-   use case_control, only: output_all, output_joint, output_last
+   use case_control, only: method_back, output_all, output_joint, output_last
    use deck_input, only: deck_type
    use determinate_joints, only: carried_resultant
    use equation_solver, only: equation_system
@@ -14,7 +14,7 @@ module listing
    use listing_table, only: column, label_type, listing_table_type, noise, page_type
    use model_data, only: joint_node_id, model_type, stage_load_type
    use normal_stiffness, only: branch_open
-   use range_watch, only: range_watch_type, watch_balance, watch_ranges
+   use range_watch, only: range_watch_type, watch_balance, watch_ranges, watch_unloading
    use stage_plan, only: stage_plan_type
    use text_tools, only: clean, integer_text, plural, upper
    implicit none
@@ -73,6 +73,7 @@ contains
          call note_bars(page, model, analysis, listing%bars)
          call note_sections(page, model, analysis, listing%sections)
          call watch_ranges(model, plan, analysis, listing%watch)
+         if (listing%method /= method_back) call watch_unloading(model, plan, analysis, listing%watch)
          if (analysis%increment == size(stage%shares)) return ! the tables of the end of the stage follow
          if (stage%output == output_all .or. stage%output == output_joint) call list_interface(page, model, analysis)
          if (stage%output == output_all) call list_bodies(page, stage%stress, model, analysis)

@@ -1,25 +1,28 @@
-!> Warnings: shear laws used outside their range (once an interface element and stage), and stages that end far from balance.
+!> Warnings: shear laws used outside their range (once an interface element and stage), unloading softer than loading (once a
+!! joint), and stages that end far from balance.
 module range_watch
    use analysis_state, only: analysis_type, free_norm
    use joint_laws, only: friction_excess, friction_limit
    use kinds, only: wp
    use listing_table, only: listing_table_type
    use model_data, only: joint_node_id, model_type
-   use normal_stiffness, only: branch_open
+   use normal_stiffness, only: branch_load, branch_open, loading_deflection, normal_tangent
    use shear_stiffness, only: shear_slope
    use stage_plan, only: stage_plan_type, where_in_plan
    use text_tools, only: integer_text, real_text, upper
    implicit none
    private
 
-   public :: watch_ranges, watch_balance
+   public :: watch_ranges, watch_unloading, watch_balance
 
    real(wp), parameter :: much = 0.01_wp ! of the largest load, or of the friction limits: what may be left without a warning
+   real(wp), parameter :: rounding = 1.0e-9_wp
 
    type, public :: range_watch_type
       integer :: n_warnings = 0               !! in all
       type(listing_table_type) :: rows        !! of the stage so far
-      integer, allocatable, private :: stage(:) ! in which an element was last warned of
+      integer, allocatable, private :: stage(:)      ! in which an element was last warned of
+      logical, allocatable, private :: soft_line(:)  ! whether a joint was warned of its E_u
    end type range_watch_type
 
 contains
@@ -55,6 +58,35 @@ contains
          end do
       end do
    end subroutine watch_ranges
+
+
+   !> Note the joints of which an element has come to where the loading curve is steeper than the line E_u that it would unload
+   !! along.
+   subroutine watch_unloading(model, plan, analysis, watch)
+      type(model_type), intent(in)          :: model
+      type(stage_plan_type), intent(in)     :: plan
+      type(analysis_type), intent(in)       :: analysis
+      type(range_watch_type), intent(inout) :: watch
+      real(wp) :: slope
+      integer  :: i
+
+      if (.not. allocated(watch%soft_line)) allocate (watch%soft_line(size(model%joints)), source=.false.)
+      do i = 1, size(model%interface)
+         associate (j => model%interface(i)%joint, state => analysis%states(i)%normal)
+            if (watch%soft_line(j) .or. state%branch /= branch_load) cycle
+            associate (law => model%joints(j)%law%normal, p => state%pressure)
+               slope = normal_tangent(law, 1.0_wp, p, state%p_av)
+               if (law%e_u >= slope*(1.0_wp - rounding)) cycle
+               watch%soft_line(j) = .true.
+               watch%n_warnings = watch%n_warnings + 1
+               call watch%rows%keep_line('  WARNING: NODE '//integer_text(joint_node_id(model, i, 1))//', '// &
+                  upper(where_in_plan(plan, analysis%stage, analysis%increment))//': E_U = '//real_text(law%e_u)//' OF JOINT '// &
+                  integer_text(model%joints(j)%id)//' IS BELOW THE LOADING SLOPE '//real_text(slope)//' AT P = '//real_text(p)// &
+                  trim(merge(': NEGATIVE SET', '              ', p/law%e_u > loading_deflection(law, p))))
+            end associate
+         end associate
+      end do
+   end subroutine watch_unloading
 
 
    !> At the end of a stage: what is unbalanced, and by how much friction limits are still exceeded.

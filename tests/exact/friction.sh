@@ -149,3 +149,46 @@ done
 # Repeated until it is gone: no node beyond its limit by more than the tolerance, and the push is carried.
 run_input friction_full && ask 'friction_full: excess gone, push carried' friction_full by stage by increment \
    all 'sum(max((abs(tau_x) - 0.2*pressure)*area, 0)) <= 1e-8*200' all 'sum(tau_x*area) = if(stage = 2, 190*load, 0) within 1e-7'
+
+# PRESSURE = EQ10 with MU: the check takes the pressure that is printed, p = k_n lambda/a. One element beside a spring, pushed past its
+# limit: what slips carries MU p, what sticks less; SUMF/a is 0.5 in every increment, and by it the limit would be 0.1.
+cat > "$work/eq10.bdf" <<'DECK'
+METHOD = STEP
+PRESSURE = EQ10
+SUBCASE 1
+  LOAD = 1
+  INCR = 1
+SUBCASE 2
+  LOAD = 2
+  INCR = 1
+BEGIN BULK
+GRID,7
+CJOINT,1,1,7,,100.0,0.0,-1.0
+CJOINT,2,2,7,,100.0,1.0,0.0
+PJOINT,1,1,1,,0.2,-1,0.05
+JNORM,1,8.0-3,0.5,500.0
+JSHEAR,1,100.0,300.0
+PJOINT,2,2,,,,,0.1
+JNORM,2,0.1,1.0,10.0
+FORCE,1,7,,50.0,0.0,-1.0
+FORCE,9,7,,60.0,1.0,0.0
+LOAD,2,1.0,1.0,1,1.0,9
+JINCR,1,10,ARITH,0.1
+ENDDATA
+DECK
+run eq10 && {
+   judge 'EQ10 with MU: the limit is MU times the pressure of Eq. (10)' -F, '
+      FNR == 1 { for (k = 1; k <= NF; k++) at[$k] = k; next }
+      $(at["joint"]) != 1 { next }
+      { p = $(at["k_n"]) * $(at["lambda"]) / 100; limit = 0.2 * $(at["pressure"]); tau = $(at["tau_x"])
+        if (($(at["pressure"]) / p - 1)^2 > 1e-24 || ($(at["force"]) / (50 * ($1 == 1 ? $3 : 1)) - 1)^2 > 1e-24)
+           print $1 "," $2 ": p " $(at["pressure"]) ", not " p ", force " $(at["force"]) }
+      $1 == 2 { n++; if (limit > 0.15) high++; if ($(at["slip"])) { slips++; if ((tau / limit - 1)^2 > 1e-14) print $2 ": tau " tau ", limit " limit }
+                else if (tau > limit) print $2 ": sticks with " tau ", limit " limit }
+      END { if (n != 10 || high != 10 || slips < 2 || slips > 8) print n " rows, " slips " slip"; print "checked " n }' "$work/eq10.joint.csv"
+   judge 'EQ10 with MU: LIMIT of the listing is MU P' '
+      /INTERFACE ELEMENTS OF JOINT 1,/ { table = "P" } /SHEAR IN DIRECTION X OF JOINT 1,/ { table = "LIMIT" }
+      table == "P" && $1 == 1 && NF > 9 { p = $9; table = "" }
+      table == "LIMIT" && $1 == 1 && NF > 7 { n++; if (($8 / (0.2 * p) - 1)^2 > 1e-10) print "P " p ", LIMIT " $8; table = "" }
+      END { if (n != 2) print n + 0 " lines"; print "checked " n }' "$work/eq10.out"
+}

@@ -85,3 +85,54 @@ run stack && {
       }
       END { if (n != 9) print n " lines"; print "checked " n }' "$work/stack.out"
 }
+
+# E_u left blank: bodies of E 100 and 300 have 2 x 100 x 300/400 = 150 between them, and loaded and relieved they go the same way
+# whichever side comes first. p 0.5 and then 0.1 by hand: lambda = 8E-3 sqrt(0.5) - 0.4/150 (nu = 0, pressed evenly).
+unequal() { # NAME SIDES
+   cat > "$work/$1.bdf" <<DECK
+METHOD = NEWTON
+SPC = 1
+SUBCASE 1
+  LOAD = 1
+SUBCASE 2
+  LOAD = 2
+BEGIN BULK
+PSHELL,1,1,20.0
+MAT1,1,100.0,,0.0
+PSHELL,2,2,20.0
+MAT1,2,300.0,,0.0
+BLOCK2,2,2,2,1,0.0,-30.0
++,100.0,0.0,,,,,1001,1001
++,22,,21
+BLOCK2,1,1,2,1,0.0,0.0
++,100.0,40.0,,,,,1,1
++,20,,23
+PMARK,20
+PMARK,21
+PMARK,22
+PMARK,23
+SPCM,1,12,22
+SPC1,1,1,1
+JOINT,1,1,$2
+PJOINT,1,1
+JNORM,1,8.0-3,0.5
+PLOADM,1,0.5,23
+PLOADM,2,0.1,23
+ENDDATA
+DECK
+   run "$1"
+}
+unequal up 20,21 && unequal down 21,20 && {
+   near 'bodies of unequal E: relieved along the equivalent E' "$(cell up 2 1 1 lambda)" "$(awk 'BEGIN { printf "%.15e", 8e-3 * sqrt(0.5) - 0.4 / 150 }')" 1e-9
+   near 'bodies of unequal E: k_n' "$(cell up 2 1 1 k_n)" 75000 1e-12
+   near 'bodies of unequal E: sides exchanged' "$(cell down 2 1 1002 lambda)" "$(cell up 2 1 1 lambda)" 1e-10
+}
+
+# An E_u less steep than the loading curve is warned of, once a joint: at p = 0.5 the slope is 2 sqrt(0.5)/8E-3 = 176.777, the set of
+# 150 is 5.657E-3 - 0.5/150 > 0; that of 80 would be negative.
+says 'E_u below the slope of the loading curve' "$work/up.out" 'STAGE 1, INCREMENT 1: E_U = 150 OF JOINT 1 IS BELOW THE LOADING SLOPE 176.7767 AT P = 0.5$'
+same 'E_u below the slope: once' "$(grep -c 'WARNING.*E_U' "$work/up.out")" 1
+sed 's/^JNORM.*/&,80.0/' "$work/up.bdf" > "$work/negative.bdf"
+run negative && says 'E_u below the secant' "$work/negative.out" 'E_U = 80 OF JOINT 1 IS BELOW THE LOADING SLOPE 176.7767 AT P = 0.5: NEGATIVE SET$'
+sed 's/^JNORM.*/&,180.0/' "$work/up.bdf" > "$work/steep.bdf"
+run steep && same 'E_u above the slope: no warning' "$(grep -c 'WARNING:' "$work/steep.out")" 0
