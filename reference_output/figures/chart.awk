@@ -1,4 +1,4 @@
-# A flow chart drawn in characters to SVG: the code block of a Markdown file that follows the line which holds TITLE.
+# A flow chart drawn in characters to SVG: the code block of a Markdown file that follows the heading which holds TITLE.
 #
 #    awk -v title='Fig. 6(a)' -f chart.awk README.md > fig6a.svg
 #
@@ -7,7 +7,7 @@
 BEGIN { wide = 9; high = 18; fence = "```" }
 index($0, fence) == 1 { if (on) exit; if (found) on = 1; next }
 on { row[++rows] = $0; if (length($0) > columns) columns = length($0); next }
-index($0, title) { found = 1; heading = $0; sub(/^#+ */, "", heading) }
+/^#/ && index($0, title) { found = 1; heading = $0; sub(/^#+ */, "", heading) }
 
 function char(x, y) { return y < 1 || y > rows || x < 1 ? " " : (substr(row[y], x, 1) == "" ? " " : substr(row[y], x, 1)) }
 function one_of(c, set) { return c != " " && index(set, c) > 0 }

@@ -59,7 +59,8 @@ for script in "$here"/*.gp; do
    for terminal in 'pngcairo size 1000,700 font "Helvetica,14"' 'svg size 1000,700 font "Helvetica,14" background "white"'; do
       suffix=${terminal%% *}
       suffix=${suffix%cairo}
-      gnuplot -e "set terminal $terminal; set output '$here/$name.$suffix'; folder = '$work/'; includes = '$here/'" "$here/style.inc" "$script"
+      gnuplot -e "set terminal $terminal; set output '$here/$name.$suffix'; folder = '$work/'; includes = '$here/'" \
+         "$here/style.inc" "$script"
    done
    echo "$here/$name.png, .svg"
 done

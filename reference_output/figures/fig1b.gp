@@ -2,12 +2,13 @@ set title 'Fig. 1(b)  Shear of a joint at constant pressure, p = 0.5 kgf/mm^2: O
 set xlabel 'shear deflection {/Symbol d} [10^{-3} mm]'
 set ylabel 'shear stress {/Symbol t} [kgf/mm^2]'
 set key top left Left reverse
-cell(s, c) = real(system(sprintf("awk -F, '$1 == %d && $2 == 10 { print $%d }' %sshear_cycles.joint.csv", s, c, folder)))
+delta(s) = cell('shear_cycles', s, 10, 1, 'delta_x')
+tau(s) = cell('shear_cycles', s, 10, 1, 'tau_x')
 set label 1 'O' at 0, 0 offset 0.8, -0.8
 do for [i = 1:3] {
    s = 3*i - 1
-   set label 10 + i word('A B C', i) at 1000*cell(s, 18), cell(s, 19) offset -0.6, 0.9
-   set label 20 + i sprintf('%d', i) at 1000*cell(s + 1, 18), cell(s + 1, 19) offset 0.5, -0.8
+   set label 10 + i word('A B C', i) at 1000*delta(s), tau(s) offset -0.6, 0.9
+   set label 20 + i sprintf('%d', i) at 1000*delta(s + 1), tau(s + 1) offset 0.5, -0.8
 }
 A(d) = 0.120*d - 0.008*d**2 + 0.0002*d**3
 cycle(s) = stage('shear_cycles', s)

@@ -1,12 +1,11 @@
 set title 'Fig. 3  Loading by increments: node 51 of the prism, 5 increments'
 set xlabel 'closing deflection {/Symbol l} [10^{-3} mm]'
 set ylabel 'pressure p [kgf/mm^2]'
-set key top left Left reverse
+set key top left Left reverse noautotitle
 n = 5
 array L[n]
 array P[n]
-cell(i, c) = real(system(sprintf("awk -F, '$2 == %d && $6 == 51 { print $%d }' %sprism05.joint.csv", i, c, folder)))
-do for [i = 1:n] { L[i] = 1000*cell(i, 13); P[i] = cell(i, 14) }
+do for [i = 1:n] { L[i] = 1000*cell('prism05', 1, i, 51, 'lambda'); P[i] = cell('prism05', 1, i, 51, 'pressure') }
 on_curve(p) = 8.0*sqrt(p)
 tangent(x, p) = p + sqrt(p)/4.0*(x - on_curve(p))
 set label 1 'O = A_0' at 0, 0 offset 0.8, -0.7
@@ -17,10 +16,10 @@ do for [i = 1:n] {
    if (i < n) { set arrow 40 + i from on_curve(P[i]) - 0.6, tangent(on_curve(P[i]) - 0.6, P[i]) \
                    to on_curve(P[i]) + 1.4, tangent(on_curve(P[i]) + 1.4, P[i]) nohead ls 4 lw 1.5 dt 2 }
 }
+set arrow 50 from 0, 0 to L[1], P[1] nohead ls 2
 plot [0:8] [-0.03:0.65] \
    (x/8.0)**2 with lines ls 1 dt 1 lw 1 title 'the law, {/Symbol l} = c p^m', \
-   "< awk -F, 'NR == 1 { print \"lambda,pressure\"; print \"0,0\"; next } $6 == 51 { print $13 \",\" $14 }' " . folder . "prism05.joint.csv" \
-      using (1000*column('lambda')):'pressure' with linespoints ls 2 title 'increments, to the computed points B_i', \
+   P using (L[$1]):(P[$1]) with linespoints ls 2 title 'increments, to the computed points B_i', \
    NaN with lines ls 4 lw 1.5 dt 2 title 'tangents at A_i, which begin at B_i', \
    NaN with lines ls 3 lw 3 title 'error A_i B_i', \
    P using (on_curve(P[$1])):(P[$1]) with points ls 1 title 'A_i on the curve'

@@ -9,4 +9,5 @@ set label 1 't_1' at d1, t1 offset 0.8, 0.5
 set label 2 '{/Symbol t}_f' at d1, limit1 offset 0.8, -0.6
 plot [-0.3:0.2] [-0.06:0.12] \
    rows using (1000*column('delta_x')):'tau_x' with linespoints ls 2 title 'shear stress after each increment of the push', \
-   rows using (1000*column('delta_x')):(mu*column('pressure')) with linespoints ls 1 dt 2 title 'limit {/Symbol t}_f = {/Symbol m}p, {/Symbol m} = 0.2: the pressure falls behind the push'
+   rows using (1000*column('delta_x')):(mu*column('pressure')) with linespoints ls 1 dt 2 \
+      title 'limit {/Symbol t}_f = {/Symbol m}p, {/Symbol m} = 0.2: the pressure falls behind the push'

@@ -1,0 +1,64 @@
+#!/usr/bin/env bash
+# The pictures of any deck (make figures DECK=path) and the flow charts. Pictures are drawn where gnuplot is installed.
+#
+#    figures.sh PROGRAM FOLDER
+set -u
+program=$1 work=$2
+source tests/exact/lib.sh
+figures=reference_output/figures
+rm -rf "$work"
+mkdir -p "$work"
+
+# tables NAME: those of the joint history of reference_output
+tables() {
+   mkdir -p "$work/$1"
+   awk -v folder="$work/$1" -f $figures/joint_tables.awk "reference_output/$1.joint.csv"
+   cat "$work/$1/joints"
+}
+same 'a row of elements, pressed' "$(tables prism05)" '1 line pressure deflection normal'
+same 'it begins at its end' "$(head -n 1 "$work/prism05/1.axes")" 'distance along the joint from (0, 0, 0)'
+same 'the last element of the row' "$(tail -n 1 "$work/prism05/1.along")" '150,0,0.574066504,0.00762012913'
+same 'a face' "$(tables prism3d)" '1 face pressure deflection normal'
+same 'a face in the plane z = 0' "$(tables post_on_plate)" '1 face pressure deflection normal shear_x shear_y'
+same 'one element, pushed' "$(tables shear_cycles)" '1 point normal shear_x'
+same 'two joints' "$(tables slideway | cut -d' ' -f1,2 | tr '\n' ' ')" '1 face 2 face '
+same 'a block of lines for every stage' "$(tables prism_history > /dev/null; grep -c '^$' "$work/prism_history/1.along")" 4
+same 'all that ever pressed' "$(wc -l < "$work/prism05/1.peaks")" 11
+
+echo 1 > "$work/chosen"
+awk -v joint=1 -f $figures/joint_loops.awk "$work/chosen" reference_output/shear_cycles.joint.csv > "$work/loops"
+same 'the loops of an element: its name, rest, every increment' "$(wc -l < "$work/loops")" 83
+same 'they begin at rest' "$(head -n 2 "$work/loops" | tail -n 1)" '0,0,0,0,0,0'
+
+# refused DECK WORDS: ends with a status and says so
+refused() {
+   if $figures/deck.sh "$program" "$1" "$work" > "$work/said" 2>&1; then fail "$1: drawn"; else says "$1" "$work/said" "$2"; fi
+}
+refused "$work/none.bdf" "there is no deck $work/none.bdf"
+if command -v gnuplot > /dev/null; then
+   sed 's/^FORCE .*/FORCE   10      99              800.0   0.0     -1.0/' input/prism05.bdf > "$work/wrong.bdf"
+   refused "$work/wrong.bdf" 'ended with status 2: nothing is drawn'
+   cp input/lap_joint.bdf "$work/a user's deck.bdf"
+   $figures/deck.sh "$program" "$work/a user's deck.bdf" "$work/pictures" > "$work/said" 2>&1
+   same 'pictures of a deck' "$?" 0
+   for quantity in pressure deflection normal shear_x; do
+      picture="$work/pictures/a user's deck.1.$quantity.png"
+      says "$quantity is named" "$work/said" "$picture"
+      same "$quantity is a PNG" "$(head -c 4 "$picture" | tail -c 3)" PNG
+   done
+   same 'nothing else is said' "$(wc -l < "$work/said")" 4
+fi
+
+# every word of a chart in characters is in the SVG file, which is the one that the script makes of it
+for chart in a b; do
+   awk -v title="Fig. 6($chart)" -f $figures/chart.awk $figures/README.md > "$work/fig6$chart.svg"
+   same "fig6$chart.svg is that of the chart" "$(cmp "$work/fig6$chart.svg" "$figures/fig6$chart.svg" 2>&1)" ''
+   awk -v title="Fig. 6($chart)" '/^#/ { found = index($0, title) } /^```/ { on = found && !on; next } on' $figures/README.md |
+      grep -o -E '[A-Za-z_]{2,}' | sort -u > "$work/words"
+   missing=$(while read -r word; do grep -q -- "$word" "$work/fig6$chart.svg" || echo "$word"; done < "$work/words")
+   same "fig6$chart.svg has all $(wc -l < "$work/words") words" "$([ -s "$work/words" ] || echo none) $missing" ' '
+done
+awk -v title='Fig. 9' -f $figures/chart.awk $figures/README.md > /dev/null 2>&1
+same 'a chart that is not there' $? 1
+echo "$passed passed, $failed failed"
+[ $failed -eq 0 ] && [ $passed -gt 0 ]
