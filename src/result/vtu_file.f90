@@ -27,6 +27,7 @@ module vtu_file
    use, intrinsic :: iso_fortran_env, only: int8, int32, int64, real64
    use c_library, only: remove_file, rename_file
    use incomplete_results, only: note_incomplete, suffix
+   use output_file, only: output_file_type
    use text_tools, only: integer_text
    implicit none
    private

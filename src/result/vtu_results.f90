@@ -14,7 +14,7 @@ module vtu_results
    use stage_plan, only: stage_plan_type
    use stress_measures, only: principal_stresses, von_mises
    use text_tools, only: integer_text
-   use vtu_file, only: cell_data, point_data, vtk_vertex, vtu_file_type, xml_text
+   use vtu_file, only: cell_data, point_data, vtk_vertex, vtu_file_type, write_collection, xml_text
    implicit none
    private
 
