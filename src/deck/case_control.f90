@@ -17,6 +17,8 @@ module case_control
 
    integer, parameter, public :: solver_auto = 0, solver_skyline = 1, solver_tree = 2      !! SOLVER =
 
+   real(wp), parameter :: newton_tolerance = 1.0e-10_wp, back_tolerance = 1.0e-6_wp ! TOL that is not given
+
    !> One SUBCASE: a stage of the load history.
    type, public :: stage_type
       integer :: id = 0, line = 0
@@ -36,8 +38,9 @@ module case_control
       integer :: method = method_step
       integer :: pressure = pressure_sumf
       logical :: carry = .false.
+      logical :: average = .true.                        !! BACK: two consecutive sets of results
       integer :: solver = solver_auto
-      real(wp) :: tolerance = 1.0e-10_wp                 !! NEWTON: unbalanced share of the largest load
+      real(wp) :: tolerance = newton_tolerance           !! NEWTON: unbalanced share of the largest load; BACK: change of pressures
       logical :: echo  = .true.
       type(stage_type), allocatable :: stages(:)
    end type case_control_type
@@ -58,6 +61,7 @@ contains
       character(:), allocatable :: line
 
       control%title = ''
+      control%tolerance = 0.0_wp
       allocate (control%stages(0))
       common%label = ''
       keys_seen = '|'
@@ -83,6 +87,7 @@ contains
          call check_repeated(entry, keys_seen, errors)
          call read_entry(entry, control, common, errors)
       end do
+      if (control%tolerance <= 0.0_wp) control%tolerance = merge(back_tolerance, newton_tolerance, control%method == method_back)
       call check_stages(control, errors)
    end subroutine read_case_control
 
@@ -112,12 +117,12 @@ contains
             call read_stage_entry(entry, control%stages(n), errors)
          end if
          return
-      case ('SOL', 'TITLE', 'UNITS', 'METHOD', 'TOL', 'PRESSURE', 'CARRY', 'SOLVER', 'ECHO')
+      case ('SOL', 'TITLE', 'UNITS', 'METHOD', 'TOL', 'PRESSURE', 'CARRY', 'AVERAGE', 'SOLVER', 'ECHO')
          if (n > 0) call errors%add(entry%line, entry%key//': holds for all stages, expected above the first SUBCASE')
       case default
          call errors%add(entry%line, ''''//entry%key(:min(40, len(entry%key)))//''' is no key of case control; '// &
-                         'expected TITLE, UNITS, METHOD, TOL, PRESSURE, CARRY, SOLVER, ECHO, SPC, SUBCASE, LABEL, LOAD, '// &
-                         'INCR, OUTPUT or BEGIN BULK')
+                         'expected TITLE, UNITS, METHOD, TOL, PRESSURE, CARRY, AVERAGE, SOLVER, ECHO, SPC, SUBCASE, '// &
+                         'LABEL, LOAD, INCR, OUTPUT or BEGIN BULK')
          return
       end select
       select case (entry%key)
@@ -144,6 +149,9 @@ contains
       case ('CARRY')
          call choose(entry, '|NO|YES|', errors)
          control%carry = upper(entry%value) == 'YES'
+      case ('AVERAGE')
+         call choose(entry, '|YES|NO|', errors)
+         control%average = upper(entry%value) /= 'NO'
       case ('SOLVER')
          call choose(entry, '|AUTO|SKYLINE|TREE|', errors)
          if (upper(entry%value) == 'SKYLINE') control%solver = solver_skyline

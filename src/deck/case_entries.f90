@@ -8,7 +8,8 @@ module case_entries
 
    public :: cut_entry, check_repeated, choose, read_number, value_error
 
-   character(*), parameter :: known_keys = '|SOL|TITLE|UNITS|METHOD|TOL|PRESSURE|CARRY|SOLVER|ECHO|SPC|LABEL|LOAD|INCR|OUTPUT|'
+   character(*), parameter :: known_keys = '|SOL|TITLE|UNITS|METHOD|TOL|PRESSURE|CARRY|AVERAGE|SOLVER|ECHO|SPC|LABEL|LOAD|'// &
+                                         'INCR|OUTPUT|'
 
    !> A key with a number, and the line it stands on (0: not given).
    type, public :: set_reference
