@@ -16,6 +16,8 @@ module case_control
    integer, parameter, public :: solver_auto = 1, solver_skyline = 2, solver_tree = 3               !! SOLVER =
    integer, parameter, public :: output_none = 0, output_last = 1, output_joint = 2, output_all = 3 !! OUTPUT =
 
+   real(wp), parameter :: newton_tolerance = 1.0e-10_wp, back_tolerance = 1.0e-6_wp ! TOL that is not given
+
    !> One SUBCASE: a stage of the load history.
    type, public :: stage_type
       integer :: id = 0, line = 0
@@ -37,8 +39,9 @@ module case_control
       integer :: method = method_step
       integer :: pressure = pressure_sumf
       logical :: carry = .false.
+      logical :: average = .true.                        !! BACK: two consecutive sets of results
       integer :: solver = solver_auto
-      real(wp) :: tolerance = 1.0e-10_wp                 !! NEWTON: unbalanced share of the largest load
+      real(wp) :: tolerance = newton_tolerance           !! NEWTON: unbalanced share of the largest load; BACK: change of pressures
       logical :: echo  = .true.
       type(stage_type), allocatable :: stages(:)
    end type case_control_type
@@ -59,6 +62,7 @@ contains
       character(:), allocatable :: line
 
       control%title = ''
+      control%tolerance = 0.0_wp
       allocate (control%stages(0))
       common%label = ''
       keys_seen = '|'
@@ -84,6 +88,7 @@ contains
          call check_repeated(entry, keys_seen, errors)
          call read_entry(entry, control, common, errors)
       end do
+      if (control%tolerance <= 0.0_wp) control%tolerance = merge(back_tolerance, newton_tolerance, control%method == method_back)
       call check_stages(control, errors)
    end subroutine read_case_control
 
@@ -129,6 +134,9 @@ contains
       case ('CARRY')
          call choose(entry, '|NO|YES|', choice, errors)
          control%carry = choice == 2
+      case ('AVERAGE')
+         call choose(entry, '|YES|NO|', choice, errors)
+         control%average = choice /= 2
       case ('SOLVER')
          call choose(entry, '|AUTO|SKYLINE|TREE|', control%solver, errors)
       case ('ECHO')
@@ -136,8 +144,8 @@ contains
          control%echo = choice /= 2
       case default
          call errors%add(entry%line, ''''//entry%key(:min(40, len(entry%key)))//''' is no key of case control; '// &
-                         'expected TITLE, UNITS, METHOD, TOL, PRESSURE, CARRY, SOLVER, ECHO, SPC, SUBCASE, LABEL, LOAD, '// &
-                         'INCR, OUTPUT or BEGIN BULK')
+                         'expected TITLE, UNITS, METHOD, TOL, PRESSURE, CARRY, AVERAGE, SOLVER, ECHO, SPC, SUBCASE, '// &
+                         'LABEL, LOAD, INCR, OUTPUT or BEGIN BULK')
       end select
    end subroutine read_entry
 

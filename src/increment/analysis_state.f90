@@ -26,8 +26,8 @@ module analysis_state
 
    !> One re-analysis after the Coulomb check, or one iteration towards equilibrium, for the listing.
    type, public :: pass_record
-      real(wp) :: before = 0.0_wp, after = 0.0_wp   !! excess, or unbalanced force [force]
-      real(wp) :: step = 1.0_wp                     !! length of the line search
+      real(wp) :: before = 0.0_wp, after = 0.0_wp   !! excess, or unbalanced force [force]; BACK: largest p, its change [pressure]
+      real(wp) :: step = 1.0_wp                     !! length of the line search; BACK: largest deflection [length]
       integer  :: changes = 0                       !! interface elements that slip, or that changed their branch
       integer  :: part = 0                          !! NEWTON: which part of a divided increment; BACK: -1
    end type pass_record
@@ -48,7 +48,10 @@ module analysis_state
       real(wp) :: fraction = 0.0_wp                 !! of it, so far: exactly 1 at the end of the stage
       logical  :: carry = .false.
       logical  :: eq10 = .false.                    !! STEP: p on the loading curve by Eq. (10) as printed
-      real(wp) :: load_tolerance = 1.0e-10_wp       !! NEWTON: share of the largest load that may be left unbalanced
+      logical  :: average = .true.                  !! BACK: of two consecutive sets of results
+      logical  :: is_settled = .true.               !! BACK: whether the last secants agree with what they led to
+      real(wp) :: load_tolerance = 1.0e-10_wp       !! NEWTON: share of the largest load that may be left unbalanced; BACK: of the
+                                                    !! largest pressure by which the laws may differ from the secants
       real(wp) :: tolerance = 0.0_wp                !! the same as a force, for the largest load so far
       ! over all nodes
       real(wp), allocatable :: load_before(:, :)    !! at the start of the stage [force]
@@ -106,6 +109,7 @@ contains
 
       analysis%carry = control%carry
       analysis%eq10 = control%pressure == pressure_eq10
+      analysis%average = control%average
       analysis%load_tolerance = control%tolerance
       allocate (analysis%applied(model%dimension, model%n_nodes), source=0.0_wp)
       allocate (analysis%load_before, analysis%load_after, analysis%moved_before, analysis%moved_after, analysis%moved, &

@@ -1,5 +1,13 @@
-!> METHOD = BACK, after Back, Burdekin and Cowley: the whole load at once with secant stiffnesses at the last pressures, two
-!! consecutive pressures averaged, until they settle. Loading only.
+!> METHOD = BACK, after Back, Burdekin and Cowley: the whole load at once with the secants of the laws at the last deflections,
+!! p(lambda) a_i/lambda, which converge in oscillations; two consecutive sets of results averaged damp these, until they settle.
+!! Loading only.
+!!
+!!     p |                                 *    On the law (*) the load stands at o. The secant 0-1 of a deflection beyond it bears the
+!!       |                              1       load at 2, the secant of the deflection 2 bears it at 1 again: so for m = 1/2, on and
+!!   p_F |- - - - - - - - 2 - - - - o           on; with a smaller m ever farther off, until that of the least p bounds it. The means
+!!       |                      *               of both come near o, and settle for m above 1/4.
+!!       |                *
+!!     0 *---*----*------------------ lambda
 module back_method
    use analysis_state, only: analysis_type, find_movements, find_unbalanced, no_stiffness, pass_record, record_pass, &
                              secant_stiffness, tally_work
@@ -9,7 +17,7 @@ module back_method
    use joint_laws, only: back_stiffness, exceeds_limit, loading_work, rest_margin
    use kinds, only: wp
    use model_data, only: joint_node_id, model_type
-   use normal_stiffness, only: branch_load, branch_open, pressure_floor
+   use normal_stiffness, only: branch_load, branch_open, loading_deflection, loading_pressure, pressure_floor
    use stage_plan, only: stage_plan_type, where_in_plan
    use text_tools, only: integer_text, real_text
    implicit none
@@ -17,20 +25,22 @@ module back_method
 
    public :: back_increment
 
-   integer, parameter  :: most_iterations = 1000
-   real(wp), parameter :: settled = 1.0e-11_wp !! of the largest pressure: change from one iteration to the next
+   integer, parameter  :: most_averages = 1000 ! iterations that average
+   integer, parameter  :: most_shown = 24      ! iterations that do not: as many as the listing shows
+   real(wp), parameter :: rounding = 1.0e-12_wp ! of the largest pressure: TOL asks for no less
 
    !> The interface elements in one iteration, n of them.
    type :: iterate_type
-      real(wp), allocatable :: p(:), p_new(:)     ! pressures of the secants, and those that they lead to
+      real(wp), allocatable :: taken(:, :)        ! (3, n) movements that the secants are taken at
       real(wp), allocatable :: movement(:, :)     ! (3, n) that they lead to
-      real(wp), allocatable :: k_shear(:, :)      ! (2, n) shear secants of that movement
+      real(wp), allocatable :: change(:)          ! (n) largest change of a stress of the laws between the two [pressure]
       real(wp), allocatable :: k_int(:, :, :)     ! (3, 3, n) stiffness, in joint axes
    end type iterate_type
 
 contains
 
-   !> The whole load in one go: secants, a solution, what it says of the secants, until they agree.
+   !> The whole load in one go: secants, a solution, what it says of the secants, until they agree. Where AVERAGE = NO they need
+   !! not: then the last iteration that the listing shows is the result.
    subroutine back_increment(model, plan, analysis, system, failure)
       type(model_type), intent(in)         :: model
       type(stage_plan_type), intent(in)    :: plan
@@ -38,30 +48,30 @@ contains
       class(equation_system), intent(inout) :: system
       type(failure_type), intent(inout)    :: failure
       type(iterate_type) :: now
-      real(wp) :: change
-      integer  :: iteration, n, worst
+      real(wp) :: largest_p
+      integer  :: iteration, n
 
       n = size(model%interface)
-      allocate (now%p_new(n), now%k_shear(2, n), now%movement(3, n), now%k_int(3, 3, n), source=0.0_wp)
-      now%p = analysis%states%normal%p_av
-      do iteration = 1, most_iterations
-         call take_secants(model, analysis, iteration, now)
+      allocate (now%taken(3, n), now%movement(3, n), now%change(n), now%k_int(3, 3, n), source=0.0_wp)
+      now%taken(3, :) = loading_deflection(model%joints(model%interface%joint)%law%normal, analysis%states%normal%p_av)
+      do iteration = 1, merge(most_averages, most_shown, analysis%average)
+         call take_secants(model, analysis, now)
          call form_structure_stiffness(model, now%k_int, where_in_plan(plan, analysis%stage, analysis%increment), system, &
                                        failure, one_solution=.true.)
          call solve_equations(model, system, analysis%felt, analysis%u, failure, &
                               moved=merge(analysis%moved(:, system%retained), 0.0_wp, analysis%moves))
          if (failure%raised) return
          if (n == 0) exit
-         call read_off(model, system, analysis, now, change)
-         call record_pass(analysis, pass_record(before=maxval(abs(now%p)), after=change, part=-1))
-         if (change <= settled*max(maxval(now%p), pressure_floor*maxval(analysis%states%normal%p_av))) exit
-         now%p = 0.5_wp*(now%p + now%p_new)
+         call read_off(model, system, analysis, now, largest_p)
+         call record_pass(analysis, pass_record(before=largest_p, after=maxval(now%change), &
+                                                step=maxval(now%movement(3, :)), part=-1))
+         analysis%is_settled = maxval(now%change) <= max(analysis%load_tolerance, rounding)* &
+                               max(largest_p, pressure_floor*maxval(analysis%states%normal%p_av))
+         if (analysis%is_settled) exit
+         now%taken = merge(0.5_wp*(now%taken + now%movement), now%movement, analysis%average)
       end do
-      if (iteration > most_iterations) then
-         worst = maxloc(abs(now%p_new - now%p), dim=1)
-         call failure%raise(where_in_plan(plan, analysis%stage, analysis%increment)//': the pressures have not settled after '// &
-            integer_text(most_iterations)//' iterations; the one of node '// &
-            integer_text(joint_node_id(model, worst, 1))//' still changes by '//real_text(change))
+      if (analysis%average .and. .not. analysis%is_settled) then
+         call give_up(model, plan, analysis, now, failure)
          return
       end if
       call store(model, now, analysis)
@@ -71,22 +81,18 @@ contains
    end subroutine back_increment
 
 
-   !> Normal secants at the pressures, shear secants halfway between the last two; an open element has none.
-   subroutine take_secants(model, analysis, iteration, now)
+   !> Secants of the laws at the movements TAKEN.
+   pure subroutine take_secants(model, analysis, now)
       type(model_type), intent(in)      :: model
       type(analysis_type), intent(in)   :: analysis
-      integer, intent(in)               :: iteration
       type(iterate_type), intent(inout) :: now
       real(wp) :: k(3)
       integer  :: d, i
 
       do i = 1, size(model%interface)
          associate (element => model%interface(i), p_av => analysis%states(i)%normal%p_av)
-            k = back_stiffness(model%joints(element%joint)%law, element%area, p_av, now%p(i), now%movement(:, i))
+            k = back_stiffness(model%joints(element%joint)%law, element%area, p_av, now%taken(:, i))
          end associate
-         if (iteration > 1) k(:2) = now%k_shear(:, i)
-         if (iteration > 2) k(:2) = 0.5_wp*(k(:2) + [now%k_int(1, 1, i), now%k_int(2, 2, i)])
-         if (k(3) <= 0.0_wp) k = 0.0_wp
          do d = 1, 3
             now%k_int(d, d, i) = k(d)
          end do
@@ -94,32 +100,49 @@ contains
    end subroutine take_secants
 
 
-   !> What the solution moves and presses, and by how much stresses differ from those of the secants [pressure]. The shear secants
-   !! must be those of the deflections that they led to.
-   subroutine read_off(model, system, analysis, now, change)
+   !> What the solution moves, the LARGEST_P of the laws there [pressure], and by how much the stresses of the laws differ from
+   !! those where the secants were taken.
+   subroutine read_off(model, system, analysis, now, largest_p)
       type(model_type), intent(in)       :: model
       class(equation_system), intent(in) :: system
       type(analysis_type), intent(in)    :: analysis
       type(iterate_type), intent(inout)  :: now
-      real(wp), intent(out)              :: change
-      real(wp) :: k(3), tau_change(2)
+      real(wp), intent(out)              :: largest_p
+      real(wp) :: k(3), p(2)
       integer  :: i
 
-      change = 0.0_wp
+      largest_p = 0.0_wp
       do i = 1, size(model%interface)
-         associate (element => model%interface(i), movement => now%movement(:, i), p_av => analysis%states(i)%normal%p_av)
+         associate (element => model%interface(i), movement => now%movement(:, i), &
+                    law => model%joints(model%interface(i)%joint)%law)
             now%movement(:, i) = joint_movement(system%interface(i), analysis%u)
-            now%p_new(i) = max(0.0_wp, now%k_int(3, 3, i)*movement(3)/element%area)
-            k = back_stiffness(model%joints(element%joint)%law, element%area, p_av, now%p(i), movement)
-            now%k_shear(:, i) = k(:2)
-            tau_change = abs((k(:2) - [now%k_int(1, 1, i), now%k_int(2, 2, i)])*movement(:2))/element%area
-            change = max(change, abs(now%p_new(i) - now%p(i)), tau_change(1), tau_change(2))
+            p = loading_pressure(law%normal, max(0.0_wp, [now%taken(3, i), movement(3)]))
+            k = back_stiffness(law, element%area, analysis%states(i)%normal%p_av, movement)
+            k(:2) = abs((k(:2) - [now%k_int(1, 1, i), now%k_int(2, 2, i)])*movement(:2))/element%area
+            now%change(i) = max(abs(p(2) - p(1)), k(1), k(2))
+            largest_p = max(largest_p, p(2))
          end associate
       end do
    end subroutine read_off
 
 
-   !> The secants have settled: the states of the elements.
+   !> The averages have not settled: say which element changes most.
+   subroutine give_up(model, plan, analysis, now, failure)
+      type(model_type), intent(in)      :: model
+      type(stage_plan_type), intent(in) :: plan
+      type(analysis_type), intent(in)   :: analysis
+      type(iterate_type), intent(in)    :: now
+      type(failure_type), intent(inout) :: failure
+      integer :: worst
+
+      worst = maxloc(now%change, dim=1)
+      call failure%raise(where_in_plan(plan, analysis%stage, analysis%increment)//': the pressures have not settled after '// &
+         integer_text(analysis%n_passes)//' iterations; the one of node '//integer_text(joint_node_id(model, worst, 1))// &
+         ' still changes by '//real_text(now%change(worst))//'; METHOD = NEWTON follows such laws')
+   end subroutine give_up
+
+
+   !> The states of the elements as the last solution has them.
    subroutine store(model, now, analysis)
       type(model_type), intent(in)       :: model
       type(iterate_type), intent(in)     :: now

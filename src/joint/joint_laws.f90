@@ -2,8 +2,8 @@
 !! the methods ask of them: STEP stiffnesses, NEWTON the exact way, BACK secants.
 module joint_laws
    use kinds, only: wp
-   use normal_stiffness, only: branch_open, follow_normal, is_virgin, norm, normal_law, normal_secant, normal_state, &
-                               pressure_floor, stored_work
+   use normal_stiffness, only: branch_open, follow_normal, is_virgin, loading_pressure, norm, normal_law, normal_secant, &
+                               normal_state, pressure_floor, stored_work
    use shear_path, only: follow_shear
    use shear_stiffness, only: cubic_secant, cubic_slope, cubic_work, shear, shear_law, shear_state
    implicit none
@@ -147,18 +147,21 @@ contains
    end subroutine follow_element
 
 
-   !> BACK: secants K = (k_sx, k_sy, k_n) of the loading curves, those of shear P(d)/d at the MOVEMENT and cut to the Coulomb limit,
-   !! the normal one of Eq. (9), all at the pressure P; k_n is zero where the element is open, without pressure and apart.
-   pure function back_stiffness(law, area, p_av, p, movement) result(k)
+   !> BACK: secants K = (k_sx, k_sy, k_n) of the loading curves at the MOVEMENT: p(lambda)/lambda, P(d)/d under this p and cut to
+   !! the Coulomb limit, times the area [force/length]; none where the element is open.
+   pure function back_stiffness(law, area, p_av, movement) result(k)
       type(joint_law), intent(in) :: law
-      real(wp), intent(in)        :: area, p_av, p, movement(3)
-      real(wp) :: k(3), moved
+      real(wp), intent(in)        :: area, p_av
+      real(wp), intent(in)        :: movement(3) !! of end 1 against end 2, in all [length]
+      real(wp) :: k(3), moved, p
 
+      k = 0.0_wp
+      if (movement(3) < 0.0_wp) return
+      p = max(loading_pressure(law%normal, movement(3)), pressure_floor*p_av)
       moved = norm2(movement(:2))
-      k(:2) = area*cubic_secant(law%shear%load, abs(movement(:2)), max(0.0_wp, p))
+      k(:2) = area*cubic_secant(law%shear%load, abs(movement(:2)), p)
       if (law%has_friction .and. moved > 0.0_wp) k(:2) = min(k(:2), friction_limit(law, p)*area/moved)
-      k(3) = 0.0_wp
-      if (p >= pressure_floor*p_av .or. movement(3) >= 0.0_wp) k(3) = normal_secant(law%normal, area, max(p, pressure_floor*p_av))
+      k(3) = normal_secant(law%normal, area, p)
    end function back_stiffness
 
 

@@ -222,7 +222,7 @@ contains
 
 
    !> p of the loading curve at LAMBDA >= 0, Eq. (1) [pressure].
-   pure real(wp) function loading_pressure(law, lambda) result(p)
+   elemental real(wp) function loading_pressure(law, lambda) result(p)
       type(normal_law), intent(in) :: law
       real(wp), intent(in)         :: lambda
 
@@ -231,7 +231,7 @@ contains
 
 
    !> lambda of the loading curve at P >= 0, Eq. (1) [length].
-   pure real(wp) function loading_deflection(law, p) result(lambda)
+   elemental real(wp) function loading_deflection(law, p) result(lambda)
       type(normal_law), intent(in) :: law
       real(wp), intent(in)         :: p
 

@@ -198,8 +198,9 @@ contains
                              [column(['INCR', 'PART'], 'i6'), column('ITER', 'i8'), column(['BEFORE', 'AFTER '], 'es14.3'), &
                               column('STEP', 'f9.4'), column('CHANGES', 'i9')])
          case (method_back)
-            call table%start('ITERATIONS, '//page%stage//': LARGEST PRESSURE, AND ITS LARGEST CHANGE', &
-                             [column(['INCR', 'ITER'], 'i6'), column(['PRESSURE', 'CHANGE  '], 'es14.5')])
+            call table%start('ITERATIONS, '//page%stage// &
+                             ': LARGEST DEFLECTION, LARGEST PRESSURE OF THE LAWS THERE, LARGEST CHANGE', &
+                             [column(['INCR', 'ITER'], 'i6'), column(['LAMBDA  ', 'PRESSURE', 'CHANGE  '], 'es14.5')])
          case default
             call table%start('RE-ANALYSES AFTER THE COULOMB CHECK, '//page%stage//': EXCESS OVER THE LIMITS', &
                              [column(['INCR', 'PASS'], 'i6'), column(['BEFORE', 'AFTER '], 'es14.5'), &
@@ -220,6 +221,7 @@ contains
                call table%add([pass%changes])
             else
                call table%add([analysis%increment, i])
+               if (pass%part < 0) call table%add([pass%step])
                call table%add([pass%before, pass%after])
                if (pass%part == 0) then
                   call table%add([100.0_wp*(1.0_wp - pass%after/max(pass%before, tiny(1.0_wp)))])

@@ -124,7 +124,8 @@ contains
          case (method_newton)
             call file%put('  METHOD NEWTON   TOL '//real_text(control%tolerance)//'   SOLVER '//solver%name)
          case default
-            call file%put('  METHOD BACK   SOLVER '//solver%name)
+            call file%put('  METHOD BACK   AVERAGE '//trim(merge('YES', 'NO ', control%average))//'   TOL '// &
+                          real_text(control%tolerance)//'   SOLVER '//solver%name)
          end select
       end associate
       if (deck%control%length_unit /= '') call file%put('  UNITS, LABELS ONLY: LENGTH '// &

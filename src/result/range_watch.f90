@@ -107,6 +107,11 @@ contains
          call watch%rows%keep_line(words//real_text(unbalanced)//' OF FORCE ARE LEFT UNBALANCED BY REMOVED ELEMENTS: '// &
                              'SEE CARRY = YES, METHOD = NEWTON')
       end if
+      if (.not. analysis%is_settled) then
+         watch%n_warnings = watch%n_warnings + 1
+         call watch%rows%keep_line(words//'THE SECANTS HAVE NOT SETTLED IN '//integer_text(analysis%n_passes)// &
+                                   ' ITERATIONS, THE RESULTS ARE THOSE OF THE LAST: SEE AVERAGE = YES')
+      end if
       excess = 0.0_wp
       limit = 0.0_wp
       do i = 1, size(model%interface)

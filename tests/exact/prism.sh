@@ -6,8 +6,24 @@ run_input prism_newton && {
    same 'prism, NEWTON in one increment: node 1' "$(cell prism_newton 1 1 1 branch)" OPEN
 }
 
-# BACK and NEWTON in one increment have no history: the same answer.
+# BACK: 15 iterations to its own TOL, a millionth; the laws' pressures of the last lie as near.
 run_input prism_back && {
+   near 'prism, BACK by its own TOL: lambda at node 51' "$(cell prism_back 1 1 51 lambda)" 6.234906012806e-3 1e-6
+   same 'prism, BACK by its own TOL: iterations' "$(sed -n '/ITERATIONS, STAGE/,/RESULTANTS/p' "$work/prism_back.out" | grep -c '^ *1 *[0-9]')" 15
+}
+# Without averages the first secants lead too far and back, in turn, on and on; the listing warns, and shows all that it did.
+sed 's/^METHOD = BACK/&\nAVERAGE = NO/' input/prism_back.bdf > "$work/prism_no_average.bdf"
+run prism_no_average && {
+   judge 'prism, BACK without averages: in turn too far and not far enough' '
+      / ITERATIONS, STAGE/ { on = 1 } / RESULTANTS/ { on = 0 }
+      on && $1 == 1 && NF == 5 { n++; if (($3 > 6.234906e-3) != n % 2) print }
+      END { if (n != 24) print n " iterations"; print "checked " n }' "$work/prism_no_average.out"
+   says 'prism, BACK without averages: the listing warns' "$work/prism_no_average.out" 'WARNING: STAGE 1, INCREMENT 1: THE SECANTS HAVE NOT SETTLED IN 24 ITERATIONS'
+}
+
+# BACK and NEWTON in one increment have no history: the same answer.
+sed 's/^METHOD = BACK/&\nTOL = 1.0E-11/' input/prism_back.bdf > "$work/prism_back.bdf"
+run prism_back && {
    near 'prism, BACK: lambda at node 51' "$(cell prism_back 1 1 51 lambda)" 6.234906012806e-3 1e-8
    ask 'prism, BACK equals NEWTON in one increment' prism_back count 11 with "$work/prism_newton.joint.csv" on node1 \
       all 'branch = other.branch and lambda = other.lambda within 6e-11 and pressure = other.pressure within 6e-9'
