@@ -70,62 +70,53 @@ contains
       type(model_type), intent(in)    :: model
       type(joint_type), intent(inout) :: joint
       real(wp) :: e(2), lower, higher
+      logical  :: is_there(2)
+      integer  :: end
 
       if (joint%e_u_given .or. joint%law%normal%c <= 0.0_wp) return
-      e = [modulus_of_side(model, joint, 1), modulus_of_side(model, joint, 2)]
-      lower = minval(e)
-      higher = maxval(e)
-      if (lower > 0.0_wp) then
-         joint%law%normal%e_u = lower*(2.0_wp*higher/(lower + higher)) ! exactly E where both are the same
-      else if (higher > 0.0_wp) then
-         joint%law%normal%e_u = higher
-      else if (joint%last >= joint%first .and. .not. has_body(model, joint)) then ! what is wrong with a body is said there
-         call deck%errors%add(joint%line, 'joint '//integer_text(joint%id)// &
+      do end = 1, 2
+         call find_modulus(model, joint, end, e(end), is_there(end))
+      end do
+      if (.not. any(is_there)) then
+         if (joint%last >= joint%first) call deck%errors%add(joint%line, 'joint '//integer_text(joint%id)// &
             ': the JNORM of this joint leaves EU blank, and there is no body at the joint to take E from: give EU')
+         return
       end if
+      lower = minval(e, mask=is_there)
+      higher = maxval(e, mask=is_there)
+      if (higher > 0.0_wp) joint%law%normal%e_u = lower*(2.0_wp*higher/(lower + higher)) ! exactly E where both are the same
    end subroutine default_slope
 
 
-   !> Whether any node of the interface elements of JOINT belongs to a body element.
-   pure logical function has_body(model, joint)
-      type(model_type), intent(in) :: model
-      type(joint_type), intent(in) :: joint
-      integer :: i
-
-      has_body = .false.
-      do i = joint%first, joint%last
-         associate (nodes => model%interface(i)%node)
-            if (any(model%first_at(nodes) < model%first_at(nodes + 1))) has_body = .true.
-         end associate
-      end do
-   end function has_body
-
-
-   !> E of the body at END 1 or 2 of the interface elements of JOINT: the mean of its elements at the nodes there, areas of
-   !! influence as weights; 0 where there is none [pressure].
-   pure real(wp) function modulus_of_side(model, joint, end) result(e)
+   !> E of the body at END 1 or 2 of the interface elements of JOINT, if there is one: the mean of its elements at the nodes there,
+   !! areas of influence as weights [pressure].
+   pure subroutine find_modulus(model, joint, end, e, is_there)
       type(model_type), intent(in) :: model
       type(joint_type), intent(in) :: joint
       integer, intent(in)          :: end
+      real(wp), intent(out)        :: e
+      logical, intent(out)         :: is_there
       real(wp) :: total, weight
       integer, allocatable :: nodes(:)
       integer :: i, j, k
 
       e = 0.0_wp
+      is_there = .false.
       total = 0.0_wp
       do i = joint%first, joint%last
          nodes = nodes_of_end(model%interface(i), end)
          do k = 1, size(nodes)
-            do j = model%first_at(nodes(k)), model%first_at(nodes(k) + 1) - 1
-               associate (property => model%element_property(model%elements_at(j)))
-                  if (property == 0) cycle
-                  weight = model%interface(i)%area/(size(nodes)*(model%first_at(nodes(k) + 1) - model%first_at(nodes(k))))
+            associate (elements => model%elements_at(model%first_at(nodes(k)):model%first_at(nodes(k) + 1) - 1))
+               do j = 1, size(elements)
+                  is_there = .true.
+                  if (model%element_property(elements(j)) == 0) cycle      ! said elsewhere
+                  weight = model%interface(i)%area/(size(nodes)*size(elements))
                   total = total + weight
-                  e = e + (model%properties(property)%e - e)*(weight/max(total, tiny(1.0_wp))) ! equal ones stay what they are
-               end associate
-            end do
+                  e = e + (model%properties(model%element_property(elements(j)))%e - e)*(weight/max(total, tiny(1.0_wp)))
+               end do
+            end associate
          end do
       end do
-   end function modulus_of_side
+   end subroutine find_modulus
 
 end module law_build
