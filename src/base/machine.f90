@@ -44,11 +44,15 @@ contains
    !> What is deallocated stays with the program for the next allocation: new pages cost a sixth of a factorisation. Where glibc
    !! does not do it nothing is lost.
    subroutine keep_memory()
+      integer, allocatable, volatile :: first(:)
       integer(c_int) :: status
 
       status = mallopt(trim_threshold, huge(1_c_int))
       status = mallopt(top_pad, 64_c_int*1048576_c_int)
       status = mallopt(mmap_max, 0_c_int)
+      allocate (first(131072)) ! the heap grows now, where it is looked whether it can: not all of what the compiler takes is checked
+      first(1) = 0
+      deallocate (first)
    end subroutine keep_memory
 
 

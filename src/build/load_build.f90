@@ -69,6 +69,7 @@ contains
             if (bulk%displacement(i)%set == set) call add_displacement(i)
          end do
          if (all(bulk%pressure%set /= set) .and. all(bulk%surface_load%set /= set) .and. all(bulk%gravity%set /= set)) return
+         if (deck%errors%any()) return ! elements may be what nothing can be spread over
          allocate (spread_out(3, model%n_nodes), source=0.0_wp)
          do i = 1, size(bulk%pressure)
             if (bulk%pressure(i)%set == set .and. pressed(i)%element > 0) &

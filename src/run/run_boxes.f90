@@ -52,7 +52,7 @@ module run_boxes
 
 contains
 
-   !> The command line; where it leaves nothing to do the program ends. Threads and memory.
+   !> The command line; where it leaves nothing to do the program ends. Threads, and a watch on the memory.
    subroutine start_program(command)
       type(command_type), intent(out) :: command
       logical :: finished
@@ -61,7 +61,6 @@ contains
       call read_command_line(command, finished, status)
       if (finished) call end_program(status)
       call use_threads(command%threads)
-      call keep_memory()
       call watch_allocations()
    end subroutine start_program
 
@@ -108,6 +107,7 @@ contains
       type(stage_plan_type), intent(out) :: plan
 
       if (is_over(run)) return
+      call keep_memory()
       call run%progress%enter(phase_build)
       if (.not. (run%check_only .or. run%errors%any())) call check_model_size(deck, run%failure)
       if (is_over(run)) return
