@@ -131,6 +131,7 @@ contains
       logical :: by_block
       character(:), allocatable :: words
 
+      words = ''
       call table%build(id)
       call table%list_repeated(again)
       call sorted_order(line(again), order)
@@ -144,9 +145,8 @@ contains
          end do
          associate (this => again(order(k)))
             if (id(this) == 0) cycle ! a field that could not be read
-            words = noun//' '//integer_text(id(this))
-            if (last > k) words = words//', and more of this card,'
-            words = words//' is given twice, first in '//self%text%place(line(table%find(id(this))))
+            words = noun//' '//integer_text(id(this))//trim(merge(', and more of this card,', repeat(' ', 24), last > k))// &
+                    ' is given twice, first in '//self%text%place(line(table%find(id(this))))
             by_block = .false.
             if (present(n_cards)) by_block = this > n_cards
             if (by_block) then

@@ -244,18 +244,19 @@ contains
       logical, intent(in)                   :: with_scatter
       type(output_file_type), intent(inout) :: out
       character(40) :: words
-      character(:), allocatable :: scatter
       integer :: k
 
       do k = 1, 3
          words = '   '//branch_letters(b)//integer_text(k)//' = '//real_text(lines(1, k))// &
                  merge(' - ', ' + ', lines(2, k) < 0.0_wp)//real_text(abs(lines(2, k)))//' p'
-         scatter = ''
          associate (off => branch%of_coefficients(k))
-            if (with_scatter) scatter = 'scatter rms '//real_text(off%rms)//', largest '//real_text(off%largest)//' at p = '// &
-                                        real_text(branch%group_p(off%at))
+            if (with_scatter) then
+               call comment(out, '', words//'scatter rms '//real_text(off%rms)//', largest '//real_text(off%largest)// &
+                            ' at p = '//real_text(branch%group_p(off%at)))
+            else
+               call comment(out, '', words)
+            end if
          end associate
-         call comment(out, '', words//scatter)
       end do
    end subroutine lines_of_coefficients
 
