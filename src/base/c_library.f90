@@ -106,7 +106,6 @@ contains
       bytes = bytes(:used)
    end subroutine read_all_bytes
 
-
    !> Create the file PATH, empty, for writing. DESCRIPTOR is below zero where that fails.
    subroutine create_file(path, descriptor)
       character(*), intent(in) :: path
@@ -115,7 +114,6 @@ contains
 
       descriptor = int(c_creat(path//c_null_char, read_and_write_for_all))
    end subroutine create_file
-
 
    !> Write all BYTES to DESCRIPTOR (1: the standard output). OK is false where some could not be written, as on a full disk:
    !! the operating system is asked itself, nothing waits in a buffer.
@@ -135,7 +133,6 @@ contains
       end do
    end subroutine write_bytes
 
-
    !> Close DESCRIPTOR. OK is false where what was written did not all get there.
    subroutine close_file(descriptor, ok)
       integer, intent(in)  :: descriptor
@@ -143,7 +140,6 @@ contains
 
       ok = c_close(int(descriptor, c_int)) == 0
    end subroutine close_file
-
 
    !> Give the file OLD the name NEW, in place of any file of that name. OK is false on failure.
    subroutine rename_file(old, new, ok)
@@ -153,14 +149,12 @@ contains
       ok = c_rename(old//c_null_char, new//c_null_char) == 0
    end subroutine rename_file
 
-
    !> Remove the file PATH where it is there.
    subroutine remove_file(path)
       character(*), intent(in) :: path
 
       call remove_terminated(path//c_null_char)
    end subroutine remove_file
-
 
    !> The same for a PATH that ends with a null character; takes no memory.
    subroutine remove_terminated(path)
@@ -170,7 +164,6 @@ contains
       status = c_unlink(path)
       if (status /= 0) return   ! nothing of that name was there: as wanted
    end subroutine remove_terminated
-
 
    !> The absolute path of PATH with all links resolved; PATH itself where no such file is.
    function true_path(path) result(resolved)
@@ -183,14 +176,12 @@ contains
       if (c_associated(c_realpath(path//c_null_char, text))) resolved = text(:index(text, c_null_char) - 1)
    end function true_path
 
-
    !> Whether the stream DESCRIPTOR (1 standard output, 2 standard error) is a terminal.
    logical function is_terminal(descriptor)
       integer, intent(in) :: descriptor
 
       is_terminal = c_isatty(int(descriptor, c_int)) /= 0
    end function is_terminal
-
 
    !> End the program with exit status STATUS and no further word on the terminal.
    subroutine end_run(status)

@@ -30,7 +30,6 @@ contains
       if (length > 0) call get_command_argument(i, text)
    end function argument_text
 
-
    !> Whether ARGUMENT is an option and no file: it begins with a dash, is not the `-` of the standard input, and stands before
    !! the `--` that ends the options.
    pure logical function is_option(argument, before_dashes)
@@ -40,7 +39,6 @@ contains
       is_option = before_dashes .and. argument /= '-' .and. index(argument, '-') == 1
    end function is_option
 
-
    !> The file that ARGUMENT means.
    pure function input_of(argument) result(input)
       character(*), intent(in) :: argument
@@ -49,7 +47,6 @@ contains
       input = input_argument(path=argument, name=argument)
       if (argument == '-') input = input_argument(path=standard_input, name='standard input')
    end function input_of
-
 
    !> Write TEXT and a line end on the standard output; STATUS is 0, or 4 where it cannot be written.
    subroutine say(text, status)
@@ -61,14 +58,12 @@ contains
       status = merge(0, 4, ok)
    end subroutine say
 
-
    !> Say on the standard error what is wrong with the command of PROGRAM.
    subroutine complain(program, message)
       character(*), intent(in) :: program, message
 
       write (error_unit, '(a)') program//': '//message, program//' --help shows the usage'
    end subroutine complain
-
 
    !> Say on the standard error why INPUT cannot be read; EXPECTED is what it should have been, 'a deck'.
    subroutine complain_of_input(input, expected)

@@ -33,7 +33,6 @@ contains
       self%length = self%length + n
    end subroutine add_text
 
-
    !> VALUES as i0, a field each.
    pure subroutine add_integers(self, values)
       class(csv_line_type), intent(inout) :: self
@@ -46,7 +45,6 @@ contains
          call self%add_text(digits(:n))
       end do
    end subroutine add_integers
-
 
    !> VALUES with the 17 digits that make them come back the same, as es24.16e3 without blanks, a field each.
    pure subroutine add_reals(self, values)

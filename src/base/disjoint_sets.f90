@@ -20,7 +20,6 @@ contains
       parent(max(i, j)) = min(i, j)
    end subroutine join
 
-
    !> The ROOT of the set of MEMBER, the way there halved for the next time.
    pure subroutine climb(parent, member, root)
       integer, intent(inout) :: parent(:)
@@ -33,7 +32,6 @@ contains
          root = parent(root)
       end do
    end subroutine climb
-
 
    !> The member that stands for the set of MEMBER.
    pure integer function root_of(parent, member) result(root)

@@ -40,7 +40,6 @@ contains
       end do
    end subroutine build
 
-
    !> The position of ID, 0 where it is not in the table. Of repeated ids the first.
    pure integer function find(self, id) result(position)
       class(id_table_type), intent(in) :: self
@@ -67,7 +66,6 @@ contains
       if (self%ids(low) == id) position = self%positions(low)
    end function find
 
-
    !> The positions of all numbers that an earlier position holds already, in ascending order of the number.
    pure subroutine list_repeated(self, positions)
       class(id_table_type), intent(in)  :: self
@@ -82,7 +80,6 @@ contains
          positions(n) = self%positions(k)
       end do
    end subroutine list_repeated
-
 
    !> The permutation that puts KEYS(n) in ascending order; equal keys keep their order.
    !! Source: radix sort by bytes, the least significant first; Knuth, The Art of Computer Programming 3, section 5.2.5.
@@ -122,7 +119,6 @@ contains
          byte = byte + 1
       end do
    end subroutine sorted_order
-
 
    !> The numbers among KEYS, each once, in ascending order.
    pure subroutine distinct(keys, values)

@@ -39,12 +39,10 @@ contains
       names = names//path//c_null_char//path//suffix//c_null_char
    end subroutine note_incomplete
 
-
    !> All files that have been noted are results now, or have been given up in an orderly way.
    subroutine all_complete()
       if (allocated(names)) deallocate (names)
    end subroutine all_complete
-
 
    !> Remove the files that have been noted, as far as they are there. Takes no memory.
    subroutine remove_incomplete()
@@ -59,14 +57,12 @@ contains
       end do
    end subroutine remove_incomplete
 
-
    !> Watch allocations from now on. Where glibc does not do it the status stays 1.
    subroutine watch_allocations()
       integer(c_int) :: status
 
       status = c_on_exit(c_funloc(end_without_memory), c_null_ptr)
    end subroutine watch_allocations
-
 
    !> Called by the C library when the program ends with STATUS.
    subroutine end_without_memory(status, argument) bind(c)

@@ -41,7 +41,6 @@ contains
       close (unit)
    end function kernel_figure
 
-
    !> The least that any control group of this program leaves of its limit, from its own up to the root [bytes]; huge where none
    !! has one. ROOT: what stands before /proc and /sys, empty but for tests.
    function memory_left_by_groups(root) result(bytes)
@@ -60,7 +59,6 @@ contains
       end do
       close (unit)
    end function memory_left_by_groups
-
 
    !> What the group of one LINE leaves, or a group above it. The line is `number:controllers:path`: version 2 has the number 0
    !! and no controllers, version 1 names them.
@@ -92,7 +90,6 @@ contains
          path = path(:index(path, '/', back=.true.) - 1)
       end do
    end function left_by_line
-
 
    !> What one group leaves: its limit less what its members have; pages of files that nobody uses any more are given back when
    !! memory is asked for.

@@ -55,7 +55,6 @@ contains
       deallocate (first)
    end subroutine keep_memory
 
-
    !> Memory that the program can still take, of what the machine has free, what its control groups leave (a container's limit),
    !! and what a limit on its address space leaves [bytes]; huge where none of them can be read.
    function available_memory() result(bytes)
@@ -70,7 +69,6 @@ contains
       bytes = min(bytes, max(0_long, limit - taken + heap%fordblks - omp_get_max_threads()*blas_buffer))
    end function available_memory
 
-
    !> The same; where that is less than the bytes WANTED, what has been kept for reuse is given back first, and not before: its
    !! pages would have to be made anew.
    function memory_for(wanted) result(bytes)
@@ -84,14 +82,12 @@ contains
       bytes = available_memory()
    end function memory_for
 
-
    !> The most memory that this program has had [bytes]; huge where that cannot be read.
    function peak_memory() result(bytes)
       integer(long) :: bytes
 
       bytes = kernel_figure('/proc/self/status', 'VmHWM:', 1024)
    end function peak_memory
-
 
    !> N threads at most, 0: as many as there are cores. BLAS has one in each: one order of additions, the same digits everywhere.
    subroutine use_threads(n)

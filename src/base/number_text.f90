@@ -79,7 +79,6 @@ contains
       text(11:11) = achar(48 + n/100)
    end subroutine write_short
 
-
    !> Round VALUE 10**K, which lies between N and N + 1 near the middle, to the nearest N, of a tie to the even one; 0 where the
    !! power of ten is not exact.
    pure subroutine round_tie(value, k, n)
@@ -96,7 +95,6 @@ contains
       above = (product - n - 0.5_wp) + error
       if (above > 0.0_wp .or. (above >= 0.0_wp .and. modulo(n, 2) == 1)) n = n + 1
    end subroutine round_tie
-
 
    !> VALUE as es24.16e3 without the blanks before it: the 17 digits that make it come back the same.
    pure subroutine write_full(value, text, length)
@@ -132,7 +130,6 @@ contains
       length = len_trim(text)
    end subroutine write_full
 
-
    !> The 17 DIGITS of a positive VALUE rounded to the nearest, digits 10**(exponent10 - 16); 0 where it is not certain which is.
    pure subroutine scale_to_17(value, digits, exponent10)
       real(wp), intent(in)       :: value
@@ -158,7 +155,6 @@ contains
       exponent10 = exponent10 + 1
    end subroutine scale_to_17
 
-
    !> VALUE 10**K = WHOLE + REST, 0 <= REST < 1, with 106 bits.
    pure subroutine multiply(value, k, whole, rest)
       real(wp), intent(in)       :: value  !! > 0
@@ -174,7 +170,6 @@ contains
       whole = whole + floor(rest, long)
       rest = rest - real(floor(rest, long), wp)
    end subroutine multiply
-
 
    !> VALUE ten(K) = PRODUCT + ERROR, exactly (Dekker).
    pure subroutine exact_product(value, k, product, error)
@@ -193,7 +188,6 @@ contains
       error = ((high*ten_high - product) + high*ten_low + low*ten_high) + low*ten_low
    end subroutine exact_product
 
-
    !> The e with 10**e <= VALUE < 10**(e + 1), the powers of ten rounded to the nearest real.
    pure integer function decimal_exponent(value) result(e)
       real(wp), intent(in) :: value !! > 0, normal
@@ -202,13 +196,11 @@ contains
       if (value >= ten(e + 1)) e = e + 1
    end function decimal_exponent
 
-
    pure logical function is_zero(value)
       real(wp), intent(in) :: value
 
       is_zero = abs(value) <= 0.0_wp
    end function is_zero
-
 
    !> VALUE as i0.
    pure subroutine write_integer(value, text, length)

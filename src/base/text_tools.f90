@@ -22,7 +22,6 @@ contains
       end do
    end function upper
 
-
    !> An integer without blanks around it.
    pure function integer_text(value) result(text)
       integer, intent(in)       :: value
@@ -33,7 +32,6 @@ contains
       call write_integer(value, digits, length)
       text = digits(:length)
    end function integer_text
-
 
    !> A real as a person would write it in a message: at most six significant digits, no padding: 0, 0.05, 1.5E-7.
    pure function real_text(value) result(text)
@@ -67,7 +65,6 @@ contains
       text = buffer(:last)//'E'//integer_text(exponent)
    end function real_text
 
-
    !> '1 error', '2 errors': a count with its noun.
    pure function plural(count, noun) result(text)
       integer, intent(in)       :: count
@@ -77,7 +74,6 @@ contains
       text = integer_text(count)//' '//noun
       if (count /= 1) text = text//'s'
    end function plural
-
 
    !> VALUE for print: what lies below FLOOR counts as zero, and zero has no sign.
    !! FLOOR [unit of value], default 0, takes away digits that another compiler would not reproduce.

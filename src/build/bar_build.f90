@@ -21,7 +21,6 @@ contains
       is_bar = edge%kind == edge_crod .and. edge%property > 0 .and. any(deck%bulk%prod%id == edge%property)
    end function is_bar
 
-
    !> Fill the bars of MODEL.
    subroutine build_bars(deck, model)
       type(checked_deck), intent(in)  :: deck
@@ -40,7 +39,6 @@ contains
          if (deck%bulk%bolt(i)%element > 0) call tighten(deck, deck%bulk%bolt(i), model) ! else a solid bolt
       end do
    end subroutine build_bars
-
 
    subroutine build_bar(deck, edge, model, bar)
       type(checked_deck), intent(in) :: deck
@@ -72,7 +70,6 @@ contains
       end associate
    end subroutine build_bar
 
-
    !> The BOLT of a bar: which one it is, and in which stage it is tightened.
    subroutine tighten(deck, card, model)
       type(checked_deck), intent(in)  :: deck
@@ -95,7 +92,6 @@ contains
          bar%stage = stage
       end associate
    end subroutine tighten
-
 
    !> Position of the STAGE in which the bolt of CARD is tightened; 0: it is not there.
    subroutine find_stage(deck, card, stage)

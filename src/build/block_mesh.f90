@@ -83,7 +83,6 @@ contains
       end if
    end subroutine generate_block
 
-
    !> Where the node of a block at the graded places R, S, T in the unit square or cube stands: at its bilinear image, in a box
    !! between the corners.
    pure function point(card, r, s, t) result(x)
@@ -99,7 +98,6 @@ contains
          end if
       end associate
    end function point
-
 
    !> Places 0 = s_0 < ... < s_n = 1 whose steps grow by a constant factor, the last RATIO times the first.
    pure subroutine graded_places(ratio, s)
@@ -122,7 +120,6 @@ contains
       s = s/s(n)
    end subroutine graded_places
 
-
    !> The marked edges on side NUMBER of a quadrilateral block (1: corners 1-2, 2: 2-3, 3: 3-4, 4: 4-1), in this order.
    pure subroutine mark_edge(card, number, step, block)
       type(block_card), intent(in)    :: card
@@ -140,7 +137,6 @@ contains
          call add_side(block, card%marks(number), number, first + [i, i + 1]*merge(step(axis), -step(axis), number < 3))
       end do
    end subroutine mark_edge
-
 
    !> The marked sides on one face of a box: where it begins or ends along AXIS. Their corners go round them as seen from outside.
    pure subroutine mark_face(card, axis, at_end, step, block)
@@ -165,7 +161,6 @@ contains
          end do
       end do
    end subroutine mark_face
-
 
    pure subroutine add_side(block, mark, number, places)
       type(block_type), intent(inout) :: block

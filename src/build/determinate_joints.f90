@@ -69,7 +69,6 @@ contains
       end do
    end subroutine find_determinate_joints
 
-
    !> Which parts the joints connect: PAIR(:, i) are two of them, or one and the base behind the last, and the joint. Neighbouring
    !! interface elements mostly connect the same parts: these count once.
    pure subroutine list_pairs(model, pair)
@@ -91,7 +90,6 @@ contains
       allocate (pair, source=all_pairs(:, :n))
    end subroutine list_pairs
 
-
    !> The part at end SIDE of interface element I; the rigid base is the part behind the last.
    pure integer function part_of(model, i, side)
       type(model_type), intent(in) :: model
@@ -102,7 +100,6 @@ contains
          if (size(nodes) > 0) part_of = model%part(nodes(1)) ! a face lies on one part
       end associate
    end function part_of
-
 
    !> Normal resultant (compression positive) that LOADS send through a determinate JOINT [force].
    pure real(wp) function carried_resultant(model, joint, loads) result(resultant)

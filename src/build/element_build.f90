@@ -27,7 +27,6 @@ contains
       is_face = model%dimension == 3 .and. element_table(card%kind)%dimension == 2
    end function is_face
 
-
    !> Every PSHELL, PAXIS and PSOLID with its material.
    subroutine resolve_properties(deck, model)
       type(checked_deck), intent(in)  :: deck
@@ -53,7 +52,6 @@ contains
          end associate
       end do
    end subroutine resolve_properties
-
 
    !> Elements of cards and of blocks, in ascending order of their numbers.
    subroutine collect_elements(deck, blocks, raw, position, model)
@@ -108,14 +106,12 @@ contains
       model%element_line = line(order)
    end subroutine collect_elements
 
-
    pure integer function n_elements(blocks)
       type(block_type), intent(in) :: blocks(:)
       integer :: b
 
       n_elements = sum([(size(blocks(b)%element_id), b = 1, size(blocks))])
    end function n_elements
-
 
    !> The property ID of an element of a KIND must be one of its own sort; PROPERTY is its position, 0 for none, and set to 0
    !! where it is of another.
@@ -145,7 +141,6 @@ contains
       end if
    end subroutine check_property
 
-
    !> No element number twice, bodies, faces, edges and interface elements counted together as NASTRAN does.
    subroutine check_element_numbers(deck, blocks)
       type(checked_deck), intent(in) :: deck
@@ -168,7 +163,6 @@ contains
       end do
       call deck%report_repeated('element', id, line, n_cards=n_cards)
    end subroutine check_element_numbers
-
 
    !> Plane bodies and bodies of revolution cannot be mixed: the forces of the ones are those of their thickness, of the
    !! others those of the whole ring.
@@ -194,7 +188,6 @@ contains
       end do
       model%axisymmetric = rings
    end subroutine check_one_state
-
 
    !> Every plane element has a positive area at all its corners, every solid a positive volume where it is integrated.
    subroutine check_elements(deck, model)
@@ -225,7 +218,6 @@ contains
                          shape_words(model%element_kind(e)))
       end do
    end subroutine check_elements
-
 
    !> What an element of a KIND lacks, and what was expected.
    pure function shape_words(kind) result(words)

@@ -54,7 +54,6 @@ contains
       end do
    end subroutine find_first_pressures
 
-
    !> The load of the first stage with the preloads of the bolts that it tightens.
    pure subroutine first_loads(model, loads)
       type(model_type), intent(in)       :: model
@@ -85,7 +84,6 @@ contains
       loads%n = n
    end subroutine first_loads
 
-
    !> Whether the first stage that sends any load through JOINT pulls it open in the sense of its normal.
    pure logical function opens_first(model, joint, loads)
       type(model_type), intent(in) :: model
@@ -104,7 +102,6 @@ contains
       end do
    end function opens_first
 
-
    !> Whether there is a body at any node of JOINT. If not, nothing but the load tells which sense of its normal closes it.
    pure logical function touches_body(model, joint)
       type(model_type), intent(in) :: model
@@ -119,7 +116,6 @@ contains
          end do
       end do
    end function touches_body
-
 
    !> Reverse the normals of a joint (and y with them, so that the axes stay right-handed).
    pure subroutine turn_round(model, joint)

@@ -31,7 +31,6 @@ contains
       axes(:, 3) = z
    end function joint_axes
 
-
    !> The normal of a CJOINT in the sense from node 1 to node 2: out of the body at node 1, else into the body at node 2,
    !! else as given. (The card gives the line; its sense follows from where the bodies lie.)
    pure function outward(model, nodes, normal) result(z)
@@ -51,7 +50,6 @@ contains
          end if
       end do
    end function outward
-
 
    !> +1 where the body at NODE lies in the direction of NORMAL, -1 where against it, 0 where it cannot be told.
    pure real(wp) function body_side(model, node, normal) result(side)

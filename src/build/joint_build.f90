@@ -70,7 +70,6 @@ contains
       end do
    end subroutine build_joints
 
-
    !> Put the interface elements of joint J behind the first N of the model's, which may have room for more.
    subroutine add_elements(model, n, j, id, line, elements)
       type(model_type), intent(inout)        :: model
@@ -92,7 +91,6 @@ contains
       model%interface(n + 1:model%joints(j)%last) = elements
       n = model%joints(j)%last
    end subroutine add_elements
-
 
    !> Interface elements of JOINT card J, numbered from HIGHEST + 1.
    subroutine joint_elements(deck, tables, j, model, highest, elements)
@@ -139,7 +137,6 @@ contains
       highest = highest + side1%n
    end subroutine joint_elements
 
-
    !> The surfaces of JOINT card J, SURFACE(2) = 0 where it names no SIDE2; both 0 where no joint can be made of them.
    subroutine find_sides(deck, tables, j, model, surface)
       type(checked_deck), intent(in) :: deck
@@ -180,14 +177,12 @@ contains
       end associate
    end subroutine find_sides
 
-
    !> Whether bodies lie on both sides of some of SURFACE.
    pure logical function is_shared(surface)
       type(surface_type), intent(in) :: surface
 
       is_shared = any(surface%other(:surface%n) > 0)
    end function is_shared
-
 
    !> Leave out the nodes at which a split surface ends inside a body.
    pure subroutine drop_tips(model, side)
@@ -202,7 +197,6 @@ contains
       side%area = side%area(kept)
       side%normal = side%normal(:, kept)
    end subroutine drop_tips
-
 
    !> The interface elements of CJOINT CARDS.
    subroutine cjoint_elements(deck, cards, model, elements)
@@ -227,7 +221,6 @@ contains
       end do
    end subroutine cjoint_elements
 
-
    !> The number of a joint of CJOINTs: that of its PJOINT, or where a JOINT has it already, the next that is free.
    pure integer function group_number(deck, joints, law) result(number)
       type(checked_deck), intent(in)  :: deck
@@ -237,7 +230,6 @@ contains
       number = law
       if (joints%find(law) > 0) number = law + max(maxval(deck%bulk%joint%id), maxval(deck%bulk%pjoint%id))
    end function group_number
-
 
    !> Area and mean normal of a joint.
    pure subroutine sum_joint(model, joint)

@@ -58,7 +58,6 @@ contains
       call move_other_surfaces(model)
    end subroutine split_shared_surfaces
 
-
    !> Give the elements behind surface S twins of its nodes, behind the N_TWINS that there are. They are no nodes of the model yet.
    subroutine split_surface(model, s, n_twins)
       type(model_type), intent(inout) :: model
@@ -88,7 +87,6 @@ contains
       model%surfaces(s)%was_split = .true.
    end subroutine split_surface
 
-
    !> Append the twins to the nodes of the model.
    subroutine add_twins(model, n_twins)
       type(model_type), intent(inout) :: model
@@ -108,7 +106,6 @@ contains
       model%n_nodes = n + n_twins
       call model%node_table%build(model%node_id)
    end subroutine add_twins
-
 
    !> Sides of the surfaces that were not split follow their elements.
    pure subroutine move_other_surfaces(model)

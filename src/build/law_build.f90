@@ -29,7 +29,6 @@ contains
       call tables%jshear%build(deck%bulk%jshear%id)
    end subroutine list_laws
 
-
    !> The laws of a joint, by the id of its PJOINT.
    subroutine resolve_laws(deck, tables, id, joint)
       type(checked_deck), intent(in)  :: deck
@@ -62,7 +61,6 @@ contains
       end associate
    end subroutine resolve_laws
 
-
    !> The unloading slope that the card leaves blank: the equivalent E of both bodies, 2 E1 E2/(E1 + E2), per unit length; on a
    !! rigid base E of the body.
    subroutine default_slope(deck, model, joint)
@@ -86,7 +84,6 @@ contains
       higher = maxval(e, mask=is_there)
       if (higher > 0.0_wp) joint%law%normal%e_u = lower*(2.0_wp*higher/(lower + higher)) ! exactly E where both are the same
    end subroutine default_slope
-
 
    !> E of the body at END 1 or 2 of the interface elements of JOINT, if there is one: the mean of its elements at the nodes there,
    !! areas of influence as weights [pressure].

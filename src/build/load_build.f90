@@ -48,7 +48,6 @@ contains
       end do
    end subroutine build_loads
 
-
    !> Add FACTOR times everything of SET to LOADS: nodal forces one by one, distributed loads summed up at every node.
    subroutine add_set(deck, model, pressed, set, factor, loads)
       type(checked_deck), intent(in)       :: deck
@@ -113,7 +112,6 @@ contains
 
    end subroutine add_set
 
-
    !> A FORCE at NODE, at the end of the list.
    subroutine add_force(node, force, loads)
       integer, intent(in)                  :: node
@@ -136,7 +134,6 @@ contains
       loads%force(:, loads%n) = force
    end subroutine add_force
 
-
    !> Nodal forces of a pressure P on a surface, positive into its body.
    pure subroutine add_surface_pressure(model, surface, p, force)
       type(model_type), intent(in)   :: model
@@ -154,7 +151,6 @@ contains
          call add_section_share(model, surface%element(s), surface%nodes(:surface%corners(s), s), -p*normal, force)
       end do
    end subroutine add_surface_pressure
-
 
    !> Nodal forces of a total force spread evenly over the area of a surface.
    pure subroutine add_surface_force(model, surface, total, force)
@@ -182,7 +178,6 @@ contains
          if (sum_of_areas <= 0.0_wp) return
       end do
    end subroutine add_surface_force
-
 
    !> Nodal forces of the weight of all bodies.
    pure subroutine add_gravity(model, acceleration, force)

@@ -29,7 +29,6 @@ contains
       call check_combinations(deck)
    end subroutine check_load_cards
 
-
    !> Whether some load card is of SET.
    pure logical function has_set(bulk, set)
       type(bulk_data_type), intent(in) :: bulk
@@ -38,7 +37,6 @@ contains
       has_set = any(bulk%force%set == set) .or. any(bulk%pressure%set == set) .or. any(bulk%surface_load%set == set) .or. &
                 any(bulk%gravity%set == set) .or. any(bulk%displacement%set == set)
    end function has_set
-
 
    !> Forces act on nodes that are there, in directions that they have.
    subroutine check_forces(deck, model)
@@ -60,7 +58,6 @@ contains
       end do
    end subroutine check_forces
 
-
    !> A plane model has no direction z; the card on LINE has its component of VECTOR in N3.
    subroutine check_plane(deck, model, line, vector)
       type(checked_deck), intent(in) :: deck
@@ -71,7 +68,6 @@ contains
       if (model%dimension == 2 .and. abs(vector(3)) > 0.0_wp) &
          call deck%field_error(line, 'N3', 'not zero, but a plane model lies in x-y')
    end subroutine check_plane
-
 
    !> PLOADM and FORCEM act on surfaces that are there; a pressure, on one that has one body alone.
    subroutine check_surface_loads(deck, model)
@@ -97,7 +93,6 @@ contains
       end do
    end subroutine check_surface_loads
 
-
    !> GRAV needs a mass to act on.
    subroutine check_gravity(deck, model)
       type(checked_deck), intent(in) :: deck
@@ -114,7 +109,6 @@ contains
          end associate
       end do
    end subroutine check_gravity
-
 
    !> SPCD moves components that are held.
    subroutine check_displacements(deck, model)
@@ -145,7 +139,6 @@ contains
          end associate
       end do
    end subroutine check_displacements
-
 
    !> LOAD cards combine sets that are there.
    subroutine check_combinations(deck)

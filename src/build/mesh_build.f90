@@ -54,7 +54,6 @@ contains
       call collect_sides(deck, blocks, raw, position, model, sides)
    end subroutine build_mesh
 
-
    !> A plane model lies in x-y, an axisymmetric one besides in x >= 0.
    subroutine check_nodes(deck, model)
       type(checked_deck), intent(in) :: deck
@@ -75,7 +74,6 @@ contains
             'BLOCK2: a corner has x < 0, but an axisymmetric model lies in x >= 0')
       end do
    end subroutine check_nodes
-
 
    !> CBAR and CROD edges in the plane, CTRIA3 and CQUAD4 faces of solids, and the marked sides of blocks.
    subroutine collect_sides(deck, blocks, raw, position, model, sides)

@@ -60,7 +60,6 @@ contains
       call deck%report_repeated('node', raw%id(:n), raw%line(:n), n_cards=size(deck%bulk%grid))
    end subroutine collect_nodes
 
-
    !> Where block B is welded to an earlier one, PLACES(k) is the raw node at X(:, k) of that block, else 0.
    subroutine weld_block(deck, blocks, b, raw, places)
       type(checked_deck), intent(in) :: deck
@@ -96,7 +95,6 @@ contains
       if (all(places == 0)) call deck%field_error(blocks(b)%line, 'WELD', 'the two blocks have no node in common')
    end subroutine weld_block
 
-
    !> The NODES of X that lie within REACH of the box round OTHERS: of two blocks side by side those of one face alone.
    pure subroutine nodes_near(x, others, reach, nodes)
       real(wp), intent(in)              :: x(:, :), others(:, :) !! (3, n) [length]
@@ -111,7 +109,6 @@ contains
       end do
       nodes = pack([(k, k = 1, size(x, 2))], is_near)
    end subroutine nodes_near
-
 
    !> The nodes of the model in ascending order of their numbers.
    subroutine order_nodes(raw, model, position)
@@ -129,7 +126,6 @@ contains
       model%x = raw%x(:, order)
       call model%node_table%build(model%node_id)
    end subroutine order_nodes
-
 
    !> The NODES of the model with the numbers ID, which a card of an element, edge or interface element names from its data field 3
    !! on; 0, and an error, where there is none. An id of 0 is no node: a field that is blank or could not be read.

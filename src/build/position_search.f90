@@ -37,7 +37,6 @@ contains
       call divide(self, 1, n)
    end subroutine build
 
-
    !> Put the points FIRST to LAST in the order of the tree.
    pure recursive subroutine divide(self, first, last)
       type(position_search_type), intent(inout) :: self
@@ -52,7 +51,6 @@ contains
       call divide(self, first, middle - 1)
       call divide(self, middle + 1, last)
    end subroutine divide
-
 
    !> Exchange points among FIRST to LAST until none before MIDDLE lies beyond it along AXIS, and none behind it lies before it.
    !! Source: Hoare's FIND; Wirth, Algorithms + Data Structures = Programs, section 2.3.4.
@@ -92,7 +90,6 @@ contains
       end do
    end subroutine select_middle
 
-
    !> The point nearest to X within REACH; 0 where there is none. Of points at the same distance the first.
    pure subroutine nearest(self, x, reach, point, distance)
       class(position_search_type), intent(in) :: self
@@ -104,7 +101,6 @@ contains
       distance = huge(1.0_wp)
       call look_into(self, 1, size(self%number), x, reach, point, distance)
    end subroutine nearest
-
 
    !> Look for a point nearer than DISTANCE, or as near and before POINT, among the points FIRST to LAST of the tree.
    pure recursive subroutine look_into(self, first, last, x, reach, point, distance)
@@ -132,7 +128,6 @@ contains
       if (beyond <= 0.0_wp) call look_into(self, middle + 1, last, x, reach, point, distance)
 
    end subroutine look_into
-
 
    !> Whether point K of the tree is nearer than DISTANCE, or as near and before POINT: then it takes their place.
    pure subroutine compare(self, k, x, reach, point, distance)

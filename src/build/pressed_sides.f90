@@ -51,7 +51,6 @@ contains
       end do
    end subroutine find_pressed_sides
 
-
    !> The side of element E that the CARD names by its corners.
    subroutine find_side(deck, model, card, e, pressed)
       type(checked_deck), intent(in)    :: deck
@@ -114,7 +113,6 @@ contains
       call deck%field_error(card%line, 'G1', 'no side of element '//integer_text(card%first)//' has these corners; '//expected)
    end subroutine find_side
 
-
    !> Which corner of element E node ID is, the twin of a split node too; 0: none.
    pure integer function own_corner(model, e, id) result(corner)
       type(model_type), intent(in) :: model
@@ -127,7 +125,6 @@ contains
       corner = findloc(corners_of(model, e), node, dim=1)
       if (corner == 0 .and. model%twin(node) > 0) corner = findloc(corners_of(model, e), model%twin(node), dim=1)
    end function own_corner
-
 
    !> Add to FORCE the nodal forces of a pressure on one side, P(1) to P(4) at its corners from G1 on.
    !! Errors: none. Source: side_forces.

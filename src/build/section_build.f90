@@ -37,7 +37,6 @@ contains
       if (all(model%sections%point > 0)) call append_section_nodes(model) ! if not, there are errors
    end subroutine build_sections
 
-
    !> Section K from its CARD: which way it faces, and which elements are behind it.
    subroutine build_section(deck, card, k, model)
       type(checked_deck), intent(in)  :: deck
@@ -72,7 +71,6 @@ contains
       if (fault /= '') call deck%field_error(card%line, 'PMARK', 'surface '//integer_text(card%surface)//' '//fault)
    end subroutine build_section
 
-
    !> Turn the sides of surface S round that face against its first; their mean normal gives SECTION its direction and area.
    pure subroutine face_as_the_first(model, s, section)
       type(model_type), intent(inout)   :: model
@@ -101,7 +99,6 @@ contains
       section%direction = -total/max(norm2(total), tiny(1.0_wp))
    end subroutine face_as_the_first
 
-
    !> Why a surface with the nodes of LIST is no plane section; empty where it is one.
    pure function not_flat(model, section, list, centroid) result(fault)
       type(model_type), intent(in)        :: model
@@ -125,7 +122,6 @@ contains
          return
       end do
    end function not_flat
-
 
    !> The elements behind section K, which is surface S: at each node those that hang together with the
    !! back of a side without crossing the surface.
@@ -158,7 +154,6 @@ contains
       end do
       model%sections(k)%point = at%node(1)
    end subroutine find_elements_behind
-
 
    !> Append a node for every section, behind all others: its first component free. Its elements are those behind the section.
    subroutine append_section_nodes(model)

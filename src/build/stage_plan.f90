@@ -54,7 +54,6 @@ contains
       end do
    end subroutine plan_stages
 
-
    !> 'stage 2, increment 7', for messages.
    pure function where_in_plan(plan, stage, increment) result(words)
       type(stage_plan_type), intent(in) :: plan
@@ -63,7 +62,6 @@ contains
 
       words = 'stage '//integer_text(plan%stages(stage)%id)//', increment '//integer_text(increment)
    end function where_in_plan
-
 
    !> How often the stiffness of the structure will be factorised, as a guess that orderings are chosen by.
    pure integer function factorisations_of(plan, method) result(n)
@@ -78,7 +76,6 @@ contains
       if (method == method_newton) n = 6*n
       if (method == method_back) n = 40*n
    end function factorisations_of
-
 
    !> Whether displacements, stresses or reactions of the bodies are printed after this increment.
    pure logical function shows_bodies(plan, stage, increment)

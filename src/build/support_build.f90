@@ -44,7 +44,6 @@ contains
          call deck%errors%add(set_line, 'SPC: there is no SPC, SPC1 or SPCM with set '//integer_text(set))
    end subroutine build_supports
 
-
    !> Check one support card, and hold its nodes where it is of the ACTIVE set.
    subroutine apply_support(deck, support, active, model)
       type(checked_deck), intent(in)  :: deck
@@ -84,7 +83,6 @@ contains
       end do
    end subroutine apply_support
 
-
    !> The first node whose number is ID or more.
    pure integer function first_from(model, id) result(node)
       type(model_type), intent(in) :: model
@@ -103,7 +101,6 @@ contains
       end do
       node = low
    end function first_from
-
 
    !> Hold NODE in COMPONENTS; those that a plane model does not have (3 to 6) are held anyway.
    pure subroutine hold(model, node, components)

@@ -59,7 +59,6 @@ contains
       end do
    end subroutine build_surfaces
 
-
    !> Which SURFACE of MODEL the FIELD of the card on LINE names by its ID; 0, and an error, where there is none.
    subroutine find_surface(deck, line, field, id, model, surface)
       type(checked_deck), intent(in) :: deck
@@ -71,7 +70,6 @@ contains
       surface = findloc(model%surfaces%id, id, dim=1)
       if (surface == 0) call deck%field_error(line, field, 'there is no PMARK '//integer_text(id))
    end subroutine find_surface
-
 
    !> There is no PMARK with the mark of side I. A face of solids may be meant to be something else.
    subroutine report_missing(deck, sides, i)
@@ -89,7 +87,6 @@ contains
          call deck%field_error(sides%line(i), 'PID', words)
       end if
    end subroutine report_missing
-
 
    !> Add side I to its surface, in the order of the element that it belongs to: of two the one that has it in the sense of its
    !! card, the other is then behind it.
@@ -135,7 +132,6 @@ contains
       end associate
    end subroutine add_side
 
-
    !> A side in words, by its nodes.
    pure function side_name(model, nodes) result(words)
       type(model_type), intent(in) :: model
@@ -150,7 +146,6 @@ contains
          if (k < size(nodes) - 1) words = words//','
       end do
    end function side_name
-
 
    !> Which SIDE of element E has the NODES, in any order; 0: none. SAME_SENSE: its own order goes round them as they stand.
    pure subroutine side_of_element(model, e, nodes, side, same_sense)
@@ -181,7 +176,6 @@ contains
       side = 0
    end subroutine side_of_element
 
-
    !> No side stands twice on a surface: its area would count twice.
    subroutine check_repeated(deck, model, surface)
       type(checked_deck), intent(in) :: deck
@@ -209,7 +203,6 @@ contains
       end do
    end subroutine check_repeated
 
-
    !> Areas of influence of the corners of side S of SURFACE, a_i = integral of N_i over it [length^2] (section 4.1).
    pure subroutine side_influence(model, surface, s, area, normal)
       type(model_type), intent(in)   :: model
@@ -231,7 +224,6 @@ contains
       end associate
       normal(:model%dimension, :n) = force(:, :n)
    end subroutine side_influence
-
 
    !> The nodes of SURFACE with their areas of influence, the sum over the sides at a node, and their normals, the mean of the
    !! sides' by area.

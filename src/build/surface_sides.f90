@@ -28,7 +28,6 @@ contains
       call distinct(pack(surface%nodes(:, :surface%n), surface%nodes(:, :surface%n) > 0), nodes)
    end function nodes_of
 
-
    !> The sides of SURFACE at every node.
    pure subroutine list_sides(surface, at)
       type(surface_type), intent(in) :: surface
@@ -47,7 +46,6 @@ contains
       end do
       call list_owners(at%n, places, at%first, at%side)
    end subroutine list_sides
-
 
    !> Turn sides of SURFACE round so that neighbours go on where the others end: the same body side on the left of all edges,
    !! inside all faces.
@@ -92,7 +90,6 @@ contains
       end do
    end subroutine face_one_way
 
-
    !> How side OTHER shares what begins at corner K of SIDE (in the plane this node, of a face the rim to the next corner): 0 not
    !! at all, 1 in the same sense, which is wrong for neighbours, -1 in the opposite one.
    pure integer function common_sense(surface, side, k, other) result(sense)
@@ -111,7 +108,6 @@ contains
          if (surface%nodes(modulo(at - 2, n) + 1, other) == next) sense = -1
       end if
    end function common_sense
-
 
    !> The elements BEHIND surface S at node K of it: those that hang together with the back of one of its sides there without
    !! crossing the surface. None where they hang together with the front too.
@@ -161,7 +157,6 @@ contains
       allocate (behind(merge(0, count(group == 2), is_tip)))
       if (.not. is_tip) behind(:) = pack(around, group == 2)
    end subroutine elements_behind
-
 
    !> Whether elements A and B share a side at node PLACE of surface S that is not of it.
    pure logical function common_side(model, s, at, place, a, b)

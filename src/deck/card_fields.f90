@@ -52,7 +52,6 @@ contains
       values%ok = errors%n == errors_before
    end subroutine decode_card
 
-
    subroutine take_default(card, k, rule, values, errors)
       type(card_type), intent(in)          :: card
       integer, intent(in)                  :: k
@@ -66,7 +65,6 @@ contains
       if (rule%kind == kind_integer .or. rule%kind == kind_components) values%integers(k) = nint(rule%default)
       if (rule%kind == kind_word) values%words(k) = rule%words(2:index(rule%words(2:), '|'))
    end subroutine take_default
-
 
    subroutine decode_field(card, k, rule, values, errors)
       type(card_type), intent(in)          :: card
@@ -107,7 +105,6 @@ contains
       end select
    end subroutine decode_field
 
-
    !> An error about data field K of CARD, NAME, that says of its entry what the WORDS say.
    subroutine wrong_entry(card, k, name, words, errors)
       type(card_type), intent(in)          :: card
@@ -117,7 +114,6 @@ contains
 
       call card%field_error(k, trim(name)//': '''//trim(card%fields(k)%text)//''' '//words, errors)
    end subroutine wrong_entry
-
 
    !> The integer in data field K of CARD. Not OK, and said so with what was EXPECTED, where it is none.
    subroutine decode_integer(card, k, name, expected, value, ok, errors)
@@ -137,7 +133,6 @@ contains
          call wrong_entry(card, k, name, 'is not an integer, expected '//expected, errors)
       end if
    end subroutine decode_integer
-
 
    !> The real in data field K of CARD, likewise.
    subroutine decode_real(card, k, name, expected, value, ok, errors)
@@ -162,7 +157,6 @@ contains
          call wrong_entry(card, k, name, 'is not a real number, expected '//expected, errors)
       end if
    end subroutine decode_real
-
 
    !> Whether TEXT consists of LETTERS only, begins and ends like a number.
    pure logical function is_number_shape(text, letters)

@@ -46,7 +46,6 @@ contains
       if (.not. allocated(self%fields)) allocate (self%fields(64))
    end subroutine start
 
-
    !> Cut one line into fields and put them at the end of CARD.
    recursive subroutine cut_line(line, comma, at, has_tabs, card, errors)
       character(*), intent(in)             :: line     !! its card part
@@ -83,7 +82,6 @@ contains
       card%half = large .and. modulo(card%n, 8) == 4
    end subroutine cut_line
 
-
    !> TEXT with its tabs as blanks up to the next field, so that one tab makes one error.
    pure function without_tabs(text) result(plain)
       character(*), intent(in)  :: text
@@ -100,7 +98,6 @@ contains
          if (len(plain) > 1000) return
       end do
    end function without_tabs
-
 
    !> Fixed fields: eight of 8 columns, or four of 16, behind the name; columns 73-80 are the continuation mark.
    subroutine cut_fixed(line, at, card, large, errors)
@@ -130,7 +127,6 @@ contains
          ''' in columns 73 to 80: expected a continuation mark that begins with + or *, or blanks', 73, min(80, len(line)))
    end subroutine cut_fixed
 
-
    !> Free field: entries between commas, eight (large: four) of them, and one more for the continuation mark.
    subroutine cut_free(line, comma, at, card, large, errors)
       character(*), intent(in)             :: line
@@ -158,7 +154,6 @@ contains
                          first, len(line))
       end if
    end subroutine cut_free
-
 
    !> One more field: ENTRY without the blanks around it, in capitals.
    subroutine push(card, entry, at, first, last, errors)
@@ -201,7 +196,6 @@ contains
                                                        integer_text(field_width)//' characters', first, last)
    end subroutine push
 
-
    !> Words for data field K: 'CQUAD4, field 7'; NASTRAN counts 2 to 9 on every line of a card.
    pure function where_is(self, k) result(words)
       class(card_type), intent(in) :: self
@@ -211,7 +205,6 @@ contains
       words = trim(self%name)//', field '//integer_text(modulo(k - 1, 8) + 2)
       if (k > 8) words = words//' of continuation '//integer_text((k - 1)/8)
    end function where_is
-
 
    !> An error about data field K, its place and columns taken from the card.
    subroutine field_error(self, k, message, errors)

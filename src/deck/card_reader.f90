@@ -69,7 +69,6 @@ contains
       number_of = findloc(self%table%name, field, dim=1)
    end function number_of
 
-
    !> Read from TEXT; what is wrong goes to ERRORS. Both outlive the reader.
    subroutine start(self, text, errors)
       class(card_reader_type), intent(inout)       :: self
@@ -81,7 +80,6 @@ contains
       allocate (self%kinds(0), self%kind_at(text%n))
       self%kind_at = 0
    end subroutine start
-
 
    !> The kinds with these NAMES are read by READ.
    subroutine add_kinds(self, names, read)
@@ -98,7 +96,6 @@ contains
          self%kinds = [self%kinds, kind]
       end do
    end subroutine add_kinds
-
 
    !> A card of the name NAME begins on LINE; not IS_KNOWN where there is no such kind.
    pure subroutine note_card(self, name, line, is_known)
@@ -117,7 +114,6 @@ contains
       end do
    end subroutine note_card
 
-
    !> Fill the arrays of BULK, each with the cards noted, in the order of the deck.
    subroutine read_all(self, bulk)
       class(card_reader_type), intent(inout) :: self
@@ -133,7 +129,6 @@ contains
       end do
    end subroutine read_all
 
-
    !> RULES, one a field, are the table of the kind NAME; left out, of the only one of the routine.
    subroutine set_table(self, rules, name, open_ended)
       class(card_reader_type), intent(inout) :: self
@@ -148,7 +143,6 @@ contains
       if (present(open_ended)) self%kinds(kind)%open_ended = open_ended
    end subroutine set_table
 
-
    !> Take the next card of the routine, there must be one, and decode it.
    subroutine next(self, values)
       class(card_reader_type), intent(inout) :: self
@@ -157,7 +151,6 @@ contains
       call self%take()
       call self%decode(values)
    end subroutine next
-
 
    !> Take the next card as it stands.
    subroutine take(self)
@@ -172,7 +165,6 @@ contains
       behind = self%line
       call read_card(self%text, behind, self%card, self%errors)
    end subroutine take
-
 
    !> Decode the card by its table, or by the first N rules of it: then more may follow.
    subroutine decode(self, values, n)
@@ -189,14 +181,12 @@ contains
       end associate
    end subroutine decode
 
-
    !> Whether anything was found wrong with the card since it was decoded.
    pure logical function is_faulty(self)
       class(card_reader_type), intent(in) :: self
 
       is_faulty = self%errors%n > self%errors_before
    end function is_faulty
-
 
    !> An error about the FIELD of the card, by its name in the table.
    subroutine error(self, field, message)
@@ -205,7 +195,6 @@ contains
 
       call self%card%field_error(self%kinds(self%kind_at(self%line))%number_of(field), field//': '//message, self%errors)
    end subroutine error
-
 
    !> The direction of WHAT in the three fields from FIRST on must not be zero.
    subroutine check_direction(self, first, what, values)

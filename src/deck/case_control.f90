@@ -92,7 +92,6 @@ contains
       call check_stages(control, errors)
    end subroutine read_case_control
 
-
    !> What one line of case control says.
    subroutine read_entry(entry, control, common, errors)
       type(entry_type), intent(in)           :: entry
@@ -149,7 +148,6 @@ contains
       end select
    end subroutine read_entry
 
-
    subroutine read_units(entry, control, errors)
       type(entry_type), intent(in)           :: entry
       type(case_control_type), intent(inout) :: control
@@ -165,7 +163,6 @@ contains
       control%length_unit = entry%value(:comma - 1)
       control%force_unit = adjustl(entry%value(comma + 1:))
    end subroutine read_units
-
 
    subroutine start_stage(entry, control, common, errors)
       type(entry_type), intent(in)           :: entry
@@ -191,7 +188,6 @@ contains
       call move_alloc(longer, control%stages)
    end subroutine start_stage
 
-
    subroutine read_stage_entry(entry, stage, errors)
       type(entry_type), intent(in)         :: entry
       type(stage_type), intent(inout)      :: stage
@@ -210,7 +206,6 @@ contains
          call read_output(entry, stage, errors)
       end select
    end subroutine read_stage_entry
-
 
    !> OUTPUT = LAST, PLOT: words between commas.
    subroutine read_output(entry, stage, errors)
@@ -265,7 +260,6 @@ contains
       end subroutine switch_on
 
    end subroutine read_output
-
 
    !> There is a stage, and all stages stand on the same supports: [k_b] is formed once.
    subroutine check_stages(control, errors)

@@ -59,7 +59,6 @@ contains
       entry%first = min(entry%first, entry%last)
    end subroutine cut_entry
 
-
    !> No key twice in the same place (above the stages, or in the same stage).
    subroutine check_repeated(entry, keys_seen, errors)
       type(entry_type), intent(in)             :: entry
@@ -77,7 +76,6 @@ contains
       end if
    end subroutine check_repeated
 
-
    !> The value must be one of WORDS, '|A|B|': CHOICE is which, and stays where it is none.
    subroutine choose(entry, words, choice, errors)
       type(entry_type), intent(in)         :: entry
@@ -94,7 +92,6 @@ contains
       end if
    end subroutine choose
 
-
    !> The value of ENTRY is not what was EXPECTED.
    subroutine value_error(entry, expected, errors)
       type(entry_type), intent(in)         :: entry
@@ -108,7 +105,6 @@ contains
                          entry%first, entry%last)
       end if
    end subroutine value_error
-
 
    !> The value of ENTRY as the number of a set or a stage, 1 and up.
    subroutine read_number(entry, reference, errors)

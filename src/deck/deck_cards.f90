@@ -46,7 +46,6 @@ contains
       end do
    end subroutine read_card
 
-
    !> Add an error about data field K of the card that begins on line LINE, found long after it was read: the card is
    !! cut once more to point at the columns. NAME is what the message calls the field.
    subroutine add_field_error(text, line, k, name, message, errors)
@@ -62,7 +61,6 @@ contains
       call read_card(text, cursor, card, said_already)
       call card%field_error(k, name//': '//message, errors)
    end subroutine add_field_error
-
 
    !> The name in field 1 of LINE (its card part), without the * of large field; blank for a continuation.
    pure function card_name(line, comma) result(name)
@@ -88,7 +86,6 @@ contains
       end do
    end function card_name
 
-
    !> Whether LINE carries on the card before it: +, * or blank in field 1.
    pure logical function is_continuation(line, comma)
       character(*), intent(in)      :: line
@@ -104,7 +101,6 @@ contains
       end select
    end function is_continuation
 
-
    !> The last column of field 1 of LINE.
    pure integer function end_of_first_field(line, comma) result(last)
       character(*), intent(in)      :: line
@@ -117,7 +113,6 @@ contains
       end if
       if (last < 0) last = min(8, len(line))
    end function end_of_first_field
-
 
    !> Nothing but the name, and perhaps the * of large field, may stand in field 1 of LINE, whose first comma is in column COMMA.
    subroutine check_first_field(line, comma, at, errors)
@@ -137,7 +132,6 @@ contains
          end if
       end associate
    end subroutine check_first_field
-
 
    !> The name that the user gave a continuation (`+AB`) must be the one in field 10 of the line before, MARKER.
    subroutine check_marker(line, comma, at, marker, errors)

@@ -43,7 +43,6 @@ contains
       self%errors => errors
    end subroutine start
 
-
    !> Which kind of card begins on LINE.
    integer function kind_of_line(self, line) result(kind)
       class(checked_deck), intent(in) :: self
@@ -51,7 +50,6 @@ contains
 
       kind = findloc(self%kinds%name, card_name(self%text%card_part(line)), dim=1)
    end function kind_of_line
-
 
    !> Add an error about the FIELD, by its name in the table, of the card that begins on LINE.
    subroutine named_field_error(self, line, field, message, called)
@@ -62,7 +60,6 @@ contains
 
       call self%field_error(line, self%kinds(self%kind_of_line(line))%number_of(field), message, called)
    end subroutine named_field_error
-
 
    !> The same about data field K. NOUN: what it names, in front of its name.
    subroutine numbered_field_error(self, line, k, message, called, noun)
@@ -81,7 +78,6 @@ contains
       if (present(noun)) name = noun//' '//name
       call add_field_error(self%text, line, k, name, message, self%errors)
    end subroutine numbered_field_error
-
 
    !> Every id of its kind once among the cards that are few; properties and PMARK share theirs, as properties do in NASTRAN.
    subroutine check_ids(self)
@@ -116,7 +112,6 @@ contains
          end do
       end associate
    end subroutine check_ids
-
 
    !> Say which of the numbers ID(n), given on the cards of LINE(n), are given twice; a card that gives many is named once.
    subroutine report_repeated(self, noun, id, line, n_cards)

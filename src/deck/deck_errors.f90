@@ -50,7 +50,6 @@ contains
       self%items(self%n) = item
    end subroutine add
 
-
    pure logical function any_error(self)
       class(deck_error_list), intent(in) :: self
 

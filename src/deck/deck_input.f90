@@ -62,7 +62,6 @@ contains
       call cards%add_kinds(['JINCR'], read_jincr)
    end subroutine list_cards
 
-
    !> Read the deck PATH. READABLE is false where the file itself cannot be read; what is wrong in it goes to ERRORS.
    subroutine read_deck(path, deck, errors, readable)
       character(*), intent(in)             :: path
@@ -74,7 +73,6 @@ contains
       if (readable) call read_lines(deck, errors)
    end subroutine read_deck
 
-
    !> Read the deck whose file would hold these BYTES; what is wrong in it goes to ERRORS.
    subroutine read_deck_of_text(bytes, deck, errors)
       character(*), intent(in)           :: bytes
@@ -84,7 +82,6 @@ contains
       call deck_text_of_bytes(bytes, deck%text, errors)
       call read_lines(deck, errors)
    end subroutine read_deck_of_text
-
 
    !> Case control and bulk data of the deck whose text is there.
    subroutine read_lines(deck, errors)
@@ -109,7 +106,6 @@ contains
       call move_alloc(cards%kinds, deck%kinds)
       deck%is_whole = is_whole
    end subroutine read_lines
-
 
    !> Note where the cards from line CURSOR to ENDDATA begin; N_CARDS counts them, those that nobody knows too.
    subroutine find_cards(text, cursor, cards, n_cards, errors)
@@ -156,7 +152,6 @@ contains
       end do
       if (ended_file /= 1) call errors%add(0, 'no ENDDATA: the deck ends before its end, is it whole?')
    end subroutine find_cards
-
 
    !> Note the card that begins with LINE, line CURSOR of TEXT, which is left on a line behind it.
    subroutine find_card(line, comma, text, cursor, cards, errors)

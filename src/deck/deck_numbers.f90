@@ -43,7 +43,6 @@ contains
       ok = .true.
    end subroutine parse_integer
 
-
    !> The real number in TEXT. It needs a decimal point or an E or D, as in NASTRAN: `12` is an integer.
    !! OK is false for anything else, for a number too large for a real64, and for one so small that it would
    !! turn into zero. The value is correctly rounded.
@@ -103,7 +102,6 @@ contains
       if (ok) ok = ieee_is_finite(value) .and. .not. (abs(value) < tiny(value) .and. digits > 0)
    end subroutine parse_real
 
-
    !> VALUE = MANTISSA*10**EXPONENT by one operation of quadruple precision on exact operands, which is then rounded again. The
    !! second rounding errs only where the first ended in the middle between two reals: OK is false there.
    pure subroutine round_once(mantissa, exponent, value, ok)
@@ -124,7 +122,6 @@ contains
       ok = abs(off - 0.5_wp*spacing(value)) > 0.0_wp .and. abs(off - 0.25_wp*spacing(value)) > 0.0_wp ! 1/4: below a power of two
    end subroutine round_once
 
-
    !> What stands behind the mantissa: E or D and an integer, or a signed integer alone.
    pure subroutine parse_exponent(text, point, exponent, ok)
       character(*), intent(in) :: text
@@ -142,7 +139,6 @@ contains
       end select
       ok = ok .and. abs(exponent) < 10000
    end subroutine parse_exponent
-
 
    !> len_trim(TEXT), without a call of the library.
    pure integer function filled_length(text) result(length)

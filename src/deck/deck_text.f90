@@ -59,7 +59,6 @@ contains
       call add_file(text, path, 0, 0, errors, readable)
    end subroutine read_deck_text
 
-
    !> The deck with these BYTES, lines and line ends as a file holds them. It is named 'text'; what it includes is looked for in
    !! the current folder.
    subroutine deck_text_of_bytes(bytes, text, errors)
@@ -73,14 +72,12 @@ contains
       call add_lines(text, 1, 0, errors)
    end subroutine deck_text_of_bytes
 
-
    subroutine start_text(text)
       type(deck_text_type), intent(inout) :: text
 
       allocate (text%files(max_files))
       allocate (text%lines(1024), text%parts(2*max_files))
    end subroutine start_text
-
 
    !> Line I as it stands in its file, without the line end.
    function whole_line(self, i) result(line)
@@ -102,7 +99,6 @@ contains
       end associate
    end function whole_line
 
-
    !> Line I without its comment ($ to the end) and without blanks at its end: a copy. See FIND.
    function card_part(self, i) result(line)
       class(deck_text_type), intent(in) :: self
@@ -114,7 +110,6 @@ contains
       call self%find(i, file, first, last, comma)
       line = self%files(file)%bytes(first:last)
    end function card_part
-
 
    !> Where the card part of line I stands: FILES(FILE)%BYTES(FIRST:LAST), to be handed on as it is. COMMA is the column of
    !! the first comma in it, 0 where there is none.
@@ -129,7 +124,6 @@ contains
       last = first + self%lines(i)%length - 1
       comma = self%lines(i)%comma
    end subroutine find
-
 
    !> Where line I stands, for a message: 'beam.bdf, line 14'.
    function place(self, i) result(words)
@@ -146,7 +140,6 @@ contains
       end if
    end function place
 
-
    !> The file that line I stands in: 1 the deck itself, 2 and up its INCLUDE files.
    pure integer function file_number(self, i)
       class(deck_text_type), intent(in) :: self
@@ -154,7 +147,6 @@ contains
 
       file_number = self%parts(self%part_of(i))%file
    end function file_number
-
 
    !> The part that holds line I.
    pure integer function part_of(self, i) result(part)
@@ -173,7 +165,6 @@ contains
          end if
       end do
    end function part_of
-
 
    !> Read one file and add its lines.
    recursive subroutine add_file(text, path, parent, depth, errors, readable)
@@ -194,7 +185,6 @@ contains
       text%n_files = me
       call add_lines(text, me, depth, errors)
    end subroutine add_file
-
 
    !> Add the lines of file ME; an INCLUDE line is added and then followed.
    recursive subroutine add_lines(text, me, depth, errors)
@@ -240,7 +230,6 @@ contains
          start = next
       end do
    end subroutine add_lines
-
 
    !> Where the last line read is an INCLUDE, read that file here and now.
    recursive subroutine follow_include(text, me, depth, followed, errors)

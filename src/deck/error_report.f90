@@ -41,7 +41,6 @@ contains
       write (unit, '(5a)') text%place(0), ': ', plural(errors%n, 'error'), ', ', outcome
    end subroutine print_errors
 
-
    !> LINE as it may be printed: cut where it is very long, control characters as '?'.
    pure function shown(line) result(words)
       character(*), intent(in)  :: line
@@ -55,7 +54,6 @@ contains
       if (len(line) > widest) words = words//' ...'
       words = trim(words)
    end function shown
-
 
    !> Carets under columns FIRST to LAST of LINE, drawn in to what is not blank there.
    pure function mark(line, first, last) result(words)

@@ -42,7 +42,6 @@ contains
       if (present(most)) rule%most = real(most, wp)
    end function integer_field
 
-
    !> Rule for a real; ABOVE and BELOW exclude the bound, LEAST and MOST include it.
    elemental function real_field(name, default, above, below, least, most, whole) result(rule)
       character(*), intent(in)       :: name
@@ -64,7 +63,6 @@ contains
       rule%below = present(below)
    end function real_field
 
-
    !> Rule for a word out of a list, WORDS = '|ARITH|GEOM|LIST|'; a blank field takes the first.
    elemental function word_field(name, words) result(rule)
       character(*), intent(in) :: name, words
@@ -74,7 +72,6 @@ contains
       rule%kind = kind_word
       rule%words = words
    end function word_field
-
 
    !> Rule for a list of NASTRAN's components: different digits of 1 to 6.
    elemental function component_field(name, default) result(rule)
@@ -86,7 +83,6 @@ contains
       rule%kind = kind_components
    end function component_field
 
-
    !> Rule for a field that must stay blank (NAME says what NASTRAN has there); a zero is a blank too.
    elemental function blank_field(name) result(rule)
       character(*), intent(in) :: name
@@ -95,7 +91,6 @@ contains
       rule%name = name
       rule%kind = kind_blank
    end function blank_field
-
 
    !> Whether VALUE keeps to a RULE of integers or reals.
    pure logical function in_range(rule, value)
@@ -110,7 +105,6 @@ contains
       if (rule%above) in_range = in_range .and. value > rule%least
       if (rule%below) in_range = in_range .and. value < rule%most
    end function in_range
-
 
    !> What a rule wants, in words.
    pure function expectation(rule) result(words)
@@ -145,7 +139,6 @@ contains
       if (.not. rule%required .and. rule%kind /= kind_blank .and. rule%kind /= kind_word) words = words//', or blank'
    end function expectation
 
-
    !> WORDS = '|STEP|BACK|' as a list with this SEPARATOR between them.
    pure function list_of(words, separator) result(list)
       character(*), intent(in)  :: words, separator
@@ -161,7 +154,6 @@ contains
          end if
       end do
    end function list_of
-
 
    !> Whether COMPONENTS is a list of NASTRAN's degrees of freedom: different digits of 1 to 6.
    pure logical function is_component_list(components)

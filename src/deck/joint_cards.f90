@@ -39,7 +39,6 @@ contains
       end do
    end subroutine read_joint
 
-
    !> CJOINT: one interface element given outright.
    subroutine read_cjoint(cards, bulk)
       type(card_reader_type), intent(inout) :: cards
@@ -60,7 +59,6 @@ contains
          end associate
       end do
    end subroutine read_cjoint
-
 
    !> PJOINT: the laws of a joint.
    subroutine read_pjoint(cards, bulk)
@@ -83,7 +81,6 @@ contains
       end do
    end subroutine read_pjoint
 
-
    !> JNORM: lambda = C p^M, unloading slope EU.
    subroutine read_jnorm(cards, bulk)
       type(card_reader_type), intent(inout) :: cards
@@ -100,7 +97,6 @@ contains
                                     e_u=values%reals(4), e_u_given=values%given(4))
       end do
    end subroutine read_jnorm
-
 
    !> JSHEAR: the shear law of one direction. The card has the loading coefficients A; the first continuation has those of
    !! unloading (B), the second those of reloading (C), either left blank as loading; the third the tested range.
@@ -143,7 +139,6 @@ contains
       end do
    end subroutine read_jshear
 
-
    !> A JSHEAR card whose continuation lines begin in field 2, where they stand under A11 in field 3.
    pure function aligned(card) result(moved)
       type(card_type), intent(in) :: card
@@ -159,7 +154,6 @@ contains
          moved%fields(before + 1 + entries) = card%fields(before + 1)
       end do
    end function aligned
-
 
    !> JINCR: the increments of a stage, turned into shares that add up to 1.
    subroutine read_jincr(cards, bulk)
@@ -180,7 +174,6 @@ contains
          if (values%ok) call share_out(cards, values, bulk%jincr(i)%shares)
       end do
    end subroutine read_jincr
-
 
    !> The SHARES of a JINCR; they stay where there is an error.
    subroutine share_out(cards, values, shares)
@@ -206,7 +199,6 @@ contains
          end if
       end associate
    end subroutine share_out
-
 
    !> The shares of PROG = LIST; they stand from FIRST on and add up to 1 (to 1E-4: then they are scaled to do so).
    subroutine read_list(cards, values, shares)

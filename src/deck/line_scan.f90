@@ -75,7 +75,6 @@ contains
       line%length = int(finish - start + 1)
    end subroutine scan_line
 
-
    !> Whether the carriage return at I stands at the end of its line.
    pure logical function ends_line(bytes, i)
       character(*), intent(in)  :: bytes
@@ -84,7 +83,6 @@ contains
       ends_line = i == len(bytes, long)
       if (.not. ends_line) ends_line = bytes(i + 1:i + 1) == achar(10)
    end function ends_line
-
 
    !> Whether LINE (its card part) is an INCLUDE: the word, then a blank, a quote or an equals sign.
    pure logical function is_include(line)
@@ -100,7 +98,6 @@ contains
       is_include = .true.
       if (len(line) > first + 6) is_include = scan(line(first + 7:first + 7), ' ''"=') == 1
    end function is_include
-
 
    !> The file name in what follows the word INCLUDE: in quotes of either kind, or bare.
    pure function included_path(words) result(path)

@@ -53,7 +53,6 @@ contains
       bulk%support = bulk%support(:n)
    end subroutine read_support
 
-
    !> The nodes of an SPC1, from data field 3 on.
    subroutine list_nodes(cards, support)
       type(card_reader_type), intent(inout) :: cards
@@ -95,7 +94,6 @@ contains
       support%at = support%at(:n)
    end subroutine list_nodes
 
-
    !> FORCE: the vector F (N1, N2, N3) at one node; the direction is not made a unit vector, as in NASTRAN.
    subroutine read_force(cards, bulk)
       type(card_reader_type), intent(inout) :: cards
@@ -113,7 +111,6 @@ contains
                                     force=values%reals(4)*values%reals(5:7))
       end do
    end subroutine read_force
-
 
    !> PLOAD4: pressure on a face of a solid, positive into it: P1 at G1, P2 to P4 at the next corners as the right hand goes
    !! about the outward normal, where blank as P1. The face is named by G1 and, for CHEXA and CPENTA, the opposite corner G3; for
@@ -145,7 +142,6 @@ contains
       end do
    end subroutine read_pressure
 
-
    !> PLOADM: pressure on a marked surface, positive into the body. FORCEM: a total force F (N1, N2, N3), spread evenly over it.
    subroutine read_surface_load(cards, bulk)
       type(card_reader_type), intent(inout) :: cards
@@ -173,7 +169,6 @@ contains
       end do
    end subroutine read_surface_load
 
-
    !> GRAV: acceleration A (N1, N2, N3) on all bodies, with RHO of MAT1.
    subroutine read_gravity(cards, bulk)
       type(card_reader_type), intent(inout) :: cards
@@ -191,7 +186,6 @@ contains
                                         acceleration=values%reals(3)*values%reals(4:6))
       end do
    end subroutine read_gravity
-
 
    !> SPCD: displacements of held components, in a load set: the total at the end of the stage, as for forces.
    subroutine read_displacement(cards, bulk)
@@ -216,7 +210,6 @@ contains
       end do
       bulk%displacement = bulk%displacement(:n)
    end subroutine read_displacement
-
 
    !> LOAD: S (S1 L1 + S2 L2 + ...), the sets L being those of load cards other than LOAD.
    subroutine read_load(cards, bulk)
@@ -260,7 +253,6 @@ contains
          end associate
       end do
    end subroutine read_load
-
 
    !> BOLT: the CROD EID, or the solid cut at the surface PMARK, tightened to PRELOAD in SUBCASE STAGE and locked in the later
    !! ones.

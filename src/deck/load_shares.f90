@@ -28,7 +28,6 @@ contains
       ok = shares(1) > 0.0_wp .and. shares(n) > 1.0e-12_wp
    end subroutine arithmetic_shares
 
-
    !> N shares s_k = FIRST r^(k - 1) with sum 1; the ratio r is found by bisection and closed by scaling.
    !! OK is false where no such r exists (FIRST >= 1 with N > 1).
    pure subroutine geometric_shares(n, first, shares, ok)
@@ -63,7 +62,6 @@ contains
       shares(2:) = shares(2:)*(1.0_wp - first)/sum(shares(2:))
       ok = all(shares > 1.0e-12_wp)
    end subroutine geometric_shares
-
 
    pure real(wp) function geometric_sum(n, first, ratio) result(total)
       integer, intent(in)  :: n

@@ -35,7 +35,6 @@ contains
       end do
    end subroutine read_grid
 
-
    !> CTRIA3, CQUAD4, CTETRA, CPENTA and CHEXA, the body elements; in a model of solids, faces of marked surfaces are CQUAD4 and
    !! CTRIA3 too. THETA, ZOFFS and corner thicknesses of plates mean nothing to an isotropic membrane of one thickness, and must be
    !! blank; so must the midside nodes of solids.
@@ -66,7 +65,6 @@ contains
       end do
    end subroutine read_element
 
-
    !> CBAR: an edge of a marked surface; the orientation vector of a real bar (Gmsh writes one) has no meaning here. CROD: such an
    !! edge, or with a PROD a bar, such as a bolt.
    subroutine read_edge(cards, bulk)
@@ -90,7 +88,6 @@ contains
       end do
    end subroutine read_edge
 
-
    !> PMARK: a marked surface.
    subroutine read_pmark(cards, bulk)
       type(card_reader_type), intent(inout) :: cards
@@ -105,7 +102,6 @@ contains
          bulk%pmark(i) = pmark_card(line=cards%line, id=values%integers(1))
       end do
    end subroutine read_pmark
-
 
    !> BLOCK2: a quadrilateral block of NX by NY elements between four corners; corners 2 and 4 left blank make it a
    !! rectangle with corners 1 and 3 on its diagonal.
@@ -161,7 +157,6 @@ contains
          end associate
       end do
    end subroutine read_block
-
 
    !> Size and numbers of a block, whose divisions are data fields 3 to LAST and whose N1 and E1 are 15 and 16. Of too many
    !! elements one is left, so that the rest of the deck can be checked.

@@ -34,7 +34,6 @@ contains
       end do
    end subroutine read_pshell
 
-
    !> PAXIS: a body of revolution about y; its mesh lies in x >= 0.
    subroutine read_paxis(cards, bulk)
       type(card_reader_type), intent(inout) :: cards
@@ -50,7 +49,6 @@ contains
                                        state=axisymmetric)
       end do
    end subroutine read_paxis
-
 
    !> PSOLID: solids. Field 7 (ISOP) = MODES adds the incompatible modes of Wilson and Taylor to CHEXA.
    subroutine read_psolid(cards, bulk)
@@ -69,7 +67,6 @@ contains
       end do
    end subroutine read_psolid
 
-
    !> PROD: a bar of cross-section A.
    subroutine read_prod(cards, bulk)
       type(card_reader_type), intent(inout) :: cards
@@ -85,7 +82,6 @@ contains
                                   area=values%reals(3))
       end do
    end subroutine read_prod
-
 
    !> MAT1: of E, G and NU two are enough, G = E/(2 (1 + NU)); all three must agree within one per cent.
    subroutine read_mat1(cards, bulk)
@@ -105,7 +101,6 @@ contains
                                   rho=values%reals(5))
       end do
    end subroutine read_mat1
-
 
    !> Of E, G and NU, data fields 2 to 4 of a MAT1, the one that is left blank.
    subroutine fill_in(cards, values)

@@ -38,7 +38,6 @@ contains
       end do
    end subroutine body_forces
 
-
    !> Areas of influence of one side, a_i = integral of N_i: an edge of a plane or axisymmetric body, a triangle or a
    !! quadrilateral of a solid. Their sum is the area of the side.
    pure subroutine side_areas(state, thickness, x, area)
@@ -58,7 +57,6 @@ contains
          area(:nodes) = area(:nodes) + n(:nodes)*(rule%weight(i)*sqrt(sum(normal**2)))
       end do
    end subroutine side_areas
-
 
    !> Nodal forces of a pressure on one side, positive when it presses on the body: against the normal that points out. It
    !! varies as the shape functions between its values at the nodes. With -1 at all nodes the result is the integral of
@@ -85,7 +83,6 @@ contains
          end do
       end do
    end subroutine side_forces
-
 
    !> Shape functions at a point of a side, and the outward normal there, as long as the area that a unit of weight stands
    !! for.

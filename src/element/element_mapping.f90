@@ -52,7 +52,6 @@ contains
       call elasticity_matrix(state, e, nu, law%d)
    end function make_element_law
 
-
    !> Take up the corners of an element.
    pure subroutine map_element(law, x, map)
       type(element_law), intent(in)  :: law
@@ -69,7 +68,6 @@ contains
       call shape_derivatives(law%kind, centre_point(:, law%kind), dn)
       call invert_jacobian(d, map%n, map%x, dn, map%inverse, map%jacobian)
    end subroutine map_element
-
 
    !> Gradients at a point and the volume that a unit of weight stands for there. The first components are d/dx, d/dy, d/dz;
    !! in an axisymmetric body the third is N/r, which makes the hoop strain. After the nodes come the incompatible modes
@@ -113,7 +111,6 @@ contains
       end do
    end subroutine map_point
 
-
    !> The derivatives of the local coordinates, and det J: d/dx_b = sum over a of inverse(b, a) d/d(local a).
    pure subroutine invert_jacobian(dimension, n, x, dn, inverse, jacobian)
       integer, intent(in)     :: dimension, n
@@ -135,7 +132,6 @@ contains
          inverse(:, 3) = cross(j(:, 1), j(:, 2))/jacobian
       end if
    end subroutine invert_jacobian
-
 
    !> The Jacobian matrix, j(b, a) = d x_b/d(local a), and its determinant.
    pure subroutine jacobian_matrix(dimension, n, x, dn, j, jacobian)
@@ -162,14 +158,12 @@ contains
       end if
    end subroutine jacobian_matrix
 
-
    pure function cross(a, b) result(c)
       real(wp), intent(in) :: a(3), b(3)
       real(wp) :: c(3)
 
       c = [a(2)*b(3) - a(3)*b(2), a(3)*b(1) - a(1)*b(3), a(1)*b(2) - a(2)*b(1)]
    end function cross
-
 
    !> The smallest det J over the integration points and the corners, divided by the longest edge to the power of the dimension
    !! and scaled so that a square or cube has 1 [-]. Not above zero for an element that is turned round, folded, or flat to
@@ -211,7 +205,6 @@ contains
       end if
    end function smallest_jacobian
 
-
    !> The smallest det J at these POINTS [length^dimension].
    pure real(wp) function least_at(kind, corners, points) result(smallest)
       integer, intent(in)  :: kind
@@ -227,7 +220,6 @@ contains
          smallest = min(smallest, jacobian)
       end do
    end function least_at
-
 
    !> The smallest det J of a solid at the integration points of its sides [length^3]; 0 where two corners stand in one place.
    pure real(wp) function least_on_sides(kind, corners, longest) result(smallest)

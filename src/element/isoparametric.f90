@@ -34,7 +34,6 @@ contains
       end do
    end subroutine stiffness
 
-
    !> The upper triangle of [k], and beyond the unknowns of the nodes the columns from which the parameters of the modes
    !! follow: q(p) = -sum of full(:p-1, p) q(:p-1)/full(p, p), for p from N + 1 to N_ALL in turn.
    pure subroutine condensed_stiffness(law, x, full, n, n_all)
@@ -62,7 +61,6 @@ contains
          end do
       end do
    end subroutine condensed_stiffness
-
 
    !> Integrals of g_a(i) g_b(j) in (a, b) for all pairs of shape functions i <= j; of a plane body two components are set.
    pure subroutine integrate_products(law, map, products)
@@ -102,7 +100,6 @@ contains
          end do
       end do
    end subroutine integrate_products
-
 
    !> [B_i]^T [D] [B_j] for all i <= j of N shape functions. Strains in the plane: xx = g_x u, yy = g_y v, xy = g_y u + g_x v;
    !! axisymmetric: rr = g_r u, zz = g_z v, theta theta = h u, rz = g_z u + g_r v, where h = N/r; of a solid: xx = g_x u,

@@ -53,7 +53,6 @@ contains
       if (kind == kind_tria3 .and. axisymmetric) rule = triangle_3
    end subroutine body_rule
 
-
    !> The rule over a side: an edge (2 nodes, coordinate from -1 to 1), a triangle (3) or a quadrilateral (4); 1: no points.
    pure subroutine side_rule(n_nodes, rule)
       integer, intent(in) :: n_nodes

@@ -53,7 +53,6 @@ contains
       end associate
    end subroutine shape_values
 
-
    !> Derivatives of the shape functions with respect to the local coordinates. Columns beyond the nodes of the kind, and
    !! the third row in the plane, are left as they are.
    pure subroutine shape_derivatives(kind, point, dn)

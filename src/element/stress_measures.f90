@@ -30,7 +30,6 @@ contains
       p = mean + 2.0_wp*r*cos([angle, angle - third_turn, angle + third_turn])
    end function principal_stresses
 
-
    !> The equivalent stress of von Mises, sqrt(3 J2) [pressure].
    pure real(wp) function von_mises(s) result(equivalent)
       real(wp), intent(in) :: s(6) !! xx, yy, zz, xy, yz, zx

@@ -35,7 +35,6 @@ contains
       stress(:n) = matmul(law%d(:n, :n), strain(:n))
    end subroutine centre_stress
 
-
    !> Stresses at the corners: those of the integration points, with the parameters of the incompatible modes, continued by
    !! the shape functions through these points. Where the element has one such point its stress stands at all corners.
    pure subroutine corner_stress(law, x, u, stress)
@@ -70,7 +69,6 @@ contains
       end do
    end subroutine corner_stress
 
-
    !> A point in the local coordinates of the element whose corners are the integration points.
    pure function in_points(kind, point) result(scaled)
       integer, intent(in)  :: kind
@@ -80,7 +78,6 @@ contains
       scaled = point/gauss
       if (kind == kind_tria3 .or. kind == kind_penta6) scaled(:2) = 2.0_wp*point(:2) - 1.0_wp/3.0_wp
    end function in_points
-
 
    !> Parameters of the incompatible modes, which the condensation has left behind: no force works on them.
    pure subroutine recover_modes(law, x, q)
@@ -102,7 +99,6 @@ contains
          q(:d, i) = values(d*(i - 1) + 1:d*i)
       end do
    end subroutine recover_modes
-
 
    !> Strain at a point from the gradients of N shape functions there.
    pure subroutine strain_at(law, n, g, q, strain)

@@ -91,7 +91,6 @@ contains
       end associate
    end subroutine fit_points
 
-
    !> Number the runs of each pressure, in the order of their first points.
    subroutine separate_curves(run, fit)
       integer, intent(in)                  :: run(:)
@@ -107,7 +106,6 @@ contains
       end do
       allocate (fit%start(size(fit%curve_at)), source=0.0_wp)
    end subroutine separate_curves
-
 
    !> A cubic for each pressure, then a line through each of their coefficients.
    subroutine fit_two_steps(d, tau, one_pressure, fit)
@@ -133,7 +131,6 @@ contains
       call fit_coefficient_lines(one_pressure, fit)
    end subroutine fit_two_steps
 
-
    !> Whether each of the POINTS belongs to each of the CURVES; without constant terms no curves are left.
    pure function belongs(fit, points, curves) result(matrix)
       type(branch_fit_type), intent(in) :: fit
@@ -144,7 +141,6 @@ contains
       n = merge(size(curves), 0, fit%constant)
       matrix = spread(fit%curve(points), 2, n) == spread(curves(:n), 1, size(points))
    end function belongs
-
 
    !> Fit the lines of Fig. 2 through published cubics; the range of d is not known from them.
    subroutine fit_lines_only(c, p, one_pressure, fit)
@@ -167,7 +163,6 @@ contains
       end do
    end subroutine fit_lines_only
 
-
    !> a_k1 + a_k2 p through the coefficients of the cubics, all pressures counting alike.
    subroutine fit_coefficient_lines(one_pressure, fit)
       logical, intent(in)                  :: one_pressure !! is enough: a_k2 = 0
@@ -188,7 +183,6 @@ contains
       end do
    end subroutine fit_coefficient_lines
 
-
    !> tau = START + C(1) d + C(2) d^2 + C(3) d^3 through the points of one pressure, every curve with a START of its own. OK is
    !! false where the points do not fix it: fewer than three different d other than zero, or four on one curve with a start.
    subroutine fit_cubic(d, tau, belongs, c, start, ok)
@@ -207,7 +201,6 @@ contains
       c = x(n + 1:)
       start = x(:n)
    end subroutine fit_cubic
-
 
    !> All points of a branch at once: tau = sum over k of (LINES(1,k) + LINES(2,k) p) d^k, and a constant for every curve,
    !! because every run of an unloading or reloading starts at a point of its own. OK is false where the points do not fix the
@@ -231,7 +224,6 @@ contains
       lines(2, :) = x(4:6)
    end subroutine fit_cubic_in_pressure
 
-
    !> d, d^2, d^3 of every point.
    pure function cubic_terms(d) result(terms)
       real(wp), intent(in) :: d(:)
@@ -242,7 +234,6 @@ contains
       terms(:, 3) = d*terms(:, 2)
    end function cubic_terms
 
-
    !> Set to zero what of a line (a_k1, a_k2) is rounding: a share of the stress far below its last digit.
    pure subroutine drop_rounding(line, p, d_power, tau)
       real(wp), intent(inout) :: line(2)
@@ -250,7 +241,6 @@ contains
 
       where (abs(line)*[1.0_wp, p]*d_power <= rounding*tau) line = 0.0_wp
    end subroutine drop_rounding
-
 
    !> Residual of tau about the law with LINES; where the branch has constants, each curve its own best.
    pure function law_residual(d, tau, p, fit, lines) result(residual)
@@ -270,7 +260,6 @@ contains
       end do
       residual = residual_of(off)
    end function law_residual
-
 
    pure function residual_of(off) result(residual)
       real(wp), intent(in) :: off(:)

@@ -58,7 +58,6 @@ contains
       branch = findloc(branch_words == word, .true., 1)
    end function branch_number
 
-
    !> Read the header LINE. A file may hold several, each for the rows below it, of one kind.
    subroutine read_header(line, at, reading, header, errors)
       character(*), intent(in)             :: line
@@ -114,7 +113,6 @@ contains
       header%holds = holds
    end subroutine read_header
 
-
    !> The factors from the units of the data, those of the headings or of FILE, the line UNITS =, to those of the cards.
    subroutine set_factors(reading, file, header, errors)
       type(reading_type), intent(in)       :: reading
@@ -143,7 +141,6 @@ contains
       end do
    end subroutine set_factors
 
-
    !> The unit of COLUMN in SYSTEM [SI], 0 where this is none.
    pure real(wp) function unit_in(system, column) result(unit)
       type(unit_system), intent(in) :: system
@@ -152,7 +149,6 @@ contains
       unit = 0.0_wp
       if (system%length > 0.0_wp) unit = system%stress**stress_power(column)*system%length**length_power(column)
    end function unit_in
-
 
    !> What without --units speaks against the units in the headings: two of stress, or none of force that goes with them.
    subroutine check_system(header, warnings)

@@ -30,7 +30,6 @@ contains
       words = words(:verify(words, blanks, back=.true.))
    end function data_part
 
-
    !> Cut LINE at blanks, tabs, commas and semicolons. Blanks around a separator go with it; nothing between two, or before the
    !! first or behind the last, is an entry left out. What stands in brackets, and blanks before them, cuts nothing: `lambda [um]`
    !! is one entry; nor does the DECIMAL_COMMA, one before a digit, which a line with semicolons has anyway.
@@ -72,7 +71,6 @@ contains
 
    end subroutine split_entries
 
-
    !> LINE with x for all that stands in brackets and for the blanks between a name and its brackets.
    pure function without_brackets(line) result(masked)
       character(*), intent(in) :: line
@@ -93,7 +91,6 @@ contains
       end do
    end function without_brackets
 
-
    !> The NAME and the UNIT in an entry of a header, `lambda [um]` or `lambda(um)`; no brackets: no unit.
    pure subroutine split_unit(entry, name, unit)
       character(*), intent(in)               :: entry
@@ -106,14 +103,12 @@ contains
       if (first < len(entry)) unit = trim(adjustl(entry(first + 1:first + scan(entry(first + 1:)//')', '])') - 1)))
    end subroutine split_unit
 
-
    !> Whether WORD begins like a number.
    pure logical function is_number(word)
       character(*), intent(in) :: word
 
       is_number = scan(word, '0123456789+-.,') == 1
    end function is_number
-
 
    !> A number of the data or the command, which may do without the decimal point that cards need, or have a comma for it.
    pure subroutine read_number(text, value, ok)

@@ -46,7 +46,6 @@ contains
       ok = system%length > 0.0_wp .and. system%stress > 0.0_wp
    end subroutine read_system
 
-
    !> What UNIT is in SI units, 0 where it is no unit of stress or, with STRESS 0, of length.
    pure real(wp) function unit_value(unit, stress) result(value)
       character(*), intent(in) :: unit
@@ -56,14 +55,12 @@ contains
       if (stress /= 0) value = stress_value(plain(unit))
    end function unit_value
 
-
    !> Whether there is a unit of force with which LENGTH and STRESS [SI] are the units of a deck.
    pure logical function has_force(length, stress)
       real(wp), intent(in) :: length, stress
 
       has_force = any(abs(forces - stress*length**2) <= 1.0e-9_wp*forces)
    end function has_force
-
 
    !> A name of stress, or force/length2.
    pure real(wp) function stress_value(word) result(value)
@@ -80,7 +77,6 @@ contains
       end associate
    end function stress_value
 
-
    pure real(wp) function table_value(word, names, values) result(value)
       character(*), intent(in) :: word, names(:)
       real(wp), intent(in)     :: values(:)
@@ -90,7 +86,6 @@ contains
       value = 0.0_wp
       if (k > 0) value = values(k)
    end function table_value
-
 
    !> UNIT in capitals without blanks and ^, the Greek mu as U and raised figures as others.
    pure function plain(unit) result(word)

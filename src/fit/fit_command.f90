@@ -98,7 +98,6 @@ contains
       end if
    end subroutine read_fit_command
 
-
    !> The VALUE behind an OPTION; empty where the command ends.
    subroutine read_value(option, value, command, ok)
       character(*), intent(in)              :: option, value

@@ -57,7 +57,6 @@ contains
       end if
    end subroutine write_cards
 
-
    !> What the file says of units, and in which the cards are where these are CONVERTED.
    subroutine describe_units(data, converted, out)
       type(test_data_type), intent(in)      :: data
@@ -79,7 +78,6 @@ contains
       end if
    end subroutine describe_units
 
-
    subroutine describe_normal(fit, out)
       type(normal_fit_type), intent(in)     :: fit
       type(output_file_type), intent(inout) :: out
@@ -93,7 +91,6 @@ contains
                    ' at p = '//real_text(fit%p_largest))
       if (size(fit%loops%lines) > 0) call describe_loops(fit%loops, out)
    end subroutine describe_normal
-
 
    !> The lines of unloading and reloading, none of which is part of c and m.
    subroutine describe_loops(loops, out)
@@ -118,7 +115,6 @@ contains
       end do
    end subroutine describe_loops
 
-
    subroutine describe_shear(data, command, fit, out)
       type(test_data_type), intent(in)      :: data
       type(fit_command_type), intent(in)    :: command
@@ -140,7 +136,6 @@ contains
       if (left_out > 0) call comment(out, '', plural(left_out, 'row')//' of other branches left out')
       if (fit%has_loading .and. fit%d_max <= 0.0_wp) call comment(out, 'DMAX', 'left blank: the data do not show it')
    end subroutine describe_shear
-
 
    !> Branch B of the card: the cubic of each pressure and the lines through them, of points also the fit in one step.
    subroutine describe_branch(data, fit, b, joint_fit, out)
@@ -190,7 +185,6 @@ contains
 
    end subroutine describe_branch
 
-
    !> The cubic of each pressure, the points of Fig. 2, with its constant where all points of a pressure share one.
    subroutine table_of_cubics(branch, b, out)
       type(branch_fit_type), intent(in)     :: branch
@@ -211,7 +205,6 @@ contains
          end do
       end associate
    end subroutine table_of_cubics
-
 
    !> The constant of each run, RUN and D being those of the points.
    subroutine table_of_runs(branch, b, run, d, out)
@@ -234,7 +227,6 @@ contains
          call comment_row(out, cells)
       end do
    end subroutine table_of_runs
-
 
    !> a1 = a11 + a12 p and so on; WITH_SCATTER says how far the coefficients of the cubics lie off.
    subroutine lines_of_coefficients(branch, b, lines, with_scatter, out)
@@ -260,7 +252,6 @@ contains
       end do
    end subroutine lines_of_coefficients
 
-
    pure function on_card(chosen) result(words)
       logical, intent(in)       :: chosen
       character(:), allocatable :: words
@@ -268,14 +259,12 @@ contains
       words = trim(merge(', on the card', '             ', chosen))
    end function on_card
 
-
    pure function range_text(low, high) result(words)
       real(wp), intent(in)      :: low, high
       character(:), allocatable :: words
 
       words = real_text(low)//' to '//real_text(high)
    end function range_text
-
 
    !> One comment line: a word in a column of its own, then the text.
    subroutine comment(out, label, words)
@@ -287,7 +276,6 @@ contains
       call out%put('$ '//column//words)
    end subroutine comment
 
-
    !> One row of a table.
    subroutine comment_row(out, cells)
       type(output_file_type), intent(inout) :: out
@@ -297,7 +285,6 @@ contains
       write (words, '(6a)') cells
       call comment(out, '', '   '//words)
    end subroutine comment_row
-
 
    subroutine put_lines(out, before, lines)
       type(output_file_type), intent(inout) :: out

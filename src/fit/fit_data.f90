@@ -95,7 +95,6 @@ contains
       call keep_header(header, reading, data, errors)
    end subroutine read_test_data
 
-
    !> What the rows below the last HEADER are.
    subroutine keep_header(header, reading, data, errors)
       type(header_type), intent(in)        :: header
@@ -119,7 +118,6 @@ contains
       end if
    end subroutine keep_header
 
-
    !> UNITS = anything: for the comments of the cards, and for --units where it names a SYSTEM. A second one must say the same.
    subroutine read_units(line, at, data, system, errors)
       character(*), intent(in)             :: line
@@ -136,7 +134,6 @@ contains
       data%units = units
       call read_system(units, system, ok)
    end subroutine read_units
-
 
    !> One row of data.
    subroutine read_row(line, at, entries, header, data, errors)
@@ -169,7 +166,6 @@ contains
          end do
       end associate
    end subroutine read_row
-
 
    !> The entry WORD in its COLUMN of the last row, to be multiplied by FACTOR.
    subroutine read_entry(word, column, factor, data, errors)

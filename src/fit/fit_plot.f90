@@ -83,7 +83,6 @@ contains
 
    end subroutine write_plot
 
-
    !> The points of loading and the power law, those of each way down or up and its line of slope E_u.
    subroutine put_normal(data, fit, plots, out)
       type(test_data_type), intent(in)         :: data
@@ -107,7 +106,6 @@ contains
          call put_block(out, plots, trim(branch_words(b)), [b, b], data%value(column_lambda, rows), p, fitted, p)
       end do
    end subroutine put_normal
-
 
    !> The points of branch B of shear at each pressure and the law of the card, from the start of each run that suits it best.
    subroutine put_shear(data, fit, b, plots, out)
@@ -135,7 +133,6 @@ contains
          end do
       end associate
    end subroutine put_shear
-
 
    !> A block of points X, Y with the fit at each of them, FITTED_X and FITTED_Y, drawn in a LOOK, shape and colour. Blocks of one
    !! TITLE one after the other have one entry in the key.
@@ -165,7 +162,6 @@ contains
       plots = plots//', '//block//' using 1:2 with points pt '//integer_text(2*look(1) + 3)//colour//name//', '//block// &
               ' using 3:4 with lines lw 2 dt '//integer_text(look(1))//colour//' notitle'
    end subroutine put_block
-
 
    !> TEXT as gnuplot takes it as it stands.
    pure function quoted(text) result(words)

@@ -28,7 +28,6 @@ contains
       call complain_of_input(file, 'a file of test data')
    end subroutine report_unreadable_data
 
-
    !> All errors of a data file.
    subroutine report_data_errors(text, errors)
       type(deck_text_type), intent(in)  :: text
@@ -37,7 +36,6 @@ contains
       exit_status = max(exit_status, status_data)
       call print_errors(error_unit, 'DATA', 'no card written', text, errors)
    end subroutine report_data_errors
-
 
    !> The warnings of a fit, and that there is no card for want of loading data.
    subroutine report_fit(file, fit)
@@ -56,7 +54,6 @@ contains
          ' other branches are written as comments; --branch '//word//' --as LOAD makes a card of '//word//' data'
    end subroutine report_fit
 
-
    !> Begin the outputs of the run: OUT for the cards and, where the command wants it, the PLOT.
    subroutine begin_output(command, out, plot)
       type(fit_command_type), intent(in)    :: command
@@ -65,7 +62,6 @@ contains
       call out%start('')
       if (command%plot /= '') call plot%start(command%plot)
    end subroutine begin_output
-
 
    !> End the run with the highest status of all files.
    subroutine end_fit(command, out, plot)

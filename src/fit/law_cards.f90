@@ -26,7 +26,6 @@ contains
       lines = card_lines('JNORM', fields, small)
    end function jnorm_card
 
-
    !> JSHEAR SID A11 A12 A21 A22 A31 A32, the continuations B11 to B32, C11 to C32, and PMAX DMAX. A branch that is not
    !! GIVEN leaves its continuation blank, which means as loading; so does a zero D_MAX its field.
    function jshear_card(id, coefficients, given, p_max, d_max, small) result(lines)
@@ -50,7 +49,6 @@ contains
       lines = card_lines('JSHEAR', fields, small)
    end function jshear_card
 
-
    !> The continuation with the COEFFICIENTS of one branch alone.
    function coefficient_line(coefficients, small) result(lines)
       real(wp), intent(in) :: coefficients(2, 3)
@@ -63,7 +61,6 @@ contains
       lines = card_lines('+', fields, small)
    end function coefficient_line
 
-
    !> NUMBERS in all columns of a small field, all but one of a large one, so that they stand apart.
    function number_fields(numbers, small) result(fields)
       real(wp), intent(in) :: numbers(:)
@@ -75,7 +72,6 @@ contains
          fields(k) = real_field_text(numbers(k), merge(8, 15, small))
       end do
    end function number_fields
-
 
    !> A card NAME (or + for a continuation) with its FIELDS, eight a line, in large field eight a pair of lines. Eight blank
    !! ones are a lone +.
@@ -105,7 +101,6 @@ contains
       end do
    end function card_lines
 
-
    !> One line: HEAD in eight columns, then the FIELDS, WIDTH columns each.
    pure function joined(head, fields, width) result(line)
       character(*), intent(in)  :: head
@@ -120,7 +115,6 @@ contains
          line(first:first + width - 1) = fields(k)
       end do
    end function joined
-
 
    !> VALUE in at most WIDTH columns, as NASTRAN writes it: the nearest number that fits, as 0.0125, 260.8628 or, where that
    !! is nearer, in the short form with an exponent, 1.2346-5. It always has a decimal point, and reads back by parse_real.
@@ -152,7 +146,6 @@ contains
       text = trim(best)
    end function real_field_text
 
-
    !> VALUE with DECIMALS digits behind the point; a zero before the point where there is room, none where not.
    function plain_form(value, decimals, width) result(entry)
       real(wp), intent(in) :: value
@@ -168,7 +161,6 @@ contains
       if (entry(1:1) == '.') entry = '0'//trim(entry)
       if (entry(1:2) == '-.') entry = '-0'//trim(entry(2:))
    end function plain_form
-
 
    !> VALUE with one digit before the point, DECIMALS behind it and an exponent without E: -1.25+7.
    function short_form(value, decimals) result(entry)

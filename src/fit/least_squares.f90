@@ -52,7 +52,6 @@ contains
       if (ok) x = b(:n, 1)/length
    end subroutine solve_least_squares
 
-
    !> The straight line y = LINE(1) + LINE(2) x nearest to the points. OK is false for fewer than two different x.
    subroutine fit_line(x, y, line, ok)
       real(wp), intent(in)  :: x(:), y(:)

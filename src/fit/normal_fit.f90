@@ -60,7 +60,6 @@ contains
       call check_unloading(fit, warnings)
    end subroutine fit_normal
 
-
    !> A joint that is unloaded less steeply than it was loaded would come back to less than nothing.
    subroutine check_unloading(fit, warnings)
       type(normal_fit_type), intent(in)    :: fit
@@ -76,7 +75,6 @@ contains
                            real_text(fit%p_high)//', '//real_text(slope)//': the set would be negative')
       end if
    end subroutine check_unloading
-
 
    !> The c and m that make the sum of (c p^m - lambda)^2 least. The straight line through ln lambda over ln p is the start;
    !! then Gauss-Newton in lambda itself, a step that makes the sum larger being halved. Points with p <= 0 or lambda <= 0
@@ -106,7 +104,6 @@ contains
       m = line(2)
       c = exp(line(1) - m*mean)
    end subroutine fit_power_law
-
 
    !> From the start Q, the Q that makes the sum of (exp(Q(1) + Q(2) x) - lambda)^2 least.
    subroutine gauss_newton(x, lambda, q, ok)
@@ -145,7 +142,6 @@ contains
       end function sum_of_squares
 
    end subroutine gauss_newton
-
 
    !> The c of lambda = c p, the law with m = 1 [length/pressure].
    pure real(wp) function fit_proportional(p, lambda) result(c)

@@ -34,7 +34,6 @@ contains
       end do
    end subroutine take_off_offset
 
-
    !> What is further below zero than the BAND of noise, SHARE of the range: p, and d of rows that are named loading.
    subroutine check_signs(data, share, band, errors)
       type(test_data_type), intent(in)     :: data

@@ -39,7 +39,6 @@ contains
       end do
    end subroutine check_slopes
 
-
    !> Whether branch B loses its slope for P between these two, on the WAY from one d to another; then a warning names the place.
    logical function loses_slope(fit, b, p, way, range) result(lost)
       type(surface_fit_type), intent(inout) :: fit
@@ -52,7 +51,6 @@ contains
       if (lost) call fit%warnings%add(0, trim(branch_words(b))//': the slope of tau is first not positive at p = '// &
                                       real_text(p_lost)//', d = '//real_text(d_lost)//', '//range)
    end function loses_slope
-
 
    !> On the way from d = FROM to d = TO, the first d at which dP/dd = sum over k of k (a_k1 + a_k2 p) d^(k-1) is no longer
    !! positive for some p between P_LOW and P_HIGH. The slope is linear in p, so it is least at one end: two quadratics
@@ -79,7 +77,6 @@ contains
          d = place
       end do
    end subroutine find_slope_loss
-
 
    !> The first d from FROM to TO with a(1) + 2 a(2) d + 3 a(3) d^2 <= 0.
    pure subroutine find_first_root(a, from, to, found, d)

@@ -52,7 +52,6 @@ contains
       end if
    end subroutine fit_surface
 
-
    !> The branches of the shear law.
    subroutine fit_shear(data, command, fit, errors)
       type(test_data_type), intent(in)      :: data
@@ -91,7 +90,6 @@ contains
       if (command%d_max > 0.0_wp) fit%d_max = command%d_max
    end subroutine fit_shear
 
-
    !> The branch of the card that the rows of branch SOURCE give.
    subroutine fit_branch(data, command, source, fit, errors)
       type(test_data_type), intent(in)     :: data
@@ -127,7 +125,6 @@ contains
                          ' that do not fix the coefficients: expected more different d and p'//tolerance_help(fit))
       end select
    end subroutine fit_branch
-
 
    !> The option that helps where measured pressures lie close to each other and count as different.
    function tolerance_help(fit) result(words)

@@ -71,7 +71,6 @@ contains
          band*range, [runs, maxval(test)], errors)
    end subroutine find_branches
 
-
    !> The TEST that each row belongs to. A header begins one, another pressure of shear too, and so does a row that is back at
    !! the first reading when the one before it was not: there a specimen starts anew. Rows that name their branches may stand in
    !! any order, and runs with numbers come back to their pressure.
@@ -115,7 +114,6 @@ contains
 
    end subroutine separate_tests
 
-
    !> The ROWS of one test, in order, take their branches from the way U that it went, straight from START to START; of shear
    !! what was loaded in the other sense is turned over.
    subroutine take_branches(data, rows, u, starts)
@@ -141,7 +139,6 @@ contains
          data%run(rows(i)) = run
       end do
    end subroutine take_branches
-
 
    !> The branch of every point of a test that goes straight along U between the points START, as the law has it: it loads;
    !! turned back it unloads; turned again it reloads, up to the largest deflection of its loading, and loads again beyond. In
@@ -183,7 +180,6 @@ contains
       end do
    end subroutine follow
 
-
    !> Rows that name their branches and have no runs: each stretch of one branch at one pressure is a run. Stretches of very few
    !! rows of shear are rows in no order: those of a branch and pressure are one run.
    subroutine number_stretches(data, p_tolerance)
@@ -202,7 +198,6 @@ contains
       end do
       if (data%kind == data_normal .or. data%n >= few*stretch(data%n)) data%run(:data%n) = stretch
    end subroutine number_stretches
-
 
    !> Note how the record was cut, and say where it is hardly a record.
    subroutine report_record(data, p_tolerance, columns, share, band, counts, errors)

@@ -30,7 +30,6 @@ contains
       scatter = sqrt(2.0_wp*log(real(n, wp)))*median(distance)/(0.6745_wp*sqrt(1.5_wp))
    end function scatter_of
 
-
    !> The readings at which U turns back by more than BAND: the last before it does.
    pure subroutine find_turns(u, band, turns)
       real(wp), intent(in)              :: u(:)
@@ -56,7 +55,6 @@ contains
          end if
       end do
    end subroutine find_turns
-
 
    !> The middle one of X in ascending order, the upper of two: by halving the range, the number below and above counted.
    pure real(wp) function median(x)

@@ -131,7 +131,6 @@ contains
       if (control%method == method_step) allocate (analysis%exact, source=analysis%states)
    end subroutine start_analysis
 
-
    !> Which components of all nodes are held now: supported, or locked.
    pure function all_held(model, analysis) result(held)
       type(model_type), intent(in)    :: model
@@ -144,7 +143,6 @@ contains
          if (analysis%is_locked(i)) held(1, model%sections(i)%node) = .true.
       end do
    end function all_held
-
 
    !> NORM and SHEAR for every interface element: its branches after the last increment, its stiffness for the next one.
    subroutine interface_stiffness(model, system, analysis, failure)
@@ -170,7 +168,6 @@ contains
       call find_unbalanced(system, analysis)
    end subroutine interface_stiffness
 
-
    !> What kind of stiffness K_N is that NORM has given an element in this STATE.
    pure integer function kind_of_next(law, area, state, k_n) result(kind)
       type(joint_law), intent(in)     :: law
@@ -183,7 +180,6 @@ contains
       end if
    end function kind_of_next
 
-
    !> The kind of the normal stiffness on a BRANCH.
    pure integer function kind_on_branch(branch) result(kind)
       integer, intent(in) :: branch
@@ -192,7 +188,6 @@ contains
       if (branch == branch_load) kind = tangent_stiffness
       if (branch == branch_open) kind = no_stiffness
    end function kind_on_branch
-
 
    !> The movements of all interface elements under the displacements now.
    subroutine find_movements(system, analysis)
@@ -205,7 +200,6 @@ contains
       end do
    end subroutine find_movements
 
-
    !> Force that an interface ELEMENT in this STATE carries, in global axes, as it acts on its end 2 or the base [force].
    pure function element_force(element, state) result(force)
       type(interface_element), intent(in) :: element
@@ -215,7 +209,6 @@ contains
       force = matmul(element%axes, [state%shear%tau*element%area, state%normal%sumf])
    end function element_force
 
-
    !> Load minus the forces in bodies and joints on retained nodes: what the increment leaves unbalanced.
    subroutine find_unbalanced(system, analysis)
       class(equation_system), intent(in) :: system
@@ -224,7 +217,6 @@ contains
       analysis%unbalanced = analysis%felt - analysis%body
       call subtract_joint_forces(system%interface, analysis%states, analysis%unbalanced)
    end subroutine find_unbalanced
-
 
    !> Take the forces of interface ELEMENTS in these STATES from the nodal forces F.
    pure subroutine subtract_joint_forces(elements, states, f)
@@ -237,7 +229,6 @@ contains
          call add_global_force(elements(i), -element_force(elements(i), states(i)), f)
       end do
    end subroutine subtract_joint_forces
-
 
    !> Euclidean norm of nodal forces F over the components that are not HELD [force].
    pure real(wp) function free_norm(f, held) result(norm)
@@ -255,7 +246,6 @@ contains
       norm = largest*sqrt(norm)
    end function free_norm
 
-
    !> Add the works (by shear, by normal forces) done on one element to those of its joint.
    pure subroutine tally_work(energy, work)
       type(joint_energy), intent(inout) :: energy
@@ -264,7 +254,6 @@ contains
       energy%put_in = energy%put_in + max(0.0_wp, work)
       energy%given_back = energy%given_back + max(0.0_wp, -work)
    end subroutine tally_work
-
 
    !> Keep the largest pressure and deflection that there have been.
    pure subroutine note_largest(analysis)
@@ -279,7 +268,6 @@ contains
          analysis%largest_lambda = max(analysis%largest_lambda, maxval(abs(analysis%states%shear(k)%delta)))
       end do
    end subroutine note_largest
-
 
    !> Note a pass for the listing.
    subroutine record_pass(analysis, pass)

@@ -80,7 +80,6 @@ contains
       call find_unbalanced(system, analysis)
    end subroutine back_increment
 
-
    !> Secants of the laws at the movements TAKEN.
    pure subroutine take_secants(model, analysis, now)
       type(model_type), intent(in)      :: model
@@ -98,7 +97,6 @@ contains
          end do
       end do
    end subroutine take_secants
-
 
    !> What the solution moves, the LARGEST_P of the laws there [pressure], and by how much the stresses of the laws differ from
    !! those where the secants were taken.
@@ -125,7 +123,6 @@ contains
       end do
    end subroutine read_off
 
-
    !> The averages have not settled: say which element changes most.
    subroutine give_up(model, plan, analysis, now, failure)
       type(model_type), intent(in)      :: model
@@ -140,7 +137,6 @@ contains
          integer_text(analysis%n_passes)//' iterations; the one of node '//integer_text(joint_node_id(model, worst, 1))// &
          ' still changes by '//real_text(now%change(worst))//'; METHOD = NEWTON follows such laws')
    end subroutine give_up
-
 
    !> The states of the elements as the last solution has them.
    subroutine store(model, now, analysis)

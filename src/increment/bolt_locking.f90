@@ -43,7 +43,6 @@ contains
       end do
    end subroutine lock_bolts
 
-
    !> How much longer bar I is now [length].
    pure real(wp) function elongation_now(model, analysis, i) result(elongation)
       type(model_type), intent(in)    :: model
@@ -53,7 +52,6 @@ contains
       elongation = bar_elongation(model%bars(i), analysis%u(:, analysis%place(model%bars(i)%nodes)))
    end function elongation_now
 
-
    !> Overlap g at the section of solid bolt I now [length].
    pure real(wp) function overlap_now(model, analysis, i) result(overlap)
       type(model_type), intent(in)    :: model
@@ -62,7 +60,6 @@ contains
 
       overlap = analysis%u(1, analysis%place(model%sections(i)%node))
    end function overlap_now
-
 
    !> Tension of bar I now [force].
    pure real(wp) function bar_tension(model, analysis, i) result(tension)
@@ -79,7 +76,6 @@ contains
          end if
       end associate
    end function bar_tension
-
 
    !> Tension of solid bolt I now: the force in its bodies that does work on its overlap, less the share of the loads [force].
    pure real(wp) function section_tension(model, analysis, i) result(tension)

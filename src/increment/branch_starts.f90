@@ -35,7 +35,6 @@ contains
       end do
    end subroutine note_turns
 
-
    !> b0 or c0: by how much the curve of the branch of STATE under the pressure P is shifted to pass through the point TURN where
    !! the branch began; zero on the loading curve [pressure].
    pure real(wp) function branch_shift(law, state, p, turn) result(shift)

@@ -68,7 +68,6 @@ contains
       condensed%load = load(:n, :) - matmul(transpose(k(n + 1:, :n)), load(n + 1:, :))
    end subroutine condense_on_joints
 
-
    !> The equations of the JOINTS, joint after joint, side 1 before side 2, node after node, and those that are GONE.
    pure subroutine find_unknowns(model, system, joints, gone)
       type(model_type), intent(in)       :: model
@@ -100,7 +99,6 @@ contains
       gone = pack([(i, i = 1, system%n)], is_open)
    end subroutine find_unknowns
 
-
    !> K of the equations in ORDER, column by column.
    subroutine form_matrix(system, order, k)
       class(equation_system), intent(in) :: system
@@ -118,7 +116,6 @@ contains
          x(order(i)) = 0.0_wp
       end do
    end subroutine form_matrix
-
 
    !> What of the LOAD on retained nodes acts in the equations in ORDER.
    pure function loads_on(system, order, load) result(f)

@@ -39,7 +39,6 @@ contains
       end do
    end subroutine follow_laws
 
-
    !> Where joint J is farthest from its normal law.
    pure type(distance_type) function normal_distance(model, analysis, j) result(farthest)
       type(model_type), intent(in)    :: model
@@ -52,7 +51,6 @@ contains
          farthest%element = first + farthest%element - 1
       end associate
    end function normal_distance
-
 
    !> Likewise from its shear laws, in the direction where that is most.
    pure type(distance_type) function shear_distance(model, analysis, j) result(farthest)
@@ -74,7 +72,6 @@ contains
          end do
       end associate
    end function shear_distance
-
 
    !> The largest difference between STRESS and BY_LAW, measured by the largest stress if that is above FLOOR; of values that
    !! rounding alone tells apart the first counts.

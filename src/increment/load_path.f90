@@ -59,7 +59,6 @@ contains
       call forces_in_bodies(system, analysis%u, analysis%body)
    end subroutine start_stage
 
-
    !> What retained nodes feel of LOAD on all nodes where held components are MOVED.
    subroutine condense(model, system, is_elastic, load, moved, felt)
       type(model_type), intent(in)       :: model
@@ -70,7 +69,6 @@ contains
 
       call condense_load(system, load - forces_of(model, system, is_elastic, moved), felt)
    end subroutine condense
-
 
    !> Forces that bodies and elastic bars need to have MOVED what has no equation, the others at rest.
    function forces_of(model, system, is_elastic, moved) result(f)
@@ -88,7 +86,6 @@ contains
       end if
    end function forces_of
 
-
    !> F of bodies and elastic bars under the displacements U of all nodes.
    subroutine all_forces(model, is_elastic, u, f)
       type(model_type), intent(in) :: model
@@ -99,7 +96,6 @@ contains
       call internal_forces(model, u, f)
       call add_bar_forces(model, is_elastic, u, f)
    end subroutine all_forces
-
 
    !> {dF} of the next increment: its share of the stage's load change, and what is unbalanced where CARRY asks for it.
    subroutine start_increment(plan, system, analysis)
@@ -144,7 +140,6 @@ contains
 
    end subroutine start_increment
 
-
    !> Displacements of all nodes, and what is unbalanced on them, from the elements themselves: on held components minus the reaction.
    subroutine recover_bodies(model, system, analysis)
       type(model_type), intent(in)       :: model
@@ -155,7 +150,6 @@ contains
       analysis%u = analysis%all_u(:, system%retained)
       analysis%unbalanced = analysis%all_unbalanced(:, system%retained)
    end subroutine recover_bodies
-
 
    !> The same as ALL_U and UNBALANCED for other displacements U of retained nodes under the LOAD on all nodes, supports being MOVED,
    !! the joints as they are.
@@ -172,7 +166,6 @@ contains
       unbalanced = load - unbalanced
       call subtract_joint_forces(model%interface, analysis%states, unbalanced)
    end subroutine recover
-
 
    !> What the supports take under the displacements U of retained nodes, so much of the increment being LEFT [force].
    real(wp) function support_force(model, system, analysis, u, left) result(force)

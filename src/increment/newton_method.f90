@@ -80,7 +80,6 @@ contains
       analysis%n_removed = max(0, count(analysis%states%normal%branch == branch_open) - before_open)
    end subroutine newton_increment
 
-
    !> The next ATTEMPT goes to where so much of the increment is LEFT.
    subroutine start_attempt(system, analysis, left, attempt)
       class(equation_system), intent(in) :: system
@@ -98,7 +97,6 @@ contains
       attempt%converged = .false.
       attempt%trouble = none
    end subroutine start_attempt
-
 
    !> Newton iterations of ATTEMPT from the committed state; converged, they are committed. The first iteration moves the supports,
    !! in one go and with the tangent of the committed state.
@@ -157,7 +155,6 @@ contains
       if (attempt%converged) call commit(model, system, now, analysis)
    end subroutine iterate
 
-
    !> The first joint whose elements all are open or slip in TRIAL, 0 for none.
    pure integer function loose_joint(model, trial) result(joint)
       type(model_type), intent(in) :: model
@@ -170,7 +167,6 @@ contains
       end do
       joint = 0
    end function loose_joint
-
 
    !> The Newton direction from NOW. The factorised matrix has the symmetric, positive part of the tangent, with a little where
    !! an element has no stiffness, and at the very first the secant of Eq. (9); what it lacks is brought in by solve_coupled.
@@ -217,7 +213,6 @@ contains
          end if
       end associate
    end subroutine find_direction
-
 
    !> No part of the increment is small enough: say why, as far as it can be told, and which element changed its branch most
    !! often.

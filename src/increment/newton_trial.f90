@@ -40,7 +40,6 @@ contains
       call forces_in_bodies(system, trial%u, trial%body)
    end subroutine start_trial
 
-
    !> Exchange two trials.
    subroutine swap(a, b)
       type(trial_type), intent(inout) :: a, b
@@ -50,7 +49,6 @@ contains
       call hand_over(b, a)
       call hand_over(c, b)
    end subroutine swap
-
 
    subroutine hand_over(from, to)
       type(trial_type), intent(inout) :: from, to
@@ -63,7 +61,6 @@ contains
       call move_alloc(from%residual, to%residual)
       to%size = from%size
    end subroutine hand_over
-
 
    !> Joints and residual of TRIAL, whose displacements and body forces are set.
    subroutine evaluate(model, system, load, analysis, trial)
@@ -85,7 +82,6 @@ contains
       trial%size = free_norm(trial%residual, analysis%held)
    end subroutine evaluate
 
-
    !> The step that moves the supports: it cannot be shortened.
    subroutine take_whole_step(model, system, load, analysis, now, direction, next)
       type(model_type), intent(in)      :: model
@@ -100,7 +96,6 @@ contains
       call forces_in_bodies(system, next%u, next%body)
       call evaluate(model, system, load, analysis, next)
    end subroutine take_whole_step
-
 
    !> Line search: the step along DIRECTION at which the unbalanced forces do (next to) no work on it any more.
    subroutine search(model, system, load, analysis, now, direction, next, step)
@@ -164,7 +159,6 @@ contains
       end function work_on
 
    end subroutine search
-
 
    !> The trial is in equilibrium: it becomes the state of the structure.
    subroutine commit(model, system, trial, analysis)

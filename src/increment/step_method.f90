@@ -34,7 +34,6 @@ contains
                                     system, failure, one_solution=.not. any(model%joints%law%has_friction))
    end subroutine structure_stiffness
 
-
    !> The stiffnesses K(3, n) of interface elements as matrices.
    pure function diagonal(k) result(k_int)
       real(wp), intent(in) :: k(:, :)
@@ -46,7 +45,6 @@ contains
          k_int(d, d, :) = k(d, :)
       end do
    end function diagonal
-
 
    !> {du} from [k_s] {du} = {dF}.
    subroutine solve_increment(model, plan, system, analysis, failure)
@@ -62,7 +60,6 @@ contains
       call failure%raise(where_in_plan(plan, analysis%stage, analysis%increment)// &
                          ': the displacements are beyond all numbers; are loads and stiffnesses in consistent units?')
    end subroutine solve_increment
-
 
    !> Add the increment's displacements, deflections and forces to their sums.
    subroutine accumulate(model, system, analysis, failure)
@@ -89,7 +86,6 @@ contains
       end do
       call add_displacements(model, system, analysis%change, analysis)
    end subroutine accumulate
-
 
    !> Add {du}, the answer of the structure to the forces F, and what it does to the interface elements at the stiffness of this
    !! increment. Of F the bodies take what these do not: [k_b] {du} = F - sum of [k_int] {du}.
@@ -123,7 +119,6 @@ contains
       end do
       if (size(system%locked) > 0) call forces_in_bodies(system, analysis%u, analysis%body) ! a locked unknown takes more than F
    end subroutine add_displacements
-
 
    !> Coulomb limit (section 4.4): where |tau| > mu p, the element is relieved of the excess, which is applied at its two ends,
    !! and the structure is analysed again with the same stiffness, NREAN times.
@@ -164,7 +159,6 @@ contains
          ' in its tangential direction: the joint slips as a whole')
    end subroutine limit_friction
 
-
    !> Note the elements that re-analysis number PASS relieves, as they are before it: of many passes the first, and the last one in
    !! place of those between.
    subroutine note_slipping(model, pass, excess, analysis)
@@ -187,7 +181,6 @@ contains
       end do
    end subroutine note_slipping
 
-
    !> The same elements after it.
    pure subroutine note_relieved(model, analysis)
       type(model_type), intent(in)       :: model
@@ -204,7 +197,6 @@ contains
       end do
    end subroutine note_relieved
 
-
    !> Whether re-analysis number PASS relieves interface element I of its EXCESS.
    pure logical function is_relieved(model, i, pass, excess)
       type(model_type), intent(in) :: model
@@ -215,7 +207,6 @@ contains
          is_relieved = norm2(excess) > 0.0_wp .and. (passes < 0 .or. pass <= passes)
       end associate
    end function is_relieved
-
 
    !> EXCESS(2, n) of all elements and the TOTAL of their sizes [force]; those that slip are marked.
    subroutine find_excess(model, analysis, excess, total)
@@ -233,7 +224,6 @@ contains
       end do
    end subroutine find_excess
 
-
    !> Which interface elements are analysed again until the excess is gone, NREAN = -1.
    pure function is_endless(model)
       type(model_type), intent(in) :: model
@@ -244,7 +234,6 @@ contains
          is_endless(i) = model%joints(model%interface(i)%joint)%n_reanalyses < 0
       end do
    end function is_endless
-
 
    !> Relieve the elements whose joints ask for re-analysis number PASS of their excess; RELIEF are the nodal forces that it
    !! becomes, AGAIN whether there are any. NREAN = -1 goes on as long as any excess is left.

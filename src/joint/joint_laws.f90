@@ -56,7 +56,6 @@ contains
       end do
    end subroutine element_stiffness_of
 
-
    !> An open element transmits no shear, and when it closes it begins anew from where it is.
    pure subroutine rest_when_open(state, movement)
       type(element_state), intent(inout) :: state
@@ -67,7 +66,6 @@ contains
       state%origin = movement(:2)
    end subroutine rest_when_open
 
-
    !> The Coulomb limit tau_f = mu p (section 4.4) of the resultant of tau [pressure].
    pure real(wp) function friction_limit(law, pressure) result(limit)
       type(joint_law), intent(in) :: law
@@ -75,7 +73,6 @@ contains
 
       limit = law%mu*max(0.0_wp, pressure)
    end function friction_limit
-
 
    !> Whether the shear stress is above the limit by more than the share MARGIN of it.
    pure logical function exceeds_limit(law, state, margin)
@@ -87,7 +84,6 @@ contains
       if (law%has_friction) &
          exceeds_limit = norm2(state%shear%tau) > friction_limit(law, state%normal%pressure)*(1.0_wp + margin)
    end function exceeds_limit
-
 
    !> By how much the shear force exceeds the limit: a vector in the direction of tau, zero within the limit [force].
    pure function friction_excess(law, area, state) result(excess)
@@ -101,7 +97,6 @@ contains
       tau = state%shear%tau
       excess = tau*(1.0_wp - friction_limit(law, state%normal%pressure)/norm2(tau))*area
    end function friction_excess
-
 
    !> Follow all laws of one element exactly from its state BEFORE, in equilibrium, to MOVEMENT: the branches, and Coulomb as a
    !! return to the limit.
@@ -146,7 +141,6 @@ contains
       work(1) = sum(0.5_wp*area*(before%shear%tau + after%shear%tau)*(after%shear%delta - before%shear%delta))
    end subroutine follow_element
 
-
    !> BACK: secants K = (k_sx, k_sy, k_n) of the loading curves at the MOVEMENT: p(lambda)/lambda, P(d)/d under this p and cut to
    !! the Coulomb limit, times the area [force/length]; none where the element is open.
    pure function back_stiffness(law, area, p_av, movement) result(k)
@@ -163,7 +157,6 @@ contains
       if (law%has_friction .and. moved > 0.0_wp) k(:2) = min(k(:2), friction_limit(law, p)*area/moved)
       k(3) = normal_secant(law%normal, area, p)
    end function back_stiffness
-
 
    !> Work done by shear, by normal forces on the way of an element from rest to STATE [force x length]: along the loading curves,
    !! and where it slips along the limit, from the deflection on at which the first slope reaches it.

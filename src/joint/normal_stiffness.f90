@@ -73,7 +73,6 @@ contains
       end select
    end subroutine norm
 
-
    !> p as the last increment has left it, SUMF/a_i or on the loading curve that of Eq. (10) [pressure].
    pure real(wp) function pressure_reached(area, eq10, state) result(p)
       real(wp), intent(in)           :: area
@@ -84,7 +83,6 @@ contains
       if (.not. eq10 .or. state%branch /= branch_load .or. is_virgin(area, state) .or. force_falls(area, state)) return
       p = state%k_n*state%lambda/area
    end function pressure_reached
-
 
    !> The diamonds of Fig. 6(b), asked one after another of the state that the increment has reached: the branch that the element
    !! is on for the next increment, with point A where it leaves the loading curve and point B where it opens. A removed element
@@ -116,7 +114,6 @@ contains
       if (state%branch == branch_reload .and. has_come_to(state%lambda_a, state)) state%branch = branch_load
    end subroutine ask_diamonds
 
-
    !> Whether the last increment was tensile.
    pure logical function force_falls(area, state)
       real(wp), intent(in)           :: area
@@ -124,7 +121,6 @@ contains
 
       force_falls = state%sumf < state%sigmaf - no_change(area, state)
    end function force_falls
-
 
    !> The change of the force of STATE that is rounding [force].
    pure real(wp) function no_change(area, state)
@@ -134,7 +130,6 @@ contains
       no_change = rounding*max(abs(state%sumf), abs(state%sigmaf), state%p_av*area)
    end function no_change
 
-
    !> Whether the deflection of STATE is at that of POINT or beyond it, but for rounding.
    pure logical function has_come_to(point, state)
       real(wp), intent(in)           :: point
@@ -142,7 +137,6 @@ contains
 
       has_come_to = state%lambda >= point - rounding*max(abs(point), abs(state%lambda_a))
    end function has_come_to
-
 
    !> Whether nothing is on the element on its loading curve: at first, until a load reaches it, and where it closes past A.
    pure logical function is_virgin(area, state)
@@ -152,7 +146,6 @@ contains
       is_virgin = state%branch == branch_load .and. &
                   max(abs(state%sumf), abs(state%sigmaf)) <= rounding*state%p_av*area
    end function is_virgin
-
 
    !> Stiffness on the loading curve of an element that nothing is on: the secant of Eq. (9); where it has closed past A, the
    !! tangent of the curve at its deflection [force/length].
@@ -167,7 +160,6 @@ contains
          k_n = normal_secant(law, area, state%p_av)
       end if
    end function first_stiffness
-
 
    !> The exact law over one step, for methods that iterate to equilibrium, from the state BEFORE to the deflection LAMBDA: the
    !! loading curve beyond point A, the line below it, and nothing once that line has come down to zero. What is at A but for
@@ -220,7 +212,6 @@ contains
                    - stored_work(law, before%lambda_a, before%p_a, before%pressure))
    end subroutine follow_normal
 
-
    !> p of the loading curve at LAMBDA >= 0, Eq. (1) [pressure].
    elemental real(wp) function loading_pressure(law, lambda) result(p)
       type(normal_law), intent(in) :: law
@@ -228,7 +219,6 @@ contains
 
       p = (lambda/law%c)**(1.0_wp/law%m)
    end function loading_pressure
-
 
    !> lambda of the loading curve at P >= 0, Eq. (1) [length].
    elemental real(wp) function loading_deflection(law, p) result(lambda)
@@ -238,7 +228,6 @@ contains
       lambda = law%c*p**law%m
    end function loading_deflection
 
-
    !> Secant of the loading curve from 0 to P, Eq. (9), times AREA [force/length].
    pure real(wp) function normal_secant(law, area, p) result(k_n)
       type(normal_law), intent(in) :: law
@@ -246,7 +235,6 @@ contains
 
       k_n = p**(1.0_wp - law%m)*area/law%c
    end function normal_secant
-
 
    !> Tangent of the loading curve at P, Eqs. (11), times AREA [force/length]; it would vanish at p = 0: P counts as no less than
    !! the floor.
@@ -257,7 +245,6 @@ contains
       k_n = max(p, pressure_floor*p_av)**(1.0_wp - law%m)*area/(law%m*law%c)
    end function normal_tangent
 
-
    !> p at LAMBDA on the line of slope E_u through the point A = (LAMBDA_A, P_A) [pressure]; below zero it is open.
    pure real(wp) function line_pressure(law, lambda_a, p_a, lambda) result(p)
       type(normal_law), intent(in) :: law
@@ -266,7 +253,6 @@ contains
       p = p_a - law%e_u*(lambda_a - lambda)
    end function line_pressure
 
-
    !> Integral of p d lambda from rest along the loading curve to A and back along the line to P [pressure x length].
    pure real(wp) function stored_work(law, lambda_a, p_a, p) result(work)
       type(normal_law), intent(in) :: law
@@ -274,7 +260,6 @@ contains
 
       work = p_a*lambda_a*law%m/(1.0_wp + law%m) - 0.5_wp*(p_a**2 - p**2)/law%e_u
    end function stored_work
-
 
    !> The word for a branch in listing and CSV.
    pure function branch_name(branch) result(name)

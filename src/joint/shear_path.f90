@@ -66,7 +66,6 @@ contains
       end do
    end subroutine follow_shear
 
-
    !> The fraction TO of the way at which the branch of STATE ends: 1, or before that the corner where it joins a loading
    !! curve (AT_CORNER).
    pure subroutine end_of_piece(state, way, from, to, at_corner)
@@ -84,7 +83,6 @@ contains
       if (abs(to - 1.0_wp) <= rounding) to = 1.0_wp
       to = min(1.0_wp, max(from, to))
    end subroutine end_of_piece
-
 
    !> Along one branch from fraction FROM to TO: stress, its derivatives, work.
    !! tau = integral of g d delta, g the slope; with f the fraction of the way,
@@ -115,7 +113,6 @@ contains
       end do
       state%tau = state%tau + stress_gain(law, state, way, from, to)
    end subroutine follow_piece
-
 
    !> Integral of the slope over the deflection from fraction FROM to TO; two Gauss points are exact for a cubic.
    pure real(wp) function stress_gain(law, state, way, from, to) result(gain)

@@ -66,7 +66,6 @@ contains
       k_s = area*shear_slope(law, state, [state%delta, pressure])
    end subroutine shear
 
-
    !> The questions of section 4.3: the branch that the element is on for the next increment. A movement of LEAST or less is none.
    pure subroutine ask_diamonds(least, state)
       real(wp), intent(in)             :: least
@@ -96,7 +95,6 @@ contains
       end select
    end subroutine ask_diamonds
 
-
    !> The branch that begins with a movement, of which STATE holds the place before it: BACK against the sense of the branch, or
    !! forth. Only what leaves the loading curve sets point A.
    pure subroutine turn(back, state)
@@ -114,14 +112,12 @@ contains
       end if
    end subroutine turn
 
-
    !> The d at which an unloading or reloading branch joins a loading curve: that of the other sense at M, its own at A [length].
    pure real(wp) function branch_end(state) result(d)
       type(shear_state), intent(in) :: state
 
       d = merge(state%d_r, -state%d_r, state%branch == branch_reload)
    end function branch_end
-
 
    !> The branch has come to its end: loading, after unloading of the other sense.
    pure subroutine join_loading(state)
@@ -130,7 +126,6 @@ contains
       if (state%branch == branch_unload) state%sense = -state%sense
       state%branch = branch_load
    end subroutine join_loading
-
 
    !> The least change of delta that counts as a movement: what is below it is rounding, beside the stresses that the element
    !! bears or could bear [length].
@@ -144,7 +139,6 @@ contains
       least = rounding*stress/max(cubic_slope(law%load, 0.0_wp, pressure), tiny(1.0_wp)*1.0e100_wp)
    end function least_movement
 
-
    !> d tau/d delta on the branch of STATE at the PLACE (delta, p), not below zero [pressure/length].
    pure real(wp) function shear_slope(law, state, place) result(slope)
       type(shear_law), intent(in)   :: law
@@ -153,7 +147,6 @@ contains
 
       slope = cubic_slope(cubic_of(law, state%branch), state%sense*place(1), place(2))
    end function shear_slope
-
 
    !> The cubic of a branch.
    pure type(cubic) function cubic_of(law, branch) result(curve)
@@ -165,7 +158,6 @@ contains
       if (branch == branch_unload) curve = law%unload
    end function cubic_of
 
-
    !> a_1, a_2, a_3 under the pressure P.
    pure function at_pressure(curve, p) result(a)
       type(cubic), intent(in) :: curve
@@ -174,7 +166,6 @@ contains
 
       a = curve%coefficients(1, :) + curve%coefficients(2, :)*p
    end function at_pressure
-
 
    !> dP/dd at D under the pressure P, not below zero [pressure/length].
    elemental real(wp) function cubic_slope(curve, d, p) result(slope)
@@ -185,7 +176,6 @@ contains
       a = at_pressure(curve, p)
       slope = max(0.0_wp, a(1) + d*(2.0_wp*a(2) + d*3.0_wp*a(3)))
    end function cubic_slope
-
 
    !> How that slope changes with d and with p; both zero where it is cut off at zero.
    pure subroutine cubic_slope_derivatives(curve, d, p, by_d, by_p)
@@ -203,7 +193,6 @@ contains
       by_p = a(1) + d*(2.0_wp*a(2) + d*3.0_wp*a(3))
    end subroutine cubic_slope_derivatives
 
-
    !> P(d)/d at D under the pressure P, its first slope at d = 0; not below zero [pressure/length].
    elemental real(wp) function cubic_secant(curve, d, p) result(secant)
       type(cubic), intent(in) :: curve
@@ -213,7 +202,6 @@ contains
       a = at_pressure(curve, p)
       secant = max(0.0_wp, a(1) + d*(a(2) + d*a(3)))
    end function cubic_secant
-
 
    !> Integral of P from 0 to D under the pressure P [pressure x length].
    elemental real(wp) function cubic_work(curve, d, p) result(work)

@@ -17,7 +17,6 @@ contains
       elongation = dot_product(u(:, 2) - u(:, 1), bar%direction(:size(u, 1)))
    end function bar_elongation
 
-
    !> Add to F the nodal forces by which bar I pulls its nodes together under a tension N.
    pure subroutine add_pull(model, i, n, f)
       type(model_type), intent(in) :: model
@@ -30,7 +29,6 @@ contains
          f(:, bar%nodes(2)) = f(:, bar%nodes(2)) - n*bar%direction(:d)
       end associate
    end subroutine add_pull
-
 
    !> Add to F the forces that hold the elastic bars in their displaced shape.
    pure subroutine add_bar_forces(model, is_elastic, u, f)
@@ -46,7 +44,6 @@ contains
          end associate
       end do
    end subroutine add_bar_forces
-
 
    !> [k] of bar I, components of node 1 first [force/length].
    pure function bar_stiffness(model, i) result(k)

@@ -26,7 +26,6 @@ contains
       call extend_stiffness(model, e, k)
    end subroutine coupled_stiffness
 
-
    !> Stress at the centre of element E under the displacements U: components as in elasticity [pressure].
    pure function element_stress(model, e, u) result(stress)
       type(model_type), intent(in) :: model
@@ -39,7 +38,6 @@ contains
       end associate
    end function element_stress
 
-
    !> Stresses at the corners of element E, as element_stress.
    pure subroutine element_corner_stress(model, e, u, stress)
       type(model_type), intent(in) :: model
@@ -51,7 +49,6 @@ contains
          call corner_stress(law_of(model, e), model%x(:model%dimension, nodes), corner_displacements(model, e, u), stress)
       end associate
    end subroutine element_corner_stress
-
 
    !> STRESS of element E as (xx, yy, zz, xy, yz, zx), the stress across the plane and along the hoop included.
    pure function full_stress(model, e, stress) result(full)
@@ -73,7 +70,6 @@ contains
       end associate
    end function full_stress
 
-
    !> Nodal forces of element E under a body force B per mass, an acceleration with the sign of the force.
    pure subroutine element_weight(model, e, b, f)
       type(model_type), intent(in) :: model
@@ -84,7 +80,6 @@ contains
       call body_forces(law_of(model, e), model%x(:model%dimension, corners_of(model, e)), &
                        model%properties(model%element_property(e))%rho*b, f)
    end subroutine element_weight
-
 
    !> Forces that hold the bodies in their displaced shape: F = sum of [k] {u} of their elements.
    pure subroutine internal_forces(model, u, f)
@@ -110,7 +105,6 @@ contains
          end associate
       end do
    end subroutine internal_forces
-
 
    !> What element E is made of.
    pure type(element_law) function law_of(model, e)

@@ -41,7 +41,6 @@ contains
       end associate
    end subroutine hang_on
 
-
    !> The nodes of END 1 or 2; none: a rigid base.
    pure function nodes_of_end(element, end) result(nodes)
       type(interface_element), intent(in) :: element
@@ -55,7 +54,6 @@ contains
       end if
    end function nodes_of_end
 
-
    !> The node that output and messages name for END 1 or 2: 0 for a rigid base, -1 where several nodes share the end.
    pure integer function named_node(element, end) result(node)
       type(interface_element), intent(in) :: element
@@ -67,7 +65,6 @@ contains
       node = merge(0, -1, n == 0)
       if (n == 1) node = element%node(first)
    end function named_node
-
 
    !> What nodal VALUES are at end 1: of their places, say, the one where the force acts.
    pure function at_first_end(element, values) result(mean)
@@ -81,7 +78,6 @@ contains
          mean = mean + element%weight(a)*values(:, element%node(a))
       end do
    end function at_first_end
-
 
    !> Movement of end 1 against end 2 in global axes; its third component is zero in the plane [length].
    pure function relative_movement(element, u) result(between)
@@ -97,7 +93,6 @@ contains
       end do
    end function relative_movement
 
-
    !> The same in the element's own axes: tangential x, y, and the closing deflection lambda, Eq. (8) [length].
    pure function joint_movement(element, u) result(movement)
       type(interface_element), intent(in) :: element
@@ -108,7 +103,6 @@ contains
       movement = matmul(between, element%axes)
    end function joint_movement
 
-
    !> Add FORCE, in the element's axes, to the nodal forces F: as it is on end 1, opposed on end 2. The force of an element on its
    !! nodes is minus that of its stresses.
    pure subroutine add_force(element, force, f)
@@ -118,7 +112,6 @@ contains
 
       call add_global_force(element, matmul(element%axes, force), f)
    end subroutine add_force
-
 
    !> The same for a FORCE in global axes.
    pure subroutine add_global_force(element, force, f)
@@ -132,7 +125,6 @@ contains
          f(:, element%node(a)) = f(:, element%node(a)) + element%weight(a)*force(:d)
       end do
    end subroutine add_global_force
-
 
    !> Stiffness K of the element's own axes in global axes [force/length].
    pure function global_stiffness(element, k) result(in_global)

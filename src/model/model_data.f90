@@ -125,7 +125,6 @@ contains
       if (allocated(model%bars)) n_bars = size(model%bars)
    end function n_bars
 
-
    !> How many sections of solid bolts there are.
    pure integer function n_sections(model)
       type(model_type), intent(in) :: model
@@ -134,14 +133,12 @@ contains
       if (allocated(model%sections)) n_sections = size(model%sections)
    end function n_sections
 
-
    !> How many nodes are points of the structure; the nodes of sections follow.
    pure integer function n_points(model)
       type(model_type), intent(in) :: model
 
       n_points = model%n_nodes - n_sections(model)
    end function n_points
-
 
    !> The number of the node that interface element I names for END 1 or 2: 0 for a rigid base, -1 where several share the end.
    pure integer function joint_node_id(model, i, end) result(id)
@@ -151,7 +148,6 @@ contains
       id = named_node(model%interface(i), end)
       if (id > 0) id = model%node_id(id)
    end function joint_node_id
-
 
    !> The corners of element E.
    pure function corners_of(model, e) result(nodes)

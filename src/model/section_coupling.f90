@@ -21,7 +21,6 @@ contains
       if (model%element_section(e) > 0) node = model%sections(model%element_section(e))%node
    end function section_node
 
-
    !> The nodes whose unknowns element E couples: its corners, and the node of a section that it touches from behind.
    pure function coupled_nodes(model, e) result(nodes)
       type(model_type), intent(in) :: model
@@ -31,7 +30,6 @@ contains
       nodes = corners_of(model, e)
       if (section_node(model, e) > 0) nodes = [nodes, section_node(model, e)]
    end function coupled_nodes
-
 
    !> Displacements of the corners of element E as it feels them: u, at a section that it touches from behind u + g direction.
    pure function corner_displacements(model, e, u) result(moved)
@@ -52,7 +50,6 @@ contains
          end associate
       end associate
    end function corner_displacements
-
 
    !> [T]^T [k] [T]: the stiffness K of element E between its corners becomes that between its coupled nodes, components of node 1
    !! first. Of the section's node the first component alone has any.
@@ -85,7 +82,6 @@ contains
          k(:n, g) = row(:n)
       end associate
    end subroutine extend_stiffness
-
 
    !> Forces F on NODES of element E, already in FORCE, do work on the overlap of a section too where the element touches it from
    !! behind: add that share at the section's node.

@@ -23,7 +23,6 @@ contains
                     'branch_x,delta_x,tau_x,k_sx,branch_y,delta_y,tau_y,k_sy,slip')
    end subroutine write_history_header
 
-
    !> One row an interface element, for the increment just completed. node2 is 0 for the rigid base; a direction without
    !! shear stiffness has no branch.
    subroutine write_history(file, model, plan, analysis)

@@ -54,7 +54,6 @@ contains
       call write_opening(listing%page, deck, model, plan, system)
    end subroutine start_listing
 
-
    !> Note the increment just completed; print its tables where OUTPUT = ALL or JOINT.
    subroutine list_increment(listing, model, plan, analysis)
       type(listing_type), intent(inout) :: listing
@@ -86,7 +85,6 @@ contains
       end associate
    end subroutine list_increment
 
-
    !> Print the table of increments of the stage just completed, and the tables of its end.
    subroutine list_stage(listing, model, plan, analysis)
       type(listing_type), intent(inout) :: listing
@@ -111,7 +109,6 @@ contains
       end associate
    end subroutine list_stage
 
-
    !> The interface elements, and WITH_STATE what they remember.
    subroutine list_joints(page, with_state, model, analysis)
       type(page_type), intent(inout)  :: page
@@ -122,7 +119,6 @@ contains
       call list_interface(page, model, analysis)
       if (with_state) call list_states(page, model, analysis)
    end subroutine list_joints
-
 
    !> Note the increment just completed, of the stage with LABEL: a row a joint, or one where there are none.
    subroutine note_increment(page, label, model, analysis, table)
@@ -159,7 +155,6 @@ contains
       end do
    end subroutine note_increment
 
-
    !> What a row of the table of increments says of joint J.
    subroutine add_joint(model, analysis, now, j, floor, table)
       type(model_type), intent(in)            :: model
@@ -195,7 +190,6 @@ contains
          end if
       end associate
    end subroutine add_joint
-
 
    !> Close the listing under its name.
    subroutine finish_listing(listing, plan, ok)

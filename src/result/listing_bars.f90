@@ -42,7 +42,6 @@ contains
       end do
    end subroutine note_bars
 
-
    !> Note the forces of all solid bolts after the increment just completed, and how much each was shortened at its section.
    subroutine note_sections(page, model, analysis, table)
       type(page_type), intent(in)             :: page
@@ -69,7 +68,6 @@ contains
          end associate
       end do
    end subroutine note_sections
-
 
    pure function state_of_bolt(is_tightened, is_locked) result(word)
       logical, intent(in) :: is_tightened, is_locked

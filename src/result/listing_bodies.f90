@@ -28,7 +28,6 @@ contains
       call list_reactions(page, model, analysis)
    end subroutine list_bodies
 
-
    subroutine list_displacements(page, model, analysis)
       type(page_type), intent(inout)  :: page
       type(model_type), intent(in)    :: model
@@ -50,7 +49,6 @@ contains
          call table%print_row(page%file)
       end do
    end subroutine list_displacements
-
 
    subroutine list_stresses(page, principal, model, analysis)
       type(page_type), intent(inout)  :: page
@@ -91,7 +89,6 @@ contains
       if (principal) call list_principal(page, model, stress(:n, :), floor)
    end subroutine list_stresses
 
-
    !> Principal stresses and the equivalent stress of von Mises at the centres.
    subroutine list_principal(page, model, stress, floor)
       type(page_type), intent(inout) :: page
@@ -113,7 +110,6 @@ contains
          call table%print_row(page%file)
       end do
    end subroutine list_principal
-
 
    !> Reactions at supports, and the balance of all outer forces: loads, supports, rigid bases.
    subroutine list_reactions(page, model, analysis)
@@ -171,7 +167,6 @@ contains
       end subroutine balance_line
 
    end subroutine list_reactions
-
 
    !> The unit behind a heading, in brackets; empty where LABEL is blank.
    pure function in_units(label) result(words)

@@ -56,7 +56,6 @@ contains
       end do
    end subroutine list_interface
 
-
    !> Normal stiffness of the interface elements of joint J: what the increment used, and of which kind, and how far lambda is from
    !! the loading curve at the present p.
    subroutine list_stiffness(page, model, analysis, j)
@@ -88,7 +87,6 @@ contains
          end do
       end associate
    end subroutine list_stiffness
-
 
    !> Shear of the interface elements of joint J. LIMIT is mu p.
    subroutine list_shear(page, model, analysis, j)
@@ -129,7 +127,6 @@ contains
          end do
       end associate
    end subroutine list_shear
-
 
    !> Note the resultants of all joints after the increment just completed: force of side 1 on side 2, moment about the
    !! centroid of the joint's area.
@@ -179,7 +176,6 @@ contains
          end associate
       end do
    end subroutine note_resultants
-
 
    !> Note the re-analyses after the Coulomb check, or the iterations, of the increment just completed.
    subroutine note_passes(page, method, analysis, table)
@@ -232,7 +228,6 @@ contains
          end associate
       end do
    end subroutine note_passes
-
 
    !> Work done on the joints in the stage, by shear and by normal forces; the difference is lost where the stage closes a loop.
    subroutine list_energy(page, model, analysis)

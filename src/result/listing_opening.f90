@@ -39,7 +39,6 @@ contains
       call write_stages(page, model, plan)
    end subroutine write_opening
 
-
    !> The deck as read, cards counted, under a field ruler. INCLUDE files are counted, not shown.
    subroutine write_echo(file, deck)
       type(output_file_type), intent(inout) :: file
@@ -90,7 +89,6 @@ contains
       end subroutine count_hidden
 
    end subroutine write_echo
-
 
    !> What the model has of everything, and how it is solved.
    subroutine write_summary(file, deck, model, system)
@@ -144,7 +142,6 @@ contains
 
    end subroutine write_summary
 
-
    !> Laws and areas of the joints.
    subroutine write_joints(page, model)
       type(page_type), intent(inout) :: page
@@ -169,7 +166,6 @@ contains
          end associate
       end do
    end subroutine write_joints
-
 
    !> Shear laws and friction of the joints that have them.
    subroutine write_shear_laws(file, model)
@@ -216,7 +212,6 @@ contains
          end associate
       end do
    end subroutine write_shear_laws
-
 
    !> The load history: totals at the end of every stage.
    subroutine write_stages(page, model, plan)

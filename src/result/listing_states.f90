@@ -51,7 +51,6 @@ contains
       end do
    end subroutine list_states
 
-
    !> Likewise of the shear way of joint J in direction K. D and TAU count in the sense of the loading, like point A.
    subroutine list_shear_state(page, model, analysis, j, k)
       type(page_type), intent(inout)  :: page
@@ -89,7 +88,6 @@ contains
          end do
       end associate
    end subroutine list_shear_state
-
 
    !> [k_b] condensed on the unknowns of the joints, and the loads that these feel before and after the stage; columns in groups.
    subroutine list_condensed(page, model, analysis)

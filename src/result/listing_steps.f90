@@ -100,7 +100,6 @@ contains
 
    end subroutine note_distances
 
-
    !> The line on the screen at the end of a run that was FAR from its laws; '' where it was not.
    pure function distance_words(farthest) result(words)
       type(farthest_type), intent(in) :: farthest
@@ -111,7 +110,6 @@ contains
          ' % of the largest '//farthest%stress//' away from its law, at node '//integer_text(farthest%node)//' in '// &
          farthest%place//'; METHOD = NEWTON gives the answer of the laws'
    end function distance_words
-
 
    !> Note the slipping elements before and after each re-analysis of the increment just completed, t_1 and t_1' of Fig. 5(b).
    subroutine note_slips(page, model, analysis, table)

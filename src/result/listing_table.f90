@@ -87,14 +87,12 @@ contains
       item%is_short = index(form, 'es') == 1 .and. form(point:) == '.5' .and. item%width >= short_width
    end function column
 
-
    !> Whether nothing is kept: a table of a stage begins anew.
    pure logical function is_empty(self)
       class(listing_table_type), intent(in) :: self
 
       is_empty = self%n_kept == 0
    end function is_empty
-
 
    !> Begin a table of these COLUMNS, without rows. TITLE is empty where the headings follow other words.
    pure subroutine start(self, title, columns)
@@ -111,7 +109,6 @@ contains
       self%used = 0
       self%n_kept = 0
    end subroutine start
-
 
    !> Title, headings, and units where there are any.
    subroutine print_head(self, file)
@@ -137,7 +134,6 @@ contains
       if (units /= '') call file%put(units)
    end subroutine print_head
 
-
    !> WORDS in LINE, so that they end at character LAST.
    pure subroutine place(line, words, last)
       character(*), intent(inout) :: line
@@ -146,7 +142,6 @@ contains
 
       line(last - len(words) + 1:last) = words
    end subroutine place
-
 
    !> The next values of the row: stars where one is wider than its column.
    pure subroutine add_integers(self, values)
@@ -168,7 +163,6 @@ contains
       end do
    end subroutine add_integers
 
-
    pure subroutine add_reals(self, values)
       class(listing_table_type), intent(inout) :: self
       real(wp), intent(in)                     :: values(:)
@@ -186,7 +180,6 @@ contains
       end do
    end subroutine add_reals
 
-
    !> WORDS with all their blanks, at the end of their column.
    pure subroutine add_text(self, words)
       class(listing_table_type), intent(inout) :: self
@@ -202,7 +195,6 @@ contains
       end associate
    end subroutine add_text
 
-
    !> The next N columns stay blank.
    pure subroutine skip(self, n)
       class(listing_table_type), intent(inout) :: self
@@ -210,7 +202,6 @@ contains
 
       self%used = self%used + n
    end subroutine skip
-
 
    !> The row is complete: print it.
    subroutine print_row(self, file)
@@ -222,7 +213,6 @@ contains
       self%used = 0
    end subroutine print_row
 
-
    !> The row is complete: keep it until the table is printed.
    pure subroutine keep_row(self)
       class(listing_table_type), intent(inout) :: self
@@ -231,7 +221,6 @@ contains
       self%row = ''
       self%used = 0
    end subroutine keep_row
-
 
    !> Keep a LINE that runs through all columns.
    pure subroutine keep_line(self, line)
@@ -248,7 +237,6 @@ contains
       self%n_kept = self%n_kept + 1
       self%kept(self%n_kept) = line
    end subroutine keep_line
-
 
    !> Print what was kept, under title and headings where the table has some, and forget it.
    subroutine print_kept(self, file)
@@ -268,7 +256,6 @@ contains
       self%n_kept = 0
    end subroutine print_kept
 
-
    !> A heading of a table, with an empty line before it.
    subroutine heading(file, words)
       type(output_file_type), intent(inout) :: file
@@ -278,7 +265,6 @@ contains
       call file%put(' '//cut(words, page_width - 1))
       call file%put('')
    end subroutine heading
-
 
    !> At most WIDTH characters of LINE, tabs and other controls as blanks.
    pure function cut(line, width) result(part)

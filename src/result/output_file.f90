@@ -40,7 +40,6 @@ contains
       self%is_open = .not. self%fault
    end subroutine start
 
-
    !> Write one line, without the blanks at its end.
    subroutine put(self, line)
       class(output_file_type), intent(inout) :: self
@@ -55,7 +54,6 @@ contains
       self%used = self%used + length + 1
       self%buffer(self%used:self%used) = new_line('a')
    end subroutine put
-
 
    !> Empty the buffer into the file; for the standard output, make the buffer larger.
    subroutine make_room(self, needed)
@@ -75,14 +73,12 @@ contains
       call move_alloc(wider, self%buffer)
    end subroutine make_room
 
-
    !> Whether anything could not be written.
    pure logical function failed(self)
       class(output_file_type), intent(in) :: self
 
       failed = self%fault
    end function failed
-
 
    !> Close the file and give it its name. OK is false, and no file of that name is left by us, where that failed.
    subroutine finish(self, ok)
@@ -105,7 +101,6 @@ contains
       self%is_open = .false.
       self%fault = .not. ok
    end subroutine finish
-
 
    !> Leave nothing behind.
    subroutine discard(self)

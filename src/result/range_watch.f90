@@ -59,7 +59,6 @@ contains
       end do
    end subroutine watch_ranges
 
-
    !> Note the joints of which an element has come to where the loading curve is steeper than the line E_u that it would unload
    !! along.
    subroutine watch_unloading(model, plan, analysis, watch)
@@ -87,7 +86,6 @@ contains
          end associate
       end do
    end subroutine watch_unloading
-
 
    !> At the end of a stage: what is unbalanced, and by how much friction limits are still exceeded.
    subroutine watch_balance(model, plan, analysis, largest_force, watch)

@@ -50,7 +50,6 @@ contains
       end if
    end subroutine start_results
 
-
    !> The increment just completed.
    subroutine print_increment(model, plan, analysis, results)
       type(model_type), intent(in)      :: model
@@ -62,7 +61,6 @@ contains
       if (results%history%is_open) call write_history(results%history, model, plan, analysis)
    end subroutine print_increment
 
-
    !> The stage just completed.
    subroutine print_stage(model, plan, analysis, results)
       type(model_type), intent(in)      :: model
@@ -73,7 +71,6 @@ contains
       call list_stage(results%listing, model, plan, analysis)
       call write_vtu(results%vtu, model, plan, analysis)
    end subroutine print_stage
-
 
    !> Give the files their names. All or none: OK is false where one could not be written.
    subroutine finish_results(plan, results, ok)
@@ -92,7 +89,6 @@ contains
       call all_complete()
    end subroutine finish_results
 
-
    !> Leave nothing behind that could be taken for a result.
    subroutine discard_results(results)
       type(results_type), intent(inout) :: results
@@ -103,7 +99,6 @@ contains
       call all_complete()
    end subroutine discard_results
 
-
    !> Remove what an earlier run of the same deck left: it is not the result of this deck any more, wherever the run ends.
    subroutine remove_old_results(base)
       character(*), intent(in) :: base
@@ -113,7 +108,6 @@ contains
       call remove_file(base//history_ending)
       call remove_old_vtu(base)
    end subroutine remove_old_results
-
 
    !> Whether the name of a result may end so, behind its base.
    pure logical function is_result_ending(ending)

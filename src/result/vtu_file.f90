@@ -97,7 +97,6 @@ contains
       if (self%is_open) write (self%unit, iostat=self%status) repeat(' ', data_start)
    end subroutine start
 
-
    !> The points: the first array, and the only one of its kind.
    subroutine points(self, x)
       class(vtu_file_type), intent(inout)  :: self
@@ -107,7 +106,6 @@ contains
       self%n_points = size(x, 2)
       call self%add(in_points, 'points', x)
    end subroutine points
-
 
    !> The cells, after the points.
    subroutine cells(self, connectivity, ends, types)
@@ -130,7 +128,6 @@ contains
       call write_array(self, in_cells, 'types', 'UInt8', 1, self%n_cells, types)
    end subroutine cells
 
-
    !> An array of values: (n), or (components, n), one for every point or every cell.
    subroutine add_reals(self, section, name, values)
       class(vtu_file_type), intent(inout)  :: self
@@ -141,7 +138,6 @@ contains
       call write_array(self, section, name, 'Float64', 8, n_tuples(self, section), values)
    end subroutine add_reals
 
-
    subroutine add_integers(self, section, name, values)
       class(vtu_file_type), intent(inout)    :: self
       integer, intent(in)                    :: section
@@ -151,7 +147,6 @@ contains
       call write_array(self, section, name, 'Int32', 4, n_tuples(self, section), values)
    end subroutine add_integers
 
-
    !> How many tuples an array of SECTION has: one a point or one a cell; -1 where neither is known yet.
    pure integer function n_tuples(self, section)
       type(vtu_file_type), intent(in) :: self
@@ -159,7 +154,6 @@ contains
 
       n_tuples = merge(self%n_points, self%n_cells, section == in_points .or. section == point_data)
    end function n_tuples
-
 
    !> Note an array for the header, and write its length and its bytes.
    subroutine write_array(self, section, name, number, bytes, n, values)
@@ -185,7 +179,6 @@ contains
       self%n_bytes = self%n_bytes + storage_size(n_bytes)/8 + n_bytes
    end subroutine write_array
 
-
    !> The file has failed unless a call FITS what went before.
    pure subroutine require(self, fits)
       type(vtu_file_type), intent(inout) :: self
@@ -194,14 +187,12 @@ contains
       if (self%status == 0 .and. .not. fits) self%status = wrong_call
    end subroutine require
 
-
    !> Whether anything could not be written.
    pure logical function failed(self)
       class(vtu_file_type), intent(in) :: self
 
       failed = self%status /= 0
    end function failed
-
 
    !> Write the header, close the file and give it its name. OK is false, and no file is left by us, where that failed.
    subroutine finish(self, ok)
@@ -231,7 +222,6 @@ contains
       if (.not. ok) call remove_file(self%path//suffix)
    end subroutine finish
 
-
    !> Leave nothing behind.
    subroutine discard(self)
       class(vtu_file_type), intent(inout) :: self
@@ -242,7 +232,6 @@ contains
       self%is_open = .false.
       call remove_file(self%path//suffix)
    end subroutine discard
-
 
    !> The header, at least data_start bytes long: longer where the arrays are too many.
    pure function header_text(n_points, n_cells, arrays) result(text)
@@ -276,7 +265,6 @@ contains
       text = text//repeat(' ', max(0, data_start - len(text) - len(last)))//last
    end function header_text
 
-
    !> TEXT as it may stand between the quotes of an XML attribute.
    pure function xml_text(text) result(escaped)
       character(*), intent(in)  :: text
@@ -291,7 +279,6 @@ contains
          if (k > 0) escaped = escaped//trim(entities(k))
       end do
    end function xml_text
-
 
    !> The list of .vtu files that ParaView opens: which belong together, and at what time. OK is false, and no file is left by us,
    !! where it cannot be written.

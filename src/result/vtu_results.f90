@@ -53,7 +53,6 @@ contains
       allocate (results%parts(2*size(plan%stages)))
    end subroutine start_vtu
 
-
    !> Write the files of the stage just completed, where it asks for them.
    subroutine write_vtu(results, model, plan, analysis)
       type(vtu_results_type), intent(inout) :: results
@@ -88,7 +87,6 @@ contains
       end subroutine open_next
 
    end subroutine write_vtu
-
 
    !> Elements with stresses at their centres, nodes with displacements and the mean of the stresses at the corners there.
    subroutine write_bodies(file, model, analysis)
@@ -143,7 +141,6 @@ contains
       call file%add(cell_data, 'von_mises_at_centre', [(von_mises(at_centre(:, e)), e = 1, model%n_elements)])
    end subroutine write_bodies
 
-
    !> A vertex for every interface element, at its node 1. BRANCH is 1 load, 2 unload, 3 open, 4 reload as in the chart; TAU the
    !! shear stress on side 2 in global axes.
    subroutine write_joint(file, model, analysis)
@@ -176,7 +173,6 @@ contains
       call file%add(point_data, 'area', model%interface%area)
    end subroutine write_joint
 
-
    !> Give all files their names. All or none: OK is false where one could not be written.
    subroutine finish_vtu(results, ok)
       type(vtu_results_type), intent(inout) :: results
@@ -198,7 +194,6 @@ contains
       if (.not. ok) call discard_vtu(results)
    end subroutine finish_vtu
 
-
    !> Leave nothing behind, files that have their names already included.
    subroutine discard_vtu(results)
       type(vtu_results_type), intent(inout) :: results
@@ -212,7 +207,6 @@ contains
       results%n = 0
    end subroutine discard_vtu
 
-
    !> Whether a file of a deck may end so, behind the name of the deck: .vtu, .joint.vtu, both with the number of a stage before
    !! them, .pvd.
    pure logical function is_vtu_ending(ending)
@@ -225,7 +219,6 @@ contains
       first = verify(ending(2:), '0123456789') + 1
       if (first > 2) is_vtu_ending = ending(first:) == '.vtu' .or. ending(first:) == '.joint.vtu'
    end function is_vtu_ending
-
 
    !> Remove what an earlier run left.
    subroutine remove_old_vtu(name)

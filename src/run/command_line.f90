@@ -98,7 +98,6 @@ contains
       status = 0
    end subroutine read_command_line
 
-
    !> beam.bdf gives beam.out and beam.joint.csv. No two decks may write the same files, none may overwrite a deck.
    subroutine name_results(command, ok)
       type(command_type), intent(inout) :: command
@@ -132,7 +131,6 @@ contains
       ok = .true.
    end subroutine name_results
 
-
    !> With OUTPUT = VTU the stage 1 of A writes A.1.vtu, which the deck A.1 may write too; likewise A.joint. It is refused
    !! whether or not they ask for VTU: each would also remove that file as its own of an earlier run.
    logical function share_vtu(a, b)
@@ -144,7 +142,6 @@ contains
       share_vtu = is_vtu_ending(b%base(len(a%base) + 1:)//'.vtu')
       if (share_vtu) call complain(program, a%name//' and '//b%name//' could both write '//b%base//'.vtu')
    end function share_vtu
-
 
    !> Whether the file with the true path FILE is one that the results of DECK would be written to, however it is named.
    logical function is_result_of(file, deck)
@@ -162,7 +159,6 @@ contains
       if (index(file, base) == 1 .and. is_result_ending(file(len(base) + 1:))) is_result_of = .true.
    end function is_result_of
 
-
    !> PATH without its folder and its last extension.
    pure function base_name(path) result(name)
       character(*), intent(in)  :: path
@@ -173,7 +169,6 @@ contains
       dot = index(name, '.', back=.true.)
       if (dot > 1) name = name(:dot - 1)
    end function base_name
-
 
    subroutine print_help(status)
       integer, intent(out) :: status

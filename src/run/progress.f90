@@ -53,7 +53,6 @@ contains
       self%phase = phase_read
    end subroutine start
 
-
    !> The next PHASE begins.
    subroutine enter(self, phase)
       class(progress_type), intent(inout) :: self
@@ -67,7 +66,6 @@ contains
       if (self%shown .and. phase < phase_increments) call show(self, trim(phase_name(phase)))
    end subroutine enter
 
-
    !> From now on increments are counted, those of PLAN.
    subroutine expect(self, plan)
       class(progress_type), intent(inout) :: self
@@ -79,7 +77,6 @@ contains
       call system_clock(self%increments_began)
       self%last = self%increments_began
    end subroutine expect
-
 
    !> One more increment is done; say so five times a second at most.
    subroutine advance(self, stage, increment, increments)
@@ -98,7 +95,6 @@ contains
                 ', '//integer_text(nint(left))//' s left')
    end subroutine advance
 
-
    !> WORDS behind the name of the deck, over what stood there.
    subroutine show(self, words)
       class(progress_type), intent(in) :: self
@@ -109,7 +105,6 @@ contains
       flush (error_unit)
    end subroutine show
 
-
    !> Clear the line; nothing more is shown.
    subroutine clear(self)
       class(progress_type), intent(inout) :: self
@@ -117,7 +112,6 @@ contains
       if (self%shown) write (error_unit, '(a)', advance='no') achar(13)//repeat(' ', len(self%deck) + 62)//achar(13)
       self%shown = .false.
    end subroutine clear
-
 
    !> The run is over: clear the line, print the times.
    subroutine finish(self)

@@ -64,14 +64,12 @@ contains
       call watch_allocations()
    end subroutine start_program
 
-
    !> Whether nothing more is to be done for this deck.
    pure logical function is_over(run)
       type(run_type), intent(in) :: run
 
       is_over = run%failure%raised .or. run%ending /= goes_on
    end function is_over
-
 
    !> Read the deck of ARGUMENT.
    subroutine read_data(command, argument, run, deck)
@@ -98,7 +96,6 @@ contains
       end if
    end subroutine read_data
 
-
    !> Bodies, joints, supports, loads, stages.
    subroutine build_structure(run, deck, model, plan)
       type(run_type), intent(inout)      :: run
@@ -118,7 +115,6 @@ contains
          run%ending = was_checked
       end if
    end subroutine build_structure
-
 
    !> [k_b] of the bodies, factorised as far as no joint moves it; the listing can be opened then.
    subroutine form_bodies(run, deck, model, plan, system)
@@ -141,7 +137,6 @@ contains
       if (.not. ok) run%ending = is_unwritten
    end subroutine form_bodies
 
-
    !> NORM and SHEAR for a structure at rest.
    subroutine start_joints(run, deck, model, plan, system, analysis)
       type(run_type), intent(inout)      :: run
@@ -158,7 +153,6 @@ contains
       call run%progress%enter(phase_increments)
    end subroutine start_joints
 
-
    !> Whether a stage is left.
    pure logical function another_stage(run, plan, analysis)
       type(run_type), intent(in)        :: run
@@ -169,7 +163,6 @@ contains
       if (another_stage) another_stage = analysis%stage < size(plan%stages)
    end function another_stage
 
-
    !> Whether an increment of the stage is left.
    pure logical function another_increment(run, plan, analysis)
       type(run_type), intent(in)        :: run
@@ -179,7 +172,6 @@ contains
       another_increment = .not. is_over(run)
       if (another_increment) another_increment = analysis%increment < size(plan%stages(analysis%stage)%shares)
    end function another_increment
-
 
    !> Print the increment just completed, and recover for that what the bodies do where it is shown.
    subroutine print_increment(run, model, plan, system, analysis)
@@ -202,7 +194,6 @@ contains
       call run%progress%enter(phase_increments)
    end subroutine print_increment
 
-
    !> Print the stage just completed.
    subroutine print_stage(run, model, plan, analysis)
       type(run_type), intent(inout)     :: run
@@ -215,7 +206,6 @@ contains
       call print_stage_results(model, plan, analysis, run%results)
       call run%progress%enter(phase_increments)
    end subroutine print_stage
-
 
    !> The end of a run, the one there is: the results get their names, or what is wrong is said. Nothing else is left on the line
    !! of the terminal.
@@ -243,7 +233,6 @@ contains
       call say_how_it_ended(run, deck, model, plan)
       exit_status = max(exit_status, status_of(run%ending))
    end subroutine finish_run
-
 
    !> What is wrong, or that a deck is in order; no result is left of a run that did not come to its end.
    subroutine say_how_it_ended(run, deck, model, plan)
@@ -285,7 +274,6 @@ contains
          end select
       end associate
    end subroutine say_how_it_ended
-
 
    !> End with STATUS, or the highest of the decks where that is higher.
    subroutine end_program(status)

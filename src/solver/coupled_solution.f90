@@ -81,7 +81,6 @@ contains
       call solve_equations(model, system, shifted, u, failure)
    end subroutine solve_coupled
 
-
    !> F = [r] {U}: forces of displacements of retained nodes, by the interface ELEMENTS.
    pure subroutine rest_times(elements, rest, u, f)
       type(interface_element), intent(in) :: elements(:)

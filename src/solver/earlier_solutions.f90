@@ -46,14 +46,12 @@ contains
       earlier%f(:, 1) = b - of_joints(tree%equations)
    end subroutine note_solution
 
-
    !> [k_b], or what is held, is another one now.
    subroutine forget_solutions(earlier)
       type(earlier_solutions_type), intent(inout) :: earlier
 
       earlier%n = 0
    end subroutine forget_solutions
-
 
    !> X on the equations that move, not touched elsewhere: with it the energy x'([k_b] + sum of [k_int]) x/2 - b'x is least of all
    !! sums of earlier solutions; zero where there is none. They are made orthogonal in that energy, the last one first. With it

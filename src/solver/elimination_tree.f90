@@ -22,7 +22,6 @@ contains
       end do
    end subroutine number_places
 
-
    !> The elimination tree of the first N_INNER places; what comes behind them is taken as one, number N_INNER + 1.
    subroutine find_parents(graph, order, place, n_inner, parent)
       type(node_graph_type), intent(in) :: graph
@@ -51,7 +50,6 @@ contains
       end do
    end subroutine find_parents
 
-
    !> Renumber a tree depth first, so that every subtree is without gaps; ORDER follows.
    subroutine order_depth_first(parent, order)
       integer, intent(inout) :: parent(:), order(:)
@@ -74,7 +72,6 @@ contains
       parent = parent(sequence)
       order = order(sequence)
    end subroutine order_depth_first
-
 
    !> Number trees depth first, children first, from lists of children: NUMBER(i) is that of node i, 0 where no root leads to it;
    !! SEQUENCE is the other way round.
@@ -105,7 +102,6 @@ contains
       end do
       sequence = sequence(:n)
    end subroutine number_depth_first
-
 
    !> BEYOND(j): rows below the diagonal in column j of the factor. Row i has an entry in column j where j lies on the way up
    !! the tree from a neighbour of i to i.

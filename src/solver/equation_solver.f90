@@ -138,7 +138,6 @@ contains
       self%direction = self%direction(:self%n)
    end subroutine number_unknowns
 
-
    !> From now on the unknown of EQUATION is held: every solution has zero there.
    subroutine lock(self, equation)
       class(equation_system), intent(inout) :: self
@@ -146,7 +145,6 @@ contains
 
       self%locked = [self%locked, equation]
    end subroutine lock
-
 
    !> Which components of retained nodes no solution moves: (dimension, retained).
    pure function held_now(self) result(held)
@@ -162,7 +160,6 @@ contains
       end do
    end function held_now
 
-
    !> X: of the load F on all equations what is felt at the EQUATIONS, at the others what recover needs. Here all of it is felt.
    subroutine condense(self, f, x)
       class(equation_system), intent(in) :: self
@@ -172,7 +169,6 @@ contains
       x(self%equations) = f(self%equations)
    end subroutine condense
 
-
    !> The displacements X of all equations: those at the EQUATIONS from U, the others by what condense left in X.
    subroutine recover(self, u, x)
       class(equation_system), intent(in) :: self
@@ -181,7 +177,6 @@ contains
 
       x(self%equations) = u(self%equations)
    end subroutine recover
-
 
    !> FAULT, an equation without stiffness or no_memory, in words.
    subroutine report_fault(self, model, fault, where, failure)
@@ -199,7 +194,6 @@ contains
             ' (not supported there, or every joint that held it is open)')
       end if
    end subroutine report_fault
-
 
    !> What has no stiffness, in words.
    pure function what_is_loose(model, node, d) result(words)

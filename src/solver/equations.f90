@@ -47,7 +47,6 @@ contains
       if (.not. failure%raised) call place_retained(model, system)
    end subroutine start_equations
 
-
    !> Where the retained nodes stand among themselves, and the interface elements on them.
    subroutine place_retained(model, system)
       type(model_type), intent(in)          :: model
@@ -62,7 +61,6 @@ contains
       end do
       allocate (system%k_int(3, 3, size(system%interface)))
    end subroutine place_retained
-
 
    !> [k_b] of all bodies, bars included; what no joint moves is eliminated where the solver does so.
    subroutine form_body_stiffness(model, system, failure)
@@ -79,7 +77,6 @@ contains
       end do
    end subroutine form_body_stiffness
 
-
    !> Add bar I to the stiffness of the bodies.
    subroutine add_bar(model, i, system)
       type(model_type), intent(in)          :: model
@@ -92,7 +89,6 @@ contains
       system%stiffest = max(system%stiffest, model%bars(i)%stiffness)
    end subroutine add_bar
 
-
    !> Hold component D of NODE, a retained one, from now on: it keeps its equation, and every solution has zero there.
    subroutine lock_unknown(node, d, system)
       integer, intent(in)                   :: node, d
@@ -100,7 +96,6 @@ contains
 
       if (system%number(d, node) > 0) call system%lock(system%number(d, node))
    end subroutine lock_unknown
-
 
    !> G: what retained nodes feel of the nodal forces F.
    subroutine condense_load(system, f, g)
@@ -114,7 +109,6 @@ contains
       call system%condense([(f(system%direction(k), system%node(k)), k = 1, system%n)], felt)
       call put(system, felt, g)
    end subroutine condense_load
-
 
    !> [k_s] = [k_b] + sum of [k_int], Eq. (8), ready to solve, once where ONE_SOLUTION says so. A structure without stiffness in
    !! some direction is a failure that names the node; WHERE says in which increment.
@@ -136,7 +130,6 @@ contains
       call system%form_structure(fault)
       call system%report_fault(model, fault, system%where, failure)
    end subroutine form_structure_stiffness
-
 
    !> Displacements U of retained nodes under the forces F on them; held components are MOVED, which the forces in the bodies count
    !! for already, or stay zero, as locked ones do. Where only now the stiffness is factorised that may be a failure.
@@ -173,7 +166,6 @@ contains
       if (moves) u = u + moved
    end subroutine solve_equations
 
-
    !> F = [k_b] {U} on the free components of retained nodes, the others condensed into it; zero on held ones.
    subroutine forces_in_bodies(system, u, f)
       class(equation_system), intent(in) :: system
@@ -186,7 +178,6 @@ contains
       call system%multiply(x, y)
       call put(system, y, f)
    end subroutine forces_in_bodies
-
 
    !> Displacements of all nodes from those of the retained ones and the forces F on all nodes; held components are zero.
    subroutine recover_displacements(system, f, u, all_u)
@@ -207,7 +198,6 @@ contains
       end do
    end subroutine recover_displacements
 
-
    !> X(equation), where the increments solve, of an ARRAY over retained nodes; not touched elsewhere.
    subroutine gather(system, array, x)
       class(equation_system), intent(in) :: system
@@ -220,7 +210,6 @@ contains
          x(k) = array(system%direction(k), system%place(system%node(k)))
       end do
    end subroutine gather
-
 
    !> An ARRAY over retained nodes of X(equation); zero on held components.
    subroutine put(system, x, array)

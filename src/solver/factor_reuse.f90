@@ -30,7 +30,6 @@ contains
       if (self%most_steps < fewest_steps) self%most_steps = 0
    end subroutine set_costs
 
-
    !> Whether to go on with the factor: until a solution takes more steps than have been spent on each since the factorisation.
    subroutine may_reuse(self, yes)
       class(factor_reuse_type), intent(inout) :: self
@@ -39,7 +38,6 @@ contains
       yes = self%is_there .and. self%most_steps > 0 .and. self%pause == 0 .and. self%last*self%solved <= self%spent
       self%pause = max(0, self%pause - 1)
    end subroutine may_reuse
-
 
    !> There is a new factor.
    subroutine note_factor(self)
@@ -50,7 +48,6 @@ contains
       self%solved = 1
       self%last = 0
    end subroutine note_factor
-
 
    !> A solution with the old factor took so many STEPS.
    subroutine note_steps(self, steps)
@@ -63,7 +60,6 @@ contains
       self%wait = 4
    end subroutine note_steps
 
-
    !> The steps were in vain: do not try for a while, longer every time.
    subroutine note_failure(self)
       class(factor_reuse_type), intent(inout) :: self
@@ -71,7 +67,6 @@ contains
       self%pause = self%wait
       self%wait = min(64, 2*self%wait)
    end subroutine note_failure
-
 
    !> The factor is of no use any more.
    subroutine forget_factor(self)

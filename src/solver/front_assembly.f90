@@ -34,7 +34,6 @@ contains
       end do
    end subroutine add_elements
 
-
    !> Add the symmetric matrix K of the EQUATIONS (0: held) to FRONT, of which all of them are rows.
    pure subroutine add_matrix(front, equations, k)
       type(front_type), intent(inout) :: front
@@ -64,7 +63,6 @@ contains
       end do
    end subroutine add_matrix
 
-
    !> Row of EQUATION in FRONT, 0 for equation 0.
    pure integer function place_in(front, equation) result(place)
       type(front_type), intent(in) :: front
@@ -87,7 +85,6 @@ contains
       end do
       place = front%p + low
    end function place_in
-
 
    !> Add to FRONT what the elimination of CHILD left.
    pure subroutine add_update(child, front)

@@ -56,7 +56,6 @@ contains
       end do
    end subroutine keep_block
 
-
    !> A = BLOCK, as far as the kernel touches it.
    pure subroutine restore_block(block, a)
       type(kept_block), intent(in) :: block
@@ -83,7 +82,6 @@ contains
       end do
    end subroutine restore_block
 
-
    !> Add VALUE at row I, column J of BLOCK.
    subroutine add_to_block(block, i, j, value)
       type(kept_block), intent(inout) :: block
@@ -104,7 +102,6 @@ contains
       block%row = [block%row, i]
       block%column = [block%column, j]
    end subroutine add_to_block
-
 
    !> Y = Y + BLOCK X, the block as part of a symmetric matrix over the unknowns of its rows.
    subroutine block_times_vector(block, x, y)

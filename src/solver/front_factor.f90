@@ -38,7 +38,6 @@ contains
       fault = first_fault(faults)
    end subroutine factorise_fixed
 
-
    !> What went wrong first in the order of elimination, 0: nothing.
    pure integer function first_fault(faults) result(fault)
       integer, intent(in) :: faults(:)
@@ -50,7 +49,6 @@ contains
          fault = minval(faults, mask=faults > 0)
       end if
    end function first_fault
-
 
    !> Eliminate all fronts that do not move, those of MODEL, or all that do, with the stiffnesses K: one of the two is there.
    subroutine eliminate_fronts(tree, faults, model, k)
@@ -77,7 +75,6 @@ contains
       !$omp end single
       !$omp end parallel
    end subroutine eliminate_fronts
-
 
    !> Eliminate front F after those of its subtree that move as it does, or do not.
    recursive subroutine eliminate_subtree(tree, f, faults, model, k)
@@ -112,7 +109,6 @@ contains
       end associate
    end subroutine eliminate_subtree
 
-
    !> Add the elements of FRONT; the time that takes is kept.
    subroutine assemble(model, tree, front)
       type(model_type), intent(in)         :: model
@@ -126,7 +122,6 @@ contains
       !$omp atomic
       tree%assembly_time = tree%assembly_time + time
    end subroutine assemble
-
 
    !> What FRONT begins with: its elements, and what its children that do not move leave.
    subroutine start_front(model, tree, front, fault)
@@ -153,7 +148,6 @@ contains
       fault = 0
    end subroutine start_front
 
-
    !> Zero, as far as the kernel touches it.
    pure subroutine set_to_zero(m, n, a)
       integer, intent(in)     :: m, n
@@ -164,7 +158,6 @@ contains
          a(top_row(j):, j) = 0.0_wp
       end do
    end subroutine set_to_zero
-
 
    !> Keep what moving FRONT begins with.
    subroutine keep_start(model, tree, front, fault)
@@ -185,7 +178,6 @@ contains
       deallocate (front%update)
    end subroutine keep_start
 
-
    !> Eliminate all fronts that move, with the stiffnesses K of the interface elements. FAULT as above.
    subroutine factorise_moving(tree, k, fault)
       type(front_tree_type), intent(inout) :: tree
@@ -202,7 +194,6 @@ contains
          if (allocated(tree%fronts(f)%update)) deallocate (tree%fronts(f)%update)
       end do
    end subroutine factorise_moving
-
 
    !> What moving FRONT begins with in an increment: what was kept, its interface elements, and what its children that move leave.
    subroutine restart_front(tree, front, k, fault)
@@ -231,7 +222,6 @@ contains
       call lock(tree%locked(front%first:front%first + front%p - 1), front)
    end subroutine restart_front
 
-
    !> The rows and columns of LOCKED pivots become those of the identity.
    subroutine lock(locked, front)
       logical, intent(in)             :: locked(:) !! (p)
@@ -246,7 +236,6 @@ contains
          front%diagonal(j) = 1.0_wp
       end do
    end subroutine lock
-
 
    !> Add the symmetric matrix K of the EQUATIONS (0: held), all of fronts that move, for good.
    subroutine add_to_moving(tree, equations, k)

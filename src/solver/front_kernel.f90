@@ -102,14 +102,12 @@ contains
 
    end subroutine eliminate
 
-
    !> The first row that is touched in column J of a panel or an update matrix; from there on it has to be set.
    elemental integer function top_row(j)
       integer, intent(in) :: j
 
       top_row = j - mod(j - 1, narrow)
    end function top_row
-
 
    !> Entries of a panel or update matrix of M rows and N columns that take memory: whole pages above the top rows take none.
    elemental real(wp) function touched_entries(m, n)

@@ -71,7 +71,6 @@ contains
 
    end subroutine choose_layout
 
-
    !> Operations of the whole run.
    pure real(wp) function total_work(layout, factorisations)
       type(front_layout_type), intent(in) :: layout
@@ -80,7 +79,6 @@ contains
       total_work = layout%fixed_operations &
                    + factorisations*(layout%moving_operations + entry_operations*layout%moving_entries)
    end function total_work
-
 
    !> The factor; what moving fronts begin with: what is left to them, and elements, which are kept entry by entry and with two
    !! indices, those of a regular mesh; the update matrices on the way.
@@ -93,7 +91,6 @@ contains
       of_elements = 0.5_wp*dimension*3**dimension*n
       bytes_needed = 8.0_wp*(layout%panel_entries + layout%peak_entries) + 16.0_wp*(layout%kept_entries + of_elements)
    end function bytes_needed
-
 
    !> Lay out the fronts of GRAPH eliminated along ORDER. With JOINTS_LAST the nodes with IN_JOINT go to the end, all into one
    !! front.
@@ -126,7 +123,6 @@ contains
       call number_fronts(supers, layout)
    end subroutine lay_out_fronts
 
-
    !> In every subtree of at most LARGEST nodes the nodes with IN_JOINT go to the end of ORDER: what is behind them is condensed
    !! onto them, as joints last do it for whole bodies.
    subroutine postpone_joints(graph, in_joint, largest, order)
@@ -157,14 +153,12 @@ contains
       end do
    end subroutine postpone_joints
 
-
    !> Multiplications and additions, taken together, of the elimination of P of P + R unknowns in a dense front.
    elemental real(wp) function front_operations(p, r) result(operations)
       real(wp), intent(in) :: p, r
 
       operations = p*(p*p/3.0_wp + p*r + r*r)
    end function front_operations
-
 
    !> Number what is left of the supernodes depth first, and their nodes along with them.
    subroutine number_fronts(supers, layout)
@@ -177,7 +171,6 @@ contains
       call number_columns(supers, sequence, new_place, layout)
       call link_fronts(supers, number, sequence, new_place, layout)
    end subroutine number_fronts
-
 
    !> The columns of every front in one run, in the order of the fronts; what the fronts are worth. NEW_PLACE(old place).
    subroutine number_columns(supers, sequence, new_place, layout)
@@ -224,7 +217,6 @@ contains
       end do
       layout%order = new_order
    end subroutine number_columns
-
 
    !> The rows of every front beyond its columns, its parent, and what stands in update matrices.
    subroutine link_fronts(supers, number, sequence, new_place, layout)

@@ -24,7 +24,6 @@ contains
       end do
    end subroutine eliminate_fixed
 
-
    !> The other way: X holds y of eliminate_fixed on the fronts that do not move and the solution on those that do; it is the
    !! solution everywhere then.
    subroutine recover_fixed(tree, x)
@@ -37,7 +36,6 @@ contains
          if (.not. tree%fronts(f)%moves) call backward(tree, f, x, work)
       end do
    end subroutine recover_fixed
-
 
    !> Solve for the equations that move; X is not touched on the others.
    subroutine solve_moving(tree, x)
@@ -53,7 +51,6 @@ contains
          call backward(tree, tree%moving(k), x, work)
       end do
    end subroutine solve_moving
-
 
    !> L y = x in front F, and what y does to the rows beyond.
    subroutine forward(tree, f, x, work)
@@ -74,7 +71,6 @@ contains
       end associate
    end subroutine forward
 
-
    !> L^T x = y in front F, x known in the rows beyond.
    subroutine backward(tree, f, x, work)
       type(front_tree_type), intent(in) :: tree
@@ -88,7 +84,6 @@ contains
          call dtrsv('L', 'T', 'N', p, front%panel, p + r, x(first), 1)
       end associate
    end subroutine backward
-
 
    !> Y = [k_b] X on the equations that move, the others condensed into it, interface elements left out; Y is not touched on them.
    subroutine moving_times_vector(tree, x, y)

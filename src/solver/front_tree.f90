@@ -132,7 +132,6 @@ contains
       tree%is_parallel = layout%fixed_operations + layout%moving_operations > parallel_work
    end subroutine start_front_tree
 
-
    !> Whether row I has its place in the parent's front not right behind that of the row before, or not in the same part of it.
    pure logical function is_gap(front, parent_pivots, i)
       type(front_type), intent(in) :: front
@@ -141,7 +140,6 @@ contains
       is_gap = i == 1
       if (.not. is_gap) is_gap = front%in_parent(i) /= front%in_parent(i - 1) + 1 .or. front%in_parent(i) == parent_pivots + 1
    end function is_gap
-
 
    !> Every element, and every interface element, to the front that eliminates its first equation: the others are rows there.
    subroutine hand_out_elements(model, tree)
@@ -168,7 +166,6 @@ contains
       end do
    end subroutine hand_out_elements
 
-
    !> The front that eliminates the first of EQUATIONS, 0 where all are 0.
    pure integer function front_of(tree, equations) result(f)
       type(front_tree_type), intent(in) :: tree
@@ -179,7 +176,6 @@ contains
       f = 0
       if (first <= tree%n) f = tree%of_equation(first)
    end function front_of
-
 
    !> The largest diagonal entry of the matrix without what moves, when the fronts that do not move have been eliminated.
    pure real(wp) function largest_diagonal(tree) result(largest)

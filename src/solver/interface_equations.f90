@@ -43,7 +43,6 @@ contains
       end do
    end subroutine list_interface_equations
 
-
    !> The equations of element I, 0 for what is held: the components of its first node, of the next, ...
    pure function rows_of(self, i) result(rows)
       class(interface_equations_type), intent(in) :: self
@@ -54,7 +53,6 @@ contains
          rows = reshape(self%equation(:, first:last), [size(self%equation, 1)*(last - first + 1)])
       end associate
    end function rows_of
-
 
    !> Stiffness of element I between its rows_of, where K is that between its ends.
    pure function matrix_of(self, i, k) result(matrix)
@@ -75,7 +73,6 @@ contains
          end do
       end associate
    end function matrix_of
-
 
    !> Y = Y + sum of [k_int] X over all elements, with the stiffnesses K between their ends.
    pure subroutine add_products(equations, k, x, y)

@@ -33,7 +33,6 @@ contains
       if (words /= '') call failure%raise(words)
    end subroutine check_model_size
 
-
    !> A failure where so many BYTES for the factor of N equations are more than can be had; its message says what would fit.
    subroutine check_memory(n, dimension, bytes, failure)
       integer, intent(in)               :: n          !! unknowns
@@ -48,7 +47,6 @@ contains
       if (words /= '') call failure%raise(words//'; of this shape about '// &
                                           integer_text(int(n*share**inverse_growth(dimension)))//' equations would fit')
    end subroutine check_memory
-
 
    !> WORDS that say what NEEDS so many BYTES and what the machine has, and the SHARE that can be had; '' where all can.
    subroutine shortage(needs, bytes, words, share)
@@ -65,7 +63,6 @@ contains
       share = there/bytes
       words = needs//' '//mebibytes(bytes)//' MiB, and the machine has '//mebibytes(there)//' MiB to give'
    end subroutine shortage
-
 
    pure function mebibytes(bytes) result(text)
       real(wp), intent(in)      :: bytes

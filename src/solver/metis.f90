@@ -63,7 +63,6 @@ contains
       if (ok) order = old_of_new + 1
    end subroutine order_by_metis
 
-
    !> Cut GRAPH by separators into N_PARTS, a power of 2: PLACE of every node in the tree of nested_dissection; all in place 1
    !! where METIS does not say which nodes the separators are. OK is false where there is not the memory: METIS would end the
    !! program.

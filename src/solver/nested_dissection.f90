@@ -43,7 +43,6 @@ contains
       if (ok) order = nodes(order)
    end subroutine dissect
 
-
    !> ORDER as above. A coarse graph is cut into parts of no more than MOST_NODES of GRAPH, on the average; METIS orders them one
    !! by one. The separators follow their parts.
    subroutine dissect_coarsely(graph, most_nodes, order, ok)
@@ -100,7 +99,6 @@ contains
 
    end subroutine dissect_coarsely
 
-
    !> WEIGHT of every link to a neighbour: one, and one for every neighbour that both have.
    pure subroutine weigh_links(graph, weight)
       type(node_graph_type), intent(in) :: graph
@@ -120,7 +118,6 @@ contains
          end do
       end do
    end subroutine weigh_links
-
 
    !> A graph with half the nodes: every node is joined with the neighbour, not joined yet, to which its link weighs most; the
    !! COARSE graph has the links between them, their weights added up.
@@ -176,8 +173,6 @@ contains
       coarse%neighbours = coarse%neighbours(:n)
       coarse_weight = coarse_weight(:n)
    end subroutine coarsen
-
-
 
    !> Separators of a coarse graph are thick in the fine one: PLACE(node). Every node that does not have neighbours on both sides
    !! of its separator goes down to the side where it has some, and on, until it separates or is in a leaf.

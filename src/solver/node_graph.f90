@@ -66,7 +66,6 @@ contains
 
    end subroutine build_node_graph
 
-
    !> JOINED(:, n): the nodes of interface elements, and of bars; 0 behind the last.
    pure subroutine list_joined(model, joined)
       type(model_type), intent(in)      :: model
@@ -85,7 +84,6 @@ contains
          joined(:2, size(model%interface) + i) = model%bars(i)%nodes
       end do
    end subroutine list_joined
-
 
    !> The PART of GRAPH with NODES alone, numbered in their sequence.
    pure subroutine part_of_graph(graph, nodes, number, part)

@@ -27,7 +27,6 @@ contains
       order = order(graph%n:1:-1)
    end subroutine reverse_cuthill_mckee
 
-
    !> A node as far out as can be found cheaply in the piece of NODE: go to a node of least degree in the last level of
    !! its level structure as long as that makes the structure longer. LEVEL is left as it came.
    integer function peripheral_node(graph, node, level) result(start)
@@ -54,7 +53,6 @@ contains
       end do
    end function peripheral_node
 
-
    !> Breadth-first levels 1, 2, ... from START; QUEUE(:N) are the nodes reached.
    subroutine level_structure(graph, start, level, queue, n, depth)
       type(node_graph_type), intent(in) :: graph
@@ -79,7 +77,6 @@ contains
       end do
       depth = level(queue(n))
    end subroutine level_structure
-
 
    !> Number the piece of START: the neighbours of each node in ascending order of degree.
    subroutine number_piece(graph, start, level, order, n)
@@ -110,7 +107,6 @@ contains
          end do
       end do
    end subroutine number_piece
-
 
    pure integer function degree(graph, node)
       type(node_graph_type), intent(in) :: graph

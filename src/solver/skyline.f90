@@ -42,7 +42,6 @@ contains
       if (ok) matrix%values = 0.0_wp
    end subroutine start_skyline
 
-
    !> a_ij = a_ij + VALUE, for 1 <= i, j <= n inside the profile (either triangle).
    pure subroutine add_to_skyline(matrix, i, j, value)
       type(skyline_matrix), intent(inout) :: matrix
@@ -53,7 +52,6 @@ contains
       place = matrix%diagonal(max(i, j)) - abs(j - i)
       matrix%values(place) = matrix%values(place) + value
    end subroutine add_to_skyline
-
 
    !> Y = A X for a matrix that is not factorised.
    pure subroutine skyline_times_vector(matrix, x, y)
@@ -76,7 +74,6 @@ contains
          end associate
       end do
    end subroutine skyline_times_vector
-
 
    !> A = U^T U in place, column by column: u_ij = (a_ij - sum_k u_ki u_kj)/u_ii, u_jj = sqrt(a_jj - sum_k u_kj^2).
    !! FAULT is 0, or the number of the first column whose pivot is not above PIVOT_TOLERANCE times its diagonal
@@ -112,7 +109,6 @@ contains
       end do
       fault = 0
    end subroutine factorise_skyline
-
 
    !> Solve U^T U X = X in place, U from factorise_skyline.
    subroutine solve_skyline(factor, x)

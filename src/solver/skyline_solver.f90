@@ -55,7 +55,6 @@ contains
       self%profile = self%profile_as_numbered
    end subroutine lay_out
 
-
    !> Lay out the profile, where that has not been done, and make room for the matrix. All equations are left to the increments.
    subroutine start(self, model, graph, failure)
       class(skyline_solver_type), intent(inout) :: self
@@ -83,7 +82,6 @@ contains
          description%numbers(:2) = [self%profile, self%profile_as_numbered]
       end associate
    end subroutine start
-
 
    !> First row of every column: the lowest equation that shares an element or interface element.
    subroutine lay_out_profile(model, numbers, first_row, profile)
@@ -131,7 +129,6 @@ contains
 
    end subroutine lay_out_profile
 
-
    !> [k_b]: the stiffness of all bodies.
    subroutine form_bodies(self, model, fault)
       class(skyline_solver_type), intent(inout) :: self
@@ -153,7 +150,6 @@ contains
       self%stiffest = maxval(self%body%values(self%body%diagonal(1:)))
    end subroutine form_bodies
 
-
    subroutine add_to_bodies(self, rows, k)
       class(skyline_solver_type), intent(inout) :: self
       integer, intent(in)                       :: rows(:)
@@ -161,7 +157,6 @@ contains
 
       call scatter(self%body, rows, k)
    end subroutine add_to_bodies
-
 
    !> [k_s] = [k_b] + sum of [k_int], Eq. (8), factorised. The locked equations take no part.
    subroutine form_structure(self, fault)
@@ -187,7 +182,6 @@ contains
       end associate
    end subroutine form_structure
 
-
    subroutine solve(self, x, fault)
       class(skyline_solver_type), intent(inout) :: self
       real(wp), intent(inout)                   :: x(:)
@@ -198,7 +192,6 @@ contains
       call solve_skyline(self%structure, x)
    end subroutine solve
 
-
    subroutine multiply(self, x, y)
       class(skyline_solver_type), intent(in) :: self
       real(wp), intent(in)                   :: x(:)
@@ -206,7 +199,6 @@ contains
 
       call skyline_times_vector(self%body, x, y)
    end subroutine multiply
-
 
    !> Add an element matrix to the upper triangle; row 0 is a held component.
    pure subroutine scatter(matrix, rows, k)

@@ -112,7 +112,6 @@ contains
 
    end subroutine find_supernodes
 
-
    !> The places of ROWS in ascending order.
    function sorted_places(rows) result(places)
       integer, intent(in)  :: rows(:)
@@ -120,7 +119,6 @@ contains
 
       call sorted_order(rows, places)
    end function sorted_places
-
 
    !> Unknowns of the supernodes, and which of them move.
    subroutine weigh_supernodes(order, weight, in_joint, supers)
@@ -142,7 +140,6 @@ contains
          if (supers%parent(s) > 0) supers%moves(supers%parent(s)) = supers%moves(supers%parent(s)) .or. supers%moves(s)
       end do
    end subroutine weigh_supernodes
-
 
    !> Merge small supernodes into their parents. With KEEP_LAST the last one stays as it is. The children that are left stand in
    !! the order that needs least room: those first that need much for themselves and leave little behind.
@@ -225,7 +222,6 @@ contains
 
    end subroutine merge_supernodes
 
-
    !> Most entries that stand in update matrices while the subtree of S is eliminated, its children in their order.
    pure real(wp) function peak_of(supers, s) result(peak)
       type(supernodes_type), intent(in) :: supers
@@ -244,7 +240,6 @@ contains
       peak = max(peak, left + update_entries(supers, s))
    end function peak_of
 
-
    !> Entries of the update matrix that S leaves.
    pure real(wp) function update_entries(supers, s)
       type(supernodes_type), intent(in) :: supers
@@ -252,7 +247,6 @@ contains
 
       update_entries = touched_entries(supers%beyond(s), supers%beyond(s))
    end function update_entries
-
 
    !> Entries of P columns of a lower triangle with R rows beyond them.
    elemental real(wp) function entries(p, r)

@@ -92,7 +92,6 @@ contains
       self%retained = pack([(i, i = 1, model%n_nodes)], in_joint)
    end subroutine start
 
-
    !> The nodes whose stiffness changes in the run: those of interface elements, and of bolts.
    subroutine mark_joints(model, in_joint)
       type(model_type), intent(in)      :: model
@@ -111,7 +110,6 @@ contains
       end do
    end subroutine mark_joints
 
-
    !> [k_b]; the fronts that do not move are eliminated.
    subroutine form_bodies(self, model, fault)
       class(tree_solver_type), intent(inout) :: self
@@ -123,7 +121,6 @@ contains
       if (fault == 0) self%stiffest = largest_diagonal(self%fronts)
    end subroutine form_bodies
 
-
    subroutine add_to_bodies(self, rows, k)
       class(tree_solver_type), intent(inout) :: self
       integer, intent(in)                    :: rows(:)
@@ -132,7 +129,6 @@ contains
       call add_to_moving(self%fronts, rows, k)
       call forget(self)
    end subroutine add_to_bodies
-
 
    subroutine lock(self, equation)
       class(tree_solver_type), intent(inout) :: self
@@ -143,7 +139,6 @@ contains
       call forget(self)
    end subroutine lock
 
-
    !> What the fronts that move feel of F; at the other equations L y = f, for recover.
    subroutine condense(self, f, x)
       class(tree_solver_type), intent(in) :: self
@@ -153,7 +148,6 @@ contains
       x = f
       call eliminate_fixed(self%fronts, x)
    end subroutine condense
-
 
    !> Factorise the fronts that move with the joints as they are now, unless an earlier factor may do.
    subroutine form_structure(self, fault)
@@ -171,7 +165,6 @@ contains
       if (.not. reuse) call factorise(self, fault)
    end subroutine form_structure
 
-
    subroutine factorise(self, fault)
       class(tree_solver_type), intent(inout) :: self
       integer, intent(out)                   :: fault
@@ -185,7 +178,6 @@ contains
          call forget_factor(self%factor%reuse)
       end if
    end subroutine factorise
-
 
    !> By the factor; where that is an earlier one by conjugate gradients, and only where these do not get there by a new factor.
    subroutine solve(self, x, fault)
@@ -212,7 +204,6 @@ contains
       self%factor%is_awaited = .false.
    end subroutine solve
 
-
    !> Conjugate gradients with the factor there is; whether the solution is FOUND in time.
    subroutine iterate(self, b, x, found)
       class(tree_solver_type), intent(inout) :: self
@@ -235,7 +226,6 @@ contains
       end associate
    end subroutine iterate
 
-
    !> The bodies, or what is held, are others now: neither the factor nor solutions are of use any more.
    subroutine forget(self)
       class(tree_solver_type), intent(inout) :: self
@@ -244,7 +234,6 @@ contains
       call forget_solutions(self%factor%earlier)
    end subroutine forget
 
-
    subroutine multiply(self, x, y)
       class(tree_solver_type), intent(in) :: self
       real(wp), intent(in)                :: x(:)
@@ -252,7 +241,6 @@ contains
 
       call moving_times_vector(self%fronts, x, y)
    end subroutine multiply
-
 
    !> L^T x = y in the fronts that do not move.
    subroutine recover(self, u, x)
