@@ -1,5 +1,6 @@
 !> The first pages of the listing: heading, deck echo, summary of the model, joints and stages.
 module listing_opening
+   use branch_cubic, only: cubic
    use deck_cards, only: card_name, is_continuation
    use case_control, only: method_newton, method_step, pressure_eq10
    use deck_input, only: deck_type
@@ -10,7 +11,7 @@ module listing_opening
    use model_data, only: model_type, n_bars, n_points, n_sections
    use normal_stiffness, only: branch_load, branch_name, branch_reload, branch_unload, pressure_floor
    use output_file, only: output_file_type
-   use shear_stiffness, only: cubic, cubic_of
+   use shear_stiffness, only: cubic_of
    use stage_plan, only: stage_plan_type
    use text_tools, only: clean, integer_text, plural, real_text, upper
    implicit none
