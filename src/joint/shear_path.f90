@@ -55,6 +55,7 @@ contains
       type(gain_type)  :: gain
       real(wp) :: moved
       integer  :: i
+      logical  :: was_parallel
 
       after = before
       after%delta_before = before%delta
@@ -74,7 +75,9 @@ contains
       way = way_type(start=[before%delta, p(1)], change=[moved, p(2) - p(1)])
       call turn(after%sense*moved < 0.0_wp, after)
       do i = 1, most_pieces
+         was_parallel = after%parallel
          call next_piece(law, after, way, piece)
+         if (after%parallel .neqv. was_parallel) call pass_bend(law, piece, way, after, gain)
          call follow_piece(piece, way, after, gain)
          if (piece%meets) call pass_corner(law, piece, way, after, gain)
          if (piece%to >= 1.0_wp) exit
@@ -160,6 +163,21 @@ contains
       end do
       piece%meets = .false.
    end subroutine end_at_meeting
+
+   !> Pass from a branch onto the slope of the loading curve that it goes to, where that curve begins: at delta = 0, which stands at
+   !! another fraction of the way when the end of the way moves. Where that happens elsewhere the slopes are the same, or t = 0.
+   pure subroutine pass_bend(law, piece, way, state, gain)
+      type(shear_law), intent(in)    :: law
+      type(piece_type), intent(in)   :: piece
+      type(way_type), intent(in)     :: way
+      type(shear_state), intent(in)  :: state
+      type(gain_type), intent(inout) :: gain
+      real(wp) :: place(2)
+
+      place = way%start + piece%from*way%change
+      gain%by_delta = gain%by_delta - piece%from*(cubic_slope(cubic_of(law, state%branch), state%sense*place(1), place(2)) &
+                                                  - cubic_slope(law%load, goal_sense(state)*place(1), place(2)))
+   end subroutine pass_bend
 
    !> Pass from the end of a piece onto the loading curve that it meets there. The fraction at which it does changes with the ends
    !! of the way: with t that fraction, e(t) = 0 the excess over the curve, g the slope, D the change of delta,

@@ -1,19 +1,20 @@
 !> The shear law of the joint in one direction, and SHEAR: how the increments meet it (section 4.3).
 !!
-!!                               tau |                                   L  LOAD    tau = A(d), Eq. (6), from 0 through A on
+!!                               tau |                                   L  LOAD    tau = A(d) + o, Eq. (6), from 0 through A on
 !!                             tau_r |. . . . . . . . . .L  L  LRA  L  L
 !!                                   |           L  L  R  R  R  U.       U  UNLOAD  tau = b0 + B(d), Eqs. (3b), (7), from A, where
-!!                                   |       L  L  R  R       U  .                  the movement turned back, past zero to M, the
-!!                                   |    L   R  R          U    .                  mirror of A: it joins L of the other sense
+!!                                   |       L  L  R  R       U  .                  the movement turned back, past zero to M, where
+!!                                   |    L   R  R          U    .                  it meets L of the other sense and joins it
 !!                                   |  L   R            U       .
 !!                                   |L  R           U  U        .       R  RELOAD  tau = c0 + C(d), Eqs. (4), (5), from S, where U
-!!    -------------------------------|-R----------U--------------+------            turned back again, anywhere, to A: it joins L;
-!!                                 R |         U  U             d_r    d            where R turns back, U anew
+!!    -------------------------------|-R----------U--------------+------            turned back again, to where it meets L, before
+!!                                 R |         U  U             d_r    d            A or after it; where R turns back, U anew
 !!                               R   |      U
-!!                             R     |  U  U                             b0 and c0 make a branch begin at the stress that is there.
-!!                           R  U  U U                                   d and tau count in the sense s of the loading, +1 or -1:
-!!                U  U  U  S         |                                   d = s delta. A, B, C are cubics whose coefficients are
-!! L  L M  U  U  U                   | -tau_r                            straight lines in the pressure (Fig. 2).
+!!                             R     |  U  U                             b0 and c0 make a branch begin at the stress that is there;
+!!                           R  U  U U                                   o, what L has of its path, is 0 where p never changed.
+!!                U  U  U  S         |                                   d and tau count in the sense s of the loading, +1 or -1:
+!! L  L M  U  U  U                   | -tau_r                            d = s delta. A, B, C are cubics whose coefficients are
+!!                                                                       straight lines in the pressure (Fig. 2).
 module shear_stiffness
    use branch_cubic, only: cubic, cubic_slope, cubic_value, value_on_way
    use kinds, only: wp
@@ -190,14 +191,15 @@ contains
    end function shear_slope
 
    !> At the PLACE (delta, p), under the stress of STATE: the branch becomes PARALLEL to the loading curve that it goes to, for the
-   !! rest of it, where it lies below that curve, is less steep, and would not meet it in the tested range.
+   !! rest of it, where it moves away from that curve, less steep below it or steeper above, and would not meet it in the tested
+   !! range.
    pure subroutine look_ahead(law, place, state)
       type(shear_law), intent(in)      :: law
       real(wp), intent(in)             :: place(2)
       type(shear_state), intent(inout) :: state
       real(wp), parameter :: far = 1.0e60_wp ! what polynomials can be formed of
       type(zero_list) :: meetings
-      real(wp) :: behind(0:4), bound, d, s
+      real(wp) :: behind(0:4), bound, d, parts, s
       integer  :: highest
 
       s = goal_sense(state)
@@ -207,7 +209,9 @@ contains
       behind = state%sense*s*value_on_way(cubic_of(law, state%branch), state%sense*s*[d, 1.0_wp], [place(2), 0.0_wp]) &
                - value_on_way(law%load, [d, 1.0_wp], [place(2), 0.0_wp])
       behind(0) = s*state%tau - cubic_value(law%load, d, place(2)) - state%offset
-      if (behind(0) >= -least_stress(state, place(2)) .or. behind(1) >= 0.0_wp) return
+      parts = behind(1)
+      if (abs(parts) <= rounding*cubic_slope(law%load, 0.0_wp, place(2))) parts = behind(2) ! alike here: further on then
+      if (abs(behind(0)) <= least_stress(state, place(2)) .or. behind(0)*parts <= 0.0_wp) return
       highest = findloc(abs(behind) > 0.0_wp, .true., dim=1, back=.true.) - 1
       bound = 1.0_wp + maxval(abs(behind(:highest - 1)))/abs(behind(highest)) ! Cauchy's: no zero lies beyond
       call find_zeros(behind, 0.0_wp, min(bound, far, max(0.0_wp, law%d_max - d)), meetings)
