@@ -126,20 +126,25 @@ contains
       if (corner == 0 .and. model%twin(node) > 0) corner = findloc(corners_of(model, e), model%twin(node), dim=1)
    end function own_corner
 
-   !> Add to FORCE the nodal forces of a pressure on one side, P(1) to P(4) at its corners from G1 on.
+   !> Add to FORCE the nodal forces of a pressure on one side, P(1) to P(4) at its corners from G1 on, in the middle between two
+   !! corners their mean.
    !! Errors: none. Source: side_forces.
    pure subroutine add_pressure(model, pressed, p, force)
       type(model_type), intent(in)   :: model
       type(pressed_side), intent(in) :: pressed
-      real(wp), intent(in)           :: p(max_side_nodes) !! [pressure], positive into the body
+      real(wp), intent(in)           :: p(4)              !! [pressure], positive into the body
       real(wp), intent(inout)        :: force(:, :)       !! (3, n_nodes) [force]
-      real(wp) :: f(model%dimension, max_side_nodes)
+      real(wp) :: f(model%dimension, max_side_nodes), at_nodes(max_side_nodes)
 
       associate (kind => element_table(model%element_kind(pressed%element)), e => pressed%element)
+         associate (c => kind%side_corners(pressed%side))
+            at_nodes(:c) = cshift(p(:c), 1 - pressed%first)
+            at_nodes(c + 1:2*c) = 0.5_wp*(at_nodes(:c) + cshift(at_nodes(:c), 1))
+         end associate
          associate (nodes => model%element_nodes(kind%side_nodes(:kind%side_size(pressed%side), pressed%side), e), &
                     property => model%properties(max(1, model%element_property(e))))
             call side_forces(property%state, property%thickness, model%x(:model%dimension, nodes), &
-                             cshift(p(:size(nodes)), 1 - pressed%first), f)
+                             at_nodes(:size(nodes)), f)
             force(:model%dimension, nodes) = force(:model%dimension, nodes) + f(:, :size(nodes))
             call add_section_share(model, e, nodes, f, force)
          end associate

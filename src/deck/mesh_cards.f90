@@ -4,7 +4,7 @@ module mesh_cards
    use bulk_data, only: bulk_data_type, edge_cbar, edge_crod, grid_card, pmark_card
    use card_fields, only: card_values
    use card_reader, only: card_reader_type
-   use element_kinds, only: element_table, n_kinds
+   use element_kinds, only: element_table, n_linear_kinds
    use field_rules, only: blank_field, component_field, field_rule, integer_field, real_field
    use kinds, only: wp
    use text_tools, only: integer_text
@@ -45,7 +45,7 @@ contains
       type(field_rule), allocatable :: table(:)
       integer :: i, k, kind
 
-      do kind = 1, n_kinds
+      do kind = 1, n_linear_kinds
          table = [integer_field(['EID', 'PID']), (integer_field('G'//integer_text(k)), k = 1, element_table(kind)%n_nodes)]
          if (element_table(kind)%dimension == 2) table = [table, blank_field(['THETA', 'ZOFFS'])]
          call cards%set_table(table, element_table(kind)%card)

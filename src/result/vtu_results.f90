@@ -5,7 +5,7 @@ module vtu_results
    use analysis_state, only: analysis_type
    use body_elements, only: element_corner_stress, element_stress, full_stress
    use c_library, only: remove_file
-   use element_kinds, only: element_table, kind_penta6, max_nodes
+   use element_kinds, only: element_table, max_nodes
    use elasticity, only: max_stresses, n_stresses
    use interface_operator, only: at_first_end
    use kinds, only: wp
@@ -93,12 +93,11 @@ contains
       type(vtu_file_type), intent(inout) :: file
       type(model_type), intent(in)       :: model
       type(analysis_type), intent(in)    :: analysis
-      integer, parameter :: wedge(6) = [1, 3, 2, 4, 6, 5] ! VTK wants the first triangle of a wedge to face out
       real(wp), allocatable :: u(:, :), at_node(:, :), at_centre(:, :), principal(:, :)
       real(wp) :: corner(max_stresses, max_nodes)
       integer, allocatable       :: corners(:), ends(:), properties(:)
       integer(int8), allocatable :: types(:)
-      integer :: c, e, i, k, m, n
+      integer :: c, e, i, m, n
 
       m = n_points(model)
       allocate (u(3, m), at_node(6, m), source=0.0_wp)
@@ -109,11 +108,7 @@ contains
       n = 0
       do e = 1, model%n_elements
          associate (nodes => corners_of(model, e))
-            do i = 1, size(nodes)
-               k = i
-               if (model%element_kind(e) == kind_penta6) k = wedge(i)
-               corners(n + i) = nodes(k)
-            end do
+            corners(n + 1:n + size(nodes)) = nodes(element_table(model%element_kind(e))%vtk_nodes(:size(nodes)))
             n = n + size(nodes)
             ends(e) = n
             types(e) = int(element_table(model%element_kind(e))%vtk_type, int8)
