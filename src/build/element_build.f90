@@ -46,7 +46,7 @@ contains
             if (k > 0) then
                property%e = deck%bulk%mat1(k)%e
                property%nu = deck%bulk%mat1(k)%nu
-               property%rho = deck%bulk%mat1(k)%rho
+               property%rho = deck%bulk%mass_factor*deck%bulk%mat1(k)%rho
             else if (card%material > 0) then
                call deck%field_error(card%line, 2, 'there is no MAT1 '//integer_text(card%material))
             end if

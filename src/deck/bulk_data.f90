@@ -3,6 +3,7 @@
 module bulk_data
    use elasticity, only: plane_stress
    use element_kinds, only: max_nodes
+   use entry_tally, only: entry_tally_type
    use kinds, only: wp
    use shear_stiffness, only: shear_law
    implicit none
@@ -156,6 +157,8 @@ module bulk_data
    !> All of them.
    type, public :: bulk_data_type
       integer :: n_cards = 0                               !! of all kinds
+      type(entry_tally_type) :: idle                       !! entries without effect, of case control too
+      real(wp) :: mass_factor = 1.0_wp                     !! PARAM WTMASS: densities are multiplied by it
       type(grid_card), allocatable         :: grid(:)
       type(element_card), allocatable      :: element(:)   !! of bodies; faces of marked surfaces too
       type(element_card), allocatable      :: edge(:)      !! CBAR and CROD

@@ -49,7 +49,7 @@ contains
       character(:), allocatable :: line
       character(10) :: counter
       integer :: i, cards, hidden !! lines of INCLUDE files since the last one shown
-      logical :: in_bulk
+      logical :: in_bulk, ended
 
       if (.not. deck%control%echo) then
          call heading(file, 'DECK: '//integer_text(deck%bulk%n_cards)//' CARDS, NOT ECHOED')
@@ -59,11 +59,15 @@ contains
       cards = 0
       hidden = 0
       in_bulk = .false.
+      ended = .false.
       do i = 1, deck%text%n
          line = deck%text%card_part(i)
          counter = ''
          if (in_bulk .and. line /= '' .and. .not. is_continuation(line)) then
-            if (card_name(line) /= 'ENDDATA' .and. .not. is_include(line)) then
+            if (card_name(line) == 'ENDDATA') then
+               in_bulk = deck%text%file_number(i) > 1
+               ended = .not. in_bulk
+            else if (.not. is_include(line)) then
                cards = cards + 1
                write (counter, '(i9, a)') cards, '-'
             end if
@@ -74,7 +78,7 @@ contains
             call count_hidden()
             call file%put(' '//counter//' '//cut(deck%text%line(i), page_width - 13))
          end if
-         if (.not. in_bulk .and. index(adjustl(upper(line)), 'BEGIN') == 1) then
+         if (.not. (in_bulk .or. ended) .and. index(adjustl(upper(line)), 'BEGIN') == 1) then
             in_bulk = .true.
             call file%put('   CARD')
             call file%put('  COUNT-    .   1  ..   2  ..   3  ..   4  ..   5  ..   6  ..   7  ..   8  ..   9  ..  10  .')
@@ -132,6 +136,7 @@ contains
       end associate
       if (deck%control%length_unit /= '') call file%put('  UNITS, LABELS ONLY: LENGTH '// &
          trim(deck%control%length_unit)//', FORCE '//trim(deck%control%force_unit))
+      call write_folded(file, upper(deck%bulk%idle%words()))
       if (tetra_words(model) /= '') call file%put('  WARNING: '//upper(tetra_words(model)))
 
    contains
@@ -146,6 +151,21 @@ contains
       end subroutine count_line
 
    end subroutine write_summary
+
+   !> WORDS, a list with commas, in as many lines as it takes; none where there are no words.
+   subroutine write_folded(file, words)
+      type(output_file_type), intent(inout) :: file
+      character(*), intent(in)              :: words
+      integer :: first, last
+
+      first = 1
+      do while (first <= len(words))
+         last = min(first + page_width - 6, len(words))
+         if (last < len(words)) last = first - 1 + max(1, index(words(first:last), ',', back=.true.))
+         call file%put('  '//repeat(' ', merge(0, 1, first == 1))//words(first:last))
+         first = last + 1
+      end do
+   end subroutine write_folded
 
    !> What to say of a model whose bodies are of linear tetrahedra alone; empty of any other.
    pure function tetra_words(model) result(words)
