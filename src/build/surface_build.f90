@@ -124,49 +124,62 @@ contains
             call deck%errors%add(sides%line(i), 'the '//side_name(model, nodes)//' is no side of a body element')
             return
          end if
-         surface%n = surface%n + 1
-         surface%line(surface%n) = sides%line(i)
-         surface%n_corners(surface%n) = size(nodes)
-         surface%element(surface%n) = owner
-         surface%other(surface%n) = other
       end associate
-      associate (kind => element_table(model%element_kind(owner)), n => surface%n_nodes(surface%n))
-         n = kind%side_size(own_side)
-         surface%nodes(:n, surface%n) = model%element_nodes(kind%side_nodes(:n, own_side), owner)
-         call check_mark(deck, sides, i, model, owner, surface%nodes(:n, surface%n))
+      associate (kind => element_table(model%element_kind(owner)))
+         associate (own => model%element_nodes(kind%side_nodes(:kind%side_size(own_side), own_side), owner))
+            if (any(own == 0)) return ! said already
+            surface%n = surface%n + 1
+            surface%line(surface%n) = sides%line(i)
+            surface%n_corners(surface%n) = kind%side_corners(own_side)
+            surface%n_nodes(surface%n) = size(own)
+            surface%nodes(:size(own), surface%n) = own
+            surface%element(surface%n) = owner
+            surface%other(surface%n) = other
+            call check_mark(deck, sides, i, model, owner, own)
+         end associate
       end associate
    end subroutine add_side
 
-   !> The mid-side nodes of mark I, where it has any, are those of the side, with the nodes OWN, of element E; of the edges in the
-   !! sense of the mark that may be the other way round.
+   !> The mid-side nodes of mark I, where it has any, are those of the side, with the nodes OWN, of element E. Gmsh writes that of an
+   !! edge as X1 of a CBAR.
    subroutine check_mark(deck, sides, i, model, e, own)
       type(checked_deck), intent(in) :: deck
       type(marked_sides), intent(in) :: sides
       integer, intent(in)            :: i, e, own(:)
       type(model_type), intent(in)   :: model
-      character(:), allocatable :: words
       integer :: a, b, k, m, mid
 
       m = sides%n_corners(i)
-      if (sides%n_nodes(i) == m) return
-      words = trim(merge('CBAR', 'face', m == 2))//' '//integer_text(sides%id(i))
-      if (size(own) == m) then
-         call deck%errors%add(sides%line(i), words//' is of second order, and marks a side of element '// &
-            integer_text(model%element_id(e))//', a linear '//trim(element_table(model%element_kind(e))%card)// &
-            '; expected the corners alone')
+      if (size(own) == m .and. sides%n_nodes(i) > m) then
+         if (m == 2) then
+            call deck%field_error(sides%line(i), 'X1', 'a node, as the middle of the edge, but the edge is one of '// &
+                                  element_words()//', which is linear; expected a real number, or blank')
+         else
+            call deck%errors%add(sides%line(i), 'face '//integer_text(sides%id(i))//' has mid-side nodes, but is one of '// &
+                                 element_words()//', which is linear; expected its corners alone')
+         end if
          return
       end if
       do k = 1, sides%n_nodes(i) - m
          if (sides%nodes(m + k, i) == 0) cycle ! blank: that of the element; or said already
          a = findloc(own(:m), sides%nodes(k, i), dim=1)
          b = findloc(own(:m), sides%nodes(modulo(k, m) + 1, i), dim=1)
-         mid = own(m + merge(a, b, modulo(a, m) + 1 == b))
+         mid = own(m + merge(a, b, modulo(a, m) + 1 == b)) ! the mark may go round the other way
          if (m == 2) mid = own(3)
          if (mid == sides%nodes(m + k, i)) cycle
-         call deck%errors%add(sides%line(i), words//' has mid-side node '//integer_text(model%node_id(sides%nodes(m + k, i)))// &
-            ' where element '//integer_text(model%element_id(e))//' has '//integer_text(model%node_id(mid)))
+         call deck%field_error(sides%line(i), 2 + m + k, integer_text(model%node_id(sides%nodes(m + k, i)))//', but '// &
+                               element_words()//', has node '//integer_text(model%node_id(mid))//' at the middle of this edge')
          return
       end do
+
+   contains
+
+      pure function element_words() result(words)
+         character(:), allocatable :: words
+
+         words = 'element '//integer_text(model%element_id(e))//', a '//trim(element_table(model%element_kind(e))%card)
+      end function element_words
+
    end subroutine check_mark
 
    !> A side in words, by its nodes.
