@@ -32,8 +32,8 @@ contains
       associate (card => deck%bulk%joint(j), edges => model%surfaces(surface))
          shortest = huge(1.0_wp)
          do e = 1, edges%n
-            do k = 1, edges%corners(e)
-               shortest = min(shortest, norm2(model%x(:, edges%nodes(modulo(k, edges%corners(e)) + 1, e)) &
+            do k = 1, edges%n_corners(e)
+               shortest = min(shortest, norm2(model%x(:, edges%nodes(modulo(k, edges%n_corners(e)) + 1, e)) &
                                               - model%x(:, edges%nodes(k, e))))
             end do
          end do
