@@ -35,11 +35,19 @@ module model_data
       integer, allocatable :: line(:)        !! (n) of its card in the deck text
    end type surface_type
 
+   !> How the sides of a joint that do not match cover each other.
+   type, public :: joint_cover
+      real(wp) :: share = 1.0_wp             !! of the area of SIDE1 that SIDE2 covers
+      real(wp) :: farthest = 0.0_wp          !! largest distance of the faces, along the normal of SIDE1 [length]
+      real(wp) :: spacing(2) = 0.0_wp        !! mean area, of edges length, of the faces of SIDE1 and of SIDE2 that take part
+   end type joint_cover
+
    !> One joint: a group of interface elements with the same laws.
    type, public :: joint_type
       integer  :: id = 0                     !! JID; PJID for a group of CJOINT cards
       integer  :: line = 0                   !! of its card (the first CJOINT) in the deck text
       integer  :: first = 0, last = -1       !! its interface elements
+      type(joint_cover) :: cover
       type(joint_law) :: law                 !! normal, shear, friction
       logical  :: e_u_given = .false.        !! whether the deck gives the unloading slope
       integer  :: n_reanalyses = 1           !! NREAN after the Coulomb check; -1: until the excess is gone
