@@ -12,14 +12,13 @@ module side_fit
    use id_table, only: id_table_type
    use interface_sums, only: interface_sums_type
    use kinds, only: wp
-   use model_data, only: joint_cover, model_type, surface_type
+   use model_data, only: joint_cover, model_type, surface_type, whole_share
    use surface_build, only: side_influence, surface_node_list
    implicit none
    private
 
    public :: fit_side
 
-   real(wp), parameter :: whole = 0.999_wp    ! share of a face from which on it is covered as a whole
    real(wp), parameter :: twice = 1.01_wp     ! share above which faces lie behind one another
 
    real(wp), parameter, public :: default_reach = 0.1_wp !! of the longest side of a face of SIDE1
@@ -82,13 +81,13 @@ contains
          if (integrals%seen <= 0.0_wp) cycle
          own_parts = own_parts + n_parts(model%dimension, n)
          found%cover%spacing(1) = found%cover%spacing(1) + seen_area(face%seen)
-         call fit_face(model%dimension, n, share >= whole, integrals, part)
+         call fit_face(model%dimension, n, share >= whole_share, integrals, part)
          do k = 1, n
             elements(k) = place%find(side1%nodes(k, s))
-            if (share < whole) found%partly(elements(k)) = .true.
+            if (share < whole_share) found%partly(elements(k)) = .true.
          end do
          call sums%add_face(elements(:n), side1%nodes(:n, s), integrals%node(:integrals%n), part)
-         found%cover%share = found%cover%share + merge(1.0_wp, share, share >= whole)*sum(area)
+         found%cover%share = found%cover%share + merge(1.0_wp, share, share >= whole_share)*sum(area)
          found%cover%farthest = max(found%cover%farthest, integrals%farthest)
       end do
       call sums%finish()

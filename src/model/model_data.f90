@@ -10,7 +10,7 @@ module model_data
    implicit none
    private
 
-   public :: corners_of, joint_node_id, n_bars, n_sections, n_points
+   public :: corners_of, is_coarser, joint_node_id, n_bars, n_sections, n_points
 
    !> Section and material of body elements.
    type, public :: property_type
@@ -34,6 +34,8 @@ module model_data
       logical :: was_split = .false.         !! a joint was made of it: the other body has the twins of its nodes
       integer, allocatable :: line(:)        !! (n) of its card in the deck text
    end type surface_type
+
+   real(wp), parameter, public :: whole_share = 0.999_wp !! share of a face or side from which on it is covered as a whole
 
    !> How the sides of a joint that do not match cover each other.
    type, public :: joint_cover
@@ -124,6 +126,13 @@ module model_data
    end type model_type
 
 contains
+
+   !> Whether SIDE1 of a joint is coarser than SIDE2: its faces on the mean more than a tenth larger.
+   pure logical function is_coarser(cover)
+      type(joint_cover), intent(in) :: cover
+
+      is_coarser = cover%spacing(1) > 1.1_wp*cover%spacing(2)
+   end function is_coarser
 
    !> How many bars there are.
    pure integer function n_bars(model)
