@@ -74,9 +74,9 @@ contains
       if (corner(1) == 0) return ! said already
       associate (kind => element_table(model%element_kind(e)))
          do side = 1, kind%n_sides
-            associate (own => kind%side_nodes(:kind%side_size(side), side))
+            associate (own => kind%side_nodes(:kind%side_corners(side), side))
                if (all(own /= corner(1))) cycle
-               select case (model%element_kind(e))
+               select case (kind%linear)
                case (kind_tetra4)            ! G4 is the corner that the face does not have
                   fits = corner(2) > 0 .and. all(own /= corner(2))
                case (kind_hexa8, kind_penta6)
@@ -90,17 +90,17 @@ contains
                end select
                if (.not. fits) cycle
             end associate
-            if (kind%side_size(side) == 3 .and. abs(card%pressure(4) - card%pressure(1)) > 0.0_wp) then
+            if (kind%side_corners(side) == 3 .and. abs(card%pressure(4) - card%pressure(1)) > 0.0_wp) then
                call deck%field_error(card%line, 'P4', 'a triangular face has no fourth corner, expected a blank or P1')
                return
             end if
             pressed%element = e
             pressed%side = side
-            pressed%first = findloc(kind%side_nodes(:kind%side_size(side), side), corner(1), dim=1)
+            pressed%first = findloc(kind%side_nodes(:, side), corner(1), dim=1)
             return
          end do
       end associate
-      select case (model%element_kind(e))
+      select case (element_table(model%element_kind(e))%linear)
       case (kind_tetra4)
          expected = 'expected in G1 a corner of the face and in G4 the corner that it does not have'
       case (kind_hexa8)
@@ -122,8 +122,10 @@ contains
       corner = 0
       node = model%node_table%find(id)
       if (node == 0) return
-      corner = findloc(corners_of(model, e), node, dim=1)
-      if (corner == 0 .and. model%twin(node) > 0) corner = findloc(corners_of(model, e), model%twin(node), dim=1)
+      associate (corners => model%element_nodes(:element_table(model%element_kind(e))%n_corners, e))
+         corner = findloc(corners, node, dim=1)
+         if (corner == 0 .and. model%twin(node) > 0) corner = findloc(corners, model%twin(node), dim=1)
+      end associate
    end function own_corner
 
    !> Add to FORCE the nodal forces of a pressure on one side, P(1) to P(4) at its corners from G1 on, in the middle between two

@@ -3,6 +3,7 @@ module listing_opening
    use deck_cards, only: card_name, is_continuation
    use case_control, only: method_newton, method_step, pressure_eq10
    use deck_input, only: deck_type
+   use element_kinds, only: kind_tetra4
    use equation_solver, only: equation_system
    use interface_operator, only: named_node
    use line_scan, only: is_include
@@ -17,7 +18,7 @@ module listing_opening
    implicit none
    private
 
-   public :: write_opening
+   public :: write_opening, tetra_words
 
 contains
 
@@ -103,6 +104,7 @@ contains
       call count_line('NODES', int(n_points(model), long))
       if (.not. all(model%used)) call count_line('   OF THESE WITHOUT AN ELEMENT, LEFT OUT', &
                                                  count(.not. model%used, kind=long))
+      if (model%n_filled > 0) call count_line('   OF THESE PUT AT THE MIDDLE OF EDGES', int(model%n_filled, long))
       if (any(model%twin > 0)) call count_line('   OF THESE DOUBLED AT SPLIT SURFACES', count(model%twin > 0, kind=long))
       call count_line('BODY ELEMENTS', int(model%n_elements, long))
       if (n_bars(model) > 0) call count_line('BARS, BOLTS INCLUDED', size(model%bars, kind=long))
@@ -129,6 +131,7 @@ contains
       end associate
       if (deck%control%length_unit /= '') call file%put('  UNITS, LABELS ONLY: LENGTH '// &
          trim(deck%control%length_unit)//', FORCE '//trim(deck%control%force_unit))
+      if (tetra_words(model) /= '') call file%put('  WARNING: '//upper(tetra_words(model)))
 
    contains
 
@@ -142,6 +145,16 @@ contains
       end subroutine count_line
 
    end subroutine write_summary
+
+   !> What to say of a model whose bodies are of linear tetrahedra alone; empty of any other.
+   pure function tetra_words(model) result(words)
+      type(model_type), intent(in) :: model
+      character(:), allocatable    :: words
+
+      words = ''
+      if (model%n_elements > 0 .and. all(model%element_kind == kind_tetra4)) words = 'all bodies are of linear '// &
+         'tetrahedra, which are 10 to 35 % too stiff in bending on meshes of usual size: mesh them with second order'
+   end function tetra_words
 
    !> Laws and areas of the joints.
    subroutine write_joints(page, model)

@@ -4,8 +4,8 @@ module sample_elements
    use element_kinds, only: element_table, max_nodes
    use element_mapping, only: element_law, element_map, map_element, map_point, max_shapes
    use kinds, only: wp
-   use quadrature, only: body_rule, integration_rule
    use local_nodes, only: node_point
+   use quadrature, only: integration_rule, volume_rule
    implicit none
    private
 
@@ -39,7 +39,7 @@ contains
       integer  :: i
 
       call map_element(law, x, map)
-      call body_rule(law%kind, law%state == axisymmetric, rule)
+      call volume_rule(law%kind, law%state == axisymmetric, rule)
       total = 0.0_wp
       do i = 1, rule%n
          call map_point(law, map, rule%point(:, i), g, volume)
