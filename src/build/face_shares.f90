@@ -8,12 +8,12 @@ module face_shares
    implicit none
    private
 
-   public :: n_corners, whole_shares, partial_shares
+   public :: whole_shares, partial_shares
 
 contains
 
    !> How many of the N nodes of a face are corners: the first ones.
-   elemental integer function n_corners(dimension, n)
+   pure integer function n_corners(dimension, n)
       integer, intent(in) :: dimension !! of the model: 2, edges, or 3, faces
       integer, intent(in) :: n
 

@@ -1,6 +1,5 @@
 !> Which nodes of the two sides of a joint face each other.
 module facing_nodes
-   use face_shares, only: n_corners
    use id_table, only: id_table_type
    use kinds, only: wp
    use model_data, only: model_type, surface_type
@@ -75,7 +74,7 @@ contains
             ' their normals do not point against each other'
       else if (side2%n /= side1%n) then
          fault%words = 'SIDE2 has '//plural(side2%n, 'node')//', SIDE1 '//integer_text(side1%n)//': every node needs its partner'
-      else if (.not. same_order(model%dimension, surfaces, side1, partner)) then
+      else if (.not. same_order(surfaces, side1, partner)) then
          fault%words = 'nodes at the middle of edges face corners: one side is of second order, the other is not'
       end if
    end subroutine pair_nodes
@@ -88,7 +87,7 @@ contains
 
       shortest = huge(1.0_wp)
       do e = 1, surface%n
-         associate (n => n_corners(model%dimension, surface%corners(e)))
+         associate (n => surface%corners(e))
             do k = 1, n
                shortest = min(shortest, norm2(model%x(:, surface%nodes(modulo(k, n) + 1, e)) - model%x(:, surface%nodes(k, e))))
             end do
@@ -97,8 +96,7 @@ contains
    end function shortest_edge
 
    !> Whether corners have corners for partners, and nodes between corners such nodes.
-   pure logical function same_order(dimension, surfaces, side1, partner)
-      integer, intent(in)                 :: dimension
+   pure logical function same_order(surfaces, side1, partner)
       type(surface_type), intent(in)      :: surfaces(2)
       type(surface_node_list), intent(in) :: side1
       integer, intent(in)                 :: partner(:) !! of its nodes, each another one
@@ -106,20 +104,18 @@ contains
       integer :: k
 
       do k = 1, 2
-         call between(k)%build(nodes_between(dimension, surfaces(k)))
+         call between(k)%build(nodes_between(surfaces(k)))
       end do
       same_order = all([(between(1)%find(side1%node(k)) > 0 .eqv. between(2)%find(partner(k)) > 0, k = 1, side1%n)])
    end function same_order
 
    !> The nodes of SURFACE that are no corners, as often as they have sides.
-   pure function nodes_between(dimension, surface) result(nodes)
-      integer, intent(in)            :: dimension
+   pure function nodes_between(surface) result(nodes)
       type(surface_type), intent(in) :: surface
       integer, allocatable :: nodes(:)
-      integer :: first(surface%n), k
+      integer :: k
 
-      first = n_corners(dimension, surface%corners(:surface%n))
-      nodes = [(surface%nodes(first(k) + 1:surface%corners(k), k), k = 1, surface%n)]
+      nodes = [(surface%nodes(surface%corners(k) + 1:surface%n_nodes(k), k), k = 1, surface%n)]
    end function nodes_between
 
 end module facing_nodes

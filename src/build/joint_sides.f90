@@ -4,7 +4,7 @@ module joint_sides
    use deck_check, only: checked_deck
    use bulk_data, only: fit_no, fit_yes
    use face_fit, only: face_part
-   use face_shares, only: n_corners, whole_shares
+   use face_shares, only: whole_shares
    use facing_nodes, only: pair_nodes, pairing_fault
    use id_table, only: id_table_type
    use interface_axes, only: joint_axes
@@ -90,7 +90,7 @@ contains
       type(interface_sums_type) :: sums
       integer :: k
 
-      if (any(n_corners(model%dimension, surface%corners(:surface%n)) < surface%corners(:surface%n))) then
+      if (any(surface%corners(:surface%n) < surface%n_nodes(:surface%n))) then
          call add_pairs(model, surface, side, partner, sums)
          call summed_elements(deck, j, model, side, sums, spread(.false., 1, side%n), elements)
          return
@@ -123,7 +123,7 @@ contains
       call place%build(side%node)
       call sums%start(side%n, model%n_nodes)
       do s = 1, surface%n
-         n = surface%corners(s)
+         n = surface%n_nodes(s)
          call side_influence(model, surface, s, area, normal)
          share = whole_shares(model%dimension, n)
          part%n = n

@@ -7,7 +7,6 @@ module side_fit
    use face_frames, only: face_frame, in_frame, make_frame
    use face_integrals, only: add_overlap, cover_integrals, own_face, start_integrals
    use face_overlap, only: plane_points, seen_area
-   use face_shares, only: n_corners
    use facing_nodes, only: facing
    use id_table, only: id_table_type
    use interface_sums, only: interface_sums_type
@@ -68,7 +67,7 @@ contains
       all_area = 0.0_wp
       own_parts = 0
       do s = 1, side1%n
-         n = side1%corners(s)
+         n = side1%n_nodes(s)
          call side_influence(model, side1, s, area, normal)
          all_area = all_area + sum(area)
          call look_at(model, side1, s, reach, face)
@@ -94,7 +93,7 @@ contains
       found%cover%share = found%cover%share/max(all_area, tiny(1.0_wp))
       found%cover%spacing(1) = found%cover%spacing(1)/max(1, own_parts)
       found%cover%spacing(2) = sum(opposite%area, mask=opposite%covers) &
-                         /max(1, sum([(n_parts(model%dimension, side2%corners(s)), s = 1, side2%n)], mask=opposite%covers))
+                         /max(1, sum([(n_parts(model%dimension, side2%n_nodes(s)), s = 1, side2%n)], mask=opposite%covers))
    end subroutine fit_side
 
    !> As how many linear edges, or triangles, a face with N nodes counts where the fineness of meshes is compared.
@@ -116,7 +115,7 @@ contains
       allocate (box(3, 2, side2%n), opposite%normal(3, side2%n), opposite%area(side2%n))
       allocate (opposite%covers(side2%n), source=.false.)
       do s = 1, side2%n
-         associate (x => model%x(:, side2%nodes(:side2%corners(s), s)))
+         associate (x => model%x(:, side2%nodes(:side2%n_nodes(s), s)))
             box(:, 1, s) = minval(x, dim=2)
             box(:, 2, s) = maxval(x, dim=2)
             call make_frame(model%dimension, x, frame)
@@ -137,8 +136,8 @@ contains
       real(wp) :: longest
       integer  :: corners, k, n
 
-      n = side1%corners(s)
-      corners = n_corners(model%dimension, n)
+      n = side1%n_nodes(s)
+      corners = side1%corners(s)
       associate (x => model%x(:, side1%nodes(:n, s)))
          call make_frame(model%dimension, x, face%frame)
          face%seen = in_frame(model%dimension, x, face%frame)
@@ -177,7 +176,7 @@ contains
          associate (f => near(i))
             if (dot_product(opposite%normal(:, f), face%frame%axes(:, 3)) > facing) cycle
             before = integrals%seen
-            associate (nodes => side2%nodes(:side2%corners(f), f))
+            associate (nodes => side2%nodes(:side2%n_nodes(f), f))
                call add_overlap(face, in_frame(model%dimension, model%x(:, nodes), face%frame), nodes, points, integrals)
             end associate
             if (integrals%seen > before) opposite%covers(f) = .true.
