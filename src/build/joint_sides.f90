@@ -176,7 +176,7 @@ contains
       type(model_type), intent(in)                        :: model
       type(surface_node_list), intent(in)                 :: side
       type(interface_sums_type), intent(in)               :: sums
-      logical, intent(in)                                 :: may_lack(:) !! whether the area at a node may be 0
+      logical, intent(in)                                 :: may_lack(:) !! whether the area at a node may be 0, as on the axis
       type(interface_element), allocatable, intent(inout) :: elements(:)
       integer, allocatable :: at(:)
       integer  :: k
@@ -185,8 +185,7 @@ contains
       at = pack([(k, k = 1, side%n)], [(sums%around(k) > 0.0_wp, k = 1, side%n)])
       do k = 1, size(at)
          associate (i => at(k))
-            if (sums%has_area(i) .or. may_lack(i)) cycle
-            if (model%axisymmetric .and. .not. sums%area(i) < 0.0_wp .and. .not. model%x(1, side%node(i)) > 0.0_wp) cycle
+            if (sums%has_area(i) .or. (sums%has_none(i) .and. (may_lack(i) .or. model%axisymmetric))) cycle
             call no_area(deck, j, model, side%node(i), ', or less than none: move the nodes at the middle of edges back there')
             return
          end associate

@@ -6,7 +6,7 @@ module face_decks
    implicit none
    private
 
-   public :: block_cards, block_node, supports, quarter
+   public :: block_cards, block_node, supports, all_moved, quarter
 
    real(wp), parameter :: quarter = 0.5_wp*acos(-1.0_wp)
 
@@ -22,6 +22,8 @@ module face_decks
       real(wp) :: angle = 0.0_wp
       real(wp) :: skew = 0.0_wp              !! moves the nodes inside the block by so much of a division
    end type block_type
+
+   real(wp), parameter :: numbers(3) = [1.0_wp, 2.0_wp, 3.0_wp]
 
    ! the six tetrahedra of a box by their corners, 0 or 1 in x, y, z: along the sides from one corner to the opposite one
    integer, parameter :: order(3, 6) = reshape([1, 2, 3, 2, 3, 1, 3, 1, 2, 1, 3, 2, 2, 1, 3, 3, 2, 1], [3, 6])
@@ -140,6 +142,45 @@ contains
    end function supports
 
 
+   !> Hold all nodes, in set 1, and move them BY along D, in set 10.
+   function all_moved(block, d, by) result(cards)
+      type(block_type), intent(in) :: block
+      integer, intent(in)          :: d
+      real(wp), intent(in)         :: by
+      character(:), allocatable :: cards, ids
+      integer :: at, next
+      character(30) :: move
+
+      write (move, '(f0.15)') by
+      cards = ''
+      do at = 0, 2*block%n(1)
+         ids = layer(block, at)
+         do while (ids /= '')
+            next = index(ids, ',')
+            cards = cards//'SPC1,1,'//trim(merge('12 ', '123', dimension_of(block) == 2))//','//ids(:next - 1)//';SPCD,10,'// &
+                    ids(:next - 1)//','//integer_text(d)//','//trim(move)//';'
+            ids = ids(next + 1:)
+         end do
+      end do
+   end function all_moved
+
+
+   !> The nodes of BLOCK at AT, in half divisions of x, each with a comma behind it.
+   function layer(block, at) result(ids)
+      type(block_type), intent(in) :: block
+      integer, intent(in)          :: at
+      character(:), allocatable :: ids
+      integer :: j, k
+
+      ids = ''
+      do k = 0, merge(0, 2*block%n(3), dimension_of(block) == 2)
+         do j = 0, 2*block%n(2)
+            if (is_node(block, [at, j, k])) ids = ids//integer_text(block_node(block, [at, j, k]))//','
+         end do
+      end do
+   end function layer
+
+
    pure integer function dimension_of(block) result(d)
       type(block_type), intent(in) :: block
 
@@ -177,7 +218,7 @@ contains
       share = 0.0_wp
       share(:d) = at(:d)/(2.0_wp*block%n(:d))
       if (all(at(:d) > 1 .and. at(:d) < 2*block%n(:d) - 1)) then ! corners inside
-         if (all(modulo(at, 2) == 0)) share(:d) = share(:d) + block%skew*sin([1.0_wp, 2.0_wp, 3.0_wp]*(at(1) + 2*at(2)))/block%n(:d)
+         if (all(modulo(at, 2) == 0)) share(:d) = share(:d) + block%skew*sin(numbers(:d)*(at(1) + 2*at(2)))/block%n(:d)
       end if
       x(:d) = block%low(:d) + share(:d)*(block%high(:d) - block%low(:d))
       if (block%angle > 0.0_wp) x(:2) = x(2)*[cos(block%angle*(1.0_wp - share(1))), sin(block%angle*(1.0_wp - share(1)))]
