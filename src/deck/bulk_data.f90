@@ -117,9 +117,12 @@ module bulk_data
       integer :: line = 0, id = 0
    end type pmark_card
 
+   integer, parameter, public :: fit_auto = 1, fit_yes = 2, fit_no = 3 !! whether faces are fitted: where nodes do not match, always,
+                                                                       !! never
    type, public :: joint_card
       integer  :: line = 0, id = 0, law = 0, sides(2) = 0
       real(wp) :: tolerance = 0.0_wp                    ! 0: default
+      integer  :: fit = fit_auto
    end type joint_card
 
    type, public :: cjoint_card
