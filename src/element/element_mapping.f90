@@ -197,8 +197,10 @@ contains
          elsewhere = least_at(kind, nodes, node_point(:, :n, kind))
          if (d == 3 .and. .not. elsewhere > 0.0_wp .and. smallest > 0.0_wp) elsewhere = least_on_sides(kind, nodes, longest)
       else
+         elsewhere = least_on_sides(kind, nodes, longest)
+         n = rule%n
          call volume_rule(kind, .false., rule)
-         elsewhere = min(least_at(kind, nodes, rule%point(:, :rule%n)), least_on_sides(kind, nodes, longest))
+         if (rule%n > n) elsewhere = min(elsewhere, least_at(kind, nodes, rule%point(:, :rule%n)))
       end if
       smallest = scale(element_table(kind)%linear)*min(smallest, elsewhere)
       if (smallest > flat*longest**d) then

@@ -2,7 +2,8 @@
 !! serendipity functions on the others. Local coordinates: local_nodes.
 !! Source: Zienkiewicz, Taylor, Zhu, The Finite Element Method, 6th ed., sections 4.6 to 4.12.
 module quadratic_shapes
-   use element_kinds, only: element_table, kind_edge3, kind_hexa20, kind_penta15, kind_quad8, kind_tetra10, kind_tria6, max_nodes
+   use element_kinds, only: element_table, kind_edge3, kind_hexa20, kind_penta15, kind_quad8, kind_tetra10, kind_tria6, &
+                            max_edges, max_nodes
    use kinds, only: wp
    use local_nodes, only: node_point
    implicit none
@@ -13,6 +14,9 @@ module quadratic_shapes
    ! d L_i/d(local j) in (j, i) of the barycentric coordinates, first that which is 1 at corner 1; its third row in space only
    real(wp), parameter :: gradient(3, 4) = reshape([real(wp) :: -1, -1, -1,  1, 0, 0,  0, 1, 0,  0, 0, 1], [3, 4])
 
+   integer, parameter :: along(max_edges) = [1, 2, 1, 2, 3, 3, 3, 3, 1, 2, 1, 2] ! the coordinate that runs along an edge
+   integer, parameter :: next(3) = [2, 3, 1]
+
 contains
 
    !> The shape functions N at a point. What is beyond the nodes of the kind, and all of another kind, is left as it is.
@@ -20,7 +24,7 @@ contains
       integer, intent(in)     :: kind                 !! kind_tria6 ... kind_hexa20, kind_edge3
       real(wp), intent(in)    :: point(3)             !! local coordinates; those beyond the kind's dimension are not used
       real(wp), intent(inout) :: n(max_nodes)         !! [-]
-      real(wp) :: l(4), bubble, factor(4), slope(3)
+      real(wp) :: l(4), bubble
       integer  :: i
 
       associate (r => point(1), s => point(2), t => point(3))
@@ -38,19 +42,16 @@ contains
                end do
             end associate
          case (kind_quad8, kind_hexa20)
-            do i = 1, element_table(kind)%n_nodes
-               call node_factors(kind, i, point, factor, slope)
-               n(i) = product(factor)
-            end do
+            call serendipity_values(kind, point, n)
          case (kind_penta15)
             l = barycentric(3, point)
             bubble = (1.0_wp - t)*(1.0_wp + t)
             do i = 1, 3
                n(i) = 0.5_wp*l(i)*((2.0_wp*l(i) - 1.0_wp)*(1.0_wp - t) - bubble)
                n(i + 3) = 0.5_wp*l(i)*((2.0_wp*l(i) - 1.0_wp)*(1.0_wp + t) - bubble)
-               n(i + 6) = 2.0_wp*l(i)*l(modulo(i, 3) + 1)*(1.0_wp - t)
+               n(i + 6) = 2.0_wp*l(i)*l(next(i))*(1.0_wp - t)
                n(i + 9) = l(i)*bubble
-               n(i + 12) = 2.0_wp*l(i)*l(modulo(i, 3) + 1)*(1.0_wp + t)
+               n(i + 12) = 2.0_wp*l(i)*l(next(i))*(1.0_wp + t)
             end do
          end select
       end associate
@@ -61,7 +62,7 @@ contains
       integer, intent(in)     :: kind                 !! kind_tria6 ... kind_hexa20, kind_edge3
       real(wp), intent(in)    :: point(3)             !! local coordinates
       real(wp), intent(inout) :: dn(3, max_nodes)     !! dN_i/d(local j) in dn(j, i) [-]
-      real(wp) :: l(4), factor(4), slope(3)
+      real(wp) :: l(4)
       integer  :: d, i
 
       select case (kind)
@@ -81,12 +82,7 @@ contains
             end do
          end associate
       case (kind_quad8, kind_hexa20)
-         do i = 1, element_table(kind)%n_nodes
-            call node_factors(kind, i, point, factor, slope)
-            dn(1, i) = slope(1)*factor(2)*factor(3)
-            dn(2, i) = slope(2)*factor(3)*factor(1)
-            if (kind == kind_hexa20) dn(3, i) = slope(3)*factor(1)*factor(2)
-         end do
+         call serendipity_derivatives(kind, point, dn)
       case (kind_penta15)
          call wedge_derivatives(point, dn)
       end select
@@ -97,7 +93,7 @@ contains
       real(wp), intent(in)    :: point(3)
       real(wp), intent(inout) :: dn(3, max_nodes)
       real(wp) :: bubble, dbubble, down, l(4), up
-      integer  :: i, next
+      integer  :: i, k
 
       l = barycentric(3, point)
       down = 1.0_wp - point(3)
@@ -105,51 +101,82 @@ contains
       bubble = down*up
       dbubble = -2.0_wp*point(3)
       do i = 1, 3
-         next = modulo(i, 3) + 1
+         k = next(i)
          dn(:2, i) = 0.5_wp*((4.0_wp*l(i) - 1.0_wp)*down - bubble)*gradient(:2, i)
          dn(3, i) = 0.5_wp*l(i)*(1.0_wp - 2.0_wp*l(i) - dbubble)
          dn(:2, i + 3) = 0.5_wp*((4.0_wp*l(i) - 1.0_wp)*up - bubble)*gradient(:2, i)
          dn(3, i + 3) = 0.5_wp*l(i)*(2.0_wp*l(i) - 1.0_wp - dbubble)
-         dn(:2, i + 6) = 2.0_wp*down*(l(i)*gradient(:2, next) + l(next)*gradient(:2, i))
-         dn(3, i + 6) = -2.0_wp*l(i)*l(next)
+         dn(:2, i + 6) = 2.0_wp*down*(l(i)*gradient(:2, k) + l(k)*gradient(:2, i))
+         dn(3, i + 6) = -2.0_wp*l(i)*l(k)
          dn(:2, i + 9) = bubble*gradient(:2, i)
          dn(3, i + 9) = l(i)*dbubble
-         dn(:2, i + 12) = 2.0_wp*up*(l(i)*gradient(:2, next) + l(next)*gradient(:2, i))
-         dn(3, i + 12) = 2.0_wp*l(i)*l(next)
+         dn(:2, i + 12) = 2.0_wp*up*(l(i)*gradient(:2, k) + l(k)*gradient(:2, i))
+         dn(3, i + 12) = 2.0_wp*l(i)*l(k)
       end do
    end subroutine wedge_derivatives
 
-   !> N_i of a quadrilateral or hexahedron is the product of FACTOR, one function of each coordinate and a fourth; its derivative
-   !! by coordinate a is SLOPE(a) times the factors of the other coordinates.
-   pure subroutine node_factors(kind, i, point, factor, slope)
-      integer, intent(in)   :: kind, i
-      real(wp), intent(in)  :: point(3)
-      real(wp), intent(out) :: factor(4), slope(3)
-      real(wp) :: whole
-      integer  :: a, d
+   !> Shape functions of the quadrilateral and the hexahedron: at a corner the product of the linear functions of all coordinates and
+   !! one that vanishes on the nodes of its edges; on an edge that of a parabola along it and linear functions of the others.
+   pure subroutine serendipity_values(kind, point, n)
+      integer, intent(in)     :: kind
+      real(wp), intent(in)    :: point(3)
+      real(wp), intent(inout) :: n(max_nodes)
+      real(wp) :: whole, x(3)
+      integer  :: a, b, c, corners, d, i
 
       d = element_table(kind)%dimension
-      factor = 1.0_wp
-      slope = 0.0_wp
-      whole = 0.5_wp**(d - 1)
-      if (i <= element_table(kind)%n_corners) then
-         whole = 0.5_wp*whole
-         factor(4) = dot_product(point(:d), node_point(:d, i, kind)) - (d - 1)
-      end if
-      do a = 1, d
-         associate (p => node_point(a, i, kind))
-            if (abs(p) < 0.5_wp) then
-               factor(a) = (1.0_wp - point(a))*(1.0_wp + point(a))
-               slope(a) = -2.0_wp*point(a)*whole
-            else
-               factor(a) = 1.0_wp + point(a)*p
-               slope(a) = p*whole
-               if (i <= element_table(kind)%n_corners) slope(a) = slope(a)*(factor(4) + factor(a))
-            end if
-         end associate
-      end do
-      factor(4) = whole*factor(4)
-   end subroutine node_factors
+      corners = element_table(kind)%n_corners
+      whole = merge(0.25_wp, 0.125_wp, d == 2)
+      x = 0.0_wp
+      x(:d) = point(:d)
+      associate (p => node_point(:, :, kind))
+         do i = 1, corners
+            n(i) = whole*(1.0_wp + x(1)*p(1, i))*(1.0_wp + x(2)*p(2, i))*(1.0_wp + x(3)*p(3, i))* &
+                   (x(1)*p(1, i) + x(2)*p(2, i) + x(3)*p(3, i) - (d - 1))
+         end do
+         do i = corners + 1, element_table(kind)%n_nodes
+            a = along(i - corners)
+            b = next(a)
+            c = next(b)
+            n(i) = 2.0_wp*whole*(1.0_wp - x(a))*(1.0_wp + x(a))*(1.0_wp + x(b)*p(b, i))*(1.0_wp + x(c)*p(c, i))
+         end do
+      end associate
+   end subroutine serendipity_values
+
+   !> The derivatives of serendipity_values.
+   pure subroutine serendipity_derivatives(kind, point, dn)
+      integer, intent(in)     :: kind
+      real(wp), intent(in)    :: point(3)
+      real(wp), intent(inout) :: dn(3, max_nodes)
+      real(wp) :: bubble, f(3), inner, whole, x(3)
+      integer  :: a, b, c, corners, d, i
+
+      d = element_table(kind)%dimension
+      corners = element_table(kind)%n_corners
+      whole = merge(0.25_wp, 0.125_wp, d == 2)
+      x = 0.0_wp
+      x(:d) = point(:d)
+      associate (p => node_point(:, :, kind))
+         do i = 1, corners
+            inner = x(1)*p(1, i) + x(2)*p(2, i) + x(3)*p(3, i) - (d - 1)
+            f = 1.0_wp + x*p(:, i)
+            dn(1, i) = whole*p(1, i)*f(2)*f(3)*(inner + f(1))
+            dn(2, i) = whole*p(2, i)*f(3)*f(1)*(inner + f(2))
+            if (d == 3) dn(3, i) = whole*p(3, i)*f(1)*f(2)*(inner + f(3))
+         end do
+         do i = corners + 1, element_table(kind)%n_nodes
+            a = along(i - corners)
+            b = next(a)
+            c = next(b)
+            bubble = 2.0_wp*whole*(1.0_wp - x(a))*(1.0_wp + x(a))
+            f(b) = 1.0_wp + x(b)*p(b, i)
+            f(c) = 1.0_wp + x(c)*p(c, i)
+            dn(a, i) = -4.0_wp*whole*x(a)*f(b)*f(c)
+            if (b <= d) dn(b, i) = bubble*p(b, i)*f(c)
+            if (c <= d) dn(c, i) = bubble*f(b)*p(c, i)
+         end do
+      end associate
+   end subroutine serendipity_derivatives
 
    !> The barycentric coordinates of a triangle (3 corners; the fourth is 0) or a tetrahedron (4).
    pure function barycentric(corners, point) result(l)
