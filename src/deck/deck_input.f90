@@ -11,12 +11,13 @@ module deck_input
    use joint_cards, only: read_cjoint, read_jincr, read_jnorm, read_joint, read_jshear, read_pjoint
    use kinds, only: long
    use line_scan, only: is_include
-   use load_cards, only: read_bolt, read_displacement, read_force, read_gravity, read_load, read_pressure, read_support, &
-                         read_surface_load
+   use load_cards, only: read_bolt, read_force, read_gravity, read_load, read_pressure, read_surface_load
    use mesh_cards, only: complete_remedy, read_block, read_edge, read_element, read_grid, read_pmark
    use nastran_habits, only: is_idle_card
    use parameter_cards, only: read_parameter
-   use property_cards, only: read_mat1, read_paxis, read_prod, read_pshell, read_psolid
+   use property_cards, only: read_conrod, read_mat1, read_paxis, read_prod, read_pshell, read_psolid
+   use support_cards, only: read_displacement, read_support, read_support_sum
+   use system_cards, only: fill_grid_defaults, read_grid_defaults, read_system, system_names
    implicit none
    private
 
@@ -40,6 +41,8 @@ contains
       type(card_reader_type), intent(inout) :: cards
 
       call cards%add_kinds(['GRID'], read_grid)
+      call cards%add_kinds(['GRDSET'], read_grid_defaults)
+      call cards%add_kinds(system_names, read_system)
       call cards%add_kinds(['CTRIA3', 'CTRIA6', 'CQUAD4', 'CQUAD8', 'CTETRA', 'CPENTA', 'CHEXA '], read_element)
       call cards%add_kinds(['CBAR', 'CROD'], read_edge)
       call cards%add_kinds(['BLOCK2', 'BLOCK3'], read_block)
@@ -48,10 +51,12 @@ contains
       call cards%add_kinds(['PAXIS'], read_paxis)
       call cards%add_kinds(['PSOLID'], read_psolid)
       call cards%add_kinds(['PROD'], read_prod)
+      call cards%add_kinds(['CONROD'], read_conrod)
       call cards%add_kinds(['MAT1'], read_mat1)
       call cards%add_kinds(['SPC ', 'SPC1', 'SPCM'], read_support)
-      call cards%add_kinds(['FORCE'], read_force)
-      call cards%add_kinds(['PLOAD4', 'PLOADE'], read_pressure)
+      call cards%add_kinds(['SPCADD'], read_support_sum)
+      call cards%add_kinds(['FORCE ', 'FORCE1', 'FORCE2', 'MOMENT'], read_force)
+      call cards%add_kinds(['PLOAD4', 'PLOADE', 'PLOAD '], read_pressure)
       call cards%add_kinds(['PLOADM', 'FORCEM'], read_surface_load)
       call cards%add_kinds(['GRAV'], read_gravity)
       call cards%add_kinds(['SPCD'], read_displacement)
@@ -110,6 +115,7 @@ contains
       deck%bulk%mass_factor = deck%control%mass_factor
       call find_cards(deck%text, cursor, cards, deck%bulk, errors)
       call cards%read_all(deck%bulk)
+      call fill_grid_defaults(deck%bulk)
       call move_alloc(cards%kinds, deck%kinds)
       deck%is_whole = is_whole
    end subroutine read_lines

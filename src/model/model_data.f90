@@ -1,6 +1,7 @@
 !> The structure as it is solved: nodes, bodies, joints, supports, loads, all references resolved to positions.
 !! Built once from a deck; nothing in it changes afterwards.
 module model_data
+   use coordinate_systems, only: coordinate_system
    use elasticity, only: plane_stress
    use element_kinds, only: element_table
    use id_table, only: id_table_type
@@ -115,6 +116,7 @@ module model_data
       integer, allocatable  :: element_line(:)       !! of its card in the deck text
       integer, allocatable  :: first_at(:)           !! (n_nodes + 1) elements_at(first_at(i):first_at(i+1)-1)
       integer, allocatable  :: elements_at(:)        !! are the elements of node i
+      type(coordinate_system), allocatable :: systems(:) !! as the deck has them
       type(property_type), allocatable :: properties(:)
       type(surface_type), allocatable  :: surfaces(:)
       type(joint_type), allocatable    :: joints(:)
