@@ -179,6 +179,16 @@ for n in 5 20 80; do
 done
 holds 'wedge, STEP' "$error < 0.05"
 
+# Interference alone pushes a block away that nothing holds: nothing is pressed at rest, and then it bears the load as on a wedge.
+for method in NEWTON STEP; do
+   gap_block rest $method 20 0.5 10.0 1 '' 'JGAP,1,PLANE,0.0,1.0-4' || continue
+   cp "$work/rest.joint.csv" "$work/wedge.joint.csv"
+   sed -i 's/^PJOINT,1,1$/PJOINT,1,1,,,,,0.5/; s/^  LOAD = 1/  LABEL = AT REST/; s/^BEGIN/SUBCASE 2\n  LOAD = 1\nBEGIN/' "$work/rest.bdf"
+   run rest && ask "a block pushed away, $method, at rest" rest rows 'stage = 1' count 21 all 'abs(force) < 1e-3' &&
+      ask "a block pushed away, $method, loaded" rest rows 'stage = 2' count 21 with "$work/wedge.joint.csv" on element \
+         all 'pressure = other.pressure within 1e-6'
+done
+
 # A crown under a rigid flat face, m = 1: p = C (w**2 - x**2)/c over the half width w; the pressures add up to the force:
 # F = (4/3) b C w**3/c, and the closing is C w**2.
 before=
