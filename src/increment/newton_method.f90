@@ -191,7 +191,8 @@ contains
          carried = load_size <= rounding .and. maxval(abs(now%u)) <= 10.0_wp*travel
          attempt%converged = now%size <= max(analysis%tolerance, 0.1_wp*noise) .and. noise <= 1.0e-5_wp*load_size
          attempt%converged = .not. moves .and. (attempt%converged .or. (carried .and. now%size <= rounding))
-         if (iteration == most_iterations) attempt%converged = now%size <= idle*max(attempt%seat_force, analysis%loose_force)
+         if (iteration == most_iterations) attempt%converged = attempt%converged .or. &
+            now%size <= idle*max(attempt%seat_force, analysis%loose_force)
          if (attempt%converged .or. iteration == most_iterations) exit
          if (noise > load_size .and. .not. (carried .or. moves)) exit
          call find_direction(model, now, analysis, iteration == 0, system, attempt, direction)
