@@ -103,6 +103,8 @@ for method in NEWTON STEP BACK; do
    near "interference at rest, $method: lambda" "$(cell bars 1 1 2 lambda)" "$at_rest" 1e-10
    near "interference at rest, $method: the bars push as the joint does" "$(cell bars 1 1 2 force)" "50*(0.05 - $at_rest)" 1e-9
 done
+bars bars NEWTON 0.0 1 && near 'interference at rest: what it has put in stands with the first stage' \
+   "$(awk '/ENERGY OF JOINTS/ { getline; getline; getline; getline; getline; print $2 }' "$work/bars.out")" "4*$p_rest*$at_rest/3" 1e-5
 pulled="((0.05 - 0.01 - 0.02*4*$p_rest + 0.02*4000*$at_rest)/(1 + 0.02*4000))"
 bars bars NEWTON 1.0 5 && near 'interference, pulled apart' "$(cell bars 1 5 2 lambda)" "$pulled" 1e-10 &&
    near 'interference, pulled apart: p' "$(cell bars 1 5 2 pressure)" "$p_rest - 1000*($at_rest - $pulled)" 1e-9 &&
