@@ -66,7 +66,7 @@ contains
             integer_text(side1%n)//' of SIDE1 found no partner within '//real_text(tolerance)//'; the farthest is node '// &
             integer_text(model%node_id(worst_node))//' at '//place//real_text(worst)//' away'
       else if (shared > 0) then
-         fault%in_tolerance = tol > 0.0_wp
+         fault%in_tolerance = .true.
          fault%words = 'within '//real_text(tolerance)//' '//plural(shared, 'node')// &
                        ' of SIDE1 found a partner that another one has'
       else if (turned > 0) then
