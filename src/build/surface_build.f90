@@ -13,7 +13,7 @@ module surface_build
    implicit none
    private
 
-   public :: build_surfaces, find_surface, surface_nodes, side_of_element, side_influence
+   public :: build_surfaces, find_surface, surface_nodes, side_of_element, side_influence, side_name
 
    !> The nodes of a surface, each once, in ascending order of their numbers.
    type, public :: surface_node_list
