@@ -8,7 +8,7 @@ module analysis_state
    use joint_laws, only: element_state, element_stiffness_of, joint_law
    use kinds, only: wp
    use model_data, only: model_type, n_bars, n_sections
-   use normal_stiffness, only: branch_load, branch_open, is_virgin, normal_secant
+   use normal_stiffness, only: at_rest, branch_load, branch_open, is_virgin, normal_secant
    use branch_starts, only: note_turns, turning_point
    implicit none
    private
@@ -49,6 +49,7 @@ module analysis_state
       logical  :: carry = .false.
       logical  :: eq10 = .false.                    !! STEP: p on the loading curve by Eq. (10) as printed
       logical  :: average = .true.                  !! BACK: of two consecutive sets of results
+      logical  :: is_loose = .false.                !! interference has pushed a body away until nothing presses it any more
       logical  :: is_settled = .true.               !! BACK: whether the last secants agree with what they led to
       real(wp) :: load_tolerance = 1.0e-10_wp       !! NEWTON: share of the largest load that may be left unbalanced; BACK: of the
                                                     !! largest pressure by which the laws may differ from the secants
@@ -127,7 +128,7 @@ contains
       allocate (analysis%k(3, size(model%interface)), analysis%movement(3, size(model%interface)), source=0.0_wp)
       allocate (analysis%turns(2, size(model%interface)), analysis%slips(0))
       allocate (analysis%kind(size(model%interface)), analysis%next_kind(size(model%interface)), source=no_stiffness)
-      analysis%states%normal%p_av = model%joints(model%interface%joint)%p_av
+      analysis%states%normal = at_rest(model%joints(model%interface%joint)%p_av, model%interface%gap)
       if (control%method == method_step) allocate (analysis%exact, source=analysis%states)
    end subroutine start_analysis
 
