@@ -10,7 +10,7 @@ module listing_opening
    use kinds, only: long, wp
    use listing_covers, only: write_covers
    use listing_table, only: axes, column, cut, heading, listing_table_type, page_type, page_width
-   use model_data, only: has_gaps, is_coarser, model_type, n_bars, n_points, n_sections
+   use model_data, only: has_gaps, model_type, n_bars, n_points, n_sections
    use normal_stiffness, only: branch_load, branch_name, branch_reload, branch_unload, pressure_floor
    use output_file, only: output_file_type
    use shear_closure, only: loop_closure, worst_closure
