@@ -6,8 +6,8 @@ module case_control
    use deck_numbers, only: parse_real
    use deck_text, only: deck_text_type
    use entry_tally, only: entry_tally_type
+   use habit_entries, only: read_echo, read_habit
    use kinds, only: wp
-   use nastran_habits, only: control_habit, judge_parameter, parameter_idle, parameter_refused
    use text_tools, only: integer_text, upper
    implicit none
    private
@@ -105,63 +105,13 @@ contains
             call check_repeated(entry, keys_seen, errors)
             call read_entry(entry, control, common, errors)
          else
-            call read_habit(entry, control, errors)
+            call read_habit(entry, control%mass_factor, control%idle, errors)
             goes_on = line(len(line):) == ','
          end if
       end do
       if (control%tolerance <= 0.0_wp) control%tolerance = merge(back_tolerance, newton_tolerance, control%method == method_back)
       call check_stages(control, common, errors)
    end subroutine read_case_control
-
-   !> What a line says that is none of the program's own keys: it has no effect, or is not known.
-   subroutine read_habit(entry, control, errors)
-      type(entry_type), intent(in)           :: entry
-      type(case_control_type), intent(inout) :: control
-      type(deck_error_list), intent(inout)   :: errors
-      integer :: choice
-
-      choice = 0
-      select case (entry%key)
-      case ('INCLUDE', 'CEND') ! lines of an INCLUDE file follow in the deck text; CEND is the end of NASTRAN's executive control
-      case ('APP', 'ANALYSIS')
-         call choose(entry, '|STATICS|STATIC|DISP|DISPLACEMENT|', choice, errors)
-         call control%idle%add(entry%key)
-      case ('PARAM')
-         call read_parameter(entry, control, errors)
-      case default
-         if (control_habit(entry%key) /= '') then
-            call control%idle%add(control_habit(entry%key))
-         else
-            call errors%add(entry%line, ''''//entry%key(:min(40, len(entry%key)))//''' is no key of case control; '// &
-                            'expected TITLE, UNITS, METHOD, TOL, PRESSURE, CARRY, AVERAGE, SOLVER, ECHO, SPC, SUBCASE, '// &
-                            'LABEL, LOAD, INCR, OUTPUT or BEGIN BULK')
-         end if
-      end select
-   end subroutine read_habit
-
-   !> 'PARAM,POST,-1' in case control.
-   subroutine read_parameter(entry, control, errors)
-      type(entry_type), intent(in)           :: entry
-      type(case_control_type), intent(inout) :: control
-      type(deck_error_list), intent(inout)   :: errors
-      character(:), allocatable :: expected, name, value
-      real(wp) :: mass
-      integer  :: comma, what
-
-      value = upper(adjustl(entry%value))
-      if (index(value, ',') == 1) value = adjustl(value(2:))
-      comma = scan(value//',', ', ')
-      name = value(:comma - 1)
-      value = trim(adjustl(value(min(comma + 1, len(value) + 1):)))
-      call judge_parameter(name, value, what, mass, expected)
-      if (what == parameter_idle) then
-         call control%idle%add('PARAM')
-      else if (what == parameter_refused) then
-         call errors%add(entry%line, 'PARAM '//name//': '''//value//''', expected '//expected, entry%first, entry%last)
-      else
-         control%mass_factor = mass
-      end if
-   end subroutine read_parameter
 
    !> What one line of case control says.
    subroutine read_entry(entry, control, common, errors)
@@ -217,23 +167,9 @@ contains
       case ('SOLVER')
          call choose(entry, '|AUTO|SKYLINE|TREE|', control%solver, errors)
       case ('ECHO')
-         call read_echo(entry, control, errors)
+         call read_echo(entry, control%echo, errors)
       end select
    end subroutine read_entry
-
-   !> ECHO = NO or NONE, or any of the words by which NASTRAN prints the deck, in whatever order, to whatever file.
-   subroutine read_echo(entry, control, errors)
-      type(entry_type), intent(in)           :: entry
-      type(case_control_type), intent(inout) :: control
-      type(deck_error_list), intent(inout)   :: errors
-      character(*), parameter :: off = '|NO|NONE|', on = '|YES|BOTH|SORT|UNSORT|PUNCH|FILE|'
-      character(:), allocatable :: word
-
-      word = '|'//upper(entry%value(:scan(entry%value//',', ' ,(') - 1))//'|'
-      if (word == '||' .or. index(off//on, word) == 0) call value_error(entry, 'YES or NO, or NASTRAN''s BOTH, SORT, UNSORT, '// &
-                                                                        'PUNCH or NONE', errors)
-      control%echo = index(off, word) == 0
-   end subroutine read_echo
 
    subroutine read_units(entry, control, errors)
       type(entry_type), intent(in)           :: entry
