@@ -32,6 +32,7 @@ part 'unit tests' ${MAKE:-make} --no-print-directory -s unit-test
 part 'modules use what stands to the left' tests/folders.sh README.md src
 part 'the test runner itself' env -u MAKELEVEL tests/runner/selftest.sh
 part 'decks against their references' tests/check.sh "$program" "$compare" "$build/check"
+part 'decks on other processors, built otherwise' tests/processors.sh "$program" "$compare" "$build"
 part 'decks through the program with run-time checks' tests/check.sh "$checked" "$compare" "$build/check-checked"
 part 'what the paper says of the prism' tests/prism_findings.sh "$query" "$build/check"
 part 'exact answers and independent computations' tests/exact/run.sh "$program" "$query" "$build/exact"
