@@ -9,12 +9,13 @@ module listing
    use listing_bars, only: note_bars, note_sections
    use listing_bodies, only: list_bodies
    use listing_joints, only: list_energy, list_interface, note_passes, note_resultants
-   use listing_opening, only: tetra_words, write_opening
+   use listing_opening, only: write_opening
    use listing_plot, only: plot_joints
    use listing_states, only: list_condensed, list_states
    use listing_steps, only: farthest_type, note_distances, note_slips
    use listing_table, only: column, label_type, listing_table_type, noise, page_type
    use model_data, only: joint_node_id, model_type, stage_load_type
+   use model_warnings, only: tetra_words
    use normal_stiffness, only: branch_open
    use range_watch, only: range_watch_type, watch_balance, watch_ranges, watch_shear_laws, watch_unloading
    use stage_plan, only: stage_plan_type
@@ -46,14 +47,25 @@ contains
 
       call listing%page%file%start(path)
       listing%method = deck%control%method
-      associate (length => trim(deck%control%length_unit), force => trim(deck%control%force_unit))
-         if (length /= '') listing%page%labels = label_type( &
-            length=length, force=force, pressure=force//'/'//length//'2', area=length//'2', stiffness=force//'/'//length, &
-            moment=force//' '//length, slope=force//'/'//length//'2/'//length)
-      end associate
+      if (deck%control%length_unit /= '') call set_labels(trim(deck%control%length_unit), trim(deck%control%force_unit), &
+                                                          listing%page%labels)
       call write_opening(listing%page, deck, model, plan, system)
       if (tetra_words(model) /= '') listing%watch%n_warnings = 1
    end subroutine start_listing
+
+   !> The units that stand over the columns, of those of LENGTH and FORCE.
+   pure subroutine set_labels(length, force, labels)
+      character(*), intent(in)        :: length, force
+      type(label_type), intent(inout) :: labels
+
+      labels%length = length
+      labels%force = force
+      labels%pressure = force//'/'//length//'2'
+      labels%area = length//'2'
+      labels%stiffness = force//'/'//length
+      labels%moment = force//' '//length
+      labels%slope = force//'/'//length//'2/'//length
+   end subroutine set_labels
 
    !> Note the increment just completed; print its tables where OUTPUT = ALL or JOINT.
    subroutine list_increment(listing, model, plan, analysis)
