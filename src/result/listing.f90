@@ -5,6 +5,7 @@ module listing
    use deck_input, only: deck_type
    use determinate_joints, only: carried_resultant
    use equation_solver, only: equation_system
+   use joint_motion, only: is_closed
    use kinds, only: wp
    use listing_bars, only: note_bars, note_sections
    use listing_bodies, only: list_bodies
@@ -187,7 +188,11 @@ contains
          call table%add([joint_node_id(model, at_lambda, 1)])
          call table%add([clean(state(at_p)%pressure, noise*analysis%largest_p)])
          call table%add([joint_node_id(model, at_p, 1)])
-         call table%add([clean(force, floor)])
+         if (is_closed(model, joint)) then
+            call table%skip(1)
+         else
+            call table%add([clean(force, floor)])
+         end if
          if (joint%determinate) then
             applied = carried_resultant(model, joint, now)
             call table%add(clean([applied, force - applied], floor))

@@ -1,6 +1,7 @@
 !> The first pages of the listing: heading, deck echo, summary of the model, joints and stages.
 module listing_opening
    use branch_cubic, only: cubic
+   use command_arguments, only: standard_input, version
    use deck_cards, only: card_name, is_continuation
    use case_control, only: method_newton, method_step, pressure_eq10
    use deck_input, only: deck_type
@@ -8,6 +9,7 @@ module listing_opening
    use equation_solver, only: equation_system
    use interface_operator, only: named_node
    use line_scan, only: is_include
+   use joint_motion, only: is_closed
    use kinds, only: long, wp
    use listing_table, only: axes, column, cut, heading, listing_table_type, page_type, page_width
    use model_data, only: has_gaps, is_coarser, model_type, n_bars, n_points, n_sections, whole_share
@@ -35,6 +37,7 @@ contains
       call page%file%put(' '//repeat('-', page_width - 1))
       call page%file%put('  J O I N T F E M      TANGENT-STIFFNESS FINITE ELEMENT ANALYSIS OF JOINTED STRUCTURES')
       call page%file%put('  '//cut(deck%control%title, page_width - 2))
+      call page%file%put('  '//cut(origin_words(page, deck), page_width - 2))
       call page%file%put(' '//repeat('-', page_width - 1))
       call write_echo(page%file, deck)
       call write_summary(page%file, deck, model, system)
@@ -43,6 +46,20 @@ contains
       call write_shear_laws(page%file, model)
       call write_stages(page, model, plan)
    end subroutine write_opening
+
+   !> Where the listing comes from: the deck without its folder, the version, and the date where it is asked for.
+   pure function origin_words(page, deck) result(words)
+      type(page_type), intent(in) :: page
+      type(deck_type), intent(in) :: deck
+      character(:), allocatable   :: words
+
+      words = 'FROM THE STANDARD INPUT'
+      associate (path => deck%text%files(1)%path)
+         if (path /= standard_input) words = path(index(path, '/', back=.true.) + 1:)
+      end associate
+      words = 'DECK '//words//'   JOINTFEM '//version
+      if (allocated(page%date)) words = words//'   '//page%date
+   end function origin_words
 
    !> The deck as read, cards counted, under a field ruler. INCLUDE files are counted, not shown.
    subroutine write_echo(file, deck)
@@ -178,7 +195,11 @@ contains
          associate (joint => model%joints(j), law => model%joints(j)%law%normal)
             call table%add([joint%id, joint%last - joint%first + 1])
             call table%add([joint%area, law%c, law%m, law%e_u, joint%p_av, pressure_floor*joint%p_av])
-            call table%add(clean(joint%normal(:d), 1.0e-9_wp))
+            if (is_closed(model, joint)) then
+               call table%add(' CLOSED')
+            else
+               call table%add(clean(joint%normal(:d), 1.0e-9_wp))
+            end if
             call table%print_row(page%file)
          end associate
       end do

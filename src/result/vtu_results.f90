@@ -19,7 +19,7 @@ module vtu_results
    implicit none
    private
 
-   public :: start_vtu, write_vtu, finish_vtu, discard_vtu, remove_old_vtu, is_vtu_ending
+   public :: start_vtu, write_vtu, finish_vtu, discard_vtu, remove_old_vtu, vtu_names, is_vtu_ending
 
    integer, parameter :: most_old = 999 ! stages whose old files are looked for
 
@@ -185,6 +185,22 @@ contains
       end if
       if (.not. ok) call discard_vtu(results)
    end subroutine finish_vtu
+
+   !> The files by their endings, each behind a comma: of many their list alone.
+   pure function vtu_names(results) result(words)
+      type(vtu_results_type), intent(in) :: results
+      character(:), allocatable :: words
+      integer :: i
+
+      words = ''
+      if (results%many .and. results%n > 0) then
+         words = ', .pvd'
+      else
+         do i = 1, results%n
+            words = words//', '//trim(results%parts(i)%ending)
+         end do
+      end if
+   end function vtu_names
 
    !> Leave nothing behind, files that have their names already included.
    subroutine discard_vtu(results)

@@ -21,6 +21,7 @@ module command_line
       logical :: check_only = .false.       !! --check
       logical :: quiet      = .false.       !! -q
       logical :: times      = .false.       !! --times
+      logical :: dated      = .false.       !! --date
       integer :: threads    = 0             !! --threads, 0: all cores
       character(:), allocatable :: folder   !! -o, with a slash at its end, empty: here
       type(deck_argument), allocatable :: decks(:)
@@ -67,6 +68,8 @@ contains
             command%quiet = .true.
          case ('--times')
             command%times = .true.
+         case ('--date')
+            command%dated = .true.
          case ('-o', '--threads')
             if (i == n) then
                call complain(program, argument//' needs a value behind it')
@@ -179,12 +182,15 @@ contains
          ''//nl// &
          'Solves each deck: a structure with flexible joints, loaded in increments. A deck `-` is read from the'//nl// &
          'standard input, and its listing goes to the standard output. For beam.bdf the results are beam.out, the'//nl// &
-         'listing, and beam.joint.csv, every interface element after every increment.'//nl// &
+         'listing, beam.joint.csv, every interface element after every increment, beam.stage.csv, the answer of'//nl// &
+         'every stage, and with bolts beam.bolt.csv. The answers, and the names of the files, go to the standard'//nl// &
+         'output at the end.'//nl// &
          ''//nl// &
          '   -o DIR        where the results go (default: here)'//nl// &
          '   --check       read and check the decks, solve nothing'//nl// &
          '   -q            no progress on the terminal'//nl// &
          '   --threads N   at most N threads (default: all cores; the results do not depend on it)'//nl// &
+         '   --date        date and time in the head of the listing'//nl// &
          '   --times       print seconds of each phase, operations and memory, on the standard error'//nl// &
          '   --version     print the version'//nl// &
          '   --help        print this'//nl// &
