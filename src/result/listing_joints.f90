@@ -9,6 +9,7 @@ module listing_joints
    use listing_table, only: axes, column, heading, listing_table_type, noise, page_type
    use model_data, only: has_gaps, joint_node_id, model_type
    use normal_stiffness, only: branch_name, loading_deflection
+   use shown_rows, only: shows_interface
    use text_tools, only: clean, integer_text
    implicit none
    private
@@ -40,6 +41,7 @@ contains
             p_floor = noise*analysis%largest_p
             force_floor = p_floor*joint%area
             do i = joint%first, joint%last
+               if (.not. shows_interface(page, model, i)) cycle
                associate (element => model%interface(i))
                   call table%add([element%id, joint_node_id(model, i, 1), joint_node_id(model, i, 2)])
                   call table%add(clean(at_first_end(element, model%x(:model%dimension, :))))
@@ -78,6 +80,7 @@ contains
                            column(pack(['CLOSING', 'GAP    '], has_gaps(model)), 'es13.5', labels%length), column('KIND', 'a9')])
          call table%print_head(page%file)
          do i = joint%first, joint%last
+            if (.not. shows_interface(page, model, i)) cycle
             associate (state => analysis%states(i)%normal)
                call table%add([model%interface(i)%id, joint_node_id(model, i, 1)])
                call table%add([clean(state%lambda, lambda_floor), &
@@ -113,6 +116,7 @@ contains
                                      unit_shift=1), column('', 'a')])
             call table%print_head(page%file)
             do i = joint%first, joint%last
+               if (.not. shows_interface(page, model, i)) cycle
                associate (state => analysis%states(i)%shear(k), element => model%interface(i))
                   call table%add([element%id, joint_node_id(model, i, 1)])
                   call table%add(branch_name(state%branch))

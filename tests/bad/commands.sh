@@ -110,10 +110,10 @@ for bad in faulty free; do
    fresh results
    cp good.bdf beam.bdf
    run -o results beam.bdf;           check 'a good deck' 0
-   holds results 'results of a good deck' beam.joint.csv beam.out
+   holds results 'results of a good deck' beam.joint.csv beam.out beam.stage.csv
    cp $bad.bdf beam.bdf
    run --check -o results beam.bdf
-   holds results "--check of a $bad deck removes nothing" beam.joint.csv beam.out
+   holds results "--check of a $bad deck removes nothing" beam.joint.csv beam.out beam.stage.csv
    run -o results beam.bdf
    if [ "$status" -eq 2 ] || [ "$status" -eq 3 ]; then pass; else fail "$bad.bdf: exit status $status"; fi
    holds results "$bad.bdf: the results of an earlier run are removed"
@@ -124,16 +124,16 @@ rm -f beam.bdf
 
 fresh results
 run -o results nowhere.bdf good.bdf;  check 'a missing deck and a good one' 1 'nowhere.bdf'
-holds results 'the good deck ran' good.joint.csv good.out
+holds results 'the good deck ran' good.joint.csv good.out good.stage.csv
 fresh results
 run -o results free.bdf faulty.bdf nowhere.bdf good.bdf other.bdf
 check 'five decks' 3 'free.bdf' 'mechanism' 'faulty.bdf, line 7' 'nowhere.bdf: no such file'
-holds results 'the good ones of five ran' good.joint.csv good.out other.joint.csv other.out
+holds results 'the good ones of five ran' good.joint.csv good.out good.stage.csv other.joint.csv other.out other.stage.csv
 fresh results
 run -o results good.bdf faulty.bdf;   check 'a good deck and a faulty one' 2
 cp good.bdf ./-beam.bdf
 run -o results -- -beam.bdf;          check 'a deck behind --' 0
-holds results 'results of a deck behind --' -beam.joint.csv -beam.out good.joint.csv good.out
+holds results 'results of a deck behind --' -beam.joint.csv -beam.out good.joint.csv good.out good.stage.csv
 rm -f ./-beam.bdf
 
 # ---- standard input and output ----
@@ -234,7 +234,7 @@ if ls -A results | grep -q -v '\.part$'; then fail "a run that is killed: it lef
 sed 's/10000   ARITH   1.0-4/2/' long.bdf > short.bdf
 mv short.bdf long.bdf
 run -o results long.bdf;              check 'the same deck again, with fewer increments' 0
-holds results 'the same deck again' long.joint.csv long.out
+holds results 'the same deck again' long.joint.csv long.out long.stage.csv
 
 # ---- lines of 100 megabytes, many files ----
 
