@@ -98,7 +98,7 @@ contains
       kinds = kinds(:n)
    end subroutine sort_into_kinds
 
-   !> MESSAGE without its numbers and without what it quotes; whole where a card is unknown.
+   !> MESSAGE without its numbers, its blanks and what it quotes; whole where a card is unknown.
    pure function kind_words(message) result(words)
       character(*), intent(in)  :: message
       character(:), allocatable :: words
@@ -111,7 +111,7 @@ contains
       quoted = .false.
       do i = 1, len(message)
          if (message(i:i) == '''') quoted = .not. quoted
-         if (quoted .or. verify(message(i:i), '0123456789.+-') == 0) cycle
+         if (quoted .or. verify(message(i:i), ' 0123456789.+-') == 0) cycle
          n = n + 1
          words(n:n) = message(i:i)
       end do

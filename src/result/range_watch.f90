@@ -165,31 +165,33 @@ contains
       type(stage_plan_type), intent(in)     :: plan
       type(analysis_type), intent(in)       :: analysis
       type(range_watch_type), intent(inout) :: watch
-      character(:), allocatable :: words
       integer :: j, which
 
       do j = 1, size(model%joints)
          do which = beyond_p, no_slope
             associate (tally => watch%tallies(which, j))
                if (tally%n == 0) cycle
-               select case (which)
-               case (beyond_p)
-                  words = 'BEYOND THE TESTED P = '//real_text(tally%bound)
-               case (beyond_d)
-                  words = 'BEYOND THE TESTED D = '//real_text(tally%bound)
-               case default
-                  words = 'WITHOUT A POSITIVE SLOPE'
-               end select
                watch%n_warnings = watch%n_warnings + 1
                call watch%rows%keep_line('  WARNING: JOINT '//integer_text(model%joints(j)%id)//', '// &
                   upper(where_in_plan(plan, analysis%stage, tally%increment))//': '//upper(plural(tally%n, 'element'))//' '// &
-                  words//' OF THE SHEAR LAW, FIRST NODE '//integer_text(tally%node)//', WORST NODE '// &
+                  words_of(which, tally%bound)//' OF THE SHEAR LAW, FIRST NODE '//integer_text(tally%node)//', WORST NODE '// &
                   integer_text(tally%worst_node)//': P = '//real_text(tally%p)//', D = '//real_text(tally%d))
             end associate
          end do
       end do
       watch%tallies = tally_type()
    end subroutine say_ranges
+
+   !> The BOUND of kind WHICH in words.
+   pure function words_of(which, bound) result(words)
+      integer, intent(in)       :: which
+      real(wp), intent(in)      :: bound
+      character(:), allocatable :: words
+
+      words = 'WITHOUT A POSITIVE SLOPE'
+      if (which == beyond_p) words = 'BEYOND THE TESTED P = '//real_text(bound)
+      if (which == beyond_d) words = 'BEYOND THE TESTED D = '//real_text(bound)
+   end function words_of
 
    !> Note the joints of which an element has come to where the loading curve is steeper than the line E_u that it would unload
    !! along.

@@ -53,9 +53,9 @@ contains
 
       results%base = base
       allocate (results%bolts_before(n_bolts(model)), source=0.0_wp)
-      call start_vtu(results%vtu, base, plan)
       if (base == '') call start_listing(results%listing, '', deck, model, plan, system)
       if (base /= '') call start_listing(results%listing, base//listing_ending, deck, model, plan, system)
+      call start_vtu(results%vtu, base, results%listing%page%labels, plan)
       ok = .not. results%listing%page%file%failed()
       if (base == '') return
       call results%screen%start('')
@@ -79,6 +79,7 @@ contains
       type(bolt_answer_type), allocatable :: bolts(:)
 
       call list_increment(results%listing, model, plan, analysis)
+      call write_vtu(results%vtu, model, plan, analysis)
       if (results%base == '') return
       call write_history(results%tables(joint_file), model, plan, analysis)
       if (n_bolts(model) == 0) return
@@ -107,7 +108,6 @@ contains
          end if
       end associate
       results%bolts_before = answer%bolts%force
-      call write_vtu(results%vtu, model, plan, analysis)
    end subroutine print_stage
 
    !> Give the files their names. All or none: OK is false where one could not be written.
