@@ -85,6 +85,7 @@ contains
       frame%exists = .true.
       if (model%dimension == 2) frame%exists = [.true., .false., .true., .false., .true., .false.]
       if (model%axisymmetric) frame%exists = [.false., .false., .true., .false., .false., .false.]
+      if (frame%extent <= straight*norm2(frame%centroid)) frame%exists(4:) = .false. ! all in one place, but for rounding
       call solve(inertia, [1.0_wp, 1.0_wp, 1.0_wp], frame%exists(4:), kept)
    end function find_frame
 

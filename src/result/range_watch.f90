@@ -5,7 +5,7 @@ module range_watch
    use analysis_state, only: analysis_type, free_norm
    use joint_laws, only: friction_excess, friction_limit
    use kinds, only: wp
-   use listing_table, only: axes, listing_table_type
+   use listing_table, only: axes, listing_table_type, page_width
    use model_data, only: joint_node_id, model_type
    use normal_stiffness, only: branch_load, branch_open, loading_deflection, normal_tangent
    use shear_closure, only: loop_closure, worst_closure
@@ -165,6 +165,7 @@ contains
       type(stage_plan_type), intent(in)     :: plan
       type(analysis_type), intent(in)       :: analysis
       type(range_watch_type), intent(inout) :: watch
+      character(:), allocatable :: first, second
       integer :: j, which
 
       do j = 1, size(model%joints)
@@ -172,10 +173,17 @@ contains
             associate (tally => watch%tallies(which, j))
                if (tally%n == 0) cycle
                watch%n_warnings = watch%n_warnings + 1
-               call watch%rows%keep_line('  WARNING: JOINT '//integer_text(model%joints(j)%id)//', '// &
-                  upper(where_in_plan(plan, analysis%stage, tally%increment))//': '//upper(plural(tally%n, 'element'))//' '// &
-                  words_of(which, tally%bound)//' OF THE SHEAR LAW, FIRST NODE '//integer_text(tally%node)//', WORST NODE '// &
-                  integer_text(tally%worst_node)//': P = '//real_text(tally%p)//', D = '//real_text(tally%d))
+               first = '  WARNING: JOINT '//integer_text(model%joints(j)%id)//', STAGE '// &
+                  integer_text(plan%stages(analysis%stage)%id)//': '//upper(plural(tally%n, 'element'))//' '// &
+                  words_of(which, tally%bound)//' OF THE SHEAR LAW, FIRST NODE '//integer_text(tally%node)//' (INCREMENT '// &
+                  integer_text(tally%increment)//'),'
+               second = ' WORST '//integer_text(tally%worst_node)//': P = '//real_text(tally%p)//', D = '//real_text(tally%d)
+               if (len(first) + len(second) <= page_width) then
+                  call watch%rows%keep_line(first//second)
+               else
+                  call watch%rows%keep_line(first)
+                  call watch%rows%keep_line('          '//second)
+               end if
             end associate
          end do
       end do
@@ -189,8 +197,8 @@ contains
       character(:), allocatable :: words
 
       words = 'WITHOUT A POSITIVE SLOPE'
-      if (which == beyond_p) words = 'BEYOND THE TESTED P = '//real_text(bound)
-      if (which == beyond_d) words = 'BEYOND THE TESTED D = '//real_text(bound)
+      if (which == beyond_p) words = 'BEYOND P = '//real_text(bound)
+      if (which == beyond_d) words = 'BEYOND D = '//real_text(bound)
    end function words_of
 
    !> Note the joints of which an element has come to where the loading curve is steeper than the line E_u that it would unload
