@@ -1,21 +1,24 @@
 # A deck of the project, small or free field, as input of CalculiX: the cards below and no others, one step a SUBCASE.
-#    GRID, CTETRA, CPENTA, CHEXA, CTRIA3, CQUAD4, PSOLID, PSHELL, MAT1, SPC1 (a list of nodes), FORCE, GRAV
-# CHEXA of a PSOLID with MODES become C3D8I, others C3D8. Plane elements become CPE, plane strain: CalculiX expands CPS in its own
+#    GRID, CTETRA, CPENTA, CHEXA, CTRIA3, CQUAD4, CTRIA6, CQUAD8, PSOLID, PSHELL, PAXIS, MAT1, SPC1 (a list of nodes), FORCE, GRAV
+# CHEXA of a PSOLID with MODES become C3D8I, others C3D8. Of second order CalculiX has the nodes between base and top last. Plane elements become CPE, plane strain: CalculiX expands CPS in its own
 # way, so a plane-stress deck gets the constants with which plane strain is the same, E (1+2 nu)/(1+nu)**2 and nu/(1+nu).
 function real(text) { sub(/^ */, "", text); if (text !~ /[Ee]/) { m = match(substr(text, 2), /[-+]/); if (m) text = substr(text, 1, m) "E" substr(text, m + 1) } return text == "" ? 0 : text + 0 }
 function element(kind, n,   k, line) {
    line = f[2]
-   for (k = 1; k <= n; k++) line = line ", " f[3 + k]
+   for (k = 1; k <= n; k++) line = line (k == 13 ? ",\n" : ", ") f[3 + (n == 20 && k > 12 ? 13 + (k - 9) % 8 : n == 15 && k > 9 ? 10 + (k - 7) % 6 : k)]
    of[kind, f[3]] = of[kind, f[3]] line "\n"
    kinds[kind, f[3]] = kind; property[kind, f[3]] = f[3]
 }
 function card(   k) {
    if (f[1] == "GRID") grids = grids sprintf("%d, %.15g, %.15g, %.15g\n", f[2], real(f[4]), real(f[5]), real(f[6]))
-   else if (f[1] == "CTETRA") element("C3D4", 4)
-   else if (f[1] == "CPENTA") element("C3D6", 6)
-   else if (f[1] == "CHEXA") element("C3D8", 8)
+   else if (f[1] == "CTETRA") element(n > 7 ? "C3D10" : "C3D4", n > 7 ? 10 : 4)
+   else if (f[1] == "CPENTA") element(n > 9 ? "C3D15" : "C3D6", n > 9 ? 15 : 6)
+   else if (f[1] == "CHEXA") element(n > 11 ? "C3D20" : "C3D8", n > 11 ? 20 : 8)
    else if (f[1] == "CTRIA3") element("3", 3)
    else if (f[1] == "CQUAD4") element("4", 4)
+   else if (f[1] == "CTRIA6") element("6", 6)
+   else if (f[1] == "CQUAD8") element("8", 8)
+   else if (f[1] == "PAXIS") axis[f[2]] = 1
    else if (f[1] == "PSOLID") modes[f[2]] = f[7]
    else if (f[1] == "PSHELL") { thickness[f[2]] = real(f[4]); strain[f[2]] = f[5] }
    else if (f[1] == "MAT1") { young = real(f[3]); nu = real(f[5]); rho = real(f[6]) }
@@ -42,7 +45,7 @@ END {
    printf "*NODE, NSET=NODES\n%s", grids
    for (k in kinds) {
       kind = kinds[k]; p = property[k]
-      if (kind ~ /^[34]$/) { kind = "CPE" kind; stress = strain[p] != "-1" }
+      if (kind ~ /^[3468]$/) { kind = (p in axis ? "CAX" : "CPE") kind; stress = !(p in axis) && strain[p] != "-1" }
       if (kind == "C3D8" && modes[p] == "MODES") kind = "C3D8I"
       printf "*ELEMENT, TYPE=%s, ELSET=ALL\n%s", kind, of[k]
       if (p in thickness) t = thickness[p]
