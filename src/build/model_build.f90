@@ -15,6 +15,7 @@ module model_build
    use mesh_build, only: build_mesh, marked_sides
    use model_data, only: model_type, n_sections
    use section_build, only: build_sections
+   use shown_nodes, only: find_shown_nodes
    use stage_plan, only: plan_stages, stage_plan_type
    use support_build, only: build_supports
    use surface_build, only: build_surfaces
@@ -48,6 +49,7 @@ contains
       call build_sections(checked, model)
       call build_loads(checked, model)
       call plan_stages(deck, plan, errors)
+      call find_shown_nodes(deck, model, plan, errors)
       if (.not. any(model%used)) call errors%add(0, 'nothing to solve: expected body elements or interface elements')
       if (errors%any()) return
       call find_parts(model, .false.)          ! bolts that are being tightened connect nothing yet
