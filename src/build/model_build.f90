@@ -1,6 +1,7 @@
 !> From a deck to the structure that is solved.
 module model_build
    use bar_build, only: build_bars
+   use case_control, only: method_step
    use connected_parts, only: find_parts
    use deck_check, only: checked_deck
    use deck_errors, only: deck_error_list
@@ -53,7 +54,7 @@ contains
       if (errors%any()) return
       call find_parts(model, .false.)          ! bolts that are being tightened connect nothing yet
       call find_determinate_joints(model)
-      call find_first_pressures(plan%stages(1)%shares(1), model, errors)
+      call find_first_pressures(plan%stages(1)%shares(1), deck%control%method /= method_step, model, errors)
       if (all(model%bars%bolt == 0) .and. n_sections(model) == 0) return
       call find_parts(model, .true.)
       call find_determinate_joints(model)
