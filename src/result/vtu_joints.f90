@@ -94,7 +94,7 @@ contains
       type(joint_type), intent(in)    :: joint
       type(surface_type), intent(in)  :: surface
       type(grid_type), intent(inout)  :: grid
-      integer, allocatable :: all_nodes(:), near(:), own(:), point(:), share(:)
+      integer, allocatable :: all_nodes(:), own(:), point(:), share(:)
       integer :: before, f, i, k
 
       allocate (own(model%n_nodes), point(model%n_nodes), source=0) ! the element, and the point, of a node
@@ -123,10 +123,11 @@ contains
                if (own(nodes(k)) > 0) then
                   call take(own(nodes(k)), point(nodes(k)), .true.)
                else
-                  near = beside(k, surface%corners(f), size(nodes))
-                  do i = 1, size(near)
-                     if (own(nodes(near(i))) > 0) call take(own(nodes(near(i))), point(nodes(k)), .false.)
-                  end do
+                  associate (near => beside(k, surface%corners(f), size(nodes)))
+                     do i = 1, size(near)
+                        if (own(nodes(near(i))) > 0) call take(own(nodes(near(i))), point(nodes(k)), .false.)
+                     end do
+                  end associate
                end if
             end do
             call add_cell(point(nodes), cell_type(surface%corners(f), size(nodes)), grid)
