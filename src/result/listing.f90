@@ -5,6 +5,7 @@ module listing
    use deck_input, only: deck_type
    use determinate_joints, only: carried_resultant
    use equation_solver, only: equation_system
+   use failures, only: failure_type
    use joint_motion, only: is_closed
    use kinds, only: wp
    use listing_bars, only: note_bars, note_sections
@@ -220,15 +221,21 @@ contains
    end subroutine add_joint
 
    !> Close the listing under its name.
-   subroutine finish_listing(listing, plan, ok)
+   subroutine finish_listing(listing, plan, failure, ok)
       type(listing_type), intent(inout) :: listing
       type(stage_plan_type), intent(in) :: plan
+      type(failure_type), intent(in)    :: failure !! raised: the listing ends before it
       logical, intent(out)              :: ok
 
       call listing%page%file%put('')
-      call listing%page%file%put(' END OF LISTING   '//upper(plural(size(plan%stages), 'stage')//', '// &
-         plural(listing%n_increments, 'increment')//', '//plural(listing%n_removed, 'interface element'))//' REMOVED, '// &
-         upper(plural(listing%watch%n_warnings, 'warning')))
+      if (failure%raised) then
+         call listing%page%file%put(' *** THE RUN ENDED EARLY, ABOVE IS THE LAST STATE IN EQUILIBRIUM ***')
+         call listing%page%file%put('  '//upper(failure%message))
+         call listing%page%file%put('')
+      end if
+      call listing%page%file%put(trim(merge(' ENDED EARLY   ', ' END OF LISTING', failure%raised))//'   '// &
+         upper(plural(size(plan%stages), 'stage')//', '//plural(listing%n_increments, 'increment')//', '// &
+         plural(listing%n_removed, 'interface element'))//' REMOVED, '//upper(plural(listing%watch%n_warnings, 'warning')))
       call listing%page%file%finish(ok)
    end subroutine finish_listing
 

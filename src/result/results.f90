@@ -6,6 +6,7 @@ module results
    use c_library, only: remove_file
    use deck_input, only: deck_type
    use equation_solver, only: equation_system
+   use failures, only: failure_type
    use incomplete_results, only: all_complete
    use joint_history, only: write_history, write_history_header
    use kinds, only: wp
@@ -111,8 +112,9 @@ contains
    end subroutine print_stage
 
    !> Give the files their names. All or none: OK is false where one could not be written.
-   subroutine finish_results(plan, results, ok)
+   subroutine finish_results(plan, failure, results, ok)
       type(stage_plan_type), intent(in) :: plan
+      type(failure_type), intent(in)    :: failure !! raised: the results end before it
       type(results_type), intent(inout) :: results
       logical, intent(out)              :: ok
       integer :: i
@@ -122,7 +124,7 @@ contains
          if (ok .and. results%tables(i)%is_open) call results%tables(i)%finish(ok)
       end do
       if (ok) call finish_vtu(results%vtu, ok)
-      if (ok) call finish_listing(results%listing, plan, ok)
+      if (ok) call finish_listing(results%listing, plan, failure, ok)
       if (.not. ok) then
          call discard_results(results)
          call remove_tables(results%base)

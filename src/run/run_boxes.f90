@@ -52,6 +52,7 @@ module run_boxes
       type(results_type), private    :: results
       type(progress_type), private   :: progress
       integer, private               :: ending = goes_on
+      logical, private               :: keeps = .false. !! it ended early, but what there was in equilibrium is a result
    end type run_type
 
 contains
@@ -199,13 +200,18 @@ contains
       type(analysis_type), intent(inout) :: analysis
       real(wp), allocatable :: u(:, :), unbalanced(:, :)
 
-      if (is_over(run)) return
+      run%keeps = run%failure%raised .and. run%ending == goes_on .and. analysis%ends_early
+      if (is_over(run) .and. .not. run%keeps) return
+      if (run%keeps .and. .not. analysis%is_partial) then ! it is printed, but for the tables of the end
+         call recover_bodies(model, system, analysis)
+         return
+      end if
       call note_largest(analysis)
       call follow_laws(model, analysis)
       if (plan%stages(analysis%stage)%condensed .and. analysis%increment == 1) &
          call condense_on_joints(model, system, analysis%felt_before, analysis%felt_after, analysis%condensed)
       call run%progress%enter(phase_recover)
-      if (analysis%moves .or. shows_bodies(plan, analysis%stage, analysis%increment)) then
+      if (run%keeps .or. analysis%moves .or. shows_bodies(plan, analysis%stage, analysis%increment)) then
          call recover_bodies(model, system, analysis)
       else if (analysis%increment == size(plan%stages(analysis%stage)%shares)) then
          u = analysis%u                   ! for the answer of the stage alone: what goes on from here is left as it is
@@ -227,7 +233,8 @@ contains
       type(stage_plan_type), intent(in) :: plan
       type(analysis_type), intent(in)   :: analysis
 
-      if (is_over(run)) return
+      if (is_over(run) .and. .not. run%keeps) return
+      if (analysis%increment == 0) return
       call run%progress%enter(phase_write)
       call print_stage_results(model, plan, analysis, run%results)
       call run%progress%enter(phase_increments)
@@ -243,9 +250,9 @@ contains
       character(:), allocatable :: words
       logical :: ok, shown
 
-      if (.not. is_over(run)) then
+      if (run%keeps .or. .not. is_over(run)) then
          call run%progress%enter(phase_write)
-         call finish_results(plan, run%results, ok)
+         call finish_results(plan, run%failure, run%results, ok)
          call run%progress%finish()
          associate (n => run%results%listing%watch%n_warnings)
             if (n > 0) write (error_unit, '(4a)') run%argument%name, ': ', plural(n, 'warning'), ' in the listing'
@@ -293,8 +300,9 @@ contains
                              new_line('a'), ok)
             if (.not. ok) exit_status = max(exit_status, status_of(is_unwritten))
          case (is_unsolved)
-            write (error_unit, '(4a)') name, ': ', run%failure%message, '; no results'
-            call discard_results(run%results)
+            write (error_unit, '(4a)') name, ': ', run%failure%message, &
+               trim(merge('; the results end there', '; no results           ', run%keeps))
+            if (.not. run%keeps) call discard_results(run%results)
          case (is_unwritten)
             if (base == '') then
                write (error_unit, '(2a)') name, ': the listing cannot be written to the standard output'
