@@ -18,6 +18,10 @@ module stage_answer
 
    public :: find_answer, find_bolt_answers, stands_apart
 
+   ! Of forces and movements what is left of sums and differences that would be zero but for rounding and for what iterations leave,
+   ! and how far values may differ that a symmetric structure would have alike.
+   real(wp), parameter :: remainder = 1.0e-7_wp, tie = 1.0e-6_wp
+
    !> The largest of some kind of value, and where.
    type, public :: peak_type
       logical  :: is_there = .false.
@@ -77,7 +81,7 @@ contains
       allocate (k, source=tangents_now(model, analysis, method))
       do j = 1, size(model%joints)
          call describe_joint(model, analysis, model%joints(j), answer%joints(j))
-         call describe_stiffness(model, analysis, model%joints(j), k, noise*largest_force, answer%joints(j))
+         call describe_stiffness(model, analysis, model%joints(j), k, remainder*largest_force, answer%joints(j))
       end do
       call find_bolt_answers(model, analysis, largest_force, before, answer%bolts)
    end subroutine find_answer
@@ -87,61 +91,62 @@ contains
       type(model_type), intent(in)           :: model
       type(analysis_type), intent(in)        :: analysis
       type(stage_answer_type), intent(inout) :: answer
-      real(wp), allocatable :: at_node(:, :)
+      real(wp), allocatable :: at_node(:, :), size_of(:)
       integer :: e, node
 
-      do node = 1, n_points(model)
-         if (model%used(node)) call take_larger(answer%displacement, norm2(analysis%all_u(:, node)), model%node_id(node), &
-                                                model%x(:, node))
+      allocate (size_of(n_points(model)))
+      do node = 1, size(size_of)
+         size_of(node) = norm2(analysis%all_u(:, node))
       end do
+      node = first_largest(size_of, model%used(:size(size_of)))
+      if (node > 0) answer%displacement = peak_type(.true., maxval(size_of, mask=model%used(:size(size_of))), &
+                                                    model%node_id(node), model%x(:, node))
       if (model%n_elements == 0) return
       allocate (at_node(max_stresses, n_points(model)))
       call node_stresses(model, analysis%all_u, at_node)
-      do node = 1, n_points(model)
-         if (model%first_at(node + 1) > model%first_at(node)) &
-            call take_larger(answer%at_node, von_mises(at_node(:, node)), model%node_id(node), model%x(:, node))
+      do node = 1, size(size_of)
+         size_of(node) = von_mises(at_node(:, node))
       end do
+      node = first_largest(size_of, model%used(:size(size_of)))
+      answer%at_node = peak_type(.true., maxval(size_of), model%node_id(node), model%x(:, node))
+      deallocate (size_of)
+      allocate (size_of(model%n_elements))
       do e = 1, model%n_elements
-         call take_larger(answer%at_centre, von_mises(full_stress(model, e, element_stress(model, e, analysis%all_u))), &
-                          model%element_id(e), [element_centre(model, e), 0.0_wp])
+         size_of(e) = von_mises(full_stress(model, e, element_stress(model, e, analysis%all_u)))
       end do
+      e = first_largest(size_of, size_of >= 0.0_wp)
+      answer%at_centre = peak_type(.true., size_of(e), model%element_id(e))
+      answer%at_centre%value = maxval(size_of)
+      answer%at_centre%x(:model%dimension) = element_centre(model, e)
    end subroutine find_peaks
 
-   !> VALUE at X becomes the PEAK where it is larger by more than rounding.
-   pure subroutine take_larger(peak, value, id, x)
-      type(peak_type), intent(inout) :: peak
-      real(wp), intent(in)           :: value
-      integer, intent(in)            :: id
-      real(wp), intent(in)           :: x(:) !! at least (3)
+   !> Where the largest of the VALUES that count is, the first of those that are as large but for what rounding may have made; 0 where
+   !! none counts.
+   pure integer function first_largest(values, counts) result(at)
+      real(wp), intent(in) :: values(:) !! none negative
+      logical, intent(in)  :: counts(:)
 
-      if (peak%is_there .and. value <= (1.0_wp + noise)*peak%value) return
-      peak = peak_type(is_there=.true., value=value, id=id, x=x(:3))
-   end subroutine take_larger
+      at = 0
+      if (any(counts)) at = findloc(counts .and. values >= (1.0_wp - tie)*maxval(values, mask=counts), .true., dim=1)
+   end function first_largest
 
-   !> Contact of JOINT: of values that rounding alone tells apart the first counts.
+   !> Contact of JOINT.
    pure subroutine describe_joint(model, analysis, joint, answer)
       type(model_type), intent(in)      :: model
       type(analysis_type), intent(in)   :: analysis
       type(joint_type), intent(in)      :: joint
       type(joint_answer), intent(inout) :: answer
-      integer :: i
 
-      answer%contact = 1.0_wp
-      do i = joint%first, joint%last
-         associate (state => analysis%states(i))
-            if (state%normal%branch == branch_open) answer%contact = answer%contact - model%interface(i)%area/joint%area
-            if (state%slips) answer%slipping = answer%slipping + 1
-            if (state%normal%pressure > answer%pressure + noise*analysis%largest_p) then
-               answer%pressure = state%normal%pressure
-               answer%pressed_at = i
-            end if
-            if (stands_apart(state%normal) > answer%gap + noise*analysis%largest_lambda) then
-               answer%gap = stands_apart(state%normal)
-               answer%open_at = i
-            end if
-         end associate
-      end do
-      answer%contact = clean(answer%contact, noise)
+      associate (states => analysis%states(joint%first:joint%last), elements => model%interface(joint%first:joint%last))
+         answer%contact = clean(1.0_wp - sum(elements%area, mask=states%normal%branch == branch_open)/joint%area, noise)
+         answer%slipping = count(states%slips)
+         answer%pressure = clean(maxval(states%normal%pressure), noise*analysis%largest_p)
+         answer%gap = clean(maxval(stands_apart(states%normal)), noise*analysis%largest_lambda)
+         if (answer%pressure > 0.0_wp) answer%pressed_at = &
+            joint%first - 1 + first_largest(states%normal%pressure, states%normal%pressure > 0.0_wp)
+         if (answer%gap > 0.0_wp) answer%open_at = &
+            joint%first - 1 + first_largest(stands_apart(states%normal), states%normal%branch == branch_open)
+      end associate
    end subroutine describe_joint
 
    !> How far the faces stand apart at an interface element in this STATE: from where they would touch [length].
@@ -175,7 +180,7 @@ contains
          answer%moment = norm2(answer%force(4:))
          answer%has_safety = joint%law%has_friction .and. answer%shear > 0.0_wp
          if (answer%has_safety) answer%safety = joint%law%mu*max(0.0_wp, answer%normal)/answer%shear
-         least = noise*analysis%largest_lambda
+         least = remainder*analysis%largest_lambda
          least(4:) = least(4:)/max(frame%extent, tiny(1.0_wp))
          answer%movement = clean(rigid_movement(model, analysis, joint, frame), least)
          answer%tangent = stiffness_about(model, joint, frame, k)
@@ -197,7 +202,7 @@ contains
       allocate (bolts, source=find_bolts(model, analysis))
       allocate (answers(size(bolts)))
       do i = 1, size(bolts)
-         associate (answer => answers(i), bolt => bolts(i), floor => noise*largest_force)
+         associate (answer => answers(i), bolt => bolts(i), floor => remainder*largest_force)
             answer%bolt = bolt
             answer%force = clean(bolt%force, floor)
             answer%change = clean(bolt%force - before(i), floor)

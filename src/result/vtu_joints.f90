@@ -30,7 +30,7 @@ contains
 
    !> Write all joints into FILE. BRANCH is 1 load, 2 unload, 3 open, 4 reload as in the chart; TAU the shear stress on side 2 in global
    !! axes; GAP how far the faces stand apart. Where a node of a face has no element of its own, the corners of faces of second order, it
-   !! has the mean of those at the face; its branch is that of the first of them.
+   !! has the mean of those beside it; its branch is that of the first of them.
    subroutine write_joints(file, labels, model, analysis)
       type(vtu_file_type), intent(inout) :: file
       type(label_type), intent(in)       :: labels
@@ -123,9 +123,11 @@ contains
                if (own(nodes(k)) > 0) then
                   call take(own(nodes(k)), point(nodes(k)), .true.)
                else
-                  do i = 1, size(nodes)
-                     if (own(nodes(i)) > 0) call take(own(nodes(i)), point(nodes(k)), .false.)
-                  end do
+                  associate (near => beside(k, surface%corners(f), size(nodes)))
+                     do i = 1, size(near)
+                        if (own(nodes(near(i))) > 0) call take(own(nodes(near(i))), point(nodes(k)), .false.)
+                     end do
+                  end associate
                end if
             end do
             call add_cell(point(nodes), cell_type(surface%corners(f), size(nodes)), grid)
@@ -149,6 +151,19 @@ contains
       end subroutine take
 
    end subroutine add_faces
+
+   !> The nodes of a side, by their places among its N, that say what node K of it has that has no element of its own: of a corner of a
+   !! side of second order the nodes between it and its neighbours, else all.
+   pure function beside(k, corners, n) result(near)
+      integer, intent(in)  :: k, corners, n
+      integer, allocatable :: near(:)
+      integer :: i
+
+      near = [(i, i = 1, n)]
+      if (n == corners .or. k > corners) return
+      near = [n]                                          ! an edge has one
+      if (corners > 2) near = [corners + k, corners + modulo(k - 2, corners) + 1]
+   end function beside
 
    !> JOINT as a point an interface element.
    subroutine add_points(model, analysis, joint, grid)

@@ -156,7 +156,7 @@ fresh results
 run -o results good.bdf faulty.bdf;   check 'a good deck and a faulty one' 2
 cp good.bdf ./-beam.bdf
 run -o results -- -beam.bdf;          check 'a deck behind --' 0
-holds results 'results of a deck behind --' -beam.joint.csv -beam.out good.joint.csv good.out good.stage.csv
+holds results 'results of a deck behind --' -beam.joint.csv -beam.out -beam.stage.csv good.joint.csv good.out good.stage.csv
 rm -f ./-beam.bdf
 
 # ---- standard input and output ----
@@ -298,7 +298,10 @@ run -o results deep.bdf;              check 'INCLUDE 30 deep' 2 'INCLUDE'
 echo '$ nothing' > nothing.inc
 { echo 'PMARK   20'; for ((i = 1; i <= 700; i++)); do echo "INCLUDE 'nothing.inc'"; done; } | around > many.bdf
 run -o results many.bdf;              check '700 INCLUDE files' 2 'INCLUDE'
-{ echo 'PMARK   20'; for ((i = 1; i <= 3000; i++)); do echo "RBE2    $i"; done; } | around > many.bdf
-run -o results many.bdf;              check '3000 errors' 2 'DECK ERROR 1 OF 3000' 'DECK ERROR 200 OF 3000'
+{ echo 'PMARK   20'; for ((i = 1; i <= 3000; i++)); do echo "NOCARD  $i"; done; } | around > many.bdf
+run -o results many.bdf;              check '3000 unknown cards' 2 'DECK ERROR 1 OF 3000' 'and 2999 more errors, not printed, of the kind of ERROR 1'
+if [ "$(grep -c '^DECK ERROR' "$work/stderr")" = 1 ]; then pass; else fail '3000 unknown cards: said once'; fi
+{ echo 'PMARK   20'; for ((i = 1; i <= 3000; i++)); do echo "PMARK   $i.5"; done; } | around > many.bdf
+run -o results many.bdf;              check '3000 errors' 2 'DECK ERROR 10 OF 3000' 'and 2990 more errors, not printed, of the kind of ERROR 10'
 if [ -z "$(wrong_numbers)" ]; then pass; else fail "3000 errors: $(wrong_numbers)"; fi
 holds results 'no file after many INCLUDEs'

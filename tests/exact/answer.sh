@@ -17,7 +17,7 @@ one_joint() {
    near "$words: centroid" "$(at x)" "$(sum 'sum(area*x)/sum(area)')" 1e-12 1e-9
    near "$words: share in contact" "$(at contact)" "$(sum 'sum(if(branch = "OPEN", 0, area))/sum(area)')" 1e-12
    near "$words: largest pressure" "$(at p_max)" "$(sum 'max(pressure)')" 1e-12
-   near "$words: node of the largest pressure" "$(sum "sum(if(node1 = $(at p_node), pressure, 0))")" "$(at p_max)" 1e-8
+   near "$words: node of the largest pressure" "$(sum "sum(if(node1 = $(at p_node), pressure, 0))")" "$(at p_max)" 2e-6
    near "$words: slipping" "$(at slipping)" "$(sum 'sum(slip)')" 0
    near "$words: N" "$(at n)" "$(sum 'sum(force)')" 1e-12
    near "$words: M" "$(at m)" "$(sum "abs(sum(force*(x - $s)))")" 1e-9 1e-6
