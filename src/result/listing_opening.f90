@@ -71,7 +71,7 @@ contains
       character(:), allocatable :: line
       character(10) :: counter
       integer :: i, cards, hidden !! lines of INCLUDE files since the last one shown
-      logical :: in_bulk, shows_cards
+      logical :: in_bulk, ended, shows_cards
 
       if (.not. deck%control%echo) then
          call heading(file, 'DECK: '//integer_text(deck%bulk%n_cards)//' CARDS, NOT ECHOED')
@@ -83,12 +83,16 @@ contains
       cards = 0
       hidden = 0
       in_bulk = .false.
+      ended = .false.
       do i = 1, deck%text%n
          line = deck%text%card_part(i)
          counter = ''
          if (in_bulk .and. begins_card(line)) then
             cards = cards + 1
             write (counter, '(i9, a)') cards, '-'
+         else if (in_bulk .and. ends_bulk(line)) then
+            in_bulk = deck%text%file_number(i) > 1
+            ended = .not. in_bulk
          end if
          if (deck%text%file_number(i) > 1) then
             hidden = hidden + 1
@@ -96,7 +100,7 @@ contains
             call count_hidden()
             call file%put(' '//counter//' '//cut(deck%text%line(i), page_width - 13))
          end if
-         if (.not. in_bulk .and. index(adjustl(upper(line)), 'BEGIN') == 1) then
+         if (.not. (in_bulk .or. ended) .and. index(adjustl(upper(line)), 'BEGIN') == 1) then
             in_bulk = .true.
             if (.not. shows_cards) cycle
             call file%put('   CARD')
@@ -131,6 +135,7 @@ contains
          if (deck%text%file_number(i) > 1) cycle
          line = deck%text%card_part(i)
          if (in_bulk .and. begins_card(line)) n = n + 1
+         if (in_bulk .and. ends_bulk(line)) exit
          if (.not. in_bulk) in_bulk = index(adjustl(upper(line)), 'BEGIN') == 1
       end do
    end function own_cards
@@ -144,6 +149,16 @@ contains
       if (is_continuation(line)) return
       begins_card = card_name(line) /= 'ENDDATA' .and. .not. is_include(line)
    end function begins_card
+
+   !> Whether this LINE of the bulk data is ENDDATA.
+   pure logical function ends_bulk(line)
+      character(*), intent(in) :: line
+
+      ends_bulk = .false.
+      if (line == '') return
+      if (is_continuation(line)) return
+      ends_bulk = card_name(line) == 'ENDDATA'
+   end function ends_bulk
 
    !> What the model has of everything, and how it is solved.
    subroutine write_summary(file, deck, model, system)
@@ -184,6 +199,7 @@ contains
       end associate
       if (deck%control%length_unit /= '') call file%put('  UNITS, LABELS ONLY: LENGTH '// &
          trim(deck%control%length_unit)//', FORCE '//trim(deck%control%force_unit))
+      call write_folded(file, upper(deck%bulk%idle%words()))
       if (tetra_words(model) /= '') call file%put('  WARNING: '//upper(tetra_words(model)))
 
    contains
@@ -198,6 +214,21 @@ contains
       end subroutine count_line
 
    end subroutine write_summary
+
+   !> WORDS, a list with commas, in as many lines as it takes; none where there are no words.
+   subroutine write_folded(file, words)
+      type(output_file_type), intent(inout) :: file
+      character(*), intent(in)              :: words
+      integer :: first, last
+
+      first = 1
+      do while (first <= len(words))
+         last = min(first + page_width - 6, len(words))
+         if (last < len(words)) last = first - 1 + max(1, index(words(first:last), ',', back=.true.))
+         call file%put('  '//repeat(' ', merge(0, 1, first == 1))//words(first:last))
+         first = last + 1
+      end do
+   end subroutine write_folded
 
    !> Laws and areas of the joints.
    subroutine write_joints(page, model)
