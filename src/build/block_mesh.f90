@@ -1,7 +1,7 @@
 !> The generator of teaching meshes: BLOCK2, a quadrilateral block, and BLOCK3, a box; nodes numbered up each column first.
 module block_mesh
    use bulk_data, only: block_card
-   use element_kinds, only: kind_hexa8, kind_quad4
+   use element_kinds, only: kind_hexa20, kind_hexa8, kind_quad4, kind_quad8
    use kinds, only: wp
    implicit none
    private
@@ -15,7 +15,7 @@ module block_mesh
       integer, allocatable  :: node_id(:)
       real(wp), allocatable :: x(:, :)        !! (3, nodes)
       integer, allocatable  :: element_id(:)
-      integer, allocatable  :: places(:, :)   !! (8, elements), 0 behind the last
+      integer, allocatable  :: places(:, :)   !! (8, elements) of the corners, 0 behind the last
       integer :: n_sides = 0                  !! marked sides
       integer, allocatable  :: mark(:)        !! (n_sides) PMARK id
       integer, allocatable  :: number(:)      !! (n_sides) k: side Sk of the card
@@ -38,7 +38,11 @@ contains
       block%id = card%id
       block%property = card%property
       block%weld = card%weld
-      block%kind = merge(kind_quad4, kind_hexa8, card%dimension == 2)
+      if (card%order == 2) then ! the nodes at the middle of its edges are filled in as those that cards leave blank
+         block%kind = merge(kind_quad8, kind_hexa20, card%dimension == 2)
+      else
+         block%kind = merge(kind_quad4, kind_hexa8, card%dimension == 2)
+      end if
       call graded_places(card%grading(1), r)
       call graded_places(card%grading(2), s)
       call graded_places(card%grading(3), t)

@@ -1,6 +1,7 @@
 !> Joints that statics alone can speak of: where no other support or joint can take a share, the loads give the normal resultant.
 module determinate_joints
    use disjoint_sets, only: join, root_of
+   use id_table, only: distinct
    use interface_operator, only: nodes_of_end
    use kinds, only: wp
    use model_data, only: joint_type, model_type, n_points, n_sections, stage_load_type
@@ -52,7 +53,11 @@ contains
             on_side = .false.
             do i = joint%first, joint%last
                do side = 1, 2
-                  on_side(root_of(group, part_of(model, i, side)), side) = .true.
+                  associate (parts => parts_at(model, i, side))
+                     do k = 1, size(parts)
+                        on_side(root_of(group, parts(k)), side) = .true.
+                     end do
+                  end associate
                end do
             end do
             if (any(on_side(:, 1) .and. on_side(:, 2))) cycle
@@ -70,36 +75,56 @@ contains
    end subroutine find_determinate_joints
 
    !> Which parts the joints connect: PAIR(:, i) are two of them, or one and the base behind the last, and the joint. Neighbouring
-   !! interface elements mostly connect the same parts: these count once.
+   !! interface elements mostly connect the same parts: these count once. Where an end lies on several parts, the first of end 1 is
+   !! connected with all others.
    pure subroutine list_pairs(model, pair)
       type(model_type), intent(in)      :: model
       integer, allocatable, intent(out) :: pair(:, :) !! (3, pairs)
-      integer, allocatable :: all_pairs(:, :)
-      integer :: i, n, this(3)
+      integer, allocatable :: longer(:, :)
+      integer :: i, k, n, side, this(3)
 
-      allocate (all_pairs(3, size(model%interface)))
+      allocate (pair(3, size(model%interface)))
       n = 0
       do i = 1, size(model%interface)
-         this = [part_of(model, i, 1), part_of(model, i, 2), model%interface(i)%joint]
-         if (n > 0) then
-            if (all(this == all_pairs(:, n))) cycle
-         end if
-         n = n + 1
-         all_pairs(:, n) = this
+         associate (first => parts_at(model, i, 1))
+            do side = 1, 2
+               associate (parts => parts_at(model, i, side))
+                  do k = merge(2, 1, side == 1), size(parts)
+                     this = [first(1), parts(k), model%interface(i)%joint]
+                     if (n > 0) then
+                        if (all(this == pair(:, n))) cycle
+                     end if
+                     if (n == size(pair, 2)) then
+                        allocate (longer(3, 2*n))
+                        longer(:, :n) = pair
+                        call move_alloc(longer, pair)
+                     end if
+                     n = n + 1
+                     pair(:, n) = this
+                  end do
+               end associate
+            end do
+         end associate
       end do
-      allocate (pair, source=all_pairs(:, :n))
+      pair = pair(:, :n)
    end subroutine list_pairs
 
-   !> The part at end SIDE of interface element I; the rigid base is the part behind the last.
-   pure integer function part_of(model, i, side)
+   !> The parts that end SIDE of interface element I lies on, each once; the rigid base is the part behind the last.
+   pure function parts_at(model, i, side) result(parts)
       type(model_type), intent(in) :: model
       integer, intent(in)          :: i, side
+      integer, allocatable :: parts(:)
 
-      part_of = model%n_parts + 1
       associate (nodes => nodes_of_end(model%interface(i), side))
-         if (size(nodes) > 0) part_of = model%part(nodes(1)) ! a face lies on one part
+         if (size(nodes) == 0) then
+            parts = [model%n_parts + 1]
+         else if (all(model%part(nodes) == model%part(nodes(1)))) then
+            parts = [model%part(nodes(1))]
+         else
+            call distinct(model%part(nodes), parts)
+         end if
       end associate
-   end function part_of
+   end function parts_at
 
    !> Normal resultant (compression positive) that LOADS send through a determinate JOINT [force].
    pure real(wp) function carried_resultant(model, joint, loads) result(resultant)

@@ -5,10 +5,11 @@ module element_build
    use bulk_data, only: element_card, property_card
    use deck_check, only: checked_deck
    use elasticity, only: axisymmetric, solid
-   use element_kinds, only: element_table, kind_quad4, kind_tria3, max_nodes
+   use element_kinds, only: element_table, kind_quad4, kind_quad8, kind_tria3, kind_tria6
    use element_mapping, only: smallest_jacobian
    use id_table, only: id_table_type, sorted_order
    use kinds, only: wp
+   use mid_side_nodes, only: blank_node
    use model_data, only: corners_of, model_type, property_type
    use node_build, only: find_nodes, raw_nodes
    use text_tools, only: integer_text
@@ -53,7 +54,7 @@ contains
       end do
    end subroutine resolve_properties
 
-   !> Elements of cards and of blocks, in ascending order of their numbers.
+   !> Elements of cards and of blocks, in ascending order of their numbers; mid-side nodes left blank are blank_node.
    subroutine collect_elements(deck, blocks, raw, position, model)
       type(checked_deck), intent(in)  :: deck
       type(block_type), intent(in)    :: blocks(:)
@@ -62,12 +63,13 @@ contains
       type(model_type), intent(inout) :: model
       type(id_table_type)  :: properties
       integer, allocatable :: id(:), kind(:), nodes(:, :), property(:), line(:), order(:)
-      integer :: b, corners, i, k, n, total
+      integer :: b, corners, i, k, most, n, total
 
       call properties%build(model%properties%id)
       total = size(deck%bulk%element) + n_elements(blocks)
       allocate (id(total), kind(total), property(total), line(total))
-      allocate (nodes(max_nodes, total), source=0)
+      most = max(4, maxval(element_table(deck%bulk%element%kind)%n_nodes), maxval(element_table(blocks%kind)%n_nodes))
+      allocate (nodes(most, total), source=0)
       n = 0
       do i = 1, size(deck%bulk%element)
          associate (element => deck%bulk%element(i))
@@ -76,8 +78,10 @@ contains
             id(n) = element%id
             kind(n) = element%kind
             line(n) = element%line
-            corners = element_table(element%kind)%n_nodes
-            call find_nodes(deck, element%line, element%nodes(:corners), model, nodes(:corners, n))
+            k = element_table(element%kind)%n_nodes
+            corners = element_table(element%kind)%n_corners
+            call find_nodes(deck, element%line, element%nodes(:k), model, nodes(:k, n))
+            where (element%nodes(corners + 1:k) == 0) nodes(corners + 1:k, n) = blank_node
             property(n) = properties%find(element%property)
             call check_property(deck, model, element%line, element%property, element%kind, property(n))
          end associate
@@ -86,7 +90,7 @@ contains
          associate (block => blocks(b))
             k = properties%find(block%property)
             call check_property(deck, model, block%line, block%property, block%kind, k)
-            corners = element_table(block%kind)%n_nodes
+            corners = element_table(block%kind)%n_corners
             do i = 1, size(block%element_id)
                n = n + 1
                id(n) = block%element_id(i)
@@ -94,6 +98,7 @@ contains
                line(n) = block%line
                property(n) = k
                nodes(:corners, n) = position(raw%place(raw%block_start(b) + block%places(:corners, i)))
+               nodes(corners + 1:element_table(block%kind)%n_nodes, n) = blank_node
             end do
          end associate
       end do
@@ -229,9 +234,12 @@ contains
          words = 'area at some corner; expected four nodes counter-clockwise round a convex quadrilateral'
       case (kind_tria3)
          words = 'area at some corner; expected three nodes counter-clockwise'
+      case (kind_quad8, kind_tria6)
+         words = 'area at some integration point; expected the corners counter-clockwise, then the nodes near the middle of '// &
+                 'its edges, the first between corners 1 and 2'
       case default
-         words = 'volume at some integration point; expected the corners in the order of '//trim(element_table(kind)%card)// &
-                 ' in the card manual'
+         words = 'volume at some integration point; expected the '//trim(merge('nodes  ', 'corners', element_table(kind)%n_nodes > &
+                 element_table(kind)%n_corners))//' in the order of '//trim(element_table(kind)%card)//' in the card manual'
       end select
    end function shape_words
 

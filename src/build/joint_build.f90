@@ -2,11 +2,11 @@
 module joint_build
    use bulk_data, only: cjoint_card
    use deck_check, only: checked_deck
-   use facing_nodes, only: pair_nodes
    use id_table, only: id_table_type
    use interface_axes, only: joint_axes, outward
-   use kinds, only: wp
    use interface_operator, only: hang_on, interface_element
+   use joint_sides, only: join_one_side, join_two_sides
+   use kinds, only: wp
    use law_build, only: default_slope, law_tables, list_laws, resolve_laws
    use model_data, only: joint_type, model_type, surface_type
    use node_build, only: find_nodes
@@ -97,44 +97,30 @@ contains
       type(checked_deck), intent(in)                    :: deck
       type(joint_tables), intent(in)                    :: tables
       integer, intent(in)                               :: j
-      type(model_type), intent(in)                      :: model
+      type(model_type), intent(inout)                   :: model
       integer, intent(inout)                            :: highest
       type(interface_element), allocatable, intent(out) :: elements(:)
-      type(surface_node_list) :: side1, side2
-      integer, allocatable :: partner(:)
+      type(surface_node_list) :: side1
       integer :: surface(2), k
 
       allocate (elements(0))
       call find_sides(deck, tables, j, model, surface)
       if (surface(1) == 0) return
       call surface_nodes(model, model%surfaces(surface(1)), side1)
-      allocate (partner(side1%n), source=0)
       if (surface(2) > 0) then
-         call surface_nodes(model, model%surfaces(surface(2)), side2)
-         call pair_nodes(deck, j, model, surface(1), side1, side2, partner)
-      else if (any(model%twin(side1%node) > 0)) then
-         call drop_tips(model, side1)
-         partner = model%twin(side1%node)
+         call join_two_sides(deck, j, model, surface, side1, elements)
+      else
+         call join_one_side(deck, j, model, surface(1), side1, elements)
       end if
-      if (model%axisymmetric .and. any(side1%area <= 0.0_wp)) then
-         call deck%errors%add(deck%bulk%joint(j)%line, 'surface '//integer_text(deck%bulk%joint(j)%sides(1))// &
-            ' has no area at node '//integer_text(model%node_id(side1%node(minloc(side1%area, dim=1))))//': it lies on the axis')
-         return
-      end if
-      if (highest > huge(highest) - side1%n) then
+      if (highest > huge(highest) - size(elements)) then
          call deck%field_error(deck%bulk%joint(j)%line, 'JID', 'the numbers of its interface elements, which follow those of '// &
                                'the CJOINTs, would pass 2147483647')
+         deallocate (elements)
+         allocate (elements(0))
          return
       end if
-      deallocate (elements)
-      allocate (elements(side1%n))
-      do k = 1, side1%n
-         elements(k)%id = highest + k
-         call hang_on(elements(k), side1%node(k), partner(k))
-         elements(k)%area = side1%area(k)
-         elements(k)%axes = joint_axes(model, side1%normal(:, k))
-      end do
-      highest = highest + side1%n
+      elements%id = [(highest + k, k = 1, size(elements))]
+      highest = highest + size(elements)
    end subroutine joint_elements
 
    !> The surfaces of JOINT card J, SURFACE(2) = 0 where it names no SIDE2; both 0 where no joint can be made of them.
@@ -183,20 +169,6 @@ contains
 
       is_shared = any(surface%other(:surface%n) > 0)
    end function is_shared
-
-   !> Leave out the nodes at which a split surface ends inside a body.
-   pure subroutine drop_tips(model, side)
-      type(model_type), intent(in)           :: model
-      type(surface_node_list), intent(inout) :: side
-      integer, allocatable :: kept(:)
-      integer :: k
-
-      kept = pack([(k, k = 1, side%n)], model%twin(side%node) > 0)
-      side%n = size(kept)
-      side%node = side%node(kept)
-      side%area = side%area(kept)
-      side%normal = side%normal(:, kept)
-   end subroutine drop_tips
 
    !> The interface elements of CJOINT CARDS.
    subroutine cjoint_elements(deck, cards, model, elements)

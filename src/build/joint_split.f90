@@ -78,8 +78,8 @@ contains
          n_twins = n_twins + 1
          model%twin(at%node(k)) = model%n_nodes + n_twins
          do i = 1, size(behind(k)%element)
-            associate (corners => model%element_nodes(:, behind(k)%element(i)))
-               where (corners == at%node(k)) corners = model%n_nodes + n_twins
+            associate (nodes => model%element_nodes(:, behind(k)%element(i)))
+               where (nodes == at%node(k)) nodes = model%n_nodes + n_twins
             end associate
          end do
       end do
@@ -116,7 +116,7 @@ contains
          if (model%surfaces(s)%was_split) cycle
          associate (surface => model%surfaces(s))
             do i = 1, surface%n
-               do k = 1, surface%corners(i)
+               do k = 1, surface%n_nodes(i)
                   twin = model%twin(surface%nodes(k, i))
                   if (twin == 0) cycle
                   if (any(model%element_nodes(:, surface%element(i)) == twin)) surface%nodes(k, i) = twin

@@ -2,7 +2,7 @@
 module law_build
    use deck_check, only: checked_deck
    use id_table, only: id_table_type
-   use interface_operator, only: nodes_of_end
+   use interface_operator, only: nodes_of_end, weights_of_end
    use kinds, only: wp
    use model_data, only: joint_type, model_type
    use normal_stiffness, only: normal_law
@@ -85,8 +85,8 @@ contains
       if (higher > 0.0_wp) joint%law%normal%e_u = lower*(2.0_wp*higher/(lower + higher)) ! exactly E where both are the same
    end subroutine default_slope
 
-   !> E of the body at END 1 or 2 of the interface elements of JOINT, if there is one: the mean of its elements at the nodes there,
-   !! areas of influence as weights [pressure].
+   !> E of the bodies at END 1 or 2 of the interface elements of JOINT, if there are any: the mean of their elements at the nodes
+   !! there, areas of influence as weights, which the nodes of a list share out as its weights stand to each other [pressure].
    pure subroutine find_modulus(model, joint, end, e, is_there)
       type(model_type), intent(in) :: model
       type(joint_type), intent(in) :: joint
@@ -94,7 +94,8 @@ contains
       real(wp), intent(out)        :: e
       logical, intent(out)         :: is_there
       real(wp) :: total, weight
-      integer, allocatable :: nodes(:)
+      integer, allocatable  :: nodes(:)
+      real(wp), allocatable :: share(:)
       integer :: i, j, k
 
       e = 0.0_wp
@@ -102,12 +103,14 @@ contains
       total = 0.0_wp
       do i = joint%first, joint%last
          nodes = nodes_of_end(model%interface(i), end)
+         share = weights_of_end(model%interface(i), end)
+         share = share/sum(share)
          do k = 1, size(nodes)
             associate (elements => model%elements_at(model%first_at(nodes(k)):model%first_at(nodes(k) + 1) - 1))
                do j = 1, size(elements)
                   is_there = .true.
                   if (model%element_property(elements(j)) == 0) cycle      ! said elsewhere
-                  weight = model%interface(i)%area/(size(nodes)*size(elements))
+                  weight = model%interface(i)%area*share(k)/size(elements)
                   total = total + weight
                   e = e + (model%properties(model%element_property(elements(j)))%e - e)*(weight/max(total, tiny(1.0_wp)))
                end do

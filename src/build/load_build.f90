@@ -145,10 +145,10 @@ contains
 
       do s = 1, surface%n
          call side_influence(model, surface, s, area, normal)
-         do k = 1, surface%corners(s)
+         do k = 1, surface%n_nodes(s)
             force(:, surface%nodes(k, s)) = force(:, surface%nodes(k, s)) - p*normal(:, k)
          end do
-         call add_section_share(model, surface%element(s), surface%nodes(:surface%corners(s), s), -p*normal, force)
+         call add_section_share(model, surface%element(s), surface%nodes(:surface%n_nodes(s), s), -p*normal, force)
       end do
    end subroutine add_surface_pressure
 
@@ -169,10 +169,10 @@ contains
                sum_of_areas = sum_of_areas + sum(area)
                cycle
             end if
-            do k = 1, surface%corners(s)
+            do k = 1, surface%n_nodes(s)
                force(:, surface%nodes(k, s)) = force(:, surface%nodes(k, s)) + area(k)/sum_of_areas*total
             end do
-            call add_section_share(model, surface%element(s), surface%nodes(:surface%corners(s), s), &
+            call add_section_share(model, surface%element(s), surface%nodes(:surface%n_nodes(s), s), &
                                    spread(total/sum_of_areas, 2, max_side_nodes)*spread(area, 1, 3), force)
          end do
          if (sum_of_areas <= 0.0_wp) return

@@ -2,10 +2,12 @@
 module mesh_build
    use bar_build, only: is_bar
    use block_mesh, only: block_type, generate_block
+   use bulk_data, only: element_card
    use deck_check, only: checked_deck
    use element_build, only: check_element_numbers, check_elements, check_one_state, collect_elements, is_face, resolve_properties
    use element_kinds, only: element_table, max_side_nodes
    use kinds, only: wp
+   use mid_side_nodes, only: fill_mid_sides
    use model_data, only: model_type
    use node_build, only: collect_nodes, find_nodes, order_nodes, raw_nodes
    use reverse_lists, only: list_owners
@@ -18,8 +20,10 @@ module mesh_build
    type, public :: marked_sides
       integer :: n = 0
       integer, allocatable :: mark(:)      !! PMARK id
+      integer, allocatable :: id(:)        !! of the edge or face, 0: of a block
       integer, allocatable :: corners(:)   !! 2, 3 or 4
-      integer, allocatable :: nodes(:, :)  !! (4, n)
+      integer, allocatable :: n_nodes(:)   !! of the mark: corners, and mid-side nodes where it is of second order
+      integer, allocatable :: nodes(:, :)  !! (most of any, n) 0 for a mid-side node left blank
       integer, allocatable :: line(:)      !! of its card
       integer, allocatable :: of_block(:)  !! k: the mark stands in Sk of a block; 0: in PID of an edge or face
    end type marked_sides
@@ -46,6 +50,7 @@ contains
       call order_nodes(raw, model, position)
       call resolve_properties(deck, model)
       call collect_elements(deck, blocks, raw, position, model)
+      call fill_mid_sides(deck, model)
       call check_element_numbers(deck, blocks)
       call list_owners(model%n_nodes, model%element_nodes, model%first_at, model%elements_at)
       call check_one_state(deck, model)
@@ -75,7 +80,7 @@ contains
       end do
    end subroutine check_nodes
 
-   !> CBAR and CROD edges in the plane, CTRIA3 and CQUAD4 faces of solids, and the marked sides of blocks.
+   !> CBAR and CROD edges in the plane, faces of solids from the cards of plane elements, and the marked sides of blocks.
    subroutine collect_sides(deck, blocks, raw, position, model, sides)
       type(checked_deck), intent(in)  :: deck
       type(block_type), intent(in)    :: blocks(:)
@@ -83,13 +88,13 @@ contains
       integer, intent(in)             :: position(:)
       type(model_type), intent(in)    :: model
       type(marked_sides), intent(out) :: sides
-      integer :: b, i, n, total
+      integer :: b, i, total
 
       total = size(deck%bulk%edge) + sum(blocks%n_sides)
       if (model%dimension == 3) total = total + size(deck%bulk%element)
-      allocate (sides%mark(total), sides%corners(total), sides%line(total), sides%of_block(total))
-      allocate (sides%nodes(max_side_nodes, total), source=0)
-      n = 0
+      allocate (sides%mark(total), sides%id(total), sides%corners(total), sides%n_nodes(total), sides%line(total))
+      allocate (sides%of_block(total))
+      allocate (sides%nodes(merge(3, max_side_nodes, model%dimension == 2), total), source=0)
       do i = 1, size(deck%bulk%edge)
          associate (edge => deck%bulk%edge(i))
             if (is_bar(deck, edge)) cycle
@@ -98,37 +103,46 @@ contains
                                'solids are marked with CTRIA3 and CQUAD4 faces')
                cycle
             end if
-            call start_side(edge%property, 2, edge%line, 0)
-            call find_nodes(deck, edge%line, edge%nodes(:2), model, sides%nodes(:2, n))
+            call add_card(edge, 2, merge(3, 2, edge%nodes(3) /= 0))
          end associate
       end do
       do i = 1, size(deck%bulk%element)
          associate (face => deck%bulk%element(i))
-            if (.not. is_face(model, face)) cycle
-            call start_side(face%property, element_table(face%kind)%n_nodes, face%line, 0)
-            call find_nodes(deck, face%line, face%nodes(:sides%corners(n)), model, sides%nodes(:sides%corners(n), n))
+            if (is_face(model, face)) call add_card(face, element_table(face%kind)%n_corners, element_table(face%kind)%n_nodes)
          end associate
       end do
       do b = 1, size(blocks)
          do i = 1, blocks(b)%n_sides
             associate (corners => blocks(b)%side(:count(blocks(b)%side(:, i) > 0), i))
-               call start_side(blocks(b)%mark(i), size(corners), blocks(b)%line, blocks(b)%number(i))
-               sides%nodes(:size(corners), n) = position(raw%place(raw%block_start(b) + corners))
+               call start_side(blocks(b)%mark(i), 0, size(corners), size(corners))
+               sides%line(sides%n) = blocks(b)%line
+               sides%of_block(sides%n) = blocks(b)%number(i)
+               sides%nodes(:size(corners), sides%n) = position(raw%place(raw%block_start(b) + corners))
             end associate
          end do
       end do
-      sides%n = n
 
    contains
 
-      subroutine start_side(mark, corners, line, of_block)
-         integer, intent(in) :: mark, corners, line, of_block
+      !> The side that a CARD marks, with so many nodes.
+      subroutine add_card(card, corners, n_nodes)
+         type(element_card), intent(in) :: card
+         integer, intent(in)            :: corners, n_nodes
 
-         n = n + 1
-         sides%mark(n) = mark
-         sides%corners(n) = corners
-         sides%line(n) = line
-         sides%of_block(n) = of_block
+         call start_side(card%property, card%id, corners, n_nodes)
+         sides%line(sides%n) = card%line
+         sides%of_block(sides%n) = 0
+         call find_nodes(deck, card%line, card%nodes(:n_nodes), model, sides%nodes(:n_nodes, sides%n))
+      end subroutine add_card
+
+      subroutine start_side(mark, id, corners, n_nodes)
+         integer, intent(in) :: mark, id, corners, n_nodes
+
+         sides%n = sides%n + 1
+         sides%mark(sides%n) = mark
+         sides%id(sides%n) = id
+         sides%corners(sides%n) = corners
+         sides%n_nodes(sides%n) = n_nodes
       end subroutine start_side
 
    end subroutine collect_sides

@@ -2,7 +2,7 @@
 module node_build
    use block_mesh, only: block_type
    use deck_check, only: checked_deck
-   use element_kinds, only: kind_quad4
+   use element_kinds, only: element_table
    use id_table, only: sorted_order
    use kinds, only: wp
    use model_data, only: model_type
@@ -79,7 +79,7 @@ contains
             if (blocks(other)%id == block%weld) exit
          end do
          if (other == 0) then
-            call deck%field_error(block%line, 'WELD', 'no '//merge('BLOCK2 ', 'BLOCK3 ', block%kind == kind_quad4)// &
+            call deck%field_error(block%line, 'WELD', 'no BLOCK'//integer_text(element_table(block%kind)%dimension)//' '// &
                                   integer_text(block%weld)//' stands before this one')
             return
          end if

@@ -14,9 +14,10 @@ module position_search
    contains
       procedure :: build
       procedure :: nearest
+      procedure :: order
    end type position_search_type
 
-   integer, parameter :: leaf = 8           ! stretches no longer than this are not divided
+   integer, parameter, public :: first_undivided = 8 !! stretches no longer than this are not divided
 
 contains
 
@@ -37,13 +38,21 @@ contains
       call divide(self, 1, n)
    end subroutine build
 
+   !> The points in the order of the tree: the middle one of every stretch of it, FIRST + (LAST - FIRST)/2, divides it.
+   pure function order(self) result(points)
+      class(position_search_type), intent(in) :: self
+      integer, allocatable :: points(:)
+
+      points = self%number
+   end function order
+
    !> Put the points FIRST to LAST in the order of the tree.
    pure recursive subroutine divide(self, first, last)
       type(position_search_type), intent(inout) :: self
       integer, intent(in) :: first, last
       integer :: axis, middle
 
-      if (last - first < leaf) return
+      if (last - first < first_undivided) return
       middle = first + (last - first)/2
       axis = maxloc(maxval(self%points(:, first:last), dim=2) - minval(self%points(:, first:last), dim=2), dim=1)
       call select_middle(self, first, last, middle, axis)
@@ -112,7 +121,7 @@ contains
       real(wp) :: beyond
       integer  :: i, middle
 
-      if (last - first < leaf) then
+      if (last - first < first_undivided) then
          do i = first, last
             call compare(self, i, x, reach, point, distance)
          end do

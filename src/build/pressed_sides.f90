@@ -74,9 +74,9 @@ contains
       if (corner(1) == 0) return ! said already
       associate (kind => element_table(model%element_kind(e)))
          do side = 1, kind%n_sides
-            associate (own => kind%side_nodes(:kind%side_size(side), side))
+            associate (own => kind%side_nodes(:kind%side_corners(side), side))
                if (all(own /= corner(1))) cycle
-               select case (model%element_kind(e))
+               select case (kind%linear)
                case (kind_tetra4)            ! G4 is the corner that the face does not have
                   fits = corner(2) > 0 .and. all(own /= corner(2))
                case (kind_hexa8, kind_penta6)
@@ -90,17 +90,17 @@ contains
                end select
                if (.not. fits) cycle
             end associate
-            if (kind%side_size(side) == 3 .and. abs(card%pressure(4) - card%pressure(1)) > 0.0_wp) then
+            if (kind%side_corners(side) == 3 .and. abs(card%pressure(4) - card%pressure(1)) > 0.0_wp) then
                call deck%field_error(card%line, 'P4', 'a triangular face has no fourth corner, expected a blank or P1')
                return
             end if
             pressed%element = e
             pressed%side = side
-            pressed%first = findloc(kind%side_nodes(:kind%side_size(side), side), corner(1), dim=1)
+            pressed%first = findloc(kind%side_nodes(:, side), corner(1), dim=1)
             return
          end do
       end associate
-      select case (model%element_kind(e))
+      select case (element_table(model%element_kind(e))%linear)
       case (kind_tetra4)
          expected = 'expected in G1 a corner of the face and in G4 the corner that it does not have'
       case (kind_hexa8)
@@ -122,24 +122,31 @@ contains
       corner = 0
       node = model%node_table%find(id)
       if (node == 0) return
-      corner = findloc(corners_of(model, e), node, dim=1)
-      if (corner == 0 .and. model%twin(node) > 0) corner = findloc(corners_of(model, e), model%twin(node), dim=1)
+      associate (corners => model%element_nodes(:element_table(model%element_kind(e))%n_corners, e))
+         corner = findloc(corners, node, dim=1)
+         if (corner == 0 .and. model%twin(node) > 0) corner = findloc(corners, model%twin(node), dim=1)
+      end associate
    end function own_corner
 
-   !> Add to FORCE the nodal forces of a pressure on one side, P(1) to P(4) at its corners from G1 on.
+   !> Add to FORCE the nodal forces of a pressure on one side, P(1) to P(4) at its corners from G1 on, in the middle between two
+   !! corners their mean.
    !! Errors: none. Source: side_forces.
    pure subroutine add_pressure(model, pressed, p, force)
       type(model_type), intent(in)   :: model
       type(pressed_side), intent(in) :: pressed
-      real(wp), intent(in)           :: p(max_side_nodes) !! [pressure], positive into the body
+      real(wp), intent(in)           :: p(4)              !! [pressure], positive into the body
       real(wp), intent(inout)        :: force(:, :)       !! (3, n_nodes) [force]
-      real(wp) :: f(model%dimension, max_side_nodes)
+      real(wp) :: f(model%dimension, max_side_nodes), at_nodes(max_side_nodes)
 
       associate (kind => element_table(model%element_kind(pressed%element)), e => pressed%element)
+         associate (c => kind%side_corners(pressed%side))
+            at_nodes(:c) = cshift(p(:c), 1 - pressed%first)
+            at_nodes(c + 1:2*c) = 0.5_wp*(at_nodes(:c) + cshift(at_nodes(:c), 1))
+         end associate
          associate (nodes => model%element_nodes(kind%side_nodes(:kind%side_size(pressed%side), pressed%side), e), &
                     property => model%properties(max(1, model%element_property(e))))
             call side_forces(property%state, property%thickness, model%x(:model%dimension, nodes), &
-                             cshift(p(:size(nodes)), 1 - pressed%first), f)
+                             at_nodes(:size(nodes)), f)
             force(:model%dimension, nodes) = force(:model%dimension, nodes) + f(:, :size(nodes))
             call add_section_share(model, e, nodes, f, force)
          end associate

@@ -7,7 +7,7 @@ module section_build
    use kinds, only: wp
    use model_data, only: model_type, section_type
    use surface_build, only: find_surface, side_influence, surface_node_list, surface_nodes
-   use surface_sides, only: elements_behind, list_sides, side_list
+   use surface_sides, only: elements_behind, list_sides, side_list, turn_side
    use text_tools, only: integer_text
    implicit none
    private
@@ -77,7 +77,7 @@ contains
       integer, intent(in)               :: s
       type(section_type), intent(inout) :: section
       real(wp) :: area(max_side_nodes), normal(3, max_side_nodes), own(3), total(3)
-      integer  :: i, other
+      integer  :: i
 
       section%area = 0.0_wp
       total = 0.0_wp
@@ -86,10 +86,7 @@ contains
          own = sum(normal, dim=2)
          associate (surface => model%surfaces(s))
             if (dot_product(own, total) < 0.0_wp) then
-               surface%nodes(:surface%corners(i), i) = surface%nodes(surface%corners(i):1:-1, i)
-               other = surface%element(i)
-               surface%element(i) = surface%other(i)
-               surface%other(i) = other
+               call turn_side(surface, i)
                own = -own
             end if
          end associate

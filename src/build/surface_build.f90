@@ -6,7 +6,7 @@ module surface_build
    use id_table, only: id_table_type, sorted_order
    use kinds, only: wp
    use mesh_build, only: marked_sides
-   use model_data, only: model_type, surface_type
+   use model_data, only: has_second_order, model_type, surface_type
    use reverse_lists, only: list_owners
    use surface_sides, only: nodes_of
    use text_tools, only: integer_text
@@ -32,8 +32,10 @@ contains
       type(model_type), intent(inout) :: model
       type(id_table_type)  :: marks
       integer, allocatable :: surface(:), first(:), members(:)
-      integer :: i, k
+      integer :: i, k, most_nodes
 
+      most_nodes = 2*(model%dimension - 1)                     ! of a side
+      if (has_second_order(model)) most_nodes = merge(3, max_side_nodes, model%dimension == 2)
       call marks%build(deck%bulk%pmark%id)
       allocate (model%surfaces(size(deck%bulk%pmark)), surface(sides%n))
       do i = 1, sides%n
@@ -44,8 +46,8 @@ contains
       do k = 1, size(model%surfaces)
          associate (this => model%surfaces(k), card => deck%bulk%pmark(k), n => first(k + 1) - first(k))
             this%id = card%id
-            allocate (this%nodes(merge(2, max_side_nodes, model%dimension == 2), n), source=0)
-            allocate (this%element(n), this%other(n), this%line(n), this%corners(n))
+            allocate (this%nodes(most_nodes, n), source=0)
+            allocate (this%element(n), this%other(n), this%line(n), this%corners(n), this%n_nodes(n))
             do i = first(k), first(k + 1) - 1
                if (any(sides%nodes(:sides%corners(members(i)), members(i)) == 0)) cycle ! said already
                call add_side(deck, sides, members(i), model, this)
@@ -83,7 +85,7 @@ contains
          call deck%field_error(sides%line(i), 'S'//integer_text(sides%of_block(i)), words)
       else
          if (sides%corners(i) > 2) &
-            words = words//': in a model of solids CTRIA3 and CQUAD4 mark surfaces, and plane bodies cannot be mixed in'
+            words = words//': in a model of solids plane elements mark surfaces, and plane bodies cannot be mixed in'
          call deck%field_error(sides%line(i), 'PID', words)
       end if
    end subroutine report_missing
@@ -127,10 +129,45 @@ contains
          surface%corners(surface%n) = size(nodes)
          surface%element(surface%n) = owner
          surface%other(surface%n) = other
-         surface%nodes(:size(nodes), surface%n) = &
-            model%element_nodes(element_table(model%element_kind(owner))%side_nodes(:size(nodes), own_side), owner)
+      end associate
+      associate (kind => element_table(model%element_kind(owner)), n => surface%n_nodes(surface%n))
+         n = kind%side_size(own_side)
+         surface%nodes(:n, surface%n) = model%element_nodes(kind%side_nodes(:n, own_side), owner)
+         call check_mark(deck, sides, i, model, owner, surface%nodes(:n, surface%n))
       end associate
    end subroutine add_side
+
+   !> The mid-side nodes of mark I, where it has any, are those of the side, with the nodes OWN, of element E; of the edges in the
+   !! sense of the mark that may be the other way round.
+   subroutine check_mark(deck, sides, i, model, e, own)
+      type(checked_deck), intent(in) :: deck
+      type(marked_sides), intent(in) :: sides
+      integer, intent(in)            :: i, e, own(:)
+      type(model_type), intent(in)   :: model
+      character(:), allocatable :: words
+      integer :: a, b, k, m, mid
+
+      m = sides%corners(i)
+      if (sides%n_nodes(i) == m) return
+      words = trim(merge('CBAR', 'face', m == 2))//' '//integer_text(sides%id(i))
+      if (size(own) == m) then
+         call deck%errors%add(sides%line(i), words//' is of second order, and marks a side of element '// &
+            integer_text(model%element_id(e))//', a linear '//trim(element_table(model%element_kind(e))%card)// &
+            '; expected the corners alone')
+         return
+      end if
+      do k = 1, sides%n_nodes(i) - m
+         if (sides%nodes(m + k, i) == 0) cycle ! blank: that of the element; or said already
+         a = findloc(own(:m), sides%nodes(k, i), dim=1)
+         b = findloc(own(:m), sides%nodes(modulo(k, m) + 1, i), dim=1)
+         mid = own(m + merge(a, b, modulo(a, m) + 1 == b))
+         if (m == 2) mid = own(3)
+         if (mid == sides%nodes(m + k, i)) cycle
+         call deck%errors%add(sides%line(i), words//' has mid-side node '//integer_text(model%node_id(sides%nodes(m + k, i)))// &
+            ' where element '//integer_text(model%element_id(e))//' has '//integer_text(model%node_id(mid)))
+         return
+      end do
+   end subroutine check_mark
 
    !> A side in words, by its nodes.
    pure function side_name(model, nodes) result(words)
@@ -147,7 +184,7 @@ contains
       end do
    end function side_name
 
-   !> Which SIDE of element E has the NODES, in any order; 0: none. SAME_SENSE: its own order goes round them as they stand.
+   !> Which SIDE of element E has the corners NODES, in any order; 0: none. SAME_SENSE: its own order goes round them as they stand.
    pure subroutine side_of_element(model, e, nodes, side, same_sense)
       type(model_type), intent(in) :: model
       integer, intent(in)          :: e, nodes(:)
@@ -159,7 +196,7 @@ contains
       same_sense = .false.
       associate (kind => element_table(model%element_kind(e)))
          do side = 1, kind%n_sides
-            if (kind%side_size(side) /= n) cycle
+            if (kind%side_corners(side) /= n) cycle
             associate (own => model%element_nodes(kind%side_nodes(:n, side), e))
                if (any([(all(own /= nodes(k)), k = 1, n)])) cycle
                if (any([(all(nodes /= own(k)), k = 1, n)])) cycle
@@ -203,19 +240,19 @@ contains
       end do
    end subroutine check_repeated
 
-   !> Areas of influence of the corners of side S of SURFACE, a_i = integral of N_i over it [length^2] (section 4.1).
+   !> Areas of influence of the nodes of side S of SURFACE, a_i = integral of N_i over it [length^2] (section 4.1).
    pure subroutine side_influence(model, surface, s, area, normal)
       type(model_type), intent(in)   :: model
       type(surface_type), intent(in) :: surface
       integer, intent(in)            :: s
-      real(wp), intent(out)          :: area(max_side_nodes)        !! 0 behind the last corner
+      real(wp), intent(out)          :: area(max_side_nodes)        !! 0 behind the last node
       real(wp), intent(out)          :: normal(3, max_side_nodes)   !! integral of N_i times the outward normal [length^2]
       real(wp) :: force(model%dimension, max_side_nodes)
       integer  :: n
 
       area = 0.0_wp
       normal = 0.0_wp
-      n = surface%corners(s)
+      n = surface%n_nodes(s)
       if (model%element_property(surface%element(s)) == 0) return ! said already
       associate (property => model%properties(model%element_property(surface%element(s))), &
                  x => model%x(:model%dimension, surface%nodes(:n, s)))
@@ -242,7 +279,9 @@ contains
       allocate (list%normal(3, list%n), source=0.0_wp)
       do s = 1, surface%n
          call side_influence(model, surface, s, area, normal)
-         do k = 1, surface%corners(s)
+         if (model%dimension == 3 .and. surface%n_nodes(s) > surface%corners(s)) & ! that of a corner may be zero or turned round
+            normal = spread(sum(normal, dim=2), 2, max_side_nodes)
+         do k = 1, surface%n_nodes(s)
             node = place%find(surface%nodes(k, s))
             list%area(node) = list%area(node) + area(k)
             list%normal(:, node) = list%normal(:, node) + normal(:, k)

@@ -1,13 +1,14 @@
 !> The sides of a marked surface as neighbours: which stand at a node, turned so that all face the same way, and which body elements
 !! lie behind them.
 module surface_sides
+   use element_kinds, only: element_table
    use id_table, only: distinct, id_table_type
    use model_data, only: model_type, surface_type
    use reverse_lists, only: list_owners
    implicit none
    private
 
-   public :: nodes_of, list_sides, face_one_way, elements_behind
+   public :: nodes_of, list_sides, turn_side, face_one_way, elements_behind
 
    !> The sides of a surface at every node of it: side(first(k):first(k + 1) - 1) at node(k).
    type, public :: side_list
@@ -40,12 +41,28 @@ contains
       call at%place%build(at%node)
       allocate (places(size(surface%nodes, 1), surface%n), source=0)
       do i = 1, surface%n
-         do k = 1, surface%corners(i)
+         do k = 1, surface%n_nodes(i)
             places(k, i) = at%place%find(surface%nodes(k, i))
          end do
       end do
       call list_owners(at%n, places, at%first, at%side)
    end subroutine list_sides
+
+   !> Turn SIDE of SURFACE round: it is then a side of the element that was behind it.
+   pure subroutine turn_side(surface, side)
+      type(surface_type), intent(inout) :: surface
+      integer, intent(in)               :: side
+      integer :: element, m
+
+      m = surface%corners(side)
+      associate (nodes => surface%nodes(:, side))
+         nodes(:m) = nodes(m:1:-1)
+         if (surface%n_nodes(side) == 2*m) nodes(m + 1:2*m - 1) = nodes(2*m - 1:m + 1:-1) ! the last lies between the last and the first
+      end associate
+      element = surface%element(side)
+      surface%element(side) = surface%other(side)
+      surface%other(side) = element
+   end subroutine turn_side
 
    !> Turn sides of SURFACE round so that neighbours go on where the others end: the same body side on the left of all edges,
    !! inside all faces.
@@ -54,7 +71,7 @@ contains
       type(side_list), intent(in)       :: at !! of SURFACE
       integer, allocatable :: queue(:)
       logical, allocatable :: done(:)
-      integer :: side, first, i, j, k, n, last, other, place
+      integer :: side, first, i, k, n, last, other, place
 
       allocate (done(surface%n), queue(surface%n))
       done = .false.
@@ -76,10 +93,7 @@ contains
                   case (0)
                      cycle
                   case (1)
-                     surface%nodes(:surface%corners(other), other) = surface%nodes(surface%corners(other):1:-1, other)
-                     j = surface%element(other)
-                     surface%element(other) = surface%other(other)
-                     surface%other(other) = j
+                     call turn_side(surface, other)
                   end select
                   done(other) = .true.
                   last = last + 1
@@ -166,8 +180,7 @@ contains
       integer :: common(size(model%element_nodes, 1)), i, k, n
 
       n = 0
-      do k = 1, size(model%element_nodes, 1)
-         if (model%element_nodes(k, a) == 0) exit
+      do k = 1, element_table(model%element_kind(a))%n_corners ! elements at an edge alone share its mid-side node too
          if (all(model%element_nodes(:, b) /= model%element_nodes(k, a))) cycle
          n = n + 1
          common(n) = model%element_nodes(k, a)

@@ -2,6 +2,7 @@
 !! LINE is always the index of the card's first line in the deck text, for messages.
 module bulk_data
    use elasticity, only: plane_stress
+   use element_kinds, only: max_nodes
    use kinds, only: wp
    use shear_stiffness, only: shear_law
    implicit none
@@ -21,7 +22,7 @@ module bulk_data
    type, public :: element_card
       integer :: line = 0, id = 0, property = 0
       integer :: kind = 0                               ! of element_kinds; of an edge one of those above
-      integer :: nodes(8) = 0
+      integer :: nodes(max_nodes) = 0                   ! corners, then mid-side nodes: 0 where the field is blank
    end type element_card
 
    !> PSHELL, PAXIS and PSOLID alike.
@@ -108,6 +109,7 @@ module bulk_data
       integer  :: first_node = 1, first_element = 1
       integer  :: marks(6) = 0                          ! PMARK of sides 1-2, 2-3, 3-4, 4-1, or x low, x high, y low, ...
       integer  :: weld = 0                              ! block whose coincident nodes are used
+      integer  :: order = 1                             ! of its elements
       logical  :: doubtful = .false.                    ! some field could not be read
    end type block_card
 
@@ -115,9 +117,12 @@ module bulk_data
       integer :: line = 0, id = 0
    end type pmark_card
 
+   integer, parameter, public :: fit_auto = 1, fit_yes = 2, fit_no = 3 !! whether faces are fitted: where nodes do not match, always,
+                                                                       !! never
    type, public :: joint_card
       integer  :: line = 0, id = 0, law = 0, sides(2) = 0
       real(wp) :: tolerance = 0.0_wp                    ! 0: default
+      integer  :: fit = fit_auto
    end type joint_card
 
    type, public :: cjoint_card

@@ -12,7 +12,7 @@ module deck_input
    use line_scan, only: is_include
    use load_cards, only: read_bolt, read_displacement, read_force, read_gravity, read_load, read_pressure, read_support, &
                          read_surface_load
-   use mesh_cards, only: read_block, read_edge, read_element, read_grid, read_pmark
+   use mesh_cards, only: complete_remedy, read_block, read_edge, read_element, read_grid, read_pmark
    use property_cards, only: read_mat1, read_paxis, read_prod, read_pshell, read_psolid
    implicit none
    private
@@ -37,7 +37,7 @@ contains
       type(card_reader_type), intent(inout) :: cards
 
       call cards%add_kinds(['GRID'], read_grid)
-      call cards%add_kinds(['CTRIA3', 'CQUAD4', 'CTETRA', 'CPENTA', 'CHEXA '], read_element)
+      call cards%add_kinds(['CTRIA3', 'CTRIA6', 'CQUAD4', 'CQUAD8', 'CTETRA', 'CPENTA', 'CHEXA '], read_element)
       call cards%add_kinds(['CBAR', 'CROD'], read_edge)
       call cards%add_kinds(['BLOCK2', 'BLOCK3'], read_block)
       call cards%add_kinds(['PMARK'], read_pmark)
@@ -172,8 +172,12 @@ contains
          cursor = cursor + 1
       else
          call read_card(text, cursor, card, errors) ! for what else is wrong with it
-         if (card%name /= '') call errors%add(card%line, ''''//trim(card%name)// &
-                                              ''' is no card that jointfem knows; see input/README.md', 1, 8)
+         if (card%name == 'CQUAD9') then
+            call errors%add(card%line, 'CQUAD9 is a complete element of nine nodes; expected a CQUAD8, no node inside'// &
+                            complete_remedy, 1, 8)
+         else if (card%name /= '') then
+            call errors%add(card%line, ''''//trim(card%name)//''' is no card that jointfem knows; see input/README.md', 1, 8)
+         end if
       end if
    end subroutine find_card
 

@@ -27,14 +27,15 @@ contains
       integer :: i
 
       call cards%set_table([integer_field(['JID  ', 'PJID ', 'SIDE1']), integer_field('SIDE2', default=0), &
-         real_field('TOL', default=0.0_wp, above=0.0_wp)])
+         real_field('TOL', default=0.0_wp, above=0.0_wp), word_field('FIT', '|AUTO|YES|NO|')])
       allocate (bulk%joint(cards%n))
       do i = 1, cards%n
          call cards%next(values)
          associate (integers => values%integers)
             if (integers(4) == integers(3) .and. integers(3) > 0) call cards%error('SIDE2', 'the same surface as SIDE1')
             bulk%joint(i) = joint_card(line=cards%line, id=integers(1), law=integers(2), sides=integers(3:4), &
-                                       tolerance=values%reals(5))
+                                       tolerance=values%reals(5), &
+                                       fit=findloc([character(4) :: 'AUTO', 'YES', 'NO'], values%words(6), dim=1))
          end associate
       end do
    end subroutine read_joint

@@ -4,7 +4,7 @@ module mesh_cards
    use bulk_data, only: bulk_data_type, edge_cbar, edge_crod, grid_card, pmark_card
    use card_fields, only: card_values
    use card_reader, only: card_reader_type
-   use element_kinds, only: element_table, n_kinds
+   use element_kinds, only: element_table, kind_hexa20, kind_penta15, kind_quad4, kind_quad8, kind_tria3, kind_tria6, n_kinds
    use field_rules, only: blank_field, component_field, field_rule, integer_field, real_field
    use kinds, only: wp
    use text_tools, only: integer_text
@@ -12,6 +12,8 @@ module mesh_cards
    private
 
    public :: read_grid, read_element, read_edge, read_pmark, read_block
+
+   character(*), parameter, public :: complete_remedy = ' (in Gmsh set Mesh.SecondOrderIncomplete = 1)'
 
    real(wp), parameter :: most_elements = 2.0e7_wp         ! of a block
    integer, parameter  :: most_first = huge(1) - 200000000 ! N1 and E1: the numbers of a block have room behind them
@@ -35,45 +37,93 @@ contains
       end do
    end subroutine read_grid
 
-   !> CTRIA3, CQUAD4, CTETRA, CPENTA and CHEXA, the body elements; in a model of solids, faces of marked surfaces are CQUAD4 and
-   !! CTRIA3 too. THETA, ZOFFS and corner thicknesses of plates mean nothing to an isotropic membrane of one thickness, and must be
-   !! blank; so must the midside nodes of solids.
+   !> CTRIA3, CTRIA6, CQUAD4, CQUAD8, CTETRA, CPENTA and CHEXA, the body elements; in a model of solids, faces of marked surfaces
+   !! are those of the plane too. Any mid-side node makes the element one of second order. THETA, ZOFFS and corner thicknesses of
+   !! plates mean nothing to an isotropic membrane of one thickness, and must be blank.
    subroutine read_element(cards, bulk)
       type(card_reader_type), intent(inout) :: cards
       type(bulk_data_type), intent(inout)   :: bulk
       type(card_values) :: values
-      type(field_rule), allocatable :: table(:)
-      integer :: i, k, kind
+      integer :: i, kind, linear
 
       do kind = 1, n_kinds
-         table = [integer_field(['EID', 'PID']), (integer_field('G'//integer_text(k)), k = 1, element_table(kind)%n_nodes)]
-         if (element_table(kind)%dimension == 2) table = [table, blank_field(['THETA', 'ZOFFS'])]
-         call cards%set_table(table, element_table(kind)%card)
+         call cards%set_table(element_rules(kind), element_table(kind)%card, open_ended=complete_nodes(kind) > 0)
       end do
       allocate (bulk%element(cards%n))
       kind = 1
       do i = 1, cards%n
          call cards%next(values)
-         if (element_table(kind)%card /= cards%card%name) kind = findloc(element_table%card, cards%card%name, dim=1)
-         associate (element => bulk%element(i), integers => values%integers, n => element_table(kind)%n_nodes)
+         if (element_table(kind)%card /= cards%card%name) &
+            kind = findloc(element_table%card, cards%card%name, dim=1, back=.true.) ! of second order, where there is one
+         call check_end(cards, kind)
+         linear = element_table(kind)%linear
+         associate (element => bulk%element(i), n => element_table(kind)%n_nodes, corners => element_table(kind)%n_corners)
             element%line = cards%line
-            element%kind = kind
-            element%id = integers(1)
-            element%property = integers(2)
-            element%nodes(:n) = integers(3:2 + n)
+            element%id = values%integers(1)
+            element%property = values%integers(2)
+            element%nodes(:n) = values%integers(3:2 + n)
+            element%kind = merge(kind, linear, any(values%given(3 + corners:2 + n)))
          end associate
       end do
    end subroutine read_element
 
-   !> CBAR: an edge of a marked surface; the orientation vector of a real bar (Gmsh writes one) has no meaning here. CROD: such an
-   !! edge, or with a PROD a bar, such as a bolt.
+   !> The table of the card of elements of a KIND; where a kind has the card of a linear one, that of both.
+   pure function element_rules(kind) result(rules)
+      integer, intent(in) :: kind
+      type(field_rule), allocatable :: rules(:)
+      integer :: k
+
+      associate (this => element_table(kind))
+         rules = [integer_field(['EID', 'PID']), (integer_field('G'//integer_text(k)), k = 1, this%n_corners), &
+                  (integer_field('G'//integer_text(k), default=0), k = this%n_corners + 1, this%n_nodes)]
+      end associate
+      select case (kind)
+      case (kind_tria3, kind_quad4)
+         rules = [rules, blank_field(['THETA', 'ZOFFS'])]
+      case (kind_tria6)
+         rules = [rules, blank_field(['THETA', 'ZOFFS', 'T1   ', 'T2   ', 'T3   '])]
+      case (kind_quad8)
+         rules = [rules, blank_field(['T1   ', 'T2   ', 'T3   ', 'T4   ', 'THETA', 'ZOFFS'])]
+      end select
+   end function element_rules
+
+   !> Nodes of the complete element of second order, with nodes inside its faces and itself, that Gmsh writes on the card of KIND; 0:
+   !! none.
+   pure integer function complete_nodes(kind) result(n)
+      integer, intent(in) :: kind
+
+      n = 0
+      if (kind == kind_hexa20) n = 27
+      if (kind == kind_penta15) n = 18
+   end function complete_nodes
+
+   !> Nothing may stand behind the last node of a solid with mid-side nodes; a complete element is told from a slip of the pen.
+   subroutine check_end(cards, kind)
+      type(card_reader_type), intent(inout) :: cards
+      integer, intent(in)                   :: kind
+      integer :: first
+
+      first = 3 + element_table(kind)%n_nodes
+      if (complete_nodes(kind) == 0 .or. cards%card%n < first) return
+      if (cards%card%n == 2 + complete_nodes(kind)) then
+         call cards%card%field_error(first, 'a complete element of '//integer_text(complete_nodes(kind))//' nodes; expected '// &
+            'at most '//integer_text(element_table(kind)%n_nodes)//', no nodes inside faces'//complete_remedy, cards%errors)
+      else
+         call cards%card%field_error(first, ''''//trim(cards%card%fields(first)%text)//''' behind the last node, G'// &
+                                     integer_text(element_table(kind)%n_nodes)//', expected nothing', cards%errors)
+      end if
+   end subroutine check_end
+
+   !> CBAR: an edge of a marked surface; the orientation vector of a real bar (Gmsh writes one) has no meaning here, and of an edge
+   !! of second order Gmsh writes the mid-side node in its place. CROD: such an edge, or with a PROD a bar, such as a bolt.
    subroutine read_edge(cards, bulk)
       type(card_reader_type), intent(inout) :: cards
       type(bulk_data_type), intent(inout)   :: bulk
       type(card_values) :: values
       integer :: i
 
-      call cards%set_table([integer_field(['EID', 'PID', 'GA ', 'GB ']), real_field(['X1', 'X2', 'X3'], default=0.0_wp)], 'CBAR')
+      call cards%set_table([integer_field(['EID', 'PID', 'GA ', 'GB ']), real_field('X1', default=0.0_wp, whole=.true.), &
+                            real_field(['X2', 'X3'], default=0.0_wp)], 'CBAR')
       call cards%set_table(integer_field(['EID', 'PID', 'G1 ', 'G2 ']), 'CROD')
       allocate (bulk%edge(cards%n))
       do i = 1, cards%n
@@ -84,6 +134,7 @@ contains
             edge%id = integers(1)
             edge%property = integers(2)
             edge%nodes(:2) = integers(3:4)
+            if (edge%kind == edge_cbar) edge%nodes(3) = integers(5)
          end associate
       end do
    end subroutine read_edge
@@ -116,11 +167,13 @@ contains
       call cards%set_table([integer_field(['BID', 'PID']), integer_field(['NX', 'NY'], most=100000), &
          real_field(['X1', 'Y1', 'X2', 'Y2'], default=0.0_wp), real_field(['X3', 'Y3']), &
          real_field(['X4', 'Y4'], default=0.0_wp), real_field(['RX', 'RY'], default=1.0_wp, above=0.0_wp), &
-         integer_field(['N1', 'E1'], default=1), integer_field(['S1  ', 'S2  ', 'S3  ', 'S4  ', 'WELD'], default=0)], 'BLOCK2')
+         integer_field(['N1', 'E1'], default=1), integer_field(['S1  ', 'S2  ', 'S3  ', 'S4  ', 'WELD'], default=0), &
+         integer_field('ORDER', default=1, most=2)], 'BLOCK2')
       call cards%set_table([integer_field(['BID', 'PID']), integer_field(['NX', 'NY', 'NZ'], most=10000), &
          real_field(['X1', 'Y1', 'Z1'], default=0.0_wp), real_field(['X2', 'Y2', 'Z2']), &
          real_field(['RX', 'RY', 'RZ'], default=1.0_wp, above=0.0_wp), integer_field(['N1', 'E1'], default=1), &
-         integer_field(['S1  ', 'S2  ', 'S3  ', 'S4  ', 'S5  ', 'S6  ', 'WELD'], default=0)], 'BLOCK3')
+         integer_field(['S1  ', 'S2  ', 'S3  ', 'S4  ', 'S5  ', 'S6  ', 'WELD'], default=0), &
+         integer_field('ORDER', default=1, most=2)], 'BLOCK3')
       allocate (bulk%block(cards%n))
       do i = 1, cards%n
          call cards%next(values)
@@ -136,6 +189,7 @@ contains
                block%grading(:2) = x(13:14)
                block%marks(:4) = integers(17:20)
                block%weld = integers(21)
+               block%order = integers(22)
             else
                call check_block(cards, 5, integers)
                where (integers(15:16) > most_first) integers(15:16) = 1 ! a deck of solids is mostly one block, from 1 on
@@ -147,6 +201,7 @@ contains
                block%grading = x(12:14)
                block%marks = integers(17:22)
                block%weld = integers(23)
+               block%order = integers(24)
             end if
             block%line = cards%line
             block%id = integers(1)

@@ -1,41 +1,96 @@
 !> The kinds of body element: their nodes and sides, their names in NASTRAN decks and VTK files.
 !! Corners are numbered as on the cards: plane elements counter-clockwise; solids with the base counter-clockwise as seen
-!! from the opposite face or corner, then that face in the same sense.
-!! Source: MSC Nastran Quick Reference Guide, CTRIA3, CQUAD4, CTETRA, CPENTA, CHEXA; VTK file formats, linear cell types.
+!! from the opposite face or corner, then that face in the same sense. Behind the corners of a second-order kind come the nodes at
+!! the middle of its edges, in the order of the edges here.
+!! Source: MSC Nastran Quick Reference Guide, CTRIA3, CTRIA6, CQUAD4, CQUAD8, CTETRA, CPENTA, CHEXA; VTK file formats, linear and
+!! quadratic cell types.
 module element_kinds
    implicit none
    private
 
+   public :: side_kind
+
    integer, parameter, public :: kind_tria3 = 1, kind_quad4 = 2     !! plane or axisymmetric
    integer, parameter, public :: kind_tetra4 = 3, kind_penta6 = 4, kind_hexa8 = 5
-   integer, parameter, public :: n_kinds = 5
+   integer, parameter, public :: kind_tria6 = 6, kind_quad8 = 7     !! second order, serendipity
+   integer, parameter, public :: kind_tetra10 = 8, kind_penta15 = 9, kind_hexa20 = 10
+   integer, parameter, public :: n_kinds = 10, n_linear_kinds = 5
+   integer, parameter, public :: kind_edge2 = 11, kind_edge3 = 12   !! sides of plane elements, of no body
+   integer, parameter, public :: n_shapes = 12                      !! kinds of body and edges: all that have shape functions
 
-   integer, parameter, public :: max_nodes = 8, max_dofs = 24       !! of one element
+   integer, parameter, public :: max_nodes = 20, max_dofs = 60      !! of one element
    integer, parameter, public :: max_coupled_dofs = max_dofs + 3    !! with the node of a section of a solid bolt
-   integer, parameter, public :: max_sides = 6, max_side_nodes = 4
+   integer, parameter, public :: max_sides = 6, max_side_nodes = 8, max_edges = 12
 
    !> What distinguishes one kind from another. Sides of plane elements are edges, run through with the body on the left;
    !! sides of solids are faces, their right-hand normal pointing out of the body.
    type, public :: element_kind
-      character(6) :: card                                          !! name of its card
+      character(6) :: card                                          !! name of its card; findloc finds the linear kind first
       integer :: dimension                                          !! of its space, 2 or 3
       integer :: n_nodes
+      integer :: n_corners
+      integer :: linear                                             !! the kind of its corners alone, of a linear kind itself
       integer :: n_sides
-      integer :: vtk_type                                           !! cell type; VTK numbers the corners in the same order
+      integer :: n_edges
+      integer :: vtk_type                                           !! cell type; VTK turns round the linear wedge only
+      integer :: vtk_nodes(max_nodes)                               !! its nodes in VTK's order, 0 beyond n_nodes
+      integer :: edges(2, max_edges)                                !! corners that node n_corners + k of second order lies between
+      integer :: side_corners(max_sides)                            !! corners of every side, 0 beyond n_sides
       integer :: side_size(max_sides)                               !! nodes of every side, 0 beyond n_sides
-      integer :: side_nodes(max_side_nodes, max_sides)              !! its corners, 0 beyond side_size
+      integer :: side_nodes(max_side_nodes, max_sides)              !! its corners in turn, then the nodes at the middle from the
+                                                                    !! first corner to the second on; 0 beyond side_size
    end type element_kind
 
+   integer, parameter :: in_turn(max_nodes) = [1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17, 18, 19, 20]
+   integer, parameter :: upright_last_15(max_nodes) = [in_turn(:9), 13, 14, 15, 10, 11, 12, 0, 0, 0, 0, 0]
+   integer, parameter :: upright_last_20(max_nodes) = [in_turn(:12), 17, 18, 19, 20, 13, 14, 15, 16]
+
+   integer, parameter :: no(8) = 0
+   integer, parameter :: tria(2, 12) = reshape([1, 2, 2, 3, 3, 1], [2, 12], pad=no)
+   integer, parameter :: quad(2, 12) = reshape([1, 2, 2, 3, 3, 4, 4, 1], [2, 12], pad=no)
+   integer, parameter :: tetra(2, 12) = reshape([1, 2, 2, 3, 3, 1, 1, 4, 2, 4, 3, 4], [2, 12], pad=no)
+   integer, parameter :: penta(2, 12) = reshape([1, 2, 2, 3, 3, 1, 1, 4, 2, 5, 3, 6, 4, 5, 5, 6, 6, 4], [2, 12], pad=no)
+   integer, parameter :: hexa(2, 12) = reshape([1, 2, 2, 3, 3, 4, 4, 1, 1, 5, 2, 6, 3, 7, 4, 8, 5, 6, 6, 7, 7, 8, 8, 5], [2, 12])
+
    type(element_kind), parameter, public :: element_table(n_kinds) = [ &
-      element_kind('CTRIA3', 2, 3, 3, 5, [2, 2, 2, 0, 0, 0], &
-                   reshape([1, 2, 0, 0, 2, 3, 0, 0, 3, 1, 0, 0], [4, 6], pad=[0])), &
-      element_kind('CQUAD4', 2, 4, 4, 9, [2, 2, 2, 2, 0, 0], &
-                   reshape([1, 2, 0, 0, 2, 3, 0, 0, 3, 4, 0, 0, 4, 1, 0, 0], [4, 6], pad=[0])), &
-      element_kind('CTETRA', 3, 4, 4, 10, [3, 3, 3, 3, 0, 0], &
-                   reshape([1, 3, 2, 0, 1, 2, 4, 0, 2, 3, 4, 0, 3, 1, 4, 0], [4, 6], pad=[0])), &
-      element_kind('CPENTA', 3, 6, 5, 13, [3, 3, 4, 4, 4, 0], &
-                   reshape([1, 3, 2, 0, 4, 5, 6, 0, 1, 2, 5, 4, 2, 3, 6, 5, 3, 1, 4, 6], [4, 6], pad=[0])), &
-      element_kind('CHEXA ', 3, 8, 6, 12, [4, 4, 4, 4, 4, 4], &
-                   reshape([1, 4, 3, 2, 5, 6, 7, 8, 1, 2, 6, 5, 2, 3, 7, 6, 3, 4, 8, 7, 4, 1, 5, 8], [4, 6]))]
+      element_kind('CTRIA3', 2, 3, 3, kind_tria3, 3, 3, 5, [in_turn(:3), no, no, 0], tria, [2, 2, 2, 0, 0, 0], [2, 2, 2, 0, 0, 0], &
+         reshape([1, 2, no(:6), 2, 3, no(:6), 3, 1], [8, 6], pad=no)), &
+      element_kind('CQUAD4', 2, 4, 4, kind_quad4, 4, 4, 9, [in_turn(:4), no, no], quad, [2, 2, 2, 2, 0, 0], [2, 2, 2, 2, 0, 0], &
+         reshape([1, 2, no(:6), 2, 3, no(:6), 3, 4, no(:6), 4, 1], [8, 6], pad=no)), &
+      element_kind('CTETRA', 3, 4, 4, kind_tetra4, 4, 6, 10, [in_turn(:4), no, no], tetra, [3, 3, 3, 3, 0, 0], [3, 3, 3, 3, 0, 0], &
+         reshape([1, 3, 2, no(:5), 1, 2, 4, no(:5), 2, 3, 4, no(:5), 3, 1, 4], [8, 6], pad=no)), &
+      element_kind('CPENTA', 3, 6, 6, kind_penta6, 5, 9, 13, [1, 3, 2, 4, 6, 5, no, no(:6)], penta, [3, 3, 4, 4, 4, 0], &
+         [3, 3, 4, 4, 4, 0], &
+         reshape([1, 3, 2, no(:5), 4, 5, 6, no(:5), 1, 2, 5, 4, no(:4), 2, 3, 6, 5, no(:4), 3, 1, 4, 6], [8, 6], pad=no)), &
+      element_kind('CHEXA ', 3, 8, 8, kind_hexa8, 6, 12, 12, [in_turn(:8), no, no(:4)], hexa, [4, 4, 4, 4, 4, 4], &
+         [4, 4, 4, 4, 4, 4], &
+         reshape([1, 4, 3, 2, no(:4), 5, 6, 7, 8, no(:4), 1, 2, 6, 5, no(:4), 2, 3, 7, 6, no(:4), 3, 4, 8, 7, no(:4), 4, 1, 5, 8], &
+                 [8, 6], pad=no)), &
+      element_kind('CTRIA6', 2, 6, 3, kind_tria3, 3, 3, 22, [in_turn(:6), no, no(:6)], tria, [2, 2, 2, 0, 0, 0], &
+         [3, 3, 3, 0, 0, 0], reshape([1, 2, 4, no(:5), 2, 3, 5, no(:5), 3, 1, 6], [8, 6], pad=no)), &
+      element_kind('CQUAD8', 2, 8, 4, kind_quad4, 4, 4, 23, [in_turn(:8), no, no(:4)], quad, [2, 2, 2, 2, 0, 0], &
+         [3, 3, 3, 3, 0, 0], reshape([1, 2, 5, no(:5), 2, 3, 6, no(:5), 3, 4, 7, no(:5), 4, 1, 8], [8, 6], pad=no)), &
+      element_kind('CTETRA', 3, 10, 4, kind_tetra4, 4, 6, 24, [in_turn(:10), no, 0, 0], tetra, [3, 3, 3, 3, 0, 0], &
+         [6, 6, 6, 6, 0, 0], reshape([1, 3, 2, 7, 6, 5, 0, 0, 1, 2, 4, 5, 9, 8, 0, 0, 2, 3, 4, 6, 10, 9, 0, 0, &
+                                      3, 1, 4, 7, 8, 10], [8, 6], pad=no)), &
+      element_kind('CPENTA', 3, 15, 6, kind_penta6, 5, 9, 26, upright_last_15, penta, [3, 3, 4, 4, 4, 0], [6, 6, 8, 8, 8, 0], &
+         reshape([1, 3, 2, 9, 8, 7, 0, 0, 4, 5, 6, 13, 14, 15, 0, 0, 1, 2, 5, 4, 7, 11, 13, 10, 2, 3, 6, 5, 8, 12, 14, 11, &
+                  3, 1, 4, 6, 9, 10, 15, 12], [8, 6], pad=no)), &
+      element_kind('CHEXA ', 3, 20, 8, kind_hexa8, 6, 12, 25, upright_last_20, hexa, [4, 4, 4, 4, 4, 4], [8, 8, 8, 8, 8, 8], &
+         reshape([1, 4, 3, 2, 12, 11, 10, 9, 5, 6, 7, 8, 17, 18, 19, 20, 1, 2, 6, 5, 9, 14, 17, 13, 2, 3, 7, 6, 10, 15, 18, 14, &
+                  3, 4, 8, 7, 11, 16, 19, 15, 4, 1, 5, 8, 12, 13, 20, 16], [8, 6]))]
+
+contains
+
+   !> The kind of a side in its own coordinates: an edge in the plane, a face in space; 0: there is no such side. Three nodes are
+   !! an edge of second order in the plane and a triangle in space.
+   pure integer function side_kind(dimension, n_nodes)
+      integer, intent(in) :: dimension                              !! of the space, 2 or 3
+      integer, intent(in) :: n_nodes                                !! of the side
+      integer, parameter  :: edge(8) = [0, kind_edge2, kind_edge3, 0, 0, 0, 0, 0]
+      integer, parameter  :: face(8) = [0, 0, kind_tria3, kind_quad4, 0, kind_tria6, 0, kind_quad8]
+
+      side_kind = merge(edge(n_nodes), face(n_nodes), dimension == 2)
+   end function side_kind
 
 end module element_kinds

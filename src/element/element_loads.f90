@@ -2,10 +2,10 @@
 !! Source: Zienkiewicz, Taylor, Zhu, The Finite Element Method, 6th ed., sections 2.3 and 5.5.
 module element_loads
    use elasticity, only: axisymmetric, solid
-   use element_kinds, only: kind_quad4, kind_tria3, max_nodes, max_side_nodes
+   use element_kinds, only: max_nodes, max_side_nodes, side_kind
    use element_mapping, only: element_law, element_map, map_element, map_point, max_shapes, two_pi
    use kinds, only: wp
-   use quadrature, only: body_rule, integration_rule, side_rule
+   use quadrature, only: integration_rule, side_rule, volume_rule
    use shape_functions, only: shape_derivatives, shape_values
    implicit none
    private
@@ -17,7 +17,7 @@ contains
    !> Nodal forces of a constant body force: F(:, i) = B times the integral of N_i over the element.
    pure subroutine body_forces(law, x, b, f)
       type(element_law), intent(in) :: law
-      real(wp), intent(in)    :: x(:, :)      !! corners (dimension, nodes) [length]
+      real(wp), intent(in)    :: x(:, :)      !! nodes (dimension, nodes) [length]
       real(wp), intent(in)    :: b(:)         !! (dimension) force per volume, as rho*g [force/length^3]
       real(wp), intent(inout) :: f(:, :)      !! (dimension, nodes) [force], set here
       type(element_map)      :: map
@@ -26,7 +26,7 @@ contains
       integer  :: i
 
       call map_element(law, x, map)
-      call body_rule(law%kind, law%state == axisymmetric, rule)
+      call volume_rule(law%kind, law%state == axisymmetric, rule)
       share = 0.0_wp
       do i = 1, rule%n
          call map_point(law, map, rule%point(:, i), g, volume)
@@ -39,18 +39,18 @@ contains
    end subroutine body_forces
 
    !> Areas of influence of one side, a_i = integral of N_i: an edge of a plane or axisymmetric body, a triangle or a
-   !! quadrilateral of a solid. Their sum is the area of the side.
+   !! quadrilateral of a solid. Their sum is the area of the side; at corners of second-order faces they are not positive.
    pure subroutine side_areas(state, thickness, x, area)
       integer, intent(in)     :: state        !! plane_stress ... solid
       real(wp), intent(in)    :: thickness    !! of a plane body [length]
-      real(wp), intent(in)    :: x(:, :)      !! nodes of the side (dimension, 2, 3 or 4) [length]
+      real(wp), intent(in)    :: x(:, :)      !! nodes of the side (dimension, 2 to 8) [length]
       real(wp), intent(inout) :: area(:)      !! (nodes of the side) [length^2], set here
       type(integration_rule) :: rule
       real(wp) :: n(max_side_nodes), normal(3)
       integer  :: i, nodes
 
       nodes = size(x, 2)
-      call side_rule(nodes, rule)
+      call side_rule(side_kind(size(x, 1), nodes), rule)
       area(:nodes) = 0.0_wp
       do i = 1, rule%n
          call map_side(state, thickness, x, rule%point(:, i), n, normal)
@@ -64,7 +64,7 @@ contains
    pure subroutine side_forces(state, thickness, x, pressure, f)
       integer, intent(in)     :: state        !! plane_stress ... solid
       real(wp), intent(in)    :: thickness    !! of a plane body [length]
-      real(wp), intent(in)    :: x(:, :)      !! nodes of the side (dimension, 2, 3 or 4), in the order of element_kinds
+      real(wp), intent(in)    :: x(:, :)      !! nodes of the side (dimension, 2 to 8), in the order of element_kinds
       real(wp), intent(in)    :: pressure(:)  !! (nodes of the side) [pressure]
       real(wp), intent(inout) :: f(:, :)      !! (dimension, nodes of the side) [force], set here
       type(integration_rule) :: rule
@@ -73,7 +73,7 @@ contains
 
       d = size(x, 1)
       nodes = size(x, 2)
-      call side_rule(nodes, rule)
+      call side_rule(side_kind(size(x, 1), nodes), rule)
       f(:d, :nodes) = 0.0_wp
       do i = 1, rule%n
          call map_side(state, thickness, x, rule%point(:, i), n, normal)
@@ -92,23 +92,14 @@ contains
       real(wp), intent(in)  :: point(3)                 !! local coordinates of the side
       real(wp), intent(out) :: n(max_side_nodes)        !! [-]
       real(wp), intent(out) :: normal(3)                !! [length^2]
-      real(wp) :: values(max_nodes), dn(3, max_nodes), a(3), b(3)
+      real(wp) :: values(max_nodes), dn(3, max_nodes), a(3), b(3), scale
       integer  :: i, kind
 
-      if (state /= solid) then
-         n = [0.5_wp*(1.0_wp - point(1)), 0.5_wp*(1.0_wp + point(1)), 0.0_wp, 0.0_wp]
-         normal = 0.5_wp*[x(2, 2) - x(2, 1), x(1, 1) - x(1, 2), 0.0_wp]
-         if (state == axisymmetric) then
-            normal = normal*(two_pi*(n(1)*x(1, 1) + n(2)*x(1, 2)))
-         else
-            normal = normal*thickness
-         end if
-      else
-         kind = kind_quad4
-         if (size(x, 2) == 3) kind = kind_tria3
-         call shape_values(kind, point, values)
-         call shape_derivatives(kind, point, dn)
-         n = values(:max_side_nodes)
+      kind = side_kind(size(x, 1), size(x, 2))
+      call shape_values(kind, point, values)
+      call shape_derivatives(kind, point, dn)
+      n = values(:max_side_nodes)
+      if (state == solid) then
          a = 0.0_wp
          b = 0.0_wp
          do i = 1, size(x, 2)
@@ -116,6 +107,15 @@ contains
             b = b + dn(2, i)*x(:3, i)
          end do
          normal = [a(2)*b(3) - a(3)*b(2), a(3)*b(1) - a(1)*b(3), a(1)*b(2) - a(2)*b(1)]
+      else
+         scale = thickness
+         if (state == axisymmetric) scale = two_pi*dot_product(n(:size(x, 2)), x(1, :))
+         normal = 0.0_wp
+         do i = 1, size(x, 2)
+            normal(1) = normal(1) + dn(1, i)*x(2, i)
+            normal(2) = normal(2) - dn(1, i)*x(1, i)
+         end do
+         normal = normal*scale
       end if
    end subroutine map_side
 

@@ -4,21 +4,22 @@
 !! Beresford, Wilson, A non-conforming element for stress analysis, Int. J. Numer. Meth. Engng 10 (1976) 1211-1219.
 module element_mapping
    use elasticity, only: axisymmetric, elasticity_matrix, max_stresses, solid
-   use element_kinds, only: element_table, kind_hexa8, kind_penta6, kind_quad4, kind_tetra4, kind_tria3, max_nodes
+   use element_kinds, only: element_table, kind_hexa8, kind_quad4, max_nodes, side_kind
    use kinds, only: wp
-   use quadrature, only: body_rule, integration_rule, side_rule
-   use shape_functions, only: centre_point, corner_point, shape_derivatives, shape_values
+   use local_nodes, only: centre_point, node_point
+   use quadrature, only: body_rule, integration_rule, max_points, side_rule, volume_rule
+   use shape_functions, only: shape_derivatives, shape_values
    implicit none
    private
 
    public :: make_element_law, map_element, map_point, smallest_jacobian
 
-   integer, parameter, public  :: max_shapes = max_nodes + 3 !! shape functions of an element and incompatible modes
+   integer, parameter, public  :: max_shapes = max_nodes     !! shape functions of an element, incompatible modes included
    real(wp), parameter, public :: two_pi = 2.0_wp*acos(-1.0_wp)
 
    !> What elements of one kind, property and material have in common.
    type, public :: element_law
-      integer  :: kind = 0                                !! kind_tria3 ... kind_hexa8
+      integer  :: kind = 0                                !! kind_tria3 ... kind_hexa20
       integer  :: state = 0                               !! plane_stress ... solid
       real(wp) :: thickness = 1.0_wp                      !! of a plane body [length]; not used by the others
       logical  :: incompatible = .false.                  !! with the modes of Wilson and Taylor, where the kind has them
@@ -40,7 +41,7 @@ contains
 
    !> The law of an element of isotropic material.
    pure type(element_law) function make_element_law(kind, state, e, nu, thickness, incompatible) result(law)
-      integer, intent(in)  :: kind, state                 !! kind_tria3 ... kind_hexa8; plane_stress ... solid
+      integer, intent(in)  :: kind, state                 !! kind_tria3 ... kind_hexa20; plane_stress ... solid
       real(wp), intent(in) :: e, nu                       !! [pressure], > 0; [-], -1 < nu < 0.5
       real(wp), intent(in) :: thickness                   !! of a plane body [length], > 0
       logical, intent(in)  :: incompatible                !! wanted; the plane quadrilateral and the hexahedron have modes
@@ -165,38 +166,43 @@ contains
       c = [a(2)*b(3) - a(3)*b(2), a(3)*b(1) - a(1)*b(3), a(1)*b(2) - a(2)*b(1)]
    end function cross
 
-   !> The smallest det J over the integration points and the corners, divided by the longest edge to the power of the dimension
-   !! and scaled so that a square or cube has 1 [-]. Not above zero for an element that is turned round, folded, or flat to
-   !! 1E-12. Of a solid the corners ask for more than any integral over it or its sides: one hexahedron of the patch of MacNeal
-   !! and Harder has -0.0127 there. Where they are not positive, the integration points of the sides count in their place, and
-   !! no two corners may stand in one place.
+   !> The smallest det J over the integration points, and of a linear element the corners, divided by the longest edge to the power
+   !! of the dimension and scaled so that a square or cube has 1 [-]. Not above zero for an element that is turned round, folded, or
+   !! flat to 1E-12. Of a linear solid the corners ask for more than any integral over it or its sides: one hexahedron of the patch
+   !! of MacNeal and Harder has -0.0127 there. Where they are not positive, the integration points of the sides count in their
+   !! place, and no two corners may stand in one place. Of second order they always do, and corners do not count: nodes at a quarter
+   !! of the edges, as at the tip of a crack, are allowed.
    pure real(wp) function smallest_jacobian(kind, x) result(smallest)
-      integer, intent(in)  :: kind                        !! kind_tria3 ... kind_hexa8
-      real(wp), intent(in) :: x(:, :)                     !! corners (dimension, nodes) [length]
+      integer, intent(in)  :: kind                        !! kind_tria3 ... kind_hexa20
+      real(wp), intent(in) :: x(:, :)                     !! nodes (dimension, nodes) [length]
       real(wp), parameter  :: scale(5) = [1.0_wp, 4.0_wp, 1.0_wp, 2.0_wp, 8.0_wp] ! det J of a cube of edge 1, inverted
       type(integration_rule) :: rule
-      real(wp) :: corners(3, max_nodes), longest, of_corners
-      integer  :: d, i, n, next, side
+      real(wp) :: nodes(3, max_nodes), longest, elsewhere
+      integer  :: d, k, n
 
       n = element_table(kind)%n_nodes
       d = element_table(kind)%dimension
-      corners = 0.0_wp
-      corners(:d, :n) = x(:d, :n)
+      nodes = 0.0_wp
+      nodes(:d, :n) = x(:d, :n)
       longest = 0.0_wp
-      do side = 1, element_table(kind)%n_sides
-         associate (m => element_table(kind)%side_size(side), nodes => element_table(kind)%side_nodes(:, side))
-            do i = 1, m
-               next = nodes(modulo(i, m) + 1)
-               longest = max(longest, sum((corners(:, next) - corners(:, nodes(i)))**2))
-            end do
+      do k = 1, element_table(kind)%n_edges
+         associate (edge => element_table(kind)%edges(:, k))
+            longest = max(longest, sum((nodes(:, edge(2)) - nodes(:, edge(1)))**2))
          end associate
       end do
       longest = sqrt(longest)
       call body_rule(kind, .false., rule)
-      smallest = least_at(kind, corners, rule%point(:, :rule%n))
-      of_corners = least_at(kind, corners, corner_point(:, :n, kind))
-      if (d == 3 .and. .not. of_corners > 0.0_wp .and. smallest > 0.0_wp) of_corners = least_on_sides(kind, corners, longest)
-      smallest = scale(kind)*min(smallest, of_corners)
+      smallest = least_at(kind, nodes, rule%point(:, :rule%n))
+      if (element_table(kind)%linear == kind) then
+         elsewhere = least_at(kind, nodes, node_point(:, :n, kind))
+         if (d == 3 .and. .not. elsewhere > 0.0_wp .and. smallest > 0.0_wp) elsewhere = least_on_sides(kind, nodes, longest)
+      else
+         elsewhere = least_on_sides(kind, nodes, longest)
+         n = rule%n
+         call volume_rule(kind, .false., rule)
+         if (rule%n > n) elsewhere = min(elsewhere, least_at(kind, nodes, rule%point(:, :rule%n)))
+      end if
+      smallest = scale(element_table(kind)%linear)*min(smallest, elsewhere)
       if (smallest > flat*longest**d) then
          smallest = smallest/longest**d
       else
@@ -206,9 +212,9 @@ contains
    end function smallest_jacobian
 
    !> The smallest det J at these POINTS [length^dimension].
-   pure real(wp) function least_at(kind, corners, points) result(smallest)
+   pure real(wp) function least_at(kind, nodes, points) result(smallest)
       integer, intent(in)  :: kind
-      real(wp), intent(in) :: corners(3, max_nodes)       !! [length]
+      real(wp), intent(in) :: nodes(3, max_nodes)         !! [length]
       real(wp), intent(in) :: points(:, :)                !! (3, n) local coordinates
       real(wp) :: dn(3, max_nodes), j(3, 3), jacobian
       integer  :: k
@@ -216,34 +222,35 @@ contains
       smallest = huge(1.0_wp)
       do k = 1, size(points, 2)
          call shape_derivatives(kind, points(:, k), dn)
-         call jacobian_matrix(element_table(kind)%dimension, element_table(kind)%n_nodes, corners, dn, j, jacobian)
+         call jacobian_matrix(element_table(kind)%dimension, element_table(kind)%n_nodes, nodes, dn, j, jacobian)
          smallest = min(smallest, jacobian)
       end do
    end function least_at
 
-   !> The smallest det J of a solid at the integration points of its sides [length^3]; 0 where two corners stand in one place.
-   pure real(wp) function least_on_sides(kind, corners, longest) result(smallest)
+   !> The smallest det J at the integration points of the sides [length^dimension]; 0 where two nodes stand in one place.
+   pure real(wp) function least_on_sides(kind, nodes, longest) result(smallest)
       integer, intent(in)  :: kind
-      real(wp), intent(in) :: corners(3, max_nodes)       !! [length]
+      real(wp), intent(in) :: nodes(3, max_nodes)         !! [length]
       real(wp), intent(in) :: longest                     !! edge [length]
       type(integration_rule) :: rule
-      real(wp) :: points(3, max_nodes), n(max_nodes)
-      integer  :: i, k, side
+      real(wp) :: points(3, max_points), n(max_nodes)
+      integer  :: i, k, of_side, side
 
       smallest = huge(1.0_wp)
       do side = 1, element_table(kind)%n_sides
-         associate (m => element_table(kind)%side_size(side), nodes => element_table(kind)%side_nodes(:, side))
-            call side_rule(m, rule)
+         associate (m => element_table(kind)%side_size(side), own => element_table(kind)%side_nodes(:, side))
+            of_side = side_kind(element_table(kind)%dimension, m)
+            call side_rule(of_side, rule)
             do i = 1, rule%n
-               call shape_values(merge(kind_tria3, kind_quad4, m == 3), rule%point(:, i), n)
-               points(:, i) = matmul(corner_point(:, nodes(:m), kind), n(:m))
+               call shape_values(of_side, rule%point(:, i), n)
+               points(:, i) = matmul(node_point(:, own(:m), kind), n(:m))
             end do
-            smallest = min(smallest, least_at(kind, corners, points(:, :rule%n)))
+            smallest = min(smallest, least_at(kind, nodes, points(:, :rule%n)))
          end associate
       end do
       do i = 2, element_table(kind)%n_nodes
          do k = 1, i - 1
-            if (sum((corners(:, i) - corners(:, k))**2) <= (flat*longest)**2) smallest = min(smallest, 0.0_wp)
+            if (sum((nodes(:, i) - nodes(:, k))**2) <= (flat*longest)**2) smallest = min(smallest, 0.0_wp)
          end do
       end do
    end function least_on_sides

@@ -1,64 +1,151 @@
-!> Integration points and weights, in the local coordinates of shape_functions. The points of a rule with as many points as
+!> Integration points and weights, in the local coordinates of local_nodes. The points of a rule with as many points as
 !! corners stand in the order of the corners, each in the direction of its corner from the centre.
-!! Source: Zienkiewicz, Taylor, Zhu, The Finite Element Method, 6th ed., section 5.11.
+!! Source: Zienkiewicz, Taylor, Zhu, The Finite Element Method, 6th ed., section 5.11; of the fifth degree in triangles and
+!! tetrahedra: Stroud, Approximate calculation of multiple integrals, 1971, T2:5-1 and T3:5-1.
 module quadrature
-   use element_kinds, only: kind_tria3, max_nodes, n_kinds
+   use element_kinds, only: kind_penta15, kind_tetra10, kind_tria3, kind_tria6, n_kinds, n_shapes
    use kinds, only: wp
    implicit none
    private
 
-   public :: body_rule, side_rule
+   public :: body_rule, side_rule, stress_rule, volume_rule
+
+   integer, parameter, public :: max_points = 27
 
    type, public :: integration_rule
       integer  :: n                          !! points
-      real(wp) :: point(3, max_nodes)        !! local coordinates, 0 beyond n
-      real(wp) :: weight(max_nodes)          !! [-], their sum is the size of the local domain; 0 beyond n
+      real(wp) :: point(3, max_points)       !! local coordinates, 0 beyond n
+      real(wp) :: weight(max_points)         !! [-], their sum is the size of the local domain; 0 beyond n
    end type integration_rule
 
-   real(wp), parameter, public :: gauss = 1.0_wp/sqrt(3.0_wp) !! the two points of Gauss are -gauss and gauss
+   real(wp), parameter, public :: gauss = 1.0_wp/sqrt(3.0_wp) !! two points of Gauss: -gauss and gauss
+   !> Four points of a tetrahedron: the barycentric coordinate of the corner that a point is near to, and the three others.
+   real(wp), parameter, public :: tetra_near = (5.0_wp + 3.0_wp*sqrt(5.0_wp))/20.0_wp, tetra_far = (5.0_wp - sqrt(5.0_wp))/20.0_wp
    real(wp), parameter :: u = 1.0_wp/6.0_wp, v = 2.0_wp/3.0_wp, third = 1.0_wp/3.0_wp, o = 0.0_wp
+   real(wp), parameter :: h = sqrt(0.6_wp), wm = 8.0_wp/9.0_wp, we = 5.0_wp/9.0_wp ! three points of Gauss: -h, 0, h
 
    type(integration_rule), parameter :: edge_2 = integration_rule(2, &
-      reshape([-gauss, o, o, gauss, o, o], [3, 8], pad=[o]), [1, 1, 0, 0, 0, 0, 0, 0])
+      reshape([-gauss, o, o, gauss, o, o], [3, 27], pad=[o]), reshape([real(wp) :: 1, 1], [27], pad=[o]))
+   type(integration_rule), parameter :: edge_3 = integration_rule(3, &
+      reshape([-h, o, o, o, o, o, h, o, o], [3, 27], pad=[o]), reshape([we, wm, we], [27], pad=[o]))
    type(integration_rule), parameter :: triangle_1 = integration_rule(1, &
-      reshape([third, third, o], [3, 8], pad=[o]), [0.5_wp, o, o, o, o, o, o, o])
+      reshape([third, third, o], [3, 27], pad=[o]), reshape([0.5_wp], [27], pad=[o]))
    type(integration_rule), parameter :: triangle_3 = integration_rule(3, &
-      reshape([u, u, o, v, u, o, u, v, o], [3, 8], pad=[o]), [u, u, u, o, o, o, o, o])
+      reshape([u, u, o, v, u, o, u, v, o], [3, 27], pad=[o]), reshape([u, u, u], [27], pad=[o]))
    type(integration_rule), parameter :: quadrilateral_4 = integration_rule(4, &
-      reshape(gauss*[-1, -1, 0, 1, -1, 0, 1, 1, 0, -1, 1, 0], [3, 8], pad=[o]), [1, 1, 1, 1, 0, 0, 0, 0])
+      reshape(gauss*[-1, -1, 0, 1, -1, 0, 1, 1, 0, -1, 1, 0], [3, 27], pad=[o]), reshape([real(wp) :: 1, 1, 1, 1], [27], pad=[o]))
+   type(integration_rule), parameter :: quadrilateral_9 = integration_rule(9, &
+      reshape(h*[-1, -1, 0, 0, -1, 0, 1, -1, 0, -1, 0, 0, 0, 0, 0, 1, 0, 0, -1, 1, 0, 0, 1, 0, 1, 1, 0], [3, 27], pad=[o]), &
+      reshape([we*[we, wm, we], wm*[we, wm, we], we*[we, wm, we]], [27], pad=[o]))
    type(integration_rule), parameter :: tetrahedron_1 = integration_rule(1, &
-      reshape([0.25_wp, 0.25_wp, 0.25_wp], [3, 8], pad=[o]), [u, o, o, o, o, o, o, o])
+      reshape([0.25_wp, 0.25_wp, 0.25_wp], [3, 27], pad=[o]), reshape([u], [27], pad=[o]))
+   type(integration_rule), parameter :: tetrahedron_4 = integration_rule(4, &
+      reshape([tetra_far, tetra_far, tetra_far, tetra_near, tetra_far, tetra_far, tetra_far, tetra_near, tetra_far, &
+               tetra_far, tetra_far, tetra_near], [3, 27], pad=[o]), reshape(0.25_wp*[u, u, u, u], [27], pad=[o]))
    type(integration_rule), parameter :: wedge_6 = integration_rule(6, &
-      reshape([u, u, -gauss, v, u, -gauss, u, v, -gauss, u, u, gauss, v, u, gauss, u, v, gauss], [3, 8], pad=[o]), &
-      [u, u, u, u, u, u, o, o])
+      reshape([u, u, -gauss, v, u, -gauss, u, v, -gauss, u, u, gauss, v, u, gauss, u, v, gauss], [3, 27], pad=[o]), &
+      reshape([u, u, u, u, u, u], [27], pad=[o]))
+   type(integration_rule), parameter :: wedge_9 = integration_rule(9, &
+      reshape([u, u, -h, v, u, -h, u, v, -h, u, u, o, v, u, o, u, v, o, u, u, h, v, u, h, u, v, h], [3, 27], pad=[o]), &
+      reshape(u*[we, we, we, wm, wm, wm, we, we, we], [27], pad=[o]))
    type(integration_rule), parameter :: hexahedron_8 = integration_rule(8, &
-      reshape(gauss*[-1, -1, -1, 1, -1, -1, 1, 1, -1, -1, 1, -1, -1, -1, 1, 1, -1, 1, 1, 1, 1, -1, 1, 1], [3, 8]), &
-      [1, 1, 1, 1, 1, 1, 1, 1])
+      reshape(gauss*[-1, -1, -1, 1, -1, -1, 1, 1, -1, -1, 1, -1, -1, -1, 1, 1, -1, 1, 1, 1, 1, -1, 1, 1], [3, 27], pad=[o]), &
+      reshape([real(wp) :: 1, 1, 1, 1, 1, 1, 1, 1], [27], pad=[o]))
+   type(integration_rule), parameter :: hexahedron_27 = integration_rule(27, &
+      reshape(h*[-1, -1, -1, 0, -1, -1, 1, -1, -1, -1, 0, -1, 0, 0, -1, 1, 0, -1, -1, 1, -1, 0, 1, -1, 1, 1, -1, &
+                 -1, -1, 0, 0, -1, 0, 1, -1, 0, -1, 0, 0, 0, 0, 0, 1, 0, 0, -1, 1, 0, 0, 1, 0, 1, 1, 0, &
+                 -1, -1, 1, 0, -1, 1, 1, -1, 1, -1, 0, 1, 0, 0, 1, 1, 0, 1, -1, 1, 1, 0, 1, 1, 1, 1, 1], [3, 27]), &
+      [we*quadrilateral_9%weight(:9), wm*quadrilateral_9%weight(:9), we*quadrilateral_9%weight(:9)])
+
+   ! seven points of a triangle: the centre, and (a, a) with its images near the corners and near the middles of the sides
+   real(wp), parameter :: s15 = sqrt(15.0_wp)
+   real(wp), parameter :: a1 = (6.0_wp - s15)/21.0_wp, b1 = 1.0_wp - 2.0_wp*a1, w1 = (155.0_wp - s15)/2400.0_wp
+   real(wp), parameter :: a2 = (6.0_wp + s15)/21.0_wp, b2 = 1.0_wp - 2.0_wp*a2, w2 = (155.0_wp + s15)/2400.0_wp, w0 = 9.0_wp/80.0_wp
+   real(wp), parameter :: of_seven(7) = [w0, w1, w1, w1, w2, w2, w2]
+   type(integration_rule), parameter :: triangle_7 = integration_rule(7, &
+      reshape([third, third, o, a1, a1, o, b1, a1, o, a1, b1, o, a2, a2, o, b2, a2, o, a2, b2, o], [3, 27], pad=[o]), &
+      reshape(of_seven, [27], pad=[o]))
+   type(integration_rule), parameter :: wedge_21 = integration_rule(21, &
+      reshape([third, third, -h, a1, a1, -h, b1, a1, -h, a1, b1, -h, a2, a2, -h, b2, a2, -h, a2, b2, -h, &
+               third, third, o, a1, a1, o, b1, a1, o, a1, b1, o, a2, a2, o, b2, a2, o, a2, b2, o, &
+               third, third, h, a1, a1, h, b1, a1, h, a1, b1, h, a2, a2, h, b2, a2, h, a2, b2, h], [3, 27], pad=[o]), &
+      reshape([we*of_seven, wm*of_seven, we*of_seven], [27], pad=[o]))
+
+   ! fifteen points of a tetrahedron: the centre, those towards the corners and the faces, those towards the edges
+   real(wp), parameter :: c1 = (7.0_wp - s15)/34.0_wp, d1 = 1.0_wp - 3.0_wp*c1, v1 = (2665.0_wp + 14.0_wp*s15)/226800.0_wp
+   real(wp), parameter :: c2 = (7.0_wp + s15)/34.0_wp, d2 = 1.0_wp - 3.0_wp*c2, v2 = (2665.0_wp - 14.0_wp*s15)/226800.0_wp
+   real(wp), parameter :: e1 = (5.0_wp - s15)/20.0_wp, e2 = 0.5_wp - e1, v0 = 8.0_wp/405.0_wp, v3 = 5.0_wp/567.0_wp, q = 0.25_wp
+   type(integration_rule), parameter :: tetrahedron_15 = integration_rule(15, &
+      reshape([q, q, q, c1, c1, c1, d1, c1, c1, c1, d1, c1, c1, c1, d1, c2, c2, c2, d2, c2, c2, c2, d2, c2, c2, c2, d2, &
+               e1, e1, e2, e1, e2, e1, e2, e1, e1, e1, e2, e2, e2, e1, e2, e2, e2, e1], [3, 27], pad=[o]), &
+      reshape([v0, v1, v1, v1, v1, v2, v2, v2, v2, v3, v3, v3, v3, v3, v3], [27], pad=[o]))
 
    type(integration_rule), parameter :: none = integration_rule(0, o, o)
    type(integration_rule), parameter :: of_body(0:n_kinds) = &
-      [none, triangle_1, quadrilateral_4, tetrahedron_1, wedge_6, hexahedron_8]
-   type(integration_rule), parameter :: of_side(4) = [none, edge_2, triangle_3, quadrilateral_4]
+      [none, triangle_1, quadrilateral_4, tetrahedron_1, wedge_6, hexahedron_8, &
+       triangle_3, quadrilateral_9, tetrahedron_4, wedge_9, hexahedron_27]
+   type(integration_rule), parameter :: of_stress(n_kinds) = &
+      [of_body(1:5), triangle_3, quadrilateral_4, tetrahedron_4, wedge_6, hexahedron_8]
+   type(integration_rule), parameter :: of_side(0:n_shapes) = &
+      [none, triangle_3, quadrilateral_4, none, none, none, triangle_7, quadrilateral_9, none, none, none, edge_2, edge_3]
 
 contains
 
-   !> The rule over the body of an element. It integrates the volume, the nodal forces of a constant body force and, where
-   !! strains are constant, the stiffness exactly, in an axisymmetric model too.
+   !> The rule over the body of an element that its stiffness is integrated with: exact where the element is not distorted, its
+   !! nodes at the middle of straight edges, but for the hoop strain of an axisymmetric model. Of a linear element it integrates
+   !! the volume and the nodal forces of a constant body force exactly too.
    pure subroutine body_rule(kind, axisymmetric, rule)
-      integer, intent(in) :: kind            !! kind_tria3 ... kind_hexa8; 0: no points
-      logical, intent(in) :: axisymmetric    !! a triangle then needs three points, for the radius in the integrand
+      integer, intent(in) :: kind            !! kind_tria3 ... kind_hexa20; 0: no points
+      logical, intent(in) :: axisymmetric    !! a triangle then needs more points, for the radius in the integrand
       type(integration_rule), intent(out) :: rule
 
-      rule = of_body(kind)
-      if (kind == kind_tria3 .and. axisymmetric) rule = triangle_3
+      if (axisymmetric .and. kind == kind_tria3) then
+         rule = triangle_3
+      else if (axisymmetric .and. kind == kind_tria6) then
+         rule = triangle_7
+      else
+         rule = of_body(kind)
+      end if
    end subroutine body_rule
 
-   !> The rule over a side: an edge (2 nodes, coordinate from -1 to 1), a triangle (3) or a quadrilateral (4); 1: no points.
-   pure subroutine side_rule(n_nodes, rule)
-      integer, intent(in) :: n_nodes
+   !> The rule for integrals of shape functions over the body of an element, forces and masses: of second-order elements products
+   !! of two shape functions are integrated exactly where the element is not distorted.
+   pure subroutine volume_rule(kind, axisymmetric, rule)
+      integer, intent(in) :: kind            !! kind_tria3 ... kind_hexa20
+      logical, intent(in) :: axisymmetric
       type(integration_rule), intent(out) :: rule
 
-      rule = of_side(n_nodes)
+      select case (kind)
+      case (kind_tria6)
+         rule = triangle_7
+      case (kind_tetra10)
+         rule = tetrahedron_15
+      case (kind_penta15)
+         rule = wedge_21
+      case default
+         call body_rule(kind, axisymmetric, rule)
+      end select
+   end subroutine volume_rule
+
+   !> The points where stresses are taken to be continued to the nodes, as many as corners or one: where strains of second order
+   !! are at their best. Source: Barlow, Optimal stress locations in finite element models, Int. J. Numer. Meth. Engng 10 (1976)
+   !! 243-251.
+   pure subroutine stress_rule(kind, axisymmetric, rule)
+      integer, intent(in) :: kind            !! kind_tria3 ... kind_hexa20
+      logical, intent(in) :: axisymmetric    !! a triangle then has three points
+      type(integration_rule), intent(out) :: rule
+
+      rule = of_stress(kind)
+      if (kind == kind_tria3 .and. axisymmetric) rule = triangle_3
+   end subroutine stress_rule
+
+   !> The rule over a side: exact for the forces of a pressure that varies as the shape functions, on edges of rings too, and of a
+   !! constant pressure on curved sides.
+   pure subroutine side_rule(kind, rule)
+      integer, intent(in) :: kind            !! of the side, from side_kind; 0: no points
+      type(integration_rule), intent(out) :: rule
+
+      rule = of_side(kind)
    end subroutine side_rule
 
 end module quadrature

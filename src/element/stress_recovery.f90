@@ -7,8 +7,9 @@ module stress_recovery
    use element_mapping, only: element_law, element_map, map_element, map_point, max_shapes
    use isoparametric, only: condensed_stiffness, max_unknowns
    use kinds, only: wp
-   use quadrature, only: body_rule, gauss, integration_rule
-   use shape_functions, only: centre_point, corner_point, shape_values
+   use local_nodes, only: centre_point, node_point
+   use quadrature, only: gauss, integration_rule, stress_rule, tetra_far, tetra_near
+   use shape_functions, only: shape_values
    implicit none
    private
 
@@ -35,8 +36,9 @@ contains
       stress(:n) = matmul(law%d(:n, :n), strain(:n))
    end subroutine centre_stress
 
-   !> Stresses at the corners: those of the integration points, with the parameters of the incompatible modes, continued by
-   !! the shape functions through these points. Where the element has one such point its stress stands at all corners.
+   !> Stresses at the nodes: those of the points of stress_rule, with the parameters of the incompatible modes, continued by the
+   !! shape functions of corners through these points, linear between them. Where the element has one such point its stress stands
+   !! at all nodes.
    pure subroutine corner_stress(law, x, u, stress)
       type(element_law), intent(in) :: law
       real(wp), intent(in)    :: x(:, :)         !! corners (dimension, nodes) [length]
@@ -46,30 +48,31 @@ contains
       type(integration_rule) :: rule
       real(wp) :: g(3, max_shapes), q(3, max_shapes), strain(max_stresses), at_point(max_stresses, max_nodes)
       real(wp) :: n(max_nodes), volume
-      integer  :: i, k, m
+      integer  :: i, k, linear, m
 
       m = n_stresses(law%state)
       call map_element(law, x, map)
       q = 0.0_wp ! of the modes, and the third component in the plane
       q(:size(u, 1), :map%n) = u(:, :map%n)
       if (map%n_modes > 0) call recover_modes(law, x, q)
-      call body_rule(law%kind, law%state == axisymmetric, rule)
+      call stress_rule(law%kind, law%state == axisymmetric, rule)
       do k = 1, rule%n
          call map_point(law, map, rule%point(:, k), g, volume)
          call strain_at(law, map%n + map%n_modes, g, q, strain)
          at_point(:m, k) = matmul(law%d(:m, :m), strain(:m))
       end do
+      linear = element_table(law%kind)%linear
       do i = 1, map%n
          if (rule%n == 1) then
             stress(:m, i) = at_point(:m, 1)
          else
-            call shape_values(law%kind, in_points(law%kind, corner_point(:, i, law%kind)), n)
+            call shape_values(linear, in_points(linear, node_point(:, i, law%kind)), n)
             stress(:m, i) = matmul(at_point(:m, :rule%n), n(:rule%n))
          end if
       end do
    end subroutine corner_stress
 
-   !> A point in the local coordinates of the element whose corners are the integration points.
+   !> A point in the local coordinates of the linear element whose corners are the points of stress.
    pure function in_points(kind, point) result(scaled)
       integer, intent(in)  :: kind
       real(wp), intent(in) :: point(3)
@@ -77,6 +80,7 @@ contains
 
       scaled = point/gauss
       if (kind == kind_tria3 .or. kind == kind_penta6) scaled(:2) = 2.0_wp*point(:2) - 1.0_wp/3.0_wp
+      if (kind == kind_tetra4) scaled = (point - tetra_far)/(tetra_near - tetra_far)
    end function in_points
 
    !> Parameters of the incompatible modes, which the condensation has left behind: no force works on them.

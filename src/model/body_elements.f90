@@ -1,18 +1,21 @@
 !> The elements of the bodies, each by its kind: stiffness, stresses, forces. The one place that knows which kinds there are.
 module body_elements
    use elasticity, only: max_stresses, n_stresses, plane_strain, solid
-   use element_kinds, only: max_coupled_dofs
+   use element_kinds, only: element_table, max_coupled_dofs, max_nodes
    use element_loads, only: body_forces
    use element_mapping, only: element_law, make_element_law
    use isoparametric, only: stiffness
    use kinds, only: wp
+   use local_nodes, only: centre_point
    use model_data, only: corners_of, model_type
    use section_coupling, only: corner_displacements, coupled_nodes, extend_stiffness
+   use shape_functions, only: shape_values
    use stress_recovery, only: centre_stress, corner_stress
    implicit none
    private
 
-   public :: coupled_stiffness, element_stress, element_corner_stress, element_weight, internal_forces, law_of, full_stress
+   public :: coupled_stiffness, element_centre, element_stress, element_corner_stress, node_stresses, full_stress, element_weight
+   public :: internal_forces, law_of
 
 contains
 
@@ -26,6 +29,23 @@ contains
       call extend_stiffness(model, e, k)
    end subroutine coupled_stiffness
 
+   !> The centre of element E, where element_stress is [length]: of a linear element the mean of its corners.
+   pure function element_centre(model, e) result(x)
+      type(model_type), intent(in) :: model
+      integer, intent(in)          :: e
+      real(wp) :: x(model%dimension)
+      real(wp) :: n(max_nodes)
+
+      associate (nodes => corners_of(model, e), kind => element_table(model%element_kind(e)))
+         if (kind%n_nodes == kind%n_corners) then
+            x = sum(model%x(:model%dimension, nodes), dim=2)/size(nodes)
+         else
+            call shape_values(model%element_kind(e), centre_point(:, model%element_kind(e)), n)
+            x = matmul(model%x(:model%dimension, nodes), n(:size(nodes)))
+         end if
+      end associate
+   end function element_centre
+
    !> Stress at the centre of element E under the displacements U: components as in elasticity [pressure].
    pure function element_stress(model, e, u) result(stress)
       type(model_type), intent(in) :: model
@@ -38,17 +58,38 @@ contains
       end associate
    end function element_stress
 
-   !> Stresses at the corners of element E, as element_stress.
+   !> Stresses at the nodes of element E, as element_stress.
    pure subroutine element_corner_stress(model, e, u, stress)
       type(model_type), intent(in) :: model
       integer, intent(in)          :: e
       real(wp), intent(in)         :: u(:, :)      !! (dimension, n_nodes) [length]
-      real(wp), intent(inout)      :: stress(:, :) !! (components, corners) [pressure], set here
+      real(wp), intent(inout)      :: stress(:, :) !! (components, nodes) [pressure], set here
 
       associate (nodes => corners_of(model, e))
          call corner_stress(law_of(model, e), model%x(:model%dimension, nodes), corner_displacements(model, e, u), stress)
       end associate
    end subroutine element_corner_stress
+
+   !> Stresses at nodes as full_stress, of every node the mean of those that its elements have there; 0 where it has none.
+   pure subroutine node_stresses(model, u, at_node)
+      type(model_type), intent(in) :: model
+      real(wp), intent(in)         :: u(:, :)       !! (dimension, n_nodes) [length]
+      real(wp), intent(out)        :: at_node(:, :) !! (max_stresses, points) [pressure]
+      real(wp) :: own(max_stresses, max_nodes)
+      integer  :: c, e, i
+
+      at_node = 0.0_wp
+      do e = 1, model%n_elements
+         associate (nodes => corners_of(model, e))
+            c = n_stresses(model%properties(model%element_property(e))%state)
+            call element_corner_stress(model, e, u, own(:c, :size(nodes)))
+            do i = 1, size(nodes)
+               at_node(:, nodes(i)) = at_node(:, nodes(i)) + full_stress(model, e, own(:c, i))/ &
+                                      real(model%first_at(nodes(i) + 1) - model%first_at(nodes(i)), wp)
+            end do
+         end associate
+      end do
+   end subroutine node_stresses
 
    !> STRESS of element E as (xx, yy, zz, xy, yz, zx), the stress across the plane and along the hoop included.
    pure function full_stress(model, e, stress) result(full)
@@ -75,7 +116,7 @@ contains
       type(model_type), intent(in) :: model
       integer, intent(in)          :: e
       real(wp), intent(in)         :: b(:)     !! (dimension) [length/time^2]
-      real(wp), intent(inout)      :: f(:, :)  !! (dimension, corners) [force], set here
+      real(wp), intent(inout)      :: f(:, :)  !! (dimension, nodes) [force], set here
 
       call body_forces(law_of(model, e), model%x(:model%dimension, corners_of(model, e)), &
                        model%properties(model%element_property(e))%rho*b, f)

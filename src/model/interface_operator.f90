@@ -12,8 +12,8 @@ module interface_operator
    implicit none
    private
 
-   public :: hang_on, named_node, nodes_of_end, at_first_end, relative_movement, joint_movement, add_force, add_global_force, &
-             global_stiffness
+   public :: hang_on, named_node, nodes_of_end, weights_of_end, at_first_end, relative_movement, &
+             joint_movement, add_force, add_global_force, global_stiffness
 
    !> One interface element: the "beam" between two faces, or a face and the rigid base.
    type, public :: interface_element
@@ -53,6 +53,19 @@ contains
          nodes = element%node(element%n_1 + 1:)
       end if
    end function nodes_of_end
+
+   !> How large the weights of the nodes of END 1 or 2 are.
+   pure function weights_of_end(element, end) result(weights)
+      type(interface_element), intent(in) :: element
+      integer, intent(in)                 :: end
+      real(wp), allocatable :: weights(:)
+
+      if (end == 1) then
+         weights = abs(element%weight(:element%n_1))
+      else
+         weights = abs(element%weight(element%n_1 + 1:))
+      end if
+   end function weights_of_end
 
    !> The node that output and messages name for END 1 or 2: 0 for a rigid base, -1 where several nodes share the end.
    pure integer function named_node(element, end) result(node)

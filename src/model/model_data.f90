@@ -10,7 +10,7 @@ module model_data
    implicit none
    private
 
-   public :: corners_of, joint_node_id, n_bars, n_sections, n_points
+   public :: corners_of, has_second_order, is_coarser, joint_node_id, n_bars, n_sections, n_points
 
    !> Section and material of body elements.
    type, public :: property_type
@@ -28,18 +28,29 @@ module model_data
       integer :: id = 0
       integer :: n  = 0                      !! sides
       integer, allocatable :: corners(:)     !! (n) 2, 3 or 4
-      integer, allocatable :: nodes(:, :)    !! (most of any, n) its corners, 0 behind the last
+      integer, allocatable :: n_nodes(:)     !! (n) corners, and as many mid-side nodes where the side is of second order; of an edge 1
+      integer, allocatable :: nodes(:, :)    !! (most of any, n) its corners, then its mid-side nodes as in element_kinds, 0 behind
       integer, allocatable :: element(:)     !! (n) the body element that the side belongs to
       integer, allocatable :: other(:)       !! (n) a body element behind the side, 0: none
       logical :: was_split = .false.         !! a joint was made of it: the other body has the twins of its nodes
       integer, allocatable :: line(:)        !! (n) of its card in the deck text
    end type surface_type
 
+   real(wp), parameter, public :: whole_share = 0.999_wp !! share of a face or side from which on it is covered as a whole
+
+   !> How the sides of a joint that do not match cover each other.
+   type, public :: joint_cover
+      real(wp) :: share = 1.0_wp             !! of the area of SIDE1 that SIDE2 covers
+      real(wp) :: farthest = 0.0_wp          !! largest distance of the faces, along the normal of SIDE1 [length]
+      real(wp) :: spacing(2) = 0.0_wp        !! mean area, of edges length, of the faces of SIDE1 and of SIDE2 that take part
+   end type joint_cover
+
    !> One joint: a group of interface elements with the same laws.
    type, public :: joint_type
       integer  :: id = 0                     !! JID; PJID for a group of CJOINT cards
       integer  :: line = 0                   !! of its card (the first CJOINT) in the deck text
       integer  :: first = 0, last = -1       !! its interface elements
+      type(joint_cover) :: cover
       type(joint_law) :: law                 !! normal, shear, friction
       logical  :: e_u_given = .false.        !! whether the deck gives the unloading slope
       integer  :: n_reanalyses = 1           !! NREAN after the Coulomb check; -1: until the excess is gone
@@ -88,6 +99,7 @@ module model_data
       integer :: dimension = 2               !! degrees of freedom a node
       logical :: axisymmetric = .false.      !! about y; loads, areas and forces are those of the whole ring
       integer :: n_nodes = 0
+      integer :: n_filled = 0                !! of these put at the middle of edges, see mid_side_nodes
       integer, allocatable  :: node_id(:)    !! ascending; behind the last the nodes of sections, 0
       real(wp), allocatable :: x(:, :)       !! (3, n_nodes) [length]
       integer, allocatable  :: twin(:)       !! (n_nodes) the node that a split surface put opposite, 0: none
@@ -97,7 +109,7 @@ module model_data
       integer :: n_elements = 0
       integer, allocatable  :: element_id(:)
       integer, allocatable  :: element_kind(:)       !! of element_kinds
-      integer, allocatable  :: element_nodes(:, :)   !! (most of any, n_elements) corners as on the cards, 0 behind the last
+      integer, allocatable  :: element_nodes(:, :)   !! (most of any, n_elements) nodes as on the cards, 0 behind the last
       integer, allocatable  :: element_property(:)
       integer, allocatable  :: element_line(:)       !! of its card in the deck text
       integer, allocatable  :: first_at(:)           !! (n_nodes + 1) elements_at(first_at(i):first_at(i+1)-1)
@@ -116,6 +128,13 @@ module model_data
    end type model_type
 
 contains
+
+   !> Whether SIDE1 of a joint is coarser than SIDE2: its faces on the mean more than a tenth larger.
+   pure logical function is_coarser(cover)
+      type(joint_cover), intent(in) :: cover
+
+      is_coarser = cover%spacing(1) > 1.1_wp*cover%spacing(2)
+   end function is_coarser
 
    !> How many bars there are.
    pure integer function n_bars(model)
@@ -149,7 +168,7 @@ contains
       if (id > 0) id = model%node_id(id)
    end function joint_node_id
 
-   !> The corners of element E.
+   !> The nodes of element E, corners first.
    pure function corners_of(model, e) result(nodes)
       type(model_type), intent(in) :: model
       integer, intent(in)          :: e
@@ -157,5 +176,12 @@ contains
 
       nodes = model%element_nodes(:size(nodes), e)
    end function corners_of
+
+   !> Whether MODEL has elements of second order.
+   pure logical function has_second_order(model)
+      type(model_type), intent(in) :: model
+
+      has_second_order = any(element_table(model%element_kind)%linear /= model%element_kind)
+   end function has_second_order
 
 end module model_data

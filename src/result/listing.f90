@@ -9,7 +9,7 @@ module listing
    use listing_bars, only: note_bars, note_sections
    use listing_bodies, only: list_bodies
    use listing_joints, only: list_energy, list_interface, note_passes, note_resultants
-   use listing_opening, only: write_opening
+   use listing_opening, only: tetra_words, write_opening
    use listing_plot, only: plot_joints
    use listing_states, only: list_condensed, list_states
    use listing_steps, only: farthest_type, note_distances, note_slips
@@ -52,6 +52,7 @@ contains
             moment=force//' '//length, slope=force//'/'//length//'2/'//length)
       end associate
       call write_opening(listing%page, deck, model, plan, system)
+      if (tetra_words(model) /= '') listing%watch%n_warnings = 1
    end subroutine start_listing
 
    !> Note the increment just completed; print its tables where OUTPUT = ALL or JOINT.

@@ -1,12 +1,12 @@
 !> Tables of the bodies: displacements, stresses, reactions, and the balance of the outer forces.
 module listing_bodies
    use analysis_state, only: analysis_type, element_force
-   use body_elements, only: element_stress, full_stress
+   use body_elements, only: element_centre, element_stress, full_stress, node_stresses
    use elasticity, only: max_stresses, n_stresses
    use interface_operator, only: named_node
    use kinds, only: wp
    use listing_table, only: axes, column, listing_table_type, noise, page_type
-   use model_data, only: corners_of, model_type, n_points
+   use model_data, only: has_second_order, model_type, n_points
    use stress_measures, only: principal_stresses, von_mises
    use text_tools, only: clean
    implicit none
@@ -16,7 +16,7 @@ module listing_bodies
 
 contains
 
-   !> Displacements, stresses, with PRINCIPAL also the principal ones, reactions.
+   !> Displacements, stresses, with PRINCIPAL also the principal ones and of elements of second order those at nodes, reactions.
    subroutine list_bodies(page, principal, model, analysis)
       type(page_type), intent(inout)  :: page
       logical, intent(in)             :: principal
@@ -25,6 +25,7 @@ contains
 
       call list_displacements(page, model, analysis)
       if (model%n_elements > 0) call list_stresses(page, principal, model, analysis)
+      if (principal .and. has_second_order(model)) call list_node_stresses(page, model, analysis)
       call list_reactions(page, model, analysis)
    end subroutine list_bodies
 
@@ -58,7 +59,6 @@ contains
       type(listing_table_type) :: table
       real(wp), allocatable :: stress(:, :)
       real(wp) :: floor
-      character(10), allocatable :: names(:)
       integer  :: e, n
 
       allocate (stress(max_stresses, model%n_elements), source=0.0_wp)
@@ -68,26 +68,67 @@ contains
          stress(:n, e) = element_stress(model, e, analysis%all_u)
       end do
       floor = noise*maxval(abs(stress))
-      if (model%dimension == 3) then
-         names = [character(10) :: 'SIGMA X', 'SIGMA Y', 'SIGMA Z', 'TAU XY', 'TAU YZ', 'TAU ZX']
-      else if (model%axisymmetric) then
-         names = [character(10) :: 'SIGMA X', 'SIGMA Y', 'SIGMA HOOP', 'TAU XY']
-      else
-         names = [character(10) :: 'SIGMA X', 'SIGMA Y', 'TAU XY']
-      end if
       call table%start('STRESSES AT THE CENTRES OF ELEMENTS'//page%now//in_units(page%labels%pressure), &
-                       [column('ELEMENT', 'i11'), column('CENTRE '//axes(:model%dimension), 'es13.5'), column(names, 'es13.5')])
+                       [column('ELEMENT', 'i11'), column('CENTRE '//axes(:model%dimension), 'es13.5'), &
+                        column(stress_names(model), 'es13.5')])
       call table%print_head(page%file)
       do e = 1, model%n_elements
          call table%add([model%element_id(e)])
-         associate (nodes => corners_of(model, e))
-            call table%add(clean(sum(model%x(:model%dimension, nodes), dim=2)/size(nodes)))
-         end associate
+         call table%add(clean(element_centre(model, e)))
          call table%add(clean(stress(:n, e), floor))
          call table%print_row(page%file)
       end do
       if (principal) call list_principal(page, model, stress(:n, :), floor)
    end subroutine list_stresses
+
+   !> Which of the stresses (xx, yy, zz, xy, yz, zx) the tables of MODEL have.
+   pure function shown_stresses(model) result(shown)
+      type(model_type), intent(in) :: model
+      integer, allocatable         :: shown(:)
+      integer :: k
+
+      shown = [(k, k = 1, max_stresses)]
+      if (model%dimension == 2) shown = [1, 2, 4]
+      if (model%axisymmetric) shown = [1, 2, 3, 4]
+   end function shown_stresses
+
+   !> Their names; across the plane of an axisymmetric model stands the hoop stress.
+   pure function stress_names(model) result(names)
+      type(model_type), intent(in) :: model
+      character(10), allocatable   :: names(:)
+      character(10) :: all_names(max_stresses)
+
+      all_names = [character(10) :: 'SIGMA X', 'SIGMA Y', 'SIGMA Z', 'TAU XY', 'TAU YZ', 'TAU ZX']
+      if (model%axisymmetric) all_names(3) = 'SIGMA HOOP'
+      names = all_names(shown_stresses(model))
+   end function stress_names
+
+   !> Stresses at nodes, the mean of their elements', and the equivalent stress of von Mises there.
+   subroutine list_node_stresses(page, model, analysis)
+      type(page_type), intent(inout)  :: page
+      type(model_type), intent(in)    :: model
+      type(analysis_type), intent(in) :: analysis
+      type(listing_table_type) :: table
+      real(wp), allocatable :: stress(:, :)
+      integer, allocatable  :: shown(:)
+      real(wp) :: floor
+      integer  :: node
+
+      allocate (stress(max_stresses, n_points(model)))
+      call node_stresses(model, analysis%all_u, stress)
+      floor = noise*maxval(abs(stress))
+      shown = shown_stresses(model)
+      call table%start('STRESSES AT NODES, MEAN OF THEIR ELEMENTS'//page%now//in_units(page%labels%pressure), &
+                       [column('NODE', 'i11'), column([character(10) :: stress_names(model), 'VON MISES'], 'es13.5')])
+      call table%print_head(page%file)
+      do node = 1, n_points(model)
+         if (model%first_at(node + 1) == model%first_at(node)) cycle
+         call table%add([model%node_id(node)])
+         call table%add(clean(stress(shown, node), floor))
+         call table%add(clean([von_mises(stress(:, node))], floor))
+         call table%print_row(page%file)
+      end do
+   end subroutine list_node_stresses
 
    !> Principal stresses and the equivalent stress of von Mises at the centres.
    subroutine list_principal(page, model, stress, floor)

@@ -3,10 +3,10 @@
 module vtu_results
    use, intrinsic :: iso_fortran_env, only: int8
    use analysis_state, only: analysis_type
-   use body_elements, only: element_corner_stress, element_stress, full_stress
+   use body_elements, only: element_stress, full_stress, node_stresses
    use c_library, only: remove_file
-   use element_kinds, only: element_table, kind_penta6, max_nodes
-   use elasticity, only: max_stresses, n_stresses
+   use element_kinds, only: element_table
+   use elasticity, only: max_stresses
    use interface_operator, only: at_first_end
    use kinds, only: wp
    use model_data, only: corners_of, model_type, n_points
@@ -88,48 +88,37 @@ contains
 
    end subroutine write_vtu
 
-   !> Elements with stresses at their centres, nodes with displacements and the mean of the stresses at the corners there.
+   !> Elements with stresses at their centres, nodes with displacements and the mean of the stresses of its elements there.
    subroutine write_bodies(file, model, analysis)
       type(vtu_file_type), intent(inout) :: file
       type(model_type), intent(in)       :: model
       type(analysis_type), intent(in)    :: analysis
-      integer, parameter :: wedge(6) = [1, 3, 2, 4, 6, 5] ! VTK wants the first triangle of a wedge to face out
       real(wp), allocatable :: u(:, :), at_node(:, :), at_centre(:, :), principal(:, :)
-      real(wp) :: corner(max_stresses, max_nodes)
-      integer, allocatable       :: corners(:), ends(:), properties(:)
+      integer, allocatable       :: connected(:), ends(:), properties(:)
       integer(int8), allocatable :: types(:)
-      integer :: c, e, i, k, m, n
+      integer :: e, i, m, n
 
       m = n_points(model)
-      allocate (u(3, m), at_node(6, m), source=0.0_wp)
-      allocate (at_centre(6, model%n_elements), principal(3, model%n_elements))
-      allocate (corners(count(model%element_nodes > 0)))
+      allocate (u(3, m), source=0.0_wp)
+      allocate (at_node(max_stresses, m), at_centre(max_stresses, model%n_elements), principal(3, model%n_elements))
+      allocate (connected(count(model%element_nodes > 0)))
       allocate (ends(model%n_elements), types(model%n_elements), properties(model%n_elements))
       u(:model%dimension, :) = analysis%all_u(:, :m)
       n = 0
       do e = 1, model%n_elements
          associate (nodes => corners_of(model, e))
-            do i = 1, size(nodes)
-               k = i
-               if (model%element_kind(e) == kind_penta6) k = wedge(i)
-               corners(n + i) = nodes(k)
-            end do
+            connected(n + 1:n + size(nodes)) = nodes(element_table(model%element_kind(e))%vtk_nodes(:size(nodes)))
             n = n + size(nodes)
             ends(e) = n
             types(e) = int(element_table(model%element_kind(e))%vtk_type, int8)
             properties(e) = model%properties(model%element_property(e))%id
-            c = n_stresses(model%properties(model%element_property(e))%state)
             at_centre(:, e) = full_stress(model, e, element_stress(model, e, analysis%all_u))
             principal(:, e) = principal_stresses(at_centre(:, e))
-            call element_corner_stress(model, e, analysis%all_u, corner(:c, :size(nodes)))
-            do i = 1, size(nodes)
-               at_node(:, nodes(i)) = at_node(:, nodes(i)) + full_stress(model, e, corner(:c, i))/ &
-                                      real(model%first_at(nodes(i) + 1) - model%first_at(nodes(i)), wp)
-            end do
          end associate
       end do
+      call node_stresses(model, analysis%all_u, at_node)
       call file%points(model%x(:, :m))
-      call file%cells(corners, ends, types)
+      call file%cells(connected, ends, types)
       call file%add(point_data, 'node', model%node_id(:m))
       call file%add(point_data, 'displacement', u)
       call file%add(point_data, 'stress', at_node)

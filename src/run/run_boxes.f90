@@ -15,6 +15,7 @@ module run_boxes
    use failures, only: failure_type
    use incomplete_results, only: watch_allocations
    use law_distance, only: follow_laws
+   use listing_opening, only: tetra_words
    use listing_steps, only: distance_words
    use load_path, only: recover_bodies
    use machine, only: keep_memory, use_threads
@@ -226,6 +227,7 @@ contains
          end associate
          words = distance_words(run%results%listing%farthest)
          if (words /= '') write (error_unit, '(3a)') run%argument%name, ': ', words
+         if (tetra_words(model) /= '') write (error_unit, '(3a)') run%argument%name, ': ', tetra_words(model)
          if (.not. ok) run%ending = is_unwritten
       end if
       if (run%failure%raised) run%ending = is_unsolved

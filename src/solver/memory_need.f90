@@ -1,6 +1,7 @@
 !> What is needed against what the machine has. Of a model it is told from its cards before a node is made: what no order of
 !! elimination changes. A factor is looked at when its layout is known, and before it is made.
 module memory_need
+   use bulk_data, only: block_card
    use deck_input, only: deck_type
    use failures, only: failure_type
    use kinds, only: wp
@@ -26,12 +27,26 @@ contains
       associate (bulk => deck%bulk)
          nodes = size(bulk%grid)
          do b = 1, size(bulk%block)
-            nodes = nodes + product(bulk%block(b)%divisions + 1.0_wp)
+            nodes = nodes + nodes_of_block(bulk%block(b))
          end do
       end associate
       call shortage('the nodes of the model need at least', node_bytes*nodes, words, share)
       if (words /= '') call failure%raise(words)
    end subroutine check_model_size
+
+   !> Nodes of the block of CARD, of second order with those at the middle of its edges.
+   pure real(wp) function nodes_of_block(card) result(nodes)
+      type(block_card), intent(in) :: card
+      real(wp) :: along(3) ! nodes along x, y, z
+      integer  :: k
+
+      along = card%divisions + 1.0_wp
+      nodes = product(along)
+      if (card%order == 1) return
+      do k = 1, card%dimension
+         nodes = nodes + product(along)/along(k)*card%divisions(k)
+      end do
+   end function nodes_of_block
 
    !> A failure where so many BYTES for the factor of N equations are more than can be had; its message says what would fit.
    subroutine check_memory(n, dimension, bytes, failure)

@@ -4,8 +4,8 @@ module sample_elements
    use element_kinds, only: element_table, max_nodes
    use element_mapping, only: element_law, element_map, map_element, map_point, max_shapes
    use kinds, only: wp
-   use quadrature, only: body_rule, integration_rule
-   use shape_functions, only: corner_point
+   use local_nodes, only: node_point
+   use quadrature, only: integration_rule, volume_rule
    implicit none
    private
 
@@ -22,8 +22,8 @@ contains
       x = 0.0_wp
       do i = 1, max_nodes
          do k = 1, element_table(kind)%dimension
-            x(k, i) = corner_point(k, i, kind) + 0.2_wp*corner_point(modulo(k, 2) + 1, i, kind) + 2.0_wp + &
-                      0.12_wp*sin(2.3_wp*i + 1.7_wp*k*i)
+            x(k, i) = node_point(k, i, kind) + 0.2_wp*node_point(modulo(k, 2) + 1, i, kind) + 2.0_wp + &
+                      merge(0.12_wp, 0.04_wp, element_table(kind)%linear == kind)*sin(2.3_wp*i + 1.7_wp*k*i)
          end do
       end do
    end function distorted
@@ -39,7 +39,7 @@ contains
       integer  :: i
 
       call map_element(law, x, map)
-      call body_rule(law%kind, law%state == axisymmetric, rule)
+      call volume_rule(law%kind, law%state == axisymmetric, rule)
       total = 0.0_wp
       do i = 1, rule%n
          call map_point(law, map, rule%point(:, i), g, volume)
