@@ -4,26 +4,30 @@
 # elements also under pressure on its end or on one long side. Nodes stand in rows of nx + 1 along x, these in layers. Those that
 # are free to move along a line are off their places, but in `modes`, whose elements are bricks. Where elements are of second
 # order the rows have a node between any two corners, at the middle of these, or off it where the deck is `curved`.
-# `ring` is a thick ring, radii 30 and 80 mm, 40 mm high, under an axial load, under its own weight, and under inner pressure.
+# Curved triangles, tetrahedra and wedges have the end load alone: for their weight and for pressure CalculiX takes fewer points.
+# `ring` is a thick ring, radii 30 and 80 mm, 40 mm high, under pressure on one end, under its own weight, and under inner pressure.
 
 BEGIN {
    split("tetra CTETRA 1 hexa CHEXA 1 modes CHEXA 1 tria CTRIA3 1 quad CQUAD4 1 strain CTRIA3 1 " \
-         "tetra10 CTETRA 2 hexa20 CHEXA 2 hexa20_curved CHEXA 2 penta15 CPENTA 2 penta15_curved CPENTA 2 tria6 CTRIA6 2 " \
-         "tria6_curved CTRIA6 2 quad8 CQUAD8 2 quad8_curved CQUAD8 2 strain8 CQUAD8 2 stress8 CQUAD8 2 ring8 CQUAD8 2 " \
-         "ring8_curved CQUAD8 2", word, " ")
+         "tetra10 CTETRA 2 tetra10_curved CTETRA 2 hexa20 CHEXA 2 hexa20_curved CHEXA 2 penta15 CPENTA 2 " \
+         "penta15_curved CPENTA 2 tria6 CTRIA6 2 tria6_curved CTRIA6 2 quad8 CQUAD8 2 quad8_curved CQUAD8 2 " \
+         "strain8 CQUAD8 2 stress8 CQUAD8 2 ring8 CQUAD8 2 ring8_curved CQUAD8 2", word, " ")
    for (w = 1; w in word; w += 3) if (word[w] == name) { kind = word[w + 1]; order = word[w + 2] }
    if (kind == "") { print "deck.awk: there is no deck " name > "/dev/stderr"; exit 1 }
-   solid = kind !~ /CTRIA|CQUAD/; ring = name ~ /^ring/; curved = name ~ /curved/; uniform = name ~ /^(modes|stress8)$/
+   solid = kind !~ /CTRIA|CQUAD/; ring = name ~ /^ring/; off = name != "modes"
+   curved = name ~ /curved/; few = curved && kind ~ /TRIA|TETRA|PENTA/
    nx = order == 2 ? 4 : solid ? 6 : 10; ny = solid || order == 2 ? 2 : 4; nz = solid ? 2 : 0
    mx = order * nx; my = order * ny; mz = order * nz
-   print "UNITS = MM, N\nSPC = 1\nSUBCASE 1\n  LABEL = END LOAD\n  LOAD = 1\nSUBCASE 2\n  LABEL = OWN WEIGHT\n  LOAD = 2"
-   if (order == 2) print "SUBCASE 3\n  LABEL = PRESSURE\n  LOAD = 3"
+   print "UNITS = MM, N\nSPC = 1\nSUBCASE 1\n  LABEL = END LOAD\n  LOAD = 1"
+   if (!few) print "SUBCASE 2\n  LABEL = OWN WEIGHT\n  LOAD = 2"
+   if (order == 2 && !few) print "SUBCASE 3\n  LABEL = PRESSURE\n  LOAD = 3"
    print "BEGIN BULK"
 
    # corners count in steps of `order`; a cell is one hexahedron, one quadrilateral, or what fills it of other kinds
    for (k = 0; k < (solid ? mz : 1); k += order) for (j = 0; j < my; j += order) for (i = 0; i < mx; i += order) {
       a = at(i, j, k); b = at(i + order, j, k); c = at(i + order, j + order, k); d = at(i, j + order, k)
-      A = at(i, j, k + order); B = at(i + order, j, k + order); C = at(i + order, j + order, k + order); D = at(i, j + order, k + order)
+      A = at(i, j, k + order); B = at(i + order, j, k + order)
+      C = at(i + order, j + order, k + order); D = at(i, j + order, k + order)
       even = (i + j) / order % 2 == 0
       if (kind == "CHEXA") element(a " " b " " c " " d " " A " " B " " C " " D, "1-2 2-3 3-4 4-1 1-5 2-6 3-7 4-8 5-6 6-7 7-8 8-5")
       if (kind == "CPENTA") {
@@ -43,11 +47,11 @@ BEGIN {
       place(i, j, k)
       printf "GRID,%d,,%.4f,%.4f,%.4f\n", node(i, j, k), here[1], here[2], here[3]
       if (ring ? j == 0 : i == 0) print "SPC1,1," (solid ? "123," : ring ? "2," : "12,") node(i, j, k)
-      if (ring ? j == my : i == mx)
-         print "FORCE,1," node(i, j, k) ",," 100 + 10 * j + k + i * ring (solid ? ".0,0.5,0.25,-1.0" : ".0,0.5,-1.0,0.0")
+      if (!ring && i == mx) print "FORCE,1," node(i, j, k) ",," 100 + 10 * j + k (solid ? ".0,0.5,0.25,-1.0" : ".0,0.5,-1.0,0.0")
    }
    if (ring) print "PAXIS,1,1"
-   else print solid ? "PSOLID,1,1" (name == "modes" ? ",,,,MODES" : "") : "PSHELL,1,1," (name == "stress8" ? "0.02" : "8.0") (name ~ /strain/ ? ",-1" : "")
+   else if (solid) print "PSOLID,1,1" (name == "modes" ? ",,,,MODES" : "")
+   else print "PSHELL,1,1," (name == "stress8" ? "0.02" : "8.0") (name ~ /strain/ ? ",-1" : "")
    print "MAT1,1,210000.0,,0.3,7.85-6"
    print solid ? "GRAV,2,,9.81,0.3,0.2,-1.0" : ring ? "GRAV,2,,9.81,0.0,-1.0,0.0" : "GRAV,2,,9.81,0.3,-1.0,0.0"
    print "ENDDATA"
@@ -83,18 +87,19 @@ function place(i, j, k,   s, c, lower) {
    if (solid) here[3] += s * 0.6 * ((i + j + 2 * k) % 3 - 0.9)
 }
 function corner(i, j, k) {
-   here[1] = 120 / nx * i + (!uniform) * (i % nx ? 1.1 * (1 + j - 2 * k) : 0)
-   here[2] = (solid ? 20 : 24) / ny * j + (!uniform) * (j % ny ? 0.88 * (i % 3 - 1.3 + k) : 0)
-   here[3] = 8 * k + (!uniform) * (k == 1 ? 0.77 * (1 - i % 3 + j) : 0)
+   here[1] = 120 / nx * i + off * (i % nx ? 1.1 * (1 + j - 2 * k) : 0)
+   here[2] = (solid ? 20 : 24) / ny * j + off * (j % ny ? 0.88 * (i % 3 - 1.3 + k) : 0)
+   here[3] = 8 * k + off * (k == 1 ? 0.77 * (1 - i % 3 + j) : 0)
    if (ring) { here[1] = 30 + here[1] * 50 / 120; here[2] *= 40 / 24 }
 }
 
-# press(CELL): on the side y high; of a ring on the inner one; solids on their end
+# press(CELL): on the side y high; of a ring on the inner one, and as its end load on its upper one; solids on their end
 function press(i, j, k) {
+   if (ring && j + 2 == my) print "PLOADE,1," elements "," 30 + i ".0," node(i, j + 2, 0) "," node(i + 2, j + 2, 0)
    if (ring) { if (i == 0) print "PLOADE,3," elements ",50.0," node(i, j, 0) "," node(i, j + 2, 0) }
    else if (!solid) { if (j + 2 == my) print "PLOADE,3," elements ",2.0," node(i, j + 2, 0) "," node(i + 2, j + 2, 0) }
-   else if (i + 2 == mx && kind == "CHEXA") print "PLOAD4,3," elements ",50.0,,,," node(i + 2, j, k) "," node(i + 2, j + 2, k + 2)
-   else if (i + 2 == mx && kind == "CPENTA") print "PLOAD4,3," elements - 1 ",50.0,,,," node(i + 2, j, k) "," node(i + 2, j + 2, k + 2)
+   else if (i + 2 == mx && kind != "CTETRA")
+      print "PLOAD4,3," elements - (kind == "CPENTA") ",50.0,,,," node(i + 2, j, k) "," node(i + 2, j + 2, k + 2)
    else if (i + 2 == mx) { # the two tetrahedra with three corners there
       print "PLOAD4,3," elements - 5 ",50.0,,,," node(i + 2, j, k) "," node(i, j, k)
       print "PLOAD4,3," elements - 4 ",50.0,,,," node(i + 2, j, k) "," node(i, j, k)
