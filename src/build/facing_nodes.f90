@@ -66,7 +66,7 @@ contains
             integer_text(side1%n)//' of SIDE1 found no partner within '//real_text(tolerance)//'; the farthest is node '// &
             integer_text(model%node_id(worst_node))//' at '//place//real_text(worst)//' away'
       else if (shared > 0) then
-         fault%in_tolerance = tol > 0.0_wp
+         fault%in_tolerance = .true.
          fault%words = 'within '//real_text(tolerance)//' '//plural(shared, 'node')// &
                        ' of SIDE1 found a partner that another one has'
       else if (turned > 0) then
@@ -87,7 +87,7 @@ contains
 
       shortest = huge(1.0_wp)
       do e = 1, surface%n
-         associate (n => surface%corners(e))
+         associate (n => surface%n_corners(e))
             do k = 1, n
                shortest = min(shortest, norm2(model%x(:, surface%nodes(modulo(k, n) + 1, e)) - model%x(:, surface%nodes(k, e))))
             end do
@@ -115,7 +115,7 @@ contains
       integer, allocatable :: nodes(:)
       integer :: k
 
-      nodes = [(surface%nodes(surface%corners(k) + 1:surface%n_nodes(k), k), k = 1, surface%n)]
+      nodes = [(surface%nodes(surface%n_corners(k) + 1:surface%n_nodes(k), k), k = 1, surface%n)]
    end function nodes_between
 
 end module facing_nodes

@@ -28,6 +28,7 @@ module interface_sums
       procedure :: add_face
       procedure :: finish
       procedure :: has_area
+      procedure :: has_none
       procedure :: hang
    end type interface_sums_type
 
@@ -106,6 +107,14 @@ contains
 
       has_area = self%area(i) > least_area*self%around(i)
    end function has_area
+
+   !> Whether the area of element I is zero but for rounding: at a corner on the axis, and far from what is covered of a face.
+   elemental logical function has_none(self, i)
+      class(interface_sums_type), intent(in) :: self
+      integer, intent(in)                    :: i
+
+      has_none = abs(self%area(i)) <= least_area*self%around(i)
+   end function has_none
 
    !> Hang ELEMENT on the nodes that the faces at I gave it, each once, those of an end in ascending order.
    pure subroutine hang(self, i, element)

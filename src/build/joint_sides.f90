@@ -1,8 +1,8 @@
 !> The interface elements of a JOINT card: between the nodes of two sides that match, by pairs; between sides that do not, by lists of
 !! nodes; between a surface and its twin or a rigid base.
 module joint_sides
-   use deck_check, only: checked_deck
    use bulk_data, only: fit_no, fit_yes
+   use deck_check, only: checked_deck
    use face_fit, only: face_part
    use face_shares, only: whole_shares
    use facing_nodes, only: pair_nodes, pairing_fault
@@ -12,8 +12,10 @@ module joint_sides
    use interface_sums, only: interface_sums_type
    use kinds, only: wp
    use model_data, only: model_type, surface_type
+   use position_search, only: position_search_type
    use side_fit, only: fit_side, side_cover
-   use surface_build, only: side_influence, surface_node_list, surface_nodes
+   use surface_build, only: side_influence, side_name, surface_node_list, surface_nodes
+   use surface_sides, only: nodes_of
    use text_tools, only: integer_text, real_text
    implicit none
    private
@@ -55,8 +57,12 @@ contains
          if (fault%words == '') then
             call pair_elements(deck, j, model, model%surfaces(surface(1)), side1, partner, elements)
          else if (card%fit == fit_no) then
-            call deck%field_error(card%line, trim(merge('TOL  ', 'SIDE2', fault%in_tolerance)), fault%words// &
-                                  '; FIT = AUTO joins faces that do not match', called='TOL')
+            fault%words = fault%words//'; FIT = AUTO joins faces that do not match'
+            if (fault%in_tolerance) then
+               call deck%field_error(card%line, trim(merge('TOL  ', 'SIDE2', card%tolerance > 0.0_wp)), fault%words, called='TOL')
+            else
+               call deck%field_error(card%line, 'SIDE2', fault%words)
+            end if
          else
             call fitted_elements(deck, j, model, surface, side1, elements)
          end if
@@ -90,7 +96,7 @@ contains
       type(interface_sums_type) :: sums
       integer :: k
 
-      if (any(surface%corners(:surface%n) < surface%n_nodes(:surface%n))) then
+      if (any(surface%n_corners(:surface%n) < surface%n_nodes(:surface%n))) then
          call add_pairs(model, surface, side, partner, sums)
          call summed_elements(deck, j, model, side, sums, spread(.false., 1, side%n), elements)
          return
@@ -158,16 +164,38 @@ contains
       associate (card => deck%bulk%joint(j), own => model%surfaces(surface(1)))
          call fit_side(model, own, model%surfaces(surface(2)), side1, card%tolerance, sums, found)
          if (found%cover%share <= 0.0_wp) then
-            call deck%field_error(card%line, 'SIDE2', 'it covers nothing of SIDE1: no face of it looks at one of SIDE1 within TOL')
+            call deck%field_error(card%line, 'SIDE2', 'surface '//integer_text(card%sides(2))//' covers nothing of SIDE1: no '// &
+               'face of it looks at one of SIDE1 within '//real_text(found%reach)//' along the normal; the nearest nodes are '// &
+               real_text(nearest_nodes(model, model%surfaces(surface)))//' apart. Mark the sides that face each other, or '// &
+               'give a larger TOL')
          else if (found%double > 0) then
-            call deck%field_error(card%line, 'SIDE2', 'faces of it lie behind one another: they cover the face at node '// &
-               integer_text(model%node_id(own%nodes(1, found%double)))//' of SIDE1 '//real_text(found%double_share)//' times')
+            call deck%field_error(card%line, 'SIDE2', 'faces of surface '//integer_text(card%sides(2))//' lie behind one '// &
+               'another, and cover the '//side_name(model, own%nodes(:own%n_corners(found%double), found%double))//' of SIDE1 '// &
+               real_text(found%double_share)//' times: mark the nearer ones alone, or give a TOL below their distance')
          else
             model%joints(j)%cover = found%cover
             call summed_elements(deck, j, model, side1, sums, found%partly, elements)
          end if
       end associate
    end subroutine fitted_elements
+
+   !> The shortest distance between a node of one surface and one of the other [length].
+   pure real(wp) function nearest_nodes(model, surfaces) result(shortest)
+      type(model_type), intent(in)   :: model
+      type(surface_type), intent(in) :: surfaces(2)
+      type(position_search_type) :: search
+      real(wp) :: distance
+      integer  :: found, k
+
+      shortest = huge(1.0_wp)
+      call search%build(model%x(:, nodes_of(surfaces(2))))
+      associate (nodes => nodes_of(surfaces(1)))
+         do k = 1, size(nodes)
+            call search%nearest(model%x(:, nodes(k)), shortest, found, distance)
+            shortest = min(shortest, distance)
+         end do
+      end associate
+   end function nearest_nodes
 
    !> The elements that SUMS has at the nodes of SIDE, in their order.
    subroutine summed_elements(deck, j, model, side, sums, may_lack, elements)
@@ -176,7 +204,7 @@ contains
       type(model_type), intent(in)                        :: model
       type(surface_node_list), intent(in)                 :: side
       type(interface_sums_type), intent(in)               :: sums
-      logical, intent(in)                                 :: may_lack(:) !! whether the area at a node may be 0
+      logical, intent(in)                                 :: may_lack(:) !! whether the area at a node may be 0, as on the axis
       type(interface_element), allocatable, intent(inout) :: elements(:)
       integer, allocatable :: at(:)
       integer  :: k
@@ -185,8 +213,7 @@ contains
       at = pack([(k, k = 1, side%n)], [(sums%around(k) > 0.0_wp, k = 1, side%n)])
       do k = 1, size(at)
          associate (i => at(k))
-            if (sums%has_area(i) .or. may_lack(i)) cycle
-            if (model%axisymmetric .and. .not. sums%area(i) < 0.0_wp .and. .not. model%x(1, side%node(i)) > 0.0_wp) cycle
+            if (sums%has_area(i) .or. (sums%has_none(i) .and. (may_lack(i) .or. model%axisymmetric))) cycle
             call no_area(deck, j, model, side%node(i), ', or less than none: move the nodes at the middle of edges back there')
             return
          end associate

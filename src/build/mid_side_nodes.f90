@@ -129,36 +129,31 @@ contains
       type(model_type), intent(in)   :: model
       type(edge_list), intent(in)    :: edges
       integer :: i, last, node, other
-      character(:), allocatable :: words
+      character(:), allocatable :: edge, own
 
       last = 0
+      own = ''
+      edge = ''
       do i = 1, edges%n
          other = edges%namer(edges%first(i))
          if (edges%element(i) == last .or. other == i) cycle
          node = node_at(model, edges, i)
-         words = ''
-         if (edges%place(i) == 0 .and. edges%place(other) > 0) then
-            words = 'is linear, and shares the '//edge_words()//', which is of second order; expected both of one order, '// &
-                    'or bodies that do not share their nodes and a JOINT between them'
-         else if (node > 0 .and. node /= node_at(model, edges, other)) then
-            words = 'has node '//integer_text(model%node_id(node))//' at the middle of the '//edge_words()//', which has node '// &
-                    integer_text(model%node_id(node_at(model, edges, other)))//' there'
-         end if
-         if (words == '') cycle
+         if (edges%place(i) == 0 .and. edges%place(other) == 0) cycle
+         if (edges%place(i) > 0 .and. (node <= 0 .or. node == node_at(model, edges, other))) cycle
          last = edges%element(i)
-         call deck%errors%add(model%element_line(last), 'element '//integer_text(model%element_id(last))//' '//words)
+         own = 'element '//integer_text(model%element_id(last))
+         associate (a => model%node_id(edges%ends(1, i)), b => model%node_id(edges%ends(2, i)))
+            edge = 'the edge between nodes '//integer_text(a)//' and '//integer_text(b)//' with element '// &
+                   integer_text(model%element_id(edges%element(other)))
+         end associate
+         if (edges%place(i) == 0) then
+            call deck%errors%add(model%element_line(last), own//' is linear, and shares '//edge//', which is of second order; '// &
+               'expected both of one order, or bodies that do not share their nodes and a JOINT between them')
+         else
+            call deck%errors%add(model%element_line(last), own//' has node '//integer_text(model%node_id(node))// &
+               ' at the middle of '//edge//', which has node '//integer_text(model%node_id(node_at(model, edges, other)))//' there')
+         end if
       end do
-
-   contains
-
-      pure function edge_words() result(words)
-         character(:), allocatable :: words
-
-         words = 'edge between nodes '//integer_text(model%node_id(edges%ends(1, i)))//' and '// &
-                 integer_text(model%node_id(edges%ends(2, i)))//' with element '// &
-                 integer_text(model%element_id(edges%element(other)))
-      end function edge_words
-
    end subroutine check_orders
 
    !> Append the N_NEW nodes that elements have behind those of MODEL.

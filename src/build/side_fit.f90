@@ -27,6 +27,7 @@ module side_fit
       type(joint_cover) :: cover             !! on the whole
       integer  :: double = 0                 !! a face of SIDE1 that is covered twice, 0: none
       real(wp) :: double_share = 0.0_wp      !! how often
+      real(wp) :: reach = 0.0_wp             !! largest of the search [length]
       logical, allocatable :: partly(:)      !! (nodes of SIDE1) at a face that is covered in part
    end type side_cover
 
@@ -71,6 +72,7 @@ contains
          call side_influence(model, side1, s, area, normal)
          all_area = all_area + sum(area)
          call look_at(model, side1, s, reach, face)
+         found%reach = max(found%reach, face%reach)
          call cover_face(model, side2, face, opposite, near, points, integrals)
          share = integrals%seen/max(seen_area(face%seen), tiny(1.0_wp))
          if (share > max(twice, found%double_share)) then
@@ -137,7 +139,7 @@ contains
       integer  :: corners, k, n
 
       n = side1%n_nodes(s)
-      corners = side1%corners(s)
+      corners = side1%n_corners(s)
       associate (x => model%x(:, side1%nodes(:n, s)))
          call make_frame(model%dimension, x, face%frame)
          face%seen = in_frame(model%dimension, x, face%frame)

@@ -13,7 +13,7 @@ module surface_build
    implicit none
    private
 
-   public :: build_surfaces, find_surface, surface_nodes, side_of_element, side_influence
+   public :: build_surfaces, find_surface, surface_nodes, side_of_element, side_influence, side_name
 
    !> The nodes of a surface, each once, in ascending order of their numbers.
    type, public :: surface_node_list
@@ -47,9 +47,9 @@ contains
          associate (this => model%surfaces(k), card => deck%bulk%pmark(k), n => first(k + 1) - first(k))
             this%id = card%id
             allocate (this%nodes(most_nodes, n), source=0)
-            allocate (this%element(n), this%other(n), this%line(n), this%corners(n), this%n_nodes(n))
+            allocate (this%element(n), this%other(n), this%line(n), this%n_corners(n), this%n_nodes(n))
             do i = first(k), first(k + 1) - 1
-               if (any(sides%nodes(:sides%corners(members(i)), members(i)) == 0)) cycle ! said already
+               if (any(sides%nodes(:sides%n_corners(members(i)), members(i)) == 0)) cycle ! said already
                call add_side(deck, sides, members(i), model, this)
             end do
             call check_repeated(deck, model, this)
@@ -84,7 +84,7 @@ contains
       if (sides%of_block(i) > 0) then
          call deck%field_error(sides%line(i), 'S'//integer_text(sides%of_block(i)), words)
       else
-         if (sides%corners(i) > 2) &
+         if (sides%n_corners(i) > 2) &
             words = words//': in a model of solids plane elements mark surfaces, and plane bodies cannot be mixed in'
          call deck%field_error(sides%line(i), 'PID', words)
       end if
@@ -105,7 +105,7 @@ contains
       other = 0
       own_side = 0
       owner_same = .false.
-      associate (nodes => sides%nodes(:sides%corners(i), i))
+      associate (nodes => sides%nodes(:sides%n_corners(i), i))
          do j = model%first_at(nodes(1)), model%first_at(nodes(1) + 1) - 1
             e = model%elements_at(j)
             if (e == owner) cycle ! a corner that stands on the card twice
@@ -124,49 +124,62 @@ contains
             call deck%errors%add(sides%line(i), 'the '//side_name(model, nodes)//' is no side of a body element')
             return
          end if
-         surface%n = surface%n + 1
-         surface%line(surface%n) = sides%line(i)
-         surface%corners(surface%n) = size(nodes)
-         surface%element(surface%n) = owner
-         surface%other(surface%n) = other
       end associate
-      associate (kind => element_table(model%element_kind(owner)), n => surface%n_nodes(surface%n))
-         n = kind%side_size(own_side)
-         surface%nodes(:n, surface%n) = model%element_nodes(kind%side_nodes(:n, own_side), owner)
-         call check_mark(deck, sides, i, model, owner, surface%nodes(:n, surface%n))
+      associate (kind => element_table(model%element_kind(owner)))
+         associate (own => model%element_nodes(kind%side_nodes(:kind%side_size(own_side), own_side), owner))
+            if (any(own == 0)) return ! said already
+            surface%n = surface%n + 1
+            surface%line(surface%n) = sides%line(i)
+            surface%n_corners(surface%n) = kind%side_corners(own_side)
+            surface%n_nodes(surface%n) = size(own)
+            surface%nodes(:size(own), surface%n) = own
+            surface%element(surface%n) = owner
+            surface%other(surface%n) = other
+            call check_mark(deck, sides, i, model, owner, own)
+         end associate
       end associate
    end subroutine add_side
 
-   !> The mid-side nodes of mark I, where it has any, are those of the side, with the nodes OWN, of element E; of the edges in the
-   !! sense of the mark that may be the other way round.
+   !> The mid-side nodes of mark I, where it has any, are those of the side, with the nodes OWN, of element E. Gmsh writes that of an
+   !! edge as X1 of a CBAR.
    subroutine check_mark(deck, sides, i, model, e, own)
       type(checked_deck), intent(in) :: deck
       type(marked_sides), intent(in) :: sides
       integer, intent(in)            :: i, e, own(:)
       type(model_type), intent(in)   :: model
-      character(:), allocatable :: words
       integer :: a, b, k, m, mid
 
-      m = sides%corners(i)
-      if (sides%n_nodes(i) == m) return
-      words = trim(merge('CBAR', 'face', m == 2))//' '//integer_text(sides%id(i))
-      if (size(own) == m) then
-         call deck%errors%add(sides%line(i), words//' is of second order, and marks a side of element '// &
-            integer_text(model%element_id(e))//', a linear '//trim(element_table(model%element_kind(e))%card)// &
-            '; expected the corners alone')
+      m = sides%n_corners(i)
+      if (size(own) == m .and. sides%n_nodes(i) > m) then
+         if (m == 2) then
+            call deck%field_error(sides%line(i), 'X1', 'a node, as the middle of the edge, but the edge is one of '// &
+                                  element_words()//', which is linear; expected a real number, or blank')
+         else
+            call deck%errors%add(sides%line(i), 'face '//integer_text(sides%id(i))//' has mid-side nodes, but is one of '// &
+                                 element_words()//', which is linear; expected its corners alone')
+         end if
          return
       end if
       do k = 1, sides%n_nodes(i) - m
          if (sides%nodes(m + k, i) == 0) cycle ! blank: that of the element; or said already
          a = findloc(own(:m), sides%nodes(k, i), dim=1)
          b = findloc(own(:m), sides%nodes(modulo(k, m) + 1, i), dim=1)
-         mid = own(m + merge(a, b, modulo(a, m) + 1 == b))
+         mid = own(m + merge(a, b, modulo(a, m) + 1 == b)) ! the mark may go round the other way
          if (m == 2) mid = own(3)
          if (mid == sides%nodes(m + k, i)) cycle
-         call deck%errors%add(sides%line(i), words//' has mid-side node '//integer_text(model%node_id(sides%nodes(m + k, i)))// &
-            ' where element '//integer_text(model%element_id(e))//' has '//integer_text(model%node_id(mid)))
+         call deck%field_error(sides%line(i), 2 + m + k, integer_text(model%node_id(sides%nodes(m + k, i)))//', but '// &
+                               element_words()//', has node '//integer_text(model%node_id(mid))//' at the middle of this edge')
          return
       end do
+
+   contains
+
+      pure function element_words() result(words)
+         character(:), allocatable :: words
+
+         words = 'element '//integer_text(model%element_id(e))//', a '//trim(element_table(model%element_kind(e))%card)
+      end function element_words
+
    end subroutine check_mark
 
    !> A side in words, by its nodes.
@@ -223,15 +236,15 @@ contains
 
       allocate (lowest(surface%n))
       do k = 1, surface%n
-         lowest(k) = minval(surface%nodes(:surface%corners(k), k))
+         lowest(k) = minval(surface%nodes(:surface%n_corners(k), k))
       end do
       call sorted_order(lowest, order)
       do k = 2, surface%n
          do j = k - 1, 1, -1
             if (lowest(order(k)) /= lowest(order(j))) exit
-            if (surface%corners(order(k)) /= surface%corners(order(j))) cycle
-            associate (this => surface%nodes(:surface%corners(order(k)), order(k)), &
-                       that => surface%nodes(:surface%corners(order(j)), order(j)))
+            if (surface%n_corners(order(k)) /= surface%n_corners(order(j))) cycle
+            associate (this => surface%nodes(:surface%n_corners(order(k)), order(k)), &
+                       that => surface%nodes(:surface%n_corners(order(j)), order(j)))
                if (any([(all(that /= this(m)), m = 1, size(this))])) cycle
                call deck%errors%add(max(surface%line(order(k)), surface%line(order(j))), 'surface '//integer_text(surface%id)// &
                   ': the '//side_name(model, this)//' is marked twice')
@@ -279,7 +292,7 @@ contains
       allocate (list%normal(3, list%n), source=0.0_wp)
       do s = 1, surface%n
          call side_influence(model, surface, s, area, normal)
-         if (model%dimension == 3 .and. surface%n_nodes(s) > surface%corners(s)) & ! that of a corner may be zero or turned round
+         if (model%dimension == 3 .and. surface%n_nodes(s) > surface%n_corners(s)) & ! that of a corner may be zero or turned round
             normal = spread(sum(normal, dim=2), 2, max_side_nodes)
          do k = 1, surface%n_nodes(s)
             node = place%find(surface%nodes(k, s))

@@ -55,14 +55,14 @@ contains
          call cards%next(values)
          if (element_table(kind)%card /= cards%card%name) &
             kind = findloc(element_table%card, cards%card%name, dim=1, back=.true.) ! of second order, where there is one
-         call check_end(cards, kind)
+         call check_end(cards, kind, values)
          linear = element_table(kind)%linear
          associate (element => bulk%element(i), n => element_table(kind)%n_nodes, corners => element_table(kind)%n_corners)
             element%line = cards%line
             element%id = values%integers(1)
             element%property = values%integers(2)
             element%nodes(:n) = values%integers(3:2 + n)
-            element%kind = merge(kind, linear, any(values%given(3 + corners:2 + n)))
+            element%kind = merge(kind, linear, any(element%nodes(corners + 1:n) > 0))
          end associate
       end do
    end subroutine read_element
@@ -97,10 +97,12 @@ contains
       if (kind == kind_penta15) n = 18
    end function complete_nodes
 
-   !> Nothing may stand behind the last node of a solid with mid-side nodes; a complete element is told from a slip of the pen.
-   subroutine check_end(cards, kind)
+   !> Nothing may stand behind the last node of a solid with mid-side nodes; a complete element is told from a slip of the pen, and
+   !! its mid-side nodes, which have another order, are dropped.
+   subroutine check_end(cards, kind, values)
       type(card_reader_type), intent(inout) :: cards
       integer, intent(in)                   :: kind
+      type(card_values), intent(inout)      :: values
       integer :: first
 
       first = 3 + element_table(kind)%n_nodes
@@ -108,7 +110,9 @@ contains
       if (cards%card%n == 2 + complete_nodes(kind)) then
          call cards%card%field_error(first, 'a complete element of '//integer_text(complete_nodes(kind))//' nodes; expected '// &
             'at most '//integer_text(element_table(kind)%n_nodes)//', no nodes inside faces'//complete_remedy, cards%errors)
+         values%integers(3 + element_table(kind)%n_corners:first - 1) = 0
       else
+         first = first - 1 + findloc(cards%card%fields(first:cards%card%n)%length > 0, .true., dim=1)
          call cards%card%field_error(first, ''''//trim(cards%card%fields(first)%text)//''' behind the last node, G'// &
                                      integer_text(element_table(kind)%n_nodes)//', expected nothing', cards%errors)
       end if

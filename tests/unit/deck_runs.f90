@@ -43,11 +43,11 @@ contains
    end subroutine run_lines
 
 
-   !> Solve the deck PATH.
-   subroutine run_file(path, run, last)
+   !> Solve the deck PATH; SOLVER as in case control, AUTO.
+   subroutine run_file(path, run, last, solver)
       character(*), intent(in)      :: path
       type(run_type), intent(out)   :: run
-      integer, intent(in), optional :: last
+      integer, intent(in), optional :: last, solver
       type(deck_type)       :: deck
       type(deck_error_list) :: errors
       logical :: readable
@@ -55,7 +55,7 @@ contains
       call read_deck(path, deck, errors, readable)
       if (.not. readable) call errors%add(0, 'unreadable')
       call build_deck(deck, errors, run)
-      call run_stages(run, last)
+      call run_stages(run, last, solver)
    end subroutine run_file
 
 
