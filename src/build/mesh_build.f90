@@ -21,7 +21,7 @@ module mesh_build
       integer :: n = 0
       integer, allocatable :: mark(:)      !! PMARK id
       integer, allocatable :: id(:)        !! of the edge or face, 0: of a block
-      integer, allocatable :: n_corners(:) !! 2, 3 or 4
+      integer, allocatable :: corners(:)   !! 2, 3 or 4
       integer, allocatable :: n_nodes(:)   !! of the mark: corners, and mid-side nodes where it is of second order
       integer, allocatable :: nodes(:, :)  !! (most of any, n) 0 for a mid-side node left blank
       integer, allocatable :: line(:)      !! of its card
@@ -92,7 +92,7 @@ contains
 
       total = size(deck%bulk%edge) + sum(blocks%n_sides)
       if (model%dimension == 3) total = total + size(deck%bulk%element)
-      allocate (sides%mark(total), sides%id(total), sides%n_corners(total), sides%n_nodes(total), sides%line(total))
+      allocate (sides%mark(total), sides%id(total), sides%corners(total), sides%n_nodes(total), sides%line(total))
       allocate (sides%of_block(total))
       allocate (sides%nodes(merge(3, max_side_nodes, model%dimension == 2), total), source=0)
       do i = 1, size(deck%bulk%edge)
@@ -141,7 +141,7 @@ contains
          sides%n = sides%n + 1
          sides%mark(sides%n) = mark
          sides%id(sides%n) = id
-         sides%n_corners(sides%n) = corners
+         sides%corners(sides%n) = corners
          sides%n_nodes(sides%n) = n_nodes
       end subroutine start_side
 

@@ -47,9 +47,9 @@ contains
          associate (this => model%surfaces(k), card => deck%bulk%pmark(k), n => first(k + 1) - first(k))
             this%id = card%id
             allocate (this%nodes(most_nodes, n), source=0)
-            allocate (this%element(n), this%other(n), this%line(n), this%n_corners(n), this%n_nodes(n))
+            allocate (this%element(n), this%other(n), this%line(n), this%corners(n), this%n_nodes(n))
             do i = first(k), first(k + 1) - 1
-               if (any(sides%nodes(:sides%n_corners(members(i)), members(i)) == 0)) cycle ! said already
+               if (any(sides%nodes(:sides%corners(members(i)), members(i)) == 0)) cycle ! said already
                call add_side(deck, sides, members(i), model, this)
             end do
             call check_repeated(deck, model, this)
@@ -84,7 +84,7 @@ contains
       if (sides%of_block(i) > 0) then
          call deck%field_error(sides%line(i), 'S'//integer_text(sides%of_block(i)), words)
       else
-         if (sides%n_corners(i) > 2) &
+         if (sides%corners(i) > 2) &
             words = words//': in a model of solids plane elements mark surfaces, and plane bodies cannot be mixed in'
          call deck%field_error(sides%line(i), 'PID', words)
       end if
@@ -105,7 +105,7 @@ contains
       other = 0
       own_side = 0
       owner_same = .false.
-      associate (nodes => sides%nodes(:sides%n_corners(i), i))
+      associate (nodes => sides%nodes(:sides%corners(i), i))
          do j = model%first_at(nodes(1)), model%first_at(nodes(1) + 1) - 1
             e = model%elements_at(j)
             if (e == owner) cycle ! a corner that stands on the card twice
@@ -130,7 +130,7 @@ contains
             if (any(own == 0)) return ! said already
             surface%n = surface%n + 1
             surface%line(surface%n) = sides%line(i)
-            surface%n_corners(surface%n) = kind%side_corners(own_side)
+            surface%corners(surface%n) = kind%side_corners(own_side)
             surface%n_nodes(surface%n) = size(own)
             surface%nodes(:size(own), surface%n) = own
             surface%element(surface%n) = owner
@@ -149,7 +149,7 @@ contains
       type(model_type), intent(in)   :: model
       integer :: a, b, k, m, mid
 
-      m = sides%n_corners(i)
+      m = sides%corners(i)
       if (size(own) == m .and. sides%n_nodes(i) > m) then
          if (m == 2) then
             call deck%field_error(sides%line(i), 'X1', 'a node, as the middle of the edge, but the edge is one of '// &
@@ -236,15 +236,15 @@ contains
 
       allocate (lowest(surface%n))
       do k = 1, surface%n
-         lowest(k) = minval(surface%nodes(:surface%n_corners(k), k))
+         lowest(k) = minval(surface%nodes(:surface%corners(k), k))
       end do
       call sorted_order(lowest, order)
       do k = 2, surface%n
          do j = k - 1, 1, -1
             if (lowest(order(k)) /= lowest(order(j))) exit
-            if (surface%n_corners(order(k)) /= surface%n_corners(order(j))) cycle
-            associate (this => surface%nodes(:surface%n_corners(order(k)), order(k)), &
-                       that => surface%nodes(:surface%n_corners(order(j)), order(j)))
+            if (surface%corners(order(k)) /= surface%corners(order(j))) cycle
+            associate (this => surface%nodes(:surface%corners(order(k)), order(k)), &
+                       that => surface%nodes(:surface%corners(order(j)), order(j)))
                if (any([(all(that /= this(m)), m = 1, size(this))])) cycle
                call deck%errors%add(max(surface%line(order(k)), surface%line(order(j))), 'surface '//integer_text(surface%id)// &
                   ': the '//side_name(model, this)//' is marked twice')
@@ -292,7 +292,7 @@ contains
       allocate (list%normal(3, list%n), source=0.0_wp)
       do s = 1, surface%n
          call side_influence(model, surface, s, area, normal)
-         if (model%dimension == 3 .and. surface%n_nodes(s) > surface%n_corners(s)) & ! that of a corner may be zero or turned round
+         if (model%dimension == 3 .and. surface%n_nodes(s) > surface%corners(s)) & ! that of a corner may be zero or turned round
             normal = spread(sum(normal, dim=2), 2, max_side_nodes)
          do k = 1, surface%n_nodes(s)
             node = place%find(surface%nodes(k, s))

@@ -54,7 +54,7 @@ contains
       integer, intent(in)               :: side
       integer :: element, m
 
-      m = surface%n_corners(side)
+      m = surface%corners(side)
       associate (nodes => surface%nodes(:, side))
          nodes(:m) = nodes(m:1:-1)
          if (surface%n_nodes(side) == 2*m) nodes(m + 1:2*m - 1) = nodes(2*m - 1:m + 1:-1) ! the last lies between the last and the first
@@ -84,7 +84,7 @@ contains
          do while (n < last)
             n = n + 1
             side = queue(n)
-            do k = 1, surface%n_corners(side)
+            do k = 1, surface%corners(side)
                place = at%place%find(surface%nodes(k, side))
                do i = at%first(place), at%first(place + 1) - 1
                   other = at%side(i)
@@ -111,13 +111,13 @@ contains
       integer, intent(in)            :: side, k, other
       integer :: at, n, next
 
-      n = surface%n_corners(other)
+      n = surface%corners(other)
       at = findloc(surface%nodes(:n, other), surface%nodes(k, side), dim=1)
       sense = 0
       if (n == 2) then
          sense = merge(1, -1, at == k) ! both begin, or both end here
       else
-         next = surface%nodes(modulo(k, surface%n_corners(side)) + 1, side)
+         next = surface%nodes(modulo(k, surface%corners(side)) + 1, side)
          if (surface%nodes(modulo(at, n) + 1, other) == next) sense = 1
          if (surface%nodes(modulo(at - 2, n) + 1, other) == next) sense = -1
       end if
@@ -188,7 +188,7 @@ contains
       common_side = n >= model%dimension
       do i = at%first(place), at%first(place + 1) - 1
          if (.not. common_side) return
-         associate (side => model%surfaces(s)%nodes(:model%surfaces(s)%n_corners(at%side(i)), at%side(i)))
+         associate (side => model%surfaces(s)%nodes(:model%surfaces(s)%corners(at%side(i)), at%side(i)))
             common_side = any([(all(side /= common(k)), k = 1, n)])
          end associate
       end do

@@ -27,7 +27,7 @@ module model_data
    type, public :: surface_type
       integer :: id = 0
       integer :: n  = 0                      !! sides
-      integer, allocatable :: n_corners(:)   !! (n) 2, 3 or 4
+      integer, allocatable :: corners(:)     !! (n) 2, 3 or 4
       integer, allocatable :: n_nodes(:)     !! (n) corners, and as many mid-side nodes where the side is of second order; of an edge 1
       integer, allocatable :: nodes(:, :)    !! (most of any, n) its corners, then its mid-side nodes as in element_kinds, 0 behind
       integer, allocatable :: element(:)     !! (n) the body element that the side belongs to
