@@ -12,7 +12,7 @@ do for [i = 1:3] {
 }
 A(d) = 0.120*d - 0.008*d**2 + 0.0002*d**3
 cycle(s) = stage('shear_cycles', s)
-plot [0:9] [-0.05:0.7] \
+plot [0:10.5] [-0.05:0.7] \
    A(x) with lines ls 9 title 'the loading curve, Eq. (6)', \
    for [s in '2 5 8'] cycle(s) using (1000*column('delta_x')):'tau_x' with linespoints ls 1 pt 7 ps 0.8 \
       title (s eq '2' ? 'loading: O to A, A to B, B to C' : ''), \

@@ -1,5 +1,6 @@
 !> The cards of the joint: JOINT, CJOINT, PJOINT, JNORM, JSHEAR, JINCR. A table and a routine each.
 module joint_cards
+   use branch_cubic, only: cubic
    use bulk_data, only: bulk_data_type, cjoint_card, jincr_card, jnorm_card, joint_card, pjoint_card
    use card_fields, only: card_values, decode_real
    use card_lines, only: card_type
@@ -7,7 +8,7 @@ module joint_cards
    use field_rules, only: blank_field, integer_field, real_field, word_field
    use kinds, only: wp
    use load_shares, only: arithmetic_shares, geometric_shares
-   use shear_stiffness, only: cubic, shear_law
+   use shear_stiffness, only: shear_law
    use text_tools, only: integer_text, real_text
    implicit none
    private

@@ -1,10 +1,11 @@
 !> Where the shear branches of the interface elements began: (delta, tau) of the last turn, kept for the listing alone. A branch of
 !! unloading or reloading is shifted so that it passes through it (b0 and c0 of section 4.3).
 module branch_starts
+   use branch_cubic, only: cubic_value
    use joint_laws, only: element_state
    use kinds, only: wp
    use normal_stiffness, only: branch_load
-   use shear_stiffness, only: cubic, cubic_of, shear_law, shear_state
+   use shear_stiffness, only: cubic_of, shear_law, shear_state
    implicit none
    private
 
@@ -42,15 +43,10 @@ contains
       type(shear_state), intent(in)   :: state
       real(wp), intent(in)            :: p
       type(turning_point), intent(in) :: turn
-      type(cubic) :: curve
-      real(wp)    :: a(3), d
 
       shift = 0.0_wp
       if (state%branch == branch_load) return
-      curve = cubic_of(law, state%branch)
-      a = curve%coefficients(1, :) + curve%coefficients(2, :)*p
-      d = state%sense*turn%delta
-      shift = state%sense*turn%tau - d*(a(1) + d*(a(2) + d*a(3)))
+      shift = state%sense*turn%tau - cubic_value(cubic_of(law, state%branch), state%sense*turn%delta, p)
    end function branch_shift
 
 end module branch_starts

@@ -1,11 +1,12 @@
 !> All laws of a joint together, the state of one of its elements, and the Coulomb limit between them; element by element what
 !! the methods ask of them: STEP stiffnesses, NEWTON the exact way, BACK secants.
 module joint_laws
+   use branch_cubic, only: cubic_secant, cubic_slope, cubic_work
    use kinds, only: wp
    use normal_stiffness, only: branch_open, follow_normal, is_virgin, loading_pressure, norm, normal_law, normal_secant, &
                                normal_state, pressure_floor, stored_work
    use shear_path, only: follow_shear
-   use shear_stiffness, only: cubic_secant, cubic_slope, cubic_work, shear, shear_law, shear_state
+   use shear_stiffness, only: shear, shear_law, shear_state
    implicit none
    private
 

@@ -1,17 +1,21 @@
 !> The exact shear law of the joint over one step, for methods that iterate to equilibrium: the branch polynomials, piece by
 !! piece, each bit of the way along the curve of the pressure that it is made under (Fig. 4b), pressure and deflection
-!! changing in proportion. At constant pressure this is the polynomial itself.
+!! changing in proportion. At constant pressure this is the polynomial itself. Along such a way every curve is a polynomial in
+!! the fraction f of it, so that a piece ends exactly where a branch meets a loading curve.
 module shear_path
+   use branch_cubic, only: cubic, cubic_by_pressure, cubic_slope, cubic_slope_derivatives, cubic_value, slope_on_way, value_on_way
    use kinds, only: wp
    use normal_stiffness, only: branch_load
-   use shear_stiffness, only: branch_end, cubic_of, cubic_slope_derivatives, join_loading, least_movement, shear_law, &
-                              shear_slope, shear_state, turn
+   use polynomial_zeros, only: derivative, enclosed_zero, find_zeros, polynomial, zero_list
+   use shear_stiffness, only: cubic_of, goal_sense, join_loading, least_movement, least_stress, leave_offset, look_ahead, &
+                              shear_law, shear_slope, shear_state, turn
    implicit none
    private
 
    public :: follow_shear
 
-   real(wp), parameter :: rounding = 1.0e-9_wp ! of the way: an end so near to a corner is the corner
+   integer, parameter  :: most_pieces = 50      ! more than the turns of all the polynomials of a way can make
+   real(wp), parameter :: rounding = 1.0e-12_wp ! of the way: no shorter piece is begun; of slopes: no difference
    real(wp), parameter :: gauss_2(2) = 0.5_wp + [-0.5_wp, 0.5_wp]/sqrt(3.0_wp)          ! on 0..1, weights 1/2
    real(wp), parameter :: gauss_3(3) = 0.5_wp + [-0.5_wp, 0.0_wp, 0.5_wp]*sqrt(0.6_wp)  ! on 0..1
    real(wp), parameter :: weight_3(3) = [5.0_wp, 8.0_wp, 5.0_wp]/18.0_wp
@@ -20,6 +24,19 @@ module shear_path
    type :: way_type
       real(wp) :: start(2) = 0.0_wp, change(2) = 0.0_wp
    end type way_type
+
+   !> A piece of it, from the fraction FROM to TO, on which tau follows the slope of one cubic.
+   type :: piece_type
+      real(wp)    :: from = 0.0_wp, to = 1.0_wp
+      type(cubic) :: curve
+      real(wp)    :: sense = 1.0_wp          ! its d is sense*delta
+      logical     :: meets = .false.         ! it ends on the loading curve that the branch goes to
+   end type piece_type
+
+   !> What is gathered along the way: derivatives of tau by the ends of the way, and work.
+   type :: gain_type
+      real(wp) :: by_delta = 0.0_wp, by_p = 0.0_wp, work = 0.0_wp
+   end type gain_type
 
 contains
 
@@ -33,100 +50,204 @@ contains
       real(wp), intent(out)          :: by_delta !! d tau/d DELTA [pressure/length]
       real(wp), intent(out)          :: by_p     !! d tau/d P(2) [-]
       real(wp), intent(out)          :: work     !! integral of tau d delta [pressure x length]
-      type(way_type) :: way
-      real(wp) :: from, to
-      integer  :: pieces
-      logical  :: at_corner
+      type(way_type)   :: way
+      type(piece_type) :: piece
+      type(gain_type)  :: gain
+      real(wp) :: moved
+      integer  :: i
+      logical  :: was_parallel
 
       after = before
       after%delta_before = before%delta
       after%tau_before = before%tau
-      after%delta = delta
       by_delta = 0.0_wp
       by_p = 0.0_wp
       work = 0.0_wp
+      moved = delta - before%delta
+      if (law%given) call leave_offset(law, p(1), after)
+      after%delta = delta
       if (.not. law%given) return
-      way = way_type(start=[before%delta, p(1)], change=[delta - before%delta, p(2) - p(1)])
-      if (abs(way%change(1)) <= least_movement(law, before, p(2))) then
+      if (abs(moved) <= least_movement(law, before, p(2))) then
          by_delta = shear_slope(law, after, [delta, p(2)])
-         after%tau = before%tau + by_delta*way%change(1)
+         after%tau = before%tau + by_delta*moved
          return
       end if
-      call turn(after%sense*way%change(1) < 0.0_wp, after)
-      from = 0.0_wp
-      do pieces = 1, 4 ! load, unload, load of the other sense are the most there can be; the fourth is never left
-         call end_of_piece(after, way, from, to, at_corner)
-         call follow_piece(law, after, way, from, to, by_delta, by_p, work)
-         if (.not. at_corner) exit
-         by_delta = by_delta - to*shear_slope(law, after, way%start + to*way%change)
-         call join_loading(after)
-         by_delta = by_delta + to*shear_slope(law, after, way%start + to*way%change)
-         if (to >= 1.0_wp) exit
-         from = to
+      way = way_type(start=[before%delta, p(1)], change=[moved, p(2) - p(1)])
+      call turn(after%sense*moved < 0.0_wp, after)
+      do i = 1, most_pieces
+         was_parallel = after%parallel
+         call next_piece(law, after, way, piece)
+         if (after%parallel .neqv. was_parallel) call pass_bend(law, piece, way, after, gain)
+         call follow_piece(piece, way, after, gain)
+         if (piece%meets) call pass_corner(law, piece, way, after, gain)
+         if (piece%to >= 1.0_wp) exit
+         piece%from = piece%to
       end do
+      by_delta = gain%by_delta
+      by_p = gain%by_p
+      work = gain%work
    end subroutine follow_shear
 
-   !> The fraction TO of the way at which the branch of STATE ends: 1, or before that the corner where it joins a loading
-   !! curve (AT_CORNER).
-   pure subroutine end_of_piece(state, way, from, to, at_corner)
-      type(shear_state), intent(in) :: state
-      type(way_type), intent(in)    :: way
-      real(wp), intent(in)          :: from
-      real(wp), intent(out)         :: to
-      logical, intent(out)          :: at_corner
+   !> The piece that begins at PIECE%FROM, where STATE has the stress. It ends where the way does, where a slope passes through
+   !! zero, at which it is cut off, where delta = 0 and the curve begins that the branch goes to, where the branch becomes
+   !! steeper or less steep than that, or where it meets it.
+   pure subroutine next_piece(law, state, way, piece)
+      type(shear_law), intent(in)      :: law
+      type(shear_state), intent(inout) :: state !! which may find here that it will not meet it
+      type(way_type), intent(in)       :: way
+      type(piece_type), intent(inout)  :: piece
+      real(wp) :: d(2), p(2), goal, slope(0:4), goal_slope(0:4), excess(0:4)
 
-      to = 1.0_wp
-      at_corner = .false.
+      piece%to = 1.0_wp
+      piece%meets = .false.
+      piece%curve = cubic_of(law, state%branch)
+      piece%sense = state%sense
+      p = [way%start(2), way%change(2)]
+      slope = slope_on_way(piece%curve, piece%sense*[way%start(1), way%change(1)], p)
+      call end_at_zeros(slope, piece)
       if (state%branch == branch_load) return
-      to = (state%sense*branch_end(state) - way%start(1))/way%change(1)
-      at_corner = to < 1.0_wp + rounding
-      if (abs(to - 1.0_wp) <= rounding) to = 1.0_wp
-      to = min(1.0_wp, max(from, to))
-   end subroutine end_of_piece
+      goal = goal_sense(state)
+      d = goal*[way%start(1), way%change(1)]
+      if (piece%from < -d(1)/d(2)) then
+         piece%to = min(piece%to, -d(1)/d(2))
+         return
+      end if
+      goal_slope = slope_on_way(law%load, d, p)
+      call end_at_zeros(goal_slope, piece)
+      call end_at_zeros(slope - goal_slope, piece)
+      call look_ahead(law, way%start + piece%from*way%change, state)
+      if (state%parallel) then
+         piece%curve = law%load
+         piece%sense = goal
+         slope = goal_slope
+      end if
+      ! tau above the curve, as a polynomial in f: the integral of the slope from FROM on, less the curve
+      excess = 0.0_wp
+      if (polynomial(slope, 0.5_wp*(piece%from + piece%to)) > 0.0_wp) &
+         excess(1:) = d(2)*slope(:3)/[1.0_wp, 2.0_wp, 3.0_wp, 4.0_wp]
+      excess(0) = goal*state%tau - state%offset - polynomial(excess, piece%from)
+      excess = excess - value_on_way(law%load, d, p)
+      call end_at_meeting(excess, least_stress(state, maxval(p)), piece)
+   end subroutine next_piece
 
-   !> Along one branch from fraction FROM to TO: stress, its derivatives, work.
+   !> Let a piece end at the first zero of the polynomial C, if there is one.
+   pure subroutine end_at_zeros(c, piece)
+      real(wp), intent(in)            :: c(0:4)
+      type(piece_type), intent(inout) :: piece
+      type(zero_list) :: zeros
+
+      call find_zeros(c, piece%from + rounding, piece%to, zeros)
+      if (zeros%n > 0) piece%to = zeros%x(1)
+   end subroutine end_at_zeros
+
+   !> Let a piece end where it first meets its goal: where EXCESS passes through zero, or touches it within LEAST, which it can do
+   !! at its beginning, its end and where EXCESS turns.
+   pure subroutine end_at_meeting(excess, least, piece)
+      real(wp), intent(in)            :: excess(0:4), least
+      type(piece_type), intent(inout) :: piece
+      type(zero_list) :: turns
+      real(wp) :: ends(0:5)
+      integer  :: i
+
+      call find_zeros(derivative(excess), piece%from, piece%to, turns)
+      ends(:turns%n + 1) = [piece%from, turns%x(:turns%n), piece%to]
+      do i = 0, turns%n + 1
+         piece%meets = .true.
+         piece%to = ends(i)
+         if (abs(polynomial(excess, ends(i))) <= least) return
+         if (i > turns%n) exit
+         if ((polynomial(excess, ends(i)) > 0.0_wp) .neqv. (polynomial(excess, ends(i + 1)) > 0.0_wp)) then
+            piece%to = enclosed_zero(excess, ends(i:i + 1))
+            return
+         end if
+      end do
+      piece%meets = .false.
+   end subroutine end_at_meeting
+
+   !> Pass from a branch onto the slope of the loading curve that it goes to, where that curve begins: at delta = 0, which stands at
+   !! another fraction of the way when the end of the way moves. Where that happens elsewhere the slopes are the same, or t = 0.
+   pure subroutine pass_bend(law, piece, way, state, gain)
+      type(shear_law), intent(in)    :: law
+      type(piece_type), intent(in)   :: piece
+      type(way_type), intent(in)     :: way
+      type(shear_state), intent(in)  :: state
+      type(gain_type), intent(inout) :: gain
+      real(wp) :: place(2)
+
+      place = way%start + piece%from*way%change
+      gain%by_delta = gain%by_delta - piece%from*(cubic_slope(cubic_of(law, state%branch), state%sense*place(1), place(2)) &
+                                                  - cubic_slope(law%load, goal_sense(state)*place(1), place(2)))
+   end subroutine pass_bend
+
+   !> Pass from the end of a piece onto the loading curve that it meets there. The fraction at which it does changes with the ends
+   !! of the way: with t that fraction, e(t) = 0 the excess over the curve, g the slope, D the change of delta,
+   !!    d tau_end/d end = ... + (g_before - g_after) D dt/d end,   dt/d end = -(de/d end)/(de/dt).
+   pure subroutine pass_corner(law, piece, way, state, gain)
+      type(shear_law), intent(in)      :: law
+      type(piece_type), intent(in)     :: piece
+      type(way_type), intent(in)       :: way
+      type(shear_state), intent(inout) :: state
+      type(gain_type), intent(inout)   :: gain
+      real(wp) :: place(2), goal, d, slopes(2), by_p, rate, jump, curve_slope
+
+      goal = goal_sense(state)
+      place = way%start + piece%to*way%change
+      d = goal*place(1)
+      slopes = [cubic_slope(piece%curve, piece%sense*place(1), place(2)), cubic_slope(law%load, d, place(2))]
+      curve_slope = polynomial(slope_on_way(law%load, goal*[way%start(1), way%change(1)], [way%start(2), way%change(2)]), piece%to)
+      by_p = cubic_by_pressure(law%load, d)
+      rate = goal*way%change(1)*(slopes(1) - curve_slope) - by_p*way%change(2)
+      jump = way%change(1)*(slopes(1) - slopes(2))
+      if (abs(rate) > rounding*(abs(way%change(1))*sum(slopes) + abs(by_p*way%change(2)))) then
+         gain%by_delta = gain%by_delta - jump*goal*(gain%by_delta - curve_slope*piece%to)/rate
+         gain%by_p = gain%by_p - jump*(goal*gain%by_p - by_p*piece%to)/rate
+      end if
+      state%tau = goal*(cubic_value(law%load, d, place(2)) + state%offset)
+      call join_loading(state)
+   end subroutine pass_corner
+
+   !> Along one piece: stress, its derivatives, work.
    !! tau = integral of g d delta, g the slope; with f the fraction of the way,
    !!    d tau/d delta_end = integral of (g + f D dg/d delta) d f,   d tau/d p_end = integral of f D dg/dp d f,
    !! D being the change of delta.
-   pure subroutine follow_piece(law, state, way, from, to, by_delta, by_p, work)
-      type(shear_law), intent(in)      :: law
-      type(shear_state), intent(inout) :: state
+   pure subroutine follow_piece(piece, way, state, gain)
+      type(piece_type), intent(in)     :: piece
       type(way_type), intent(in)       :: way
-      real(wp), intent(in)             :: from, to
-      real(wp), intent(inout)          :: by_delta, by_p, work
-      real(wp) :: f, place(2), step, slope_by_d, slope_by_p, tau
+      type(shear_state), intent(inout) :: state
+      type(gain_type), intent(inout)   :: gain
+      real(wp) :: f, place(2), step, slope, slope_by_d, slope_by_p, tau
       integer  :: i
 
-      step = to - from
+      step = piece%to - piece%from
       if (step <= 0.0_wp) return
       do i = 1, 3
-         f = from + step*gauss_3(i)
-         tau = state%tau + stress_gain(law, state, way, from, f)
-         work = work + weight_3(i)*step*way%change(1)*tau
+         f = piece%from + step*gauss_3(i)
+         tau = state%tau + stress_gain(piece, way, f)
+         gain%work = gain%work + weight_3(i)*step*way%change(1)*tau
       end do
       do i = 1, 2
-         f = from + step*gauss_2(i)
+         f = piece%from + step*gauss_2(i)
          place = way%start + f*way%change
-         call cubic_slope_derivatives(cubic_of(law, state%branch), state%sense*place(1), place(2), slope_by_d, slope_by_p)
-         by_delta = by_delta + 0.5_wp*step*(shear_slope(law, state, place) + f*way%change(1)*state%sense*slope_by_d)
-         by_p = by_p + 0.5_wp*step*f*way%change(1)*slope_by_p
+         slope = cubic_slope(piece%curve, piece%sense*place(1), place(2))
+         call cubic_slope_derivatives(piece%curve, piece%sense*place(1), place(2), slope_by_d, slope_by_p)
+         gain%by_delta = gain%by_delta + 0.5_wp*step*(slope + f*way%change(1)*piece%sense*slope_by_d)
+         gain%by_p = gain%by_p + 0.5_wp*step*f*way%change(1)*slope_by_p
       end do
-      state%tau = state%tau + stress_gain(law, state, way, from, to)
+      state%tau = state%tau + stress_gain(piece, way, piece%to)
    end subroutine follow_piece
 
-   !> Integral of the slope over the deflection from fraction FROM to TO; two Gauss points are exact for a cubic.
-   pure real(wp) function stress_gain(law, state, way, from, to) result(gain)
-      type(shear_law), intent(in)   :: law
-      type(shear_state), intent(in) :: state
-      type(way_type), intent(in)    :: way
-      real(wp), intent(in)          :: from, to
-      real(wp) :: f
+   !> Integral of the slope over the deflection from the beginning of PIECE to the fraction TO; two Gauss points are exact.
+   pure real(wp) function stress_gain(piece, way, to) result(gain)
+      type(piece_type), intent(in) :: piece
+      type(way_type), intent(in)   :: way
+      real(wp), intent(in)         :: to
+      real(wp) :: place(2)
       integer  :: i
 
       gain = 0.0_wp
       do i = 1, 2
-         f = from + (to - from)*gauss_2(i)
-         gain = gain + 0.5_wp*(to - from)*way%change(1)*shear_slope(law, state, way%start + f*way%change)
+         place = way%start + (piece%from + (to - piece%from)*gauss_2(i))*way%change
+         gain = gain + 0.5_wp*(to - piece%from)*way%change(1)*cubic_slope(piece%curve, piece%sense*place(1), place(2))
       end do
    end function stress_gain
 

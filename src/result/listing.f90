@@ -16,7 +16,7 @@ module listing
    use listing_table, only: column, label_type, listing_table_type, noise, page_type
    use model_data, only: joint_node_id, model_type, stage_load_type
    use normal_stiffness, only: branch_open
-   use range_watch, only: range_watch_type, watch_balance, watch_ranges, watch_unloading
+   use range_watch, only: range_watch_type, watch_balance, watch_ranges, watch_shear_laws, watch_unloading
    use stage_plan, only: stage_plan_type
    use text_tools, only: clean, integer_text, plural, upper
    implicit none
@@ -78,7 +78,10 @@ contains
          call note_bars(page, model, analysis, listing%bars)
          call note_sections(page, model, analysis, listing%sections)
          call watch_ranges(model, plan, analysis, listing%watch)
-         if (listing%method /= method_back) call watch_unloading(model, plan, analysis, listing%watch)
+         if (listing%method /= method_back) then
+            call watch_shear_laws(model, plan, analysis, listing%watch)
+            call watch_unloading(model, plan, analysis, listing%watch)
+         end if
          if (stage%condensed .and. analysis%increment == 1) call list_condensed(page, model, analysis)
          if (analysis%increment == size(stage%shares)) return ! the tables of the end of the stage follow
          if (stage%output == output_all .or. stage%output == output_joint) call list_joints(page, stage%state, model, analysis)

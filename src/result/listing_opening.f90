@@ -1,5 +1,6 @@
 !> The first pages of the listing: heading, deck echo, summary of the model, joints and stages.
 module listing_opening
+   use branch_cubic, only: cubic
    use deck_cards, only: card_name, is_continuation
    use case_control, only: method_newton, method_step, pressure_eq10
    use deck_input, only: deck_type
@@ -12,7 +13,8 @@ module listing_opening
    use model_data, only: is_coarser, model_type, n_bars, n_points, n_sections, whole_share
    use normal_stiffness, only: branch_load, branch_name, branch_reload, branch_unload, pressure_floor
    use output_file, only: output_file_type
-   use shear_stiffness, only: cubic, cubic_of
+   use shear_closure, only: loop_closure, worst_closure
+   use shear_stiffness, only: cubic_of
    use stage_plan, only: stage_plan_type
    use text_tools, only: clean, integer_text, plural, real_text, upper
    implicit none
@@ -260,6 +262,7 @@ contains
                   write (line, '(17x, a, es13.5)') 'TESTED UP TO D =', law%shear(k)%d_max
                   call file%put(line)
                end if
+               call file%put(closure_line(worst_closure(law%shear(k), model%joints(j)%p_av)))
             end do
             if (law%has_friction) then
                write (line, '(i11, a, f10.6, a, i5)') model%joints(j)%id, '   FRICTION MU =', law%mu, '   RE-ANALYSES', &
@@ -269,6 +272,22 @@ contains
          end associate
       end do
    end subroutine write_shear_laws
+
+   !> How well a shear law closes its loops: the widest gap and where it is.
+   function closure_line(closure) result(line)
+      type(loop_closure), intent(in) :: closure
+      character(page_width) :: line
+
+      if (.not. closure%is_known) then
+         line = repeat(' ', 17)//'CLOSURE: UNLOADING DOES NOT COME TO TAU = 0'
+      else if (closure%d > 0.0_wp) then
+         write (line, '(17x, a, f9.3, 2(a, es13.5))') 'CLOSURE', 100.0_wp*closure%share, ' PER CENT OF TAU_R, WIDEST AT P =', &
+            closure%p, '   D =', closure%d
+      else
+         write (line, '(17x, a, f9.3, a, es13.5)') 'CLOSURE', 100.0_wp*closure%share, ' PER CENT OF TAU_R AT P =', closure%p
+         line = trim(line)//'   OF SMALL LOOPS: THE CARD HAS NO DMAX'
+      end if
+   end function closure_line
 
    !> The load history: totals at the end of every stage.
    subroutine write_stages(page, model, plan)

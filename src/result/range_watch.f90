@@ -1,31 +1,98 @@
-!> Warnings: shear laws used outside their range (once an interface element and stage), unloading softer than loading (once a
-!! joint), and stages that end far from balance.
+!> Warnings: shear laws whose loops do not close or whose branches part (once a law), and used outside their range (once an
+!! interface element and stage); unloading softer than loading (once a joint), and stages that end far from balance.
 module range_watch
    use analysis_state, only: analysis_type, free_norm
    use joint_laws, only: friction_excess, friction_limit
    use kinds, only: wp
-   use listing_table, only: listing_table_type
+   use listing_table, only: axes, listing_table_type
    use model_data, only: joint_node_id, model_type
    use normal_stiffness, only: branch_load, branch_open, loading_deflection, normal_tangent
-   use shear_stiffness, only: shear_slope
+   use shear_closure, only: loop_closure, worst_closure
+   use shear_stiffness, only: shear_law, shear_slope
    use stage_plan, only: stage_plan_type, where_in_plan
    use text_tools, only: integer_text, real_text, upper
    implicit none
    private
 
-   public :: watch_ranges, watch_unloading, watch_balance
+   public :: watch_shear_laws, watch_ranges, watch_unloading, watch_balance
 
    real(wp), parameter :: much = 0.01_wp ! of the largest load, or of the friction limits: what may be left without a warning
    real(wp), parameter :: rounding = 1.0e-9_wp
+   real(wp), parameter :: wide = 0.05_wp ! the gap of a loop that is warned of
 
    type, public :: range_watch_type
       integer :: n_warnings = 0               !! in all
       type(listing_table_type) :: rows        !! of the stage so far
       integer, allocatable, private :: stage(:)      ! in which an element was last warned of
       logical, allocatable, private :: soft_line(:)  ! whether a joint was warned of its E_u
+      integer, allocatable, private :: first_of(:, :)  ! (2, joints) the first direction of the model with the same shear law
+      logical, allocatable, private :: parted(:)       ! whether that direction, counted through, was warned of parting branches
    end type range_watch_type
 
 contains
+
+   !> Note, with the first increment, the laws whose loops stay open; the laws of which an element has come to where a branch will
+   !! not meet the loading curve that it goes to.
+   subroutine watch_shear_laws(model, plan, analysis, watch)
+      type(model_type), intent(in)          :: model
+      type(stage_plan_type), intent(in)     :: plan
+      type(analysis_type), intent(in)       :: analysis
+      type(range_watch_type), intent(inout) :: watch
+      integer :: i, k, law
+
+      if (.not. allocated(watch%first_of)) call watch_closures(model, watch)
+      do i = 1, size(model%interface)
+         do k = 1, model%dimension - 1
+            if (.not. analysis%states(i)%shear(k)%parallel) cycle
+            law = watch%first_of(k, model%interface(i)%joint)
+            if (watch%parted(law)) cycle
+            watch%parted(law) = .true.
+            watch%n_warnings = watch%n_warnings + 1
+            call watch%rows%keep_line('  WARNING: NODE '//integer_text(joint_node_id(model, i, 1))//', '// &
+               upper(where_in_plan(plan, analysis%stage, analysis%increment))//': THE BRANCH WILL NOT MEET THE LOADING CURVE, '// &
+               'IT GOES ON ALONG ITS SLOPE; SHEAR LAW OF JOINT '// &
+               integer_text(model%joints(model%interface(i)%joint)%id)//', '//axes(k))
+         end do
+      end do
+   end subroutine watch_shear_laws
+
+   !> Number the shear laws by the first direction of a joint that has them, and note those with a wide gap.
+   subroutine watch_closures(model, watch)
+      type(model_type), intent(in)          :: model
+      type(range_watch_type), intent(inout) :: watch
+      type(loop_closure) :: closure
+      integer :: i, j, k
+
+      allocate (watch%first_of(2, size(model%joints)), source=0)
+      allocate (watch%parted(2*size(model%joints)), source=.false.)
+      do j = 1, size(model%joints)
+         do k = 1, model%dimension - 1
+            associate (law => model%joints(j)%law%shear(k))
+               if (.not. law%given) cycle
+               do i = 1, 2*(j - 1) + k
+                  if (is_same_law(law, model%joints((i + 1)/2)%law%shear(2 - modulo(i, 2)))) exit
+               end do
+               watch%first_of(k, j) = i
+               if (i < 2*(j - 1) + k) cycle
+               closure = worst_closure(law, model%joints(j)%p_av)
+               if (.not. closure%is_known .or. closure%share <= wide) cycle
+               watch%n_warnings = watch%n_warnings + 1
+               call watch%rows%keep_line('  WARNING: SHEAR LAW OF JOINT '//integer_text(model%joints(j)%id)//', '//axes(k)// &
+                  ': RELOADING MISSES POINT A BY MORE THAN 5 PER CENT OF TAU_R, CYCLES CREEP: SEE ITS CLOSURE ABOVE')
+            end associate
+         end do
+      end do
+   end subroutine watch_closures
+
+   !> Whether two laws are the same in all numbers.
+   pure logical function is_same_law(a, b)
+      type(shear_law), intent(in) :: a, b
+
+      is_same_law = b%given .and. abs(a%p_max - b%p_max) <= 0.0_wp .and. abs(a%d_max - b%d_max) <= 0.0_wp &
+                    .and. all(abs(a%load%coefficients - b%load%coefficients) <= 0.0_wp) &
+                    .and. all(abs(a%unload%coefficients - b%unload%coefficients) <= 0.0_wp) &
+                    .and. all(abs(a%reload%coefficients - b%reload%coefficients) <= 0.0_wp)
+   end function is_same_law
 
    !> Note the elements that have left their range in the increment just completed.
    subroutine watch_ranges(model, plan, analysis, watch)

@@ -1,0 +1,135 @@
+!> The cubic of one branch of a shear law: its value, slope, work and secant, and how it runs along a straight way.
+!! Source: Edelugo, Eqs. (3)-(7) and Fig. 2: coefficients that are straight lines in the pressure.
+module branch_cubic
+   use kinds, only: wp
+   implicit none
+   private
+
+   public :: cubic_value, cubic_slope, cubic_slope_derivatives, cubic_secant, cubic_work
+   public :: cubic_by_pressure, value_on_way, slope_on_way
+
+   !> P(d) = a_1 d + a_2 d**2 + a_3 d**3, a_k = a_k1 + a_k2 p.
+   type, public :: cubic
+      real(wp) :: coefficients(2, 3) = 0.0_wp  !! (a_k1 and a_k2, k)
+   end type cubic
+
+contains
+
+   !> P at D under the pressure P [pressure].
+   elemental real(wp) function cubic_value(curve, d, p) result(stress)
+      type(cubic), intent(in) :: curve
+      real(wp), intent(in)    :: d, p
+      real(wp) :: a(3)
+
+      a = at_pressure(curve, p)
+      stress = d*(a(1) + d*(a(2) + d*a(3)))
+   end function cubic_value
+
+   !> dP/dp at D [-]: the same at every pressure.
+   elemental real(wp) function cubic_by_pressure(curve, d) result(slope)
+      type(cubic), intent(in) :: curve
+      real(wp), intent(in)    :: d
+
+      associate (a => curve%coefficients(2, :))
+         slope = d*(a(1) + d*(a(2) + d*a(3)))
+      end associate
+   end function cubic_by_pressure
+
+   !> P as a polynomial in the fraction f of a way on which d = D(1) + f D(2), p = P(1) + f P(2): sum of c_k f**k [pressure].
+   pure function value_on_way(curve, d, p) result(c)
+      type(cubic), intent(in) :: curve
+      real(wp), intent(in)    :: d(2), p(2)
+      real(wp) :: c(0:4), power(0:4)
+      integer  :: k
+
+      c = 0.0_wp
+      power = [1.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp]
+      do k = 1, 3
+         power = times(power, d)
+         associate (a => curve%coefficients(:, k))
+            c = c + times(power, [a(1) + a(2)*p(1), a(2)*p(2)])
+         end associate
+      end do
+   end function value_on_way
+
+   !> dP/dd likewise, not cut off at zero: sum of c_k f**k, k up to 3 [pressure/length].
+   pure function slope_on_way(curve, d, p) result(c)
+      type(cubic), intent(in) :: curve
+      real(wp), intent(in)    :: d(2), p(2)
+      real(wp) :: c(0:4), power(0:4)
+      integer  :: k
+
+      c = 0.0_wp
+      power = [1.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp]
+      do k = 1, 3
+         associate (a => k*curve%coefficients(:, k))
+            c = c + times(power, [a(1) + a(2)*p(1), a(2)*p(2)])
+         end associate
+         power = times(power, d)
+      end do
+   end function slope_on_way
+
+   !> A polynomial times FACTOR(1) + FACTOR(2) f; nothing of a fifth power arises here.
+   pure function times(c, factor) result(product)
+      real(wp), intent(in) :: c(0:4), factor(2)
+      real(wp) :: product(0:4)
+
+      product = factor(1)*c + factor(2)*[0.0_wp, c(:3)]
+   end function times
+
+   !> a_1, a_2, a_3 under the pressure P.
+   pure function at_pressure(curve, p) result(a)
+      type(cubic), intent(in) :: curve
+      real(wp), intent(in)    :: p
+      real(wp) :: a(3)
+
+      a = curve%coefficients(1, :) + curve%coefficients(2, :)*p
+   end function at_pressure
+
+   !> dP/dd at D under the pressure P, not below zero [pressure/length].
+   elemental real(wp) function cubic_slope(curve, d, p) result(slope)
+      type(cubic), intent(in) :: curve
+      real(wp), intent(in)    :: d, p
+      real(wp) :: a(3)
+
+      a = at_pressure(curve, p)
+      slope = max(0.0_wp, a(1) + d*(2.0_wp*a(2) + d*3.0_wp*a(3)))
+   end function cubic_slope
+
+   !> How that slope changes with d and with p; both zero where it is cut off at zero.
+   pure subroutine cubic_slope_derivatives(curve, d, p, by_d, by_p)
+      type(cubic), intent(in) :: curve
+      real(wp), intent(in)    :: d, p
+      real(wp), intent(out)   :: by_d, by_p
+      real(wp) :: a(3)
+
+      by_d = 0.0_wp
+      by_p = 0.0_wp
+      if (cubic_slope(curve, d, p) <= 0.0_wp) return
+      a = at_pressure(curve, p)
+      by_d = 2.0_wp*a(2) + 6.0_wp*a(3)*d
+      a = curve%coefficients(2, :)
+      by_p = a(1) + d*(2.0_wp*a(2) + d*3.0_wp*a(3))
+   end subroutine cubic_slope_derivatives
+
+   !> P(d)/d at D under the pressure P, its first slope at d = 0; not below zero [pressure/length].
+   elemental real(wp) function cubic_secant(curve, d, p) result(secant)
+      type(cubic), intent(in) :: curve
+      real(wp), intent(in)    :: d, p
+      real(wp) :: a(3)
+
+      a = at_pressure(curve, p)
+      secant = max(0.0_wp, a(1) + d*(a(2) + d*a(3)))
+   end function cubic_secant
+
+   !> Integral of P from 0 to D under the pressure P [pressure x length].
+   elemental real(wp) function cubic_work(curve, d, p) result(work)
+      type(cubic), intent(in) :: curve
+      real(wp), intent(in)    :: d, p
+      real(wp) :: a(3)
+
+      a = at_pressure(curve, p)
+      work = d**2*(a(1)/2.0_wp + d*(a(2)/3.0_wp + d*a(3)/4.0_wp))
+   end function cubic_work
+
+end module branch_cubic
