@@ -87,7 +87,7 @@ contains
 
       shortest = huge(1.0_wp)
       do e = 1, surface%n
-         associate (n => surface%n_corners(e))
+         associate (n => surface%corners(e))
             do k = 1, n
                shortest = min(shortest, norm2(model%x(:, surface%nodes(modulo(k, n) + 1, e)) - model%x(:, surface%nodes(k, e))))
             end do
@@ -115,7 +115,7 @@ contains
       integer, allocatable :: nodes(:)
       integer :: k
 
-      nodes = [(surface%nodes(surface%n_corners(k) + 1:surface%n_nodes(k), k), k = 1, surface%n)]
+      nodes = [(surface%nodes(surface%corners(k) + 1:surface%n_nodes(k), k), k = 1, surface%n)]
    end function nodes_between
 
 end module facing_nodes

@@ -10,6 +10,8 @@ module first_pressures
 
    public :: find_first_pressures
 
+   real(wp), parameter :: alike = 1.0e-9_wp ! of the range of the gaps: those that differ by less close together
+
 contains
 
    !> p_av of every joint: the user's P0, else the resultant of the first increment (the share FIRST_SHARE of the first
@@ -48,11 +50,26 @@ contains
                call errors%add(joint%line, 'the first increment does not press joint '//integer_text(joint%id)// &
                   ' together (normal force '//real_text(resultant)//'), so its pressure is not known: give P0 on its PJOINT')
             else
-               joint%p_av = resultant/joint%area
+               joint%p_av = resultant/closed_area(model, joint)
             end if
          end associate
       end do
    end subroutine find_first_pressures
+
+   !> The area of JOINT that takes the first increment: A_int, or where there are gaps the part that stands closed at first; where
+   !! none does, that which closes first [length^2].
+   pure real(wp) function closed_area(model, joint) result(area)
+      type(model_type), intent(in) :: model
+      type(joint_type), intent(in) :: joint
+
+      associate (elements => model%interface(joint%first:joint%last))
+         associate (first => minval(elements%gap), last => maxval(elements%gap))
+            area = joint%area
+            if (last > max(0.0_wp, first)) &
+               area = sum(elements%area, mask=elements%gap <= max(0.0_wp, first) + alike*(last - first))
+         end associate
+      end associate
+   end function closed_area
 
    !> The load of the first stage with the preloads of the bolts that it tightens.
    pure subroutine first_loads(model, loads)
@@ -126,6 +143,7 @@ contains
       joint%normal = -joint%normal
       do i = joint%first, joint%last
          model%interface(i)%axes(:, 2:3) = -model%interface(i)%axes(:, 2:3)
+         if (joint%gap_kind == 'TRUE') model%interface(i)%gap = -model%interface(i)%gap ! a distance along the normal
       end do
    end subroutine turn_round
 

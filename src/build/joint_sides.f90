@@ -96,7 +96,7 @@ contains
       type(interface_sums_type) :: sums
       integer :: k
 
-      if (any(surface%n_corners(:surface%n) < surface%n_nodes(:surface%n))) then
+      if (any(surface%corners(:surface%n) < surface%n_nodes(:surface%n))) then
          call add_pairs(model, surface, side, partner, sums)
          call summed_elements(deck, j, model, side, sums, spread(.false., 1, side%n), elements)
          return
@@ -170,7 +170,7 @@ contains
                'give a larger TOL')
          else if (found%double > 0) then
             call deck%field_error(card%line, 'SIDE2', 'faces of surface '//integer_text(card%sides(2))//' lie behind one '// &
-               'another, and cover the '//side_name(model, own%nodes(:own%n_corners(found%double), found%double))//' of SIDE1 '// &
+               'another, and cover the '//side_name(model, own%nodes(:own%corners(found%double), found%double))//' of SIDE1 '// &
                real_text(found%double_share)//' times: mark the nearer ones alone, or give a TOL below their distance')
          else
             model%joints(j)%cover = found%cover

@@ -7,6 +7,7 @@ module model_build
    use deck_input, only: deck_type
    use determinate_joints, only: find_determinate_joints
    use first_pressures, only: find_first_pressures
+   use gap_build, only: build_gaps
    use joint_build, only: build_joints
    use joint_split, only: split_shared_surfaces
    use load_build, only: build_loads
@@ -40,6 +41,7 @@ contains
       call build_surfaces(checked, sides, model)
       call split_shared_surfaces(checked, model)
       call build_joints(checked, model)
+      call build_gaps(checked, model)
       call build_bars(checked, model)
       call build_supports(checked, model)
       call build_sections(checked, model)

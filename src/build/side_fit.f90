@@ -139,7 +139,7 @@ contains
       integer  :: corners, k, n
 
       n = side1%n_nodes(s)
-      corners = side1%n_corners(s)
+      corners = side1%corners(s)
       associate (x => model%x(:, side1%nodes(:n, s)))
          call make_frame(model%dimension, x, face%frame)
          face%seen = in_frame(model%dimension, x, face%frame)

@@ -151,6 +151,16 @@ module bulk_data
       type(shear_law) :: law
    end type jshear_card
 
+   type, public :: jgap_card
+      integer  :: line = 0, joint = 0
+      character(8) :: kind = ''                         ! CONST, PLANE, TABLE, NODES, TRUE
+      real(wp) :: g0 = 0.0_wp, slope(2) = 0.0_wp, crown(2) = 0.0_wp ! of PLANE, the first of CONST too
+      integer, allocatable  :: node(:)                  ! of NODES
+      real(wp), allocatable :: x(:, :)                  ! (3, n) points of TABLE
+      real(wp), allocatable :: gap(:)                   ! of NODES and TABLE
+      integer, allocatable  :: at(:)                    ! data field where each of them begins
+   end type jgap_card
+
    type, public :: jincr_card
       integer :: line = 0, id = 0
       real(wp), allocatable :: shares(:)                ! of the stage's load change, add up to 1
@@ -180,6 +190,7 @@ module bulk_data
       type(pjoint_card), allocatable       :: pjoint(:)
       type(jnorm_card), allocatable        :: jnorm(:)
       type(jshear_card), allocatable       :: jshear(:)
+      type(jgap_card), allocatable         :: jgap(:)
       type(jincr_card), allocatable        :: jincr(:)
    end type bulk_data_type
 

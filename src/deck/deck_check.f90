@@ -98,6 +98,7 @@ contains
          call self%report_repeated('PJOINT', bulk%pjoint%id, bulk%pjoint%line)
          call self%report_repeated('JNORM', bulk%jnorm%id, bulk%jnorm%line)
          call self%report_repeated('JSHEAR', bulk%jshear%id, bulk%jshear%line)
+         call self%report_repeated('JGAP of joint', bulk%jgap%joint, bulk%jgap%line)
          call self%report_repeated('JINCR', bulk%jincr%id, bulk%jincr%line)
          do i = 1, size(bulk%pjoint)
             associate (card => bulk%pjoint(i))

@@ -7,6 +7,7 @@ module deck_input
    use deck_cards, only: card_name, check_first_field, is_continuation, read_card
    use deck_errors, only: deck_error_list
    use deck_text, only: deck_text_of_bytes, deck_text_type, read_deck_text
+   use gap_cards, only: read_jgap
    use joint_cards, only: read_cjoint, read_jincr, read_jnorm, read_joint, read_jshear, read_pjoint
    use kinds, only: long
    use line_scan, only: is_include
@@ -59,6 +60,7 @@ contains
       call cards%add_kinds(['PJOINT'], read_pjoint)
       call cards%add_kinds(['JNORM'], read_jnorm)
       call cards%add_kinds(['JSHEAR'], read_jshear)
+      call cards%add_kinds(['JGAP'], read_jgap)
       call cards%add_kinds(['JINCR'], read_jincr)
    end subroutine list_cards
 

@@ -8,7 +8,7 @@ module analysis_state
    use joint_laws, only: element_state, element_stiffness_of, joint_law
    use kinds, only: wp
    use model_data, only: model_type, n_bars, n_sections
-   use normal_stiffness, only: branch_load, branch_open, is_virgin, normal_secant
+   use normal_stiffness, only: at_rest, branch_load, branch_open, is_virgin, normal_secant
    use branch_starts, only: note_turns, turning_point
    implicit none
    private
@@ -127,7 +127,7 @@ contains
       allocate (analysis%k(3, size(model%interface)), analysis%movement(3, size(model%interface)), source=0.0_wp)
       allocate (analysis%turns(2, size(model%interface)), analysis%slips(0))
       allocate (analysis%kind(size(model%interface)), analysis%next_kind(size(model%interface)), source=no_stiffness)
-      analysis%states%normal%p_av = model%joints(model%interface%joint)%p_av
+      analysis%states%normal = at_rest(model%joints(model%interface%joint)%p_av, model%interface%gap)
       if (control%method == method_step) allocate (analysis%exact, source=analysis%states)
    end subroutine start_analysis
 

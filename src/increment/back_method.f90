@@ -13,7 +13,7 @@ module back_method
                              secant_stiffness, tally_work
    use equations, only: equation_system, forces_in_bodies, form_structure_stiffness, solve_equations
    use failures, only: failure_type
-   use interface_operator, only: joint_movement
+   use interface_operator, only: add_force, joint_movement
    use joint_laws, only: back_stiffness, exceeds_limit, loading_work, rest_margin
    use kinds, only: wp
    use model_data, only: joint_node_id, model_type
@@ -31,8 +31,8 @@ module back_method
 
    !> The interface elements in one iteration, n of them.
    type :: iterate_type
-      real(wp), allocatable :: taken(:, :)        ! (3, n) movements that the secants are taken at
-      real(wp), allocatable :: movement(:, :)     ! (3, n) that they lead to
+      real(wp), allocatable :: taken(:, :)        ! (3, n) deflections that the secants are taken at: x, y, lambda
+      real(wp), allocatable :: deflection(:, :)   ! (3, n) that they lead to
       real(wp), allocatable :: change(:)          ! (n) largest change of a stress of the laws between the two [pressure]
       real(wp), allocatable :: k_int(:, :, :)     ! (3, 3, n) stiffness, in joint axes
    end type iterate_type
@@ -52,23 +52,23 @@ contains
       integer  :: iteration, n
 
       n = size(model%interface)
-      allocate (now%taken(3, n), now%movement(3, n), now%change(n), now%k_int(3, 3, n), source=0.0_wp)
+      allocate (now%taken(3, n), now%deflection(3, n), now%change(n), now%k_int(3, 3, n), source=0.0_wp)
       now%taken(3, :) = loading_deflection(model%joints(model%interface%joint)%law%normal, analysis%states%normal%p_av)
       do iteration = 1, merge(most_averages, most_shown, analysis%average)
          call take_secants(model, analysis, now)
          call form_structure_stiffness(model, now%k_int, where_in_plan(plan, analysis%stage, analysis%increment), system, &
                                        failure, one_solution=.true.)
-         call solve_equations(model, system, analysis%felt, analysis%u, failure, &
+         call solve_equations(model, system, load_of_secants(system, analysis%felt, now), analysis%u, failure, &
                               moved=merge(analysis%moved(:, system%retained), 0.0_wp, analysis%moves))
          if (failure%raised) return
          if (n == 0) exit
          call read_off(model, system, analysis, now, largest_p)
          call record_pass(analysis, pass_record(before=largest_p, after=maxval(now%change), &
-                                                step=maxval(now%movement(3, :)), part=-1))
+                                                step=maxval(now%deflection(3, :)), part=-1))
          analysis%is_settled = maxval(now%change) <= max(analysis%load_tolerance, rounding)* &
                                max(largest_p, pressure_floor*maxval(analysis%states%normal%p_av))
          if (analysis%is_settled) exit
-         now%taken = merge(0.5_wp*(now%taken + now%movement), now%movement, analysis%average)
+         now%taken = merge(0.5_wp*(now%taken + now%deflection), now%deflection, analysis%average)
       end do
       if (analysis%average .and. .not. analysis%is_settled) then
          call give_up(model, plan, analysis, now, failure)
@@ -80,7 +80,7 @@ contains
       call find_unbalanced(system, analysis)
    end subroutine back_increment
 
-   !> Secants of the laws at the movements TAKEN.
+   !> Secants of the laws at the deflections TAKEN.
    pure subroutine take_secants(model, analysis, now)
       type(model_type), intent(in)      :: model
       type(analysis_type), intent(in)   :: analysis
@@ -98,6 +98,22 @@ contains
       end do
    end subroutine take_secants
 
+   !> The load FELT and what the secants pull at gaps: they begin where these are closed, k_n (closing - g).
+   pure function load_of_secants(system, felt, now) result(load)
+      class(equation_system), intent(in) :: system
+      real(wp), intent(in)               :: felt(:, :) !! (dimension, retained) [force]
+      type(iterate_type), intent(in)     :: now
+      real(wp), allocatable :: load(:, :)
+      integer :: i
+
+      load = felt
+      do i = 1, size(system%interface)
+         associate (element => system%interface(i))
+            if (abs(element%gap) > 0.0_wp) call add_force(element, [0.0_wp, 0.0_wp, now%k_int(3, 3, i)*element%gap], load)
+         end associate
+      end do
+   end function load_of_secants
+
    !> What the solution moves, the LARGEST_P of the laws there [pressure], and by how much the stresses of the laws differ from
    !! those where the secants were taken.
    subroutine read_off(model, system, analysis, now, largest_p)
@@ -111,12 +127,12 @@ contains
 
       largest_p = 0.0_wp
       do i = 1, size(model%interface)
-         associate (element => model%interface(i), movement => now%movement(:, i), &
+         associate (element => model%interface(i), deflection => now%deflection(:, i), &
                     law => model%joints(model%interface(i)%joint)%law)
-            now%movement(:, i) = joint_movement(system%interface(i), analysis%u)
-            p = loading_pressure(law%normal, max(0.0_wp, [now%taken(3, i), movement(3)]))
-            k = back_stiffness(law, element%area, analysis%states(i)%normal%p_av, movement)
-            k(:2) = abs((k(:2) - [now%k_int(1, 1, i), now%k_int(2, 2, i)])*movement(:2))/element%area
+            deflection = joint_movement(system%interface(i), analysis%u) - [0.0_wp, 0.0_wp, element%gap]
+            p = loading_pressure(law%normal, max(0.0_wp, [now%taken(3, i), deflection(3)]))
+            k = back_stiffness(law, element%area, analysis%states(i)%normal%p_av, deflection)
+            k(:2) = abs((k(:2) - [now%k_int(1, 1, i), now%k_int(2, 2, i)])*deflection(:2))/element%area
             now%change(i) = max(abs(p(2) - p(1)), k(1), k(2))
             largest_p = max(largest_p, p(2))
          end associate
@@ -146,18 +162,18 @@ contains
       integer :: i
 
       do i = 1, size(model%interface)
-         associate (state => analysis%states(i), element => model%interface(i), movement => now%movement(:, i), &
+         associate (state => analysis%states(i), element => model%interface(i), deflection => now%deflection(:, i), &
                     law => model%joints(model%interface(i)%joint)%law)
-            state%normal%branch = merge(branch_load, branch_open, movement(3) > 0.0_wp)
-            state%normal%lambda = movement(3)
+            state%normal%branch = merge(branch_load, branch_open, deflection(3) > 0.0_wp)
+            state%normal%lambda = deflection(3)
             state%normal%k_n = now%k_int(3, 3, i)
             analysis%kind(i) = merge(secant_stiffness, no_stiffness, state%normal%k_n > 0.0_wp)
-            state%normal%sumf = max(0.0_wp, now%k_int(3, 3, i)*movement(3))
+            state%normal%sumf = max(0.0_wp, now%k_int(3, 3, i)*deflection(3))
             state%normal%pressure = state%normal%sumf/element%area
-            state%shear%sense = sign(1.0_wp, movement(:2))
-            state%shear%delta = movement(:2)
+            state%shear%sense = sign(1.0_wp, deflection(:2))
+            state%shear%delta = deflection(:2)
             state%shear%k_s = [now%k_int(1, 1, i), now%k_int(2, 2, i)]
-            state%shear%tau = state%shear%k_s*movement(:2)/element%area
+            state%shear%tau = state%shear%k_s*deflection(:2)/element%area
             state%slips = exceeds_limit(law, state, rest_margin)
             call tally_work(analysis%energy(element%joint), loading_work(law, element%area, state))
          end associate

@@ -25,7 +25,7 @@ contains
       analysis%stage = stage
       analysis%increment = 0
       analysis%fraction = 0.0_wp
-      analysis%energy = joint_energy()
+      if (stage > 1) analysis%energy = joint_energy() ! the first stage has what interference has put in before
       analysis%load_before = analysis%applied
       analysis%load_after = 0.0_wp
       analysis%moved_before = analysis%moved

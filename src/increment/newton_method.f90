@@ -2,38 +2,24 @@
 !! states of the joints are committed only at equilibrium. An increment that does not converge is divided.
 module newton_method
    use analysis_state, only: all_held, analysis_type, free_norm, pass_record, record_pass
-   use coupled_solution, only: solve_coupled
-   use equations, only: equation_system, form_structure_stiffness, solve_equations
+   use equations, only: equation_system
    use failures, only: failure_type
-   use joint_laws, only: element_state, element_stiffness_of
    use kinds, only: wp
    use load_path, only: support_force
    use model_data, only: joint_node_id, model_type
+   use newton_direction, only: attempt_type, close_gaps, find_direction
    use newton_trial, only: commit, evaluate, search, start_trial, swap, take_whole_step, trial_type
-   use normal_stiffness, only: branch_name, branch_open
+   use normal_stiffness, only: branch_name, branch_open, pressure_floor
    use stage_plan, only: stage_plan_type, where_in_plan
    use text_tools, only: integer_text, real_text
    implicit none
    private
 
-   public :: newton_increment
+   public :: newton_increment, seat_joints
 
    integer, parameter  :: most_iterations = 40
    integer, parameter  :: most_halvings = 12
-   real(wp), parameter :: little = 1.0e-7_wp          ! of the elastic stiffness: what the matrix has where an element has none
-
-   !> One attempt at a part of the increment: what it has to reach, and how it ended.
-   type :: attempt_type
-      character(:), allocatable :: where          ! stage and increment, for messages
-      real(wp) :: left = 0.0_wp                   ! of the increment, when it is reached [-]
-      real(wp), allocatable :: load(:, :)         ! (dimension, retained), then [force]
-      real(wp), allocatable :: move(:, :)         ! of held components, that is still to be made, likewise [length]
-      integer, allocatable  :: flips(:)           ! changes of branch, by interface element
-      integer :: loose = 0                        ! a joint that is open or slips all over at its end, 0: none
-      logical :: imprecise = .false.              ! rounding in the bodies is no small part of the load
-      logical :: converged = .false.
-      type(failure_type) :: trouble               ! a matrix that could not be factorised
-   end type attempt_type
+   real(wp), parameter :: idle = 10.0_wp*pressure_floor ! of p_av: what interference presses by less, it does not press
 
 contains
 
@@ -44,7 +30,50 @@ contains
       type(analysis_type), intent(inout)   :: analysis !! applied is the load at the end of the increment
       class(equation_system), intent(inout) :: system
       type(failure_type), intent(inout)    :: failure
-      type(attempt_type)    :: attempt
+      type(attempt_type) :: attempt
+
+      analysis%tolerance = max(analysis%tolerance, analysis%load_tolerance*free_norm(analysis%applied, all_held(model, analysis)), &
+                               tiny(1.0_wp))
+      attempt%where = where_in_plan(plan, analysis%stage, analysis%increment)
+      call find_equilibrium(model, analysis, system, attempt, failure)
+   end subroutine newton_increment
+
+   !> Interference presses before any load: the equilibrium of the structure at rest without load becomes the state that STEP and
+   !! NEWTON start from. Nothing where no joint has a negative gap.
+   subroutine seat_joints(model, analysis, system, failure)
+      type(model_type), intent(in)         :: model
+      type(analysis_type), intent(inout)   :: analysis !! at rest
+      class(equation_system), intent(inout) :: system
+      type(failure_type), intent(inout)    :: failure
+      type(attempt_type) :: attempt
+      integer :: i
+
+      if (failure%raised .or. .not. any(model%interface%gap < 0.0_wp)) return
+      analysis%tolerance = tiny(1.0_wp)
+      attempt%seats = .true.
+      attempt%seat_force = norm2(pack(analysis%states%normal%p_av*model%interface%area, model%interface%gap < 0.0_wp))
+      attempt%where = 'interference (JGAP), before the first load'
+      call find_equilibrium(model, analysis, system, attempt, failure)
+      do i = 1, size(analysis%states) ! where a body has moved out of the way, nothing has been pressed yet
+         associate (state => analysis%states(i)%normal)
+            if (state%pressure <= idle*state%p_av) then
+               state%sumf = 0.0_wp
+               state%pressure = 0.0_wp
+               state%lambda_a = 0.0_wp
+               state%p_a = 0.0_wp
+            end if
+         end associate
+      end do
+      if (allocated(analysis%exact)) analysis%exact = analysis%states
+   end subroutine seat_joints
+
+   !> Go from equilibrium to equilibrium by ATTEMPTs, each committed where it converges and divided where it does not.
+   subroutine find_equilibrium(model, analysis, system, attempt, failure)
+      type(model_type), intent(in)         :: model
+      type(analysis_type), intent(inout)   :: analysis
+      class(equation_system), intent(inout) :: system
+      type(attempt_type), intent(inout)    :: attempt
+      type(failure_type), intent(inout)    :: failure
       real(wp), allocatable :: u_start(:, :)
       real(wp) :: done, part
       integer  :: before_open
@@ -54,12 +83,9 @@ contains
       done = 0.0_wp
       part = 1.0_wp
       analysis%n_parts = 0
-      analysis%tolerance = max(analysis%tolerance, analysis%load_tolerance*free_norm(analysis%applied, all_held(model, analysis)), &
-                               tiny(1.0_wp))
-      attempt%where = where_in_plan(plan, analysis%stage, analysis%increment)
       do while (done < 1.0_wp)
          part = min(part, 1.0_wp - done)
-         call start_attempt(system, analysis, merge(1.0_wp - done - part, 0.0_wp, done + part < 1.0_wp), attempt)
+         call start_attempt(model, system, analysis, merge(1.0_wp - done - part, 0.0_wp, done + part < 1.0_wp), attempt)
          call iterate(model, system, analysis, attempt)
          if (attempt%converged) then
             done = done + part
@@ -78,17 +104,20 @@ contains
       end do
       analysis%du = analysis%u - u_start
       analysis%n_removed = max(0, count(analysis%states%normal%branch == branch_open) - before_open)
-   end subroutine newton_increment
+   end subroutine find_equilibrium
 
-   !> The next ATTEMPT goes to where so much of the increment is LEFT.
-   subroutine start_attempt(system, analysis, left, attempt)
+   !> The next ATTEMPT goes to where so much of the increment, or of the interference, is LEFT.
+   subroutine start_attempt(model, system, analysis, left, attempt)
+      type(model_type), intent(in)       :: model
       class(equation_system), intent(in) :: system
-      type(analysis_type), intent(in)    :: analysis
+      type(analysis_type), intent(inout) :: analysis
       real(wp), intent(in)               :: left
       type(attempt_type), intent(inout)  :: attempt
       type(failure_type) :: none
 
       attempt%left = left
+      if (attempt%seats) analysis%states%normal%gap = merge((1.0_wp - left)*model%interface%gap, model%interface%gap, &
+                                                            model%interface%gap < 0.0_wp)
       attempt%load = analysis%felt - left*analysis%change
       attempt%move = merge(analysis%moved(:, system%retained) - left*analysis%move - analysis%u, 0.0_wp, &
                            system%number(:, system%retained) == 0)
@@ -108,7 +137,7 @@ contains
       type(trial_type)      :: now, next
       real(wp), allocatable :: direction(:, :)
       logical  :: flips(size(analysis%states))
-      real(wp) :: load_size, noise, rounding, step, travel
+      real(wp) :: load_size, noise, pressed, rounding, step, travel
       integer  :: iteration
       logical  :: moves, carried
 
@@ -120,6 +149,12 @@ contains
       call evaluate(model, system, attempt%load, analysis, now)
       load_size = analysis%tolerance/analysis%load_tolerance ! the largest so far
       do iteration = 0, most_iterations
+         if (attempt%seats) then ! what the joints press into the bodies is the load
+            pressed = free_norm(now%body, analysis%held)
+            load_size = max(pressed, attempt%seat_force)
+            analysis%tolerance = analysis%load_tolerance*load_size
+            if (pressed <= idle*attempt%seat_force) analysis%tolerance = idle*attempt%seat_force ! the bodies have made way
+         end if
          ! forces in the bodies are differences of large numbers: what rounding leaves of them is no residual, and where it is no
          ! small part of the load, a body has moved away and nothing is in equilibrium
          noise = 10.0_wp*epsilon(1.0_wp)*system%stiffest*maxval(abs(now%u))
@@ -131,6 +166,7 @@ contains
          if (attempt%converged .or. iteration == most_iterations) exit
          if (noise > load_size .and. .not. (carried .or. moves)) exit
          call find_direction(model, now, analysis, iteration == 0, system, attempt, direction)
+         if (attempt%trouble%raised .and. .not. moves) call close_gaps(model, now, analysis, system, attempt, direction)
          if (attempt%trouble%raised) exit
          if (moves) then
             call take_whole_step(model, system, attempt%load, analysis, now, direction, next)
@@ -152,6 +188,7 @@ contains
       end do
       attempt%imprecise = noise > 1.0e-5_wp*load_size .and. .not. carried
       attempt%loose = loose_joint(model, now)
+      if (attempt%seats) analysis%tolerance = analysis%load_tolerance*load_size
       if (attempt%converged) call commit(model, system, now, analysis)
    end subroutine iterate
 
@@ -167,52 +204,6 @@ contains
       end do
       joint = 0
    end function loose_joint
-
-   !> The Newton direction from NOW. The factorised matrix has the symmetric, positive part of the tangent, with a little where
-   !! an element has no stiffness, and at the very first the secant of Eq. (9); what it lacks is brought in by solve_coupled.
-   subroutine find_direction(model, now, analysis, first, system, attempt, direction)
-      type(model_type), intent(in)          :: model
-      type(trial_type), intent(in)          :: now
-      type(analysis_type), intent(inout)    :: analysis
-      logical, intent(in)                   :: first
-      class(equation_system), intent(inout) :: system
-      type(attempt_type), intent(inout)     :: attempt
-      real(wp), intent(inout)               :: direction(:, :)
-      real(wp), allocatable :: matrix(:, :, :), rest(:, :, :)
-      type(element_state) :: at_rest
-      real(wp) :: elastic(3)
-      integer  :: i, k
-      logical  :: virgin, coupled
-
-      allocate (matrix(3, 3, size(model%interface)), rest(3, 3, size(model%interface)), source=0.0_wp)
-      coupled = .false.
-      do i = 1, size(model%interface)
-         associate (element => model%interface(i), law => model%joints(model%interface(i)%joint)%law)
-            virgin = first .and. abs(analysis%states(i)%normal%lambda_a) <= 0.0_wp
-            at_rest = element_state()
-            at_rest%normal%p_av = analysis%states(i)%normal%p_av
-            call element_stiffness_of(law, element%area, .false., [0.0_wp, 0.0_wp, 0.0_wp], at_rest, elastic)
-            matrix(3, 3, i) = max(now%tangent(3, 3, i), little*elastic(3))
-            if (virgin) matrix(3, 3, i) = elastic(3)
-            matrix(:2, :2, i) = 0.5_wp*(now%tangent(:2, :2, i) + transpose(now%tangent(:2, :2, i)))
-            do k = 1, 2
-               matrix(k, k, i) = max(0.0_wp, matrix(k, k, i)) + little*elastic(k)
-               if (virgin) matrix(k, k, i) = max(matrix(k, k, i), elastic(k))
-            end do
-            analysis%k(:, i) = [now%tangent(1, 1, i), now%tangent(2, 2, i), now%tangent(3, 3, i)]
-            rest(:2, :, i) = now%tangent(:2, :, i) - matrix(:2, :, i)
-            if (any(abs(now%tangent(:2, 3, i)) > 0.0_wp)) coupled = .true.
-         end associate
-      end do
-      associate (failure => attempt%trouble)
-         call form_structure_stiffness(model, matrix, attempt%where, system, failure, one_solution=.not. coupled)
-         if (coupled .and. all(abs(attempt%move) <= 0.0_wp)) then
-            call solve_coupled(model, system, rest, now%residual, 1.0e-4_wp, 25, direction, failure)
-         else
-            call solve_equations(model, system, now%residual, direction, failure, moved=attempt%move)
-         end if
-      end associate
-   end subroutine find_direction
 
    !> No part of the increment is small enough: say why, as far as it can be told, and which element changed its branch most
    !! often.

@@ -3,14 +3,14 @@
 module joint_laws
    use branch_cubic, only: cubic_secant, cubic_slope, cubic_work
    use kinds, only: wp
-   use normal_stiffness, only: branch_open, follow_normal, is_virgin, loading_pressure, norm, normal_law, normal_secant, &
-                               normal_state, pressure_floor, stored_work
+   use normal_stiffness, only: branch_open, closed_share, follow_normal, is_virgin, loading_pressure, norm, normal_law, &
+                               normal_secant, normal_state, pressure_floor, stored_work
    use shear_path, only: follow_shear
    use shear_stiffness, only: shear, shear_law, shear_state
    implicit none
    private
 
-   public :: element_stiffness_of, follow_element, rest_when_open
+   public :: element_stiffness_of, follow_element, rest_when_open, is_apart
    public :: friction_limit, friction_excess, exceeds_limit
    public :: back_stiffness, loading_work
 
@@ -45,9 +45,15 @@ contains
       real(wp), intent(out)              :: k(3)        !! [force/length]
       real(wp) :: pressure
       integer  :: i
+      logical  :: was_apart
 
+      was_apart = is_apart(state)
       call norm(law%normal, area, eq10, state%normal, k(3))
       call rest_when_open(state, movement)
+      if (was_apart .and. state%normal%branch /= branch_open) then
+         call begin_at_closing(movement, state)
+         state%shear%delta = movement(:2) - state%origin
+      end if
       pressure = state%normal%pressure
       if (is_virgin(area, state%normal)) pressure = state%normal%p_av
       k(:2) = 0.0_wp
@@ -66,6 +72,22 @@ contains
       state%shear = shear_state()
       state%origin = movement(:2)
    end subroutine rest_when_open
+
+   !> Whether an element is open that has a gap: when it closes, its shear deflection counts from where it closes. (Without a gap it
+   !! counts from where the increment begins that closes it; the way there is short.)
+   elemental logical function is_apart(state)
+      type(element_state), intent(in) :: state
+
+      is_apart = state%normal%branch == branch_open .and. state%normal%gap > 0.0_wp
+   end function is_apart
+
+   !> The last movement has closed an element: its origin goes to where it closed on the way there, which was straight.
+   pure subroutine begin_at_closing(movement, state)
+      real(wp), intent(in)               :: movement(3)
+      type(element_state), intent(inout) :: state    !! its origin where it was open last
+
+      state%origin = movement(:2) - closed_share(state%normal)*(movement(:2) - state%origin)
+   end subroutine begin_at_closing
 
    !> The Coulomb limit tau_f = mu p (section 4.4) of the resultant of tau [pressure].
    pure real(wp) function friction_limit(law, pressure) result(limit)
@@ -109,25 +131,32 @@ contains
       type(element_state), intent(out) :: after
       real(wp), intent(out)            :: tangent(3, 3) !! d (forces x, y, z)/d movement [force/length], not symmetric
       real(wp), intent(out)            :: work(2)       !! done by shear, by normal forces [force x length]
-      real(wp) :: by_delta(2), by_p(2), slope, shear_work, limit, size_of_tau, along(2)
+      real(wp) :: by_delta(2), by_p(2), slope, shear_work, limit, size_of_tau, along(2), share, share_by_lambda
       integer  :: i
 
       after = before
       tangent = 0.0_wp
       work = 0.0_wp
-      call follow_normal(law%normal, area, before%normal, movement(3), after%normal, slope, work(2))
+      call follow_normal(law%normal, area, before%normal, movement(3) - before%normal%gap, after%normal, slope, work(2))
       after%slips = .false.
       tangent(3, 3) = slope*area
       if (after%normal%branch == branch_open) then
          after%shear%tau = 0.0_wp
          return
       end if
+      share = 1.0_wp
+      share_by_lambda = 0.0_wp
+      if (is_apart(before)) then
+         call begin_at_closing(movement, after)
+         share = closed_share(after%normal)
+         share_by_lambda = (1.0_wp - share)/max(after%normal%lambda - before%normal%lambda, tiny(1.0_wp))
+      end if
       do i = 1, 2
-         call follow_shear(law%shear(i), before%shear(i), movement(i) - before%origin(i), &
+         call follow_shear(law%shear(i), before%shear(i), movement(i) - after%origin(i), &
                            [before%normal%pressure, after%normal%pressure], after%shear(i), by_delta(i), by_p(i), shear_work)
          work(1) = work(1) + area*shear_work
-         tangent(i, i) = area*by_delta(i)
-         tangent(i, 3) = area*by_p(i)*slope
+         tangent(i, i) = area*by_delta(i)*share
+         tangent(i, 3) = area*by_p(i)*slope + area*by_delta(i)*(movement(i) - before%origin(i))*share_by_lambda
       end do
       after%slips = exceeds_limit(law, after, slip_margin)
       if (.not. after%slips) return
@@ -142,19 +171,19 @@ contains
       work(1) = sum(0.5_wp*area*(before%shear%tau + after%shear%tau)*(after%shear%delta - before%shear%delta))
    end subroutine follow_element
 
-   !> BACK: secants K = (k_sx, k_sy, k_n) of the loading curves at the MOVEMENT: p(lambda)/lambda, P(d)/d under this p and cut to
+   !> BACK: secants K = (k_sx, k_sy, k_n) of the loading curves at the DEFLECTION: p(lambda)/lambda, P(d)/d under this p and cut to
    !! the Coulomb limit, times the area [force/length]; none where the element is open.
-   pure function back_stiffness(law, area, p_av, movement) result(k)
+   pure function back_stiffness(law, area, p_av, deflection) result(k)
       type(joint_law), intent(in) :: law
       real(wp), intent(in)        :: area, p_av
-      real(wp), intent(in)        :: movement(3) !! of end 1 against end 2, in all [length]
+      real(wp), intent(in)        :: deflection(3) !! of the joint: along x, along y, lambda [length]
       real(wp) :: k(3), moved, p
 
       k = 0.0_wp
-      if (movement(3) < 0.0_wp) return
-      p = max(loading_pressure(law%normal, movement(3)), pressure_floor*p_av)
-      moved = norm2(movement(:2))
-      k(:2) = area*cubic_secant(law%shear%load, abs(movement(:2)), p)
+      if (deflection(3) < 0.0_wp) return
+      p = max(loading_pressure(law%normal, deflection(3)), pressure_floor*p_av)
+      moved = norm2(deflection(:2))
+      k(:2) = area*cubic_secant(law%shear%load, abs(deflection(:2)), p)
       if (law%has_friction .and. moved > 0.0_wp) k(:2) = min(k(:2), friction_limit(law, p)*area/moved)
       k(3) = normal_secant(law%normal, area, p)
    end function back_stiffness

@@ -18,7 +18,7 @@ module normal_stiffness
    implicit none
    private
 
-   public :: norm, is_virgin, pressure_reached, follow_normal, branch_name
+   public :: at_rest, norm, is_virgin, pressure_reached, follow_normal, closed_share, branch_name
    public :: loading_deflection, loading_pressure, normal_secant, normal_tangent, line_pressure, stored_work
 
    integer, parameter, public :: branch_load = 1, branch_unload = 2, branch_open = 3, branch_reload = 4
@@ -38,7 +38,8 @@ module normal_stiffness
       real(wp) :: p_av     = 0.0_wp  !! mean pressure of the joint in the first increment [pressure], > 0
       real(wp) :: sigmaf   = 0.0_wp  !! sum of the incremental normal forces before the last increment [force]
       real(wp) :: sumf     = 0.0_wp  !! the same after it, compression positive [force]
-      real(wp) :: lambda   = 0.0_wp  !! closing deflection [length]
+      real(wp) :: gap      = 0.0_wp  !! g, the closing of the ends at which the faces touch; negative: interference [length]
+      real(wp) :: lambda   = 0.0_wp  !! closing deflection of the joint: closing of the ends - gap [length]
       real(wp) :: lambda_before = 0.0_wp
       real(wp) :: k_n      = 0.0_wp  !! stiffness of the last increment [force/length]
       real(wp) :: pressure = 0.0_wp  !! p after the last increment [pressure]
@@ -47,6 +48,18 @@ module normal_stiffness
    end type normal_state
 
 contains
+
+   !> The state of an element at rest that nothing has pressed yet. Behind a gap it is open, and its points A and B are the origin:
+   !! the first that it meets when it closes is the loading curve from there on.
+   elemental type(normal_state) function at_rest(p_av, gap) result(state)
+      real(wp), intent(in) :: p_av   !! [pressure], > 0
+      real(wp), intent(in) :: gap    !! [length]
+
+      state%p_av = p_av
+      state%gap = gap
+      state%lambda = 0.0_wp - gap ! no -0.0
+      if (gap > 0.0_wp) state%branch = branch_open
+   end function at_rest
 
    !> Normal stiffness of one interface element for the next increment, from what the last one did to it.
    !! Source: Edelugo, section 4.1-4.2, Fig. 6(b), Eqs. (9), (10), (11). Called once before the first increment, and
@@ -135,7 +148,7 @@ contains
       real(wp), intent(in)           :: point
       type(normal_state), intent(in) :: state
 
-      has_come_to = state%lambda >= point - rounding*max(abs(point), abs(state%lambda_a))
+      has_come_to = state%lambda >= point - rounding*max(abs(point), abs(state%lambda_a), abs(state%gap))
    end function has_come_to
 
    !> Whether nothing is on the element on its loading curve: at first, until a load reaches it, and where it closes past A.
@@ -211,6 +224,14 @@ contains
       work = area*(stored_work(law, after%lambda_a, after%p_a, after%pressure) &
                    - stored_work(law, before%lambda_a, before%p_a, before%pressure))
    end subroutine follow_normal
+
+   !> Which share of the last change of lambda an element was closed that it found open: the part behind point B [-].
+   pure real(wp) function closed_share(state) result(share)
+      type(normal_state), intent(in) :: state
+
+      share = (state%lambda - state%lambda_b)/max(state%lambda - state%lambda_before, tiny(1.0_wp))
+      share = min(1.0_wp, max(0.0_wp, share))
+   end function closed_share
 
    !> p of the loading curve at LAMBDA >= 0, Eq. (1) [pressure].
    elemental real(wp) function loading_pressure(law, lambda) result(p)

@@ -23,6 +23,7 @@ module interface_operator
       integer, allocatable  :: node(:)       !! positions
       real(wp), allocatable :: weight(:)     !! of the displacement of each: their sum is the movement of end 1 against end 2
       real(wp) :: area = 0.0_wp              !! a_i [length^2]
+      real(wp) :: gap = 0.0_wp               !! g: closing at which the faces touch; negative: interference [length]
       real(wp) :: axes(3, 3) = 0.0_wp        !! columns: x, y in the joint, z its normal from end 1 to end 2
    end type interface_element
 

@@ -10,7 +10,7 @@ module model_data
    implicit none
    private
 
-   public :: corners_of, has_second_order, is_coarser, joint_node_id, n_bars, n_sections, n_points
+   public :: corners_of, has_gaps, has_second_order, is_coarser, joint_node_id, n_bars, n_sections, n_points
 
    !> Section and material of body elements.
    type, public :: property_type
@@ -58,6 +58,7 @@ module model_data
       real(wp) :: p_av = 0.0_wp              !! pressure of the first increment, Eq. (9): that, or by statics [pressure], > 0
       real(wp) :: area = 0.0_wp              !! A_int, sum of the areas of influence [length^2]
       real(wp) :: normal(3) = 0.0_wp         !! mean normal, from side 1 to side 2
+      character(8) :: gap_kind = ''          !! of its JGAP, blank: none
       logical  :: determinate = .false.      !! whether statics alone gives its normal resultant
       logical, allocatable :: carries(:)     !! (parts) the parts whose load it carries, where determinate
       real(wp) :: direction = 1.0_wp         !! +1: those parts are on side 1; -1: on side 2
@@ -151,6 +152,13 @@ contains
       n_sections = 0
       if (allocated(model%sections)) n_sections = size(model%sections)
    end function n_sections
+
+   !> Whether the deck gives the initial gap of any joint.
+   pure logical function has_gaps(model)
+      type(model_type), intent(in) :: model
+
+      has_gaps = any(model%joints%gap_kind /= '')
+   end function has_gaps
 
    !> How many nodes are points of the structure; the nodes of sections follow.
    pure integer function n_points(model)

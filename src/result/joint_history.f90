@@ -3,7 +3,7 @@ module joint_history
    use csv_line, only: csv_line_type
    use interface_operator, only: at_first_end
    use kinds, only: wp
-   use model_data, only: joint_node_id, model_type
+   use model_data, only: has_gaps, joint_node_id, model_type
    use normal_stiffness, only: branch_name
    use output_file, only: output_file_type
    use stage_plan, only: stage_plan_type
@@ -16,11 +16,14 @@ module joint_history
 
 contains
 
-   subroutine write_history_header(file)
+   !> The titles of the columns; GAP only where the deck has any.
+   subroutine write_history_header(file, model)
       type(output_file_type), intent(inout) :: file
+      type(model_type), intent(in)          :: model
 
       call file%put('stage,increment,load,joint,element,node1,node2,x,y,z,area,branch,lambda,pressure,force,k_n,'// &
-                    'branch_x,delta_x,tau_x,k_sx,branch_y,delta_y,tau_y,k_sy,slip')
+                    'branch_x,delta_x,tau_x,k_sx,branch_y,delta_y,tau_y,k_sy,slip'// &
+                    trim(merge(',gap', '    ', has_gaps(model))))
    end subroutine write_history_header
 
    !> One row an interface element, for the increment just completed. node2 is 0 for the rigid base; a direction without
@@ -32,7 +35,9 @@ contains
       type(analysis_type), intent(in)       :: analysis
       type(csv_line_type) :: line
       integer  :: i, k, same
+      logical  :: gaps
 
+      gaps = has_gaps(model)
       call line%add([plan%stages(analysis%stage)%id, analysis%increment])
       call line%add(clean([analysis%fraction]))
       same = line%length                  ! the columns that all rows have in common
@@ -56,6 +61,7 @@ contains
             end associate
          end do
          call line%add(merge('1', '0', analysis%states(i)%slips))
+         if (gaps) call line%add(clean([model%interface(i)%gap]))
          call file%put(line%text(:line%length))
       end do
    end subroutine write_history

@@ -70,6 +70,8 @@ contains
          page%largest_force = max(page%largest_force, maxval(abs(analysis%applied(:, analysis%loaded))))
          if (analysis%is_moved) page%largest_force = &
             max(page%largest_force, maxval(abs(analysis%all_unbalanced), mask=model%held)) ! what moves the supports
+         if (any(model%interface%gap < 0.0_wp)) page%largest_force = &
+            max(page%largest_force, maxval(abs(analysis%states%normal%sumf)))              ! what interference presses
          call note_increment(page, trim(stage%label), model, analysis, listing%increments)
          call note_distances(page, model, plan, analysis, listing%distances, listing%farthest)
          call note_resultants(page, model, analysis, listing%resultants)

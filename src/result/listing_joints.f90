@@ -6,7 +6,7 @@ module listing_joints
    use joint_laws, only: friction_limit
    use kinds, only: wp
    use listing_table, only: axes, column, heading, listing_table_type, noise, page_type
-   use model_data, only: joint_node_id, model_type
+   use model_data, only: has_gaps, joint_node_id, model_type
    use normal_stiffness, only: branch_name, loading_deflection
    use text_tools, only: clean, integer_text
    implicit none
@@ -57,7 +57,7 @@ contains
    end subroutine list_interface
 
    !> Normal stiffness of the interface elements of joint J: what the increment used, and of which kind, and how far lambda is from
-   !! the loading curve at the present p.
+   !! the loading curve at the present p; where there are gaps, of which closing it is the rest.
    subroutine list_stiffness(page, model, analysis, j)
       type(page_type), intent(inout)  :: page
       type(model_type), intent(in)    :: model
@@ -73,7 +73,8 @@ contains
          call table%start('NORMAL STIFFNESS OF JOINT '//integer_text(joint%id)//page%now, &
                           [column([character(7) :: 'ELEMENT', 'NODE 1'], 'i11'), &
                            column([character(6) :: 'LAMBDA', 'C P**M'], 'es13.5', labels%length), &
-                           column('K_N, USED', 'es13.5', labels%stiffness(:12)), column('KIND', 'a9')])
+                           column('K_N, USED', 'es13.5', labels%stiffness(:12)), &
+                           column(pack(['CLOSING', 'GAP    '], has_gaps(model)), 'es13.5', labels%length), column('KIND', 'a9')])
          call table%print_head(page%file)
          do i = joint%first, joint%last
             associate (state => analysis%states(i)%normal)
@@ -81,6 +82,7 @@ contains
                call table%add([clean(state%lambda, lambda_floor), &
                                clean(loading_deflection(joint%law%normal, max(0.0_wp, state%pressure)), lambda_floor), &
                                clean(state%k_n)])
+               if (has_gaps(model)) call table%add(clean([state%lambda + state%gap, state%gap], lambda_floor))
                call table%add(trim(kinds(analysis%kind(i))))
                call table%print_row(page%file)
             end associate

@@ -10,7 +10,7 @@ module listing_opening
    use line_scan, only: is_include
    use kinds, only: long, wp
    use listing_table, only: axes, column, cut, heading, listing_table_type, page_type, page_width
-   use model_data, only: is_coarser, model_type, n_bars, n_points, n_sections, whole_share
+   use model_data, only: has_gaps, is_coarser, model_type, n_bars, n_points, n_sections, whole_share
    use normal_stiffness, only: branch_load, branch_name, branch_reload, branch_unload, pressure_floor
    use output_file, only: output_file_type
    use shear_closure, only: loop_closure, worst_closure
@@ -39,6 +39,7 @@ contains
       call write_echo(page%file, deck)
       call write_summary(page%file, deck, model, system)
       if (size(model%joints) > 0) call write_joints(page, model)
+      if (has_gaps(model)) call write_gaps(page, model)
       call write_shear_laws(page%file, model)
       call write_stages(page, model, plan)
    end subroutine write_opening
@@ -225,6 +226,30 @@ contains
       end function is_list
 
    end subroutine write_covers
+
+   !> The initial gaps: of the elements of a joint how many stand open, and how many are pressed by interference at rest.
+   subroutine write_gaps(page, model)
+      type(page_type), intent(inout) :: page
+      type(model_type), intent(in)   :: model
+      type(listing_table_type) :: table
+      integer :: j
+
+      call table%start('INITIAL GAPS, NEGATIVE: INTERFERENCE', &
+                       [column('JOINT', 'i11'), column('GIVEN BY', 'a10'), &
+                        column(['SMALLEST', 'LARGEST '], 'es15.5', page%labels%length), column(['OPEN   ', 'PRESSED'], 'i9')])
+      call table%print_head(page%file)
+      do j = 1, size(model%joints)
+         associate (joint => model%joints(j), &
+                    gaps => model%interface(model%joints(j)%first:model%joints(j)%last)%gap)
+            if (joint%gap_kind == '') cycle
+            call table%add([joint%id])
+            call table%add(trim(joint%gap_kind))
+            call table%add(clean([minval(gaps), maxval(gaps)]))
+            call table%add([count(gaps > 0.0_wp), count(gaps < 0.0_wp)])
+            call table%print_row(page%file)
+         end associate
+      end do
+   end subroutine write_gaps
 
    !> Shear laws and friction of the joints that have them.
    subroutine write_shear_laws(file, model)

@@ -45,7 +45,7 @@ contains
       ok = .not. results%listing%page%file%failed()
       if (base /= '') then
          call results%history%start(base//history_ending)
-         call write_history_header(results%history)
+         call write_history_header(results%history, model)
          ok = ok .and. .not. results%history%failed()
       end if
    end subroutine start_results

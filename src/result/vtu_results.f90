@@ -9,7 +9,8 @@ module vtu_results
    use elasticity, only: max_stresses
    use interface_operator, only: at_first_end
    use kinds, only: wp
-   use model_data, only: corners_of, model_type, n_points
+   use model_data, only: corners_of, has_gaps, model_type, n_points
+   use normal_stiffness, only: branch_open
    use output_file, only: output_file_type
    use stage_plan, only: stage_plan_type
    use stress_measures, only: principal_stresses, von_mises
@@ -131,7 +132,7 @@ contains
    end subroutine write_bodies
 
    !> A vertex for every interface element, at its node 1. BRANCH is 1 load, 2 unload, 3 open, 4 reload as in the chart; TAU the
-   !! shear stress on side 2 in global axes.
+   !! shear stress on side 2 in global axes; GAP, in decks with a JGAP, how far an open element is from touching now.
    subroutine write_joint(file, model, analysis)
       type(vtu_file_type), intent(inout) :: file
       type(model_type), intent(in)       :: model
@@ -160,6 +161,8 @@ contains
       call file%add(point_data, 'tau', tau)
       call file%add(point_data, 'slip', merge(1, 0, analysis%states%slips))
       call file%add(point_data, 'area', model%interface%area)
+      if (has_gaps(model)) call file%add(point_data, 'gap', merge(analysis%states%normal%lambda_b - analysis%states%normal%lambda, &
+                                                                  0.0_wp, analysis%states%normal%branch == branch_open))
    end subroutine write_joint
 
    !> Give all files their names. All or none: OK is false where one could not be written.

@@ -4,6 +4,7 @@ module run_boxes
    use analysis_state, only: analysis_type, interface_stiffness, note_largest, start_analysis
    use, intrinsic :: iso_fortran_env, only: error_unit
    use c_library, only: end_run, write_bytes
+   use case_control, only: method_back
    use command_arguments, only: complain_of_input
    use condensed_interface, only: condense_on_joints
    use command_line, only: command_type, deck_argument, is_result_of, read_command_line
@@ -22,6 +23,7 @@ module run_boxes
    use memory_need, only: check_model_size
    use model_build, only: build_model
    use model_data, only: model_type, n_points
+   use newton_method, only: seat_joints
    use progress, only: phase_build, phase_factor, phase_increments, phase_order, phase_recover, phase_write, progress_type
    use results, only: discard_results, finish_results, history_ending, list_results => print_increment, listing_ending, &
                       print_stage_results => print_stage, remove_old_results, results_type, start_results
@@ -138,17 +140,18 @@ contains
       if (.not. ok) run%ending = is_unwritten
    end subroutine form_bodies
 
-   !> NORM and SHEAR for a structure at rest.
+   !> NORM and SHEAR for a structure at rest, its interference in equilibrium (BACK takes all at once).
    subroutine start_joints(run, deck, model, plan, system, analysis)
       type(run_type), intent(inout)      :: run
       type(deck_type), intent(in)        :: deck
       type(model_type), intent(in)       :: model
       type(stage_plan_type), intent(in)  :: plan
-      class(equation_system), allocatable, intent(in) :: system
+      class(equation_system), allocatable, intent(inout) :: system
       type(analysis_type), intent(out)   :: analysis
 
       if (is_over(run)) return
       call start_analysis(model, system, deck%control, analysis)
+      if (deck%control%method /= method_back) call seat_joints(model, analysis, system, run%failure)
       call interface_stiffness(model, system, analysis, run%failure)
       call run%progress%expect(plan)
       call run%progress%enter(phase_increments)

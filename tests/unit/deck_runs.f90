@@ -11,7 +11,7 @@ module deck_runs
    use load_path, only: recover_bodies, start_increment, start_stage
    use model_build, only: build_model
    use model_data, only: model_type
-   use newton_method, only: newton_increment
+   use newton_method, only: newton_increment, seat_joints
    use stage_plan, only: stage_plan_type
    use step_method, only: accumulate, limit_friction, solve_increment, structure_stiffness
    implicit none
@@ -95,6 +95,7 @@ contains
       call start_equations(run%model, run%system, run%failure, solver)
       call form_body_stiffness(run%model, run%system, run%failure)
       call start_analysis(run%model, run%system, run%control, run%analysis)
+      call seat_joints(run%model, run%analysis, run%system, run%failure)
       call interface_stiffness(run%model, run%system, run%analysis, run%failure)
       allocate (run%states(0))
       do s = 1, stages

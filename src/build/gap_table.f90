@@ -1,0 +1,211 @@
+!> Values at scattered points of a plane, interpolated linearly between them: on the triangles of the points' Delaunay
+!! triangulation, or where all points lie on one line from point to point along it; outside, the value at the nearest place of the
+!! points' outline. Linear values are met exactly, and the interpolation is continuous.
+!!
+!! The triangle around a place is found without the triangulation: lifted onto the paraboloid z = x**2 + y**2, it is the lowest one
+!! above the place. So from any triangle around the place the point farthest below its plane is exchanged for one of the corners,
+!! until there is none (the simplex method). Points on a grid make squares, of which both diagonals are as low: the paraboloid is a
+!! little oblique, in no direction that a grid would have, and one of them is lower everywhere.
+module gap_table
+   use kinds, only: wp
+   implicit none
+   private
+
+   real(wp), parameter :: rounding = 1.0e-9_wp               ! of the extent of the points: nearer ones are at one place
+   real(wp), parameter :: flat = 1.0e-13_wp                  ! of its square: a height that is none
+   real(wp), parameter :: oblique(2) = 1.0e-3_wp*[0.54_wp, 0.84_wp] ! cos, sin of 1: steepest at an angle of half of that
+
+   type, public :: gap_table_type
+      private
+      real(wp), allocatable :: x(:, :)         ! (2, n) about the centre, by the extent
+      real(wp), allocatable :: height(:)       ! (n) on the paraboloid
+      real(wp), allocatable :: values(:)       ! (n)
+      integer, allocatable  :: outline(:)      ! corners of the convex hull, counter-clockwise; none: all on a line
+      real(wp) :: centre(2) = 0.0_wp, extent = 1.0_wp
+      real(wp) :: along(2) = 0.0_wp            ! the line, where they are on one; zero: a single point
+   contains
+      procedure :: build
+      procedure :: value_at
+   end type gap_table_type
+
+contains
+
+   !> The table of these VALUES at the points X(2, n). TWICE: two points at one place, 0: there are none; then it is not to be used.
+   pure subroutine build(self, x, values, twice)
+      class(gap_table_type), intent(inout) :: self
+      real(wp), intent(in)                 :: x(:, :), values(:)
+      integer, intent(out)                 :: twice(2)
+      integer :: far, i, k
+
+      self%centre = sum(x, dim=2)/size(x, 2)
+      self%extent = maxval(maxval(x, dim=2) - minval(x, dim=2))
+      if (self%extent <= 0.0_wp) self%extent = 1.0_wp
+      self%x = (x - spread(self%centre, 2, size(x, 2)))/self%extent
+      self%values = values
+      twice = 0
+      do i = 1, size(values)
+         do k = i + 1, size(values)
+            if (maxval(abs(self%x(:, i) - self%x(:, k))) > rounding) cycle
+            twice = [i, k]
+            return
+         end do
+      end do
+      self%height = sum(self%x**2, dim=1) + oblique(1)*(self%x(1, :)**2 - self%x(2, :)**2) &
+                    + 2.0_wp*oblique(2)*self%x(1, :)*self%x(2, :)
+      self%outline = [integer ::]
+      self%along = 0.0_wp
+      if (size(values) == 1) return
+      far = maxloc(sum((self%x - spread(self%x(:, 1), 2, size(values)))**2, dim=1), dim=1)
+      self%along = (self%x(:, far) - self%x(:, 1))/norm2(self%x(:, far) - self%x(:, 1))
+      if (any([(abs(cross(self%along, self%x(:, i) - self%x(:, 1))) > rounding, i = 1, size(values))])) &
+         call find_outline(self)
+   end subroutine build
+
+   !> The corners of the convex hull, from the leftmost on: the next one has no point on its right.
+   pure subroutine find_outline(self)
+      class(gap_table_type), intent(inout) :: self
+      real(wp) :: right
+      integer  :: first, i, next, now
+
+      first = 1
+      do i = 2, size(self%values)
+         if (self%x(1, i) < self%x(1, first) - rounding .or. (abs(self%x(1, i) - self%x(1, first)) <= rounding &
+             .and. self%x(2, i) < self%x(2, first))) first = i
+      end do
+      now = first
+      do while (size(self%outline) < size(self%values))
+         self%outline = [self%outline, now]
+         next = merge(2, 1, now == 1)
+         do i = 1, size(self%values)
+            if (i == now .or. i == next) cycle
+            right = cross(self%x(:, i) - self%x(:, now), self%x(:, next) - self%x(:, now))
+            if (right > rounding**2 .or. (abs(right) <= rounding**2 .and. &
+                norm2(self%x(:, i) - self%x(:, now)) > norm2(self%x(:, next) - self%x(:, now)))) next = i
+         end do
+         now = next
+         if (now == first) exit
+      end do
+   end subroutine find_outline
+
+   !> The value at the place X.
+   pure real(wp) function value_at(self, x) result(value)
+      class(gap_table_type), intent(in) :: self
+      real(wp), intent(in)              :: x(2)
+      real(wp) :: place(2), weights(3)
+      integer  :: corners(3)
+
+      place = (x - self%centre)/self%extent
+      if (size(self%outline) == 0) then
+         value = value_on_line(self, dot_product(place - self%x(:, 1), self%along))
+         return
+      end if
+      call move_inside(self, place)
+      call find_triangle(self, place, corners, weights)
+      value = dot_product(weights, self%values(corners))
+   end function value_at
+
+   !> The value at the distance T from the first point along the line of all points.
+   pure real(wp) function value_on_line(self, t) result(value)
+      class(gap_table_type), intent(in) :: self
+      real(wp), intent(in)              :: t
+      real(wp) :: at(size(self%values)), share
+      integer  :: before, behind, i
+
+      at = [(dot_product(self%along, self%x(:, i) - self%x(:, 1)), i = 1, size(at))]
+      before = maxloc(at, mask=at <= t, dim=1)
+      behind = minloc(at, mask=at > t, dim=1)
+      if (before == 0) before = behind
+      if (behind == 0) behind = before
+      share = 0.0_wp
+      if (behind /= before) share = (t - at(before))/(at(behind) - at(before))
+      value = (1.0_wp - share)*self%values(before) + share*self%values(behind)
+   end function value_on_line
+
+   !> A PLACE outside the outline moves to the nearest one on it.
+   pure subroutine move_inside(self, place)
+      class(gap_table_type), intent(in) :: self
+      real(wp), intent(inout)           :: place(2)
+      real(wp) :: side(2), on_side(2), nearest(2), least
+      integer  :: k, n
+      logical  :: outside
+
+      outside = .false.
+      nearest = place
+      least = huge(least)
+      n = size(self%outline)
+      do k = 1, n
+         associate (from => self%x(:, self%outline(k)), to => self%x(:, self%outline(modulo(k, n) + 1)))
+            side = to - from
+            if (cross(side, place - from) < 0.0_wp) outside = .true.
+            on_side = from + side*min(1.0_wp, max(0.0_wp, dot_product(place - from, side)/dot_product(side, side)))
+         end associate
+         if (norm2(on_side - place) >= least) cycle
+         least = norm2(on_side - place)
+         nearest = on_side
+      end do
+      if (outside) place = nearest
+   end subroutine move_inside
+
+   !> The Delaunay triangle around PLACE, which is inside the outline: its CORNERS, and the WEIGHTS of their values there.
+   pure subroutine find_triangle(self, place, corners, weights)
+      class(gap_table_type), intent(in) :: self
+      real(wp), intent(in)              :: place(2)
+      integer, intent(out)              :: corners(3)
+      real(wp), intent(out)             :: weights(3)
+      real(wp) :: found(3), best, lowest, above, share(3), ratio
+      integer  :: entering, exchanges, i, k, leaving
+
+      best = -huge(best)
+      do k = 2, size(self%outline) - 1
+         found = shares(self%x(:, self%outline([1, k, k + 1])), place)
+         if (minval(found) <= best) cycle
+         best = minval(found)
+         corners = self%outline([1, k, k + 1])
+      end do
+      do exchanges = 1, 10*size(self%values)
+         lowest = -flat
+         entering = 0
+         do i = 1, size(self%values)
+            if (any(corners == i)) cycle
+            above = self%height(i) - dot_product(shares(self%x(:, corners), self%x(:, i)), self%height(corners))
+            if (above >= lowest) cycle
+            lowest = above
+            entering = i
+         end do
+         if (entering == 0) exit
+         weights = max(0.0_wp, shares(self%x(:, corners), place))
+         share = shares(self%x(:, corners), self%x(:, entering))
+         leaving = maxloc(share, dim=1)
+         ratio = weights(leaving)/share(leaving)
+         do k = 1, 3
+            if (share(k) <= rounding) cycle
+            if (weights(k)/share(k) >= ratio) cycle
+            leaving = k
+            ratio = weights(k)/share(k)
+         end do
+         corners(leaving) = entering
+      end do
+      weights = max(0.0_wp, shares(self%x(:, corners), place))
+      weights = weights/sum(weights)
+   end subroutine find_triangle
+
+   !> The shares of three CORNERS(2, 3) in a PLACE: their weighted mean, with weights that add up to 1.
+   pure function shares(corners, place)
+      real(wp), intent(in) :: corners(:, :), place(2)
+      real(wp) :: shares(3), a(2), b(2), c(2)
+
+      a = corners(:, 2) - corners(:, 1)
+      b = corners(:, 3) - corners(:, 1)
+      c = place - corners(:, 1)
+      shares(2) = cross(c, b)/cross(a, b)
+      shares(3) = cross(a, c)/cross(a, b)
+      shares(1) = 1.0_wp - shares(2) - shares(3)
+   end function shares
+
+   pure real(wp) function cross(a, b)
+      real(wp), intent(in) :: a(2), b(2)
+
+      cross = a(1)*b(2) - a(2)*b(1)
+   end function cross
+
+end module gap_table

@@ -1,0 +1,126 @@
+!> The direction of an iteration of METHOD = NEWTON, and what an attempt at an increment is.
+module newton_direction
+   use analysis_state, only: analysis_type
+   use coupled_solution, only: solve_coupled
+   use equations, only: equation_system, form_structure_stiffness, solve_equations
+   use failures, only: failure_type
+   use interface_operator, only: add_force
+   use joint_laws, only: element_state, element_stiffness_of, is_apart
+   use kinds, only: wp
+   use model_data, only: model_type
+   use newton_trial, only: trial_type
+   implicit none
+   private
+
+   public :: find_direction, close_gaps
+
+   real(wp), parameter :: little = 1.0e-7_wp          ! of the elastic stiffness: what the matrix has where an element has none
+
+   !> One attempt at a part of the increment: what it has to reach, and how it ended.
+   type, public :: attempt_type
+      character(:), allocatable :: where          !! stage and increment, for messages
+      real(wp) :: left = 0.0_wp                   !! of the increment, when it is reached [-]
+      real(wp), allocatable :: load(:, :)         !! (dimension, retained), then [force]
+      real(wp), allocatable :: move(:, :)         !! of held components, that is still to be made, likewise [length]
+      integer, allocatable  :: flips(:)           !! changes of branch, by interface element
+      logical :: seats = .false.                  !! interference at rest, there is no load
+      real(wp) :: seat_force = 0.0_wp             !! then what counts as one: p_av on the elements pressed [force]
+      integer :: loose = 0                        !! a joint that is open or slips all over at its end, 0: none
+      logical :: imprecise = .false.              !! rounding in the bodies is no small part of the load
+      logical :: converged = .false.
+      type(failure_type) :: trouble               !! a matrix that could not be factorised
+   end type attempt_type
+
+contains
+
+   !> The Newton direction from NOW. The factorised matrix has the symmetric, positive part of the tangent, with a little where
+   !! an element has no stiffness, and at the very first the secant of Eq. (9); what it lacks is brought in by solve_coupled.
+   subroutine find_direction(model, now, analysis, first, system, attempt, direction)
+      type(model_type), intent(in)          :: model
+      type(trial_type), intent(in)          :: now
+      type(analysis_type), intent(inout)    :: analysis
+      logical, intent(in)                   :: first
+      class(equation_system), intent(inout) :: system
+      type(attempt_type), intent(inout)     :: attempt
+      real(wp), intent(inout)               :: direction(:, :)
+      real(wp), allocatable :: matrix(:, :, :), rest(:, :, :)
+      real(wp) :: elastic(3)
+      integer  :: i, k
+      logical  :: virgin, coupled
+
+      allocate (matrix(3, 3, size(model%interface)), rest(3, 3, size(model%interface)), source=0.0_wp)
+      coupled = .false.
+      do i = 1, size(model%interface)
+         associate (element => model%interface(i))
+            virgin = first .and. abs(analysis%states(i)%normal%lambda_a) <= 0.0_wp .and. abs(element%gap) <= 0.0_wp
+            elastic = first_stiffness_of(model, analysis, i)
+            matrix(3, 3, i) = max(now%tangent(3, 3, i), little*elastic(3))
+            if (virgin) matrix(3, 3, i) = elastic(3)
+            matrix(:2, :2, i) = 0.5_wp*(now%tangent(:2, :2, i) + transpose(now%tangent(:2, :2, i)))
+            do k = 1, 2
+               matrix(k, k, i) = max(0.0_wp, matrix(k, k, i)) + little*elastic(k)
+               if (virgin) matrix(k, k, i) = max(matrix(k, k, i), elastic(k))
+            end do
+            analysis%k(:, i) = [now%tangent(1, 1, i), now%tangent(2, 2, i), now%tangent(3, 3, i)]
+            rest(:2, :, i) = now%tangent(:2, :, i) - matrix(:2, :, i)
+            if (any(abs(now%tangent(:2, 3, i)) > 0.0_wp)) coupled = .true.
+         end associate
+      end do
+      associate (failure => attempt%trouble)
+         call form_structure_stiffness(model, matrix, attempt%where, system, failure, one_solution=.not. coupled)
+         if (coupled .and. all(abs(attempt%move) <= 0.0_wp)) then
+            call solve_coupled(model, system, rest, now%residual, 1.0e-4_wp, 25, direction, failure)
+         else
+            call solve_equations(model, system, now%residual, direction, failure, moved=attempt%move)
+         end if
+      end associate
+   end subroutine find_direction
+
+   !> A body that nothing holds before a gap closes: the direction from NOW in which all open elements with gaps close, and
+   !! bear what is unbalanced with the secants of Eq. (9). ATTEMPT stays in trouble where there are none, or that does not help.
+   subroutine close_gaps(model, now, analysis, system, attempt, direction)
+      type(model_type), intent(in)          :: model
+      type(trial_type), intent(in)          :: now
+      type(analysis_type), intent(in)       :: analysis
+      class(equation_system), intent(inout) :: system
+      type(attempt_type), intent(inout)     :: attempt
+      real(wp), intent(inout)               :: direction(:, :)
+      real(wp), allocatable :: matrix(:, :, :), load(:, :)
+      type(failure_type) :: none
+      real(wp) :: k(3)
+      integer  :: d, i
+
+      if (.not. any(is_apart(now%states))) return
+      attempt%trouble = none
+      allocate (matrix(3, 3, size(model%interface)), source=0.0_wp)
+      load = now%residual
+      do i = 1, size(model%interface)
+         k = first_stiffness_of(model, analysis, i)
+         do d = 1, 3
+            matrix(d, d, i) = max(0.0_wp, now%tangent(d, d, i)) + little*k(d)
+         end do
+         if (.not. is_apart(now%states(i))) cycle
+         matrix(3, 3, i) = k(3)
+         associate (state => now%states(i)%normal)
+            call add_force(system%interface(i), [0.0_wp, 0.0_wp, k(3)*(state%lambda_b - state%lambda)], load)
+         end associate
+      end do
+      call form_structure_stiffness(model, matrix, attempt%where, system, attempt%trouble, one_solution=.true.)
+      call solve_equations(model, system, load, direction, attempt%trouble)
+   end subroutine close_gaps
+
+   !> (k_sx, k_sy, k_n) of interface element I in its first increment [force/length].
+   pure function first_stiffness_of(model, analysis, i) result(k)
+      type(model_type), intent(in)    :: model
+      type(analysis_type), intent(in) :: analysis
+      integer, intent(in)             :: i
+      real(wp) :: k(3)
+      type(element_state) :: at_rest
+
+      at_rest%normal%p_av = analysis%states(i)%normal%p_av
+      associate (element => model%interface(i))
+         call element_stiffness_of(model%joints(element%joint)%law, element%area, .false., [0.0_wp, 0.0_wp, 0.0_wp], at_rest, k)
+      end associate
+   end function first_stiffness_of
+
+end module newton_direction
