@@ -11,7 +11,7 @@ program jointfem
    use equation_solver, only: equation_system
    use load_path, only: start_increment, start_stage
    use model_data, only: model_type
-   use newton_method, only: newton_increment
+   use newton_method, only: cross_gaps, newton_increment
    use run_boxes, only: another_increment, another_stage, build_structure, end_program, finish_run, form_bodies, &
                         print_increment, print_stage, read_data, run_type, start_joints, start_program
    use stage_plan, only: stage_plan_type
@@ -81,6 +81,9 @@ contains
 
                ! --------------------------------------------------------- COULOMB LIMIT EXCEEDED: RE-ANALYSE
                call limit_friction(model, plan, system, analysis, run%failure)
+
+               ! --------------------------------------------------------- A BODY THAT GAPS LEAVE LOOSE: ITERATE INSTEAD
+               call cross_gaps(model, plan, analysis, system, run%failure)
 
                ! --------------------------------------------------------- NORM, SHEAR: BRANCHES, NEXT STIFFNESS
                call interface_stiffness(model, system, analysis, run%failure)

@@ -4,18 +4,19 @@ module newton_method
    use analysis_state, only: all_held, analysis_type, free_norm, pass_record, record_pass
    use equations, only: equation_system
    use failures, only: failure_type
+   use joint_laws, only: is_apart
    use kinds, only: wp
    use load_path, only: support_force
    use model_data, only: joint_node_id, model_type
    use newton_direction, only: attempt_type, close_gaps, find_direction
    use newton_trial, only: commit, evaluate, search, start_trial, swap, take_whole_step, trial_type
-   use normal_stiffness, only: branch_name, branch_open, pressure_floor
+   use normal_stiffness, only: at_rest, branch_name, branch_open, pressure_floor
    use stage_plan, only: stage_plan_type, where_in_plan
    use text_tools, only: integer_text, real_text
    implicit none
    private
 
-   public :: newton_increment, seat_joints
+   public :: newton_increment, cross_gaps, seat_joints
 
    integer, parameter  :: most_iterations = 40
    integer, parameter  :: most_halvings = 12
@@ -38,6 +39,22 @@ contains
       call find_equilibrium(model, analysis, system, attempt, failure)
    end subroutine newton_increment
 
+   !> STEP cannot make an increment of which FAILURE says that gaps leave a body loose: this one is iterated to equilibrium.
+   subroutine cross_gaps(model, plan, analysis, system, failure)
+      type(model_type), intent(in)         :: model
+      type(stage_plan_type), intent(in)    :: plan
+      type(analysis_type), intent(inout)   :: analysis
+      class(equation_system), intent(inout) :: system
+      type(failure_type), intent(inout)    :: failure
+      type(failure_type) :: none
+
+      if (.not. failure%raised .or. .not. (analysis%is_loose .or. any(is_apart(analysis%states)))) return
+      failure = none
+      analysis%is_loose = .false.
+      call newton_increment(model, plan, analysis, system, failure)
+      analysis%n_passes = 0 ! these are no re-analyses
+   end subroutine cross_gaps
+
    !> Interference presses before any load: the equilibrium of the structure at rest without load becomes the state that STEP and
    !! NEWTON start from. Nothing where no joint has a negative gap.
    subroutine seat_joints(model, analysis, system, failure)
@@ -46,7 +63,6 @@ contains
       class(equation_system), intent(inout) :: system
       type(failure_type), intent(inout)    :: failure
       type(attempt_type) :: attempt
-      integer :: i
 
       if (failure%raised .or. .not. any(model%interface%gap < 0.0_wp)) return
       analysis%tolerance = tiny(1.0_wp)
@@ -54,18 +70,27 @@ contains
       attempt%seat_force = norm2(pack(analysis%states%normal%p_av*model%interface%area, model%interface%gap < 0.0_wp))
       attempt%where = 'interference (JGAP), before the first load'
       call find_equilibrium(model, analysis, system, attempt, failure)
-      do i = 1, size(analysis%states) ! where a body has moved out of the way, nothing has been pressed yet
-         associate (state => analysis%states(i)%normal)
-            if (state%pressure <= idle*state%p_av) then
-               state%sumf = 0.0_wp
-               state%pressure = 0.0_wp
-               state%lambda_a = 0.0_wp
-               state%p_a = 0.0_wp
-            end if
-         end associate
-      end do
+      call free_idle_joints(model, analysis)
       if (allocated(analysis%exact)) analysis%exact = analysis%states
    end subroutine seat_joints
+
+   !> Where interference has pushed a body away until it presses no more, its joint has never been pressed.
+   subroutine free_idle_joints(model, analysis)
+      type(model_type), intent(in)       :: model
+      type(analysis_type), intent(inout) :: analysis
+      integer :: j
+
+      do j = 1, size(model%joints)
+         associate (elements => model%interface(model%joints(j)%first:model%joints(j)%last), &
+                    states => analysis%states(model%joints(j)%first:model%joints(j)%last)%normal)
+            if (.not. any(elements%gap < 0.0_wp)) cycle
+            if (norm2(states%sumf) > 10.0_wp*idle*norm2(states%p_av*elements%area)) cycle
+            states = at_rest(states%p_av, -states%lambda) ! behind what is left of the gap
+            states%gap = elements%gap
+            analysis%is_loose = .true.
+         end associate
+      end do
+   end subroutine free_idle_joints
 
    !> Go from equilibrium to equilibrium by ATTEMPTs, each committed where it converges and divided where it does not.
    subroutine find_equilibrium(model, analysis, system, attempt, failure)
@@ -163,6 +188,7 @@ contains
          carried = load_size <= rounding .and. maxval(abs(now%u)) <= 10.0_wp*travel
          attempt%converged = now%size <= max(analysis%tolerance, 0.1_wp*noise) .and. noise <= 1.0e-5_wp*load_size
          attempt%converged = .not. moves .and. (attempt%converged .or. (carried .and. now%size <= rounding))
+         if (attempt%seats .and. iteration == most_iterations) attempt%converged = now%size <= idle*attempt%seat_force
          if (attempt%converged .or. iteration == most_iterations) exit
          if (noise > load_size .and. .not. (carried .or. moves)) exit
          call find_direction(model, now, analysis, iteration == 0, system, attempt, direction)

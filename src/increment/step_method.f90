@@ -30,6 +30,9 @@ contains
       class(equation_system), intent(inout) :: system
       type(failure_type), intent(inout)    :: failure
 
+      if (analysis%is_loose) call failure%raise(where_in_plan(plan, analysis%stage, analysis%increment)// &
+         ': the structure is a mechanism: interference has pushed a body away from all that held it')
+      if (failure%raised) return
       call form_structure_stiffness(model, diagonal(analysis%k), where_in_plan(plan, analysis%stage, analysis%increment), &
                                     system, failure, one_solution=.not. any(model%joints%law%has_friction))
    end subroutine structure_stiffness

@@ -142,7 +142,7 @@ closing='(lambda + gap)'
 for case in '0.5 10.0 0.02 1.0-4 0.0 1e-4 0' '0.5 0.0 0.0 1.0-4 0.0 1e-4 0' '1.0 -10.0 0.1 -1.0-4 4.0-6 -1e-4 4e-6' \
             '0.5 5.0 0.0 0.0 8.0-6 0 8e-6' '0.5 5.0 0.0 0.0 -2.0-6 0 -2e-6'; do
    set -- $case
-   for method in NEWTON BACK; do
+   for method in NEWTON STEP BACK; do # one increment: STEP iterates it too, for the gaps leave the block loose
       gap_block block $method 20 $1 $2 1 '' "JGAP,1,PLANE,$3,$4,0.0,$5" || continue
       read -r d t worst most <<< "$(value block print "(first($closing) + last($closing))/2" \
          print "(last($closing) - first($closing))/100" \
@@ -167,6 +167,17 @@ for nx in 20 40 80; do
    before=$error
 done
 holds 'wedge: the continuous formulas' "$error < 1e-3"
+
+# STEP goes on from its first increment in tangents: towards NEWTON.
+gap_block wedge NEWTON 20 0.5 10.0 1 '' 'JGAP,1,PLANE,0.0,1.0-4' && d=$(value wedge print "(first($closing) + last($closing))/2")
+before=
+for n in 5 20 80; do
+   gap_block wedge STEP 20 0.5 10.0 $n '' 'JGAP,1,PLANE,0.0,1.0-4' || continue
+   error=$(number "abs($(value wedge rows "increment = $n" print "(first($closing) + last($closing))/2")/$d - 1)")
+   [ -n "$before" ] && holds "wedge, STEP, $n increments: the error falls" "$error < 0.7*$before"
+   before=$error
+done
+holds 'wedge, STEP' "$error < 0.05"
 
 # A crown under a rigid flat face, m = 1: p = C (w**2 - x**2)/c over the half width w; the pressures add up to the force:
 # F = (4/3) b C w**3/c, and the closing is C w**2.
@@ -229,3 +240,8 @@ DECK
    run true && ask "true distance, sides $sides" true count 5 \
       all 'gap = 0.25 within 1e-12 and pressure = 0.2 within 1e-9 and lambda = 8e-3*0.2^0.5 within 1e-11 and branch = "LOAD"'
 done
+
+# The open distance is a field of the file for ParaView, in decks with a gap alone.
+for deck in apart plain; do sed 's/OUTPUT = NONE/OUTPUT = NONE,VTU/' "$work/$deck.bdf" > "$work/$deck.vtu.bdf" && run "$deck.vtu"; done
+says 'the gap in the file for ParaView' "$work/apart.vtu.5.joint.vtu" 'Name="gap"'
+same 'no gap in that of a deck without' "$(grep -c 'Name="gap"' "$work/plain.vtu.5.joint.vtu")" 0

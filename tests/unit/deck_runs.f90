@@ -11,7 +11,7 @@ module deck_runs
    use load_path, only: recover_bodies, start_increment, start_stage
    use model_build, only: build_model
    use model_data, only: model_type
-   use newton_method, only: newton_increment, seat_joints
+   use newton_method, only: cross_gaps, newton_increment, seat_joints
    use stage_plan, only: stage_plan_type
    use step_method, only: accumulate, limit_friction, solve_increment, structure_stiffness
    implicit none
@@ -121,11 +121,10 @@ contains
       type(run_type), intent(inout) :: run
 
       call structure_stiffness(run%model, run%plan, run%analysis, run%system, run%failure)
-      if (run%failure%raised) return
       call solve_increment(run%model, run%plan, run%system, run%analysis, run%failure)
-      if (run%failure%raised) return
       call accumulate(run%model, run%system, run%analysis, run%failure)
       call limit_friction(run%model, run%plan, run%system, run%analysis, run%failure)
+      call cross_gaps(run%model, run%plan, run%analysis, run%system, run%failure)
       call interface_stiffness(run%model, run%system, run%analysis, run%failure)
    end subroutine step
 
