@@ -20,6 +20,7 @@ module newton_method
 
    integer, parameter  :: most_iterations = 40
    integer, parameter  :: most_halvings = 12
+   real(wp), parameter :: far_below = 1.0e-3_wp        ! TOL: what is left there is not worth another iteration
    real(wp), parameter :: idle = 10.0_wp*pressure_floor ! of p_av: what interference presses by less, it does not press
 
 contains
@@ -215,8 +216,31 @@ contains
       attempt%imprecise = noise > 1.0e-5_wp*load_size .and. .not. carried
       attempt%loose = loose_joint(model, now)
       if (attempt%seats) analysis%tolerance = analysis%load_tolerance*load_size
-      if (attempt%converged) call commit(model, system, now, analysis)
+      if (.not. attempt%converged) return
+      if (now%size > max(far_below*analysis%tolerance, noise)) call refine(model, system, analysis, attempt, now, next)
+      call commit(model, system, now, analysis)
    end subroutine iterate
+
+   !> One iteration more from NOW, which has converged: it squares what TOL has left, so that the state does not depend on the way
+   !! to it, which rounding rules. It counts where it leaves less.
+   subroutine refine(model, system, analysis, attempt, now, next)
+      type(model_type), intent(in)          :: model
+      class(equation_system), intent(inout) :: system
+      type(analysis_type), intent(inout)    :: analysis
+      type(attempt_type), intent(in)        :: attempt
+      type(trial_type), intent(inout)       :: now, next
+      type(attempt_type)    :: last
+      real(wp), allocatable :: direction(:, :)
+
+      last = attempt
+      allocate (direction, mold=analysis%u)
+      call find_direction(model, now, analysis, .false., system, last, direction)
+      if (last%trouble%raised) return
+      call take_whole_step(model, system, attempt%load, analysis, now, direction, next)
+      if (.not. next%size < now%size) return
+      call record_pass(analysis, pass_record(before=now%size, after=next%size, step=1.0_wp, changes=0, part=analysis%n_parts + 1))
+      call swap(now, next)
+   end subroutine refine
 
    !> The first joint whose elements all are open or slip in TRIAL, 0 for none.
    pure integer function loose_joint(model, trial) result(joint)

@@ -185,6 +185,30 @@ contains
       call write_covers(page, model)
    end subroutine write_joints
 
+   !> The initial gaps: of the elements of a joint how many stand open, and how many are pressed by interference at rest.
+   subroutine write_gaps(page, model)
+      type(page_type), intent(inout) :: page
+      type(model_type), intent(in)   :: model
+      type(listing_table_type) :: table
+      integer :: j
+
+      call table%start('INITIAL GAPS, NEGATIVE: INTERFERENCE', &
+                       [column('JOINT', 'i11'), column('GIVEN BY', 'a10'), &
+                        column(['SMALLEST', 'LARGEST '], 'es15.5', page%labels%length), column(['OPEN   ', 'PRESSED'], 'i9')])
+      call table%print_head(page%file)
+      do j = 1, size(model%joints)
+         associate (joint => model%joints(j), &
+                    gaps => model%interface(model%joints(j)%first:model%joints(j)%last)%gap)
+            if (joint%gap_kind == '') cycle
+            call table%add([joint%id])
+            call table%add(trim(joint%gap_kind))
+            call table%add(clean([minval(gaps), maxval(gaps)]))
+            call table%add([count(gaps > 0.0_wp), count(gaps < 0.0_wp)])
+            call table%print_row(page%file)
+         end associate
+      end do
+   end subroutine write_gaps
+
    !> How the sides of joints cover each other that do not match node by node.
    subroutine write_covers(page, model)
       type(page_type), intent(inout) :: page
@@ -226,30 +250,6 @@ contains
       end function is_list
 
    end subroutine write_covers
-
-   !> The initial gaps: of the elements of a joint how many stand open, and how many are pressed by interference at rest.
-   subroutine write_gaps(page, model)
-      type(page_type), intent(inout) :: page
-      type(model_type), intent(in)   :: model
-      type(listing_table_type) :: table
-      integer :: j
-
-      call table%start('INITIAL GAPS, NEGATIVE: INTERFERENCE', &
-                       [column('JOINT', 'i11'), column('GIVEN BY', 'a10'), &
-                        column(['SMALLEST', 'LARGEST '], 'es15.5', page%labels%length), column(['OPEN   ', 'PRESSED'], 'i9')])
-      call table%print_head(page%file)
-      do j = 1, size(model%joints)
-         associate (joint => model%joints(j), &
-                    gaps => model%interface(model%joints(j)%first:model%joints(j)%last)%gap)
-            if (joint%gap_kind == '') cycle
-            call table%add([joint%id])
-            call table%add(trim(joint%gap_kind))
-            call table%add(clean([minval(gaps), maxval(gaps)]))
-            call table%add([count(gaps > 0.0_wp), count(gaps < 0.0_wp)])
-            call table%print_row(page%file)
-         end associate
-      end do
-   end subroutine write_gaps
 
    !> Shear laws and friction of the joints that have them.
    subroutine write_shear_laws(file, model)

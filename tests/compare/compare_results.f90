@@ -23,6 +23,7 @@ program compare_results
       integer :: line = 0
       integer :: count = 0                         !! differences
       integer :: shown = 0                         !! those printed
+      integer :: surplus = 0                       !! rows of paths that the reference has more than the actual file
    end type findings
 
    type(rule_set) :: rules
@@ -94,8 +95,37 @@ contains
          else
             call compare_tokens(rules, block, line_r, line_a, found)
          end if
+         if (table == 0) cycle
+         if (.not. rules%blocks(table)%is_path) cycle
+         found%surplus = found%surplus + path_rows(reference, found) - path_rows(actual, found)
+         table = 0
       end do
    end subroutine compare_listing
+
+   !> Read past the table of a path, up to the blank line below its rows: how many there are. A row is made of numbers.
+   integer function path_rows(file, found) result(rows)
+      type(text_file), intent(inout) :: file
+      type(findings), intent(inout) :: found
+      character(len=:), allocatable :: line, message
+      integer :: position, first, last
+      logical :: more
+
+      rows = 0
+      do
+         message = ''
+         call next_line(file, line, more, message)
+         if (message /= '') call give_up(message)
+         position = 1
+         if (more) call next_token(line, position, first, last)
+         if (.not. more) exit
+         if (first == 0 .and. rows > 0) exit
+         if (first == 0) cycle
+         call report_defect(line, line, found)
+         if (rows > 0 .or. number_kind(line(first:last)) /= not_a_number) rows = rows + 1
+      end do
+      found%line = file%line_number
+      if (rows == 0) call report(found, 'path', 'nothing', 'nothing', 'never without a row')
+   end function path_rows
 
    !> One line of a listing; `block` says which tolerances hold.
    subroutine compare_tokens(rules, block, line_r, line_a, found)
@@ -266,8 +296,8 @@ contains
          if (.not. (more_r .or. more_a)) exit
       end do
       found%line = actual%line_number
-      if (reference%line_number /= actual%line_number) then
-         call report(found, 'lines', text_of(reference%line_number), text_of(actual%line_number), &
+      if (reference%line_number /= actual%line_number + found%surplus) then
+         call report(found, 'lines', text_of(reference%line_number), text_of(actual%line_number + found%surplus), &
                      'as many lines', always=.true.)
       else if (reference%line_number == 0) then
          call report(found, 'lines', '0', '0', 'never an empty file', always=.true.)

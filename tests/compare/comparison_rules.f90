@@ -21,6 +21,7 @@ module comparison_rules
    type :: block_rules
       character(len=:), allocatable :: title       !! its words, one blank between them
       logical :: one_line = .false.
+      logical :: is_path = .false.
       type(rule), allocatable :: columns(:)
    end type block_rules
 
@@ -72,17 +73,19 @@ contains
       case ('listing')
          if (word(line, 2) /= '*') error = "expected '*' after 'listing'"
          if (error == '') call add_rule(line, 2, 3, rules%listing, error)
-      case ('table', 'line')
+      case ('table', 'line', 'path')
          call add_block(line, rules%blocks, error)
       case ('column')
          last = size(rules%blocks)
          if (last == 0) then
             error = "'column' before the first 'table' or 'line'"
+         else if (rules%blocks(last)%is_path) then
+            error = "a path has no columns to compare"
          else
             call add_rule(line, 3, 4, rules%blocks(last)%columns, error)
          end if
       case default
-         error = "expected csv, listing, table, line or column, not '"//word(line, 1)//"'"
+         error = "expected csv, listing, table, line, path or column, not '"//word(line, 1)//"'"
       end select
    end subroutine read_statement
 
@@ -156,7 +159,7 @@ contains
       if (.not. valid) error = "expected a number not below zero, not '"//token//"'"
    end subroutine read_limit
 
-   !> Open a block: `table TITLE` or `line TITLE`.
+   !> Open a block: `table TITLE`, `line TITLE` or `path TITLE`.
    subroutine add_block(line, blocks, error)
       character(len=*), intent(in) :: line
       type(block_rules), allocatable, intent(inout) :: blocks(:)
@@ -171,6 +174,7 @@ contains
          i = i + 1
       end do
       new%one_line = word(line, 1) == 'line'
+      new%is_path = word(line, 1) == 'path'
       allocate (new%columns(0))
       if (new%title == '') error = "expected a title after '"//word(line, 1)//"'"
       do i = 1, size(blocks)
@@ -221,7 +225,7 @@ contains
       end do
    end function listing_rule
 
-   !> The block whose title the line starts with, blanks before and between words aside; the longest one; 0 if none.
+   !> The block whose title the line starts with, blanks before and between words and a comma or colon behind one aside; the longest one; 0 if none.
    integer function find_block(rules, line)
       type(rule_set), intent(in) :: rules
       character(len=*), intent(in) :: line
@@ -251,6 +255,7 @@ contains
          if (first_title == 0) exit
          call next_token(line, at_line, first, last)
          if (first == 0) return
+         if (scan(line(last:last), ',:') > 0 .and. scan(title(last_title:last_title), ',:') == 0) last = last - 1
          if (last - first /= last_title - first_title) return
          if (line(first:last) /= title(first_title:last_title)) return
       end do

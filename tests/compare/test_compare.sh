@@ -318,10 +318,31 @@ table 0 11 3 1.4;       table 1 11 3 1.6 slack         # the longest title; a ti
 table 1 11 2 1.0001 'token 2'
 table 1 13 3 1.0001 'token 3'                          # a title without columns: the default again
 
+# ---- paths ----
+
+printf 'listing * relative 1e-6 absolute 0\npath ITERATIONS\n' >"$work/paths.txt"
+printf ' ITERATIONS, STAGE 1\n\n ITER  LEFT\n    1  2.000E+01\n    2  3.000E-09\n\n SUM 1.00000\n' >"$work/paths.out"
+# path STATUS WHAT SCRIPT [TEXT]: awk SCRIPT changes the sample
+path() {
+   awk "$3" "$work/paths.out" >"$work/copy.out"
+   if [ "$1" -eq 0 ]; then expect 0 "path: $2" "$work/paths.txt" "$work/paths.out" "$work/copy.out"
+   else damaged "path: $2" "$work/paths.txt" "$work/paths.out" "$work/copy.out" "$4"; fi
+}
+path 0 'other numbers' '{ sub(/3.000E-09/, "7.123E-11") } { print }'
+path 0 'a row more' '{ print } NR == 5 { print "    3  1.000E-12" }'
+path 0 'a row less' 'NR != 5'
+path 1 'no row' 'NR < 4 || NR > 5' 'never without a row'
+path 1 'NaN in a row' '{ sub(/3.000E-09/, "NaN") } { print }' 'not finite'
+path 1 'the line below' '{ sub(/SUM 1.00000/, "SUM 1.10000") } { print }' 'token 2'
+path 1 'a line more at the end' '{ print } END { print "SUM" }' lines
+path 1 'another title' '{ sub(/STAGE 1/, "STAGE 2") } { print }' 'token 3'
+printf 'path A\ncolumn 1 a exact\n' >"$work/wrong.txt"
+expect 2 'a column of a path' "$work/wrong.txt" "$work/sample.out" "$work/sample.out" wrong.txt:2:
+
 # ---- every statement of the tolerance file ----
 
 awk '{ sub(/#.*/, "") }
-   $1 == "table" || $1 == "line" { kind = $1; $1 = ""; sub(/^ */, ""); title = $0; next }
+   $1 == "table" || $1 == "line" || $1 == "path" { kind = $1; $1 = ""; sub(/^ */, ""); title = $0; next }
    $1 == "listing" { kind = "listing"; title = ""; column = 2 }
    $1 == "csv"     { kind = "csv"; title = $2 == "*" ? "any_other" : $2; column = 1 }
    $1 == "column"  { column = $2 == "*" ? 40 : $2 }
@@ -408,6 +429,16 @@ printf 'table A\ncolumn 0 a exact\n' >"$work/wrong.txt"
 expect 2 'column 0' "$work/wrong.txt" "$work/sample.out" "$work/sample.out" wrong.txt:2:
 
 # ---- the reference files ----
+
+# a title that no listing has, nor the program, is a tolerance that never holds
+if ls "$folder"/*.out >/dev/null 2>&1; then
+   awk '/^(table|path|line) / { sub(/#.*/, ""); $1 = ""; $1 = $1; print }' "$tolerances" | while read -r title; do
+      cat "$folder"/*.out | awk -v title="$title" '
+         { line = $0; gsub(/[,:]( |$)/, " ", line); gsub(/ +/, " ", line); sub(/^ /, "", line)
+           if (index(line " ", title " ") == 1) { found = 1; exit } } END { exit !found }' || grep -qF "'$title" src/result/*.f90 || echo "$title"
+   done >"$work/said"
+   if [ -s "$work/said" ]; then fail 'titles that no listing has'; else pass; fi
+fi
 
 chosen=
 for file in "$folder"/*.out; do

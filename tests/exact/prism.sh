@@ -76,7 +76,8 @@ for tolerance in 1.0E-3 1.0E-6 1.0E-12; do
       on && NF == 7 && $1 ~ /^[0-9]+$/ {
          if (n && $1 != i) close_increment()
          i = $1; last = $5; n++
-         if ($4 <= tolerance * 80 * i) print "increment " i ": iterated on from " $4
+         refined[i] += $4 <= tolerance * 80 * i # once: the iteration that squares what TOL leaves
+         if (refined[i] > 1) print "increment " i ": iterated on from " $4
       }
       / RESULTANTS/ { on = 0 }
       END { close_increment(); if (i != 10) print i " increments"; print "checked " n }' "$work/tolerance.out"

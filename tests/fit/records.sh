@@ -215,12 +215,23 @@ block() {
    awk -v heading="### $1" -v wanted="$2" '/^### / { on = $0 == heading } !on { next }
       /^```/ { inside = !inside; n += inside; next } inside && n == wanted' "$here/../../input/README.md"
 }
+# alike FILE FILE: word for word, numbers but for their last digits, which the kernel of the BLAS rules
+alike() {
+   awk 'NR == FNR { line[FNR] = $0; n = FNR; next }
+      { m = FNR; count = split($0, b); if (split(line[FNR], a) != count) bad = 1
+        for (i = 1; i <= count; i++) { d = a[i] - b[i]; if (d < 0) d = -d; size = a[i] < 0 ? -a[i] : a[i] + 0
+           if (a[i] "" != b[i] "" && !(size > 0 && d <= 1e-9 * size)) bad = 1 } }
+      END { exit bad || n != m }' "$1" "$2"
+}
 block 'A normal test' 1 > normal.csv
+block 'A normal test' 2 > expected
 block 'A shear test' 1 > shear.csv
 fit --units mm,n normal.csv
-holds 'manual: the normal test' cmp -s cards <(block 'A normal test' 2)
+holds 'manual: the normal test' alike expected cards
 fit --units mm,n --small --id 7 shear.csv
-holds 'manual: the shear test' cmp -s <(tail -n 5 cards) <(block 'A shear test' 2)
+block 'A shear test' 2 > expected
+tail -n 5 cards > last_cards
+holds 'manual: the shear test' alike expected last_cards
 
 # ---- pictures ----
 
