@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# The examples from Gmsh: their joints carry the load, and where gmsh is installed meshes built anew, finer and in every field
-# format, do so too, and one of 50,000 nodes.
+# Meshes from Gmsh. A bar of every kind of second-order element in every field format (gmsh/*.bdf) has the stress that it is pulled
+# with. The joints of the examples carry the load. Where gmsh is installed meshes built anew, the bars and finer examples in every
+# field format and one of 50,000 nodes, do so too, and complete elements of second order are refused.
 #
 #    gmsh.sh PROGRAM QUERY WORK_FOLDER
 set -u
@@ -38,8 +39,75 @@ anew() {
    done
 }
 
+# pulled WORDS KIND MESH: a bar of elements of KIND with the faces of MESH, pulled with 5 along x: the same stress everywhere
+pulled() {
+   local plane=0 body='PSOLID  1       1' elements
+   case $2 in CTRIA6 | CQUAD8) plane=1 body='PSHELL  1       1       1.0' ;; esac
+   elements=$(grep -c "^$2" "$3")
+   {
+      printf '%s\n' 'SPC = 1' 'SUBCASE 1' '  LOAD = 10' '  OUTPUT = LAST, STRESS' 'BEGIN BULK' "INCLUDE '$(realpath "$3")'" "$body" \
+         'MAT1,1,1000.,,.3' 'PMARK,21' 'PMARK,22' 'PMARK,23' 'SPCM,1,1,21' 'SPCM,1,2,23' 'PLOADM,10,-5.,22'
+      [ $plane = 1 ] || printf '%s\n' 'PMARK,25' 'SPCM,1,3,25'
+      echo ENDDATA
+   } > "$work/bar.bdf"
+   rm -f "$work/bar.out"
+   "$program" -q -o "$work" "$work/bar.bdf" && judge "$1" -v plane=$plane -v elements="$elements" '
+      function off(x, y) { return (x > y ? x - y : y - x) > 1e-9 }
+      / STRESSES AT THE CENTRES/ && !/PRINCIPAL/ { table = 1; next }
+      / STRESSES AT NODES/ { table = 2; next }
+      / PRINCIPAL| REACTIONS/ { table = 0 }
+      !table || $1 + 0 != $1 || NF < 5 { next }
+      {
+         n[table]++
+         first = table == 1 ? NF - (plane ? 2 : 5) : 2
+         if (off($first, 5)) print FNR ": " $first ", 5 expected"
+         for (k = first + 1; k <= first + (plane ? 2 : 5); k++) if (off($k, 0)) print FNR ": " $k ", 0 expected"
+      }
+      END {
+         if (n[1] != elements || n[2] < 8) print n[1] + 0 " elements of " elements ", " n[2] + 0 " nodes"
+         print "checked " n[1] + n[2]
+      }' "$work/bar.out"
+}
+
+kinds=(CTRIA6 CQUAD8 CTETRA CPENTA CHEXA)
+meshes=(tria6 quad8 tetra10 penta15 hexa20)
+formats=(free small large)
+for kind in 0 1 2 3 4; do
+   for format in "${formats[@]}"; do
+      pulled "bar of ${meshes[kind]}, $format field" "${kinds[kind]}" "tests/gmsh/${meshes[kind]}_$format.bdf"
+   done
+done
 for example in two_blocks post_on_plate; do carries "$example: the mesh as shipped" $example input/$example.bdf; done
+
+# bar_anew KIND FORMAT COMPLETE: the mesh $work/gmsh/bar.bdf of the kind and format of these positions
+bar_anew() {
+   rm -f "$work/gmsh/bar.bdf"
+   gmsh -$(($1 < 2 ? 2 : 3)) -order 2 -format bdf -setnumber Mesh.SecondOrderIncomplete $((1 - $3)) -setnumber kind $(($1 + 1)) \
+      -setnumber Mesh.SaveElementTagType 2 -setnumber Mesh.BdfFieldFormat "$2" -o "$work/gmsh/bar.bdf" tests/gmsh/bar.geo \
+      > "$work/gmsh/log" 2>&1
+}
+
+# refuses WORDS: the mesh of complete elements, with a message that names the remedy
+refuses() {
+   local status
+   printf '%s\n' 'SUBCASE 1' 'BEGIN BULK' "INCLUDE 'gmsh/bar.bdf'" 'ENDDATA' > "$work/complete.bdf"
+   "$program" --check "$work/complete.bdf" > "$work/complete.log" 2>&1
+   status=$?
+   same "$1" $status 2
+   says "$1" "$work/complete.log" 'complete element.*SecondOrderIncomplete = 1'
+}
+
 if command -v gmsh > /dev/null; then
+   for kind in 0 1 2 3 4; do
+      for format in 0 1 2; do
+         bar_anew $kind $format 0
+         pulled "bar of ${meshes[kind]} built anew, ${formats[format]} field" "${kinds[kind]}" "$work/gmsh/bar.bdf"
+      done
+   done
+   for kind in 1 3 4; do
+      bar_anew $kind 1 1
+      refuses "complete elements in the place of ${meshes[kind]}"
+   done
    anew two_blocks 's/MeshSize {:} = .*;/MeshSize {:} = 9;/'
    anew post_on_plate 's/^size = .*;/size = 6;/'
    tests/gmsh_fine.sh "$work"

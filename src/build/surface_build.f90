@@ -147,7 +147,7 @@ contains
       type(marked_sides), intent(in) :: sides
       integer, intent(in)            :: i, e, own(:)
       type(model_type), intent(in)   :: model
-      integer :: a, b, k, m, mid
+      integer :: a, b, k, m, mid, place
 
       m = sides%corners(i)
       if (size(own) == m .and. sides%n_nodes(i) > m) then
@@ -164,8 +164,9 @@ contains
          if (sides%nodes(m + k, i) == 0) cycle ! blank: that of the element; or said already
          a = findloc(own(:m), sides%nodes(k, i), dim=1)
          b = findloc(own(:m), sides%nodes(modulo(k, m) + 1, i), dim=1)
-         mid = own(m + merge(a, b, modulo(a, m) + 1 == b)) ! the mark may go round the other way
-         if (m == 2) mid = own(3)
+         place = merge(a, b, modulo(a, m) + 1 == b) ! the mark may go round the other way
+         if (m == 2) place = 1
+         mid = own(m + place)
          if (mid == sides%nodes(m + k, i)) cycle
          call deck%field_error(sides%line(i), 2 + m + k, integer_text(model%node_id(sides%nodes(m + k, i)))//', but '// &
                                element_words()//', has node '//integer_text(model%node_id(mid))//' at the middle of this edge')

@@ -156,7 +156,7 @@ contains
 
       words = ''
       if (model%n_elements > 0 .and. all(model%element_kind == kind_tetra4)) words = 'all bodies are of linear '// &
-         'tetrahedra, which are 10 to 35 % too stiff in bending on meshes of usual size: mesh them with second order'
+         'tetrahedra, 10 to 35 % too stiff in bending on usual meshes: mesh with second order'
    end function tetra_words
 
    !> Laws and areas of the joints.
