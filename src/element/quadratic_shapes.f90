@@ -115,8 +115,8 @@ contains
       end do
    end subroutine wedge_derivatives
 
-   !> Shape functions of the quadrilateral and the hexahedron: at a corner the product of the linear functions of all coordinates and
-   !! one that vanishes on the nodes of its edges; on an edge that of a parabola along it and linear functions of the others.
+   !> Shape functions of the quadrilateral and the hexahedron: at a corner the product of the linear functions of all coordinates
+   !! and one that vanishes on the nodes of its edges; on an edge that of a parabola along it and linear functions of the others.
    pure subroutine serendipity_values(kind, point, n)
       integer, intent(in)     :: kind
       real(wp), intent(in)    :: point(3)
