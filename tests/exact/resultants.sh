@@ -63,3 +63,14 @@ run_input joint30 && {
    ask 'joint30: force along every element is normal and shear turned by 30 degrees' joint30 rows 'increment = 5' all \
       'sum(force) = 519.61524227 within 1e-5 and abs(sum(tau_x*area)) = 300 within 1e-5 and sum(area) = 1200/cos(pi/6) within 1e-4'
 }
+
+# seven elements over five: the upper block pressed evenly, then pushed and pulled along its top
+run_input meshed_apart && {
+   along_top() { # STAGE FORCE: the top with its pressure, and this force
+      for node in 103 106 109 112 115 118 121 124; do
+         share=2; [ $node -gt 103 ] && [ $node -lt 124 ] || share=1
+         awk -v n=$node -v s="$1" -v f="$2" -v share=$share 'BEGIN { printf "%d %d %.9f %.9f;", s, n, f*share/14, -100*share/14 }'
+      done
+   }
+   balance meshed_apart 1 1 25 20 101 199 "$(along_top 1 0)$(along_top 2 20)$(along_top 3 0)$(along_top 4 -24)0 0 0 0"
+}

@@ -1,0 +1,73 @@
+# Joints between faces that do not match: input/meshed_apart.bdf, 7 elements over 5, by every method; the same forced on meshes that do
+# match; a bolted joint in space.
+
+# carries NAME STAGE SHEAR: the joint carries 100 along its normal and this shear force in every increment of the stage
+carries() {
+   ask "$1: force and shear force of stage $2" "$1" rows "stage = $2" by increment all \
+      "sum(force) = $4 within 1e-6 and sum(tau_x*area) = $3 within 1e-6 and sum(area) = 500 within 1e-10"
+}
+
+run_input meshed_apart && {
+   ask 'pressed evenly: p and lambda at every node' meshed_apart rows 'stage = 1' all \
+      'pressure = 0.2*load within 1e-10 and lambda = 0.008*sqrt(0.2*load) within 1e-12'
+   ask 'ends stand on nodes of SIDE2, the others on lists' meshed_apart all 'node2 = if(x = 0 within 1e-9, 3, if(x = 50 within 1e-9, 18, -1))'
+   carries meshed_apart 1 0 '100*load'
+   carries meshed_apart 2 '20*load' 100
+   carries meshed_apart 3 '20*(1 - load)' 100
+   carries meshed_apart 4 '-24*load' 100
+   ask 'no element beyond its friction limit' meshed_apart all 'abs(tau_x) <= 0.3*pressure + 1e-9'
+   ask 'some slip' meshed_apart rows 'slip = 1' count 4
+}
+
+# The other side first: the forces are the same, the even pressure too; the shear has the other sense.
+sed 's/^JOINT .*/JOINT,1,1,20,30/' input/meshed_apart.bdf > "$work/coarse_first.bdf"
+run coarse_first && {
+   ask 'coarser side first: p and lambda' coarse_first rows 'stage = 1' all \
+      'pressure = 0.2*load within 1e-10 and lambda = 0.008*sqrt(0.2*load) within 1e-12'
+   carries coarse_first 2 '-20*load' 100
+   carries coarse_first 4 '24*load' 100
+   says 'the coarser side is told of' "$work/coarse_first.out" 'SIDE1 OF JOINT 1 IS COARSER THAN SIDE2'
+}
+
+# STEP carries the loads as well where all excess over the friction limit is taken off; BACK loads once.
+sed 's/METHOD = NEWTON/METHOD = STEP/' input/meshed_apart.bdf > "$work/apart_step.bdf"
+run apart_step && {
+   carries apart_step 1 0 '100*load'
+   carries apart_step 2 '20*load' 100
+   carries apart_step 3 '20*(1 - load)' 100
+}
+awk '/^SUBCASE 2/ { skip = 1 } /^BEGIN BULK/ { skip = 0 } !skip' input/meshed_apart.bdf | sed 's/METHOD = NEWTON/METHOD = BACK/' > "$work/apart_back.bdf"
+run apart_back && {
+   ask 'BACK: p and lambda' apart_back rows 'stage = 1' rows 'increment = max(increment)' all \
+      'pressure = 0.2 within 1e-6 and lambda = 0.008*sqrt(0.2) within 1e-7'
+}
+
+# SIDE1 hangs over on both sides: it is told, and what stands over SIDE2 carries all.
+sed 's/^BLOCK2  2 .*/BLOCK2,2,1,9,2,-5.0,20.0/; s/^+       50.0    40.0 .*/+,60.0,40.0,,,,,101,101/; s/^PLOADM.*/FORCEM,11,100.0,0.0,-1.0,0.0,31/' \
+   input/meshed_apart.bdf > "$work/overhang.bdf"
+run overhang && {
+   carries overhang 1 0 '100*load'
+   carries overhang 2 '20*load' 100
+   says 'overhang: the share of SIDE1' "$work/overhang.out" '0.769231'
+   says 'overhang: a note' "$work/overhang.out" 'SIDE2 COVERS ONLY A PART OF SIDE1 OF JOINT 1'
+   ask 'no force beyond SIDE2' overhang all 'x > -1e-9 and x < 50 + 1e-9'
+}
+
+# Meshes that match, with the fit forced: the pairs, through unloading and slip.
+sed 's/^JOINT .*/JOINT,1,1,30,20/; s/^BLOCK2  1       1       5/BLOCK2  1       1       7/' input/meshed_apart.bdf > "$work/pairs.bdf"
+sed 's/^JOINT .*/JOINT,1,1,30,20,,YES/' "$work/pairs.bdf" > "$work/forced.bdf"
+run pairs && run forced && same_rows 'fit forced on matching meshes' pairs forced 1e-10 $along
+
+# The bolted cantilever with a finer end plate, each bolt in a node of it: the bolts clamp what the joint carries.
+sed 's/^BLOCK3  2       1       1       6       2/BLOCK3  2       1       1       6       4/; s/^BLOCK3  3       1       5       2       2/BLOCK3  3       1       5       2       4/
+     s/^CROD    901 .*/CROD,901,90,5,243/; s/^CROD    902 .*/CROD,902,90,17,263/; s/^JOINT .*/JOINT,1,1,22,20/' input/bolted_cantilever.bdf > "$work/bolts_apart.bdf"
+run bolts_apart && {
+   says 'bolts: the joint hangs on lists' "$work/bolts_apart.out" 'JOINTS OF FACES THAT DO NOT MATCH'
+   ask 'bolts: preload' bolts_apart rows 'stage = 1' by increment all 'sum(force) = 60000*load within 1e-3'
+   ask 'bolts: shear' bolts_apart rows 'stage = 2' by increment all 'abs(sum(tau_x*area)) + abs(sum(tau_y*area)) = 2000*load within 2e-1'
+   for method in SKYLINE TREE; do
+      sed "s/^METHOD = NEWTON/METHOD = NEWTON\nSOLVER = $method/" "$work/bolts_apart.bdf" > "$work/bolts_$method.bdf"
+      run bolts_$method
+   done
+   same_rows 'bolts, SKYLINE and TREE' bolts_SKYLINE bolts_TREE 1e-7 delta_x tau_x delta_y tau_y
+}
