@@ -50,6 +50,7 @@ module analysis_state
       logical  :: eq10 = .false.                    !! STEP: p on the loading curve by Eq. (10) as printed
       logical  :: average = .true.                  !! BACK: of two consecutive sets of results
       logical  :: is_loose = .false.                !! interference has pushed a body away until nothing presses it any more
+      real(wp) :: loose_force = 0.0_wp              !! then p_av a_i of its joints: little of that is no force [force]
       logical  :: is_settled = .true.               !! BACK: whether the last secants agree with what they led to
       real(wp) :: load_tolerance = 1.0e-10_wp       !! NEWTON: share of the largest load that may be left unbalanced; BACK: of the
                                                     !! largest pressure by which the laws may differ from the secants

@@ -51,8 +51,8 @@ contains
 
       if (.not. failure%raised .or. .not. (analysis%is_loose .or. any(is_apart(analysis%states)))) return
       failure = none
-      analysis%is_loose = .false.
       call newton_increment(model, plan, analysis, system, failure)
+      call free_idle_joints(model, analysis)
       analysis%n_passes = 0 ! these are no re-analyses
    end subroutine cross_gaps
 
@@ -75,20 +75,23 @@ contains
       if (allocated(analysis%exact)) analysis%exact = analysis%states
    end subroutine seat_joints
 
-   !> Where interference has pushed a body away until it presses no more, its joint has never been pressed.
+   !> Where interference has pushed a body away until it presses no more, its joint has never been pressed, and the body is loose.
    subroutine free_idle_joints(model, analysis)
       type(model_type), intent(in)       :: model
       type(analysis_type), intent(inout) :: analysis
       integer :: j
 
+      analysis%is_loose = .false.
+      analysis%loose_force = 0.0_wp
       do j = 1, size(model%joints)
          associate (elements => model%interface(model%joints(j)%first:model%joints(j)%last), &
                     states => analysis%states(model%joints(j)%first:model%joints(j)%last)%normal)
             if (.not. any(elements%gap < 0.0_wp)) cycle
-            if (norm2(states%sumf) > 10.0_wp*idle*norm2(states%p_av*elements%area)) cycle
+            if (norm2(max(states%pressure, states%p_a)*elements%area) > 10.0_wp*idle*norm2(states%p_av*elements%area)) cycle
             states = at_rest(states%p_av, -states%lambda) ! behind what is left of the gap
             states%gap = elements%gap
             analysis%is_loose = .true.
+            analysis%loose_force = norm2([analysis%loose_force, states%p_av*elements%area])
          end associate
       end do
    end subroutine free_idle_joints
@@ -189,7 +192,8 @@ contains
          carried = load_size <= rounding .and. maxval(abs(now%u)) <= 10.0_wp*travel
          attempt%converged = now%size <= max(analysis%tolerance, 0.1_wp*noise) .and. noise <= 1.0e-5_wp*load_size
          attempt%converged = .not. moves .and. (attempt%converged .or. (carried .and. now%size <= rounding))
-         if (attempt%seats .and. iteration == most_iterations) attempt%converged = now%size <= idle*attempt%seat_force
+         if (iteration == most_iterations) attempt%converged = attempt%converged .or. &
+            now%size <= idle*max(attempt%seat_force, analysis%loose_force)
          if (attempt%converged .or. iteration == most_iterations) exit
          if (noise > load_size .and. .not. (carried .or. moves)) exit
          call find_direction(model, now, analysis, iteration == 0, system, attempt, direction)

@@ -60,7 +60,7 @@ for method in NEWTON STEP; do
       [ $method = NEWTON ] && same "history about a gap, stage $stage: branch" "$(cell apart $stage 40 1 branch)" "$(cell plain $stage 40 1 branch)"
    done
    [ $method = STEP ] && continue
-   for deck in apart plain; do awk '/ENERGY OF JOINTS/ { getline; getline; getline; getline; getline; print $2, $3, $4 }' "$work/$deck.out" > "$work/$deck.energy"; done
+   for deck in apart plain; do awk '/ENERGY OF JOINTS/ { on = 1 } on && $1 == 1 { print $2, $3, $4; on = 0 }' "$work/$deck.out" > "$work/$deck.energy"; done
    same 'history about a gap: work put in, given back, kept' "$(cat "$work/apart.energy")" "$(cat "$work/plain.energy")"
    same 'history about a gap: five stages of work' "$(wc -l < "$work/apart.energy")" 5
 done
@@ -103,6 +103,8 @@ for method in NEWTON STEP BACK; do
    near "interference at rest, $method: lambda" "$(cell bars 1 1 2 lambda)" "$at_rest" 1e-10
    near "interference at rest, $method: the bars push as the joint does" "$(cell bars 1 1 2 force)" "50*(0.05 - $at_rest)" 1e-9
 done
+bars bars NEWTON 0.0 1 && near 'interference at rest: what it has put in stands with the first stage' \
+   "$(awk '/ENERGY OF JOINTS/ { on = 1 } on && $1 == 1 { print $2; on = 0 }' "$work/bars.out")" "4*$p_rest*$at_rest/3" 1e-5
 pulled="((0.05 - 0.01 - 0.02*4*$p_rest + 0.02*4000*$at_rest)/(1 + 0.02*4000))"
 bars bars NEWTON 1.0 5 && near 'interference, pulled apart' "$(cell bars 1 5 2 lambda)" "$pulled" 1e-10 &&
    near 'interference, pulled apart: p' "$(cell bars 1 5 2 pressure)" "$p_rest - 1000*($at_rest - $pulled)" 1e-9 &&
@@ -178,6 +180,16 @@ for n in 5 20 80; do
    before=$error
 done
 holds 'wedge, STEP' "$error < 0.05"
+
+# Interference alone pushes a block away that nothing holds: nothing is pressed at rest, and then it bears the load as on a wedge.
+for method in NEWTON STEP; do
+   gap_block rest $method 20 0.5 10.0 1 '' 'JGAP,1,PLANE,0.0,1.0-4' || continue
+   cp "$work/rest.joint.csv" "$work/wedge.joint.csv"
+   sed -i 's/^PJOINT,1,1$/PJOINT,1,1,,,,,0.5/; s/^  LOAD = 1/  LABEL = AT REST/; s/^BEGIN/SUBCASE 2\n  LOAD = 1\nBEGIN/' "$work/rest.bdf"
+   run rest && ask "a block pushed away, $method, at rest" rest rows 'stage = 1' count 21 all 'abs(force) < 1e-3' &&
+      ask "a block pushed away, $method, loaded" rest rows 'stage = 2' count 21 with "$work/wedge.joint.csv" on element \
+         all 'pressure = other.pressure within 1e-6'
+done
 
 # A crown under a rigid flat face, m = 1: p = C (w**2 - x**2)/c over the half width w; the pressures add up to the force:
 # F = (4/3) b C w**3/c, and the closing is C w**2.
