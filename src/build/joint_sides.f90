@@ -223,6 +223,7 @@ contains
       allocate (elements(size(at)))
       do k = 1, size(at)
          call sums%hang(at(k), elements(k))
+         elements(k)%named = side%node(at(k))
          normal = sums%normal(:, at(k))
          elements(k)%axes = joint_axes(model, normal/max(norm2(normal), tiny(1.0_wp)))
       end do

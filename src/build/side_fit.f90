@@ -59,6 +59,7 @@ contains
       integer  :: elements(max_side_nodes), k, n, own_parts, s
       integer, allocatable :: near(:)
 
+      found%cover%fitted = .true.
       found%cover%share = 0.0_wp
       call place%build(nodes%node)
       call sums%start(nodes%n, model%n_nodes)

@@ -20,6 +20,7 @@ module interface_operator
       integer  :: id = 0
       integer  :: joint = 0
       integer  :: n_1 = 0                    !! nodes of end 1; those behind them are of end 2
+      integer  :: named = 0                  !! the node that names end 1 where several share it, 0: none
       integer, allocatable  :: node(:)       !! positions
       real(wp), allocatable :: weight(:)     !! of the displacement of each: their sum is the movement of end 1 against end 2
       real(wp) :: area = 0.0_wp              !! a_i [length^2]
@@ -68,7 +69,8 @@ contains
       end if
    end function weights_of_end
 
-   !> The node that output and messages name for END 1 or 2: 0 for a rigid base, -1 where several nodes share the end.
+   !> The node that output and messages name for END 1 or 2: 0 for a rigid base, -1 where several nodes share the end and none
+   !! stands for them.
    pure integer function named_node(element, end) result(node)
       type(interface_element), intent(in) :: element
       integer, intent(in)                 :: end
@@ -78,6 +80,7 @@ contains
       n = merge(element%n_1, size(element%node) - element%n_1, end == 1)
       node = merge(0, -1, n == 0)
       if (n == 1) node = element%node(first)
+      if (end == 1 .and. element%named > 0) node = element%named
    end function named_node
 
    !> What nodal VALUES are at end 1: of their places, say, the one where the force acts.

@@ -40,6 +40,7 @@ module model_data
 
    !> How the sides of a joint that do not match cover each other.
    type, public :: joint_cover
+      logical  :: fitted = .false.           !! whether lists were fitted at all
       real(wp) :: share = 1.0_wp             !! of the area of SIDE1 that SIDE2 covers
       real(wp) :: farthest = 0.0_wp          !! largest distance of the faces, along the normal of SIDE1 [length]
       real(wp) :: spacing(2) = 0.0_wp        !! mean area, of edges length, of the faces of SIDE1 and of SIDE2 that take part
@@ -167,7 +168,7 @@ contains
       n_points = model%n_nodes - n_sections(model)
    end function n_points
 
-   !> The number of the node that interface element I names for END 1 or 2: 0 for a rigid base, -1 where several share the end.
+   !> The number of the node that interface element I names for END 1 or 2: 0 for a rigid base, -1 where several share end 2.
    pure integer function joint_node_id(model, i, end) result(id)
       type(model_type), intent(in) :: model
       integer, intent(in)          :: i, end

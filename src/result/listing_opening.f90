@@ -6,11 +6,11 @@ module listing_opening
    use deck_input, only: deck_type
    use element_kinds, only: kind_tetra4
    use equation_solver, only: equation_system
-   use interface_operator, only: named_node
    use line_scan, only: is_include
    use kinds, only: long, wp
+   use listing_covers, only: write_covers
    use listing_table, only: axes, column, cut, heading, listing_table_type, page_type, page_width
-   use model_data, only: has_gaps, is_coarser, model_type, n_bars, n_points, n_sections, whole_share
+   use model_data, only: has_gaps, model_type, n_bars, n_points, n_sections
    use normal_stiffness, only: branch_load, branch_name, branch_reload, branch_unload, pressure_floor
    use output_file, only: output_file_type
    use shear_closure, only: loop_closure, worst_closure
@@ -208,48 +208,6 @@ contains
          end associate
       end do
    end subroutine write_gaps
-
-   !> How the sides of joints cover each other that do not match node by node.
-   subroutine write_covers(page, model)
-      type(page_type), intent(inout) :: page
-      type(model_type), intent(in)   :: model
-      type(listing_table_type) :: table
-      integer :: i, j, n(size(model%joints))
-
-      do j = 1, size(model%joints)
-         n(j) = count([(is_list(i), i = model%joints(j)%first, model%joints(j)%last)])
-      end do
-      if (all(n == 0 .and. model%joints%cover%share >= whole_share)) return
-      call table%start('JOINTS OF FACES THAT DO NOT MATCH', [column('JOINT', 'i11'), column(['PAIRS', 'LISTS'], 'i9'), &
-                       column('SIDE1 COVERED', 'f15.6'), column('FARTHEST APART', 'es17.5', page%labels%length)])
-      call table%print_head(page%file)
-      do j = 1, size(model%joints)
-         if (n(j) == 0 .and. model%joints(j)%cover%share >= whole_share) cycle
-         associate (joint => model%joints(j))
-            call table%add([joint%id, joint%last - joint%first + 1 - n(j), n(j)])
-            call table%add([joint%cover%share, clean(joint%cover%farthest, 1.0e-9_wp*sqrt(joint%area))])
-            call table%print_row(page%file)
-         end associate
-      end do
-      do j = 1, size(model%joints)
-         associate (joint => model%joints(j))
-            if (joint%cover%share < whole_share) call page%file%put('  NOTE: SIDE2 COVERS ONLY A PART OF SIDE1 OF JOINT '// &
-               integer_text(joint%id)//'. WHERE IT DOES NOT, THERE IS NO JOINT.')
-            if (is_coarser(joint%cover)) call page%file%put('  NOTE: SIDE1 OF JOINT '//integer_text(joint%id)// &
-               ' IS COARSER THAN SIDE2. EXCHANGE THEM FOR BETTER STRESSES BESIDE THE JOINT.')
-         end associate
-      end do
-
-   contains
-
-      !> Whether several nodes share an end of interface element I.
-      pure logical function is_list(i)
-         integer, intent(in) :: i
-
-         is_list = named_node(model%interface(i), 1) < 0 .or. named_node(model%interface(i), 2) < 0
-      end function is_list
-
-   end subroutine write_covers
 
    !> Shear laws and friction of the joints that have them.
    subroutine write_shear_laws(file, model)

@@ -5,7 +5,7 @@
 #    bench.sh PROGRAM FOLDER [WHAT...]
 #
 # FOLDER  where the programs of the benchmark are and its files go; FOLDER/measured holds every figure, FOLDER/tables the tables
-# WHAT    all (if nothing is said), small, or any of: shapes as make_deck.sh has them, friction, threads, crossing, gmsh
+# WHAT    all (if nothing is said), small, or any of: shapes as make_deck.sh has them, friction, threads, crossing, gmsh, lists
 #
 # Programs run one after another, on one thread unless said otherwise, ours and CHOLMOD in turn; of several runs the fastest
 # counts, long ones are not repeated. Status 1 where a run fails or CHOLMOD finds another answer.
@@ -25,10 +25,10 @@ wide='q4_4000x20 hex8_58x58x3 hex8_58x58x10'
 wanted=
 for word; do
    case $word in
-   all)   wanted="$wanted $small $large $wide gmsh friction threads crossing" ;;
+   all)   wanted="$wanted $small $large $wide gmsh friction threads crossing lists" ;;
    small) wanted="$wanted $small friction crossing" ;;
-   q4_*|hex8_*|friction|threads|crossing|gmsh) wanted="$wanted $word" ;;
-   *) echo "bench: '$word' is neither all, small, friction, threads, crossing, gmsh nor a shape like q4_100x20, hex8_20x20x20" >&2
+   q4_*|hex8_*|over_*|friction|threads|crossing|gmsh|lists) wanted="$wanted $word" ;;
+   *) echo "bench: '$word' is neither all, small, friction, threads, crossing, gmsh, lists nor a shape like q4_100x20, hex8_20x20x20" >&2
       exit 1 ;;
    esac
 done
@@ -205,6 +205,25 @@ measure_crossing() {
    rm -f "$work"/copy_*
 }
 
+# ------------------------------------------------------------------ a joint on lists of nodes beside one of pairs
+measure_lists() {
+   local shape turn
+   rm -f "$work"/lists_*
+   for turn in 1 2; do
+      for shape in "$@"; do
+         echo "bench: $shape" >&2
+         "$here/make_deck.sh" "$shape" TREE NONE > "$work/$shape.bdf" || exit 1
+         run_program 1 "$work/$shape.bdf"
+         { figures "$work/$shape.bdf"; of_listing "$work/$shape.out"; } > "$work/one"
+         keep_faster "$work/one" "$work/lists_$shape"
+      done
+   done
+   for shape in "$@"; do
+      record lists "$shape" "$work/lists_$shape"
+      remove_results "$shape"
+   done
+}
+
 # ------------------------------------------------------------------ a mesh from Gmsh: two blocks of tetrahedra
 measure_gmsh() {
    local turn
@@ -244,6 +263,7 @@ for what in $wanted; do
    threads)  measure_threads hex8_30x30x30 ;;
    crossing) measure_crossing ;;
    gmsh)     measure_gmsh ;;
+   lists)    measure_lists over_20x20x8 over_24x17x8 over_24x24x8 ;;
    *)        measure_model "$what" ;;
    esac
 done

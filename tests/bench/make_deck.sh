@@ -5,7 +5,8 @@
 #
 # SHAPE  q4_100x20: a plate of 100 x 20 CQUAD4, the second number its height; hex8_20x20x10: a block of 20 x 20 x 10 CHEXA, the
 #        last number its height. The whole bottom stands on a rigid base by a joint. 20 increments press on the whole top, and out
-#        of centre on one node: the pressure is uneven, and the joint stays closed.
+#        of centre on one node: the pressure is uneven, and the joint stays closed. over_24x17x8: a block of 24 x 24 x 8 CHEXA on one of
+#        17 x 17 x 8, the joint between them: lists of nodes, and pairs where both numbers are the same.
 # SOLVER, OUTPUT  as in case control
 # NREAN  given: the joint has shear laws and a friction limit that it exceeds in every increment, and so many re-analyses
 set -eu
@@ -33,8 +34,23 @@ PSOLID,1,1"
    supports='SPCM,1,1,21
 SPCM,1,3,22'
    loads="FORCE,10,$(( (nx + 1)*(n2 + 1)*(n3 + 1) )),,100.0,0.0,-1.0" ;;
+over_*)
+   mesh="BLOCK3,1,1,$n2,$n2,$n3,0.0,0.0,0.0
++,150.0,150.0,60.0,,,,1,1
++,,,,,21,22
+BLOCK3,2,1,$nx,$nx,$n3,0.0,0.0,60.0
++,150.0,150.0,120.0,,,,1000001,1000001
++,,,,,20,23
+PMARK,22
+PSOLID,1,1"
+   sides='20,22'
+   supports="SPCM,1,123,21
+SPC1,1,12,1000001
+SPC1,1,1,$(( 1000001 + nx*(n3 + 1) ))"
+   down='0.0,0.0,-1.0'
+   loads="FORCE,10,$(( 1000000 + (nx + 1)*(nx + 1)*(n3 + 1) )),,100.0,$down" ;;
 *)
-   echo "make_deck.sh: '$shape' is no shape, expected q4_NxM or hex8_NxMxK" >&2
+   echo "make_deck.sh: '$shape' is no shape, expected q4_NxM, hex8_NxMxK or over_NxMxK" >&2
    exit 1 ;;
 esac
 
@@ -53,11 +69,11 @@ MAT1,1,9500.0,,0.25
 PMARK,20
 PMARK,21
 PMARK,23
-JOINT,1,1,20
+JOINT,1,1,${sides-20}
 $laws
 JNORM,1,8.0-3,0.5
 $supports
-FORCEM,10,1600.0,0.0,-1.0,0.0,23
+FORCEM,10,1600.0,${down-0.0,-1.0,0.0},23
 $loads
 JINCR,5,20,ARITH,0.02
 ENDDATA

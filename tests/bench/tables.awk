@@ -24,6 +24,7 @@ END {
    friction()
    threads()
    crossing()
+   lists()
 }
 
 # The seconds of the element matrices, which are a part of the phase factor, become a phase of their own. On one thread only:
@@ -161,6 +162,19 @@ function friction(    again, i, m, one, passes) {
    put()
 }
 
+function lists(    i, m) {
+   if (!rows["lists"]) return
+   title("Joints on lists of nodes beside joints of pairs: blocks N x N over M x M, seconds")
+   head("model;unknowns;left;build;order;an increment ms;operations of an increment 1E9")
+   for (i = 1; i <= rows["lists"]; i++) {
+      m = row["lists", i]
+      cells(label(m) ";" v["lists", m, "unknowns"] ";" either(v["lists", m, "left"]) ";" seconds(v["lists", m, "build"]) ";" \
+         seconds(v["lists", m, "order"]) ";" milliseconds(v["lists", m, "increments"]/increments) ";" \
+         sprintf("%.2f", v["lists", m, "operations_moving"]/1e9))
+   }
+   put()
+}
+
 function threads(    i, k, m, names, n) {
    if (!rows["threads_2"]) return
    n = split("order factor increments recover solution all", names, " ")
@@ -228,6 +242,7 @@ function exponent(a, b, n, m) {
 function label(m,    sizes) {
    sizes = substr(m, index(m, "_") + 1)
    gsub(/x/, " x ", sizes)
+   if (m ~ /^over/) sub(/ x /, " over ", sizes)
    return (m ~ /^q4/ ? "Q4 " : "hex8 ") sizes
 }
 

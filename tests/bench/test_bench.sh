@@ -29,6 +29,8 @@ deck q4_6x3 '' 52 0           # 7 x 4 nodes, x held on 4 of them
 deck q4_6x3 3 52 60
 deck hex8_3x2x4 '' 145 0      # 4 x 3 x 5 nodes, x held on 3 x 5 of them, z on 4 x 5 of them: 180 - 15 - 20 = 145
 deck hex8_3x2x4 3 145 60
+deck over_4x3x2 '' 318 0      # 5 x 5 x 3 nodes over 4 x 4 x 3, 4 x 4 held, 3 components of the upper block
+deck over_3x3x2 '' 237 0
 
 # ------------------------------------------------------------------ tables: exponents, shares, ratios by hand
 cat > "$work/measured" <<'END'
@@ -79,6 +81,10 @@ threads_1 q4_20x4 factor 3.0
 threads_1 q4_20x4 elements 0.5
 threads_2 q4_20x4 factor 2.0
 threads_2 q4_20x4 elements 1.5
+lists over_4x3x2 build 0.3
+lists over_4x3x2 increments 2.0
+lists over_4x3x2 operations_moving 3e9
+lists over_4x3x2 unknowns 318
 crossing_SKYLINE q4_20x4 solution 0.03
 crossing_SKYLINE q4_20x4 entries 900
 crossing_TREE q4_20x4 solution 0.02
@@ -101,6 +107,7 @@ row '^\| Q4 7 x 3 \| - \| 0.0900 \|( - \|){9}$'                                #
 row '^\| Q4 20 x 4 \| 8 \| 0.50 \| 0.4 \| 0.25 \| 5 \| 0.25 \|'                 # of the greater rate, 20
 row '^\| Q4 20 x 4 \| 20.0 \| 0.500 \| 0.025 \|$'                         # 0.1 s of 200 re-analyses
 row '^\| 50000 \| - \| - \| last in parts \| 0.70 \| - \| - \| 0.30 \| 0.20 \|( - \|){5}$'
+row '^\| hex8 4 over 3 x 2 \| 318 \| - \| 0.30 \| - \| 100 \| 3.00 \|$'
 row '^\| factor \| 3.00 \| 2.00 \| 1.50 \|$'
 row '^\| Q4 20 x 4 \| 400 \| 900 \| - \| 30.0 \| 20.0 \| 1.50 \|$'
 
@@ -149,12 +156,13 @@ for deck; do
    : > "$folder/$(basename "$deck" .bdf).joint.csv"
 done
 END
-"$here/bench.sh" "$work/stand-in/program" "$work/stand-in" q4_10x2 friction threads crossing > "$work/tables" 2> "$work/said"
+"$here/bench.sh" "$work/stand-in/program" "$work/stand-in" q4_10x2 friction threads crossing lists > "$work/tables" 2> "$work/said"
 count 'bench.sh with stand-ins' $?
 row '^\| Q4 10 x 2 \| 66 \| - \| 0.25 \| - \| 0.10 \| 0.10 \| 0.40 \| 0.40 \| - \| - \| 1.25 \| 7 \|$'
 row '^\| Q4 10 x 2 \| last \| 0.60 \| 20.0 \| 1.00 \| 0.40 \| 2.50 \| AMD \| 0.25 \| 4.00 \|$'
 row '^\| Q4 10 x 2 \| 3 \| 1.00 \| [0-9.]+ \| [0-9.]+ \| 0.10 \| 0.20 \| 0.10 \| 0.40 \| 0.25 \| 0.15 \| [0-9.]+ \|$'
 row '^\| Q4 10 x 2 \| 2 \| 0.50 \| 0.1 \| 0.50 \| 1 \| 0.50 \| 7 \| - \| 1e-13 \|$'
+row '^\| hex8 24 over 17 x 8 \| 66 \| - \| - \| 0.10 \| 20.0 \| 0.10 \|$'
 row '^\| Q4 400 x 80 \| 20.0 \| 100 \| 5.000 \|$'
 row '^\| Q4 10 x 4 \| 66 \| - \| - \| 1500 \| 1000 \| 1.50 \|$'
 if [ "$(nproc)" -gt 1 ]; then
