@@ -36,10 +36,10 @@ bed() = BooleanFragments{ Volume{v}; Delete; }{ Volume{parts()}; Delete; };
 
 Mesh.ElementOrder = 2;
 Mesh.SecondOrderIncomplete = 1;
-Mesh.HighOrderOptimize = 2;     // else curved sides turn some elements at the holes inside out
-Mesh.MeshSizeFromCurvature = 8; // elements round a full circle
-MeshSize { PointsOf{ Volume{column()}; } } = 90;
-MeshSize { PointsOf{ Volume{bed()}; } } = 110;
+Mesh.SecondOrderLinear = 1;       // straight sides: on a mesh as coarse as this, curved ones turn elements at the holes inside out
+Mesh.MeshSizeFromCurvature = 6; // elements round a full circle
+MeshSize { PointsOf{ Volume{column()}; } } = 120;
+MeshSize { PointsOf{ Volume{bed()}; } } = 200;
 
 // faces by the body that they belong to and by where they lie: flange and bed lie in one plane
 e = 0.01;
