@@ -5,6 +5,7 @@ ifeq ($(origin FC),default)
 FC         = gfortran
 endif
 BUILD      = build
+BIN        = bin
 WARNINGS   = -std=f2018 -Wall -Wextra
 FFLAGS     = -O2 -fopenmp -fno-backtrace $(WARNINGS)
 # the check of recursion would take another thread in the same routine for one
@@ -41,12 +42,12 @@ help:
 
 # The program, optimised and with run-time checks -----------------------------------------------------------------
 
-bin/jointfem: src/jointfem.f90 $(RELEASE_OBJECTS)
-	@mkdir -p bin
+$(BIN)/jointfem: src/jointfem.f90 $(RELEASE_OBJECTS)
+	@mkdir -p $(@D)
 	$(FC) $(FFLAGS) -I$(BUILD)/release -o $@ $< $(RELEASE_OBJECTS) $(LIBRARIES)
 
-bin/jointfit: src/jointfit.f90 $(RELEASE_OBJECTS)
-	@mkdir -p bin
+$(BIN)/jointfit: src/jointfit.f90 $(RELEASE_OBJECTS)
+	@mkdir -p $(@D)
 	$(FC) $(FFLAGS) -I$(BUILD)/release -o $@ $< $(RELEASE_OBJECTS) $(LIBRARIES)
 
 $(BUILD)/checked/jointfit: src/jointfit.f90 $(CHECKED_LIBRARY)

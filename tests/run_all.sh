@@ -32,6 +32,7 @@ part 'unit tests' ${MAKE:-make} --no-print-directory -s unit-test
 part 'modules use what stands to the left' tests/folders.sh README.md src
 part 'the test runner itself' env -u MAKELEVEL tests/runner/selftest.sh
 part 'decks against their references' tests/check.sh "$program" "$compare" "$build/check"
+part 'decks on other processors, built otherwise' tests/processors.sh "$program" "$compare" "$build"
 part 'decks through the program with run-time checks' tests/check.sh "$checked" "$compare" "$build/check-checked"
 part 'what the paper says of the prism' tests/prism_findings.sh "$query" "$build/check"
 part 'exact answers and independent computations' tests/exact/run.sh "$program" "$query" "$build/exact"
@@ -46,7 +47,8 @@ part 'published surfaces' tests/fit/surfaces.sh "$program"
 mkdir -p "$build/vtu-deck"
 sed -E 's/^( *INCR = .*)/\1\n  OUTPUT = LAST, VTU/; /OUTPUT = (ALL|JOINT|LAST|NONE)$/d' input/prism_history.bdf > "$build/vtu-deck/history.bdf"
 "$program" -q -o "$build/vtu-deck" "$build/vtu-deck/history.bdf" 2> /dev/null
-part 'files for ParaView' tests/vtu/run.sh "$build/vtu" "$build/vtu-deck/history.pvd" "$build/check/post_on_plate.pvd"
+part 'files for ParaView' tests/vtu/run.sh "$build/vtu" "$build/vtu-deck/history.pvd" "$build/check/post_on_plate.pvd" \
+   "$build/check/column_tetra10.pvd"
 part 'meshes from Gmsh' tests/gmsh.sh "$program" "$query" "$build/gmsh"
 part 'pictures of a deck, flow charts' tests/figures.sh "$program" "$build/test/figures"
 part 'the benchmark, without measuring' tests/bench/test_bench.sh "$program" "$build/test/bench"

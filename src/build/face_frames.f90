@@ -108,8 +108,8 @@ contains
       x = matmul(face%x(:, :face%n), n(:face%n))
    end subroutine map_point
 
-   !> The outward vector of the surface of FACE at a POINT, in the frame: as long as the area, of an edge the length, that is seen as
-   !! one; 0 where the face is seen from the side there.
+   !> The outward vector of the surface of FACE at a POINT, in the frame: as long as the area, of an edge the length, that is seen
+   !! as one; 0 where the face is seen from the side there.
    pure function surface_vector(face, point) result(vector)
       type(seen_face), intent(in) :: face
       real(wp), intent(in)        :: point(3)

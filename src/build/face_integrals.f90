@@ -1,5 +1,5 @@
-!> Integrals of shape functions over the part of one face of SIDE1 that faces of SIDE2 cover (J4, J5 of the README's method): what
-!! the interface elements of the face are made of. The points have no state: they serve the integrals alone.
+!> Integrals of shape functions over the part of one face of SIDE1 that faces of SIDE2 cover: what the interface elements of the
+!! face are made of. The points have no state: they serve the integrals alone.
 module face_integrals
    use element_kinds, only: max_nodes, max_side_nodes
    use element_mapping, only: two_pi

@@ -43,8 +43,8 @@ contains
       end do
    end function whole_shares
 
-   !> Shares of a face of which only a part is covered: the element at node i has the function phi_i = sum of SHARE(i, k) N_k, none of
-   !! which is negative on the face: N_i itself where that is linear; ((1-s)/2)^2, ((1+s)/2)^2 and (1-s^2)/2 on an edge with three
+   !> Shares of a face of which only a part is covered: the element at node i has the function phi_i = sum of SHARE(i, k) N_k, none
+   !! of which is negative on the face: N_i itself where that is linear; ((1-s)/2)^2, ((1+s)/2)^2 and (1-s^2)/2 on an edge with three
    !! nodes; (L1+L2)/2 of the sides of a triangle, (1-eta)/4 and so on of a quadrilateral. A sum of N_k, because all of them are
    !! polynomials that the N_k represent; the shares are their values at the nodes.
    pure function partial_shares(dimension, n) result(share)

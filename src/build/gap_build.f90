@@ -79,6 +79,9 @@ contains
             end if
          end associate
       end do
+      associate (gaps => model%interface(joint%first:joint%last)%gap)
+         where (abs(gaps) <= rounding*maxval(abs(gaps))) gaps = 0.0_wp
+      end associate
    end subroutine gaps_by_place
 
    !> The centroid of the area of JOINT; that of rings lies on the axis.

@@ -49,14 +49,14 @@ contains
    !> Add what a face gives to the elements at its nodes.
    pure subroutine add_face(self, elements, own, opposite, part)
       class(interface_sums_type), intent(inout) :: self
-      integer, intent(in)         :: elements(:) !! at its nodes
+      integer, intent(in)         :: elements(:) !! at its nodes, 0: none
       integer, intent(in)         :: own(:)      !! its nodes, positions in the model
       integer, intent(in)         :: opposite(:) !! the nodes opposite; none: a rigid base
       type(face_part), intent(in) :: part
       integer :: i, k
 
       do i = 1, part%n
-         if (all(abs(part%own(i, :part%n)) <= 0.0_wp)) cycle
+         if (elements(i) == 0 .or. all(abs(part%own(i, :part%n)) <= 0.0_wp)) cycle
          self%area(elements(i)) = self%area(elements(i)) + part%area(i)
          self%normal(:, elements(i)) = self%normal(:, elements(i)) + part%normal(:, i)
          self%around(elements(i)) = self%around(elements(i)) + sum(abs(part%area(:part%n)))

@@ -1,4 +1,4 @@
-!> The interface elements of a JOINT card: between the nodes of two sides that match, by pairs; between sides that do not, by lists of
+!> The interface elements of a JOINT card: between two sides that match, by pairs of nodes; between sides that do not, by lists of
 !! nodes; between a surface and its twin or a rigid base.
 module joint_sides
    use bulk_data, only: fit_no, fit_yes
@@ -114,7 +114,7 @@ contains
       end do
    end subroutine pair_elements
 
-   !> SUMS over the faces of SURFACE, every node opposite its partner. What has no partner, at the tip of a split surface, is its own.
+   !> SUMS over the faces of SURFACE, every node opposite its partner. What has none, at the tip of a split surface, is its own.
    subroutine add_pairs(model, surface, side, partner, sums)
       type(model_type), intent(in)             :: model
       type(surface_type), intent(in)           :: surface

@@ -1,5 +1,5 @@
-!> A joint between sides that do not match: for every face of SIDE1 the faces of SIDE2 that cover it are found, and what the interface
-!! elements at its nodes hang on is fitted.
+!> A joint between sides that do not match: for every face of SIDE1 the faces of SIDE2 that cover it are found, and what the
+!! interface elements at its nodes hang on is fitted.
 module side_fit
    use box_search, only: box_search_type
    use element_kinds, only: max_side_nodes

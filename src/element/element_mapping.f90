@@ -26,11 +26,11 @@ module element_mapping
       real(wp) :: d(max_stresses, max_stresses) = 0.0_wp  !! [D]: isotropic, or orthotropic along the axes [pressure]
    end type element_law
 
-   !> The corners of one element and what is the same at all its points.
+   !> The nodes of one element and what is the same at all its points.
    type, public :: element_map
       integer  :: n = 0                                   !! nodes
       integer  :: n_modes = 0                             !! incompatible modes, each with one parameter a component
-      real(wp) :: x(3, max_nodes) = 0.0_wp                !! corners [length]
+      real(wp) :: x(3, max_nodes) = 0.0_wp                !! nodes [length]
       real(wp) :: inverse(3, 3) = 0.0_wp                  !! of the Jacobian matrix at the centre [1/length], with modes
       real(wp) :: jacobian = 0.0_wp                       !! det J at the centre, with modes
    end type element_map
@@ -53,10 +53,10 @@ contains
       call elasticity_matrix(state, e, nu, law%d)
    end function make_element_law
 
-   !> Take up the corners of an element.
+   !> Take up the nodes of an element.
    pure subroutine map_element(law, x, map)
       type(element_law), intent(in)  :: law
-      real(wp), intent(in)           :: x(:, :)           !! corners (dimension, nodes) in the order of the card [length]
+      real(wp), intent(in)           :: x(:, :)           !! nodes (dimension, nodes) in the order of the card [length]
       type(element_map), intent(out) :: map
       real(wp) :: dn(3, max_nodes)
       integer  :: d
@@ -115,7 +115,7 @@ contains
    !> The derivatives of the local coordinates, and det J: d/dx_b = sum over a of inverse(b, a) d/d(local a).
    pure subroutine invert_jacobian(dimension, n, x, dn, inverse, jacobian)
       integer, intent(in)     :: dimension, n
-      real(wp), intent(in)    :: x(3, max_nodes)          !! corners [length]
+      real(wp), intent(in)    :: x(3, max_nodes)          !! nodes [length]
       real(wp), intent(in)    :: dn(3, max_nodes)         !! as from shape_derivatives
       real(wp), intent(inout) :: inverse(3, 3)            !! dimension rows and columns are set [1/length]
       real(wp), intent(out)   :: jacobian                 !! [length^dimension], not zero

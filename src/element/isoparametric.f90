@@ -1,4 +1,4 @@
-!> Stiffness of the linear isoparametric elements: plane, axisymmetric and solid, with incompatible modes where asked for.
+!> Stiffness of the isoparametric elements: plane, axisymmetric and solid, linear ones with incompatible modes where asked for.
 !! Source: Zienkiewicz, Taylor, Zhu, The Finite Element Method, 6th ed., chapters 2, 5 and 6; Taylor, Beresford, Wilson 1976.
 module isoparametric
    use elasticity, only: axisymmetric, solid
@@ -19,9 +19,9 @@ contains
    !> [k] = integral of [B]^T [D] [B]; with incompatible modes, their parameters condensed.
    pure subroutine stiffness(law, x, k)
       type(element_law), intent(in) :: law
-      real(wp), intent(in)          :: x(:, :)   !! corners (dimension, nodes), of positive volume, r >= 0 [length]
-      real(wp), intent(inout)       :: k(:, :)   !! (dimension*nodes, dimension*nodes), set here; u_x, u_y (, u_z) of corner 1,
-                                                 !! of corner 2, ... [force/length]; 2 pi r of force in an axisymmetric body
+      real(wp), intent(in)          :: x(:, :)   !! nodes (dimension, nodes), of positive volume, r >= 0 [length]
+      real(wp), intent(inout)       :: k(:, :)   !! (dimension*nodes, dimension*nodes), set here; u_x, u_y (, u_z) of node 1,
+                                                 !! of node 2, ... [force/length]; 2 pi r of force in an axisymmetric body
       real(wp) :: full(max_unknowns, max_unknowns)
       integer  :: i, j, n, n_all
 

@@ -1,4 +1,4 @@
-!> Stresses in an element under given displacements: at its centre, and at its corners from the integration points.
+!> Stresses in an element under given displacements: at its centre, and at its nodes from points inside.
 !! Source: Zienkiewicz, Taylor, Zhu, The Finite Element Method, 6th ed., section 13.3; Hinton and Campbell, Local and global
 !! smoothing of discontinuous finite element functions, Int. J. Numer. Meth. Engng 8 (1974) 461-480.
 module stress_recovery
@@ -13,14 +13,14 @@ module stress_recovery
    implicit none
    private
 
-   public :: centre_stress, corner_stress
+   public :: centre_stress, nodal_stress
 
 contains
 
    !> Stress at the centre, where a linear element is at its best. The incompatible modes have no strain there.
    pure subroutine centre_stress(law, x, u, stress)
       type(element_law), intent(in) :: law
-      real(wp), intent(in)    :: x(:, :)         !! corners (dimension, nodes) [length]
+      real(wp), intent(in)    :: x(:, :)         !! nodes (dimension, nodes) [length]
       real(wp), intent(in)    :: u(:, :)         !! displacements (dimension, nodes) [length]
       real(wp), intent(inout) :: stress(:)       !! (n_stresses(state)) [pressure], set here; components as in elasticity
       type(element_map) :: map
@@ -39,9 +39,9 @@ contains
    !> Stresses at the nodes: those of the points of stress_rule, with the parameters of the incompatible modes, continued by the
    !! shape functions of corners through these points, linear between them. Where the element has one such point its stress stands
    !! at all nodes.
-   pure subroutine corner_stress(law, x, u, stress)
+   pure subroutine nodal_stress(law, x, u, stress)
       type(element_law), intent(in) :: law
-      real(wp), intent(in)    :: x(:, :)         !! corners (dimension, nodes) [length]
+      real(wp), intent(in)    :: x(:, :)         !! nodes (dimension, nodes) [length]
       real(wp), intent(in)    :: u(:, :)         !! displacements (dimension, nodes) [length]
       real(wp), intent(inout) :: stress(:, :)    !! (n_stresses(state), nodes) [pressure], set here
       type(element_map)      :: map
@@ -70,7 +70,7 @@ contains
             stress(:m, i) = matmul(at_point(:m, :rule%n), n(:rule%n))
          end if
       end do
-   end subroutine corner_stress
+   end subroutine nodal_stress
 
    !> A point in the local coordinates of the linear element whose corners are the points of stress.
    pure function in_points(kind, point) result(scaled)

@@ -10,7 +10,8 @@ module shear_closure
 
    public :: closure_at, worst_closure
 
-   integer, parameter :: divisions = 20 ! of the tested range
+   integer, parameter  :: divisions = 20        ! of the tested range
+   real(wp), parameter :: alike = 1.0e-9_wp     ! gaps of loops that rounding alone tells apart: the first counts
 
    !> The gap of a loop and where it is.
    type, public :: loop_closure
@@ -37,7 +38,7 @@ contains
             if (law%d_max < huge(1.0_wp)) d = law%d_max*k/divisions
             here = closure_at(law, p, d)
             if (.not. here%is_known) cycle
-            if (.not. worst%is_known .or. here%share > worst%share*(1.0_wp + 1.0e-9_wp)) worst = here
+            if (.not. worst%is_known .or. here%share > worst%share + alike) worst = here
          end do
       end do
    end function worst_closure

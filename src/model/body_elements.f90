@@ -10,11 +10,11 @@ module body_elements
    use model_data, only: corners_of, model_type
    use section_coupling, only: corner_displacements, coupled_nodes, extend_stiffness
    use shape_functions, only: shape_values
-   use stress_recovery, only: centre_stress, corner_stress
+   use stress_recovery, only: centre_stress, nodal_stress
    implicit none
    private
 
-   public :: coupled_stiffness, element_centre, element_stress, element_corner_stress, node_stresses, full_stress, element_weight
+   public :: coupled_stiffness, element_centre, element_stress, element_nodal_stress, node_stresses, full_stress, element_weight
    public :: internal_forces, law_of
 
 contains
@@ -59,16 +59,16 @@ contains
    end function element_stress
 
    !> Stresses at the nodes of element E, as element_stress.
-   pure subroutine element_corner_stress(model, e, u, stress)
+   pure subroutine element_nodal_stress(model, e, u, stress)
       type(model_type), intent(in) :: model
       integer, intent(in)          :: e
       real(wp), intent(in)         :: u(:, :)      !! (dimension, n_nodes) [length]
       real(wp), intent(inout)      :: stress(:, :) !! (components, nodes) [pressure], set here
 
       associate (nodes => corners_of(model, e))
-         call corner_stress(law_of(model, e), model%x(:model%dimension, nodes), corner_displacements(model, e, u), stress)
+         call nodal_stress(law_of(model, e), model%x(:model%dimension, nodes), corner_displacements(model, e, u), stress)
       end associate
-   end subroutine element_corner_stress
+   end subroutine element_nodal_stress
 
    !> Stresses at nodes as full_stress, of every node the mean of those that its elements have there; 0 where it has none.
    pure subroutine node_stresses(model, u, at_node)
@@ -82,7 +82,7 @@ contains
       do e = 1, model%n_elements
          associate (nodes => corners_of(model, e))
             c = n_stresses(model%properties(model%element_property(e))%state)
-            call element_corner_stress(model, e, u, own(:c, :size(nodes)))
+            call element_nodal_stress(model, e, u, own(:c, :size(nodes)))
             do i = 1, size(nodes)
                at_node(:, nodes(i)) = at_node(:, nodes(i)) + full_stress(model, e, own(:c, i))/ &
                                       real(model%first_at(nodes(i) + 1) - model%first_at(nodes(i)), wp)

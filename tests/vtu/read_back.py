@@ -25,7 +25,8 @@ try:
 except ImportError:
     numpy = meshio = vtk = None
 
-MESHIO_TYPES = {"vertex": 1, "line": 3, "triangle": 5, "quad": 9, "tetra": 10, "hexahedron": 12, "wedge": 13}
+MESHIO_TYPES = {"vertex": 1, "line": 3, "triangle": 5, "quad": 9, "tetra": 10, "hexahedron": 12, "wedge": 13, "triangle6": 22,
+                "quad8": 23, "tetra10": 24, "hexahedron20": 25, "wedge15": 26}
 WEDGE_OF_MESHIO = [0, 2, 1, 3, 5, 4]  # meshio turns the triangles of VTK's wedge round
 counts = {"passed": 0, "failed": 0}
 
