@@ -9,12 +9,13 @@ module listing
    use listing_bars, only: note_bars, note_sections
    use listing_bodies, only: list_bodies
    use listing_joints, only: list_energy, list_interface, note_passes, note_resultants
-   use listing_opening, only: tetra_words, write_opening
+   use listing_opening, only: write_opening
    use listing_plot, only: plot_joints
    use listing_states, only: list_condensed, list_states
    use listing_steps, only: farthest_type, note_distances, note_slips
    use listing_table, only: column, label_type, listing_table_type, noise, page_type
    use model_data, only: joint_node_id, model_type, stage_load_type
+   use model_warnings, only: tetra_words
    use normal_stiffness, only: branch_open
    use range_watch, only: range_watch_type, watch_balance, watch_ranges, watch_shear_laws, watch_unloading
    use stage_plan, only: stage_plan_type

@@ -4,13 +4,13 @@ module listing_opening
    use deck_cards, only: card_name, is_continuation
    use case_control, only: method_newton, method_step, pressure_eq10
    use deck_input, only: deck_type
-   use element_kinds, only: kind_tetra4
    use equation_solver, only: equation_system
    use line_scan, only: is_include
    use kinds, only: long, wp
    use listing_covers, only: write_covers
    use listing_table, only: axes, column, cut, heading, listing_table_type, page_type, page_width
    use model_data, only: has_gaps, model_type, n_bars, n_points, n_sections
+   use model_warnings, only: tetra_words
    use normal_stiffness, only: branch_load, branch_name, branch_reload, branch_unload, pressure_floor
    use output_file, only: output_file_type
    use shear_closure, only: loop_closure, worst_closure
@@ -20,7 +20,7 @@ module listing_opening
    implicit none
    private
 
-   public :: write_opening, tetra_words
+   public :: write_opening
 
 contains
 
@@ -148,16 +148,6 @@ contains
       end subroutine count_line
 
    end subroutine write_summary
-
-   !> What to say of a model whose bodies are of linear tetrahedra alone; empty of any other.
-   pure function tetra_words(model) result(words)
-      type(model_type), intent(in) :: model
-      character(:), allocatable    :: words
-
-      words = ''
-      if (model%n_elements > 0 .and. all(model%element_kind == kind_tetra4)) words = 'all bodies are of linear '// &
-         'tetrahedra, 10 to 35 % too stiff in bending on usual meshes: mesh with second order'
-   end function tetra_words
 
    !> Laws and areas of the joints.
    subroutine write_joints(page, model)

@@ -16,13 +16,13 @@ module run_boxes
    use failures, only: failure_type
    use incomplete_results, only: watch_allocations
    use law_distance, only: follow_laws
-   use listing_opening, only: tetra_words
    use listing_steps, only: distance_words
    use load_path, only: recover_bodies
    use machine, only: keep_memory, use_threads
    use memory_need, only: check_model_size
    use model_build, only: build_model
    use model_data, only: model_type, n_points
+   use model_warnings, only: tetra_words
    use newton_method, only: seat_joints
    use progress, only: phase_build, phase_factor, phase_increments, phase_order, phase_recover, phase_write, progress_type
    use results, only: discard_results, finish_results, history_ending, list_results => print_increment, listing_ending, &
