@@ -1,8 +1,9 @@
 !> Case control: everything before BEGIN BULK. What to do, stage by stage; the bulk data says with what.
 module case_control
    use case_entries, only: check_repeated, choose, cut_entry, entry_type, global_keys, read_number, set_reference, value_error
+   use case_sets, only: number_set, read_set
    use deck_errors, only: deck_error_list
-   use deck_numbers, only: parse_real
+   use deck_numbers, only: parse_integer, parse_real
    use deck_text, only: deck_text_type
    use kinds, only: wp
    use text_tools, only: integer_text, upper
@@ -18,6 +19,12 @@ module case_control
 
    real(wp), parameter :: newton_tolerance = 1.0e-10_wp, back_tolerance = 1.0e-6_wp ! TOL that is not given
 
+   !> What the tables of a stage are limited to: a SET of node numbers, or the nodes of a marked surface.
+   type, public :: limit_type
+      logical :: is_mark = .false.
+      integer :: id = 0, line = 0
+   end type limit_type
+
    !> One SUBCASE: a stage of the load history.
    type, public :: stage_type
       integer :: id = 0, line = 0
@@ -28,9 +35,11 @@ module case_control
       integer :: output = output_last
       logical :: plot   = .false.
       logical :: vtu    = .false.
+      logical :: steps  = .false.   !! files for ParaView after every increment
       logical :: stress = .false.   !! principal stresses and von Mises in the listing
       logical :: state  = .false.   !! what the interface elements remember
       logical :: condensed = .false. !! [k_b] condensed on the interface
+      type(limit_type), allocatable :: only(:) !! not allocated: the tables have all nodes and elements
    end type stage_type
 
    type, public :: case_control_type
@@ -43,6 +52,8 @@ module case_control
       integer :: solver = solver_auto
       real(wp) :: tolerance = newton_tolerance           !! NEWTON: unbalanced share of the largest load; BACK: change of pressures
       logical :: echo  = .true.
+      logical :: echo_asked = .false.                    !! by ECHO: however many cards there are
+      type(number_set), allocatable :: sets(:)
       type(stage_type), allocatable :: stages(:)
    end type case_control_type
 
@@ -86,6 +97,10 @@ contains
             exit
          end if
          call check_repeated(entry, keys_seen, errors)
+         if (entry%key == 'SET') then
+            call read_set(text, entry, cursor, control%sets, errors)
+            cycle
+         end if
          call read_entry(entry, control, common, errors)
       end do
       if (control%tolerance <= 0.0_wp) control%tolerance = merge(back_tolerance, newton_tolerance, control%method == method_back)
@@ -141,10 +156,11 @@ contains
       case ('ECHO')
          call choose(entry, '|YES|NO|', choice, errors)
          control%echo = choice /= 2
+         control%echo_asked = choice == 1
       case default
          call errors%add(entry%line, ''''//entry%key(:min(40, len(entry%key)))//''' is no key of case control; '// &
                          'expected TITLE, UNITS, METHOD, TOL, PRESSURE, CARRY, AVERAGE, SOLVER, ECHO, SPC, SUBCASE, '// &
-                         'LABEL, LOAD, INCR, OUTPUT or BEGIN BULK')
+                         'LABEL, LOAD, INCR, OUTPUT, SET or BEGIN BULK')
       end select
    end subroutine read_entry
 
@@ -212,14 +228,16 @@ contains
       type(entry_type), intent(in)         :: entry
       type(stage_type), intent(inout)      :: stage
       type(deck_error_list), intent(inout) :: errors
-      character(*), parameter :: beside = 'PLOT, STRESS, VTU, STATE, CONDENSED' ! a level, not in place of one
-      character(:), allocatable :: rest
+      character(*), parameter :: beside = 'PLOT, STRESS, VTU, STEPS, STATE, CONDENSED, SET N, PMARK N' ! a level, not in place of one
+      character(:), allocatable :: rest, word
       integer :: comma, levels
-      logical :: twice
+      logical :: ok, twice
 
       stage%output = output_last
       stage%plot = .false.
       stage%vtu = .false.
+      stage%steps = .false.
+      if (allocated(stage%only)) deallocate (stage%only)
       stage%stress = .false.
       stage%state = .false.
       stage%condensed = .false.
@@ -230,7 +248,8 @@ contains
       do while (rest /= '')
          comma = index(rest//',', ',')
          levels = levels + 1
-         select case (adjustl(rest(:comma - 1)))
+         word = trim(adjustl(rest(:comma - 1)))
+         select case (word)
          case ('ALL');    stage%output = output_all
          case ('JOINT');  stage%output = output_joint
          case ('LAST');   stage%output = output_last
@@ -238,17 +257,37 @@ contains
          case ('PLOT');   call switch_on(stage%plot)
          case ('STRESS'); call switch_on(stage%stress)
          case ('VTU');    call switch_on(stage%vtu)
+         case ('STEPS');  call switch_on(stage%steps)
          case ('STATE');  call switch_on(stage%state)
          case ('CONDENSED'); call switch_on(stage%condensed)
          case default
-            call value_error(entry, 'ALL, JOINT, LAST or NONE, and with a comma '//beside, errors)
-            return
+            call read_limit(ok)
+            if (.not. ok) then
+               call value_error(entry, 'ALL, JOINT, LAST or NONE, and with a comma '//beside, errors)
+               return
+            end if
          end select
          rest = rest(min(comma + 1, len(rest) + 1):)
       end do
       if (levels > 1 .or. twice) call value_error(entry, 'one of ALL, JOINT, LAST, NONE, and with commas '//beside, errors)
 
    contains
+
+      !> WORD as 'SET 5' or 'PMARK 20'.
+      subroutine read_limit(ok)
+         logical, intent(out) :: ok
+         type(limit_type) :: limit
+
+         ok = index(word, 'SET ') == 1 .or. index(word, 'PMARK ') == 1
+         if (.not. ok) return
+         limit%is_mark = word(1:1) == 'P'
+         limit%line = entry%line
+         call parse_integer(trim(adjustl(word(index(word, ' '):))), limit%id, ok)
+         if (.not. ok) return
+         if (.not. allocated(stage%only)) allocate (stage%only(0))
+         stage%only = [stage%only, limit]
+         levels = levels - 1
+      end subroutine read_limit
 
       !> A word that stands beside a level, not in place of one.
       subroutine switch_on(switch)

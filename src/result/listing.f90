@@ -5,6 +5,7 @@ module listing
    use deck_input, only: deck_type
    use determinate_joints, only: carried_resultant
    use equation_solver, only: equation_system
+   use joint_motion, only: is_closed
    use kinds, only: wp
    use listing_bars, only: note_bars, note_sections
    use listing_bodies, only: list_bodies
@@ -17,7 +18,7 @@ module listing
    use model_data, only: joint_node_id, model_type, stage_load_type
    use model_warnings, only: tetra_words
    use normal_stiffness, only: branch_open
-   use range_watch, only: range_watch_type, watch_balance, watch_ranges, watch_shear_laws, watch_unloading
+   use range_watch, only: range_watch_type, say_ranges, watch_balance, watch_ranges, watch_shear_laws, watch_unloading
    use stage_plan, only: stage_plan_type
    use text_tools, only: clean, integer_text, plural, upper
    implicit none
@@ -78,7 +79,11 @@ contains
       listing%n_removed = listing%n_removed + analysis%n_removed
       associate (stage => plan%stages(analysis%stage), page => listing%page)
          page%stage = 'STAGE '//integer_text(stage%id)
-         page%now = ', '//page%stage//', INCREMENT '//integer_text(analysis%increment)
+         page%now = ', '//page%stage//', INCREMENT '//integer_text(analysis%increment)//stage%shown_words
+         if (analysis%increment == 1) then
+            if (allocated(page%shown)) deallocate (page%shown)
+            if (allocated(stage%shown)) page%shown = stage%shown
+         end if
          page%largest_force = max(page%largest_force, maxval(abs(analysis%applied(:, analysis%loaded))))
          if (analysis%is_moved) page%largest_force = &
             max(page%largest_force, maxval(abs(analysis%all_unbalanced), mask=model%held)) ! what moves the supports
@@ -91,7 +96,7 @@ contains
          call note_slips(page, model, analysis, listing%slips)
          call note_bars(page, model, analysis, listing%bars)
          call note_sections(page, model, analysis, listing%sections)
-         call watch_ranges(model, plan, analysis, listing%watch)
+         call watch_ranges(model, analysis, listing%watch)
          if (listing%method /= method_back) then
             call watch_shear_laws(model, plan, analysis, listing%watch)
             call watch_unloading(model, plan, analysis, listing%watch)
@@ -113,6 +118,7 @@ contains
       associate (stage => plan%stages(analysis%stage), page => listing%page)
          call listing%increments%print_kept(page%file)
          call listing%distances%print_kept(page%file)
+         call say_ranges(model, plan, analysis, listing%watch)
          call watch_balance(model, plan, analysis, page%largest_force, listing%watch)
          call listing%watch%rows%print_kept(page%file)
          call listing%passes%print_kept(page%file)
@@ -199,7 +205,11 @@ contains
          call table%add([joint_node_id(model, at_lambda, 1)])
          call table%add([clean(state(at_p)%pressure, noise*analysis%largest_p)])
          call table%add([joint_node_id(model, at_p, 1)])
-         call table%add([clean(force, floor)])
+         if (is_closed(model, joint)) then
+            call table%skip(1)
+         else
+            call table%add([clean(force, floor)])
+         end if
          if (joint%determinate) then
             applied = carried_resultant(model, joint, now)
             call table%add(clean([applied, force - applied], floor))

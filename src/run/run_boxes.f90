@@ -18,6 +18,7 @@ module run_boxes
    use law_distance, only: follow_laws
    use listing_steps, only: distance_words
    use load_path, only: recover_bodies
+   use kinds, only: wp
    use machine, only: keep_memory, use_threads
    use memory_need, only: check_model_size
    use model_build, only: build_model
@@ -26,7 +27,7 @@ module run_boxes
    use newton_method, only: seat_joints
    use progress, only: phase_build, phase_factor, phase_increments, phase_order, phase_recover, phase_write, progress_type
    use results, only: discard_results, finish_results, history_ending, list_results => print_increment, listing_ending, &
-                      print_stage_results => print_stage, remove_old_results, results_type, start_results
+                      print_stage_results => print_stage, remove_old_results, results_type, show_answers, start_results
    use stage_plan, only: factorisations_of, shows_bodies, stage_plan_type
    use text_tools, only: plural
    implicit none
@@ -46,7 +47,7 @@ module run_boxes
    type, public :: run_type
       type(failure_type) :: failure            !! the structure cannot be solved
       type(deck_argument), private   :: argument
-      logical, private               :: check_only = .false.
+      logical, private               :: check_only = .false., is_dated = .false.
       type(deck_error_list), private :: errors
       type(results_type), private    :: results
       type(progress_type), private   :: progress
@@ -85,6 +86,7 @@ contains
 
       run%argument = argument
       run%check_only = command%check_only
+      run%is_dated = command%dated
       call run%progress%start(argument%name, command%quiet, command%times)
       call read_deck(argument%path, deck, run%errors, readable)
       if (.not. readable) then
@@ -136,9 +138,20 @@ contains
       if (run%failure%raised) return
       call run%progress%enter(phase_write)
       run%progress%solver = system%description
+      if (run%is_dated) run%results%listing%page%date = date_and_hour()
       call start_results(run%argument%base, deck, model, plan, system, run%results, ok)
       if (.not. ok) run%ending = is_unwritten
    end subroutine form_bodies
+
+   !> Now, as 2026-11-22 09:30.
+   function date_and_hour() result(words)
+      character(16) :: words
+      character(8)  :: date
+      character(10) :: time
+
+      call date_and_time(date, time)
+      words = date(:4)//'-'//date(5:6)//'-'//date(7:)//' '//time(:2)//':'//time(3:4)
+   end function date_and_hour
 
    !> NORM and SHEAR for a structure at rest, its interference in equilibrium (BACK takes all at once).
    subroutine start_joints(run, deck, model, plan, system, analysis)
@@ -184,6 +197,7 @@ contains
       type(stage_plan_type), intent(in)  :: plan
       class(equation_system), intent(in) :: system
       type(analysis_type), intent(inout) :: analysis
+      real(wp), allocatable :: u(:, :), unbalanced(:, :)
 
       if (is_over(run)) return
       call note_largest(analysis)
@@ -191,7 +205,15 @@ contains
       if (plan%stages(analysis%stage)%condensed .and. analysis%increment == 1) &
          call condense_on_joints(model, system, analysis%felt_before, analysis%felt_after, analysis%condensed)
       call run%progress%enter(phase_recover)
-      if (analysis%moves .or. shows_bodies(plan, analysis%stage, analysis%increment)) call recover_bodies(model, system, analysis)
+      if (analysis%moves .or. shows_bodies(plan, analysis%stage, analysis%increment)) then
+         call recover_bodies(model, system, analysis)
+      else if (analysis%increment == size(plan%stages(analysis%stage)%shares)) then
+         u = analysis%u                   ! for the answer of the stage alone: what goes on from here is left as it is
+         unbalanced = analysis%unbalanced
+         call recover_bodies(model, system, analysis)
+         analysis%u = u
+         analysis%unbalanced = unbalanced
+      end if
       call run%progress%enter(phase_write)
       call list_results(model, plan, analysis, run%results)
       call run%progress%advance(analysis%stage, analysis%increment, size(plan%stages(analysis%stage)%shares))
@@ -219,7 +241,7 @@ contains
       type(model_type), intent(in)      :: model
       type(stage_plan_type), intent(in) :: plan
       character(:), allocatable :: words
-      logical :: ok
+      logical :: ok, shown
 
       if (.not. is_over(run)) then
          call run%progress%enter(phase_write)
@@ -231,7 +253,12 @@ contains
          words = distance_words(run%results%listing%farthest)
          if (words /= '') write (error_unit, '(3a)') run%argument%name, ': ', words
          if (tetra_words(model) /= '') write (error_unit, '(3a)') run%argument%name, ': ', tetra_words(model)
-         if (.not. ok) run%ending = is_unwritten
+         if (ok) then
+            call show_answers(model, run%results, shown)
+            if (.not. shown) exit_status = max(exit_status, status_of(is_unwritten))
+         else
+            run%ending = is_unwritten
+         end if
       end if
       if (run%failure%raised) run%ending = is_unsolved
       call run%progress%clear()
