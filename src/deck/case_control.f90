@@ -156,8 +156,8 @@ contains
       logical :: ok
 
       n = size(control%stages)
-      if (n > 0 .and. entry%key == 'TITLE') then ! that of a subcase
-         call control%idle%add('TITLE')
+      if (n > 0 .and. any(entry%key == ['TITLE', 'ECHO '])) then ! that of a subcase
+         call control%idle%add(entry%key)
          return
       end if
       if (n > 0 .and. any(global_keys == entry%key)) &
