@@ -124,27 +124,27 @@ contains
       end do
       if (control%tolerance <= 0.0_wp) control%tolerance = merge(back_tolerance, newton_tolerance, control%method == method_back)
       call check_stages(control, common, errors)
-      call count_idle_sets(control)
+      call note_idle_sets(control)
    end subroutine read_case_control
 
-   !> A SET that no OUTPUT names has no effect.
-   subroutine count_idle_sets(control)
+   !> Sets that no OUTPUT names have no effect.
+   pure subroutine note_idle_sets(control)
       type(case_control_type), intent(inout) :: control
       integer :: i, s
-      logical :: is_named
+      logical :: used
 
       if (.not. allocated(control%sets)) return
       do i = 1, size(control%sets)
-         is_named = .false.
+         used = .false.
          do s = 1, size(control%stages)
             if (.not. allocated(control%stages(s)%only)) cycle
             associate (only => control%stages(s)%only)
-               is_named = is_named .or. any(only%id == control%sets(i)%id .and. .not. only%is_mark)
+               used = used .or. any(only%id == control%sets(i)%id .and. .not. only%is_mark)
             end associate
          end do
-         if (.not. is_named) call control%idle%add('SET')
+         if (.not. used) call control%idle%add('SET')
       end do
-   end subroutine count_idle_sets
+   end subroutine note_idle_sets
 
    !> What one line of case control says.
    subroutine read_entry(entry, control, common, errors)
