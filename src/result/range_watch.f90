@@ -165,7 +165,6 @@ contains
       type(stage_plan_type), intent(in)     :: plan
       type(analysis_type), intent(in)       :: analysis
       type(range_watch_type), intent(inout) :: watch
-      character(:), allocatable :: first, second
       integer :: j, which
 
       do j = 1, size(model%joints)
@@ -173,21 +172,30 @@ contains
             associate (tally => watch%tallies(which, j))
                if (tally%n == 0) cycle
                watch%n_warnings = watch%n_warnings + 1
-               first = '  WARNING: JOINT '//integer_text(model%joints(j)%id)//', STAGE '// &
+               call keep_folded('  WARNING: JOINT '//integer_text(model%joints(j)%id)//', STAGE '// &
                   integer_text(plan%stages(analysis%stage)%id)//': '//upper(plural(tally%n, 'element'))//' '// &
                   words_of(which, tally%bound)//' OF THE SHEAR LAW, FIRST NODE '//integer_text(tally%node)//' (INCREMENT '// &
-                  integer_text(tally%increment)//'),'
-               second = ' WORST '//integer_text(tally%worst_node)//': P = '//real_text(tally%p)//', D = '//real_text(tally%d)
-               if (len(first) + len(second) <= page_width) then
-                  call watch%rows%keep_line(first//second)
-               else
-                  call watch%rows%keep_line(first)
-                  call watch%rows%keep_line('          '//second)
-               end if
+                  integer_text(tally%increment)//'),', &
+                  ' WORST '//integer_text(tally%worst_node)//': P = '//real_text(tally%p)//', D = '//real_text(tally%d))
             end associate
          end do
       end do
       watch%tallies = tally_type()
+
+   contains
+
+      !> One line of two halves, or two where it would be too wide.
+      subroutine keep_folded(first, second)
+         character(*), intent(in) :: first, second
+
+         if (len(first) + len(second) <= page_width) then
+            call watch%rows%keep_line(first//second)
+         else
+            call watch%rows%keep_line(first)
+            call watch%rows%keep_line('          '//second)
+         end if
+      end subroutine keep_folded
+
    end subroutine say_ranges
 
    !> The BOUND of kind WHICH in words.
