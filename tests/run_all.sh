@@ -39,6 +39,7 @@ part 'exact answers and independent computations' tests/exact/run.sh "$program" 
 part 'TREE and SKYLINE, one thread and several' tests/solver/run.sh "$program" "$query" "$build/solver"
 part 'models that do not fit into the memory' tests/memory.sh "$program" "$build/memory"
 part 'linear decks against CalculiX' tests/calculix/run.sh "$program" "$build/calculix"
+part 'errors of elements as the manual has them' tests/elements.sh "$program" "$build/elements"
 part 'STEP tends to NEWTON' tests/convergence.sh "$program" "$query" "$build/convergence"
 part 'the comparison itself' tests/compare/test_compare.sh "$compare" reference_output tests/compare/tolerances.txt
 part 'the queries of histories' tests/compare/test_query.sh "$query"

@@ -1,6 +1,6 @@
-!> Bars and bolts: CROD elements with a PROD, and the BOLT cards that tighten some of them.
+!> Bars and bolts: CROD elements with a PROD, CONROD elements, and the BOLT cards that tighten some of them.
 module bar_build
-   use bulk_data, only: bolt_card, edge_crod, element_card
+   use bulk_data, only: bolt_card, edge_crod, element_card, prod_card
    use deck_check, only: checked_deck
    use kinds, only: wp
    use model_data, only: bar_type, model_type
@@ -25,14 +25,27 @@ contains
    subroutine build_bars(deck, model)
       type(checked_deck), intent(in)  :: deck
       type(model_type), intent(inout) :: model
-      integer :: i, n
+      integer :: i, n, prod
 
-      allocate (model%bars(size(deck%bulk%edge)))
+      allocate (model%bars(size(deck%bulk%edge) + size(deck%bulk%conrod)))
       n = 0
       do i = 1, size(deck%bulk%edge)
-         if (.not. is_bar(deck, deck%bulk%edge(i))) cycle
-         n = n + 1
-         call build_bar(deck, deck%bulk%edge(i), model, model%bars(n))
+         associate (edge => deck%bulk%edge(i))
+            if (.not. is_bar(deck, edge)) cycle
+            n = n + 1
+            prod = findloc(deck%bulk%prod%id, edge%property, dim=1)
+            model%bars(n)%id = edge%id
+            call find_nodes(deck, edge%line, edge%nodes(:2), model, model%bars(n)%nodes)
+            call build_bar(deck, edge%line, deck%bulk%prod(prod), model, model%bars(n))
+         end associate
+      end do
+      do i = 1, size(deck%bulk%conrod)
+         associate (rod => deck%bulk%conrod(i))
+            n = n + 1
+            model%bars(n)%id = rod%id
+            call find_nodes(deck, rod%line, rod%nodes, model, model%bars(n)%nodes, first=2)
+            call build_bar(deck, rod%line, prod_card(line=rod%line, material=rod%material, area=rod%area), model, model%bars(n))
+         end associate
       end do
       model%bars = model%bars(:n)
       do i = 1, size(deck%bulk%bolt)
@@ -40,34 +53,32 @@ contains
       end do
    end subroutine build_bars
 
-   subroutine build_bar(deck, edge, model, bar)
+   !> The stiffness of BAR, whose card is on LINE and whose nodes are known, with the section of PROD.
+   subroutine build_bar(deck, line, prod, model, bar)
       type(checked_deck), intent(in) :: deck
-      type(element_card), intent(in) :: edge
+      integer, intent(in)            :: line
+      type(prod_card), intent(in)    :: prod
       type(model_type), intent(in)   :: model
       type(bar_type), intent(inout)  :: bar
       integer  :: material
       real(wp) :: length
 
-      bar%id = edge%id
-      call find_nodes(deck, edge%line, edge%nodes(:2), model, bar%nodes)
-      associate (prod => deck%bulk%prod(findloc(deck%bulk%prod%id, edge%property, dim=1)))
-         material = findloc(deck%bulk%mat1%id, prod%material, dim=1)
-         if (material == 0) then
-            if (prod%material > 0) call deck%field_error(prod%line, 'MID', 'there is no MAT1 '//integer_text(prod%material))
-            return
-         end if
-         if (any(bar%nodes == 0)) return
-         bar%direction = model%x(:, bar%nodes(2)) - model%x(:, bar%nodes(1))
-         length = norm2(bar%direction)
-         if (length <= 0.0_wp) then
-            call deck%errors%add(edge%line, 'bar '//integer_text(edge%id)//' has no length')
-            return
-         end if
-         bar%direction = bar%direction/length
-         bar%stiffness = deck%bulk%mat1(material)%e*prod%area/length
-         if (model%axisymmetric .and. abs(bar%direction(1)) > 1.0e-9_wp) call deck%errors%add(edge%line, 'bar '// &
-            integer_text(edge%id)//': in an axisymmetric model bars stand along y; their area is that of all round the ring')
-      end associate
+      material = findloc(deck%bulk%mat1%id, prod%material, dim=1)
+      if (material == 0) then
+         if (prod%material > 0) call deck%field_error(prod%line, 'MID', 'there is no MAT1 '//integer_text(prod%material))
+         return
+      end if
+      if (any(bar%nodes == 0)) return
+      bar%direction = model%x(:, bar%nodes(2)) - model%x(:, bar%nodes(1))
+      length = norm2(bar%direction)
+      if (length <= 0.0_wp) then
+         call deck%errors%add(line, 'bar '//integer_text(bar%id)//' has no length')
+         return
+      end if
+      bar%direction = bar%direction/length
+      bar%stiffness = deck%bulk%mat1(material)%e*prod%area/length
+      if (model%axisymmetric .and. abs(bar%direction(1)) > 1.0e-9_wp) call deck%errors%add(line, 'bar '// &
+         integer_text(bar%id)//': in an axisymmetric model bars stand along y; their area is that of all round the ring')
    end subroutine build_bar
 
    !> The BOLT of a bar: which one it is, and in which stage it is tightened.
@@ -79,7 +90,8 @@ contains
 
       k = findloc(model%bars%id, card%element, dim=1)
       call find_stage(deck, card, stage)
-      if (k == 0) call deck%field_error(card%line, 'EID', 'there is no CROD '//integer_text(card%element)//' with a PROD')
+      if (k == 0) call deck%field_error(card%line, 'EID', 'there is no CROD '//integer_text(card%element)// &
+                                           ' with a PROD, nor a CONROD')
       if (k == 0 .or. stage == 0) return
       associate (bar => model%bars(k))
          if (bar%bolt > 0) then

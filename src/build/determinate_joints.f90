@@ -5,6 +5,7 @@ module determinate_joints
    use interface_operator, only: nodes_of_end
    use kinds, only: wp
    use model_data, only: joint_type, model_type, n_points, n_sections, stage_load_type
+   use node_coupling, only: is_coupled
    implicit none
    private
 
@@ -26,6 +27,7 @@ contains
       call list_pairs(model, pair)
       allocate (held(model%dimension, model%n_parts), source=.false.)
       do node = 1, n_points(model)
+         if (is_coupled(model, [node])) cycle ! its directions are others
          held(:, model%part(node)) = held(:, model%part(node)) .or. model%held(:, node)
       end do
       do j = 1, size(model%joints)
@@ -50,6 +52,7 @@ contains
             do k = 1, model%n_parts
                if (any(held(:, k) .and. abs(joint%normal(:model%dimension)) > 1.0e-9_wp)) grounded(root_of(group, k)) = .true.
             end do
+            call ground_turned(model, joint, group, grounded)
             on_side = .false.
             do i = joint%first, joint%last
                do side = 1, 2
@@ -73,6 +76,26 @@ contains
          end associate
       end do
    end subroutine find_determinate_joints
+
+   !> Coupled nodes that are held in a direction that is not across the normal of JOINT ground their group too.
+   pure subroutine ground_turned(model, joint, group, grounded)
+      type(model_type), intent(in)  :: model
+      type(joint_type), intent(in)  :: joint
+      integer, intent(inout)        :: group(:)
+      logical, intent(inout)        :: grounded(:)
+      integer :: c, i, k
+
+      if (.not. allocated(model%coupling%of_node)) return
+      do i = 1, n_points(model)
+         c = model%coupling%of_node(i)
+         if (c == 0) cycle
+         do k = model%coupling%first(c), model%coupling%first(c + 1) - 1
+            if (any(model%held(:, model%coupling%node(k)) .and. &
+                    abs(matmul(joint%normal(:model%dimension), model%coupling%t(:, :, k))) > 1.0e-9_wp)) &
+               grounded(root_of(group, model%part(i))) = .true.
+         end do
+      end do
+   end subroutine ground_turned
 
    !> Which parts the joints connect: PAIR(:, i) are two of them, or one and the base behind the last, and the joint. Neighbouring
    !! interface elements mostly connect the same parts: these count once. Where an end lies on several parts, the first of end 1 is

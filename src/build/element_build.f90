@@ -46,7 +46,9 @@ contains
             if (k > 0) then
                property%e = deck%bulk%mat1(k)%e
                property%nu = deck%bulk%mat1(k)%nu
-               property%rho = deck%bulk%mat1(k)%rho
+               if (deck%bulk%mat1(k)%bars_only) call deck%field_error(card%line, 2, 'MAT1 '//integer_text(card%material)// &
+                  ' has E alone, which is enough for bars only; expected two of E, G and NU on it')
+               property%rho = deck%bulk%mass_factor*deck%bulk%mat1(k)%rho
             else if (card%material > 0) then
                call deck%field_error(card%line, 2, 'there is no MAT1 '//integer_text(card%material))
             end if
@@ -154,10 +156,10 @@ contains
       integer :: b, n, n_cards, k
 
       associate (bulk => deck%bulk)
-         n_cards = size(bulk%element) + size(bulk%edge) + size(bulk%cjoint)
+         n_cards = size(bulk%element) + size(bulk%edge) + size(bulk%cjoint) + size(bulk%conrod)
          allocate (id(n_cards + n_elements(blocks)), line(n_cards + n_elements(blocks)))
-         id(:n_cards) = [bulk%element%id, bulk%edge%id, bulk%cjoint%id]
-         line(:n_cards) = [bulk%element%line, bulk%edge%line, bulk%cjoint%line]
+         id(:n_cards) = [bulk%element%id, bulk%edge%id, bulk%cjoint%id, bulk%conrod%id]
+         line(:n_cards) = [bulk%element%line, bulk%edge%line, bulk%cjoint%line, bulk%conrod%line]
       end associate
       n = n_cards
       do b = 1, size(blocks)

@@ -7,9 +7,11 @@ module load_build
    use kinds, only: wp
    use load_checks, only: check_load_cards, has_set, nor_others
    use model_data, only: corners_of, model_type, stage_load_type, surface_type
+   use nodal_forces, only: find_nodal_forces
    use section_coupling, only: add_section_share
    use pressed_sides, only: add_pressure, find_pressed_sides, pressed_side
    use surface_build, only: side_influence
+   use system_build, only: system_of_id
    use text_tools, only: integer_text
    implicit none
    private
@@ -23,8 +25,10 @@ contains
       type(checked_deck), intent(in)  :: deck
       type(model_type), intent(inout) :: model
       type(pressed_side), allocatable :: pressed(:)
+      real(wp), allocatable :: force(:, :) ! of the cards of nodal forces
       integer :: i, k, s
 
+      call find_nodal_forces(deck, model, force)
       call check_load_cards(deck, model)
       call find_pressed_sides(deck, model, pressed)
       allocate (model%stage_loads(size(deck%control%stages)))
@@ -36,11 +40,11 @@ contains
             if (i > 0) then
                associate (load => deck%bulk%load(i))
                   do k = 1, size(load%sets)
-                     call add_set(deck, model, pressed, load%sets(k), load%scale*load%factors(k), loads)
+                     call add_set(deck, model, force, pressed, load%sets(k), load%scale*load%factors(k), loads)
                   end do
                end associate
             else
-               call add_set(deck, model, pressed, reference%id, 1.0_wp, loads)
+               call add_set(deck, model, force, pressed, reference%id, 1.0_wp, loads)
                if (.not. has_set(deck%bulk, reference%id)) call deck%errors%add(reference%line, &
                   'LOAD: there is no FORCE or LOAD with set '//integer_text(reference%id)//nor_others)
             end if
@@ -49,20 +53,22 @@ contains
    end subroutine build_loads
 
    !> Add FACTOR times everything of SET to LOADS: nodal forces one by one, distributed loads summed up at every node.
-   subroutine add_set(deck, model, pressed, set, factor, loads)
+   subroutine add_set(deck, model, force, pressed, set, factor, loads)
       type(checked_deck), intent(in)       :: deck
       type(model_type), intent(in)         :: model
+      real(wp), intent(in)                 :: force(:, :) !! (3, cards of nodal forces), in global axes [force]
       type(pressed_side), intent(in)       :: pressed(:)
       integer, intent(in)                  :: set
       real(wp), intent(in)                 :: factor
       type(stage_load_type), intent(inout) :: loads
       real(wp), allocatable :: spread_out(:, :)
-      integer :: i, node, s
+      real(wp) :: acceleration(3)
+      integer  :: i, node, s
 
       associate (bulk => deck%bulk)
          do i = 1, size(bulk%force)
             if (bulk%force(i)%set == set) call add_force(model%node_table%find(bulk%force(i)%node), &
-                                                         factor*bulk%force(i)%force, loads)
+                                                         factor*force(:, i), loads)
          end do
          do i = 1, size(bulk%displacement)
             if (bulk%displacement(i)%set == set) call add_displacement(i)
@@ -70,9 +76,8 @@ contains
          if (all(bulk%pressure%set /= set) .and. all(bulk%surface_load%set /= set) .and. all(bulk%gravity%set /= set)) return
          if (deck%errors%any()) return ! elements may be what nothing can be spread over
          allocate (spread_out(3, model%n_nodes), source=0.0_wp)
-         do i = 1, size(bulk%pressure)
-            if (bulk%pressure(i)%set == set .and. pressed(i)%element > 0) &
-               call add_pressure(model, pressed(i), factor*bulk%pressure(i)%pressure, spread_out)
+         do i = 1, size(pressed)
+            if (bulk%pressure(pressed(i)%card)%set == set) call add_pressure(model, pressed(i), factor, spread_out)
          end do
          do i = 1, size(bulk%surface_load)
             if (bulk%surface_load(i)%set /= set) cycle
@@ -85,7 +90,11 @@ contains
             end if
          end do
          do i = 1, size(bulk%gravity)
-            if (bulk%gravity(i)%set == set) call add_gravity(model, factor*bulk%gravity(i)%acceleration, spread_out)
+            if (bulk%gravity(i)%set /= set) cycle
+            s = system_of_id(deck, bulk%gravity(i)%system)
+            acceleration = factor*bulk%gravity(i)%acceleration
+            if (s > 0) acceleration = matmul(model%systems(s)%axes, acceleration)
+            call add_gravity(model, acceleration, spread_out)
          end do
       end associate
       do node = 1, model%n_nodes

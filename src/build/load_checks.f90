@@ -1,28 +1,29 @@
 !> Load cards against the model: nodes, surfaces, sets and masses that are there, directions that the model has.
 module load_checks
    use bulk_data, only: bulk_data_type, has_component
+   use coordinate_systems, only: rectangular
    use deck_check, only: checked_deck
    use kinds, only: wp
    use model_data, only: model_type
    use surface_build, only: find_surface
    use surface_sides, only: nodes_of
+   use system_build, only: find_system
    use text_tools, only: integer_text
    implicit none
    private
 
-   public :: check_load_cards, has_set
+   public :: check_load_cards, check_plane, has_set
 
-   character(*), parameter :: others = 'PLOAD4, PLOADE, PLOADM, FORCEM, GRAV or SPCD' ! than FORCE, of a load set
+   character(*), parameter :: others = 'PLOAD4, PLOADE, PLOAD, PLOADM, FORCEM, GRAV or SPCD' ! than FORCE, of a load set
    character(*), parameter, public :: nor_others = ', nor a '//others                 !! behind `there is no FORCE`
 
 contains
 
-   !> All load cards of the deck; what does not fit goes to ERRORS.
+   !> All load cards of the deck but those of nodal forces and pressed sides; what does not fit goes to ERRORS.
    subroutine check_load_cards(deck, model)
       type(checked_deck), intent(in) :: deck
       type(model_type), intent(in)   :: model
 
-      call check_forces(deck, model)
       call check_surface_loads(deck, model)
       call check_gravity(deck, model)
       call check_displacements(deck, model)
@@ -38,35 +39,30 @@ contains
                 any(bulk%gravity%set == set) .or. any(bulk%displacement%set == set)
    end function has_set
 
-   !> Forces act on nodes that are there, in directions that they have.
-   subroutine check_forces(deck, model)
-      type(checked_deck), intent(in) :: deck
-      type(model_type), intent(in)   :: model
-      integer :: i, node
-
-      do i = 1, size(deck%bulk%force)
-         associate (card => deck%bulk%force(i))
-            node = model%node_table%find(card%node)
-            if (node == 0 .and. card%node > 0) then
-               call deck%field_error(card%line, 'G', 'there is no GRID '//integer_text(card%node))
-            else if (node > 0) then
-               if (.not. model%used(node)) call deck%field_error(card%line, 'G', 'node '//integer_text(card%node)// &
-                                                                 ' belongs to no element')
-            end if
-            call check_plane(deck, model, card%line, card%force)
-         end associate
-      end do
-   end subroutine check_forces
-
-   !> A plane model has no direction z; the card on LINE has its component of VECTOR in N3.
-   subroutine check_plane(deck, model, line, vector)
+   !> A plane model has no direction z; the card on LINE has its component of VECTOR in N3, unless it is turned or goes along nodes.
+   subroutine check_plane(deck, model, line, vector, along, turned)
       type(checked_deck), intent(in) :: deck
       type(model_type), intent(in)   :: model
       integer, intent(in)            :: line
-      real(wp), intent(in)           :: vector(3)
+      real(wp), intent(in)           :: vector(3) !! in global axes
+      logical, intent(in), optional  :: along     !! it is that from node to node, which may have no field N3; false
+      logical, intent(in), optional  :: turned    !! it is given in system CID; false
+      real(wp), parameter :: rounding = 1.0e-12_wp
+      character(:), allocatable :: field
 
-      if (model%dimension == 2 .and. abs(vector(3)) > 0.0_wp) &
-         call deck%field_error(line, 'N3', 'not zero, but a plane model lies in x-y')
+      if (model%dimension == 3 .or. abs(vector(3)) <= rounding*norm2(vector)) return
+      field = 'N3'
+      if (present(turned)) then
+         if (turned) field = 'CID'
+      end if
+      if (present(along)) then
+         if (along) field = 'G1'
+      end if
+      if (field == 'N3') then
+         call deck%field_error(line, field, 'not zero, but a plane model lies in x-y')
+      else
+         call deck%field_error(line, field, 'the load points out of the plane, but a plane model lies in x-y')
+      end if
    end subroutine check_plane
 
    !> PLOADM and FORCEM act on surfaces that are there; a pressure, on one that has one body alone.
@@ -97,12 +93,20 @@ contains
    subroutine check_gravity(deck, model)
       type(checked_deck), intent(in) :: deck
       type(model_type), intent(in)   :: model
-      integer :: i
+      real(wp) :: acceleration(3)
+      integer  :: i, system
 
       do i = 1, size(deck%bulk%gravity)
          associate (card => deck%bulk%gravity(i))
-            call check_plane(deck, model, card%line, card%acceleration)
-            if (model%axisymmetric .and. abs(card%acceleration(1)) > 0.0_wp) &
+            call find_system(deck, card%line, 'CID', card%system, model%systems, system)
+            acceleration = card%acceleration
+            if (system > 0) then
+               if (model%systems(system)%kind /= rectangular) call deck%field_error(card%line, 'CID', integer_text(card%system)// &
+                  ' is not rectangular, but gravity has one direction everywhere')
+               acceleration = matmul(model%systems(system)%axes, acceleration)
+            end if
+            call check_plane(deck, model, card%line, acceleration, turned=card%system > 0)
+            if (model%axisymmetric .and. abs(acceleration(1)) > 1.0e-12_wp*norm2(acceleration)) &
                call deck%field_error(card%line, 'N1', 'not zero, but in an axisymmetric model gravity acts along y')
             if (all(model%properties%rho <= 0.0_wp)) &
                call deck%errors%add(card%line, 'GRAV: no body has a mass; give RHO on its MAT1')
@@ -149,8 +153,11 @@ contains
       do i = 1, size(deck%bulk%load)
          associate (card => deck%bulk%load(i))
             do k = 1, size(card%sets)
-               if (card%sets(k) > 0 .and. .not. has_set(deck%bulk, card%sets(k))) call deck%field_error(card%line, card%at(k), &
-                  'there is no FORCE with set '//integer_text(card%sets(k))//nor_others, called='L'//integer_text(k))
+               if (card%sets(k) <= 0 .or. has_set(deck%bulk, card%sets(k))) cycle
+               name = 'there is no FORCE with set '//integer_text(card%sets(k))//nor_others
+               if (any(deck%bulk%load%set == card%sets(k))) name = integer_text(card%sets(k))//' is a LOAD too; expected the '// &
+                  'sets of forces and pressures that it combines'
+               call deck%field_error(card%line, card%at(k), name, called='L'//integer_text(k))
             end do
             if (.not. has_set(deck%bulk, card%set)) cycle
             name = others

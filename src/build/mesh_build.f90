@@ -11,6 +11,7 @@ module mesh_build
    use model_data, only: model_type
    use node_build, only: collect_nodes, find_nodes, order_nodes, raw_nodes
    use reverse_lists, only: list_owners
+   use system_build, only: build_systems
    implicit none
    private
 
@@ -46,7 +47,9 @@ contains
       do b = 1, size(blocks)
          call generate_block(deck%bulk%block(b), blocks(b))
       end do
-      call collect_nodes(deck, blocks, raw)
+      call build_systems(deck, model%systems)
+      call collect_nodes(deck, model%systems, blocks, raw)
+      if (size(deck%bulk%element) + size(blocks) == 0) model%dimension = merge(3, 2, any(abs(raw%x(3, :raw%n)) > 0.0_wp)) ! bars alone
       call order_nodes(raw, model, position)
       call resolve_properties(deck, model)
       call collect_elements(deck, blocks, raw, position, model)
@@ -63,14 +66,22 @@ contains
    subroutine check_nodes(deck, model)
       type(checked_deck), intent(in) :: deck
       type(model_type), intent(in)   :: model
-      integer :: b, i
+      real(wp) :: x(3)
+      integer  :: b, i, node
 
       if (model%dimension == 3) return
       do i = 1, size(deck%bulk%grid)
+         node = model%node_table%find(deck%bulk%grid(i)%id)
+         if (node == 0) cycle
+         x = model%x(:, node)
          associate (grid => deck%bulk%grid(i))
-            if (abs(grid%x(3)) > 0.0_wp) call deck%field_error(grid%line, 'X3', 'not zero, but a plane model lies in x-y')
-            if (model%axisymmetric .and. grid%x(1) < 0.0_wp) &
-               call deck%field_error(grid%line, 'X1', 'negative, but an axisymmetric model lies in x >= 0')
+            if (grid%cp <= 0) x = grid%x ! of a number given twice there is one node
+            if (abs(x(3)) > 0.0_wp) call deck%field_error(grid%line, trim(merge('CP', 'X3', grid%cp > 0)), &
+               trim(merge('puts the node out of the plane', 'not zero                      ', grid%cp > 0))// &
+               ', but a plane model lies in x-y')
+            if (model%axisymmetric .and. x(1) < 0.0_wp) call deck%field_error(grid%line, trim(merge('CP', 'X1', grid%cp > 0)), &
+               trim(merge('puts the node at a negative x', 'negative                     ', grid%cp > 0))// &
+               ', but an axisymmetric model lies in x >= 0')
          end associate
       end do
       if (.not. model%axisymmetric) return

@@ -9,6 +9,7 @@ module model_build
    use determinate_joints, only: find_determinate_joints
    use first_pressures, only: find_first_pressures
    use gap_build, only: build_gaps
+   use frame_build, only: build_frames
    use joint_build, only: build_joints
    use joint_split, only: split_shared_surfaces
    use load_build, only: build_loads
@@ -47,6 +48,7 @@ contains
       call build_bars(checked, model)
       call build_supports(checked, model)
       call build_sections(checked, model)
+      call build_frames(checked, model)
       call build_loads(checked, model)
       call plan_stages(deck, plan, errors)
       call find_shown_nodes(deck, model, plan, errors)

@@ -1,12 +1,14 @@
 !> Nodes: GRID cards and those of generated blocks, in the order of their numbers.
 module node_build
    use block_mesh, only: block_type
+   use coordinate_systems, only: coordinate_system
    use deck_check, only: checked_deck
    use element_kinds, only: element_table
    use id_table, only: sorted_order
    use kinds, only: wp
    use model_data, only: model_type
    use position_search, only: position_search_type
+   use system_build, only: place_grids
    use text_tools, only: integer_text
    implicit none
    private
@@ -25,11 +27,12 @@ module node_build
 contains
 
    !> All GRID cards and all nodes of blocks; a welded block uses the coincident nodes of the block it is welded to.
-   subroutine collect_nodes(deck, blocks, raw)
-      type(checked_deck), intent(in) :: deck
-      type(block_type), intent(in)   :: blocks(:)
-      type(raw_nodes), intent(out)   :: raw
-      integer :: b, i, k, n, total
+   subroutine collect_nodes(deck, systems, blocks, raw)
+      type(checked_deck), intent(in)      :: deck
+      type(coordinate_system), intent(in) :: systems(:)
+      type(block_type), intent(in)        :: blocks(:)
+      type(raw_nodes), intent(out)        :: raw
+      integer :: b, k, n, total
 
       allocate (raw%block_start(size(blocks) + 1), source=0)
       do b = 1, size(blocks)
@@ -40,9 +43,7 @@ contains
       allocate (raw%id(total), raw%line(total), raw%x(3, total), raw%place(total - n))
       raw%id(:n) = deck%bulk%grid%id
       raw%line(:n) = deck%bulk%grid%line
-      do i = 1, n
-         raw%x(:, i) = deck%bulk%grid(i)%x
-      end do
+      call place_grids(deck, systems, raw%x)
       do b = 1, size(blocks)
          associate (places => raw%place(raw%block_start(b) + 1:raw%block_start(b + 1)))
             call weld_block(deck, blocks, b, raw, places)
@@ -144,21 +145,24 @@ contains
       call model%node_table%build(model%node_id)
    end subroutine append_nodes
 
-   !> The NODES of the model with the numbers ID, which a card of an element, edge or interface element names from its data field 3
-   !! on; 0, and an error, where there is none. An id of 0 is no node: a field that is blank or could not be read.
-   subroutine find_nodes(deck, line, id, model, nodes)
+   !> The NODES of the model with the numbers ID, which a card of an element, edge or interface element names from its data field
+   !! FIRST on; 0, and an error, where there is none. An id of 0 is no node: a field that is blank or could not be read.
+   subroutine find_nodes(deck, line, id, model, nodes, first)
       type(checked_deck), intent(in) :: deck
       integer, intent(in)            :: line     !! of the card
       integer, intent(in)            :: id(:)
       type(model_type), intent(in)   :: model
       integer, intent(out)           :: nodes(:)
-      integer :: k
+      integer, intent(in), optional  :: first    !! 3
+      integer :: behind, k
 
       nodes = 0
+      behind = 2
+      if (present(first)) behind = first - 1
       do k = 1, size(id)
          if (id(k) == 0) cycle
          nodes(k) = model%node_table%find(id(k))
-         if (nodes(k) == 0) call deck%field_error(line, k + 2, 'there is no GRID '//integer_text(id(k)), noun='node')
+         if (nodes(k) == 0) call deck%field_error(line, k + behind, 'there is no GRID '//integer_text(id(k)), noun='node')
       end do
    end subroutine find_nodes
 

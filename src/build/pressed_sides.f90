@@ -1,77 +1,236 @@
-!> PLOAD4 and PLOADE: which side of which element a card presses on, and the nodal forces.
+!> PLOAD4, PLOADE and PLOAD: which sides of which elements a card presses on, and the nodal forces.
 module pressed_sides
-   use bulk_data, only: pressure_card
+   use bulk_data, only: of_edge, of_face, of_nodes, pressure_card
+   use coordinate_systems, only: rectangular
    use deck_check, only: checked_deck
+   use element_build, only: is_face
    use element_kinds, only: element_table, kind_hexa8, kind_penta6, kind_tetra4, max_side_nodes
-   use element_loads, only: side_forces
+   use element_loads, only: side_forces, side_tractions
+   use face_search, only: find_face, own_corner
    use id_table, only: id_table_type
    use kinds, only: wp
    use model_data, only: corners_of, model_type
    use section_coupling, only: add_section_share
+   use system_build, only: find_system
    use text_tools, only: integer_text
    implicit none
    private
 
    public :: find_pressed_sides, add_pressure
 
-   !> Where the pressure of a card acts: ELEMENT is 0 where the card is in error. FIRST is the position of G1 on the side.
+   !> Where the pressure of a card acts.
    type, public :: pressed_side
-      integer :: element = 0, side = 0, first = 0
+      integer  :: card = 0                    !! among the pressure cards
+      integer  :: element = 0, side = 0
+      real(wp) :: p(4) = 0.0_wp               !! at the corners of the side, in its order; positive into the body [pressure]
+      real(wp) :: direction(3) = 0.0_wp       !! of a traction P, unit; zero: along the normal
    end type pressed_side
 
 contains
 
-   !> The sides that PLOAD4 and PLOADE cards press on.
+   !> The sides that PLOAD4, PLOADE and PLOAD cards press on; none of a card in error.
    subroutine find_pressed_sides(deck, model, pressed)
       type(checked_deck), intent(in)               :: deck
       type(model_type), intent(in)                 :: model
       type(pressed_side), allocatable, intent(out) :: pressed(:)
-      type(id_table_type) :: elements
-      integer :: e, i
+      type(id_table_type) :: elements, faces
+      integer :: e, i, n
 
       allocate (pressed(size(deck%bulk%pressure)))
       if (size(pressed) == 0) return
       call elements%build(model%element_id)
-      do i = 1, size(pressed)
+      call faces%build(pack(deck%bulk%element%id, is_face(model, deck%bulk%element)))
+      n = 0
+      do i = 1, size(deck%bulk%pressure)
          associate (card => deck%bulk%pressure(i))
+            if (card%kind == of_nodes) then
+               call press_on_corners(deck, model, i, pressed, n)
+               cycle
+            end if
             if (card%first == 0) cycle
             e = elements%find(card%first)
-            if (e == 0) then
+            if (card%kind == of_face .and. (card%last > card%first .or. faces%find(card%first) > 0)) then
+               call press_on_marked(deck, model, i, pressed, n)
+            else if (e == 0) then
                call deck%field_error(card%line, 'EID', 'there is no body element '//integer_text(card%first))
-            else if (element_table(model%element_kind(e))%dimension /= merge(3, 2, card%on_face)) then
+            else if (element_table(model%element_kind(e))%dimension /= merge(3, 2, card%kind == of_face)) then
                call deck%field_error(card%line, 'EID', 'element '//integer_text(card%first)//' is a '// &
                   trim(element_table(model%element_kind(e))%card)// &
-                  trim(merge(': PLOAD4 is for faces of solids', ': PLOADE is for plane edges    ', card%on_face)))
+                  trim(merge(': PLOAD4 is for faces of solids', ': PLOADE is for plane edges    ', card%kind == of_face)))
             else if (any(corners_of(model, e) == 0)) then
                cycle ! said already
+            else if (card%corners(1) == 0) then
+               if (card%kind == of_face) call deck%field_error(card%line, 'G1', 'blank, expected a corner of the face')
             else
-               call find_side(deck, model, card, e, pressed(i))
+               call press_on_side(deck, model, i, e, pressed, n)
             end if
          end associate
       end do
+      pressed = pressed(:n)
    end subroutine find_pressed_sides
 
-   !> The side of element E that the CARD names by its corners.
-   subroutine find_side(deck, model, card, e, pressed)
-      type(checked_deck), intent(in)    :: deck
-      type(model_type), intent(in)      :: model
-      type(pressure_card), intent(in)   :: card
-      integer, intent(in)               :: e
-      type(pressed_side), intent(inout) :: pressed
-      character(:), allocatable :: expected
-      integer :: corner(2), k, side
-      logical :: fits
+   !> One more pressed side.
+   pure subroutine append(side, pressed, n)
+      type(pressed_side), intent(in)                 :: side
+      type(pressed_side), allocatable, intent(inout) :: pressed(:)
+      integer, intent(inout)                         :: n
+      type(pressed_side), allocatable :: longer(:)
 
+      if (n == size(pressed)) then
+         allocate (longer(2*n + 8))
+         longer(:n) = pressed
+         call move_alloc(longer, pressed)
+      end if
+      n = n + 1
+      pressed(n) = side
+   end subroutine append
+
+   !> Where the direction of the PLOAD4 I points; zero where it has none.
+   subroutine find_direction(deck, model, i, direction)
+      type(checked_deck), intent(in) :: deck
+      type(model_type), intent(in)   :: model
+      integer, intent(in)            :: i
+      real(wp), intent(out)          :: direction(3)
+      integer :: system
+
+      associate (card => deck%bulk%pressure(i))
+         direction = card%direction/max(norm2(card%direction), tiny(1.0_wp))
+         call find_system(deck, card%line, 'CID', card%system, model%systems, system)
+         if (system == 0) return
+         if (model%systems(system)%kind /= rectangular) call deck%field_error(card%line, 'CID', integer_text(card%system)// &
+            ' is not rectangular, but the pressure on a face has one direction all over it')
+         direction = matmul(model%systems(system)%axes, direction)
+      end associate
+   end subroutine find_direction
+
+   !> PLOAD4 I on faces that elements mark, from its EID to its EID2: along the normals of these elements, the right hand round their
+   !! corners, or along its direction.
+   subroutine press_on_marked(deck, model, i, pressed, n)
+      type(checked_deck), intent(in)                 :: deck
+      type(model_type), intent(in)                   :: model
+      integer, intent(in)                            :: i
+      type(pressed_side), allocatable, intent(inout) :: pressed(:)
+      integer, intent(inout)                         :: n
+      type(pressed_side) :: side
+      integer :: corner, f
+      logical :: any_face, outward, ok
+
+      any_face = .false.
+      associate (card => deck%bulk%pressure(i))
+         if (card%corners(1) > 0) then
+            call deck%field_error(card%line, 'G1', 'element '//integer_text(card%first)//' marks a face; expected a blank, or '// &
+                                  'in EID the solid that the face belongs to')
+            return
+         end if
+         side%card = i
+         call find_direction(deck, model, i, side%direction)
+         do f = 1, size(deck%bulk%element)
+            associate (face => deck%bulk%element(f))
+               if (face%id < card%first .or. face%id > card%last) cycle
+               if (.not. is_face(model, face)) cycle
+               any_face = .true.
+               call find_face(deck, model, card%line, 'EID', face%nodes(:element_table(face%kind)%n_corners), side%element, &
+                              side%side, corner, outward, ok)
+               if (.not. ok) cycle
+               associate (c => element_table(face%kind)%n_corners)
+                  if (c == 3 .and. abs(card%pressure(4) - card%pressure(1)) > 0.0_wp) then
+                     call no_fourth_corner(deck, card)
+                     return
+                  end if
+                  if (outward) then
+                     side%p(:c) = cshift(card%pressure(:c), 1 - corner)
+                  else
+                     side%p(:c) = cshift(card%pressure(c:1:-1), -corner)
+                  end if
+                  if (outward .and. norm2(side%direction) <= 0.0_wp) side%p = -side%p
+                  call append(side, pressed, n)
+               end associate
+            end associate
+         end do
+         if (.not. any_face) call deck%field_error(card%line, 'EID', 'no element from '//integer_text(card%first)//' to '// &
+            integer_text(card%last)//' marks a face of a solid; THRU is for CTRIA3 and CQUAD4 with a PMARK')
+      end associate
+   end subroutine press_on_marked
+
+   !> PLOAD I, on the face with its corners.
+   subroutine press_on_corners(deck, model, i, pressed, n)
+      type(checked_deck), intent(in)                 :: deck
+      type(model_type), intent(in)                   :: model
+      integer, intent(in)                            :: i
+      type(pressed_side), allocatable, intent(inout) :: pressed(:)
+      integer, intent(inout)                         :: n
+      type(pressed_side) :: side
+      integer :: corner
+      logical :: outward, ok
+
+      associate (card => deck%bulk%pressure(i))
+         if (any(card%corners(:3) == 0)) return ! said already
+         call find_face(deck, model, card%line, 'G1', card%corners(:merge(4, 3, card%corners(4) > 0)), side%element, side%side, &
+                        corner, outward, ok)
+         if (.not. ok) return
+         side%card = i
+         side%p = merge(-card%pressure, card%pressure, outward)
+         call append(side, pressed, n)
+      end associate
+   end subroutine press_on_corners
+
+   subroutine no_fourth_corner(deck, card)
+      type(checked_deck), intent(in)  :: deck
+      type(pressure_card), intent(in) :: card
+
+      call deck%field_error(card%line, 'P4', 'a triangular face has no fourth corner, expected a blank or P1')
+   end subroutine no_fourth_corner
+
+   !> PLOAD4 or PLOADE I, on the side of element E that it names by corners.
+   subroutine press_on_side(deck, model, i, e, pressed, n)
+      type(checked_deck), intent(in)                 :: deck
+      type(model_type), intent(in)                   :: model
+      integer, intent(in)                            :: i, e
+      type(pressed_side), allocatable, intent(inout) :: pressed(:)
+      integer, intent(inout)                         :: n
+      type(pressed_side) :: new
+      integer :: c, first, side
+
+      associate (card => deck%bulk%pressure(i), kind => element_table(model%element_kind(e)))
+         call find_side(deck, model, card, e, side, first)
+         if (side == 0) return
+         c = kind%side_corners(side)
+         if (c == 3 .and. abs(card%pressure(4) - card%pressure(1)) > 0.0_wp) then
+            call no_fourth_corner(deck, card)
+            return
+         end if
+         new%card = i
+         new%element = e
+         new%side = side
+         new%p(:c) = cshift(card%pressure(:c), 1 - first)
+         if (card%kind == of_face) call find_direction(deck, model, i, new%direction)
+         call append(new, pressed, n)
+      end associate
+   end subroutine press_on_side
+
+   !> The SIDE of element E that the CARD names by its corners, 0 and an error for none; FIRST is the position of G1 on it.
+   subroutine find_side(deck, model, card, e, side, first)
+      type(checked_deck), intent(in)  :: deck
+      type(model_type), intent(in)    :: model
+      type(pressure_card), intent(in) :: card
+      integer, intent(in)             :: e
+      integer, intent(out)            :: side, first
+      character(:), allocatable :: expected
+      integer :: corner(2), k
+      logical :: fits, on_face
+
+      on_face = card%kind == of_face
+      first = 0
       corner = 0
       do k = 1, 2
          if (card%corners(k) == 0) cycle
          corner(k) = own_corner(model, e, card%corners(k))
          if (corner(k) > 0) cycle
-         call deck%field_error(card%line, trim(merge('G1 ', merge('G34', 'G2 ', card%on_face), k == 1)), 'node '// &
+         call deck%field_error(card%line, trim(merge('G1 ', merge('G34', 'G2 ', on_face), k == 1)), 'node '// &
             integer_text(card%corners(k))//' is no corner of element '//integer_text(card%first))
+         side = 0
          return
       end do
-      if (corner(1) == 0) return ! said already
       associate (kind => element_table(model%element_kind(e)))
          do side = 1, kind%n_sides
             associate (own => kind%side_nodes(:kind%side_corners(side), side))
@@ -90,16 +249,11 @@ contains
                end select
                if (.not. fits) cycle
             end associate
-            if (kind%side_corners(side) == 3 .and. abs(card%pressure(4) - card%pressure(1)) > 0.0_wp) then
-               call deck%field_error(card%line, 'P4', 'a triangular face has no fourth corner, expected a blank or P1')
-               return
-            end if
-            pressed%element = e
-            pressed%side = side
-            pressed%first = findloc(kind%side_nodes(:, side), corner(1), dim=1)
+            first = findloc(kind%side_nodes(:, side), corner(1), dim=1)
             return
          end do
       end associate
+      side = 0
       select case (element_table(model%element_kind(e))%linear)
       case (kind_tetra4)
          expected = 'expected in G1 a corner of the face and in G4 the corner that it does not have'
@@ -113,41 +267,29 @@ contains
       call deck%field_error(card%line, 'G1', 'no side of element '//integer_text(card%first)//' has these corners; '//expected)
    end subroutine find_side
 
-   !> Which corner of element E node ID is, the twin of a split node too; 0: none.
-   pure integer function own_corner(model, e, id) result(corner)
-      type(model_type), intent(in) :: model
-      integer, intent(in)          :: e, id
-      integer :: node
-
-      corner = 0
-      node = model%node_table%find(id)
-      if (node == 0) return
-      associate (corners => model%element_nodes(:element_table(model%element_kind(e))%n_corners, e))
-         corner = findloc(corners, node, dim=1)
-         if (corner == 0 .and. model%twin(node) > 0) corner = findloc(corners, model%twin(node), dim=1)
-      end associate
-   end function own_corner
-
-   !> Add to FORCE the nodal forces of a pressure on one side, P(1) to P(4) at its corners from G1 on, in the middle between two
-   !! corners their mean.
-   !! Errors: none. Source: side_forces.
-   pure subroutine add_pressure(model, pressed, p, force)
+   !> Add to FORCE the nodal forces of FACTOR times the pressure on one side, in the middle between two corners their mean.
+   !! Errors: none. Source: side_forces, side_tractions.
+   pure subroutine add_pressure(model, pressed, factor, force)
       type(model_type), intent(in)   :: model
       type(pressed_side), intent(in) :: pressed
-      real(wp), intent(in)           :: p(4)              !! [pressure], positive into the body
+      real(wp), intent(in)           :: factor
       real(wp), intent(inout)        :: force(:, :)       !! (3, n_nodes) [force]
       real(wp) :: f(model%dimension, max_side_nodes), at_nodes(max_side_nodes)
 
-      associate (kind => element_table(model%element_kind(pressed%element)), e => pressed%element)
+      associate (kind => element_table(model%element_kind(pressed%element)), e => pressed%element, d => model%dimension)
          associate (c => kind%side_corners(pressed%side))
-            at_nodes(:c) = cshift(p(:c), 1 - pressed%first)
+            at_nodes(:c) = factor*pressed%p(:c)
             at_nodes(c + 1:2*c) = 0.5_wp*(at_nodes(:c) + cshift(at_nodes(:c), 1))
          end associate
          associate (nodes => model%element_nodes(kind%side_nodes(:kind%side_size(pressed%side), pressed%side), e), &
                     property => model%properties(max(1, model%element_property(e))))
-            call side_forces(property%state, property%thickness, model%x(:model%dimension, nodes), &
-                             at_nodes(:size(nodes)), f)
-            force(:model%dimension, nodes) = force(:model%dimension, nodes) + f(:, :size(nodes))
+            if (norm2(pressed%direction) > 0.0_wp) then
+               call side_tractions(property%state, property%thickness, model%x(:d, nodes), at_nodes(:size(nodes)), &
+                                   pressed%direction(:d), f)
+            else
+               call side_forces(property%state, property%thickness, model%x(:d, nodes), at_nodes(:size(nodes)), f)
+            end if
+            force(:d, nodes) = force(:d, nodes) + f(:, :size(nodes))
             call add_section_share(model, e, nodes, f, force)
          end associate
       end associate

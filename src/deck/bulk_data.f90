@@ -3,6 +3,7 @@
 module bulk_data
    use elasticity, only: plane_stress
    use element_kinds, only: max_nodes
+   use entry_tally, only: entry_tally_type
    use kinds, only: wp
    use shear_stiffness, only: shear_law
    implicit none
@@ -12,9 +13,25 @@ module bulk_data
 
    type, public :: grid_card
       integer  :: line = 0, id = 0, ps = 0
+      integer  :: cp = 0, cd = 0                        ! systems of X and of displacements, 0: global axes
       real(wp) :: x(3) = 0.0_wp
       logical  :: doubtful = .false.                    ! some field could not be read
    end type grid_card
+
+   !> GRDSET: of GRID fields left blank.
+   type, public :: grid_defaults_card
+      integer :: line = 0, cp = 0, cd = 0, ps = 0
+   end type grid_defaults_card
+
+   !> A coordinate system, by three points in system REFERENCE (CORD2) or by three NODES (CORD1): its origin, one on z, one in x-z.
+   type, public :: system_card
+      integer  :: line = 0, id = 0
+      integer  :: kind = 0                              ! of coordinate_systems
+      integer  :: reference = 0                         ! 0: global axes
+      real(wp) :: points(3, 3) = 0.0_wp
+      integer  :: nodes(3) = 0                          ! 0: the points
+      integer  :: field = 1                             ! data field of the id
+   end type system_card
 
    integer, parameter, public :: edge_cbar = 0, edge_crod = -1 !! kinds of edge
 
@@ -38,8 +55,15 @@ module bulk_data
       real(wp) :: area = 0.0_wp
    end type prod_card
 
+   !> CONROD: a bar with its own section.
+   type, public :: conrod_card
+      integer  :: line = 0, id = 0, nodes(2) = 0, material = 0
+      real(wp) :: area = 0.0_wp
+   end type conrod_card
+
    type, public :: mat1_card
       integer  :: line = 0, id = 0
+      logical  :: bars_only = .false.                   ! E alone is given
       real(wp) :: e = 0.0_wp, nu = 0.0_wp, rho = 0.0_wp
    end type mat1_card
 
@@ -50,17 +74,32 @@ module bulk_data
       integer, allocatable :: first(:), last(:), at(:)  ! AT(k): data field of FIRST(k)
    end type support_card
 
+   !> SPCADD: the union of support SETS.
+   type, public :: support_sum_card
+      integer :: line = 0, set = 0
+      integer, allocatable :: sets(:), at(:)            ! AT(k): data field of SETS(k)
+   end type support_sum_card
+
+   !> FORCE (a vector), FORCE1 (a force from node ENDS(1) to ENDS(2)), FORCE2 (across two such lines), MOMENT.
    type, public :: force_card
       integer  :: line = 0, set = 0, node = 0
-      real(wp) :: force(3) = 0.0_wp
+      integer  :: system = 0                            ! CID of the vector, 0: global axes
+      integer  :: ends(4) = 0                           ! 0: the vector
+      real(wp) :: force(3) = 0.0_wp                     ! FORCE1, FORCE2: the first component is the force
+      logical  :: is_moment = .false.
    end type force_card
 
-   !> PLOAD4 (the face of element FIRST at corners G1 and G3 or G4) and PLOADE (its edge between G1 and G2).
+   integer, parameter, public :: of_edge = 1, of_face = 2, of_nodes = 3 !! what a pressure card names
+
+   !> PLOADE (the edge of element FIRST between its corners G1 and G2), PLOAD4 (the face of element FIRST at G1 and G3 or G4, or the
+   !! faces marked by the elements FIRST to LAST) and PLOAD (the face with the corners).
    type, public :: pressure_card
-      integer  :: line = 0, set = 0, first = 0
-      logical  :: on_face = .false.                     ! PLOAD4
-      integer  :: corners(2) = 0
+      integer  :: line = 0, set = 0, first = 0, last = 0
+      integer  :: kind = of_edge
+      integer  :: corners(4) = 0
       real(wp) :: pressure(4) = 0.0_wp                  ! positive into the body, at the corners from G1 on
+      integer  :: system = 0                            ! CID of the direction, 0: global axes
+      real(wp) :: direction(3) = 0.0_wp                 ! of PLOAD4; zero: along the normal
    end type pressure_card
 
    !> PLOADM and FORCEM: pressure, or a total force spread evenly, on a marked surface.
@@ -74,6 +113,7 @@ module bulk_data
    !> GRAV: acceleration.
    type, public :: gravity_card
       integer  :: line = 0, set = 0
+      integer  :: system = 0                            ! CID, 0: global axes
       real(wp) :: acceleration(3) = 0.0_wp
    end type gravity_card
 
@@ -169,13 +209,19 @@ module bulk_data
    !> All of them.
    type, public :: bulk_data_type
       integer :: n_cards = 0                               !! of all kinds
+      type(entry_tally_type) :: idle                       !! entries without effect, of case control too
+      real(wp) :: mass_factor = 1.0_wp                     !! PARAM WTMASS: densities are multiplied by it
       type(grid_card), allocatable         :: grid(:)
+      type(grid_defaults_card)             :: grid_defaults
+      type(system_card), allocatable       :: system(:)
       type(element_card), allocatable      :: element(:)   !! of bodies; faces of marked surfaces too
       type(element_card), allocatable      :: edge(:)      !! CBAR and CROD
       type(property_card), allocatable     :: pshell(:), paxis(:), psolid(:)
       type(prod_card), allocatable         :: prod(:)
+      type(conrod_card), allocatable       :: conrod(:)
       type(mat1_card), allocatable         :: mat1(:)
       type(support_card), allocatable      :: support(:)
+      type(support_sum_card), allocatable  :: support_sum(:)
       type(force_card), allocatable        :: force(:)
       type(pressure_card), allocatable     :: pressure(:)
       type(surface_load_card), allocatable :: surface_load(:)

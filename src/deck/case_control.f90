@@ -1,10 +1,13 @@
 !> Case control: everything before BEGIN BULK. What to do, stage by stage; the bulk data says with what.
 module case_control
-   use case_entries, only: check_repeated, choose, cut_entry, entry_type, global_keys, read_number, set_reference, value_error
+   use case_entries, only: check_repeated, choose, cut_entry, entry_type, global_keys, is_own_key, read_number, set_reference, &
+                           value_error
    use case_sets, only: number_set, read_set
    use deck_errors, only: deck_error_list
    use deck_numbers, only: parse_integer, parse_real
    use deck_text, only: deck_text_type
+   use entry_tally, only: entry_tally_type
+   use habit_entries, only: read_echo, read_habit
    use kinds, only: wp
    use text_tools, only: integer_text, upper
    implicit none
@@ -54,6 +57,8 @@ module case_control
       logical :: echo  = .true.
       logical :: echo_asked = .false.                    !! by ECHO: however many cards there are
       type(number_set), allocatable :: sets(:)
+      real(wp) :: mass_factor = 1.0_wp                   !! PARAM WTMASS: densities are multiplied by it
+      type(entry_tally_type) :: idle                     !! entries without effect
       type(stage_type), allocatable :: stages(:)
    end type case_control_type
 
@@ -71,7 +76,10 @@ contains
       type(entry_type) :: entry
       character(:), allocatable :: keys_seen
       character(:), allocatable :: line
+      logical :: goes_on, in_plots
 
+      goes_on = .false.
+      in_plots = .false.
       control%title = ''
       control%tolerance = 0.0_wp
       allocate (control%stages(0))
@@ -87,7 +95,12 @@ contains
                             index(line, achar(9)), index(line, achar(9)))
             cycle
          end if
+         if (goes_on) then ! the list of an entry without effect
+            goes_on = line(len(line):) == ','
+            cycle
+         end if
          call cut_entry(line, cursor - 1, entry)
+         if (in_plots .and. entry%key /= 'BEGIN' .and. entry%key /= 'ENDDATA') cycle
          if (entry%key == 'BEGIN') then
             found_bulk = .true.
             if (upper(entry%value) /= 'BULK') call value_error(entry, 'BULK', errors)
@@ -96,15 +109,21 @@ contains
             cursor = cursor - 1
             exit
          end if
-         call check_repeated(entry, keys_seen, errors)
-         if (entry%key == 'SET') then
+         in_plots = entry%key == 'OUTPUT' .and. entry%describers /= '' ! NASTRAN's plots: all lines up to BEGIN BULK
+         if (in_plots .or. (entry%key == 'OUTPUT' .and. entry%value == '')) then
+            call control%idle%add('OUTPUT')
+         else if (entry%key == 'SET') then
             call read_set(text, entry, cursor, control%sets, errors)
-            cycle
+         else if (is_own_key(entry%key)) then
+            call check_repeated(entry, keys_seen, errors)
+            call read_entry(entry, control, common, errors)
+         else
+            call read_habit(entry, control%mass_factor, control%idle, errors)
+            goes_on = line(len(line):) == ','
          end if
-         call read_entry(entry, control, common, errors)
       end do
       if (control%tolerance <= 0.0_wp) control%tolerance = merge(back_tolerance, newton_tolerance, control%method == method_back)
-      call check_stages(control, errors)
+      call check_stages(control, common, errors)
    end subroutine read_case_control
 
    !> What one line of case control says.
@@ -117,12 +136,16 @@ contains
       logical :: ok
 
       n = size(control%stages)
+      if (n > 0 .and. entry%key == 'TITLE') then ! that of a subcase
+         call control%idle%add('TITLE')
+         return
+      end if
       if (n > 0 .and. any(global_keys == entry%key)) &
          call errors%add(entry%line, entry%key//': holds for all stages, expected above the first SUBCASE')
+      if (entry%describers /= '' .and. entry%key /= 'ECHO') &
+         call errors%add(entry%line, entry%key//'('//entry%describers//'): expected no parentheses behind '//entry%key)
       choice = 0
       select case (entry%key)
-      case ('INCLUDE', 'CEND') ! lines of an INCLUDE file follow in the deck text; CEND is NASTRAN's end of executive control
-         return
       case ('SUBCASE')
          call start_stage(entry, control, common, errors)
       case ('LABEL', 'LOAD', 'INCR', 'SPC', 'OUTPUT')
@@ -131,8 +154,11 @@ contains
          else
             call read_stage_entry(entry, control%stages(n), errors)
          end if
-      case ('SOL')
-         call choose(entry, '|101|', choice, errors)
+      case ('SOL') ! linear and nonlinear statics by their numbers and names; old decks write 1,0
+         choice = scan(entry%value//',', ', ')
+         if (index('|1|24|101|106|SESTATIC|SESTATICS|STATIC|STATICS|NLSTATIC|', &
+                   '|'//upper(entry%value(:choice - 1))//'|') == 0 .or. choice == 1) &
+            call value_error(entry, '101 (or 1, 24, 106, SESTATIC, NLSTATIC): statics', errors)
       case ('TITLE')
          control%title = entry%value
       case ('UNITS')
@@ -154,13 +180,8 @@ contains
       case ('SOLVER')
          call choose(entry, '|AUTO|SKYLINE|TREE|', control%solver, errors)
       case ('ECHO')
-         call choose(entry, '|YES|NO|', choice, errors)
-         control%echo = choice /= 2
-         control%echo_asked = choice == 1
-      case default
-         call errors%add(entry%line, ''''//entry%key(:min(40, len(entry%key)))//''' is no key of case control; '// &
-                         'expected TITLE, UNITS, METHOD, TOL, PRESSURE, CARRY, AVERAGE, SOLVER, ECHO, SPC, SUBCASE, '// &
-                         'LABEL, LOAD, INCR, OUTPUT, SET or BEGIN BULK')
+         call read_echo(entry, control%echo, errors)
+         control%echo_asked = control%echo
       end select
    end subroutine read_entry
 
@@ -300,15 +321,16 @@ contains
 
    end subroutine read_output
 
-   !> There is a stage, and all stages stand on the same supports: [k_b] is formed once.
-   subroutine check_stages(control, errors)
+   !> Without SUBCASE there is one stage; all stages stand on the same supports: [k_b] is formed once.
+   subroutine check_stages(control, common, errors)
       type(case_control_type), intent(inout) :: control
+      type(stage_type), intent(in)           :: common !! the only stage of a deck without SUBCASE
       type(deck_error_list), intent(inout)   :: errors
       integer :: i
 
       if (size(control%stages) == 0) then
-         call errors%add(0, 'no stage: expected at least one SUBCASE in case control')
-         return
+         control%stages = [common]
+         control%stages(1)%id = 1
       end if
       if (control%method == method_back .and. size(control%stages) > 1) call errors%add(control%stages(2)%line, &
          'SUBCASE: METHOD = BACK knows loading only, in one stage; METHOD = STEP or NEWTON follow a history')

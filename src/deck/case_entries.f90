@@ -7,7 +7,7 @@ module case_entries
    implicit none
    private
 
-   public :: cut_entry, check_repeated, choose, read_number, value_error
+   public :: cut_entry, check_repeated, choose, is_own_key, read_number, value_error
 
    !> Keys that hold for all stages, and those of a stage.
    character(8), parameter, public :: global_keys(10) = [character(8) :: 'SOL', 'TITLE', 'UNITS', 'METHOD', 'TOL', 'PRESSURE', &
@@ -24,23 +24,31 @@ module case_entries
    type, public :: entry_type
       integer :: line = 0
       character(:), allocatable :: key, value
+      character(:), allocatable :: describers !! what stands in parentheses behind the key, empty without them
       integer :: first = 0, last = 0  !! columns of the value
    end type entry_type
 
 contains
 
-   !> 'UNITS = MM, KGF' into key and value; a blank serves for the equals sign.
+   !> 'UNITS = MM, KGF' into key and value; a blank serves for the equals sign. 'STRESS(PLOT) = ALL' has a describer too.
    subroutine cut_entry(line, at, entry)
       character(*), intent(in)      :: line
       integer, intent(in)           :: at
       type(entry_type), intent(out) :: entry
-      integer :: first, last
+      integer :: first, last, closing
 
       entry%line = at
+      entry%describers = ''
       first = verify(line, ' ')
-      last = scan(line(first:), ' =,')
+      last = scan(line(first:), ' =,(')
       last = merge(len(line), first + last - 2, last == 0)
       entry%key = upper(line(first:last))
+      first = last + max(1, verify(line(last + 1:), ' '))
+      if (line(first:min(first, len(line))) == '(') then
+         closing = index(line(first:), ')')
+         last = merge(len(line), first + closing - 1, closing == 0)
+         entry%describers = upper(line(first + 1:last - merge(0, 1, closing == 0)))
+      end if
       entry%first = last + 1
       first = verify(line(last + 1:), ' ')
       if (first > 0) then
@@ -59,6 +67,13 @@ contains
       entry%first = min(entry%first, entry%last)
    end subroutine cut_entry
 
+   !> Whether KEY is one of the program's own, of the whole deck or of a stage.
+   pure logical function is_own_key(key)
+      character(*), intent(in) :: key
+
+      is_own_key = any(global_keys == key) .or. any(stage_keys == key) .or. key == 'SUBCASE'
+   end function is_own_key
+
    !> No key twice in the same place (above the stages, or in the same stage).
    subroutine check_repeated(entry, keys_seen, errors)
       type(entry_type), intent(in)             :: entry
@@ -67,8 +82,6 @@ contains
 
       if (entry%key == 'SUBCASE') then
          keys_seen = '|'
-      else if (.not. (any(global_keys == entry%key) .or. any(stage_keys == entry%key))) then
-         return ! INCLUDE, and what is said elsewhere to be no key
       else if (index(keys_seen, '|'//entry%key//'|') > 0) then
          call errors%add(entry%line, entry%key//': given twice in the same place')
       else

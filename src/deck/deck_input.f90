@@ -11,10 +11,14 @@ module deck_input
    use joint_cards, only: read_cjoint, read_jincr, read_jnorm, read_joint, read_jshear, read_pjoint
    use kinds, only: long
    use line_scan, only: is_include
-   use load_cards, only: read_bolt, read_displacement, read_force, read_gravity, read_load, read_pressure, read_support, &
-                         read_surface_load
+   use load_cards, only: read_bolt, read_force, read_gravity, read_load, read_pressure, read_surface_load
    use mesh_cards, only: complete_remedy, read_block, read_edge, read_element, read_grid, read_pmark
-   use property_cards, only: read_mat1, read_paxis, read_prod, read_pshell, read_psolid
+   use nastran_habits, only: is_idle_card
+   use parameter_cards, only: read_parameter
+   use property_cards, only: read_conrod, read_mat1, read_paxis, read_prod, read_pshell, read_psolid
+   use support_cards, only: read_displacement, read_support, read_support_sum
+   use system_cards, only: fill_grid_defaults, read_grid_defaults, read_system, system_names
+   use unused_cards, only: count_unused
    implicit none
    private
 
@@ -28,7 +32,7 @@ module deck_input
       type(card_kind), allocatable :: kinds(:) !! of card, with their tables
    end type deck_type
 
-   character(8), parameter :: end_of_data = 'ENDDATA'
+   character(*), parameter :: end_of_data = 'ENDDATA', behind_end = 'text behind ENDDATA' ! the second as an entry without effect
 
 contains
 
@@ -38,6 +42,8 @@ contains
       type(card_reader_type), intent(inout) :: cards
 
       call cards%add_kinds(['GRID'], read_grid)
+      call cards%add_kinds(['GRDSET'], read_grid_defaults)
+      call cards%add_kinds(system_names, read_system)
       call cards%add_kinds(['CTRIA3', 'CTRIA6', 'CQUAD4', 'CQUAD8', 'CTETRA', 'CPENTA', 'CHEXA '], read_element)
       call cards%add_kinds(['CBAR', 'CROD'], read_edge)
       call cards%add_kinds(['BLOCK2', 'BLOCK3'], read_block)
@@ -46,10 +52,12 @@ contains
       call cards%add_kinds(['PAXIS'], read_paxis)
       call cards%add_kinds(['PSOLID'], read_psolid)
       call cards%add_kinds(['PROD'], read_prod)
+      call cards%add_kinds(['CONROD'], read_conrod)
       call cards%add_kinds(['MAT1'], read_mat1)
       call cards%add_kinds(['SPC ', 'SPC1', 'SPCM'], read_support)
-      call cards%add_kinds(['FORCE'], read_force)
-      call cards%add_kinds(['PLOAD4', 'PLOADE'], read_pressure)
+      call cards%add_kinds(['SPCADD'], read_support_sum)
+      call cards%add_kinds(['FORCE ', 'FORCE1', 'FORCE2', 'MOMENT'], read_force)
+      call cards%add_kinds(['PLOAD4', 'PLOADE', 'PLOAD '], read_pressure)
       call cards%add_kinds(['PLOADM', 'FORCEM'], read_surface_load)
       call cards%add_kinds(['GRAV'], read_gravity)
       call cards%add_kinds(['SPCD'], read_displacement)
@@ -62,6 +70,7 @@ contains
       call cards%add_kinds(['JSHEAR'], read_jshear)
       call cards%add_kinds(['JGAP'], read_jgap)
       call cards%add_kinds(['JINCR'], read_jincr)
+      call cards%add_kinds(['PARAM'], read_parameter)
    end subroutine list_cards
 
    !> Read the deck PATH. READABLE is false where the file itself cannot be read; what is wrong in it goes to ERRORS.
@@ -103,21 +112,26 @@ contains
       end if
       call cards%start(deck%text, errors)
       call list_cards(cards)
-      call find_cards(deck%text, cursor, cards, deck%bulk%n_cards, errors)
+      deck%bulk%idle = deck%control%idle
+      deck%bulk%mass_factor = deck%control%mass_factor
+      call find_cards(deck%text, cursor, cards, deck%bulk, errors)
       call cards%read_all(deck%bulk)
+      call fill_grid_defaults(deck%bulk)
+      call count_unused(deck%bulk)
       call move_alloc(cards%kinds, deck%kinds)
       deck%is_whole = is_whole
    end subroutine read_lines
 
-   !> Note where the cards from line CURSOR to ENDDATA begin; N_CARDS counts them, those that nobody knows too.
-   subroutine find_cards(text, cursor, cards, n_cards, errors)
+   !> Note where the cards from line CURSOR to ENDDATA begin; BULK counts them, those that nobody knows too, and those without
+   !! effect, as is what stands behind ENDDATA.
+   subroutine find_cards(text, cursor, cards, bulk, errors)
       type(deck_text_type), intent(in)      :: text
       integer, intent(inout)                :: cursor
       type(card_reader_type), intent(inout) :: cards
-      integer, intent(inout)                :: n_cards
+      type(bulk_data_type), intent(inout)   :: bulk
       type(deck_error_list), intent(inout)  :: errors
       integer(long) :: first, last
-      integer :: behind, comma, file
+      integer :: comma, file
       integer :: ended_file ! the file whose ENDDATA was read last, 1 the deck itself
       logical :: is_open    ! a card is, and may be continued
 
@@ -128,10 +142,9 @@ contains
          if (last < first) then
             cursor = cursor + 1
          else if (ended_file == 1 .or. file == ended_file) then
-            call errors%add(cursor, 'text after ENDDATA')
-            if (ended_file == 1) return
-            do while (cursor <= text%n) ! the rest of this file cannot be meant
-               if (text%file_number(cursor) /= ended_file) exit
+            call bulk%idle%add(behind_end)
+            do while (cursor <= text%n) ! once a file
+               if (ended_file /= 1 .and. text%file_number(cursor) /= ended_file) exit
                cursor = cursor + 1
             end do
          else if (is_continuation(text%files(file)%bytes(first:last), comma)) then
@@ -143,25 +156,25 @@ contains
          else if (card_name(text%files(file)%bytes(first:last), comma) == end_of_data) then
             is_open = .false.
             ended_file = file
-            behind = verify(text%files(file)%bytes(first:last), ' ') + len_trim(end_of_data)
-            if (last - first + 1 >= behind) call errors%add(cursor, 'text behind ENDDATA', behind, int(last - first + 1))
             cursor = cursor + 1
          else
             is_open = .true.
-            n_cards = n_cards + 1
-            call find_card(text%files(file)%bytes(first:last), comma, text, cursor, cards, errors)
+            bulk%n_cards = bulk%n_cards + 1
+            call find_card(text%files(file)%bytes(first:last), comma, text, cursor, cards, bulk, errors)
          end if
       end do
-      if (ended_file /= 1) call errors%add(0, 'no ENDDATA: the deck ends before its end, is it whole?')
+      if (ended_file /= 1) call errors%add(0, 'no ENDDATA: the deck ends before its end, is it whole? A deck that was cut off '// &
+                                           'would be solved without the cards that are missing; expected ENDDATA behind the last')
    end subroutine find_cards
 
    !> Note the card that begins with LINE, line CURSOR of TEXT, which is left on a line behind it.
-   subroutine find_card(line, comma, text, cursor, cards, errors)
+   subroutine find_card(line, comma, text, cursor, cards, bulk, errors)
       character(*), intent(in)              :: line
       integer, intent(in)                   :: comma !! column of its first comma, 0: none
       type(deck_text_type), intent(in)      :: text
       integer, intent(inout)                :: cursor
       type(card_reader_type), intent(inout) :: cards
+      type(bulk_data_type), intent(inout)   :: bulk
       type(deck_error_list), intent(inout)  :: errors
       type(card_type)       :: card
       type(deck_error_list) :: faults
@@ -171,6 +184,9 @@ contains
       call check_first_field(line, comma, cursor, faults)
       if (.not. faults%any()) call cards%note_card(card_name(line, comma), cursor, is_known)
       if (is_known) then
+         cursor = cursor + 1
+      else if (.not. faults%any() .and. is_idle_card(card_name(line, comma))) then
+         call bulk%idle%add(trim(card_name(line, comma)))
          cursor = cursor + 1
       else
          call read_card(text, cursor, card, errors) ! for what else is wrong with it

@@ -6,9 +6,9 @@ module field_rules
    implicit none
    private
 
-   public :: integer_field, real_field, word_field, blank_field, component_field, in_range, expectation, list_of
+   public :: integer_field, real_field, word_field, blank_field, any_field, component_field, in_range, expectation, list_of
 
-   integer, parameter, public :: kind_integer = 1, kind_real = 2, kind_word = 3, kind_blank = 4, kind_components = 5
+   integer, parameter, public :: kind_integer = 1, kind_real = 2, kind_word = 3, kind_blank = 4, kind_components = 5, kind_any = 6
 
    !> What a field may hold.
    type, public :: field_rule
@@ -91,6 +91,15 @@ contains
       rule%name = name
       rule%kind = kind_blank
    end function blank_field
+
+   !> Rule for a field that is left to the card's own routine, or has no effect whatever stands in it.
+   elemental function any_field(name) result(rule)
+      character(*), intent(in) :: name
+      type(field_rule) :: rule
+
+      rule%name = name
+      rule%kind = kind_any
+   end function any_field
 
    !> Whether VALUE keeps to a RULE of integers or reals.
    pure logical function in_range(rule, value)

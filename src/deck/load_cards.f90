@@ -1,121 +1,61 @@
-!> The cards of supports and loads: SPC, SPC1, SPCM; FORCE, PLOAD4, PLOADE, PLOADM, FORCEM, GRAV, SPCD, LOAD, BOLT. A routine for
-!! each array of the bulk data, a table for each kind.
+!> The cards of loads: FORCE, FORCE1, FORCE2, MOMENT, PLOAD4, PLOADE, PLOAD, PLOADM, FORCEM, GRAV, LOAD, BOLT. A routine for each
+!! array of the bulk data, a table for each kind.
 module load_cards
-   use bulk_data, only: bolt_card, bulk_data_type, displacement_card, force_card, gravity_card, pressure_card, support_card, &
+   use bulk_data, only: bolt_card, bulk_data_type, force_card, gravity_card, of_edge, of_face, of_nodes, pressure_card, &
                         surface_load_card
    use card_fields, only: card_values, decode_integer, decode_real
    use card_reader, only: card_reader_type
-   use field_rules, only: blank_field, component_field, integer_field, real_field
+   use field_rules, only: any_field, integer_field, real_field, word_field
    use kinds, only: wp
    use text_tools, only: integer_text
    implicit none
    private
 
-   public :: read_support, read_force, read_pressure, read_surface_load, read_gravity, read_displacement, read_load, read_bolt
+   public :: read_force, read_pressure, read_surface_load, read_gravity, read_load, read_bolt
 
 contains
 
-   !> SPC: one or two nodes held in the components C; a displacement other than zero is not for this card. SPC1: components C of the
-   !! nodes G1, G2, ..., or G1 THRU G2. SPCM: components C of all nodes of the marked surface PID.
-   subroutine read_support(cards, bulk)
-      type(card_reader_type), intent(inout) :: cards
-      type(bulk_data_type), intent(inout)   :: bulk
-      type(card_values) :: values
-      integer :: field, i, n
-
-      call cards%set_table([integer_field('SID'), integer_field('G1'), component_field('C1'), blank_field('D1'), &
-         integer_field('G2', default=0), component_field('C2', default=0), blank_field('D2')], 'SPC')
-      call cards%set_table([integer_field('SID'), component_field('C')], 'SPC1', open_ended=.true.)
-      call cards%set_table([integer_field('SID'), component_field('C'), integer_field('PID')], 'SPCM')
-      allocate (bulk%support(2*cards%n))
-      n = 0
-      do i = 1, cards%n
-         call cards%next(values)
-         n = n + 1
-         associate (line => cards%line, integers => values%integers, given => values%given)
-            select case (cards%card%name)
-            case ('SPC')
-               if (given(5) .neqv. given(6)) call cards%error('G2', 'node and components C2 go together')
-               do field = 2, merge(5, 2, given(5)), 3
-                  n = n + merge(1, 0, field > 2)
-                  bulk%support(n) = support_card(line=line, set=integers(1), components=integers(field + 1), &
-                                                 first=integers(field:field), last=integers(field:field), at=[field])
-               end do
-            case ('SPC1')
-               bulk%support(n) = support_card(line=line, set=integers(1), components=integers(2))
-               call list_nodes(cards, bulk%support(n))
-            case default
-               bulk%support(n) = support_card(line=line, set=integers(1), components=integers(2), surface=integers(3))
-               allocate (bulk%support(n)%first(0), bulk%support(n)%last(0), bulk%support(n)%at(0))
-            end select
-         end associate
-      end do
-      bulk%support = bulk%support(:n)
-   end subroutine read_support
-
-   !> The nodes of an SPC1, from data field 3 on.
-   subroutine list_nodes(cards, support)
-      type(card_reader_type), intent(inout) :: cards
-      type(support_card), intent(inout)     :: support
-      integer :: k, n, node
-      logical :: ok, through
-
-      associate (card => cards%card)
-         allocate (support%first(card%n), support%last(card%n), support%at(card%n), source=0)
-         n = 0
-         through = .false.
-         do k = 3, card%n
-            if (card%fields(k)%text == '') cycle
-            if (card%fields(k)%text == 'THRU') then
-               if (n == 0 .or. through .or. k == card%n) call card%field_error(k, 'THRU: expected G1 THRU G2', cards%errors)
-               through = .true.
-               cycle
-            end if
-            call decode_integer(card, k, 'G', 'a node number or THRU', node, ok, cards%errors)
-            if (.not. ok) cycle
-            if (node < 1) call card%field_error(k, 'G: '''//integer_text(node)//''' is no node number', cards%errors)
-            if (through) then
-               through = .false.
-               if (n == 0) cycle
-               support%last(n) = node
-               if (node < support%first(n)) call card%field_error(k, 'G: THRU goes down, expected '// &
-                                                                  integer_text(support%first(n))//' or more', cards%errors)
-            else
-               n = n + 1
-               support%first(n) = node
-               support%last(n) = node
-               support%at(n) = k
-            end if
-         end do
-         if (n == 0 .and. card%n < 3) call card%field_error(3, 'G1: blank, expected a node number', cards%errors)
-      end associate
-      support%first = support%first(:n)
-      support%last = support%last(:n)
-      support%at = support%at(:n)
-   end subroutine list_nodes
-
-   !> FORCE: the vector F (N1, N2, N3) at one node; the direction is not made a unit vector, as in NASTRAN.
+   !> FORCE: the vector F (N1, N2, N3) at one node, in system CID; the direction is not made a unit vector, as in NASTRAN. MOMENT:
+   !! likewise. FORCE1: F along the line from G1 to G2; FORCE2: F along the vector product of the lines G1-G2 and G3-G4.
    subroutine read_force(cards, bulk)
       type(card_reader_type), intent(inout) :: cards
       type(bulk_data_type), intent(inout)   :: bulk
       type(card_values) :: values
       integer :: i
 
-      call cards%set_table([integer_field(['SID', 'G  ']), blank_field('CID'), real_field('F'), &
-         real_field(['N1', 'N2', 'N3'], default=0.0_wp)])
+      call cards%set_table([integer_field(['SID', 'G  ']), integer_field('CID', default=0, least=0), real_field('F'), &
+         real_field(['N1', 'N2', 'N3'], default=0.0_wp)], 'FORCE')
+      call cards%set_table([integer_field(['SID', 'G  ']), integer_field('CID', default=0, least=0), real_field('M'), &
+         real_field(['N1', 'N2', 'N3'], default=0.0_wp)], 'MOMENT')
+      call cards%set_table([integer_field(['SID', 'G  ']), real_field('F'), integer_field(['G1', 'G2'])], 'FORCE1')
+      call cards%set_table([integer_field(['SID', 'G  ']), real_field('F'), integer_field(['G1', 'G2', 'G3', 'G4'])], 'FORCE2')
       allocate (bulk%force(cards%n))
       do i = 1, cards%n
          call cards%next(values)
-         call cards%check_direction('N1', 'the force', values)
-         bulk%force(i) = force_card(line=cards%line, set=values%integers(1), node=values%integers(2), &
-                                    force=values%reals(4)*values%reals(5:7))
+         associate (force => bulk%force(i), integers => values%integers)
+            force = force_card(line=cards%line, set=integers(1), node=integers(2), is_moment=cards%card%name == 'MOMENT')
+            select case (cards%card%name)
+            case ('FORCE1')
+               force%ends(:2) = integers(4:5)
+               force%force(1) = values%reals(3)
+            case ('FORCE2')
+               force%ends = integers(4:7)
+               force%force(1) = values%reals(3)
+            case default
+               call cards%check_direction('N1', trim(merge('the moment', 'the force ', force%is_moment)), values)
+               force%system = integers(3)
+               force%force = values%reals(4)*values%reals(5:7)
+            end select
+         end associate
       end do
    end subroutine read_force
 
    !> PLOAD4: pressure on a face of a solid, positive into it: P1 at G1, P2 to P4 at the next corners as the right hand goes
    !! about the outward normal, where blank as P1. The face is named by G1 and, for CHEXA and CPENTA, the opposite corner G3; for
-   !! CTETRA G4 is the corner that the face does not have.
+   !! CTETRA G4 is the corner that the face does not have. Faces that elements mark are named by these, EID or EID THRU EID2, and
+   !! the pressure acts along their normals. A direction N1, N2, N3 in system CID makes of the pressure a traction along it.
    !! PLOADE: pressure on the edge G1-G2 of a plane or axisymmetric element, positive into the body.
+   !! PLOAD: pressure on the face with the corners G1 to G3 or G4, along the right-hand normal as these go round.
    subroutine read_pressure(cards, bulk)
       type(card_reader_type), intent(inout) :: cards
       type(bulk_data_type), intent(inout)   :: bulk
@@ -123,24 +63,68 @@ contains
       integer :: i
 
       call cards%set_table([integer_field(['SID', 'EID']), real_field('P1'), real_field(['P2', 'P3', 'P4'], default=0.0_wp), &
-         integer_field('G1'), integer_field('G34', default=0)], 'PLOAD4')
+         any_field(['G1 ', 'G34']), integer_field('CID', default=0, least=0), &
+         real_field(['N1', 'N2', 'N3'], default=0.0_wp), word_field('SORL', '|SURF|'), word_field('LDIR', '|NORM|')], 'PLOAD4')
       call cards%set_table([integer_field(['SID', 'EID']), real_field('P'), integer_field(['G1', 'G2'])], 'PLOADE')
+      call cards%set_table([integer_field('SID'), real_field('P'), integer_field(['G1', 'G2', 'G3']), &
+         integer_field('G4', default=0)], 'PLOAD')
       allocate (bulk%pressure(cards%n))
       do i = 1, cards%n
          call cards%next(values)
-         associate (pressure => bulk%pressure(i))
-            pressure = pressure_card(line=cards%line, set=values%integers(1), first=values%integers(2), &
-                                     on_face=cards%card%name == 'PLOAD4')
-            if (pressure%on_face) then
-               pressure%corners = values%integers(7:8)
+         associate (pressure => bulk%pressure(i), integers => values%integers)
+            pressure = pressure_card(line=cards%line, set=integers(1))
+            select case (cards%card%name)
+            case ('PLOAD4')
+               pressure%kind = of_face
+               pressure%first = integers(2)
                pressure%pressure = merge(values%reals(3:6), values%reals(3), values%given(3:6))
-            else
-               pressure%corners = values%integers(4:5)
+               pressure%system = integers(9)
+               pressure%direction = values%reals(10:12)
+               call read_face(cards, pressure)
+            case ('PLOADE')
+               pressure%kind = of_edge
+               pressure%first = integers(2)
+               pressure%corners(:2) = integers(4:5)
                pressure%pressure = values%reals(3)
-            end if
+            case default
+               pressure%kind = of_nodes
+               pressure%corners = integers(3:6)
+               pressure%pressure = values%reals(2)
+            end select
          end associate
       end do
    end subroutine read_pressure
+
+   !> Data fields 7 and 8 of a PLOAD4: two corners of a face, or THRU and the last of the elements that mark faces.
+   subroutine read_face(cards, pressure)
+      type(card_reader_type), intent(inout) :: cards
+      type(pressure_card), intent(inout)    :: pressure
+      character(*), parameter :: expected = 'a node number or THRU'
+      integer :: k
+      logical :: ok
+
+      associate (card => cards%card)
+         pressure%last = pressure%first
+         if (card%n < 7) return
+         if (card%fields(7)%text == 'THRU') then
+            if (card%n < 8) then
+               call card%field_error(8, 'EID2: blank, expected the number of an element behind THRU', cards%errors)
+               return
+            end if
+            call decode_integer(card, 8, 'EID2', 'the number of an element', pressure%last, ok, cards%errors)
+            if (ok .and. pressure%last < pressure%first) call card%field_error(8, 'EID2: '//integer_text(pressure%last)// &
+               ' is less than EID, expected '//integer_text(pressure%first)//' or more', cards%errors)
+            pressure%last = max(pressure%last, pressure%first)
+            return
+         end if
+         do k = 7, min(8, card%n)
+            if (card%fields(k)%length == 0) cycle
+            call decode_integer(card, k, trim(merge('G1 ', 'G34', k == 7)), expected, pressure%corners(k - 6), ok, cards%errors)
+            if (ok .and. pressure%corners(k - 6) < 1) call card%field_error(k, trim(merge('G1 ', 'G34', k == 7))//': '''// &
+               integer_text(pressure%corners(k - 6))//''' is no node number', cards%errors)
+         end do
+      end associate
+   end subroutine read_face
 
    !> PLOADM: pressure on a marked surface, positive into the body. FORCEM: a total force F (N1, N2, N3), spread evenly over it.
    subroutine read_surface_load(cards, bulk)
@@ -176,40 +160,16 @@ contains
       type(card_values) :: values
       integer :: i
 
-      call cards%set_table([integer_field('SID'), blank_field('CID'), real_field('A'), &
+      call cards%set_table([integer_field('SID'), integer_field('CID', default=0, least=0), real_field('A'), &
          real_field(['N1', 'N2', 'N3'], default=0.0_wp)])
       allocate (bulk%gravity(cards%n))
       do i = 1, cards%n
          call cards%next(values)
          call cards%check_direction('N1', 'the acceleration', values)
-         bulk%gravity(i) = gravity_card(line=cards%line, set=values%integers(1), &
+         bulk%gravity(i) = gravity_card(line=cards%line, set=values%integers(1), system=values%integers(2), &
                                         acceleration=values%reals(3)*values%reals(4:6))
       end do
    end subroutine read_gravity
-
-   !> SPCD: displacements of held components, in a load set: the total at the end of the stage, as for forces.
-   subroutine read_displacement(cards, bulk)
-      type(card_reader_type), intent(inout) :: cards
-      type(bulk_data_type), intent(inout)   :: bulk
-      type(card_values) :: values
-      integer :: field, i, n
-
-      call cards%set_table([integer_field('SID'), integer_field('G1'), component_field('C1'), real_field('D1'), &
-         integer_field('G2', default=0), component_field('C2', default=0), real_field('D2', default=0.0_wp)])
-      allocate (bulk%displacement(2*cards%n))
-      n = 0
-      do i = 1, cards%n
-         call cards%next(values)
-         if (any(values%given(5:7)) .and. .not. all(values%given(5:6))) &
-            call cards%error('G2', 'node, components C2 and displacement D2 go together')
-         do field = 2, merge(5, 2, values%given(5)), 3
-            n = n + 1
-            bulk%displacement(n) = displacement_card(line=cards%line, set=values%integers(1), field=field, &
-               node=values%integers(field), components=values%integers(field + 1), value=values%reals(field + 2))
-         end do
-      end do
-      bulk%displacement = bulk%displacement(:n)
-   end subroutine read_displacement
 
    !> LOAD: S (S1 L1 + S2 L2 + ...), the sets L being those of load cards other than LOAD.
    subroutine read_load(cards, bulk)

@@ -5,7 +5,7 @@ module mesh_cards
    use card_fields, only: card_values
    use card_reader, only: card_reader_type
    use element_kinds, only: element_table, kind_hexa20, kind_penta15, kind_quad4, kind_quad8, kind_tria3, kind_tria6, n_kinds
-   use field_rules, only: blank_field, component_field, field_rule, integer_field, real_field
+   use field_rules, only: any_field, blank_field, component_field, field_rule, integer_field, real_field
    use kinds, only: wp
    use text_tools, only: integer_text
    implicit none
@@ -27,19 +27,20 @@ contains
       type(card_values) :: values
       integer :: i
 
-      call cards%set_table([integer_field('ID'), blank_field('CP'), real_field(['X1', 'X2', 'X3'], default=0.0_wp, whole=.true.), &
-         blank_field('CD'), component_field('PS', default=0), blank_field('SEID')])
+      call cards%set_table([integer_field('ID'), integer_field('CP', default=-1, least=0), &
+         real_field(['X1', 'X2', 'X3'], default=0.0_wp, whole=.true.), integer_field('CD', default=-1, least=0), &
+         component_field('PS', default=0), blank_field('SEID')])
       allocate (bulk%grid(cards%n))
       do i = 1, cards%n
          call cards%next(values)
-         bulk%grid(i) = grid_card(line=cards%line, id=values%integers(1), ps=values%integers(7), x=values%reals(3:5), &
-                                  doubtful=.not. values%ok)
+         bulk%grid(i) = grid_card(line=cards%line, id=values%integers(1), ps=values%integers(7), cp=values%integers(2), &
+                                  cd=values%integers(6), x=values%reals(3:5), doubtful=.not. values%ok)
       end do
    end subroutine read_grid
 
    !> CTRIA3, CTRIA6, CQUAD4, CQUAD8, CTETRA, CPENTA and CHEXA, the body elements; in a model of solids, faces of marked surfaces
-   !! are those of the plane too. Any mid-side node makes the element one of second order. THETA, ZOFFS and corner thicknesses of
-   !! plates mean nothing to an isotropic membrane of one thickness, and must be blank.
+   !! are those of the plane too. Any mid-side node makes the element one of second order. THETA turns the axes of a material, which is
+   !! isotropic here: read without effect. ZOFFS and corner thicknesses of plates must be blank.
    subroutine read_element(cards, bulk)
       type(card_reader_type), intent(inout) :: cards
       type(bulk_data_type), intent(inout)   :: bulk
@@ -79,11 +80,11 @@ contains
       end associate
       select case (kind)
       case (kind_tria3, kind_quad4)
-         rules = [rules, blank_field(['THETA', 'ZOFFS'])]
+         rules = [rules, any_field('THETA'), blank_field('ZOFFS')]
       case (kind_tria6)
-         rules = [rules, blank_field(['THETA', 'ZOFFS', 'T1   ', 'T2   ', 'T3   '])]
+         rules = [rules, any_field('THETA'), blank_field(['ZOFFS', 'T1   ', 'T2   ', 'T3   '])]
       case (kind_quad8)
-         rules = [rules, blank_field(['T1   ', 'T2   ', 'T3   ', 'T4   ', 'THETA', 'ZOFFS'])]
+         rules = [rules, blank_field(['T1', 'T2', 'T3', 'T4']), any_field('THETA'), blank_field('ZOFFS')]
       end select
    end function element_rules
 

@@ -1,21 +1,21 @@
-!> The cards of properties and materials: PSHELL, PAXIS, PSOLID, PROD, MAT1. A table and a routine each.
+!> The cards of properties and materials: PSHELL, PAXIS, PSOLID, PROD, CONROD, MAT1. A table and a routine each.
 module property_cards
-   use bulk_data, only: bulk_data_type, mat1_card, prod_card, property_card
+   use bulk_data, only: bulk_data_type, conrod_card, mat1_card, prod_card, property_card
    use card_fields, only: card_values
    use card_reader, only: card_reader_type
    use elasticity, only: axisymmetric, plane_strain, plane_stress, solid
-   use field_rules, only: blank_field, integer_field, real_field, word_field
+   use field_rules, only: any_field, blank_field, integer_field, real_field, word_field
    use kinds, only: wp
    use text_tools, only: real_text
    implicit none
    private
 
-   public :: read_pshell, read_paxis, read_psolid, read_prod, read_mat1
+   public :: read_pshell, read_paxis, read_psolid, read_prod, read_conrod, read_mat1
 
 contains
 
-   !> PSHELL: a membrane of thickness T; MID2 = -1 plane strain, blank plane stress; MODES = YES on a continuation line
-   !! adds the incompatible modes of Wilson and Taylor.
+   !> PSHELL: a membrane of thickness T; MID2 = -1 plane strain, else plane stress; MODES = YES on a continuation line
+   !! adds the incompatible modes of Wilson and Taylor. What bending out of the plane has means nothing in it.
    subroutine read_pshell(cards, bulk)
       type(card_reader_type), intent(inout) :: cards
       type(bulk_data_type), intent(inout)   :: bulk
@@ -23,7 +23,7 @@ contains
       integer :: i
 
       call cards%set_table([integer_field(['PID ', 'MID1']), real_field('T', above=0.0_wp), &
-         integer_field('MID2', default=0, least=-1, most=-1), blank_field(['12I/T**3', 'MID3    ', 'TS/T    ', 'NSM     ']), &
+         integer_field('MID2', default=0, least=-1), any_field(['12I/T**3', 'MID3    ', 'TS/T    ']), blank_field('NSM'), &
          word_field('MODES', '|NO|YES|')])
       allocate (bulk%pshell(cards%n))
       do i = 1, cards%n
@@ -50,15 +50,16 @@ contains
       end do
    end subroutine read_paxis
 
-   !> PSOLID: solids. Field 7 (ISOP) = MODES adds the incompatible modes of Wilson and Taylor to CHEXA.
+   !> PSOLID: solids. Field 7 (ISOP) = MODES adds the incompatible modes of Wilson and Taylor to CHEXA. NASTRAN's other choices of
+   !! integration and output, and the system of an isotropic material, have no effect.
    subroutine read_psolid(cards, bulk)
       type(card_reader_type), intent(inout) :: cards
       type(bulk_data_type), intent(inout)   :: bulk
       type(card_values) :: values
       integer :: i
 
-      call cards%set_table([integer_field(['PID', 'MID']), blank_field(['CORDM ', 'IN    ', 'STRESS']), &
-         word_field('ISOP', '|PLAIN|MODES|'), blank_field('FCTN')])
+      call cards%set_table([integer_field(['PID', 'MID']), any_field(['CORDM ', 'IN    ', 'STRESS']), &
+         word_field('ISOP', '|PLAIN|MODES|FULL|REDUCED|0|1|2|3|'), word_field('FCTN', '|SMECH|')])
       allocate (bulk%psolid(cards%n))
       do i = 1, cards%n
          call cards%next(values)
@@ -67,14 +68,15 @@ contains
       end do
    end subroutine read_psolid
 
-   !> PROD: a bar of cross-section A.
+   !> PROD: a bar of cross-section A; J and C are of torsion, which a bar of this kind does not feel.
    subroutine read_prod(cards, bulk)
       type(card_reader_type), intent(inout) :: cards
       type(bulk_data_type), intent(inout)   :: bulk
       type(card_values) :: values
       integer :: i
 
-      call cards%set_table([integer_field(['PID', 'MID']), real_field('A', above=0.0_wp), blank_field(['J  ', 'C  ', 'NSM'])])
+      call cards%set_table([integer_field(['PID', 'MID']), real_field('A', above=0.0_wp), any_field(['J', 'C']), &
+         blank_field('NSM')])
       allocate (bulk%prod(cards%n))
       do i = 1, cards%n
          call cards%next(values)
@@ -83,7 +85,25 @@ contains
       end do
    end subroutine read_prod
 
-   !> MAT1: of E, G and NU two are enough, G = E/(2 (1 + NU)); all three must agree within one per cent.
+   !> CONROD: a CROD with its PROD on one card.
+   subroutine read_conrod(cards, bulk)
+      type(card_reader_type), intent(inout) :: cards
+      type(bulk_data_type), intent(inout)   :: bulk
+      type(card_values) :: values
+      integer :: i
+
+      call cards%set_table([integer_field(['EID', 'G1 ', 'G2 ', 'MID']), real_field('A', above=0.0_wp), any_field(['J', 'C']), &
+         blank_field('NSM')])
+      allocate (bulk%conrod(cards%n))
+      do i = 1, cards%n
+         call cards%next(values)
+         bulk%conrod(i) = conrod_card(line=cards%line, id=values%integers(1), nodes=values%integers(2:3), &
+                                      material=values%integers(4), area=values%reals(5))
+      end do
+   end subroutine read_conrod
+
+   !> MAT1: of E, G and NU two are enough, G = E/(2 (1 + NU)), and for bars E; all three must agree within one per cent. Stress
+   !! limits and the system of the material mean nothing to an isotropic elastic one.
    subroutine read_mat1(cards, bulk)
       type(card_reader_type), intent(inout) :: cards
       type(bulk_data_type), intent(inout)   :: bulk
@@ -92,13 +112,13 @@ contains
 
       call cards%set_table([integer_field('MID'), real_field(['E', 'G'], default=0.0_wp, above=0.0_wp), &
          real_field('NU', default=0.0_wp, above=-1.0_wp, below=0.5_wp), real_field('RHO', default=0.0_wp, least=0.0_wp), &
-         real_field(['A   ', 'TREF', 'GE  '], default=0.0_wp)])
+         real_field(['A   ', 'TREF', 'GE  '], default=0.0_wp), any_field(['ST   ', 'SC   ', 'SS   ', 'MCSID'])])
       allocate (bulk%mat1(cards%n))
       do i = 1, cards%n
          call cards%next(values)
          if (values%ok) call fill_in(cards, values)
          bulk%mat1(i) = mat1_card(line=cards%line, id=values%integers(1), e=values%reals(2), nu=values%reals(4), &
-                                  rho=values%reals(5))
+                                  rho=values%reals(5), bars_only=values%given(2) .and. .not. any(values%given(3:4)))
       end do
    end subroutine read_mat1
 
@@ -108,8 +128,10 @@ contains
       type(card_values), intent(inout)      :: values
 
       associate (e => values%reals(2), g => values%reals(3), nu => values%reals(4), given => values%given)
-         if (count(given(2:4)) < 2) then
-            call cards%error('E', 'expected two of E, G and NU')
+         if (.not. any(given(2:3)) .or. (count(given(2:4)) < 2 .and. .not. given(2))) then
+            call cards%error('E', 'expected two of E, G and NU; for bars E alone will do')
+         else if (count(given(2:4)) < 2) then
+            nu = 0.0_wp
          else if (.not. given(2)) then
             e = 2.0_wp*(1.0_wp + nu)*g
          else if (.not. given(4)) then

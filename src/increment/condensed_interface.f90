@@ -6,6 +6,7 @@ module condensed_interface
    use interface_operator, only: nodes_of_end
    use kinds, only: wp
    use model_data, only: model_type
+   use node_coupling, only: unknown_nodes
    use text_tools, only: integer_text
    implicit none
    private
@@ -83,7 +84,7 @@ contains
       do j = 1, size(model%joints)
          do end = 1, 2
             do i = model%joints(j)%first, model%joints(j)%last
-               associate (nodes => nodes_of_end(model%interface(i), end))
+               associate (nodes => unknown_nodes(model, nodes_of_end(model%interface(i), end)))
                   do k = 1, size(nodes)
                      do d = 1, model%dimension
                         equation = system%number(d, nodes(k))

@@ -6,6 +6,7 @@ module load_path
    use equations, only: condense_load, equation_system, forces_in_bodies, recover_displacements
    use kinds, only: wp
    use model_data, only: model_type, n_bars, n_sections
+   use node_coupling, only: displacements, forces_on_unknowns
    use stage_plan, only: stage_plan_type
    implicit none
    private
@@ -59,7 +60,7 @@ contains
       call forces_in_bodies(system, analysis%u, analysis%body)
    end subroutine start_stage
 
-   !> What retained nodes feel of LOAD on all nodes where held components are MOVED.
+   !> What retained unknowns feel of LOAD on all nodes where held ones are MOVED.
    subroutine condense(model, system, is_elastic, load, moved, felt)
       type(model_type), intent(in)       :: model
       class(equation_system), intent(in) :: system
@@ -67,7 +68,7 @@ contains
       real(wp), intent(in)               :: load(:, :), moved(:, :)
       real(wp), intent(out)              :: felt(:, :)
 
-      call condense_load(system, load - forces_of(model, system, is_elastic, moved), felt)
+      call condense_load(system, forces_on_unknowns(model, load - forces_of(model, system, is_elastic, moved)), felt)
    end subroutine condense
 
    !> Forces that bodies and elastic bars need to have MOVED what has no equation, the others at rest.
@@ -80,7 +81,7 @@ contains
 
       allocate (f, source=merge(moved, 0.0_wp, system%number == 0))
       if (any(abs(f) > 0.0_wp)) then
-         call all_forces(model, is_elastic, merge(moved, 0.0_wp, system%number == 0), f)
+         call all_forces(model, is_elastic, displacements(model, merge(moved, 0.0_wp, system%number == 0)), f)
       else
          f = 0.0_wp
       end if
@@ -155,29 +156,37 @@ contains
       if (fraction >= 1.0_wp) between = after
    end function between
 
-   !> Displacements of all nodes, and what is unbalanced on them, from the elements themselves: on held components minus the reaction.
+   !> Displacements of all nodes, and what is unbalanced on them, from the elements themselves, in global axes: on held components
+   !! minus the reaction.
    subroutine recover_bodies(model, system, analysis)
       type(model_type), intent(in)       :: model
       class(equation_system), intent(in) :: system
       type(analysis_type), intent(inout) :: analysis
 
-      call recover(model, system, analysis, analysis%applied, analysis%moved, analysis%u, analysis%all_u, analysis%all_unbalanced)
-      analysis%u = analysis%all_u(:, system%retained)
-      analysis%unbalanced = analysis%all_unbalanced(:, system%retained)
+      real(wp), allocatable :: felt(:, :), q(:, :)
+
+      call recover(model, system, analysis, analysis%applied, analysis%moved, analysis%u, q, analysis%all_unbalanced)
+      analysis%all_u = displacements(model, q)
+      analysis%u = q(:, system%retained)
+      allocate (felt, source=forces_on_unknowns(model, analysis%all_unbalanced))
+      analysis%unbalanced = felt(:, system%retained)
    end subroutine recover_bodies
 
-   !> The same as ALL_U and UNBALANCED for other displacements U of retained nodes under the LOAD on all nodes, supports being MOVED,
-   !! the joints as they are.
-   subroutine recover(model, system, analysis, load, moved, u, all_u, unbalanced)
+   !> The unknowns Q of all nodes, and what is UNBALANCED on them in global axes, for the unknowns U of retained nodes under the LOAD
+   !! on all nodes, supports being MOVED, the joints as they are.
+   subroutine recover(model, system, analysis, load, moved, u, q, unbalanced)
       type(model_type), intent(in)       :: model
       class(equation_system), intent(in) :: system
       type(analysis_type), intent(in)    :: analysis
       real(wp), intent(in)               :: load(:, :), moved(:, :), u(:, :)
-      real(wp), intent(out)              :: all_u(:, :), unbalanced(:, :)
+      real(wp), allocatable, intent(out) :: q(:, :)
+      real(wp), intent(out)              :: unbalanced(:, :)
 
-      call recover_displacements(system, load - forces_of(model, system, analysis%is_elastic, moved), u, all_u)
-      where (system%number == 0) all_u = moved
-      call all_forces(model, analysis%is_elastic, all_u, unbalanced)
+      allocate (q, mold=load)
+      call recover_displacements(system, forces_on_unknowns(model, &
+                                 load - forces_of(model, system, analysis%is_elastic, moved)), u, q)
+      where (system%number == 0) q = moved
+      call all_forces(model, analysis%is_elastic, displacements(model, q), unbalanced)
       unbalanced = load - unbalanced
       call subtract_joint_forces(model%interface, analysis%states, unbalanced)
    end subroutine recover
@@ -189,13 +198,14 @@ contains
       type(analysis_type), intent(in)    :: analysis
       real(wp), intent(in)               :: u(:, :) !! (dimension, retained) [length]
       real(wp), intent(in)               :: left    !! [-], 0 to 1
-      real(wp), dimension(model%dimension, model%n_nodes) :: all_u, unbalanced
+      real(wp), dimension(model%dimension, model%n_nodes) :: unbalanced
+      real(wp), allocatable :: q(:, :)
 
       associate (ahead => left*analysis%share)
          call recover(model, system, analysis, analysis%applied - ahead*(analysis%load_after - analysis%load_before), &
-                      analysis%moved - ahead*(analysis%moved_after - analysis%moved_before), u, all_u, unbalanced)
+                      analysis%moved - ahead*(analysis%moved_after - analysis%moved_before), u, q, unbalanced)
       end associate
-      force = norm2(pack(unbalanced, all_held(model, analysis)))
+      force = norm2(pack(forces_on_unknowns(model, unbalanced), all_held(model, analysis)))
    end function support_force
 
 end module load_path

@@ -10,6 +10,7 @@ module newton_method
    use model_data, only: joint_node_id, model_type
    use newton_direction, only: attempt_type, close_gaps, find_direction
    use newton_trial, only: commit, evaluate, search, start_trial, swap, take_whole_step, trial_type
+   use node_coupling, only: forces_on_unknowns
    use normal_stiffness, only: at_rest, branch_name, branch_open, pressure_floor
    use stage_plan, only: stage_plan_type, where_in_plan
    use text_tools, only: integer_text, real_text
@@ -34,8 +35,8 @@ contains
       type(failure_type), intent(inout)    :: failure
       type(attempt_type) :: attempt
 
-      analysis%tolerance = max(analysis%tolerance, analysis%load_tolerance*free_norm(analysis%applied, all_held(model, analysis)), &
-                               tiny(1.0_wp))
+      analysis%tolerance = max(analysis%tolerance, analysis%load_tolerance*free_norm(forces_on_unknowns(model, &
+                               analysis%applied), all_held(model, analysis)), tiny(1.0_wp))
       attempt%where = where_in_plan(plan, analysis%stage, analysis%increment)
       call find_equilibrium(model, analysis, system, attempt, failure)
       if (.not. failure%raised) return

@@ -2,10 +2,11 @@
 module bar_elements
    use kinds, only: wp
    use model_data, only: bar_type, model_type
+   use node_coupling, only: onto_unknowns, unknown_nodes
    implicit none
    private
 
-   public :: bar_elongation, add_pull, add_bar_forces, bar_stiffness
+   public :: bar_elongation, add_pull, add_bar_forces, bar_stiffness, coupled_bar_stiffness
 
 contains
 
@@ -59,5 +60,20 @@ contains
          end do
       end associate
    end function bar_stiffness
+
+   !> [k] of bar I between the unknowns of the unknown_nodes of its nodes, components of the first of these first [force/length].
+   pure function coupled_bar_stiffness(model, i) result(k)
+      type(model_type), intent(in) :: model
+      integer, intent(in)          :: i
+      real(wp), allocatable :: k(:, :)
+      integer :: n, m
+
+      n = 2*model%dimension
+      m = model%dimension*size(unknown_nodes(model, model%bars(i)%nodes))
+      allocate (k(max(n, m), max(n, m)), source=0.0_wp)
+      k(:n, :n) = bar_stiffness(model, i)
+      call onto_unknowns(model, model%bars(i)%nodes, k)
+      k = k(:m, :m)
+   end function coupled_bar_stiffness
 
 end module bar_elements

@@ -8,7 +8,8 @@ module body_elements
    use kinds, only: wp
    use local_nodes, only: centre_point
    use model_data, only: corners_of, model_type
-   use section_coupling, only: corner_displacements, coupled_nodes, extend_stiffness
+   use node_coupling, only: onto_unknowns
+   use section_coupling, only: corner_displacements, extend_stiffness, felt_nodes
    use shape_functions, only: shape_values
    use stress_recovery, only: centre_stress, nodal_stress
    implicit none
@@ -19,15 +20,25 @@ module body_elements
 
 contains
 
-   !> Stiffness between the coupled_nodes of element E, components of node 1 first [force/length].
+   !> Stiffness between the unknowns of the coupled_nodes of element E, components of node 1 first [force/length].
    pure subroutine coupled_stiffness(model, e, k)
       type(model_type), intent(in) :: model
       integer, intent(in)          :: e
       real(wp), intent(inout)      :: k(:, :) !! dimension x coupled nodes rows and columns are set
 
+      call felt_stiffness(model, e, k)
+      if (allocated(model%coupling%of_node)) call onto_unknowns(model, felt_nodes(model, e), k)
+   end subroutine coupled_stiffness
+
+   !> Stiffness between the displacements of the felt_nodes of element E, likewise.
+   pure subroutine felt_stiffness(model, e, k)
+      type(model_type), intent(in) :: model
+      integer, intent(in)          :: e
+      real(wp), intent(inout)      :: k(:, :) !! dimension x felt nodes rows and columns are set
+
       call stiffness(law_of(model, e), model%x(:model%dimension, corners_of(model, e)), k)
       call extend_stiffness(model, e, k)
-   end subroutine coupled_stiffness
+   end subroutine felt_stiffness
 
    !> The centre of element E, where element_stress is [length]: of a linear element the mean of its corners.
    pure function element_centre(model, e) result(x)
@@ -133,8 +144,8 @@ contains
       d = model%dimension
       f = 0.0_wp
       do e = 1, model%n_elements
-         call coupled_stiffness(model, e, k)
-         associate (nodes => coupled_nodes(model, e))
+         call felt_stiffness(model, e, k)
+         associate (nodes => felt_nodes(model, e))
             n = d*size(nodes)
             do i = 1, size(nodes)
                q(d*(i - 1) + 1:d*i) = u(:, nodes(i))

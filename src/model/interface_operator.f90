@@ -23,6 +23,8 @@ module interface_operator
       integer  :: named = 0                  !! the node that names end 1 where several share it, 0: none
       integer, allocatable  :: node(:)       !! positions
       real(wp), allocatable :: weight(:)     !! of the displacement of each: their sum is the movement of end 1 against end 2
+      real(wp), allocatable :: map(:, :, :)  !! (dimension, dimension, nodes) in place of the weights, where nodes are coupled: the
+                                             !! movement is the sum of these times the nodes' unknowns
       real(wp) :: area = 0.0_wp              !! a_i [length^2]
       real(wp) :: gap = 0.0_wp               !! g: closing at which the faces touch; negative: interference [length]
       real(wp) :: axes(3, 3) = 0.0_wp        !! columns: x, y in the joint, z its normal from end 1 to end 2
@@ -106,7 +108,11 @@ contains
       d = size(u, 1)
       between = 0.0_wp
       do a = 1, size(element%node)
-         between(:d) = between(:d) + element%weight(a)*u(:, element%node(a))
+         if (allocated(element%map)) then
+            between(:d) = between(:d) + matmul(element%map(:, :, a), u(:, element%node(a)))
+         else
+            between(:d) = between(:d) + element%weight(a)*u(:, element%node(a))
+         end if
       end do
    end function relative_movement
 
@@ -139,7 +145,11 @@ contains
 
       d = size(f, 1)
       do a = 1, size(element%node)
-         f(:, element%node(a)) = f(:, element%node(a)) + element%weight(a)*force(:d)
+         if (allocated(element%map)) then
+            f(:, element%node(a)) = f(:, element%node(a)) + matmul(force(:d), element%map(:, :, a))
+         else
+            f(:, element%node(a)) = f(:, element%node(a)) + element%weight(a)*force(:d)
+         end if
       end do
    end subroutine add_global_force
 

@@ -1,6 +1,7 @@
 !> The structure as it is solved: nodes, bodies, joints, supports, loads, all references resolved to positions.
 !! Built once from a deck; nothing in it changes afterwards.
 module model_data
+   use coordinate_systems, only: coordinate_system
    use elasticity, only: plane_stress
    use element_kinds, only: element_table
    use id_table, only: id_table_type
@@ -71,7 +72,7 @@ module model_data
       integer :: n = 0
       integer, allocatable  :: node(:)       !! (n), a node may stand here more than once
       real(wp), allocatable :: force(:, :)   !! (3, n)
-      real(wp), allocatable :: moved(:, :)   !! (dimension, n_nodes) of held components [length]; where any move
+      real(wp), allocatable :: moved(:, :)   !! (dimension, n_nodes) of held unknowns [length]; where any move
    end type stage_load_type
 
    !> A bar, which may be a bolt.
@@ -98,6 +99,15 @@ module model_data
       integer  :: stage = 0                  !! position of the stage that tightens it; from its end on g is held as it then is
    end type section_type
 
+   !> Nodes whose displacements are not their own unknowns in global axes: see node_coupling.
+   type, public :: node_coupling_type
+      integer :: n = 0                       !! coupled nodes
+      integer, allocatable  :: of_node(:)    !! (n_nodes) which of them a node is, 0: none; not allocated where there is none
+      integer, allocatable  :: first(:)      !! (at least n + 1) parts first(k) to first(k + 1) - 1 are of coupled node k:
+      integer, allocatable  :: node(:)       !! (at least parts) the unknowns of this node
+      real(wp), allocatable :: t(:, :, :)    !! (dimension, dimension, likewise) by this matrix [-]
+   end type node_coupling_type
+
    type, public :: model_type
       integer :: dimension = 2               !! degrees of freedom a node
       logical :: axisymmetric = .false.      !! about y; loads, areas and forces are those of the whole ring
@@ -107,7 +117,9 @@ module model_data
       real(wp), allocatable :: x(:, :)       !! (3, n_nodes) [length]
       integer, allocatable  :: twin(:)       !! (n_nodes) the node that a split surface put opposite, 0: none
       logical, allocatable  :: used(:)       !! (n_nodes) whether any element holds the node
-      logical, allocatable  :: held(:, :)    !! (dimension, n_nodes) supported
+      logical, allocatable  :: held(:, :)    !! (dimension, n_nodes) supported, component by component of its unknowns
+      type(node_coupling_type) :: coupling   !! of displacements with unknowns
+      integer, allocatable  :: node_system(:) !! (n_nodes) the system CD of a node, 0: global axes; where any has one
       type(id_table_type)   :: node_table
       integer :: n_elements = 0
       integer, allocatable  :: element_id(:)
@@ -117,6 +129,7 @@ module model_data
       integer, allocatable  :: element_line(:)       !! of its card in the deck text
       integer, allocatable  :: first_at(:)           !! (n_nodes + 1) elements_at(first_at(i):first_at(i+1)-1)
       integer, allocatable  :: elements_at(:)        !! are the elements of node i
+      type(coordinate_system), allocatable :: systems(:) !! as the deck has them
       type(property_type), allocatable :: properties(:)
       type(surface_type), allocatable  :: surfaces(:)
       type(joint_type), allocatable    :: joints(:)

@@ -4,10 +4,11 @@ module section_coupling
    use element_kinds, only: element_table
    use kinds, only: wp
    use model_data, only: corners_of, model_type, n_sections
+   use node_coupling, only: unknown_nodes
    implicit none
    private
 
-   public :: section_node, coupled_nodes, corner_displacements, extend_stiffness, add_section_share
+   public :: section_node, felt_nodes, coupled_nodes, corner_displacements, extend_stiffness, add_section_share
 
 contains
 
@@ -21,14 +22,23 @@ contains
       if (model%element_section(e) > 0) node = model%sections(model%element_section(e))%node
    end function section_node
 
-   !> The nodes whose unknowns element E couples: its corners, and the node of a section that it touches from behind.
-   pure function coupled_nodes(model, e) result(nodes)
+   !> The nodes whose displacements element E feels: its corners, and the node of a section that it touches from behind.
+   pure function felt_nodes(model, e) result(nodes)
       type(model_type), intent(in) :: model
       integer, intent(in)          :: e
       integer, allocatable :: nodes(:)
 
       nodes = corners_of(model, e)
       if (section_node(model, e) > 0) nodes = [nodes, section_node(model, e)]
+   end function felt_nodes
+
+   !> The nodes whose unknowns element E couples.
+   pure function coupled_nodes(model, e) result(nodes)
+      type(model_type), intent(in) :: model
+      integer, intent(in)          :: e
+      integer, allocatable :: nodes(:)
+
+      nodes = unknown_nodes(model, felt_nodes(model, e))
    end function coupled_nodes
 
    !> Displacements of the corners of element E as it feels them: u, at a section that it touches from behind u + g direction.
@@ -51,7 +61,7 @@ contains
       end associate
    end function corner_displacements
 
-   !> [T]^T [k] [T]: the stiffness K of element E between its corners becomes that between its coupled nodes, components of node 1
+   !> [T]^T [k] [T]: the stiffness K of element E between its corners becomes that between its felt_nodes, components of node 1
    !! first. Of the section's node the first component alone has any.
    pure subroutine extend_stiffness(model, e, k)
       type(model_type), intent(in) :: model

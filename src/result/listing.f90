@@ -18,6 +18,7 @@ module listing
    use listing_table, only: column, label_type, listing_table_type, noise, page_type
    use model_data, only: joint_node_id, model_type, stage_load_type
    use model_warnings, only: tetra_words
+   use node_coupling, only: held_forces
    use normal_stiffness, only: branch_open
    use range_watch, only: range_watch_type, say_ranges, watch_balance, watch_ranges, watch_shear_laws, watch_unloading
    use stage_plan, only: stage_plan_type
@@ -87,7 +88,7 @@ contains
          end if
          page%largest_force = max(page%largest_force, maxval(abs(analysis%applied(:, analysis%loaded))))
          if (analysis%is_moved) page%largest_force = &
-            max(page%largest_force, maxval(abs(analysis%all_unbalanced), mask=model%held)) ! what moves the supports
+            max(page%largest_force, maxval(abs(held_forces(model, analysis%all_unbalanced)))) ! what moves the supports
          if (any(model%interface%gap < 0.0_wp)) page%largest_force = &
             max(page%largest_force, maxval(abs(analysis%states%normal%sumf)))              ! what interference presses
          call note_increment(page, trim(stage%label), model, analysis, listing%increments)

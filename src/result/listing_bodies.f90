@@ -7,6 +7,7 @@ module listing_bodies
    use kinds, only: wp
    use listing_table, only: axes, column, listing_table_type, noise, page_type
    use model_data, only: has_second_order, model_type, n_points
+   use node_coupling, only: held_forces
    use shown_rows, only: shows_element, shows_node
    use stress_measures, only: principal_stresses, von_mises
    use text_tools, only: clean
@@ -162,6 +163,7 @@ contains
       type(analysis_type), intent(in) :: analysis
       type(listing_table_type) :: table
       real(wp), dimension(model%dimension) :: reaction, supports, base, loads
+      real(wp), allocatable :: held(:, :)
       real(wp) :: floor, force(3)
       integer  :: first, i, node
 
@@ -171,9 +173,10 @@ contains
       call table%print_head(page%file)
       floor = noise*max(page%largest_force, tiny(1.0_wp))
       supports = 0.0_wp
+      allocate (held, source=held_forces(model, analysis%all_unbalanced))
       do node = 1, n_points(model)
          if (.not. any(model%held(:, node)) .or. .not. model%used(node)) cycle
-         reaction = merge(-analysis%all_unbalanced(:, node), 0.0_wp, model%held(:, node))
+         reaction = -held(:, node)
          supports = supports + reaction
          if (.not. shows_node(page, node)) cycle
          call table%add([model%node_id(node)])

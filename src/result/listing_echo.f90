@@ -23,7 +23,7 @@ contains
       character(:), allocatable :: line
       character(10) :: counter
       integer :: i, cards, hidden !! lines of INCLUDE files since the last one shown
-      logical :: in_bulk, shows_cards
+      logical :: in_bulk, ended, shows_cards
 
       if (.not. deck%control%echo) then
          call heading(file, 'DECK: '//integer_text(deck%bulk%n_cards)//' CARDS, NOT ECHOED')
@@ -35,12 +35,16 @@ contains
       cards = 0
       hidden = 0
       in_bulk = .false.
+      ended = .false.
       do i = 1, deck%text%n
          line = deck%text%card_part(i)
          counter = ''
          if (in_bulk .and. begins_card(line)) then
             cards = cards + 1
             write (counter, '(i9, a)') cards, '-'
+         else if (in_bulk .and. ends_bulk(line)) then
+            in_bulk = deck%text%file_number(i) > 1
+            ended = .not. in_bulk
          end if
          if (deck%text%file_number(i) > 1) then
             hidden = hidden + 1
@@ -48,7 +52,7 @@ contains
             call count_hidden()
             call file%put(' '//counter//' '//cut(deck%text%line(i), page_width - 13))
          end if
-         if (.not. in_bulk .and. index(adjustl(upper(line)), 'BEGIN') == 1) then
+         if (.not. (in_bulk .or. ended) .and. index(adjustl(upper(line)), 'BEGIN') == 1) then
             in_bulk = .true.
             if (.not. shows_cards) cycle
             call file%put('   CARD')
@@ -83,6 +87,7 @@ contains
          if (deck%text%file_number(i) > 1) cycle
          line = deck%text%card_part(i)
          if (in_bulk .and. begins_card(line)) n = n + 1
+         if (in_bulk .and. ends_bulk(line)) exit
          if (.not. in_bulk) in_bulk = index(adjustl(upper(line)), 'BEGIN') == 1
       end do
    end function own_cards
@@ -96,5 +101,15 @@ contains
       if (is_continuation(line)) return
       begins_card = card_name(line) /= 'ENDDATA' .and. .not. is_include(line)
    end function begins_card
+
+   !> Whether this LINE of the bulk data is ENDDATA.
+   pure logical function ends_bulk(line)
+      character(*), intent(in) :: line
+
+      ends_bulk = .false.
+      if (line == '') return
+      if (is_continuation(line)) return
+      ends_bulk = card_name(line) == 'ENDDATA'
+   end function ends_bulk
 
 end module listing_echo

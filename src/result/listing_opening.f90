@@ -99,6 +99,7 @@ contains
       end associate
       if (deck%control%length_unit /= '') call file%put('  UNITS, LABELS ONLY: LENGTH '// &
          trim(deck%control%length_unit)//', FORCE '//trim(deck%control%force_unit))
+      call write_folded(file, upper(deck%bulk%idle%words()))
       if (tetra_words(model) /= '') call file%put('  WARNING: '//upper(tetra_words(model)))
 
    contains
@@ -113,6 +114,21 @@ contains
       end subroutine count_line
 
    end subroutine write_summary
+
+   !> WORDS, a list with commas, in as many lines as it takes; none where there are no words.
+   subroutine write_folded(file, words)
+      type(output_file_type), intent(inout) :: file
+      character(*), intent(in)              :: words
+      integer :: first, last
+
+      first = 1
+      do while (first <= len(words))
+         last = min(first + page_width - 6, len(words))
+         if (last < len(words)) last = first - 1 + max(1, index(words(first:last), ',', back=.true.))
+         call file%put('  '//repeat(' ', merge(0, 1, first == 1))//words(first:last))
+         first = last + 1
+      end do
+   end subroutine write_folded
 
    !> Laws and areas of the joints.
    subroutine write_joints(page, model)

@@ -260,6 +260,7 @@ contains
          words = distance_words(run%results%listing%farthest)
          if (words /= '') write (error_unit, '(3a)') run%argument%name, ': ', words
          if (tetra_words(model) /= '') write (error_unit, '(3a)') run%argument%name, ': ', tetra_words(model)
+         call say_of_deck(run, deck)
          if (ok) then
             call show_answers(model, run%results, shown)
             if (.not. shown) exit_status = max(exit_status, status_of(is_unwritten))
@@ -272,6 +273,16 @@ contains
       call say_how_it_ended(run, deck, model, plan)
       exit_status = max(exit_status, status_of(run%ending))
    end subroutine finish_run
+
+   !> What of the deck has no effect, and how NASTRAN would read it otherwise.
+   subroutine say_of_deck(run, deck)
+      type(run_type), intent(in)  :: run
+      type(deck_type), intent(in) :: deck
+
+      if (deck%bulk%idle%n > 0) write (error_unit, '(3a)') run%argument%name, ': ', deck%bulk%idle%words()
+      if (size(deck%control%stages) > 1) write (error_unit, '(4a)') run%argument%name, ': ', &
+         plural(size(deck%control%stages), 'SUBCASE'), ' are stages of one history, each goes on from the end of the one before'
+   end subroutine say_of_deck
 
    !> What is wrong, or that a deck is in order; no result is left of a run that did not come to its end.
    subroutine say_how_it_ended(run, deck, model, plan)
@@ -294,6 +305,7 @@ contains
          case (has_errors)
             call print_errors(error_unit, 'DECK', 'nothing solved', deck%text, run%errors)
          case (was_checked)
+            call say_of_deck(run, deck)
             call write_bytes(1, name//': no errors; '//plural(n_points(model), 'node')//', '// &
                              plural(model%n_elements, 'body element')//', '// &
                              plural(size(model%interface), 'interface element')//', '//plural(size(plan%stages), 'stage')// &

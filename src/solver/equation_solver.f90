@@ -204,6 +204,9 @@ contains
 
       if (node <= n_points(model)) then
          words = 'node '//integer_text(model%node_id(node))//' has no stiffness in direction '//direction_name(d)
+         if (.not. allocated(model%node_system)) return
+         if (model%node_system(node) > 0) words = 'node '//integer_text(model%node_id(node))//' has no stiffness in direction '// &
+            integer_text(d)//' of its system '//integer_text(model%systems(model%node_system(node))%id)
       else
          words = 'nothing holds BOLT '//integer_text(model%sections(node - n_points(model))%bolt)//' together at its section'
       end if

@@ -2,13 +2,14 @@
 !! of these only the retained ones: all nodes with SKYLINE, with TREE those that are left when the bodies have been condensed.
 !! Arrays over retained nodes are (dimension, retained), those over all nodes (dimension, n_nodes).
 module equations
-   use bar_elements, only: bar_stiffness
+   use bar_elements, only: coupled_bar_stiffness
    use case_control, only: solver_auto
    use equation_solver, only: equation_system
    use failures, only: failure_type
    use interface_operator, only: add_global_force, global_stiffness, relative_movement
    use kinds, only: wp
    use model_data, only: model_type, n_bars
+   use node_coupling, only: list_on_unknowns, unknown_nodes
    use node_graph, only: build_node_graph, node_graph_type
    use solver_choice, only: choose_solver
    implicit none
@@ -55,9 +56,9 @@ contains
 
       allocate (system%place(model%n_nodes), source=0)
       system%place(system%retained) = [(i, i = 1, size(system%retained))]
-      system%interface = model%interface
+      call list_on_unknowns(model, system%interface)
       do i = 1, size(system%interface)
-         system%interface(i)%node = system%place(model%interface(i)%node)
+         system%interface(i)%node = system%place(system%interface(i)%node)
       end do
       allocate (system%k_int(3, 3, size(system%interface)))
    end subroutine place_retained
@@ -83,8 +84,8 @@ contains
       integer, intent(in)                   :: i
       class(equation_system), intent(inout) :: system
 
-      associate (nodes => model%bars(i)%nodes)
-         call system%add_to_bodies([system%number(:, nodes(1)), system%number(:, nodes(2))], bar_stiffness(model, i))
+      associate (nodes => unknown_nodes(model, model%bars(i)%nodes))
+         call system%add_to_bodies([system%number(:, nodes)], coupled_bar_stiffness(model, i))
       end associate
       system%stiffest = max(system%stiffest, model%bars(i)%stiffness)
    end subroutine add_bar

@@ -5,8 +5,10 @@ module front_tree
    use front_blocks, only: kept_block
    use front_layout, only: front_layout_type, front_operations
    use interface_equations, only: interface_equations_type, list_interface_equations
+   use interface_operator, only: interface_element
    use kinds, only: wp
    use model_data, only: model_type
+   use node_coupling, only: list_on_unknowns
    use reverse_lists, only: list_owners
    use section_coupling, only: coupled_nodes
    implicit none
@@ -145,6 +147,7 @@ contains
    subroutine hand_out_elements(model, tree)
       type(model_type), intent(in)         :: model
       type(front_tree_type), intent(inout) :: tree
+      type(interface_element), allocatable :: elements(:)
       integer, allocatable :: front(:, :), first(:), list(:)
       integer :: e, f
 
@@ -156,7 +159,8 @@ contains
       do f = 1, size(tree%fronts)
          tree%fronts(f)%elements = list(first(f):first(f + 1) - 1)
       end do
-      call list_interface_equations(model%interface, tree%number, tree%joints)
+      call list_on_unknowns(model, elements)
+      call list_interface_equations(elements, tree%number, tree%joints)
       do e = 1, size(model%interface)
          front(1, e) = front_of(tree, tree%joints%rows_of(e))
       end do

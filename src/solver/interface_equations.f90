@@ -1,5 +1,5 @@
 !> Interface elements as the equations see them: which equations each couples, with which weights, and what its stiffness is
-!! between them: s_a s_b [k] for the nodes a and b, s their weights.
+!! between them: s_a s_b [k] for the nodes a and b, s their weights; of coupled nodes [M_a]^T [k] [M_b], M their maps.
 module interface_equations
    use interface_operator, only: interface_element
    use kinds, only: wp
@@ -13,6 +13,8 @@ module interface_equations
       integer, allocatable, private  :: first(:)     ! (n + 1) the nodes of element i are first(i) to first(i + 1) - 1
       integer, allocatable, private  :: equation(:, :) ! (dimension, all nodes of all elements), 0: held
       real(wp), allocatable, private :: weight(:)
+      logical, allocatable, private  :: is_mapped(:) ! (n) by map, not by weight
+      real(wp), allocatable, private :: map(:, :, :) ! (dimension, dimension, all nodes of all elements), where any is
    contains
       procedure :: rows_of
       procedure :: matrix_of
@@ -35,11 +37,17 @@ contains
          n = n + size(elements(i)%node)
       end do
       equations%first(equations%n + 1) = n + 1
-      allocate (equations%equation(size(number, 1), n), equations%weight(n))
+      allocate (equations%equation(size(number, 1), n), equations%weight(n), equations%is_mapped(equations%n))
+      equations%is_mapped = [(allocated(elements(i)%map), i = 1, equations%n)]
+      if (any(equations%is_mapped)) allocate (equations%map(size(number, 1), size(number, 1), n), source=0.0_wp)
       do i = 1, equations%n
          last = equations%first(i + 1) - 1
          equations%equation(:, equations%first(i):last) = number(:, elements(i)%node)
-         equations%weight(equations%first(i):last) = elements(i)%weight
+         if (equations%is_mapped(i)) then
+            equations%map(:, :, equations%first(i):last) = elements(i)%map
+         else
+            equations%weight(equations%first(i):last) = elements(i)%weight
+         end if
       end do
    end subroutine list_interface_equations
 
@@ -65,6 +73,12 @@ contains
       d = size(self%equation, 1)
       n = self%first(i + 1) - self%first(i)
       allocate (matrix(d*n, d*n))
+      if (self%is_mapped(i)) then
+         associate (maps => reshape(self%map(:, :, self%first(i):self%first(i + 1) - 1), [d, d*n]))
+            matrix = matmul(transpose(maps), matmul(k(:d, :d), maps))
+         end associate
+         return
+      end if
       associate (s => self%weight(self%first(i):self%first(i + 1) - 1))
          do b = 1, n
             do a = 1, n
@@ -88,14 +102,25 @@ contains
          between = 0.0_wp
          do a = equations%first(i), equations%first(i + 1) - 1
             do c = 1, d
-               if (equations%equation(c, a) > 0) between(c) = between(c) + equations%weight(a)*x(equations%equation(c, a))
+               if (equations%equation(c, a) == 0) cycle
+               if (equations%is_mapped(i)) then
+                  between(:d) = between(:d) + equations%map(:, c, a)*x(equations%equation(c, a))
+               else
+                  between(c) = between(c) + equations%weight(a)*x(equations%equation(c, a))
+               end if
             end do
          end do
          force(:d) = matmul(k(:d, :d, i), between(:d))
          do a = equations%first(i), equations%first(i + 1) - 1
             do c = 1, d
-               if (equations%equation(c, a) > 0) y(equations%equation(c, a)) = y(equations%equation(c, a)) &
-                                                                               + equations%weight(a)*force(c)
+               if (equations%equation(c, a) == 0) cycle
+               associate (at => y(equations%equation(c, a)))
+                  if (equations%is_mapped(i)) then
+                     at = at + dot_product(equations%map(:, c, a), force(:d))
+                  else
+                     at = at + equations%weight(a)*force(c)
+                  end if
+               end associate
             end do
          end do
       end do

@@ -1,8 +1,9 @@
 !> Which nodes share an element: the graph that orderings work on.
 module node_graph
    use model_data, only: model_type, n_bars
+   use node_coupling, only: unknown_nodes
    use reverse_lists, only: list_owners
-   use section_coupling, only: section_node
+   use section_coupling, only: coupled_nodes, felt_nodes, section_node
    implicit none
    private
 
@@ -66,23 +67,42 @@ contains
 
    end subroutine build_node_graph
 
-   !> JOINED(:, n): the nodes of interface elements, and of bars; 0 behind the last.
-   pure subroutine list_joined(model, joined)
+   !> JOINED(:, n): the nodes whose unknowns interface elements and bars couple, and body elements with nodes that move with the
+   !! unknowns of others; 0 behind the last.
+   subroutine list_joined(model, joined)
       type(model_type), intent(in)      :: model
       integer, allocatable, intent(out) :: joined(:, :)
-      integer :: i, most
+      integer, allocatable :: wider(:, :)
+      integer :: e, i, n
 
-      most = 2
+      allocate (joined(2, size(model%interface) + n_bars(model)), source=0)
+      n = 0
       do i = 1, size(model%interface)
-         most = max(most, size(model%interface(i)%node))
-      end do
-      allocate (joined(most, size(model%interface) + n_bars(model)), source=0)
-      do i = 1, size(model%interface)
-         joined(:size(model%interface(i)%node), i) = model%interface(i)%node
+         call join(unknown_nodes(model, model%interface(i)%node))
       end do
       do i = 1, n_bars(model)
-         joined(:2, size(model%interface) + i) = model%bars(i)%nodes
+         call join(unknown_nodes(model, model%bars(i)%nodes))
       end do
+      if (.not. allocated(model%coupling%of_node)) return
+      do e = 1, model%n_elements
+         if (size(unknown_nodes(model, felt_nodes(model, e))) > size(felt_nodes(model, e))) call join(coupled_nodes(model, e))
+      end do
+      joined = joined(:, :n)
+
+   contains
+
+      subroutine join(nodes)
+         integer, intent(in) :: nodes(:)
+
+         n = n + 1
+         if (size(nodes) > size(joined, 1) .or. n > size(joined, 2)) then
+            allocate (wider(max(size(nodes), size(joined, 1)), max(size(joined, 2), merge(2*n, 0, n > size(joined, 2)))), source=0)
+            wider(:size(joined, 1), :n - 1) = joined(:, :n - 1)
+            call move_alloc(wider, joined)
+         end if
+         joined(:size(nodes), n) = nodes
+      end subroutine join
+
    end subroutine list_joined
 
    !> The PART of GRAPH with NODES alone, numbered in their sequence.

@@ -6,9 +6,11 @@ module skyline_solver
    use equation_solver, only: equation_system, pivot_tolerance
    use failures, only: failure_type
    use interface_equations, only: interface_equations_type, list_interface_equations
+   use interface_operator, only: interface_element
    use kinds, only: long, wp
    use memory_need, only: shortage
    use model_data, only: model_type, n_bars
+   use node_coupling, only: list_on_unknowns, unknown_nodes
    use section_coupling, only: coupled_nodes
    use node_graph, only: node_graph_type
    use profile_ordering, only: reverse_cuthill_mckee
@@ -62,6 +64,7 @@ contains
       type(node_graph_type), intent(in)         :: graph
       type(failure_type), intent(inout)         :: failure
       character(:), allocatable :: words
+      type(interface_element), allocatable :: elements(:)
       real(wp) :: share
       integer  :: i
       logical  :: ok
@@ -74,7 +77,8 @@ contains
       if (.not. ok) call failure%raise('no memory for the skyline of '//integer_text(self%n)//' equations')
       self%equations = [(i, i = 1, self%n)]
       self%retained = pack([(i, i = 1, model%n_nodes)], model%used)
-      call list_interface_equations(model%interface, self%number, self%joints)
+      call list_on_unknowns(model, elements)
+      call list_interface_equations(elements, self%number, self%joints)
       associate (description => self%description)
          description%name = 'SKYLINE'
          description%words(:2) = [character(40) :: 'PROFILE OF THE STIFFNESS MATRIX, ENTRIES', &
@@ -96,10 +100,10 @@ contains
          call couple(coupled_nodes(model, e))
       end do
       do i = 1, size(model%interface)
-         call couple(model%interface(i)%node)
+         call couple(unknown_nodes(model, model%interface(i)%node))
       end do
       do i = 1, n_bars(model)
-         call couple(model%bars(i)%nodes)
+         call couple(unknown_nodes(model, model%bars(i)%nodes))
       end do
       profile = 0
       do i = 1, numbers%n

@@ -16,6 +16,7 @@ module tree_solver
    use kinds, only: long, wp
    use memory_need, only: check_memory
    use model_data, only: model_type, n_bars, n_sections
+   use node_coupling, only: unknown_nodes
    use nested_dissection, only: dissect
    use node_graph, only: node_graph_type
    use text_tools, only: integer_text
@@ -100,10 +101,10 @@ contains
 
       allocate (in_joint(model%n_nodes), source=.false.)
       do i = 1, size(model%interface)
-         in_joint(model%interface(i)%node) = .true.
+         in_joint(unknown_nodes(model, model%interface(i)%node)) = .true.
       end do
       do i = 1, n_bars(model)
-         in_joint(model%bars(i)%nodes) = .true.
+         in_joint(unknown_nodes(model, model%bars(i)%nodes)) = .true.
       end do
       do i = 1, n_sections(model)
          in_joint(model%sections(i)%node) = .true.

@@ -1,0 +1,230 @@
+!> How nodes move with the unknowns of the equations. An ordinary node has its own, its displacements in global axes. Others are
+!! coupled: their displacements are sums over parts, {u} = sum of [T] {q}, each the unknowns q of a node, their own or another one's:
+!! of a node with a displacement system CD one part, its own unknowns along the directions of the system. Elements, loads, interface
+!! elements and results know displacements; what they give to the equations, and take from them, goes through here:
+!!
+!!      {u} = [T] {q}      {f_q} = [T]^T {f}      [k_q] = [T]^T [k] [T]
+module node_coupling
+   use interface_operator, only: interface_element
+   use kinds, only: wp
+   use model_data, only: model_type, node_coupling_type
+   implicit none
+   private
+
+   public :: is_coupled, couple_node, unknown_nodes, onto_unknowns, displacements, displacements_at, forces_on_unknowns, &
+             held_forces, list_on_unknowns
+
+contains
+
+   !> Whether any of NODES is coupled, 0 is none.
+   pure logical function is_coupled(model, nodes)
+      type(model_type), intent(in) :: model
+      integer, intent(in)          :: nodes(:)
+      integer :: i
+
+      is_coupled = .false.
+      if (.not. allocated(model%coupling%of_node)) return
+      do i = 1, size(nodes)
+         if (nodes(i) > 0) is_coupled = is_coupled .or. model%coupling%of_node(nodes(i)) > 0
+      end do
+   end function is_coupled
+
+   !> Couple NODE, which has not been so far: u = sum of T(:, :, k) q of the node MASTERS(k), in COUPLING of N_NODES nodes in all.
+   pure subroutine couple_node(coupling, n_nodes, node, masters, t)
+      type(node_coupling_type), intent(inout) :: coupling
+      integer, intent(in)                     :: n_nodes, node, masters(:)
+      real(wp), intent(in)                    :: t(:, :, :) !! (dimension, dimension, masters) [-]
+      integer :: n, parts
+
+      if (.not. allocated(coupling%of_node)) then
+         allocate (coupling%of_node(n_nodes), source=0)
+         allocate (coupling%first(1), source=1)
+         allocate (coupling%node(0), coupling%t(size(t, 1), size(t, 2), 0))
+      end if
+      n = coupling%n + 1
+      parts = coupling%first(n) - 1
+      if (n + 1 > size(coupling%first)) coupling%first = [coupling%first, coupling%first]
+      if (parts + size(masters) > size(coupling%node)) then
+         coupling%node = [coupling%node, masters, coupling%node]
+         coupling%t = reshape([coupling%t, t, coupling%t], [size(t, 1), size(t, 2), size(coupling%node)])
+      end if
+      coupling%n = n
+      coupling%of_node(node) = n
+      coupling%node(parts + 1:parts + size(masters)) = masters
+      coupling%t(:, :, parts + 1:parts + size(masters)) = t
+      coupling%first(n + 1) = parts + size(masters) + 1
+   end subroutine couple_node
+
+   !> The nodes whose unknowns NODES move with, each once: NODES themselves where none is coupled.
+   pure function unknown_nodes(model, nodes) result(unknown)
+      type(model_type), intent(in) :: model
+      integer, intent(in)          :: nodes(:)
+      integer, allocatable :: unknown(:)
+      integer :: i, k
+
+      if (.not. is_coupled(model, nodes)) then
+         unknown = nodes
+         return
+      end if
+      allocate (unknown(0))
+      do i = 1, size(nodes)
+         associate (c => model%coupling%of_node(nodes(i)))
+            if (c == 0) then
+               if (all(unknown /= nodes(i))) unknown = [unknown, nodes(i)]
+               cycle
+            end if
+            do k = model%coupling%first(c), model%coupling%first(c + 1) - 1
+               if (all(unknown /= model%coupling%node(k))) unknown = [unknown, model%coupling%node(k)]
+            end do
+         end associate
+      end do
+   end function unknown_nodes
+
+   !> [T] of NODES: their displacements, components of node 1 first, by the unknowns of unknown_nodes, likewise.
+   pure function transformation(model, nodes) result(t)
+      type(model_type), intent(in) :: model
+      integer, intent(in)          :: nodes(:)
+      real(wp), allocatable :: t(:, :)
+      integer, allocatable  :: unknown(:)
+      integer :: column, c, d, i, k
+
+      allocate (unknown, source=unknown_nodes(model, nodes))
+      d = model%dimension
+      allocate (t(d*size(nodes), d*size(unknown)), source=0.0_wp)
+      do i = 1, size(nodes)
+         c = model%coupling%of_node(nodes(i))
+         if (c == 0) then
+            column = d*(findloc(unknown, nodes(i), dim=1) - 1)
+            do k = 1, d
+               t(d*(i - 1) + k, column + k) = 1.0_wp
+            end do
+            cycle
+         end if
+         do k = model%coupling%first(c), model%coupling%first(c + 1) - 1
+            column = d*(findloc(unknown, model%coupling%node(k), dim=1) - 1)
+            t(d*(i - 1) + 1:d*i, column + 1:column + d) = model%coupling%t(:, :, k)
+         end do
+      end do
+   end function transformation
+
+   !> [T]^T [k] [T]: the stiffness K between the displacements of NODES becomes that between the unknowns of unknown_nodes. What is
+   !! but rounding in it is zero: a bar has no stiffness across, and whether a node is held there hangs on that.
+   pure subroutine onto_unknowns(model, nodes, k)
+      type(model_type), intent(in) :: model
+      integer, intent(in)          :: nodes(:)
+      real(wp), intent(inout)      :: k(:, :) !! at least as many rows and columns as either has components [force/length]
+      real(wp), parameter :: rounding = 16.0_wp*epsilon(1.0_wp) ! of the largest entry
+      real(wp), allocatable :: t(:, :)
+
+      if (.not. is_coupled(model, nodes)) return
+      t = transformation(model, nodes)
+      associate (n => size(t, 1), m => size(t, 2))
+         k(:m, :m) = matmul(transpose(t), matmul(k(:n, :n), t))
+         where (abs(k(:m, :m)) <= rounding*maxval(abs(k(:m, :m)))) k(:m, :m) = 0.0_wp
+      end associate
+   end subroutine onto_unknowns
+
+   !> Displacements U of all nodes from their unknowns Q.
+   pure function displacements(model, q) result(u)
+      type(model_type), intent(in) :: model
+      real(wp), intent(in)         :: q(:, :) !! (dimension, n_nodes) [length]
+      real(wp), allocatable :: u(:, :)
+      integer :: i, k
+
+      u = q
+      if (.not. allocated(model%coupling%of_node)) return
+      do i = 1, size(model%coupling%of_node)
+         associate (coupling => model%coupling, c => model%coupling%of_node(i))
+            if (c == 0) cycle
+            u(:, i) = 0.0_wp
+            do k = coupling%first(c), coupling%first(c + 1) - 1
+               u(:, i) = u(:, i) + matmul(coupling%t(:, :, k), q(:, coupling%node(k)))
+            end do
+         end associate
+      end do
+   end function displacements
+
+   !> Displacements of NODES where the unknowns of node i are Q(:, PLACE(i)).
+   pure function displacements_at(model, nodes, place, q) result(u)
+      type(model_type), intent(in) :: model
+      integer, intent(in)          :: nodes(:)
+      integer, intent(in)          :: place(:) !! (n_nodes)
+      real(wp), intent(in)         :: q(:, :)  !! (dimension, places) [length]
+      real(wp) :: u(size(q, 1), size(nodes))
+
+      if (is_coupled(model, nodes)) then
+         u = reshape(matmul(transformation(model, nodes), pack(q(:, place(unknown_nodes(model, nodes))), .true.)), shape(u))
+      else
+         u = q(:, place(nodes))
+      end if
+   end function displacements_at
+
+   !> What the unknowns of all nodes feel of the forces F on all nodes: the same work.
+   pure function forces_on_unknowns(model, f) result(felt)
+      type(model_type), intent(in) :: model
+      real(wp), intent(in)         :: f(:, :) !! (dimension, n_nodes) [force]
+      real(wp), allocatable :: felt(:, :)
+      integer :: i, k
+
+      felt = f
+      if (.not. allocated(model%coupling%of_node)) return
+      associate (coupling => model%coupling)
+         do i = 1, size(coupling%of_node)
+            if (coupling%of_node(i) > 0) felt(:, i) = 0.0_wp
+         end do
+         do i = 1, size(coupling%of_node)
+            associate (c => coupling%of_node(i))
+               if (c == 0) cycle
+               do k = coupling%first(c), coupling%first(c + 1) - 1
+                  felt(:, coupling%node(k)) = felt(:, coupling%node(k)) + matmul(f(:, i), coupling%t(:, :, k))
+               end do
+            end associate
+         end do
+      end associate
+   end function forces_on_unknowns
+
+   !> Of the forces F on all nodes what acts on held unknowns, in global axes at the nodes of these.
+   pure function held_forces(model, f) result(held)
+      type(model_type), intent(in) :: model
+      real(wp), intent(in)         :: f(:, :) !! (dimension, n_nodes) [force]
+      real(wp), allocatable :: held(:, :)
+      integer :: i, k
+
+      held = merge(forces_on_unknowns(model, f), 0.0_wp, model%held)
+      if (.not. allocated(model%coupling%of_node)) return
+      do i = 1, size(model%coupling%of_node)
+         associate (coupling => model%coupling, c => model%coupling%of_node(i))
+            if (c == 0) cycle
+            do k = coupling%first(c), coupling%first(c + 1) - 1
+               if (coupling%node(k) == i) held(:, i) = matmul(coupling%t(:, :, k), held(:, i))
+            end do
+         end associate
+      end do
+   end function held_forces
+
+   !> The interface ELEMENTS of the model as the equations see them: on the nodes whose unknowns they move with.
+   pure subroutine list_on_unknowns(model, elements)
+      type(model_type), intent(in)                      :: model
+      type(interface_element), allocatable, intent(out) :: elements(:)
+      real(wp), allocatable :: t(:, :)
+      integer :: a, b, d, i
+
+      elements = model%interface
+      d = model%dimension
+      do i = 1, size(elements)
+         associate (nodes => model%interface(i)%node)
+            if (.not. is_coupled(model, nodes)) cycle
+            t = transformation(model, nodes)
+            elements(i)%node = unknown_nodes(model, nodes)
+            allocate (elements(i)%map(d, d, size(elements(i)%node)), source=0.0_wp)
+            do b = 1, size(elements(i)%node)
+               do a = 1, size(nodes)
+                  elements(i)%map(:, :, b) = elements(i)%map(:, :, b) + model%interface(i)%weight(a)* &
+                                             t(d*(a - 1) + 1:d*a, d*(b - 1) + 1:d*b)
+               end do
+            end do
+         end associate
+      end do
+   end subroutine list_on_unknowns
+
+end module node_coupling
