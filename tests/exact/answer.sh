@@ -47,6 +47,11 @@ run_input lap_joint && {
       "$(value lap_joint rows "node1 = $(of lap_joint stage rows 'stage = 2' print gap_node) and stage < 3" \
          print 'max(lambda) - max(pressure)/9500 - last(lambda)')" 1e-9
 }
+# STEP: the stiffness at the end of a stage is that of its next increment
+run_input prism_history && for stage in 1 2; do
+   near "prism_history: stiffness after stage $stage" "$(of prism_history stage rows "stage = $stage" print tangent_n)" \
+      "$(value prism_history rows "stage = $stage + 1 and increment = 1" print 'sum(k_n)')" 1e-12
+done
 sed 's/^ *OUTPUT.*//; s/^SUBCASE.*/&\nOUTPUT = LAST, STRESS/' input/prism_newton.bdf > "$work/prism_answer.bdf"
 run prism_answer && {
    one_joint prism_answer 1 1 0
