@@ -51,6 +51,7 @@ sed -E 's/^( *INCR = .*)/\1\n  OUTPUT = LAST, VTU/; /OUTPUT = (ALL|JOINT|LAST|NO
 part 'files for ParaView' tests/vtu/run.sh "$build/vtu" "$build/vtu-deck/history.pvd" "$build/check/post_on_plate.pvd" \
    "$build/check/column_tetra10.pvd"
 part 'meshes from Gmsh' tests/gmsh.sh "$program" "$query" "$build/gmsh"
+part 'decks to and from pyNastran' tests/pynastran/run.sh "$program" "$build/pynastran"
 part 'pictures of a deck, flow charts' tests/figures.sh "$program" "$build/test/figures"
 part 'the benchmark, without measuring' tests/bench/test_bench.sh "$program" "$build/test/bench"
 part 'bad decks and command lines' tests/bad/run.sh "$PWD/$checked"
