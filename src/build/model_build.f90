@@ -14,6 +14,8 @@ module model_build
    use load_build, only: build_loads
    use mesh_build, only: build_mesh, marked_sides
    use model_data, only: model_type, n_sections
+   use rigid_build, only: build_dependents
+   use rotation_build, only: build_rotations
    use section_build, only: build_sections
    use stage_plan, only: plan_stages, stage_plan_type
    use support_build, only: build_supports
@@ -44,9 +46,11 @@ contains
       call build_joints(checked, model)
       call build_gaps(checked, model)
       call build_bars(checked, model)
+      call build_rotations(checked, model)
       call build_supports(checked, model)
       call build_sections(checked, model)
       call build_frames(checked, model)
+      call build_dependents(checked, model)
       call build_loads(checked, model)
       call plan_stages(deck, plan, errors)
       if (.not. any(model%used)) call errors%add(0, 'nothing to solve: expected body elements or interface elements')
