@@ -146,7 +146,7 @@ contains
                call deck%field_error(card%line, 'REFC', 'component '//integer_text(digit)//' of node '// &
                   integer_text(card%node)//' cannot be had from the components C of these nodes: they move so that it is left '// &
                   'open, as nodes on a line leave the rotation about it')
-               cycle
+               return
             end if
             call add_dependence(list, place, card%line, 3)
             do i = 1, size(nodes)
