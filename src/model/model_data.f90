@@ -52,6 +52,7 @@ module model_data
       integer  :: id = 0                     !! JID; PJID for a group of CJOINT cards
       integer  :: line = 0                   !! of its card (the first CJOINT) in the deck text
       integer  :: first = 0, last = -1       !! its interface elements
+      integer  :: side_1 = 0                 !! position of the surface SIDE1; 0: single elements
       type(joint_cover) :: cover
       type(joint_law) :: law                 !! normal, shear, friction
       logical  :: e_u_given = .false.        !! whether the deck gives the unloading slope
