@@ -125,7 +125,27 @@ contains
       end do
       if (control%tolerance <= 0.0_wp) control%tolerance = merge(back_tolerance, newton_tolerance, control%method == method_back)
       call check_stages(control, common, errors)
+      call note_idle_sets(control)
    end subroutine read_case_control
+
+   !> Sets that no OUTPUT names have no effect.
+   pure subroutine note_idle_sets(control)
+      type(case_control_type), intent(inout) :: control
+      integer :: i, s
+      logical :: used
+
+      if (.not. allocated(control%sets)) return
+      do i = 1, size(control%sets)
+         used = .false.
+         do s = 1, size(control%stages)
+            if (.not. allocated(control%stages(s)%only)) cycle
+            associate (only => control%stages(s)%only)
+               used = used .or. any(only%id == control%sets(i)%id .and. .not. only%is_mark)
+            end associate
+         end do
+         if (.not. used) call control%idle%add('SET')
+      end do
+   end subroutine note_idle_sets
 
    !> What one line of case control says.
    subroutine read_entry(entry, control, common, errors)
@@ -137,8 +157,8 @@ contains
       logical :: ok
 
       n = size(control%stages)
-      if (n > 0 .and. entry%key == 'TITLE') then ! that of a subcase
-         call control%idle%add('TITLE')
+      if (n > 0 .and. any(entry%key == ['TITLE', 'ECHO '])) then ! that of a subcase
+         call control%idle%add(entry%key)
          return
       end if
       if (n > 0 .and. any(global_keys == entry%key)) &

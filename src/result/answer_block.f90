@@ -13,15 +13,15 @@ module answer_block
 
 contains
 
-   !> Print ANSWER of STAGE, 'STAGE 2   UNLOADING', into FILE.
-   subroutine print_answer(file, labels, stage, model, answer)
+   !> Print ANSWER under TITLE into FILE.
+   subroutine print_answer(file, labels, title, model, answer)
       type(output_file_type), intent(inout) :: file
       type(label_type), intent(in)          :: labels
-      character(*), intent(in)              :: stage
+      character(*), intent(in)              :: title
       type(model_type), intent(in)          :: model
       type(stage_answer_type), intent(in)   :: answer
 
-      call heading(file, 'ANSWER AT THE END OF '//stage)
+      call heading(file, title)
       call print_peaks(file, labels, model, answer)
       if (size(answer%joints) > 0) call print_joints(file, labels, model, answer)
       if (size(answer%joints) > 0) call print_stiffnesses(file, labels, model, answer)

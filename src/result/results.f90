@@ -16,6 +16,7 @@ module results
    use stage_answer, only: bolt_answer_type, find_answer, find_bolt_answers, stage_answer_type
    use stage_history, only: write_bolt_header, write_bolts, write_stage, write_stage_header
    use stage_plan, only: stage_plan_type
+   use text_tools, only: real_text
    use vtu_results, only: discard_vtu, finish_vtu, is_vtu_ending, remove_old_vtu, start_vtu, vtu_names, vtu_results_type, write_vtu
    implicit none
    private
@@ -80,7 +81,7 @@ contains
       type(bolt_answer_type), allocatable :: bolts(:)
 
       call list_increment(results%listing, model, plan, analysis)
-      call write_vtu(results%vtu, model, plan, analysis)
+      if (plan%stages(analysis%stage)%steps) call write_vtu(results%vtu, model, plan, analysis)
       if (results%base == '') return
       call write_history(results%tables(joint_file), model, plan, analysis)
       if (n_bolts(model) == 0) return
@@ -101,7 +102,9 @@ contains
       call list_stage(results%listing, model, plan, analysis)
       associate (stage => plan%stages(analysis%stage), page => results%listing%page)
          call find_answer(model, analysis, results%listing%method, page%largest_force, results%bolts_before, answer)
-         title = page%stage//'   '//stage%label
+         title = 'ANSWER AT THE END OF '//page%stage//'   '//stage%label
+         if (analysis%ends_early) title = 'ANSWER WHERE THE RUN ENDED EARLY, '//page%stage//', LOAD '// &
+                                          real_text(analysis%fraction)//'   '//stage%label
          call print_answer(page%file, page%labels, title, model, answer)
          if (results%base /= '') then
             call print_answer(results%screen, page%labels, title, model, answer)
@@ -109,6 +112,7 @@ contains
          end if
       end associate
       results%bolts_before = answer%bolts%force
+      if (.not. plan%stages(analysis%stage)%steps) call write_vtu(results%vtu, model, plan, analysis)
    end subroutine print_stage
 
    !> Give the files their names. All or none: OK is false where one could not be written.

@@ -1,5 +1,5 @@
-!> Results for ParaView: for a stage with OUTPUT = VTU the bodies in one file and the joints in another, with STEPS after every increment,
-!! and where there may be more than one of each their list NAME.pvd. All stay unnamed until the whole run is complete.
+!> Results for ParaView: for a stage with OUTPUT = VTU the bodies in one file and the joints in another, with STEPS after every
+!! increment, and where there may be more than one of each their list NAME.pvd. All stay unnamed until the whole run is complete.
 module vtu_results
    use, intrinsic :: iso_fortran_env, only: int8
    use analysis_state, only: analysis_type
@@ -59,17 +59,14 @@ contains
       allocate (results%parts(2*most))
    end subroutine start_vtu
 
-   !> Write the files of the increment just completed, where the stage asks for them: of the last one, or of each.
+   !> Write the files of the increment just completed, where the stage asks for any.
    subroutine write_vtu(results, model, plan, analysis)
       type(vtu_results_type), intent(inout) :: results
       type(model_type), intent(in)          :: model
       type(stage_plan_type), intent(in)     :: plan
       type(analysis_type), intent(in)       :: analysis
 
-      associate (stage => plan%stages(analysis%stage))
-         if (results%name == '' .or. .not. stage%vtu) return
-         if (.not. stage%steps .and. analysis%increment < size(stage%shares)) return
-      end associate
+      if (results%name == '' .or. .not. plan%stages(analysis%stage)%vtu) return
       if (model%n_elements > 0) then
          call open_next('.vtu', 0)
          call write_bodies(results%parts(results%n)%file, results%labels, model, analysis)
