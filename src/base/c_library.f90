@@ -1,12 +1,12 @@
 !> The few services of the C library that Fortran has no word for: reading and writing files by bytes with
-!! every failure told, renaming and removing a file, the true path of a file, and whether a stream is a terminal.
+!! every failure told, renaming and removing a file, its true path and whether it is one, and whether a stream is a terminal.
 module c_library
-   use, intrinsic :: iso_c_binding, only: c_associated, c_char, c_int, c_null_char, c_ptr, c_size_t
+   use, intrinsic :: iso_c_binding, only: c_associated, c_char, c_int, c_int8_t, c_int16_t, c_intptr_t, c_null_char, c_ptr, c_size_t
    implicit none
    private
 
    public :: read_all_bytes, create_file, write_bytes, close_file, rename_file, remove_file, remove_terminated, &
-             true_path, is_terminal, end_run
+             true_path, is_regular_file, is_terminal, tell_failed_writes, end_run
 
    logical, public, protected :: has_ended = .false. !! by end_run
 
@@ -59,6 +59,21 @@ module c_library
          character(kind=c_char), intent(in)  :: path(*)
          character(kind=c_char), intent(out) :: resolved(*)
       end function c_realpath
+
+      !> What the file PATH of DIRECTORY is, 0 on success; the layout of STATUS is the same on every processor (man 2 statx).
+      integer(c_int) function c_statx(directory, path, flags, mask, status) bind(c, name='statx')
+         import :: c_char, c_int, c_int8_t
+         integer(c_int), value              :: directory, flags, mask
+         character(kind=c_char), intent(in) :: path(*)
+         integer(c_int8_t), intent(out)     :: status(256)
+      end function c_statx
+
+      !> What is done at SIGNAL from now on; gives what was done.
+      integer(c_intptr_t) function c_signal(signal, handler) bind(c, name='signal')
+         import :: c_int, c_intptr_t
+         integer(c_int), value      :: signal
+         integer(c_intptr_t), value :: handler
+      end function c_signal
 
       integer(c_int) function c_isatty(descriptor) bind(c, name='isatty')
          import :: c_int
@@ -175,6 +190,32 @@ contains
       resolved = path
       if (c_associated(c_realpath(path//c_null_char, text))) resolved = text(:index(text, c_null_char) - 1)
    end function true_path
+
+   !> Whether PATH is a plain file, links followed: no folder, device or pipe.
+   logical function is_regular_file(path)
+      character(*), intent(in) :: path
+      integer(c_int), parameter :: here = -100, follow_links = 0, kind_asked = 1              ! AT_FDCWD, STATX_TYPE
+      integer, parameter :: kind_bits = int(o'170000'), regular = int(o'100000'), mode_at = 29 ! S_IFMT, S_IFREG, stx_mode
+      integer(c_int8_t) :: status(256)
+
+      is_regular_file = c_statx(here, path//c_null_char, follow_links, kind_asked, status) == 0
+      if (is_regular_file) &
+         is_regular_file = iand(int(transfer(status(mode_at:mode_at + 1), 0_c_int16_t)), kind_bits) == regular
+   end function is_regular_file
+
+   !> A write into a pipe that nobody reads, or beyond the size that files may have, fails from now on as one on a full disk does,
+   !! and does not kill the program.
+   subroutine tell_failed_writes()
+      integer(c_int), parameter      :: signals(2) = [13, 25] ! SIGPIPE, SIGXFSZ of Linux
+      integer(c_intptr_t), parameter :: ignore = 1            ! SIG_IGN
+      integer(c_intptr_t) :: before
+      integer :: i
+
+      do i = 1, size(signals)
+         before = c_signal(signals(i), ignore)
+         if (before < 0) return ! SIG_ERR: it stays as it was
+      end do
+   end subroutine tell_failed_writes
 
    !> Whether the stream DESCRIPTOR (1 standard output, 2 standard error) is a terminal.
    logical function is_terminal(descriptor)

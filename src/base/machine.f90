@@ -3,7 +3,7 @@ module machine
    use, intrinsic :: iso_c_binding, only: c_int, c_size_t
    use kernel_figures, only: kernel_figure, memory_left_by_groups, no_figure
    use kinds, only: long, wp
-   use omp_lib, only: omp_get_max_threads, omp_set_num_threads
+   use omp_lib, only: omp_get_max_threads, omp_get_num_procs, omp_set_num_threads
    implicit none
    private
 
@@ -89,12 +89,12 @@ contains
       bytes = kernel_figure('/proc/self/status', 'VmHWM:', 1024)
    end function peak_memory
 
-   !> N threads at most, 0: as many as there are cores. BLAS has one in each: one order of additions, the same digits everywhere.
+   !> N threads at most, 0: what OMP_NUM_THREADS says; never more than there are cores. BLAS has one in each: one order of additions, the same digits everywhere.
    subroutine use_threads(n)
       integer, intent(in) :: n
 
       call openblas_set_num_threads(1_c_int)
-      if (n > 0) call omp_set_num_threads(n)
+      call omp_set_num_threads(min(merge(n, omp_get_max_threads(), n > 0), omp_get_num_procs()))
    end subroutine use_threads
 
 end module machine

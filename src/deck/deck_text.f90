@@ -2,7 +2,7 @@
 module deck_text
    use kinds, only: long
    use line_scan, only: included_path, is_include, line_place, scan_line
-   use c_library, only: read_all_bytes, true_path
+   use c_library, only: is_regular_file, read_all_bytes, true_path
    use command_arguments, only: standard_input
    use deck_errors, only: deck_error_list
    use text_tools, only: integer_text
@@ -266,7 +266,7 @@ contains
                          integer_text(max_files)//' files in all')
          return
       end if
-      call add_file(text, path, me, depth + 1, errors, followed)
+      if (is_regular_file(path)) call add_file(text, path, me, depth + 1, errors, followed)
       if (.not. followed) call errors%add(here, 'INCLUDE: '''//path//''' cannot be read: no such file, or not a file')
    end subroutine follow_include
 

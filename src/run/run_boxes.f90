@@ -3,7 +3,7 @@
 module run_boxes
    use analysis_state, only: analysis_type, interface_stiffness, note_largest, start_analysis
    use, intrinsic :: iso_fortran_env, only: error_unit
-   use c_library, only: end_run, write_bytes
+   use c_library, only: end_run, tell_failed_writes, write_bytes
    use case_control, only: method_back
    use command_arguments, only: complain_of_input
    use condensed_interface, only: condense_on_joints
@@ -67,6 +67,7 @@ contains
       if (finished) call end_program(status)
       call use_threads(command%threads)
       call watch_allocations()
+      call tell_failed_writes()
    end subroutine start_program
 
    !> Whether nothing more is to be done for this deck.

@@ -239,6 +239,27 @@ else
    echo 'skipped: a full disk (no user may mount a file system here)'
 fi
 
+# ---- writes that the system ends with a signal ----
+
+fresh results
+(ulimit -f 4; "$program" -o results good.bdf >"$work/stdout" 2>"$work/stderr"; echo $? >"$work/status")
+status=$(cat "$work/status")
+if [ "$status" = 4 ]; then check 'files may not be that large' 4 'cannot be written'; holds results 'files may not be that large'
+else check 'files may be that large' 0; fi
+{ "$program" - <good.bdf 2>"$work/stderr"; echo $? >"$work/status"; } | true
+status=$(cat "$work/status")
+check 'a listing into a pipe that nobody reads' 4 'cannot be written to the standard output'
+
+# ---- INCLUDE of what is no file ----
+
+mkfifo pipe
+for path in pipe /dev/zero .; do
+   sed "s#^BEGIN BULK#&\nINCLUDE '$path'#" good.bdf > included.bdf
+   timeout 20 "$program" -o results included.bdf >"$work/stdout" 2>"$work/stderr"; status=$?
+   check "INCLUDE of $path" 2 'not a file'
+done
+rm -f pipe included.bdf
+
 # ---- an interrupted run ----
 
 fresh results
