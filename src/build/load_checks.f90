@@ -4,7 +4,8 @@ module load_checks
    use coordinate_systems, only: rectangular
    use deck_check, only: checked_deck
    use kinds, only: wp
-   use model_data, only: model_type
+   use model_data, only: model_type, supported
+   use reference_nodes, only: component_place, place_of_component
    use surface_build, only: find_surface
    use surface_sides, only: nodes_of
    use system_build, only: find_system
@@ -132,17 +133,29 @@ contains
             do d = 1, 6
                if (.not. has_component(card%components, d)) cycle
                words = ''
-               if (d > model%dimension) then
-                  words = ', expected 1 to '//integer_text(model%dimension)
-               else if (.not. model%held(d, node)) then
-                  words = ' of node '//integer_text(card%node)//' is not supported: SPCD moves components that an SPC holds'
-               end if
+               associate (place => place_of_component(model, node, d))
+                  if (place%node == 0) then
+                     words = ', expected 1 to '//integer_text(model%dimension)
+                  else if (.not. is_supported(model, place)) then
+                     words = ' of node '//integer_text(card%node)//' is not supported: SPCD moves components that an SPC holds'
+                  end if
+               end associate
                if (words /= '') call deck%field_error(card%line, card%field + 1, 'component '//integer_text(d)//words, &
                                                       called='C')
             end do
          end associate
       end do
    end subroutine check_displacements
+
+   !> Whether the component at PLACE is supported.
+   pure logical function is_supported(model, place)
+      type(model_type), intent(in)      :: model
+      type(component_place), intent(in) :: place
+      logical :: held(model%dimension)
+
+      held = supported(model, place%node)
+      is_supported = held(place%d)
+   end function is_supported
 
    !> LOAD cards combine sets that are there.
    subroutine check_combinations(deck)

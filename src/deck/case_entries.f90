@@ -12,7 +12,7 @@ module case_entries
    !> Keys that hold for all stages, and those of a stage.
    character(8), parameter, public :: global_keys(10) = [character(8) :: 'SOL', 'TITLE', 'UNITS', 'METHOD', 'TOL', 'PRESSURE', &
       'CARRY', 'AVERAGE', 'SOLVER', 'ECHO']
-   character(6), parameter :: stage_keys(5) = ['SPC   ', 'LABEL ', 'LOAD  ', 'INCR  ', 'OUTPUT']
+   character(6), parameter :: stage_keys(6) = ['SPC   ', 'MPC   ', 'LABEL ', 'LOAD  ', 'INCR  ', 'OUTPUT']
 
    !> A key with a number, and the line it stands on (0: not given).
    type, public :: set_reference

@@ -29,7 +29,7 @@ contains
       end do
    end function is_coupled
 
-   !> Couple NODE, which has not been so far: u = sum of T(:, :, k) q of the node MASTERS(k), in COUPLING of N_NODES nodes in all.
+   !> Couple NODE, anew where it has been so far: u = sum of T(:, :, k) q of the node MASTERS(k), in COUPLING of N_NODES nodes in all.
    pure subroutine couple_node(coupling, n_nodes, node, masters, t)
       type(node_coupling_type), intent(inout) :: coupling
       integer, intent(in)                     :: n_nodes, node, masters(:)

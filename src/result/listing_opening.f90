@@ -10,7 +10,7 @@ module listing_opening
    use listing_covers, only: write_covers
    use listing_echo, only: write_echo
    use listing_table, only: axes, column, cut, heading, listing_table_type, page_type, page_width
-   use model_data, only: has_gaps, model_type, n_bars, n_points, n_sections
+   use model_data, only: has_gaps, model_type, n_bars, n_points, n_rotations, n_sections, supported
    use model_warnings, only: tetra_words
    use normal_stiffness, only: branch_load, branch_name, branch_reload, branch_unload, pressure_floor
    use output_file, only: output_file_type
@@ -79,7 +79,11 @@ contains
       if (n_sections(model) > 0) call count_line('SOLID BOLTS', size(model%sections, kind=long))
       call count_line('JOINTS', size(model%joints, kind=long))
       call count_line('INTERFACE ELEMENTS', size(model%interface, kind=long))
-      call count_line('SUPPORTED COMPONENTS', count(model%held(:, :n_points(model)), kind=long))
+      call count_line('SUPPORTED COMPONENTS', &
+                      sum([(count(supported(model, i), kind=long), i = 1, n_points(model) + n_rotations(model))]))
+      if (size(deck%bulk%rigid) > 0) call count_line('RIGID ELEMENTS', size(deck%bulk%rigid, kind=long))
+      if (allocated(model%left_out)) call count_line('COMPONENTS DEPENDENT OR IDLE', &
+                                                     count(model%left_out, kind=long))
       call count_line('UNKNOWNS', int(system%n, long))
       do i = 1, size(system%description%words)
          if (system%description%words(i) /= '') call count_line(trim(system%description%words(i)), system%description%numbers(i))
@@ -263,7 +267,7 @@ contains
       call table%print_head(page%file)
       do s = 1, size(plan%stages)
          associate (stage => plan%stages(s), loads => model%stage_loads(s))
-            total = sum(loads%force(:, :loads%n), dim=2)
+            total = sum(loads%force(:, :loads%n), dim=2, mask=spread(loads%node(:loads%n) <= n_points(model), 1, 3)) ! no moments
             largest = 0.0_wp
             if (loads%n > 0) largest = maxval(abs(loads%force(:, :loads%n)))
             call table%add([stage%id, size(stage%shares)])
