@@ -44,16 +44,19 @@ function cut_inside(   k) {
    return "cut inside line " k
 }
 
-function double_behind_end(   k) {
-   k = chance(my_cards)
-   line[++n] = line[k]
-   return "line " k " again behind ENDDATA"
+# what stands behind an ENDDATA does not count: nothing is left
+function end_too_early() {
+   insert(first, line[last])
+   return "ENDDATA right behind BEGIN BULK"
 }
 
+# without the ENDDATA between them, behind which nothing counts
 function double_deck(   i, whole) {
+   remove(last)
    whole = n
    for (i = 1; i <= whole; i++) line[n + i] = line[i]
    n += whole
+   line[++n] = "ENDDATA"
    return "the whole deck twice"
 }
 
@@ -183,7 +186,7 @@ function add_nonsense(   k, i, word) {
 function damage(kind) {
    if (kind == 0) return cut_lines()
    if (kind == 1) return cut_inside()
-   if (kind == 2) return double_behind_end()
+   if (kind == 2) return end_too_early()
    if (kind == 3) return double_deck()
    if (kind == 4) return double_card()
    if (kind == 5) return swap_structure()

@@ -113,6 +113,13 @@ run habits_own
 if run habits_nastran; then
    same_rows 'turned in its own system' habits_nastran habits_own 1e-10 $resultant
    names='14 entries without effect: NASTRAN, ID, TIME, LINE, DISPLACEMENT, SUBTITLE, STRESS, OUTPUT, SET, PLOTEL, PBARL, text behind'
+   for way in 'STEP TREE' 'STEP SKYLINE' 'NEWTON TREE' 'NEWTON SKYLINE'; do
+      for deck in own nastran; do
+         sed -e "s/^METHOD = NEWTON/METHOD = ${way% *}/" -e "s/^SPC = /SOLVER = ${way#* }\n&/" "$work/habits_$deck.bdf" > "$work/habits_way_$deck.bdf"
+         run habits_way_$deck
+      done
+      same_rows "turned in its own system, $way" habits_way_nastran habits_way_own 1e-10 $resultant
+   done
    same 'named once on the screen' "$(grep -c "habits_nastran.bdf: $names ENDDATA, PARAM, CORD2S\$" "$work/habits_nastran.log")" 1
    same 'named once in the listing' "$(grep -c 'ENTRIES WITHOUT EFFECT: NASTRAN, ID, TIME' "$work/habits_nastran.out")" 1
    same 'SUBCASEs are stages: said once' "$(grep -c '2 SUBCASEs are stages of one history' "$work/habits_nastran.log")" 1
