@@ -168,10 +168,13 @@ contains
          associate (card => deck%bulk%load(i))
             do k = 1, size(card%sets)
                if (card%sets(k) <= 0 .or. has_set(deck%bulk, card%sets(k))) cycle
-               name = 'there is no FORCE with set '//integer_text(card%sets(k))//nor_others
-               if (any(deck%bulk%load%set == card%sets(k))) name = integer_text(card%sets(k))//' is a LOAD too; expected the '// &
-                  'sets of forces and pressures that it combines'
-               call deck%field_error(card%line, card%at(k), name, called='L'//integer_text(k))
+               if (any(deck%bulk%load%set == card%sets(k))) then
+                  call deck%field_error(card%line, card%at(k), integer_text(card%sets(k))//' is a LOAD too; expected the '// &
+                                        'sets of forces and pressures that it combines', called='L'//integer_text(k))
+               else
+                  call deck%field_error(card%line, card%at(k), 'there is no FORCE with set '//integer_text(card%sets(k))// &
+                                        nor_others, called='L'//integer_text(k))
+               end if
             end do
             if (.not. has_set(deck%bulk, card%set)) cycle
             name = others

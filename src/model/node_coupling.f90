@@ -1,5 +1,5 @@
 !> How nodes move with the unknowns of the equations. An ordinary node has its own, its displacements in global axes. Others are
-!! coupled: their displacements are sums over parts, {u} = sum of [T] {q}, each the unknowns q of a node, their own or another one's:
+!! coupled: their displacements are sums over parts, {u} = sum of [T] {q}, each the unknowns q of a node, their own or another's:
 !! of a node with a displacement system CD one part, its own unknowns along the directions of the system. Elements, loads, interface
 !! elements and results know displacements; what they give to the equations, and take from them, goes through here:
 !!
