@@ -17,8 +17,8 @@ module dependences
       integer :: node = 0, d = 0             !! component D of NODE
       integer :: line = 0, field = 0         !! of the card that says so, and the data field there that names the node
       integer :: n = 0                       !! is the sum over so many
-      integer, allocatable  :: on(:), on_d(:)  !! component ON_D(k) of node ON(k)
-      real(wp), allocatable :: factor(:)     !! times this
+      integer, allocatable  :: on(:), on_d(:)  !! (at least n) component ON_D(k) of node ON(k)
+      real(wp), allocatable :: factor(:)     !! (likewise) times this; one component may come several times
    end type dependence_type
 
    type, public :: dependence_list
@@ -43,7 +43,7 @@ contains
       end if
       list%n = list%n + 1
       list%item(list%n) = dependence_type(node=place%node, d=place%d, line=line, field=field)
-      allocate (list%item(list%n)%on(0), list%item(list%n)%on_d(0), list%item(list%n)%factor(0))
+      allocate (list%item(list%n)%on(8), list%item(list%n)%on_d(8), list%item(list%n)%factor(8))
    end subroutine add_dependence
 
    !> Add FACTOR times what stands at PLACE to the dependence begun last; nothing where FACTOR is zero.
@@ -51,19 +51,18 @@ contains
       type(dependence_list), intent(inout) :: list
       type(component_place), intent(in)    :: place
       real(wp), intent(in)                 :: factor
-      integer :: k
 
       if (abs(factor) <= 0.0_wp) return
       associate (item => list%item(list%n))
-         do k = 1, item%n
-            if (item%on(k) /= place%node .or. item%on_d(k) /= place%d) cycle
-            item%factor(k) = item%factor(k) + factor
-            return
-         end do
-         item%on = [item%on, place%node]
-         item%on_d = [item%on_d, place%d]
-         item%factor = [item%factor, factor]
+         if (item%n == size(item%on)) then
+            item%on = [item%on, item%on]
+            item%on_d = [item%on_d, item%on_d]
+            item%factor = [item%factor, item%factor]
+         end if
          item%n = item%n + 1
+         item%on(item%n) = place%node
+         item%on_d(item%n) = place%d
+         item%factor(item%n) = factor
       end associate
    end subroutine add_term
 
@@ -158,22 +157,24 @@ contains
       logical, intent(in)               :: without(:) !! (n_nodes) no element holds the node, a rigid one or an equation does
       type(model_type), intent(inout)   :: model
       logical, allocatable :: is_felt(:, :)
-      integer, allocatable :: first(:)
+      logical, allocatable :: depends(:)
+      integer, allocatable :: column(:)
       integer :: i, k, node
 
       allocate (model%left_out(model%dimension, model%n_nodes), is_felt(model%dimension, model%n_nodes), source=.false.)
-      allocate (first(model%n_nodes), source=0)
+      allocate (depends(model%n_nodes), source=.false.)
+      allocate (column(model%n_nodes), source=0)
       do i = 1, list%n
          associate (item => list%item(i))
             model%left_out(item%d, item%node) = .true.
-            if (first(item%node) == 0) first(item%node) = i
+            depends(item%node) = .true.
             do k = 1, item%n
                is_felt(item%on_d(k), item%on(k)) = .true.
             end do
          end associate
       end do
       do i = 1, model%n_nodes
-         if (first(i) > 0) call couple_items(list, i, model)
+         if (depends(i)) call couple_items(list, i, column, model)
       end do
       do node = 1, model%n_nodes
          if (without(node)) model%left_out(:, node) = model%left_out(:, node) .or. &
@@ -183,26 +184,28 @@ contains
    end subroutine eliminate
 
    !> Couple NODE: its own components that are left, and the sums of LIST for those that are not.
-   subroutine couple_items(list, node, model)
+   subroutine couple_items(list, node, column, model)
       type(dependence_list), intent(in) :: list
       integer, intent(in)               :: node
+      integer, intent(inout)            :: column(:) !! (n_nodes) zero, and left so
       type(model_type), intent(inout)   :: model
       real(wp), allocatable :: t(:, :, :)
       integer, allocatable  :: masters(:)
+      integer :: d, i, k, n
       real(wp) :: axes(3, 3)
-      integer  :: at, d, i, k
 
       d = model%dimension
       axes = axes_at(model, node)
-      allocate (masters(0))
-      if (.not. all(model%left_out(:, node))) masters = [node]
+      allocate (masters(model%n_nodes))
+      n = 0
+      if (.not. all(model%left_out(:, node))) call add_master(node)
       do i = 1, list%n
          if (list%item(i)%node /= node) cycle
          do k = 1, list%item(i)%n
-            if (all(masters /= list%item(i)%on(k))) masters = [masters, list%item(i)%on(k)]
+            call add_master(list%item(i)%on(k))
          end do
       end do
-      allocate (t(d, d, size(masters)), source=0.0_wp)
+      allocate (t(d, d, n), source=0.0_wp)
       do k = 1, d
          if (.not. model%left_out(k, node)) t(:, k, 1) = axes(:d, k)
       end do
@@ -210,12 +213,26 @@ contains
          associate (item => list%item(i))
             if (item%node /= node) cycle
             do k = 1, item%n
-               at = findloc(masters, item%on(k), dim=1)
-               t(:, item%on_d(k), at) = t(:, item%on_d(k), at) + item%factor(k)*axes(:d, item%d)
+               associate (part => t(:, item%on_d(k), column(item%on(k))))
+                  part = part + item%factor(k)*axes(:d, item%d)
+               end associate
             end do
          end associate
       end do
-      call couple_node(model%coupling, model%n_nodes, node, masters, t)
+      call couple_node(model%coupling, model%n_nodes, node, masters(:n), t)
+      column(masters(:n)) = 0
+
+   contains
+
+      subroutine add_master(this)
+         integer, intent(in) :: this
+
+         if (column(this) > 0) return
+         n = n + 1
+         masters(n) = this
+         column(this) = n
+      end subroutine add_master
+
    end subroutine couple_items
 
    !> The axes of the components of NODE, columns; those of rotations are those of their point, in the plane z, kept as the first.

@@ -5,7 +5,7 @@ module rigid_cards
    use card_fields, only: card_values, decode_integer, decode_real
    use card_reader, only: card_reader_type
    use deck_numbers, only: parse_integer
-   use field_rules, only: blank_field, component_field, in_range, integer_field, real_field
+   use field_rules, only: blank_field, component_field, expectation, field_rule, in_range, integer_field, real_field
    use kinds, only: wp
    use text_tools, only: integer_text
    implicit none
@@ -13,7 +13,7 @@ module rigid_cards
 
    public :: read_rigid, read_equation
 
-   character(*), parameter :: a_node = 'a node number', components = 'a list of components, different digits of 1 to 6'
+   character(*), parameter :: a_node = 'a node number'
 
 contains
 
@@ -104,7 +104,7 @@ contains
          call decode_real(cards%card, last, 'WT', 'a weight, a real number above 0', this_weight, ok, cards%errors)
          if (ok .and. this_weight <= 0.0_wp) call cards%card%field_error(last, 'WT: '''// &
             trim(cards%card%fields(last)%text)//''' is out of range, expected a weight, a real number above 0', cards%errors)
-         call read_components(cards, last + 1, these)
+         call read_components(cards, last + 1, component_field('C'), these)
          first = last + 2
          if (first > cards%card%n) call cards%card%field_error(first, 'G: blank, expected '//a_node, cards%errors)
       end do
@@ -144,26 +144,26 @@ contains
       is_real = .not. ok .and. index(text, '.') > 0
    end function is_real
 
-   !> The components in data field K.
-   subroutine read_components(cards, k, components_here)
+   !> The components in data field K, by RULE.
+   subroutine read_components(cards, k, rule, components)
       type(card_reader_type), intent(inout) :: cards
       integer, intent(in)                   :: k
-      integer, intent(out)                  :: components_here
+      type(field_rule), intent(in)          :: rule
+      integer, intent(out)                  :: components
       logical :: ok
 
-      components_here = 0
+      components = 0
       ok = k <= cards%card%n
       if (ok) ok = cards%card%fields(k)%length > 0
       if (.not. ok) then
-         call cards%card%field_error(k, 'C: blank, expected '//components, cards%errors)
+         call cards%card%field_error(k, 'C: blank, expected '//expectation(rule), cards%errors)
          return
       end if
-      call decode_integer(cards%card, k, 'C', components, components_here, ok, cards%errors)
-      if (ok .and. .not. in_range(component_field('C'), real(components_here, wp))) then
-         call cards%card%field_error(k, 'C: '''//trim(cards%card%fields(k)%text)//''' is out of range, expected '//components, &
-                                     cards%errors)
-         components_here = 0
-      end if
+      call decode_integer(cards%card, k, 'C', expectation(rule), components, ok, cards%errors)
+      if (.not. ok .or. in_range(rule, real(components, wp))) return
+      call cards%card%field_error(k, 'C: '''//trim(cards%card%fields(k)%text)//''' is out of range, expected '// &
+                                  expectation(rule), cards%errors)
+      components = 0
    end subroutine read_components
 
    !> The nodes in the data fields FIRST to LAST, all with the same DIRECTIONS and WEIGHT, behind those that RIGID has.
@@ -238,7 +238,7 @@ contains
             return
          end if
          call decode_integer(card, k, 'G', a_node, node, ok, cards%errors)
-         call read_component(cards, k + 1, component)
+         call read_components(cards, k + 1, integer_field('C', most=6), component)
          ok = k + 2 <= card%n
          if (ok) ok = card%fields(k + 2)%length > 0
          if (ok) then
@@ -253,26 +253,5 @@ contains
       equation%factor = [equation%factor, factor]
       equation%at = [equation%at, k]
    end subroutine read_term
-
-   !> The one component in data field K.
-   subroutine read_component(cards, k, component)
-      type(card_reader_type), intent(inout) :: cards
-      integer, intent(in)                   :: k
-      integer, intent(out)                  :: component
-      character(*), parameter :: expected = 'a component, 1 to 6'
-      logical :: ok
-
-      component = 0
-      ok = k <= cards%card%n
-      if (ok) ok = cards%card%fields(k)%length > 0
-      if (.not. ok) then
-         call cards%card%field_error(k, 'C: blank, expected '//expected, cards%errors)
-         return
-      end if
-      call decode_integer(cards%card, k, 'C', expected, component, ok, cards%errors)
-      if (.not. ok .or. (component >= 1 .and. component <= 6)) return
-      call cards%card%field_error(k, 'C: '''//integer_text(component)//''' is out of range, expected '//expected, cards%errors)
-      component = 0
-   end subroutine read_component
 
 end module rigid_cards

@@ -4,7 +4,7 @@ module listing_states
    use analysis_state, only: analysis_type
    use kinds, only: wp
    use listing_table, only: axes, column, heading, listing_table_type, noise, page_type
-   use model_data, only: model_type, joint_node_id
+   use model_data, only: joint_node_id, model_type, n_rotations
    use normal_stiffness, only: branch_name, branch_reload, branch_unload
    use shown_rows, only: shows_interface
    use text_tools, only: clean, integer_text, upper
@@ -100,6 +100,7 @@ contains
       integer, parameter :: across = 8
       type(listing_table_type) :: table
       character(12), allocatable :: names(:)
+      real(wp), allocatable :: scale(:)
       real(wp) :: k_floor, load_floor
       integer  :: i, first, last, n
 
@@ -112,8 +113,9 @@ contains
          k_floor = noise*maxval(abs(condensed%k))
          load_floor = noise*max(page%largest_force, maxval(abs(condensed%load)))
          allocate (names(n))
+         allocate (scale(n), source=1.0_wp)
          do i = 1, n
-            names(i) = integer_text(model%node_id(condensed%node(i)))//axes(condensed%direction(i))
+            call name_unknown(model, condensed%node(i), condensed%direction(i), names(i), scale(i))
          end do
          do first = 1, n, across
             last = min(n, first + across - 1)
@@ -122,7 +124,7 @@ contains
             call table%print_head(page%file)
             do i = 1, n
                call table%add(adjustr(names(i)))
-               call table%add(clean(condensed%k(i, first:last), k_floor))
+               call table%add(clean(condensed%k(i, first:last), k_floor)*scale(i)*scale(first:last))
                call table%print_row(page%file)
             end do
          end do
@@ -132,10 +134,30 @@ contains
          call table%print_head(page%file)
          do i = 1, n
             call table%add(adjustr(names(i)))
-            call table%add(clean([condensed%load(i, :), condensed%load(i, 2) - condensed%load(i, 1)], load_floor))
+            call table%add(clean([condensed%load(i, :), condensed%load(i, 2) - condensed%load(i, 1)], load_floor)*scale(i))
             call table%print_row(page%file)
          end do
       end associate
    end subroutine list_condensed
+
+   !> The NAME of component D of NODE: 12Y, or 900RZ where it is a rotation of node 900, and the SCALE to it from what is kept: 1, the
+   !! arm of the rotation, so that its rows hold moments.
+   subroutine name_unknown(model, node, d, name, scale)
+      type(model_type), intent(in) :: model
+      integer, intent(in)          :: node, d
+      character(*), intent(out)    :: name
+      real(wp), intent(out)        :: scale
+      integer :: k
+
+      scale = 1.0_wp
+      k = 0
+      if (n_rotations(model) > 0) k = findloc(model%rotations%node, node, dim=1)
+      if (k == 0) then
+         name = integer_text(model%node_id(node))//axes(d)
+      else
+         name = integer_text(model%node_id(model%rotations(k)%point))//'R'//axes(merge(d, 3, model%dimension == 3))
+         scale = model%rotations(k)%arm
+      end if
+   end subroutine name_unknown
 
 end module listing_states
