@@ -77,6 +77,8 @@ contains
       end if
       bar%direction = bar%direction/length
       bar%stiffness = deck%bulk%mat1(material)%e*prod%area/length
+      bar%expansion = deck%bulk%mat1(material)%alpha*length
+      bar%reference = deck%bulk%mat1(material)%reference
       if (model%axisymmetric .and. abs(bar%direction(1)) > 1.0e-9_wp) call deck%errors%add(line, 'bar '// &
          integer_text(bar%id)//': in an axisymmetric model bars stand along y; their area is that of all round the ring')
    end subroutine build_bar

@@ -18,6 +18,7 @@ module model_build
    use stage_plan, only: plan_stages, stage_plan_type
    use support_build, only: build_supports
    use surface_build, only: build_surfaces
+   use temperature_build, only: build_temperatures
    implicit none
    private
 
@@ -48,6 +49,7 @@ contains
       call build_sections(checked, model)
       call build_frames(checked, model)
       call build_loads(checked, model)
+      call build_temperatures(checked, model)
       call plan_stages(deck, plan, errors)
       if (.not. any(model%used)) call errors%add(0, 'nothing to solve: expected body elements or interface elements')
       if (errors%any()) return

@@ -65,6 +65,7 @@ module bulk_data
       integer  :: line = 0, id = 0
       logical  :: bars_only = .false.                   ! E alone is given
       real(wp) :: e = 0.0_wp, nu = 0.0_wp, rho = 0.0_wp
+      real(wp) :: alpha = 0.0_wp, reference = 0.0_wp    ! A and TREF
    end type mat1_card
 
    !> SPC, SPC1 and SPCM alike: nodes FIRST(k) to LAST(k), or all nodes of a marked surface.
@@ -123,6 +124,15 @@ module bulk_data
       integer  :: field = 0                             ! data field of the node
       real(wp) :: value = 0.0_wp
    end type displacement_card
+
+   !> TEMP, the temperature of a node, and TEMPD, that of all nodes without one.
+   type, public :: temperature_card
+      integer  :: line = 0, set = 0
+      logical  :: is_default = .false.                  ! TEMPD
+      integer  :: node = 0                              ! of a TEMP
+      integer  :: field = 0                             ! data field of the node, of a TEMPD of the set
+      real(wp) :: value = 0.0_wp
+   end type temperature_card
 
    !> BOLT: a bolt tightened to PRELOAD in the stage of SUBCASE STAGE, locked afterwards: the CROD ELEMENT, or a solid cut at
    !! the marked SURFACE.
@@ -227,6 +237,7 @@ module bulk_data
       type(surface_load_card), allocatable :: surface_load(:)
       type(gravity_card), allocatable      :: gravity(:)
       type(displacement_card), allocatable :: displacement(:)
+      type(temperature_card), allocatable  :: temperature(:)
       type(load_card), allocatable         :: load(:)
       type(bolt_card), allocatable         :: bolt(:)
       type(block_card), allocatable        :: block(:)

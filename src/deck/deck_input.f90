@@ -17,6 +17,7 @@ module deck_input
    use parameter_cards, only: read_parameter
    use property_cards, only: read_conrod, read_mat1, read_paxis, read_prod, read_pshell, read_psolid
    use support_cards, only: read_displacement, read_support, read_support_sum
+   use temperature_cards, only: read_temperature
    use system_cards, only: fill_grid_defaults, read_grid_defaults, read_system, system_names
    implicit none
    private
@@ -60,6 +61,7 @@ contains
       call cards%add_kinds(['PLOADM', 'FORCEM'], read_surface_load)
       call cards%add_kinds(['GRAV'], read_gravity)
       call cards%add_kinds(['SPCD'], read_displacement)
+      call cards%add_kinds(['TEMP ', 'TEMPD'], read_temperature)
       call cards%add_kinds(['LOAD'], read_load)
       call cards%add_kinds(['BOLT'], read_bolt)
       call cards%add_kinds(['JOINT'], read_joint)

@@ -3,7 +3,7 @@
 !! overlap g at its section; from the end of that stage on g is held as it then is.
 module bolt_locking
    use analysis_state, only: analysis_type
-   use bar_elements, only: add_pull, bar_elongation
+   use bar_elements, only: add_pull, bar_elongation, thermal_pull
    use equations, only: add_bar, equation_system, lock_unknown
    use kinds, only: wp
    use model_data, only: model_type, n_bars, n_sections
@@ -29,6 +29,7 @@ contains
             analysis%is_elastic(i) = .true.
             analysis%pull(i) = bar%preload - bar%stiffness*elongation_now(model, analysis, i)
             call add_pull(model, i, analysis%pull(i) - bar%preload, analysis%applied)
+            analysis%pull(i) = analysis%pull(i) - thermal_pull(bar, analysis%temperature) ! which is among the loads from here on
             call add_bar(model, i, system)
          end associate
       end do
@@ -71,7 +72,7 @@ contains
       tension = 0.0_wp
       associate (bar => model%bars(i))
          if (analysis%is_elastic(i)) then
-            tension = analysis%pull(i) + bar%stiffness*elongation_now(model, analysis, i)
+            tension = analysis%pull(i) + bar%stiffness*elongation_now(model, analysis, i) + thermal_pull(bar, analysis%temperature)
          else if (bar%stage == analysis%stage) then
             tension = analysis%fraction*bar%preload
          end if

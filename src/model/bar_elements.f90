@@ -1,12 +1,13 @@
 !> Bars: two nodes and a stiffness E A/L along the line between them.
 module bar_elements
    use kinds, only: wp
-   use model_data, only: bar_type, model_type
+   use model_data, only: bar_type, model_type, temperature_type
    use node_coupling, only: onto_unknowns, unknown_nodes
+   use temperatures, only: bar_rise
    implicit none
    private
 
-   public :: bar_elongation, add_pull, add_bar_forces, bar_stiffness, coupled_bar_stiffness
+   public :: bar_elongation, thermal_pull, add_pull, add_thermal_pulls, add_bar_forces, bar_stiffness, coupled_bar_stiffness
 
 contains
 
@@ -17,6 +18,27 @@ contains
 
       elongation = dot_product(u(:, 2) - u(:, 1), bar%direction(:size(u, 1)))
    end function bar_elongation
+
+   !> Tension of BAR, held at its length, at this TEMPERATURE: pressure where it is warm [force].
+   pure real(wp) function thermal_pull(bar, temperature) result(tension)
+      type(bar_type), intent(in)         :: bar
+      type(temperature_type), intent(in) :: temperature
+
+      tension = -bar%stiffness*bar%expansion*bar_rise(bar, temperature)
+   end function thermal_pull
+
+   !> Add to F the nodal forces of the thermal pulls of elastic bars.
+   pure subroutine add_thermal_pulls(model, is_elastic, temperature, f)
+      type(model_type), intent(in)       :: model
+      logical, intent(in)                :: is_elastic(:) !! (bars)
+      type(temperature_type), intent(in) :: temperature
+      real(wp), intent(inout)            :: f(:, :)       !! (dimension, n_nodes) [force]
+      integer :: i
+
+      do i = 1, size(is_elastic)
+         if (is_elastic(i)) call add_pull(model, i, thermal_pull(model%bars(i), temperature), f)
+      end do
+   end subroutine add_thermal_pulls
 
    !> Add to F the nodal forces by which bar I pulls its nodes together under a tension N.
    pure subroutine add_pull(model, i, n, f)

@@ -20,6 +20,8 @@ module model_data
       real(wp) :: thickness = 0.0_wp         !! of a plane one [length]
       real(wp) :: e = 0.0_wp, nu = 0.0_wp    !! [pressure], [-]
       real(wp) :: rho = 0.0_wp               !! mass density [force x time^2/length^4]
+      real(wp) :: alpha = 0.0_wp             !! thermal expansion [1/temperature]
+      real(wp) :: reference = 0.0_wp         !! TREF, at which it has no thermal strain [temperature]
       logical  :: incompatible = .false.     !! modes of Wilson and Taylor
    end type property_type
 
@@ -66,12 +68,20 @@ module model_data
       real(wp) :: direction = 1.0_wp         !! +1: those parts are on side 1; -1: on side 2
    end type joint_type
 
-   !> Forces on nodes and displacements of supports: the total load at the end of a stage.
+   !> How warm everything is. What a material is warmer than its reference temperature is AT - REFERENCE_SHARE TREF: the share is 1
+   !! where the deck gives temperatures, 0 where it gives none (all is at its TREF then), between them on the way.
+   type, public :: temperature_type
+      real(wp), allocatable :: at(:)         !! (n_nodes) [temperature]; not allocated: none are given
+      real(wp) :: reference_share = 0.0_wp   !! [-]
+   end type temperature_type
+
+   !> Forces on nodes, displacements of supports, temperatures: the total load at the end of a stage.
    type, public :: stage_load_type
       integer :: n = 0
       integer, allocatable  :: node(:)       !! (n), a node may stand here more than once
       real(wp), allocatable :: force(:, :)   !! (3, n)
       real(wp), allocatable :: moved(:, :)   !! (dimension, n_nodes) of held unknowns [length]; where any move
+      type(temperature_type) :: temperature
    end type stage_load_type
 
    !> A bar, which may be a bolt.
@@ -83,6 +93,8 @@ module model_data
       integer  :: bolt = 0                   !! BOLT id, 0: none
       real(wp) :: preload = 0.0_wp           !! of a bolt [force]
       integer  :: stage = 0                  !! position of the stage that tightens it; a bolt is elastic from its end on
+      real(wp) :: expansion = 0.0_wp         !! alpha L [length/temperature]
+      real(wp) :: reference = 0.0_wp         !! TREF [temperature]
    end type bar_type
 
    !> The section at which a solid bolt is cut. Its nodes move with the marked side; for the elements behind it they are where
@@ -112,6 +124,7 @@ module model_data
       logical :: axisymmetric = .false.      !! about y; loads, areas and forces are those of the whole ring
       integer :: n_nodes = 0
       integer :: n_filled = 0                !! of these put at the middle of edges, see mid_side_nodes
+      integer :: first_filled = 0            !! position of the first of them
       integer, allocatable  :: node_id(:)    !! ascending; behind the last the nodes of sections, 0
       real(wp), allocatable :: x(:, :)       !! (3, n_nodes) [length]
       integer, allocatable  :: twin(:)       !! (n_nodes) the node that a split surface put opposite, 0: none

@@ -1,7 +1,7 @@
 !> Tables of the bodies: displacements, stresses, reactions, and the balance of the outer forces.
 module listing_bodies
    use analysis_state, only: analysis_type, element_force
-   use body_elements, only: element_centre, element_stress, full_stress, node_stresses
+   use body_elements, only: element_centre, element_stress, node_stresses, whole_stress
    use elasticity, only: max_stresses, n_stresses
    use interface_operator, only: named_node
    use kinds, only: wp
@@ -66,7 +66,7 @@ contains
       n = 0
       do e = 1, model%n_elements
          n = n_stresses(model%properties(model%element_property(e))%state)
-         stress(:n, e) = element_stress(model, e, analysis%all_u)
+         stress(:n, e) = element_stress(model, e, analysis%all_u, analysis%temperature)
       end do
       floor = noise*maxval(abs(stress))
       call table%start('STRESSES AT THE CENTRES OF ELEMENTS'//page%now//in_units(page%labels%pressure), &
@@ -79,7 +79,7 @@ contains
          call table%add(clean(stress(:n, e), floor))
          call table%print_row(page%file)
       end do
-      if (principal) call list_principal(page, model, stress(:n, :), floor)
+      if (principal) call list_principal(page, model, analysis, floor)
    end subroutine list_stresses
 
    !> Which of the stresses (xx, yy, zz, xy, yz, zx) the tables of MODEL have.
@@ -116,7 +116,7 @@ contains
       integer  :: node
 
       allocate (stress(max_stresses, n_points(model)))
-      call node_stresses(model, analysis%all_u, stress)
+      call node_stresses(model, analysis%all_u, analysis%temperature, stress)
       floor = noise*maxval(abs(stress))
       shown = shown_stresses(model)
       call table%start('STRESSES AT NODES, MEAN OF THEIR ELEMENTS'//page%now//in_units(page%labels%pressure), &
@@ -132,10 +132,10 @@ contains
    end subroutine list_node_stresses
 
    !> Principal stresses and the equivalent stress of von Mises at the centres.
-   subroutine list_principal(page, model, stress, floor)
+   subroutine list_principal(page, model, analysis, floor)
       type(page_type), intent(inout) :: page
       type(model_type), intent(in)   :: model
-      real(wp), intent(in)           :: stress(:, :) !! (stresses of a state, elements)
+      type(analysis_type), intent(in) :: analysis
       real(wp), intent(in)           :: floor
       type(listing_table_type) :: table
       real(wp) :: full(max_stresses)
@@ -145,7 +145,7 @@ contains
                        [column('ELEMENT', 'i11'), column([character(9) :: 'SIGMA 1', 'SIGMA 2', 'SIGMA 3', 'VON MISES'], 'es13.5')])
       call table%print_head(page%file)
       do e = 1, model%n_elements
-         full = full_stress(model, e, stress(:, e))
+         full = whole_stress(model, e, analysis%all_u, analysis%temperature)
          call table%add([model%element_id(e)])
          call table%add(clean(principal_stresses(full), floor))
          call table%add([clean(von_mises(full), floor)])
