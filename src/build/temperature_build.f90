@@ -113,9 +113,11 @@ contains
       is_filled(model%first_filled:model%first_filled + model%n_filled - 1) = .true.
       do i = 1, n_points(model)
          if (model%twin(i) == 0) cycle
-         if (given(model%twin(i)) .and. .not. given(i)) at(i) = at(model%twin(i))
-         given(i) = given(i) .or. given(model%twin(i))
-         is_filled(i) = is_filled(i) .or. is_filled(model%twin(i))
+         associate (twin => model%twin(i))
+            if (given(i) .and. .not. given(twin)) at(twin) = at(i)
+            given(twin) = given(twin) .or. given(i)
+            is_filled(twin) = is_filled(i)
+         end associate
       end do
       i = findloc(deck%bulk%temperature%is_default .and. deck%bulk%temperature%set == set, .true., dim=1)
       if (i > 0) then
