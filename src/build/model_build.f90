@@ -15,6 +15,7 @@ module model_build
    use mesh_build, only: build_mesh, marked_sides
    use model_data, only: model_type, n_sections
    use section_build, only: build_sections
+   use spring_build, only: build_springs
    use stage_plan, only: plan_stages, stage_plan_type
    use support_build, only: build_supports
    use surface_build, only: build_surfaces
@@ -48,6 +49,7 @@ contains
       call build_supports(checked, model)
       call build_sections(checked, model)
       call build_frames(checked, model)
+      call build_springs(checked, model)
       call build_loads(checked, model)
       call build_temperatures(checked, model)
       call plan_stages(deck, plan, errors)

@@ -162,7 +162,7 @@ contains
 
          is_warmed = model%first_at(node + 1) > model%first_at(node)
          do k = 1, n_bars(model)
-            is_warmed = is_warmed .or. any(model%bars(k)%nodes == node)
+            is_warmed = is_warmed .or. (model%bars(k)%axis == '' .and. any(model%bars(k)%nodes == node))
          end do
       end function is_warmed
 

@@ -16,9 +16,10 @@ module deck_input
    use nastran_habits, only: is_idle_card
    use parameter_cards, only: read_parameter
    use property_cards, only: read_conrod, read_mat1, read_paxis, read_prod, read_pshell, read_psolid
+   use spring_cards, only: read_mass, read_spring, read_spring_property
    use support_cards, only: read_displacement, read_support, read_support_sum
-   use temperature_cards, only: read_temperature
    use system_cards, only: fill_grid_defaults, read_grid_defaults, read_system, system_names
+   use temperature_cards, only: read_temperature
    implicit none
    private
 
@@ -53,6 +54,9 @@ contains
       call cards%add_kinds(['PSOLID'], read_psolid)
       call cards%add_kinds(['PROD'], read_prod)
       call cards%add_kinds(['CONROD'], read_conrod)
+      call cards%add_kinds(['CELAS1', 'CELAS2', 'CBUSH '], read_spring)
+      call cards%add_kinds(['PELAS', 'PBUSH'], read_spring_property)
+      call cards%add_kinds(['CONM2'], read_mass)
       call cards%add_kinds(['MAT1'], read_mat1)
       call cards%add_kinds(['SPC ', 'SPC1', 'SPCM'], read_support)
       call cards%add_kinds(['SPCADD'], read_support_sum)

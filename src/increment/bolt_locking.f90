@@ -6,7 +6,7 @@ module bolt_locking
    use bar_elements, only: add_pull, bar_elongation, thermal_pull
    use equations, only: add_bar, equation_system, lock_unknown
    use kinds, only: wp
-   use model_data, only: model_type, n_bars, n_sections
+   use model_data, only: bar_nodes, model_type, n_bars, n_sections
    use node_coupling, only: displacements_at
    implicit none
    private
@@ -51,7 +51,7 @@ contains
       type(analysis_type), intent(in) :: analysis
       integer, intent(in)             :: i
 
-      elongation = bar_elongation(model%bars(i), displacements_at(model, model%bars(i)%nodes, analysis%place, analysis%u))
+      elongation = bar_elongation(model%bars(i), displacements_at(model, bar_nodes(model%bars(i)), analysis%place, analysis%u))
    end function elongation_now
 
    !> Overlap g at the section of solid bolt I now [length].

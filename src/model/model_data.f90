@@ -11,7 +11,8 @@ module model_data
    implicit none
    private
 
-   public :: corners_of, has_gaps, has_second_order, is_coarser, joint_node_id, n_bars, n_sections, n_points
+   public :: corners_of, has_gaps, has_ground_springs, has_second_order, is_coarser, joint_node_id, n_bars, n_springs, bar_nodes, n_sections, &
+             n_points
 
    !> Section and material of body elements.
    type, public :: property_type
@@ -84,12 +85,14 @@ module model_data
       type(temperature_type) :: temperature
    end type stage_load_type
 
-   !> A bar, which may be a bolt.
+   !> A bar, which may be a bolt, or a spring: a force that grows with its elongation, direction 2 . u_2 - direction 1 . u_1.
    type, public :: bar_type
       integer  :: id = 0
-      integer  :: nodes(2) = 0
-      real(wp) :: direction(3) = 0.0_wp      !! from node 1 to node 2, unit
+      integer  :: nodes(2) = 0               !! of a spring to the ground the second is 0
+      real(wp) :: direction(3, 2) = 0.0_wp   !! at each node, unit: of a bar both from node 1 to node 2
       real(wp) :: stiffness = 0.0_wp         !! E A/L [force/length]
+      logical  :: ground_first = .false.     !! of a spring: its card names the ground as its first node
+      character(2) :: axis = ''              !! of a spring: T1, T2 or T3, as the card numbers its components; blank: a bar
       integer  :: bolt = 0                   !! BOLT id, 0: none
       real(wp) :: preload = 0.0_wp           !! of a bolt [force]
       integer  :: stage = 0                  !! position of the stage that tightens it; a bolt is elastic from its end on
@@ -171,6 +174,30 @@ contains
       n_bars = 0
       if (allocated(model%bars)) n_bars = size(model%bars)
    end function n_bars
+
+   !> How many of the bars are springs.
+   pure integer function n_springs(model)
+      type(model_type), intent(in) :: model
+
+      n_springs = 0
+      if (allocated(model%bars)) n_springs = count(model%bars%axis /= '')
+   end function n_springs
+
+   !> Whether any spring stands on the ground.
+   pure logical function has_ground_springs(model)
+      type(model_type), intent(in) :: model
+
+      has_ground_springs = .false.
+      if (allocated(model%bars)) has_ground_springs = any(model%bars%nodes(2) == 0)
+   end function has_ground_springs
+
+   !> The nodes of BAR, without the ground.
+   pure function bar_nodes(bar) result(nodes)
+      type(bar_type), intent(in) :: bar
+      integer, allocatable :: nodes(:)
+
+      nodes = pack(bar%nodes, bar%nodes > 0)
+   end function bar_nodes
 
    !> How many sections of solid bolts there are.
    pure integer function n_sections(model)

@@ -23,13 +23,14 @@ contains
              model%properties(model%element_property(e))%reference
    end function element_rise
 
-   !> The mean of T - TREF along BAR [temperature].
+   !> The mean of T - TREF along BAR; of a spring none [temperature].
    pure real(wp) function bar_rise(bar, temperature) result(rise)
       type(bar_type), intent(in)         :: bar
       type(temperature_type), intent(in) :: temperature
 
       rise = 0.0_wp
-      if (allocated(temperature%at)) rise = 0.5_wp*sum(temperature%at(bar%nodes)) - temperature%reference_share*bar%reference
+      if (bar%axis /= '' .or. .not. allocated(temperature%at)) return
+      rise = 0.5_wp*sum(temperature%at(bar%nodes)) - temperature%reference_share*bar%reference
    end function bar_rise
 
    !> The temperatures at a FRACTION of the way from BEFORE to AFTER.

@@ -6,7 +6,7 @@ module listing
    use determinate_joints, only: carried_resultant
    use equation_solver, only: equation_system
    use kinds, only: wp
-   use listing_bars, only: note_bars, note_sections
+   use listing_bars, only: note_bars, note_sections, note_springs
    use listing_bodies, only: list_bodies
    use listing_joints, only: list_energy, list_interface, note_passes, note_resultants
    use listing_opening, only: tetra_words, write_opening
@@ -28,7 +28,7 @@ module listing
    type, public :: listing_type
       type(page_type) :: page
       integer :: method = 0
-      type(listing_table_type) :: increments, distances, resultants, passes, slips, bars, sections ! of the stage so far
+      type(listing_table_type) :: increments, distances, resultants, passes, slips, bars, springs, sections ! of the stage so far
       type(farthest_type) :: farthest !! from the laws
       integer :: n_increments = 0, n_removed = 0
       type(range_watch_type) :: watch
@@ -90,6 +90,7 @@ contains
          call note_passes(page, listing%method, analysis, listing%passes)
          call note_slips(page, model, analysis, listing%slips)
          call note_bars(page, model, analysis, listing%bars)
+         call note_springs(page, model, analysis, listing%springs)
          call note_sections(page, model, analysis, listing%sections)
          call watch_ranges(model, plan, analysis, listing%watch)
          if (listing%method /= method_back) then
@@ -119,6 +120,7 @@ contains
          call listing%slips%print_kept(page%file)
          call listing%resultants%print_kept(page%file)
          call listing%bars%print_kept(page%file)
+         call listing%springs%print_kept(page%file)
          call listing%sections%print_kept(page%file)
          call list_energy(page, model, analysis)
          if (stage%output >= output_last) call list_joints(page, stage%state, model, analysis)

@@ -1,12 +1,13 @@
 !> Tables of the bodies: displacements, stresses, reactions, and the balance of the outer forces.
 module listing_bodies
    use analysis_state, only: analysis_type, element_force
+   use bolt_locking, only: bar_tension
    use body_elements, only: element_centre, element_stress, node_stresses, whole_stress
    use elasticity, only: max_stresses, n_stresses
    use interface_operator, only: named_node
    use kinds, only: wp
    use listing_table, only: axes, column, listing_table_type, noise, page_type
-   use model_data, only: has_second_order, model_type, n_points
+   use model_data, only: has_ground_springs, has_second_order, model_type, n_bars, n_points
    use node_coupling, only: held_forces
    use stress_measures, only: principal_stresses, von_mises
    use text_tools, only: clean
@@ -159,7 +160,7 @@ contains
       type(model_type), intent(in)    :: model
       type(analysis_type), intent(in) :: analysis
       type(listing_table_type) :: table
-      real(wp), dimension(model%dimension) :: reaction, supports, base, loads
+      real(wp), dimension(model%dimension) :: reaction, supports, base, ground, loads
       real(wp), allocatable :: held(:, :)
       real(wp) :: floor, force(3)
       integer  :: first, i, node
@@ -186,6 +187,11 @@ contains
          force = element_force(model%interface(i), analysis%states(i))
          base = base - force(:model%dimension)
       end do
+      ground = 0.0_wp
+      do i = 1, n_bars(model)
+         if (model%bars(i)%nodes(2) > 0) cycle
+         ground = ground + bar_tension(model, analysis, i)*model%bars(i)%direction(:model%dimension, 1)
+      end do
       loads = sum(analysis%applied(:, :n_points(model)), dim=2)
       first = merge(2, 1, model%axisymmetric)
       call table%start('BALANCE OF FORCES'//page%now//in_units(page%labels%force), &
@@ -195,7 +201,8 @@ contains
       call balance_line('LOADS', loads(first:))
       call balance_line('SUPPORTS', supports(first:))
       call balance_line('RIGID BASES, THROUGH THE JOINTS', base(first:))
-      call balance_line('SUM: LEFT UNBALANCED', loads(first:) + supports(first:) + base(first:))
+      if (has_ground_springs(model)) call balance_line('GROUND, THROUGH SPRINGS', ground(first:))
+      call balance_line('SUM: LEFT UNBALANCED', loads(first:) + supports(first:) + base(first:) + ground(first:))
 
    contains
 
