@@ -12,7 +12,8 @@ FFLAGS     = -O2 -fopenmp -fno-backtrace $(WARNINGS)
 FFLAGS_CHECKED = -O1 -g -fopenmp $(WARNINGS) -fcheck=all,no-array-temps,no-recursion -ffpe-trap=invalid,zero
 LIBRARIES  = -lmetis -lopenblas
 
-SOURCES    = $(sort $(wildcard src/*/*.f90))
+MANUAL     = $(BUILD)/manual/card_manual.f90
+SOURCES    = $(sort $(wildcard src/*/*.f90)) $(MANUAL)
 MODULES    = $(notdir $(SOURCES:.f90=))
 VPATH      = $(sort $(dir $(SOURCES)))
 
@@ -33,6 +34,7 @@ help:
 	@echo 'make run        the worked example: the prism with 3, 5, 10 and 15 increments'
 	@echo 'make test       unit tests, every deck of input against reference_output, bad decks'
 	@echo 'make check      only the decks against reference_output'
+	@echo 'make install PREFIX=dir  programs, manual pages, documents; default /usr/local'
 	@echo 'make accept CASE=name    take the results of input/name.bdf as the new reference'
 	@echo 'make bench      speed and memory, MODELS=small: only of small models'
 	@echo 'make figures    the pictures, from the CSV files of the decks'
@@ -68,6 +70,11 @@ $(BUILD)/checked/%.o: %.f90
 	@mkdir -p $(@D)
 	$(FC) $(FFLAGS_CHECKED) -J$(@D) -c -o $@ $<
 
+# The entries of the card manual, for --help
+$(MANUAL): input/README.md src/run/card_manual.awk
+	@mkdir -p $(@D)
+	@awk -f src/run/card_manual.awk $< > $@.part && mv $@.part $@
+
 # Which object needs which, from the `use` lines.
 $(BUILD)/dependencies.mk: $(SOURCES) $(COMPARISONS) tests/runner/dependencies.awk Makefile
 	@mkdir -p $(@D)
@@ -78,6 +85,26 @@ $(BUILD)/dependencies.mk: $(SOURCES) $(COMPARISONS) tests/runner/dependencies.aw
 ifneq ($(MAKECMDGOALS),clean)
 -include $(BUILD)/dependencies.mk
 endif
+
+# Installation ----------------------------------------------------------------------------------------------------
+
+PREFIX      = /usr/local
+MAN_PAGES   = $(BUILD)/man/jointfem.1 $(BUILD)/man/jointfit.1
+PLACE       = $(DESTDIR)$(PREFIX)
+
+$(BUILD)/man/jointfem.1: private about = structures with flexible joints by the step-wise tangent-stiffness method
+$(BUILD)/man/jointfit.1: private about = laws of joints from test data
+$(MAN_PAGES): $(BUILD)/man/%.1: bin/% src/run/man_page.awk
+	@mkdir -p $(@D)
+	@bin/$* --help | awk -v name=$* -v version="$$(bin/$* --version)" -v about='$(about)' -f src/run/man_page.awk > $@
+
+.PHONY: install
+install: bin/jointfem bin/jointfit $(MAN_PAGES)
+	install -d '$(PLACE)/bin' '$(PLACE)/share/man/man1' '$(PLACE)/share/doc/jointfem'
+	install -m 755 bin/jointfem bin/jointfit '$(PLACE)/bin'
+	install -m 644 $(MAN_PAGES) '$(PLACE)/share/man/man1'
+	install -m 644 README.md '$(PLACE)/share/doc/jointfem'
+	cp -R input reference_output '$(PLACE)/share/doc/jointfem'
 
 # The worked example ----------------------------------------------------------------------------------------------
 

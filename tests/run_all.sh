@@ -39,6 +39,7 @@ part 'exact answers and independent computations' tests/exact/run.sh "$program" 
 part 'TREE and SKYLINE, one thread and several' tests/solver/run.sh "$program" "$query" "$build/solver"
 part 'models that do not fit into the memory' tests/memory.sh "$program" "$build/memory"
 part 'linear decks against CalculiX' tests/calculix/run.sh "$program" "$build/calculix"
+part 'errors of elements as the manual has them' tests/elements.sh "$program" "$build/elements"
 part 'STEP tends to NEWTON' tests/convergence.sh "$program" "$query" "$build/convergence"
 part 'the comparison itself' tests/compare/test_compare.sh "$compare" reference_output tests/compare/tolerances.txt
 part 'the queries of histories' tests/compare/test_query.sh "$query"
@@ -50,6 +51,7 @@ sed -E 's/^( *INCR = .*)/\1\n  OUTPUT = LAST, VTU/; /OUTPUT = (ALL|JOINT|LAST|NO
 part 'files for ParaView' tests/vtu/run.sh "$build/vtu" "$build/vtu-deck/history.pvd" "$build/check/post_on_plate.pvd" \
    "$build/check/column_tetra10.pvd"
 part 'meshes from Gmsh' tests/gmsh.sh "$program" "$query" "$build/gmsh"
+part 'decks to and from pyNastran' tests/pynastran/run.sh "$program" "$build/pynastran"
 part 'pictures of a deck, flow charts' tests/figures.sh "$program" "$build/test/figures"
 part 'the benchmark, without measuring' tests/bench/test_bench.sh "$program" "$build/test/bench"
 part 'bad decks and command lines' tests/bad/run.sh "$PWD/$checked"

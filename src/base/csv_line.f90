@@ -6,7 +6,7 @@ module csv_line
    implicit none
    private
 
-   integer, parameter :: room = 1024 ! characters, more than any line has; what lies beyond is cut off
+   integer, parameter :: room = 2048 ! characters, more than any line has; what lies beyond is cut off
 
    type, public :: csv_line_type
       integer         :: length = 0  !! used of TEXT; 0 begins a new line

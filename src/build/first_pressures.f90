@@ -1,23 +1,26 @@
-!> The pressure of the first increment of every joint, Eq. (9): given by the user, or by statics.
+!> The pressure of the first increment of every joint, Eq. (9): given by the user, or by statics; a guess where that will do.
 module first_pressures
    use deck_errors, only: deck_error_list
    use determinate_joints, only: carried_resultant
    use kinds, only: wp
    use model_data, only: joint_type, model_type, n_bars, n_sections, stage_load_type
+   use normal_stiffness, only: loading_pressure
    use text_tools, only: integer_text, real_text
    implicit none
    private
 
    public :: find_first_pressures
 
+   real(wp), parameter :: nothing = 1.0e-12_wp ! of the load: no resultant but rounding
    real(wp), parameter :: alike = 1.0e-9_wp ! of the range of the gaps: those that differ by less close together
 
 contains
 
    !> p_av of every joint: the user's P0, else the resultant of the first increment (the share FIRST_SHARE of the first
-   !! stage's load) over A_int. Where neither gives a compression the deck is in error.
-   subroutine find_first_pressures(first_share, model, errors)
+   !! stage's load) over A_int. Where neither gives a compression it is guessed, or where a guess will not do the deck is in error.
+   subroutine find_first_pressures(first_share, guess_will_do, model, errors)
       real(wp), intent(in)                 :: first_share
+      logical, intent(in)                  :: guess_will_do !! the method iterates to an answer that does not depend on it
       type(model_type), intent(inout)      :: model
       type(deck_error_list), intent(inout) :: errors
       type(stage_load_type) :: loads
@@ -43,10 +46,12 @@ contains
             end if
             if (joint%p0 > 0.0_wp) then
                joint%p_av = joint%p0
+            else if (guess_will_do .and. (.not. joint%determinate .or. resultant <= nothing*first_share*total)) then
+               joint%p_av = guessed_pressure(model, joint)
             else if (.not. joint%determinate) then
                call errors%add(joint%line, 'joint '//integer_text(joint%id)//' does not carry all the load (supports or '// &
                   'other joints take a share), so the pressure of the first increment is not known: give P0 on its PJOINT')
-            else if (resultant <= 1.0e-12_wp*first_share*total) then
+            else if (resultant <= nothing*first_share*total) then
                call errors%add(joint%line, 'the first increment does not press joint '//integer_text(joint%id)// &
                   ' together (normal force '//real_text(resultant)//'), so its pressure is not known: give P0 on its PJOINT')
             else
@@ -55,6 +60,29 @@ contains
          end associate
       end do
    end subroutine find_first_pressures
+
+   !> A pressure of the order that JOINT may bear: all loads of the stage that has most of them over its area, or what its law says of
+   !! the largest movement of a support or interference; where nothing of these is there, little beside the modulus of the bodies.
+   pure real(wp) function guessed_pressure(model, joint) result(p)
+      type(model_type), intent(in) :: model
+      type(joint_type), intent(in) :: joint
+      real(wp) :: force, moved
+      integer  :: s
+
+      force = 0.0_wp
+      if (n_bars(model) > 0) force = force + sum(abs(model%bars%preload))
+      if (n_sections(model) > 0) force = force + sum(abs(model%sections%preload))
+      moved = max(0.0_wp, -minval(model%interface(joint%first:joint%last)%gap))
+      do s = 1, size(model%stage_loads)
+         associate (loads => model%stage_loads(s))
+            force = max(force, sum(norm2(loads%force(:, :loads%n), dim=1)))
+            if (allocated(loads%moved)) moved = max(moved, maxval(abs(loads%moved)))
+         end associate
+      end do
+      p = force/joint%area
+      if (p <= 0.0_wp) p = loading_pressure(joint%law%normal, moved)
+      if (p <= 0.0_wp) p = 1.0e-6_wp*maxval([1.0_wp, model%properties%e])
+   end function guessed_pressure
 
    !> The area of JOINT that takes the first increment: A_int, or where there are gaps the part that stands closed at first; where
    !! none does, that which closes first [length^2].

@@ -51,6 +51,7 @@ contains
          do j = 1, size(joints)
             call joint_elements(deck, tables, j, model, highest, elements)
             call add_elements(model, n, j, joints(j)%id, joints(j)%line, elements)
+            model%joints(j)%side_1 = tables%surface%find(joints(j)%sides(1))
             call resolve_laws(deck, tables%laws, joints(j)%law, model%joints(j))
          end do
          call list_owners(size(cjoints), reshape(leader, [1, size(cjoints)]), first, members)

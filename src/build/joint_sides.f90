@@ -163,7 +163,7 @@ contains
 
       associate (card => deck%bulk%joint(j), own => model%surfaces(surface(1)))
          call fit_side(model, own, model%surfaces(surface(2)), side1, card%tolerance, sums, found)
-         if (found%cover%share <= 0.0_wp) then
+         if (.not. found%is_any) then
             call deck%field_error(card%line, 'SIDE2', 'surface '//integer_text(card%sides(2))//' covers nothing of SIDE1: no '// &
                'face of it looks at one of SIDE1 within '//real_text(found%reach)//' along the normal; the nearest nodes are '// &
                real_text(nearest_nodes(model, model%surfaces(surface)))//' apart. Mark the sides that face each other, or '// &

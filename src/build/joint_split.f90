@@ -5,6 +5,7 @@ module joint_split
    use id_table, only: id_table_type
    use kinds, only: wp
    use model_data, only: model_type
+   use node_build, only: append_nodes
    use reverse_lists, only: list_owners
    use surface_sides, only: elements_behind, face_one_way, list_sides, nodes_of, side_list
    use text_tools, only: integer_text
@@ -92,19 +93,14 @@ contains
       type(model_type), intent(inout) :: model
       integer, intent(in)             :: n_twins
       real(wp), allocatable :: x(:, :)
-      integer :: k, n
+      integer :: k
 
-      n = model%n_nodes
-      allocate (x(3, n + n_twins))
-      x(:, :n) = model%x
-      do k = 1, n
-         if (model%twin(k) > 0) x(:, model%twin(k)) = model%x(:, k)
+      allocate (x(3, n_twins))
+      do k = 1, model%n_nodes
+         if (model%twin(k) > 0) x(:, model%twin(k) - model%n_nodes) = model%x(:, k)
       end do
-      call move_alloc(x, model%x)
-      model%node_id = [model%node_id, (model%node_id(n) + k, k = 1, n_twins)]
+      call append_nodes(model, x)
       model%twin = [model%twin, (0, k = 1, n_twins)]
-      model%n_nodes = n + n_twins
-      call model%node_table%build(model%node_id)
    end subroutine add_twins
 
    !> Sides of the surfaces that were not split follow their elements.

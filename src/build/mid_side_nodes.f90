@@ -5,6 +5,7 @@ module mid_side_nodes
    use element_kinds, only: element_table
    use kinds, only: wp
    use model_data, only: has_second_order, model_type
+   use node_build, only: append_nodes
    use reverse_lists, only: list_owners
    use text_tools, only: integer_text
    implicit none
@@ -51,7 +52,7 @@ contains
       end do
       model%n_filled = n_new
       model%first_filled = model%n_nodes + 1
-      if (n_new > 0) call append_nodes(deck, model, edges, n_new)
+      if (n_new > 0) call place_nodes(deck, model, edges, n_new)
       where (model%element_nodes == blank_node) model%element_nodes = 0 ! of edges whose corners are in error
    end subroutine fill_mid_sides
 
@@ -157,14 +158,14 @@ contains
       end do
    end subroutine check_orders
 
-   !> Append the N_NEW nodes that elements have behind those of MODEL.
-   subroutine append_nodes(deck, model, edges, n_new)
+   !> Put the N_NEW nodes that elements have behind those of MODEL at the middle of their edges.
+   subroutine place_nodes(deck, model, edges, n_new)
       type(checked_deck), intent(in)  :: deck
       type(model_type), intent(inout) :: model
       type(edge_list), intent(in)     :: edges
       integer, intent(in)             :: n_new
       real(wp), allocatable :: x(:, :)
-      integer :: i, k, n, node
+      integer :: i, n, node
 
       n = model%n_nodes
       if (model%node_id(n) > huge(1) - n_new) then
@@ -173,16 +174,12 @@ contains
          where (model%element_nodes > n) model%element_nodes = 0
          return
       end if
-      allocate (x(3, n + n_new))
-      x(:, :n) = model%x
+      allocate (x(3, n_new))
       do i = 1, edges%n
          node = node_at(model, edges, i)
-         if (node > n) x(:, node) = 0.5_wp*(model%x(:, edges%ends(1, i)) + model%x(:, edges%ends(2, i)))
+         if (node > n) x(:, node - n) = 0.5_wp*(model%x(:, edges%ends(1, i)) + model%x(:, edges%ends(2, i)))
       end do
-      call move_alloc(x, model%x)
-      model%node_id = [model%node_id, (model%node_id(n) + k, k = 1, n_new)]
-      model%n_nodes = n + n_new
-      call model%node_table%build(model%node_id)
-   end subroutine append_nodes
+      call append_nodes(model, x)
+   end subroutine place_nodes
 
 end module mid_side_nodes

@@ -1,6 +1,7 @@
 !> From a deck to the structure that is solved.
 module model_build
    use bar_build, only: build_bars
+   use case_control, only: method_step
    use connected_parts, only: find_parts
    use deck_check, only: checked_deck
    use deck_errors, only: deck_error_list
@@ -15,6 +16,7 @@ module model_build
    use mesh_build, only: build_mesh, marked_sides
    use model_data, only: model_type, n_sections
    use section_build, only: build_sections
+   use shown_nodes, only: find_shown_nodes
    use spring_build, only: build_springs
    use stage_plan, only: plan_stages, stage_plan_type
    use support_build, only: build_supports
@@ -53,11 +55,12 @@ contains
       call build_loads(checked, model)
       call build_temperatures(checked, model)
       call plan_stages(deck, plan, errors)
+      call find_shown_nodes(deck, model, plan, errors)
       if (.not. any(model%used)) call errors%add(0, 'nothing to solve: expected body elements or interface elements')
       if (errors%any()) return
       call find_parts(model, .false.)          ! bolts that are being tightened connect nothing yet
       call find_determinate_joints(model)
-      call find_first_pressures(plan%stages(1)%shares(1), model, errors)
+      call find_first_pressures(plan%stages(1)%shares(1), deck%control%method /= method_step, model, errors)
       if (all(model%bars%bolt == 0) .and. n_sections(model) == 0) return
       call find_parts(model, .true.)
       call find_determinate_joints(model)

@@ -13,7 +13,7 @@ module node_build
    implicit none
    private
 
-   public :: collect_nodes, order_nodes, find_nodes
+   public :: collect_nodes, order_nodes, append_nodes, find_nodes
 
    !> Nodes as they come, before they are put in order, and which of them a block's places are.
    type, public :: raw_nodes
@@ -127,6 +127,23 @@ contains
       model%x = raw%x(:, order)
       call model%node_table%build(model%node_id)
    end subroutine order_nodes
+
+   !> Append nodes at X to those of MODEL, numbered behind the highest; the table of numbers has them too.
+   subroutine append_nodes(model, x)
+      type(model_type), intent(inout) :: model
+      real(wp), intent(in)            :: x(:, :) !! (3, new nodes) [length]
+      real(wp), allocatable :: all_x(:, :)
+      integer :: k, n
+
+      n = model%n_nodes
+      allocate (all_x(3, n + size(x, 2)))
+      all_x(:, :n) = model%x
+      all_x(:, n + 1:) = x
+      call move_alloc(all_x, model%x)
+      model%node_id = [model%node_id, (model%node_id(n) + k, k = 1, size(x, 2))]
+      model%n_nodes = n + size(x, 2)
+      call model%node_table%build(model%node_id)
+   end subroutine append_nodes
 
    !> The NODES of the model with the numbers ID, which a card of an element, edge or interface element names from its data field
    !! FIRST on; 0, and an error, where there is none. An id of 0 is no node: a field that is blank or could not be read.

@@ -25,6 +25,7 @@ module side_fit
    !> How well SIDE2 covers SIDE1, face by face.
    type, public :: side_cover
       type(joint_cover) :: cover             !! on the whole
+      logical  :: is_any = .false.           !! whether anything is covered
       integer  :: double = 0                 !! a face of SIDE1 that is covered twice, 0: none
       real(wp) :: double_share = 0.0_wp      !! how often
       real(wp) :: reach = 0.0_wp             !! largest of the search [length]
@@ -81,6 +82,7 @@ contains
             found%double_share = share
          end if
          if (integrals%seen <= 0.0_wp) cycle
+         found%is_any = .true.
          own_parts = own_parts + n_parts(model%dimension, n)
          found%cover%spacing(1) = found%cover%spacing(1) + seen_area(face%seen)
          call fit_face(model%dimension, n, share >= whole_share, integrals, part)

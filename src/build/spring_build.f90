@@ -63,9 +63,9 @@ contains
             call find_nodes(deck, card%line, card%nodes(k:k), model, nodes(k:k), first=2*k + 1)
             directions(:, k) = 0.0_wp
             if (nodes(k) == 0) cycle
-            if (card%components(k) > model%dimension) call deck%field_error(card%line, 'C'//integer_text(k), &
-               'a plane model has no component '//integer_text(card%components(k)))
-            if (card%components(k) > model%dimension) return
+            if (card%components(k) == 3 .and. model%dimension == 2) call deck%field_error(card%line, 'C'//integer_text(k), &
+               'a plane model has no component 3')
+            if (card%components(k) < 1 .or. card%components(k) > model%dimension) return ! said
             directions(:, k) = direction_of(model, nodes(k), card%components(k))
          end do
          k = merge(1, 2, card%nodes(1) > 0) ! the first node that is not the ground

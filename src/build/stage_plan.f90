@@ -14,7 +14,9 @@ module stage_plan
       integer :: id = 0
       character(:), allocatable :: label
       integer :: output = 0                 !! output_* of case_control
-      logical :: plot = .false., vtu = .false., stress = .false., state = .false., condensed = .false.
+      logical :: plot = .false., vtu = .false., steps = .false., stress = .false., state = .false., condensed = .false.
+      logical, allocatable :: shown(:)      !! nodes that its tables are limited to; not allocated: all
+      character(:), allocatable :: shown_words !! of that, behind a title
       real(wp), allocatable :: shares(:)    !! of the stage's load change, one an increment, sum 1
    end type planned_stage
 
@@ -38,7 +40,9 @@ contains
             stage%label = given%label
             stage%output = given%output
             stage%plot = given%plot
-            stage%vtu = given%vtu
+            stage%vtu = given%vtu .or. given%steps
+            stage%steps = given%steps
+            stage%shown_words = ''
             stage%stress = given%stress
             stage%state = given%state
             stage%condensed = given%condensed
@@ -83,7 +87,7 @@ contains
       integer, intent(in)               :: stage, increment
 
       associate (planned => plan%stages(stage))
-         shows_bodies = planned%output == output_all
+         shows_bodies = planned%output == output_all .or. planned%steps
          if (increment == size(planned%shares)) shows_bodies = shows_bodies .or. planned%output == output_last .or. planned%vtu
       end associate
    end function shows_bodies

@@ -2,12 +2,13 @@
 module case_control
    use case_entries, only: check_repeated, choose, cut_entry, entry_type, global_keys, is_own_key, read_number, set_reference, &
                            value_error
+   use case_sets, only: number_set, read_set
    use deck_errors, only: deck_error_list
-   use deck_numbers, only: parse_real
+   use deck_numbers, only: parse_integer, parse_real
    use deck_text, only: deck_text_type
    use entry_tally, only: entry_tally_type
+   use habit_entries, only: read_echo, read_habit
    use kinds, only: wp
-   use nastran_habits, only: control_habit, judge_parameter, parameter_idle, parameter_refused
    use text_tools, only: integer_text, upper
    implicit none
    private
@@ -21,6 +22,12 @@ module case_control
 
    real(wp), parameter :: newton_tolerance = 1.0e-10_wp, back_tolerance = 1.0e-6_wp ! TOL that is not given
 
+   !> What the tables of a stage are limited to: a SET of node numbers, or the nodes of a marked surface.
+   type, public :: limit_type
+      logical :: is_mark = .false.
+      integer :: id = 0, line = 0
+   end type limit_type
+
    !> One SUBCASE: a stage of the load history.
    type, public :: stage_type
       integer :: id = 0, line = 0
@@ -32,9 +39,11 @@ module case_control
       integer :: output = output_last
       logical :: plot   = .false.
       logical :: vtu    = .false.
+      logical :: steps  = .false.   !! files for ParaView after every increment
       logical :: stress = .false.   !! principal stresses and von Mises in the listing
       logical :: state  = .false.   !! what the interface elements remember
       logical :: condensed = .false. !! [k_b] condensed on the interface
+      type(limit_type), allocatable :: only(:) !! not allocated: the tables have all nodes and elements
    end type stage_type
 
    type, public :: case_control_type
@@ -47,6 +56,8 @@ module case_control
       integer :: solver = solver_auto
       real(wp) :: tolerance = newton_tolerance           !! NEWTON: unbalanced share of the largest load; BACK: change of pressures
       logical :: echo  = .true.
+      logical :: echo_asked = .false.                    !! by ECHO: however many cards there are
+      type(number_set), allocatable :: sets(:)
       real(wp) :: mass_factor = 1.0_wp                   !! PARAM WTMASS: densities are multiplied by it
       type(entry_tally_type) :: idle                     !! entries without effect
       type(stage_type), allocatable :: stages(:)
@@ -102,67 +113,39 @@ contains
          in_plots = entry%key == 'OUTPUT' .and. entry%describers /= '' ! NASTRAN's plots: all lines up to BEGIN BULK
          if (in_plots .or. (entry%key == 'OUTPUT' .and. entry%value == '')) then
             call control%idle%add('OUTPUT')
+         else if (entry%key == 'SET') then
+            call read_set(text, entry, cursor, control%sets, errors)
          else if (is_own_key(entry%key)) then
             call check_repeated(entry, keys_seen, errors)
             call read_entry(entry, control, common, errors)
          else
-            call read_habit(entry, control, errors)
+            call read_habit(entry, control%mass_factor, control%idle, errors)
             goes_on = line(len(line):) == ','
          end if
       end do
       if (control%tolerance <= 0.0_wp) control%tolerance = merge(back_tolerance, newton_tolerance, control%method == method_back)
       call check_stages(control, common, errors)
+      call note_idle_sets(control)
    end subroutine read_case_control
 
-   !> What a line says that is none of the program's own keys: it has no effect, or is not known.
-   subroutine read_habit(entry, control, errors)
-      type(entry_type), intent(in)           :: entry
+   !> Sets that no OUTPUT names have no effect.
+   pure subroutine note_idle_sets(control)
       type(case_control_type), intent(inout) :: control
-      type(deck_error_list), intent(inout)   :: errors
-      integer :: choice
+      integer :: i, s
+      logical :: used
 
-      choice = 0
-      select case (entry%key)
-      case ('INCLUDE', 'CEND') ! lines of an INCLUDE file follow in the deck text; CEND is the end of NASTRAN's executive control
-      case ('APP', 'ANALYSIS')
-         call choose(entry, '|STATICS|STATIC|DISP|DISPLACEMENT|', choice, errors)
-         call control%idle%add(entry%key)
-      case ('PARAM')
-         call read_parameter(entry, control, errors)
-      case default
-         if (control_habit(entry%key) /= '') then
-            call control%idle%add(control_habit(entry%key))
-         else
-            call errors%add(entry%line, ''''//entry%key(:min(40, len(entry%key)))//''' is no key of case control; '// &
-                            'expected TITLE, UNITS, METHOD, TOL, PRESSURE, CARRY, AVERAGE, SOLVER, ECHO, SPC, SUBCASE, '// &
-                            'LABEL, LOAD, TEMPERATURE(LOAD), INCR, OUTPUT or BEGIN BULK')
-         end if
-      end select
-   end subroutine read_habit
-
-   !> 'PARAM,POST,-1' in case control.
-   subroutine read_parameter(entry, control, errors)
-      type(entry_type), intent(in)           :: entry
-      type(case_control_type), intent(inout) :: control
-      type(deck_error_list), intent(inout)   :: errors
-      character(:), allocatable :: expected, name, value
-      real(wp) :: mass
-      integer  :: comma, what
-
-      value = upper(adjustl(entry%value))
-      if (index(value, ',') == 1) value = adjustl(value(2:))
-      comma = scan(value//',', ', ')
-      name = value(:comma - 1)
-      value = trim(adjustl(value(min(comma + 1, len(value) + 1):)))
-      call judge_parameter(name, value, what, mass, expected)
-      if (what == parameter_idle) then
-         call control%idle%add('PARAM')
-      else if (what == parameter_refused) then
-         call errors%add(entry%line, 'PARAM '//name//': '''//value//''', expected '//expected, entry%first, entry%last)
-      else
-         control%mass_factor = mass
-      end if
-   end subroutine read_parameter
+      if (.not. allocated(control%sets)) return
+      do i = 1, size(control%sets)
+         used = .false.
+         do s = 1, size(control%stages)
+            if (.not. allocated(control%stages(s)%only)) cycle
+            associate (only => control%stages(s)%only)
+               used = used .or. any(only%id == control%sets(i)%id .and. .not. only%is_mark)
+            end associate
+         end do
+         if (.not. used) call control%idle%add('SET')
+      end do
+   end subroutine note_idle_sets
 
    !> What one line of case control says.
    subroutine read_entry(entry, control, common, errors)
@@ -174,8 +157,8 @@ contains
       logical :: ok
 
       n = size(control%stages)
-      if (n > 0 .and. entry%key == 'TITLE') then ! that of a subcase
-         call control%idle%add('TITLE')
+      if (n > 0 .and. any(entry%key == ['TITLE', 'ECHO '])) then ! that of a subcase
+         call control%idle%add(entry%key)
          return
       end if
       if (n > 0 .and. any(global_keys == entry%key)) &
@@ -218,23 +201,10 @@ contains
       case ('SOLVER')
          call choose(entry, '|AUTO|SKYLINE|TREE|', control%solver, errors)
       case ('ECHO')
-         call read_echo(entry, control, errors)
+         call read_echo(entry, control%echo, errors)
+         control%echo_asked = control%echo
       end select
    end subroutine read_entry
-
-   !> ECHO = NO or NONE, or any of the words by which NASTRAN prints the deck, in whatever order, to whatever file.
-   subroutine read_echo(entry, control, errors)
-      type(entry_type), intent(in)           :: entry
-      type(case_control_type), intent(inout) :: control
-      type(deck_error_list), intent(inout)   :: errors
-      character(*), parameter :: off = '|NO|NONE|', on = '|YES|BOTH|SORT|UNSORT|PUNCH|FILE|'
-      character(:), allocatable :: word
-
-      word = '|'//upper(entry%value(:scan(entry%value//',', ' ,(') - 1))//'|'
-      if (word == '||' .or. index(off//on, word) == 0) call value_error(entry, 'YES or NO, or NASTRAN''s BOTH, SORT, UNSORT, '// &
-                                                                        'PUNCH or NONE', errors)
-      control%echo = index(off, word) == 0
-   end subroutine read_echo
 
    subroutine read_units(entry, control, errors)
       type(entry_type), intent(in)           :: entry
@@ -304,14 +274,16 @@ contains
       type(entry_type), intent(in)         :: entry
       type(stage_type), intent(inout)      :: stage
       type(deck_error_list), intent(inout) :: errors
-      character(*), parameter :: beside = 'PLOT, STRESS, VTU, STATE, CONDENSED' ! a level, not in place of one
-      character(:), allocatable :: rest
+      character(*), parameter :: beside = 'PLOT, STRESS, VTU, STEPS, STATE, CONDENSED, SET N, PMARK N' ! a level, not in place of one
+      character(:), allocatable :: rest, word
       integer :: comma, levels
-      logical :: twice
+      logical :: ok, twice
 
       stage%output = output_last
       stage%plot = .false.
       stage%vtu = .false.
+      stage%steps = .false.
+      if (allocated(stage%only)) deallocate (stage%only)
       stage%stress = .false.
       stage%state = .false.
       stage%condensed = .false.
@@ -322,7 +294,8 @@ contains
       do while (rest /= '')
          comma = index(rest//',', ',')
          levels = levels + 1
-         select case (adjustl(rest(:comma - 1)))
+         word = trim(adjustl(rest(:comma - 1)))
+         select case (word)
          case ('ALL');    stage%output = output_all
          case ('JOINT');  stage%output = output_joint
          case ('LAST');   stage%output = output_last
@@ -330,17 +303,37 @@ contains
          case ('PLOT');   call switch_on(stage%plot)
          case ('STRESS'); call switch_on(stage%stress)
          case ('VTU');    call switch_on(stage%vtu)
+         case ('STEPS');  call switch_on(stage%steps)
          case ('STATE');  call switch_on(stage%state)
          case ('CONDENSED'); call switch_on(stage%condensed)
          case default
-            call value_error(entry, 'ALL, JOINT, LAST or NONE, and with a comma '//beside, errors)
-            return
+            call read_limit(ok)
+            if (.not. ok) then
+               call value_error(entry, 'ALL, JOINT, LAST or NONE, and with a comma '//beside, errors)
+               return
+            end if
          end select
          rest = rest(min(comma + 1, len(rest) + 1):)
       end do
       if (levels > 1 .or. twice) call value_error(entry, 'one of ALL, JOINT, LAST, NONE, and with commas '//beside, errors)
 
    contains
+
+      !> WORD as 'SET 5' or 'PMARK 20'.
+      subroutine read_limit(ok)
+         logical, intent(out) :: ok
+         type(limit_type) :: limit
+
+         ok = index(word, 'SET ') == 1 .or. index(word, 'PMARK ') == 1
+         if (.not. ok) return
+         limit%is_mark = word(1:1) == 'P'
+         limit%line = entry%line
+         call parse_integer(trim(adjustl(word(index(word, ' '):))), limit%id, ok)
+         if (.not. ok) return
+         if (.not. allocated(stage%only)) allocate (stage%only(0))
+         stage%only = [stage%only, limit]
+         levels = levels - 1
+      end subroutine read_limit
 
       !> A word that stands beside a level, not in place of one.
       subroutine switch_on(switch)

@@ -20,6 +20,7 @@ module deck_input
    use support_cards, only: read_displacement, read_support, read_support_sum
    use system_cards, only: fill_grid_defaults, read_grid_defaults, read_system, system_names
    use temperature_cards, only: read_temperature
+   use unused_cards, only: count_unused
    implicit none
    private
 
@@ -122,6 +123,7 @@ contains
       call find_cards(deck%text, cursor, cards, deck%bulk, errors)
       call cards%read_all(deck%bulk)
       call fill_grid_defaults(deck%bulk)
+      call count_unused(deck%bulk)
       call move_alloc(cards%kinds, deck%kinds)
       deck%is_whole = is_whole
    end subroutine read_lines

@@ -11,24 +11,43 @@ module error_report
    public :: print_errors
 
    integer, parameter :: most_printed = 200
+   integer, parameter :: most_of_kind = 10 ! errors whose messages differ in numbers and in quoted text only
+   character(*), parameter :: no_card = 'is no card that' ! such an error is said once a name
    integer, parameter :: widest = 100 ! columns of a deck line that are shown
+
+   type :: kind_type
+      character(:), allocatable :: words   ! what its messages have in common
+      integer :: n = 0                     ! errors
+      integer :: most = most_of_kind       ! of these printed
+      integer :: printed = 0               ! so far
+      integer :: last = 0                  ! number of the one printed last
+   end type kind_type
 
 contains
 
-   !> Print all errors on UNIT in the order of the lines they are about.
+   !> Print the errors on UNIT in the order of the lines they are about; of one kind ten, of one unknown card the first.
    subroutine print_errors(unit, kind, outcome, text, errors)
       integer, intent(in)               :: unit
       character(*), intent(in)          :: kind    !! 'DECK', what the errors are of
       character(*), intent(in)          :: outcome !! 'nothing solved', what follows from them
       type(deck_text_type), intent(in)  :: text
       type(deck_error_list), intent(in) :: errors
-      integer, allocatable :: order(:)
-      integer :: k
+      type(kind_type), allocatable :: kinds(:)
+      integer, allocatable :: order(:), kind_of(:)
+      integer :: i, k, printed
 
       call sorted_order(errors%items(:errors%n)%line, order)
-      do k = 1, min(errors%n, most_printed)
-         associate (item => errors%items(order(k)))
-            write (unit, '(5a, 3x, a)') kind, ' ERROR ', integer_text(k), ' OF ', integer_text(errors%n), text%place(item%line)
+      call sort_into_kinds(errors, order, kinds, kind_of)
+      printed = 0
+      do k = 1, errors%n
+         associate (item => errors%items(order(k)), this => kinds(kind_of(k)))
+            this%n = this%n + 1
+            if (this%n > this%most .or. printed == most_printed) cycle
+            printed = printed + 1
+            this%printed = this%printed + 1
+            this%last = printed
+            write (unit, '(5a, 3x, a)') kind, ' ERROR ', integer_text(printed), ' OF ', integer_text(errors%n), &
+               text%place(item%line)
             if (item%line > 0) then
                write (unit, '(3x, a)') shown(text%line(item%line))
                if (item%first > 0) write (unit, '(3x, a)') mark(text%line(item%line), item%first, item%last)
@@ -36,10 +55,68 @@ contains
             write (unit, '(3x, a, /)') item%message
          end associate
       end do
-      if (errors%n > most_printed) write (unit, '(3a, /)') 'and ', plural(errors%n - most_printed, 'more error'), &
-         ', not printed'
+      do i = 1, size(kinds)
+         associate (this => kinds(i))
+            if (this%printed < this%most .or. this%n == this%most) cycle
+            write (unit, '(4a, /)') 'and ', plural(this%n - this%most, 'more error'), ', not printed, of the kind of ERROR ', &
+               integer_text(this%last)
+            printed = printed + this%n - this%most
+         end associate
+      end do
+      if (errors%n > printed) write (unit, '(3a, /)') 'and ', plural(errors%n - printed, 'more error'), ', not printed'
       write (unit, '(5a)') text%place(0), ': ', plural(errors%n, 'error'), ', ', outcome
    end subroutine print_errors
+
+   !> The kinds of ERRORS, and of each in this ORDER which one it is.
+   subroutine sort_into_kinds(errors, order, kinds, kind_of)
+      type(deck_error_list), intent(in)         :: errors
+      integer, intent(in)                       :: order(:)
+      type(kind_type), allocatable, intent(out) :: kinds(:)
+      integer, allocatable, intent(out)         :: kind_of(:)
+      type(kind_type), allocatable :: more(:)
+      character(:), allocatable    :: words
+      integer :: i, k, n
+
+      allocate (kinds(8), kind_of(size(order)))
+      n = 0
+      do k = 1, size(order)
+         words = kind_words(errors%items(order(k))%message)
+         do i = 1, n
+            if (kinds(i)%words == words) exit
+         end do
+         kind_of(k) = i
+         if (i <= n) cycle
+         if (n == size(kinds)) then
+            allocate (more(2*n))
+            more(:n) = kinds
+            call move_alloc(more, kinds)
+         end if
+         n = n + 1
+         kinds(n)%words = words
+         if (index(words, no_card) > 0) kinds(n)%most = 1
+      end do
+      kinds = kinds(:n)
+   end subroutine sort_into_kinds
+
+   !> MESSAGE without its numbers, its blanks and what it quotes; whole where a card is unknown.
+   pure function kind_words(message) result(words)
+      character(*), intent(in)  :: message
+      character(:), allocatable :: words
+      logical :: quoted
+      integer :: i, n
+
+      words = message
+      if (index(message, no_card) > 0) return
+      n = 0
+      quoted = .false.
+      do i = 1, len(message)
+         if (message(i:i) == '''') quoted = .not. quoted
+         if (quoted .or. verify(message(i:i), ' 0123456789.+-') == 0) cycle
+         n = n + 1
+         words(n:n) = message(i:i)
+      end do
+      words = words(:n)
+   end function kind_words
 
    !> LINE as it may be printed: cut where it is very long, control characters as '?'.
    pure function shown(line) result(words)

@@ -59,6 +59,7 @@ contains
    subroutine check_ends(cards, spring)
       type(card_reader_type), intent(inout) :: cards
       type(spring_card), intent(in)         :: spring
+      character(2) :: field
       integer :: k
 
       if (all(spring%nodes == 0)) then
@@ -66,12 +67,11 @@ contains
          return
       end if
       do k = 1, 2
-         associate (field => 'C'//integer_text(k))
-            if (spring%nodes(k) == 0 .or. (spring%components(k) >= 1 .and. spring%components(k) <= 3)) cycle
-            if (spring%components(k) == 0) call cards%error(field, 'blank or 0, expected the component at G'//integer_text(k))
-            if (spring%components(k) > 3) call cards%error(field, 'component '//integer_text(spring%components(k))// &
-               ' is a rotation, which nodes of bodies do not have; expected 1, 2 or 3')
-         end associate
+         if (spring%nodes(k) == 0 .or. (spring%components(k) >= 1 .and. spring%components(k) <= 3)) cycle
+         field = 'C'//integer_text(k)
+         if (spring%components(k) == 0) call cards%error(field, 'blank or 0, expected the component at G'//integer_text(k))
+         if (spring%components(k) > 3) call cards%error(field, 'component '//integer_text(spring%components(k))// &
+            ' is a rotation, which nodes of bodies do not have; expected 1, 2 or 3')
       end do
    end subroutine check_ends
 

@@ -18,6 +18,7 @@ contains
       type(card_reader_type), intent(inout) :: cards
       type(bulk_data_type), intent(inout)   :: bulk
       type(card_values) :: values
+      character(:), allocatable :: k
       logical :: for_all
       integer :: field, first, i, n
 
@@ -35,9 +36,8 @@ contains
          do field = first, merge(7, 6, for_all), 2
             if (.not. any(values%given(field:field + 1))) cycle
             if (field > first .and. .not. all(values%given(field:field + 1))) then
-               associate (k => integer_text((field - first)/2 + 1))
-                  call cards%error(trim(merge('SID', 'G  ', for_all))//k, 'this and T'//k//' go together, one of them is blank')
-               end associate
+               k = integer_text((field - first)/2 + 1)
+               call cards%error(trim(merge('SID', 'G  ', for_all))//k, 'this and T'//k//' go together, one of them is blank')
                cycle
             end if
             n = n + 1

@@ -100,6 +100,8 @@ module analysis_state
       real(wp) :: largest_p = 0.0_wp                !! pressure or shear stress so far, anywhere: the measure of noise
       real(wp) :: largest_lambda = 0.0_wp           !! deflection so far, likewise
       integer  :: n_removed = 0                     !! interface elements removed by the last increment
+      logical  :: ends_early = .false.              !! NEWTON cannot go on: this is the last state in equilibrium, there is one
+      logical  :: is_partial = .false.              !! ... and it is a part of the way into an increment
       integer  :: n_parts   = 1                     !! NEWTON: parts that the last increment was divided into
    end type analysis_type
 

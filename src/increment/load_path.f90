@@ -12,7 +12,7 @@ module load_path
    implicit none
    private
 
-   public :: start_stage, start_increment, recover_bodies, support_force
+   public :: start_stage, start_increment, go_back, recover_bodies, support_force
 
 contains
 
@@ -119,35 +119,50 @@ contains
          if (analysis%increment == size(shares)) analysis%fraction = 1.0_wp
       end associate
       associate (nodes => analysis%loaded)
-         analysis%applied(:, nodes) = between(analysis%load_before(:, nodes), analysis%load_after(:, nodes))
+         analysis%applied(:, nodes) = between(analysis%fraction, analysis%load_before(:, nodes), analysis%load_after(:, nodes))
       end associate
       analysis%temperature = temperature_between(analysis%temperature_before, analysis%temperature_after, analysis%fraction)
       analysis%moves = .false.
       analysis%move = 0.0_wp
       if (analysis%is_moved) then
          allocate (before, source=analysis%moved)
-         analysis%moved = between(analysis%moved_before, analysis%moved_after)
+         analysis%moved = between(analysis%fraction, analysis%moved_before, analysis%moved_after)
          analysis%moves = any(abs(analysis%moved - before) > 0.0_wp)
          analysis%move = analysis%moved(:, system%retained) - before(:, system%retained)
       end if
-      analysis%change = between(analysis%felt_before, analysis%felt_after) - analysis%felt
+      analysis%change = between(analysis%fraction, analysis%felt_before, analysis%felt_after) - analysis%felt
       analysis%felt = analysis%felt + analysis%change
       if (analysis%carry) analysis%change = analysis%change + analysis%unbalanced
       analysis%n_passes = 0
       analysis%slips = analysis%slips(:0)
       analysis%n_parts = 1
-
-   contains
-
-      !> BEFORE at the beginning of the stage, AFTER at its end.
-      elemental real(wp) function between(before, after)
-         real(wp), intent(in) :: before, after
-
-         between = before + analysis%fraction*(after - before)
-         if (analysis%fraction >= 1.0_wp) between = after
-      end function between
-
    end subroutine start_increment
+
+   !> The increment could not be made, but all of it up to what is LEFT: the loads and movements that this state bears. Where nothing
+   !! of it was made the increment before is the last.
+   pure subroutine go_back(plan, left, analysis)
+      type(stage_plan_type), intent(in)  :: plan
+      real(wp), intent(in)               :: left     !! of the increment [-], > 0
+      type(analysis_type), intent(inout) :: analysis
+
+      analysis%is_partial = left < 1.0_wp
+      associate (shares => plan%stages(analysis%stage)%shares, nodes => analysis%loaded)
+         analysis%fraction = sum(shares(:analysis%increment)) - left*shares(analysis%increment)
+         if (.not. analysis%is_partial) analysis%increment = analysis%increment - 1
+         analysis%applied(:, nodes) = between(analysis%fraction, analysis%load_before(:, nodes), analysis%load_after(:, nodes))
+      end associate
+      if (analysis%is_moved) analysis%moved = between(analysis%fraction, analysis%moved_before, analysis%moved_after)
+      analysis%felt = between(analysis%fraction, analysis%felt_before, analysis%felt_after)
+      analysis%ends_early = analysis%increment > 0 .or. analysis%stage > 1
+   end subroutine go_back
+
+   !> What is BEFORE at the beginning of the stage and AFTER at its end, where FRACTION of it is done.
+   elemental real(wp) function between(fraction, before, after)
+      real(wp), intent(in) :: fraction, before, after
+
+      between = before + fraction*(after - before)
+      if (fraction >= 1.0_wp) between = after
+   end function between
 
    !> Displacements of all nodes, and what is unbalanced on them, from the elements themselves, in global axes: on held components
    !! minus the reaction.

@@ -20,6 +20,7 @@ module newton_direction
    type, public :: attempt_type
       character(:), allocatable :: where          !! stage and increment, for messages
       real(wp) :: left = 0.0_wp                   !! of the increment, when it is reached [-]
+      real(wp) :: left_over = 1.0_wp              !! of it, where no part of that could be made [-]
       real(wp), allocatable :: load(:, :)         !! (dimension, retained), then [force]
       real(wp), allocatable :: move(:, :)         !! of held components, that is still to be made, likewise [length]
       integer, allocatable  :: flips(:)           !! changes of branch, by interface element

@@ -6,7 +6,7 @@ module newton_method
    use failures, only: failure_type
    use joint_laws, only: is_apart
    use kinds, only: wp
-   use load_path, only: support_force
+   use load_path, only: go_back, support_force
    use model_data, only: joint_node_id, model_type
    use newton_direction, only: attempt_type, close_gaps, find_direction
    use newton_trial, only: commit, evaluate, search, start_trial, swap, take_whole_step, trial_type
@@ -39,6 +39,10 @@ contains
                                analysis%applied), all_held(model, analysis)), tiny(1.0_wp))
       attempt%where = where_in_plan(plan, analysis%stage, analysis%increment)
       call find_equilibrium(model, analysis, system, attempt, failure)
+      if (.not. failure%raised) return
+      call go_back(plan, attempt%left_over, analysis)
+      if (analysis%ends_early) failure%message = failure%message//'; the last state in equilibrium stands at '// &
+         real_text(anint(1.0e4_wp*analysis%fraction)*1.0e-4_wp)//' of stage '//integer_text(plan%stages(analysis%stage)%id)
    end subroutine newton_increment
 
    !> STEP cannot make an increment of which FAILURE says that gaps leave a body loose: this one is iterated to equilibrium.
@@ -124,6 +128,7 @@ contains
          else if (part > 0.5_wp**most_halvings) then
             part = 0.5_wp*part
          else
+            attempt%left_over = 1.0_wp - done
             if (attempt%trouble%raised) then
                call failure%raise(attempt%trouble%message) ! a mechanism says more than any iteration
             else

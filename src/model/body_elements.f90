@@ -18,7 +18,7 @@ module body_elements
    private
 
    public :: coupled_stiffness, element_centre, element_stress, element_nodal_stress, node_stresses, whole_stress, element_weight
-   public :: internal_forces, add_thermal_forces, law_of
+   public :: internal_forces, element_thermal_forces, add_thermal_forces, law_of
 
 contains
 
@@ -181,6 +181,18 @@ contains
       end do
    end subroutine internal_forces
 
+   !> F: what element E at this TEMPERATURE pushes its nodes with.
+   pure subroutine element_thermal_forces(model, e, temperature, f)
+      type(model_type), intent(in)       :: model
+      integer, intent(in)                :: e
+      type(temperature_type), intent(in) :: temperature
+      real(wp), intent(inout)            :: f(:, :) !! (dimension, nodes) [force], set here
+
+      associate (nodes => corners_of(model, e))
+         call nodal_thermal_forces(law_of(model, e), model%x(:model%dimension, nodes), element_rise(model, e, temperature), f)
+      end associate
+   end subroutine element_thermal_forces
+
    !> Add to F what the bodies at this TEMPERATURE push their nodes with.
    pure subroutine add_thermal_forces(model, temperature, f)
       type(model_type), intent(in)       :: model
@@ -191,7 +203,7 @@ contains
 
       do e = 1, model%n_elements
          associate (nodes => corners_of(model, e))
-            call nodal_thermal_forces(law_of(model, e), model%x(:model%dimension, nodes), element_rise(model, e, temperature), own)
+            call element_thermal_forces(model, e, temperature, own)
             f(:, nodes) = f(:, nodes) + own(:, :size(nodes))
             call add_section_share(model, e, nodes, own, f)
          end associate

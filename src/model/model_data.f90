@@ -11,8 +11,8 @@ module model_data
    implicit none
    private
 
-   public :: corners_of, has_gaps, has_ground_springs, has_second_order, is_coarser, joint_node_id, n_bars, n_springs, bar_nodes, n_sections, &
-             n_points
+   public :: corners_of, has_gaps, has_ground_springs, has_second_order, is_coarser, joint_node_id, n_bars, n_springs, bar_nodes, &
+             n_sections, n_points
 
    !> Section and material of body elements.
    type, public :: property_type
@@ -55,6 +55,7 @@ module model_data
       integer  :: id = 0                     !! JID; PJID for a group of CJOINT cards
       integer  :: line = 0                   !! of its card (the first CJOINT) in the deck text
       integer  :: first = 0, last = -1       !! its interface elements
+      integer  :: side_1 = 0                 !! position of the surface SIDE1; 0: single elements
       type(joint_cover) :: cover
       type(joint_law) :: law                 !! normal, shear, friction
       logical  :: e_u_given = .false.        !! whether the deck gives the unloading slope

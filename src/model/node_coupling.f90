@@ -107,17 +107,20 @@ contains
       end do
    end function transformation
 
-   !> [T]^T [k] [T]: the stiffness K between the displacements of NODES becomes that between the unknowns of unknown_nodes.
+   !> [T]^T [k] [T]: the stiffness K between the displacements of NODES becomes that between the unknowns of unknown_nodes. What is
+   !! but rounding in it is zero: a bar has no stiffness across, and whether a node is held there hangs on that.
    pure subroutine onto_unknowns(model, nodes, k)
       type(model_type), intent(in) :: model
       integer, intent(in)          :: nodes(:)
       real(wp), intent(inout)      :: k(:, :) !! at least as many rows and columns as either has components [force/length]
+      real(wp), parameter :: rounding = 16.0_wp*epsilon(1.0_wp) ! of the largest entry
       real(wp), allocatable :: t(:, :)
 
       if (.not. is_coupled(model, nodes)) return
       t = transformation(model, nodes)
       associate (n => size(t, 1), m => size(t, 2))
          k(:m, :m) = matmul(transpose(t), matmul(k(:n, :n), t))
+         where (abs(k(:m, :m)) <= rounding*maxval(abs(k(:m, :m)))) k(:m, :m) = 0.0_wp
       end associate
    end subroutine onto_unknowns
 

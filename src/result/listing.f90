@@ -5,19 +5,22 @@ module listing
    use deck_input, only: deck_type
    use determinate_joints, only: carried_resultant
    use equation_solver, only: equation_system
+   use failures, only: failure_type
+   use joint_motion, only: is_closed
    use kinds, only: wp
    use listing_bars, only: note_bars, note_sections, note_springs
    use listing_bodies, only: list_bodies
    use listing_joints, only: list_energy, list_interface, note_passes, note_resultants
-   use listing_opening, only: tetra_words, write_opening
+   use listing_opening, only: write_opening
    use listing_plot, only: plot_joints
    use listing_states, only: list_condensed, list_states
    use listing_steps, only: farthest_type, note_distances, note_slips
    use listing_table, only: column, label_type, listing_table_type, noise, page_type
    use model_data, only: joint_node_id, model_type, stage_load_type
+   use model_warnings, only: tetra_words
    use node_coupling, only: held_forces
    use normal_stiffness, only: branch_open
-   use range_watch, only: range_watch_type, watch_balance, watch_ranges, watch_shear_laws, watch_unloading
+   use range_watch, only: range_watch_type, say_ranges, watch_balance, watch_ranges, watch_shear_laws, watch_unloading
    use stage_plan, only: stage_plan_type
    use text_tools, only: clean, integer_text, plural, upper
    implicit none
@@ -78,7 +81,11 @@ contains
       listing%n_removed = listing%n_removed + analysis%n_removed
       associate (stage => plan%stages(analysis%stage), page => listing%page)
          page%stage = 'STAGE '//integer_text(stage%id)
-         page%now = ', '//page%stage//', INCREMENT '//integer_text(analysis%increment)
+         page%now = ', '//page%stage//', INCREMENT '//integer_text(analysis%increment)//stage%shown_words
+         if (analysis%increment == 1) then
+            if (allocated(page%shown)) deallocate (page%shown)
+            if (allocated(stage%shown)) page%shown = stage%shown
+         end if
          page%largest_force = max(page%largest_force, maxval(abs(analysis%applied(:, analysis%loaded))))
          if (analysis%is_moved) page%largest_force = &
             max(page%largest_force, maxval(abs(held_forces(model, analysis%all_unbalanced)))) ! what moves the supports
@@ -92,7 +99,7 @@ contains
          call note_bars(page, model, analysis, listing%bars)
          call note_springs(page, model, analysis, listing%springs)
          call note_sections(page, model, analysis, listing%sections)
-         call watch_ranges(model, plan, analysis, listing%watch)
+         call watch_ranges(model, analysis, listing%watch)
          if (listing%method /= method_back) then
             call watch_shear_laws(model, plan, analysis, listing%watch)
             call watch_unloading(model, plan, analysis, listing%watch)
@@ -114,6 +121,7 @@ contains
       associate (stage => plan%stages(analysis%stage), page => listing%page)
          call listing%increments%print_kept(page%file)
          call listing%distances%print_kept(page%file)
+         call say_ranges(model, plan, analysis, listing%watch)
          call watch_balance(model, plan, analysis, page%largest_force, listing%watch)
          call listing%watch%rows%print_kept(page%file)
          call listing%passes%print_kept(page%file)
@@ -201,7 +209,11 @@ contains
          call table%add([joint_node_id(model, at_lambda, 1)])
          call table%add([clean(state(at_p)%pressure, noise*analysis%largest_p)])
          call table%add([joint_node_id(model, at_p, 1)])
-         call table%add([clean(force, floor)])
+         if (is_closed(model, joint)) then
+            call table%skip(1)
+         else
+            call table%add([clean(force, floor)])
+         end if
          if (joint%determinate) then
             applied = carried_resultant(model, joint, now)
             call table%add(clean([applied, force - applied], floor))
@@ -212,15 +224,21 @@ contains
    end subroutine add_joint
 
    !> Close the listing under its name.
-   subroutine finish_listing(listing, plan, ok)
+   subroutine finish_listing(listing, plan, failure, ok)
       type(listing_type), intent(inout) :: listing
       type(stage_plan_type), intent(in) :: plan
+      type(failure_type), intent(in)    :: failure !! raised: the listing ends before it
       logical, intent(out)              :: ok
 
       call listing%page%file%put('')
-      call listing%page%file%put(' END OF LISTING   '//upper(plural(size(plan%stages), 'stage')//', '// &
-         plural(listing%n_increments, 'increment')//', '//plural(listing%n_removed, 'interface element'))//' REMOVED, '// &
-         upper(plural(listing%watch%n_warnings, 'warning')))
+      if (failure%raised) then
+         call listing%page%file%put(' *** THE RUN ENDED EARLY, ABOVE IS THE LAST STATE IN EQUILIBRIUM ***')
+         call listing%page%file%put('  '//upper(failure%message))
+         call listing%page%file%put('')
+      end if
+      call listing%page%file%put(trim(merge(' ENDED EARLY   ', ' END OF LISTING', failure%raised))//'   '// &
+         upper(plural(size(plan%stages), 'stage')//', '//plural(listing%n_increments, 'increment')//', '// &
+         plural(listing%n_removed, 'interface element'))//' REMOVED, '//upper(plural(listing%watch%n_warnings, 'warning')))
       call listing%page%file%finish(ok)
    end subroutine finish_listing
 

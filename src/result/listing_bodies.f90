@@ -9,6 +9,7 @@ module listing_bodies
    use listing_table, only: axes, column, listing_table_type, noise, page_type
    use model_data, only: has_ground_springs, has_second_order, model_type, n_bars, n_points
    use node_coupling, only: held_forces
+   use shown_rows, only: shows_element, shows_node
    use stress_measures, only: principal_stresses, von_mises
    use text_tools, only: clean
    implicit none
@@ -45,7 +46,7 @@ contains
       call table%print_head(page%file)
       floor = noise*maxval(abs(analysis%all_u(:, :n_points(model))))
       do node = 1, n_points(model)
-         if (.not. model%used(node)) cycle
+         if (.not. model%used(node) .or. .not. shows_node(page, node)) cycle
          call table%add([model%node_id(node)])
          call table%add(clean(model%x(:model%dimension, node)))
          call table%add(clean(analysis%all_u(:, node), floor))
@@ -75,6 +76,7 @@ contains
                         column(stress_names(model), 'es13.5')])
       call table%print_head(page%file)
       do e = 1, model%n_elements
+         if (.not. shows_element(page, model, e)) cycle
          call table%add([model%element_id(e)])
          call table%add(clean(element_centre(model, e)))
          call table%add(clean(stress(:n, e), floor))
@@ -124,7 +126,7 @@ contains
                        [column('NODE', 'i11'), column([character(10) :: stress_names(model), 'VON MISES'], 'es13.5')])
       call table%print_head(page%file)
       do node = 1, n_points(model)
-         if (model%first_at(node + 1) == model%first_at(node)) cycle
+         if (model%first_at(node + 1) == model%first_at(node) .or. .not. shows_node(page, node)) cycle
          call table%add([model%node_id(node)])
          call table%add(clean(stress(shown, node), floor))
          call table%add(clean([von_mises(stress(:, node))], floor))
@@ -146,6 +148,7 @@ contains
                        [column('ELEMENT', 'i11'), column([character(9) :: 'SIGMA 1', 'SIGMA 2', 'SIGMA 3', 'VON MISES'], 'es13.5')])
       call table%print_head(page%file)
       do e = 1, model%n_elements
+         if (.not. shows_element(page, model, e)) cycle
          full = whole_stress(model, e, analysis%all_u, analysis%temperature)
          call table%add([model%element_id(e)])
          call table%add(clean(principal_stresses(full), floor))
@@ -176,6 +179,7 @@ contains
          if (.not. any(model%held(:, node)) .or. .not. model%used(node)) cycle
          reaction = -held(:, node)
          supports = supports + reaction
+         if (.not. shows_node(page, node)) cycle
          call table%add([model%node_id(node)])
          call table%add(clean(model%x(:model%dimension, node)))
          call table%add(clean(reaction, floor))

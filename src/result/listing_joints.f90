@@ -1,13 +1,15 @@
 !> Tables of the joints: interface elements, resultants, re-analyses or iterations, energies.
 module listing_joints
-   use analysis_state, only: analysis_type, element_force
+   use analysis_state, only: analysis_type
    use case_control, only: method_back, method_newton
    use interface_operator, only: at_first_end
    use joint_laws, only: friction_limit
+   use joint_motion, only: find_frame, find_resultant, joint_frame, joint_resultant
    use kinds, only: wp
    use listing_table, only: axes, column, heading, listing_table_type, noise, page_type
    use model_data, only: has_gaps, joint_node_id, model_type
    use normal_stiffness, only: branch_name, loading_deflection
+   use shown_rows, only: shows_interface
    use text_tools, only: clean, integer_text
    implicit none
    private
@@ -39,6 +41,7 @@ contains
             p_floor = noise*analysis%largest_p
             force_floor = p_floor*joint%area
             do i = joint%first, joint%last
+               if (.not. shows_interface(page, model, i)) cycle
                associate (element => model%interface(i))
                   call table%add([element%id, joint_node_id(model, i, 1), joint_node_id(model, i, 2)])
                   call table%add(clean(at_first_end(element, model%x(:model%dimension, :))))
@@ -77,6 +80,7 @@ contains
                            column(pack(['CLOSING', 'GAP    '], has_gaps(model)), 'es13.5', labels%length), column('KIND', 'a9')])
          call table%print_head(page%file)
          do i = joint%first, joint%last
+            if (.not. shows_interface(page, model, i)) cycle
             associate (state => analysis%states(i)%normal)
                call table%add([model%interface(i)%id, joint_node_id(model, i, 1)])
                call table%add([clean(state%lambda, lambda_floor), &
@@ -112,6 +116,7 @@ contains
                                      unit_shift=1), column('', 'a')])
             call table%print_head(page%file)
             do i = joint%first, joint%last
+               if (.not. shows_interface(page, model, i)) cycle
                associate (state => analysis%states(i)%shear(k), element => model%interface(i))
                   call table%add([element%id, joint_node_id(model, i, 1)])
                   call table%add(branch_name(state%branch))
@@ -138,8 +143,10 @@ contains
       type(analysis_type), intent(in)         :: analysis
       type(listing_table_type), intent(inout) :: table
       character(12) :: headings(7)
-      real(wp) :: force(3), total(3), centroid(3), arm(3), moment(3), normal, along(2), floor, extent
-      integer  :: i, j
+      type(joint_frame)     :: frame
+      type(joint_resultant) :: total
+      real(wp) :: floor
+      integer  :: j
 
       headings = [character(12) :: 'NORMAL FORCE', 'FORCE '//axes, 'MOMENT '//axes]
       if (model%dimension == 2) headings(2:5) = [character(12) :: 'SHEAR FORCE', 'FORCE X', 'FORCE Y', 'MOMENT Z']
@@ -150,29 +157,15 @@ contains
       floor = noise*page%largest_force
       do j = 1, size(model%joints)
          associate (joint => model%joints(j))
-            centroid = 0.0_wp
-            do i = joint%first, joint%last
-               centroid = centroid + model%interface(i)%area*at_first_end(model%interface(i), model%x)/joint%area
-            end do
-            total = 0.0_wp
-            moment = 0.0_wp; normal = 0.0_wp; along = 0.0_wp; extent = 0.0_wp
-            do i = joint%first, joint%last
-               force = element_force(model%interface(i), analysis%states(i))
-               arm = at_first_end(model%interface(i), model%x) - centroid
-               extent = max(extent, norm2(arm))
-               total = total + force
-               moment = moment + [arm(2)*force(3) - arm(3)*force(2), arm(3)*force(1) - arm(1)*force(3), &
-                                  arm(1)*force(2) - arm(2)*force(1)]
-               normal = normal + analysis%states(i)%normal%sumf
-               along = along + analysis%states(i)%shear%tau*model%interface(i)%area
-            end do
+            frame = find_frame(model, joint)
+            total = find_resultant(model, analysis, joint)
             call table%add([analysis%increment, joint%id])
             if (model%dimension == 3) then
-               call table%add(clean([normal, total], floor))
-               call table%add(clean(moment, floor*extent))
+               call table%add(clean([total%normal, total%force], floor))
+               call table%add(clean(total%moment, floor*frame%extent))
             else
-               call table%add(clean([normal, along(1), total(:2)], floor))
-               call table%add([clean(moment(3), floor*extent)])
+               call table%add(clean([total%normal, total%along(1), total%force(:2)], floor))
+               call table%add([clean(total%moment(3), floor*frame%extent)])
             end if
             call table%keep_row()
          end associate

@@ -1,16 +1,18 @@
 !> The first pages of the listing: heading, deck echo, summary of the model, joints and stages.
 module listing_opening
    use branch_cubic, only: cubic
+   use command_arguments, only: standard_input, version
    use deck_cards, only: card_name, is_continuation
    use case_control, only: method_newton, method_step, pressure_eq10
    use deck_input, only: deck_type
-   use element_kinds, only: kind_tetra4
    use equation_solver, only: equation_system
    use line_scan, only: is_include
+   use joint_motion, only: is_closed
    use kinds, only: long, wp
    use listing_covers, only: write_covers
    use listing_table, only: axes, column, cut, heading, listing_table_type, page_type, page_width
    use model_data, only: has_gaps, model_type, n_bars, n_points, n_sections, n_springs
+   use model_warnings, only: tetra_words
    use normal_stiffness, only: branch_load, branch_name, branch_reload, branch_unload, pressure_floor
    use output_file, only: output_file_type
    use shear_closure, only: loop_closure, worst_closure
@@ -20,7 +22,9 @@ module listing_opening
    implicit none
    private
 
-   public :: write_opening, tetra_words
+   public :: write_opening
+
+   integer, parameter :: most_echoed = 5000 ! cards of a deck that are echoed without being asked for
 
 contains
 
@@ -35,6 +39,7 @@ contains
       call page%file%put(' '//repeat('-', page_width - 1))
       call page%file%put('  J O I N T F E M      TANGENT-STIFFNESS FINITE ELEMENT ANALYSIS OF JOINTED STRUCTURES')
       call page%file%put('  '//cut(deck%control%title, page_width - 2))
+      call page%file%put('  '//cut(origin_words(page, deck), page_width - 2))
       call page%file%put(' '//repeat('-', page_width - 1))
       call write_echo(page%file, deck)
       call write_summary(page%file, deck, model, system)
@@ -44,20 +49,37 @@ contains
       call write_stages(page, model, plan)
    end subroutine write_opening
 
-   !> The deck as read, cards counted, under a field ruler. INCLUDE files are counted, not shown.
+   !> Where the listing comes from: the deck without its folder, the version, and the date where it is asked for.
+   pure function origin_words(page, deck) result(words)
+      type(page_type), intent(in) :: page
+      type(deck_type), intent(in) :: deck
+      character(:), allocatable   :: words
+
+      words = 'FROM THE STANDARD INPUT'
+      associate (path => deck%text%files(1)%path)
+         if (path /= standard_input) words = path(index(path, '/', back=.true.) + 1:)
+      end associate
+      words = 'DECK '//words//'   JOINTFEM '//version
+      if (allocated(page%date)) words = words//'   '//page%date
+   end function origin_words
+
+   !> The deck as read, cards counted, under a field ruler. INCLUDE files are counted, not shown, and so are the cards of a deck that
+   !! has very many of its own, unless ECHO asks for them.
    subroutine write_echo(file, deck)
       type(output_file_type), intent(inout) :: file
       type(deck_type), intent(in)           :: deck
       character(:), allocatable :: line
       character(10) :: counter
       integer :: i, cards, hidden !! lines of INCLUDE files since the last one shown
-      logical :: in_bulk, ended
+      logical :: in_bulk, ended, shows_cards
 
       if (.not. deck%control%echo) then
          call heading(file, 'DECK: '//integer_text(deck%bulk%n_cards)//' CARDS, NOT ECHOED')
          return
       end if
       call heading(file, 'DECK ECHO')
+      cards = own_cards(deck)
+      shows_cards = deck%control%echo_asked .or. cards <= most_echoed
       cards = 0
       hidden = 0
       in_bulk = .false.
@@ -65,23 +87,22 @@ contains
       do i = 1, deck%text%n
          line = deck%text%card_part(i)
          counter = ''
-         if (in_bulk .and. line /= '' .and. .not. is_continuation(line)) then
-            if (card_name(line) == 'ENDDATA') then
-               in_bulk = deck%text%file_number(i) > 1
-               ended = .not. in_bulk
-            else if (.not. is_include(line)) then
-               cards = cards + 1
-               write (counter, '(i9, a)') cards, '-'
-            end if
+         if (in_bulk .and. begins_card(line)) then
+            cards = cards + 1
+            write (counter, '(i9, a)') cards, '-'
+         else if (in_bulk .and. ends_bulk(line)) then
+            in_bulk = deck%text%file_number(i) > 1
+            ended = .not. in_bulk
          end if
          if (deck%text%file_number(i) > 1) then
             hidden = hidden + 1
-         else
+         else if (shows_cards .or. .not. in_bulk) then
             call count_hidden()
             call file%put(' '//counter//' '//cut(deck%text%line(i), page_width - 13))
          end if
          if (.not. (in_bulk .or. ended) .and. index(adjustl(upper(line)), 'BEGIN') == 1) then
             in_bulk = .true.
+            if (.not. shows_cards) cycle
             call file%put('   CARD')
             call file%put('  COUNT-    .   1  ..   2  ..   3  ..   4  ..   5  ..   6  ..   7  ..   8  ..   9  ..  10  .')
          end if
@@ -89,6 +110,8 @@ contains
       call count_hidden()
       call file%put('')
       call file%put('  TOTAL COUNT '//integer_text(cards)//' CARDS')
+      if (.not. shows_cards) call file%put('  THE DECK ITSELF HAS MORE THAN '//integer_text(most_echoed)// &
+                                           ', NOT ECHOED: ECHO = YES SHOWS THEM')
 
    contains
 
@@ -98,6 +121,44 @@ contains
       end subroutine count_hidden
 
    end subroutine write_echo
+
+   !> How many cards stand in the deck itself, not in INCLUDE files.
+   integer function own_cards(deck) result(n)
+      type(deck_type), intent(in) :: deck
+      character(:), allocatable :: line
+      integer :: i
+      logical :: in_bulk
+
+      n = 0
+      in_bulk = .false.
+      do i = 1, deck%text%n
+         if (deck%text%file_number(i) > 1) cycle
+         line = deck%text%card_part(i)
+         if (in_bulk .and. begins_card(line)) n = n + 1
+         if (in_bulk .and. ends_bulk(line)) exit
+         if (.not. in_bulk) in_bulk = index(adjustl(upper(line)), 'BEGIN') == 1
+      end do
+   end function own_cards
+
+   !> Whether a card begins with this LINE of the bulk data.
+   pure logical function begins_card(line)
+      character(*), intent(in) :: line
+
+      begins_card = .false.
+      if (line == '') return
+      if (is_continuation(line)) return
+      begins_card = card_name(line) /= 'ENDDATA' .and. .not. is_include(line)
+   end function begins_card
+
+   !> Whether this LINE of the bulk data is ENDDATA.
+   pure logical function ends_bulk(line)
+      character(*), intent(in) :: line
+
+      ends_bulk = .false.
+      if (line == '') return
+      if (is_continuation(line)) return
+      ends_bulk = card_name(line) == 'ENDDATA'
+   end function ends_bulk
 
    !> What the model has of everything, and how it is solved.
    subroutine write_summary(file, deck, model, system)
@@ -170,16 +231,6 @@ contains
       end do
    end subroutine write_folded
 
-   !> What to say of a model whose bodies are of linear tetrahedra alone; empty of any other.
-   pure function tetra_words(model) result(words)
-      type(model_type), intent(in) :: model
-      character(:), allocatable    :: words
-
-      words = ''
-      if (model%n_elements > 0 .and. all(model%element_kind == kind_tetra4)) words = 'all bodies are of linear '// &
-         'tetrahedra, 10 to 35 % too stiff in bending on usual meshes: mesh with second order'
-   end function tetra_words
-
    !> Laws and areas of the joints.
    subroutine write_joints(page, model)
       type(page_type), intent(inout) :: page
@@ -199,7 +250,11 @@ contains
          associate (joint => model%joints(j), law => model%joints(j)%law%normal)
             call table%add([joint%id, joint%last - joint%first + 1])
             call table%add([joint%area, law%c, law%m, law%e_u, joint%p_av, pressure_floor*joint%p_av])
-            call table%add(clean(joint%normal(:d), 1.0e-9_wp))
+            if (is_closed(model, joint)) then
+               call table%add(' CLOSED')
+            else
+               call table%add(clean(joint%normal(:d), 1.0e-9_wp))
+            end if
             call table%print_row(page%file)
          end associate
       end do

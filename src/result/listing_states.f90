@@ -6,6 +6,7 @@ module listing_states
    use listing_table, only: axes, column, heading, listing_table_type, noise, page_type
    use model_data, only: model_type, joint_node_id
    use normal_stiffness, only: branch_name, branch_reload, branch_unload
+   use shown_rows, only: shows_interface
    use text_tools, only: clean, integer_text, upper
    use branch_starts, only: branch_shift
    implicit none
@@ -35,6 +36,7 @@ contains
                               column('LAMBDA B', 'es13.5', labels%length)])
             call table%print_head(page%file)
             do i = joint%first, joint%last
+               if (.not. shows_interface(page, model, i)) cycle
                associate (state => analysis%states(i)%normal, element => model%interface(i))
                   call table%add([element%id, joint_node_id(model, i, 1)])
                   call table%add(branch_name(state%branch))
@@ -70,6 +72,7 @@ contains
                            column([character(5) :: 'TAU_R', 'B0', 'C0'], 'es13.5', pressure)])
          call table%print_head(page%file)
          do i = joint%first, joint%last
+            if (.not. shows_interface(page, model, i)) cycle
             associate (state => analysis%states(i)%shear(k), element => model%interface(i))
                shift = clean(branch_shift(joint%law%shear(k), state, max(0.0_wp, analysis%states(i)%normal%pressure), &
                                           analysis%turns(k, i)), tau_floor)

@@ -33,6 +33,8 @@ module listing_table
       type(label_type)       :: labels
       character(:), allocatable :: stage, now !! where the run is: 'STAGE 2'; ', STAGE 2, INCREMENT 5' behind a title
       real(wp) :: largest_force = 0.0_wp      !! ever applied, for the noise
+      logical, allocatable :: shown(:)        !! nodes that the tables of this stage are limited to; not allocated: all
+      character(:), allocatable :: date       !! for its head, where it is to have one
    end type page_type
 
    type :: column_type

@@ -1,29 +1,43 @@
-!> Warnings: shear laws whose loops do not close or whose branches part (once a law), and used outside their range (once an
-!! interface element and stage); unloading softer than loading (once a joint), and stages that end far from balance.
+!> Warnings: shear laws whose loops do not close or whose branches part (once a law), and used outside their range (one line a bound,
+!! joint and stage, with the number of interface elements and the worst of them); unloading softer than loading (once a joint), and
+!! stages that end far from balance.
 module range_watch
    use analysis_state, only: analysis_type, free_norm
    use joint_laws, only: friction_excess, friction_limit
    use kinds, only: wp
-   use listing_table, only: axes, listing_table_type
+   use listing_table, only: axes, listing_table_type, page_width
    use model_data, only: joint_node_id, model_type
    use normal_stiffness, only: branch_load, branch_open, loading_deflection, normal_tangent
    use shear_closure, only: loop_closure, worst_closure
    use shear_stiffness, only: shear_law, shear_slope
    use stage_plan, only: stage_plan_type, where_in_plan
-   use text_tools, only: integer_text, real_text, upper
+   use text_tools, only: integer_text, plural, real_text, upper
    implicit none
    private
 
-   public :: watch_shear_laws, watch_ranges, watch_unloading, watch_balance
+   public :: watch_shear_laws, watch_ranges, say_ranges, watch_unloading, watch_balance
 
    real(wp), parameter :: much = 0.01_wp ! of the largest load, or of the friction limits: what may be left without a warning
    real(wp), parameter :: rounding = 1.0e-9_wp
    real(wp), parameter :: wide = 0.05_wp ! the gap of a loop that is warned of
 
+   integer, parameter :: beyond_p = 1, beyond_d = 2, no_slope = 3 ! how a shear law is left
+
+   !> Elements of a joint that have left a bound of its shear law in the stage so far.
+   type :: tally_type
+      integer  :: n = 0
+      integer  :: node = 0, increment = 0          ! of the first
+      integer  :: worst_node = 0
+      real(wp) :: p = 0.0_wp, d = 0.0_wp           ! of the worst
+      real(wp) :: excess = 0.0_wp                  ! its p or d, that is worst
+      real(wp) :: bound = 0.0_wp
+   end type tally_type
+
    type, public :: range_watch_type
       integer :: n_warnings = 0               !! in all
       type(listing_table_type) :: rows        !! of the stage so far
-      integer, allocatable, private :: stage(:)      ! in which an element was last warned of
+      integer, allocatable, private :: stage(:, :)   ! (bounds, n) in which an element was last found beyond one
+      type(tally_type), allocatable, private :: tallies(:, :) ! (bounds, joints)
       logical, allocatable, private :: soft_line(:)  ! whether a joint was warned of its E_u
       integer, allocatable, private :: first_of(:, :)  ! (2, joints) the first direction of the model with the same shear law
       logical, allocatable, private :: parted(:)       ! whether that direction, counted through, was warned of parting branches
@@ -94,37 +108,106 @@ contains
                     .and. all(abs(a%reload%coefficients - b%reload%coefficients) <= 0.0_wp)
    end function is_same_law
 
-   !> Note the elements that have left their range in the increment just completed.
-   subroutine watch_ranges(model, plan, analysis, watch)
+   !> Count the elements that are outside the range of their shear law after the increment just completed.
+   subroutine watch_ranges(model, analysis, watch)
       type(model_type), intent(in)          :: model
-      type(stage_plan_type), intent(in)     :: plan
       type(analysis_type), intent(in)       :: analysis
       type(range_watch_type), intent(inout) :: watch
       real(wp) :: p, d
       integer  :: i, k
-      logical  :: steep
 
-      if (.not. allocated(watch%stage)) allocate (watch%stage(size(model%interface)), source=0)
+      if (.not. allocated(watch%stage)) then
+         allocate (watch%stage(no_slope, size(model%interface)), source=0)
+         allocate (watch%tallies(no_slope, size(model%joints)))
+      end if
       do i = 1, size(model%interface)
-         if (watch%stage(i) == analysis%stage) cycle
+         if (analysis%states(i)%normal%branch == branch_open) cycle
          do k = 1, model%dimension - 1
-            associate (law => model%joints(model%interface(i)%joint)%law%shear(k))
+            associate (law => model%joints(model%interface(i)%joint)%law%shear(k), shear => analysis%states(i)%shear(k))
+               if (.not. law%given) cycle
                p = analysis%states(i)%normal%pressure
-               d = abs(analysis%states(i)%shear(k)%delta)
-               if (.not. law%given .or. analysis%states(i)%normal%branch == branch_open) cycle
-               steep = shear_slope(law, analysis%states(i)%shear(k), [analysis%states(i)%shear(k)%delta, max(0.0_wp, p)]) > 0.0_wp
-               if (p <= law%p_max .and. d <= law%d_max .and. steep) cycle
-               watch%stage(i) = analysis%stage
-               watch%n_warnings = watch%n_warnings + 1
-               call watch%rows%keep_line('  WARNING: NODE '//integer_text(joint_node_id(model, i, 1))//', '// &
-                  upper(where_in_plan(plan, analysis%stage, analysis%increment))// &
-                  trim(merge(': OUTSIDE THE TESTED RANGE OF', ': NO POSITIVE SLOPE IN       ', steep))// &
-                  ' THE SHEAR LAW, P = '//real_text(p)//', D = '//real_text(d))
-               exit
+               d = abs(shear%delta)
+               if (p > law%p_max) call count_element(beyond_p, p, law%p_max)
+               if (d > law%d_max) call count_element(beyond_d, d, law%d_max)
+               if (shear_slope(law, shear, [shear%delta, max(0.0_wp, p)]) <= 0.0_wp) call count_element(no_slope, d, 0.0_wp)
             end associate
          end do
       end do
+
+   contains
+
+      !> Element I is beyond the bound WHICH by the VALUE that it has.
+      subroutine count_element(which, value, bound)
+         integer, intent(in)  :: which
+         real(wp), intent(in) :: value, bound
+
+         associate (tally => watch%tallies(which, model%interface(i)%joint))
+            if (tally%n == 0) then
+               tally%node = joint_node_id(model, i, 1)
+               tally%increment = analysis%increment
+               tally%bound = bound
+            end if
+            if (watch%stage(which, i) /= analysis%stage) tally%n = tally%n + 1
+            watch%stage(which, i) = analysis%stage
+            if (tally%worst_node > 0 .and. value <= (1.0_wp + rounding)*tally%excess) return
+            tally%excess = value
+            tally%worst_node = joint_node_id(model, i, 1)
+            tally%p = p
+            tally%d = d
+         end associate
+      end subroutine count_element
+
    end subroutine watch_ranges
+
+   !> At the end of a stage: a line a joint and bound of its shear law that elements were beyond.
+   subroutine say_ranges(model, plan, analysis, watch)
+      type(model_type), intent(in)          :: model
+      type(stage_plan_type), intent(in)     :: plan
+      type(analysis_type), intent(in)       :: analysis
+      type(range_watch_type), intent(inout) :: watch
+      integer :: j, which
+
+      do j = 1, size(model%joints)
+         do which = beyond_p, no_slope
+            associate (tally => watch%tallies(which, j))
+               if (tally%n == 0) cycle
+               watch%n_warnings = watch%n_warnings + 1
+               call keep_folded('  WARNING: JOINT '//integer_text(model%joints(j)%id)//', STAGE '// &
+                  integer_text(plan%stages(analysis%stage)%id)//': '//upper(plural(tally%n, 'element'))//' '// &
+                  words_of(which, tally%bound)//' OF THE SHEAR LAW, FIRST NODE '//integer_text(tally%node)//' (INCREMENT '// &
+                  integer_text(tally%increment)//'),', &
+                  ' WORST '//integer_text(tally%worst_node)//': P = '//real_text(tally%p)//', D = '//real_text(tally%d))
+            end associate
+         end do
+      end do
+      watch%tallies = tally_type()
+
+   contains
+
+      !> One line of two halves, or two where it would be too wide.
+      subroutine keep_folded(first, second)
+         character(*), intent(in) :: first, second
+
+         if (len(first) + len(second) <= page_width) then
+            call watch%rows%keep_line(first//second)
+         else
+            call watch%rows%keep_line(first)
+            call watch%rows%keep_line('          '//second)
+         end if
+      end subroutine keep_folded
+
+   end subroutine say_ranges
+
+   !> The BOUND of kind WHICH in words.
+   pure function words_of(which, bound) result(words)
+      integer, intent(in)       :: which
+      real(wp), intent(in)      :: bound
+      character(:), allocatable :: words
+
+      words = 'WITHOUT A POSITIVE SLOPE'
+      if (which == beyond_p) words = 'BEYOND P = '//real_text(bound)
+      if (which == beyond_d) words = 'BEYOND D = '//real_text(bound)
+   end function words_of
 
    !> Note the joints of which an element has come to where the loading curve is steeper than the line E_u that it would unload
    !! along.

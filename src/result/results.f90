@@ -1,27 +1,41 @@
 !> The results of one deck, as the main program sees them: opened, fed after every increment, closed.
 module results
+   use analysis_state, only: analysis_type
+   use answer_block, only: print_answer
+   use bolt_answer, only: n_bolts
    use c_library, only: remove_file
    use deck_input, only: deck_type
    use equation_solver, only: equation_system
+   use failures, only: failure_type
    use incomplete_results, only: all_complete
    use joint_history, only: write_history, write_history_header
+   use kinds, only: wp
    use listing, only: finish_listing, list_increment, list_stage, listing_type, start_listing
    use model_data, only: model_type
    use output_file, only: output_file_type
+   use stage_answer, only: bolt_answer_type, find_answer, find_bolt_answers, stage_answer_type
+   use stage_history, only: write_bolt_header, write_bolts, write_stage, write_stage_header
    use stage_plan, only: stage_plan_type
-   use analysis_state, only: analysis_type
-   use vtu_results, only: discard_vtu, finish_vtu, is_vtu_ending, remove_old_vtu, start_vtu, vtu_results_type, write_vtu
+   use text_tools, only: real_text
+   use vtu_results, only: discard_vtu, finish_vtu, is_vtu_ending, remove_old_vtu, start_vtu, vtu_names, vtu_results_type, write_vtu
    implicit none
    private
 
-   public :: start_results, print_increment, print_stage, finish_results, discard_results, remove_old_results, is_result_ending
+   public :: start_results, print_increment, print_stage, finish_results, discard_results, remove_old_results, show_answers, &
+             is_result_ending
 
    character(*), parameter, public :: listing_ending = '.out', history_ending = '.joint.csv'
 
+   ! the tables beside the listing, in the order of their endings
+   integer, parameter :: joint_file = 1, stage_file = 2, bolt_file = 3
+   character(10), parameter :: table_endings(3) = [character(10) :: history_ending, '.stage.csv', '.bolt.csv']
+
    type, public :: results_type
       type(listing_type)     :: listing
-      type(output_file_type) :: history
+      type(output_file_type) :: tables(size(table_endings))
+      type(output_file_type) :: screen        !! the answers, for the standard output at the end
       type(vtu_results_type) :: vtu
+      real(wp), allocatable, private :: bolts_before(:) ! their forces at the end of the stage before
       character(:), allocatable :: base !! what the names of the files begin with, folder included
    end type results_type
 
@@ -37,17 +51,25 @@ contains
       class(equation_system), intent(in) :: system
       type(results_type), intent(inout) :: results
       logical, intent(out)              :: ok
+      integer :: i
 
       results%base = base
-      call start_vtu(results%vtu, base, plan)
+      allocate (results%bolts_before(n_bolts(model)), source=0.0_wp)
       if (base == '') call start_listing(results%listing, '', deck, model, plan, system)
       if (base /= '') call start_listing(results%listing, base//listing_ending, deck, model, plan, system)
+      call start_vtu(results%vtu, base, results%listing%page%labels, plan)
       ok = .not. results%listing%page%file%failed()
-      if (base /= '') then
-         call results%history%start(base//history_ending)
-         call write_history_header(results%history, model)
-         ok = ok .and. .not. results%history%failed()
-      end if
+      if (base == '') return
+      call results%screen%start('')
+      do i = 1, size(table_endings)
+         if (i == bolt_file .and. n_bolts(model) == 0) cycle
+         call results%tables(i)%start(base//trim(table_endings(i)))
+         ok = ok .and. .not. results%tables(i)%failed()
+      end do
+      if (.not. ok) return
+      call write_history_header(results%tables(joint_file), model)
+      call write_stage_header(results%tables(stage_file))
+      if (n_bolts(model) > 0) call write_bolt_header(results%tables(bolt_file))
    end subroutine start_results
 
    !> The increment just completed.
@@ -56,9 +78,16 @@ contains
       type(stage_plan_type), intent(in) :: plan
       type(analysis_type), intent(in)   :: analysis
       type(results_type), intent(inout) :: results
+      type(bolt_answer_type), allocatable :: bolts(:)
 
       call list_increment(results%listing, model, plan, analysis)
-      if (results%history%is_open) call write_history(results%history, model, plan, analysis)
+      if (plan%stages(analysis%stage)%steps) call write_vtu(results%vtu, model, plan, analysis)
+      if (results%base == '') return
+      call write_history(results%tables(joint_file), model, plan, analysis)
+      if (n_bolts(model) == 0) return
+      call find_bolt_answers(model, analysis, results%listing%page%largest_force, results%bolts_before, bolts)
+      call write_bolts(results%tables(bolt_file), plan%stages(analysis%stage)%id, analysis%increment, analysis%fraction, model, &
+                       bolts)
    end subroutine print_increment
 
    !> The stage just completed.
@@ -67,34 +96,73 @@ contains
       type(stage_plan_type), intent(in) :: plan
       type(analysis_type), intent(in)   :: analysis
       type(results_type), intent(inout) :: results
+      type(stage_answer_type) :: answer
+      character(:), allocatable :: title
 
       call list_stage(results%listing, model, plan, analysis)
-      call write_vtu(results%vtu, model, plan, analysis)
+      associate (stage => plan%stages(analysis%stage), page => results%listing%page)
+         call find_answer(model, analysis, results%listing%method, page%largest_force, results%bolts_before, answer)
+         title = 'ANSWER AT THE END OF '//page%stage//'   '//stage%label
+         if (analysis%ends_early) title = 'ANSWER WHERE THE RUN ENDED EARLY, '//page%stage//', LOAD '// &
+                                          real_text(analysis%fraction)//'   '//stage%label
+         call print_answer(page%file, page%labels, title, model, answer)
+         if (results%base /= '') then
+            call print_answer(results%screen, page%labels, title, model, answer)
+            call write_stage(results%tables(stage_file), stage%id, model, answer)
+         end if
+      end associate
+      results%bolts_before = answer%bolts%force
+      if (.not. plan%stages(analysis%stage)%steps) call write_vtu(results%vtu, model, plan, analysis)
    end subroutine print_stage
 
    !> Give the files their names. All or none: OK is false where one could not be written.
-   subroutine finish_results(plan, results, ok)
+   subroutine finish_results(plan, failure, results, ok)
       type(stage_plan_type), intent(in) :: plan
+      type(failure_type), intent(in)    :: failure !! raised: the results end before it
       type(results_type), intent(inout) :: results
       logical, intent(out)              :: ok
+      integer :: i
 
       ok = .true.
-      if (results%history%is_open) call results%history%finish(ok)
+      do i = 1, size(table_endings)
+         if (ok .and. results%tables(i)%is_open) call results%tables(i)%finish(ok)
+      end do
       if (ok) call finish_vtu(results%vtu, ok)
-      if (ok) call finish_listing(results%listing, plan, ok)
+      if (ok) call finish_listing(results%listing, plan, failure, ok)
       if (.not. ok) then
          call discard_results(results)
-         if (results%base /= '') call remove_file(results%base//history_ending)
+         call remove_tables(results%base)
       end if
       call all_complete()
    end subroutine finish_results
 
+   !> Show the answers on the standard output, and behind them the names of the files. OK is false where that fails.
+   subroutine show_answers(model, results, ok)
+      type(model_type), intent(in)      :: model
+      type(results_type), intent(inout) :: results
+      logical, intent(out)              :: ok
+      character(:), allocatable :: names
+
+      ok = .true.
+      if (results%base == '') return ! the listing went there
+      names = results%base//listing_ending//' (listing)'
+      names = names//', '//results%base//trim(table_endings(joint_file))//', '//trim(table_endings(stage_file))
+      if (n_bolts(model) > 0) names = names//', '//trim(table_endings(bolt_file))
+      call results%screen%put('')
+      call results%screen%put(' RESULTS: '//names//vtu_names(results%vtu))
+      call results%screen%finish(ok)
+   end subroutine show_answers
+
    !> Leave nothing behind that could be taken for a result.
    subroutine discard_results(results)
       type(results_type), intent(inout) :: results
+      integer :: i
 
       call results%listing%page%file%discard()
-      call results%history%discard()
+      do i = 1, size(table_endings)
+         call results%tables(i)%discard()
+      end do
+      call results%screen%discard()
       call discard_vtu(results%vtu)
       call all_complete()
    end subroutine discard_results
@@ -105,15 +173,26 @@ contains
 
       if (base == '') return
       call remove_file(base//listing_ending)
-      call remove_file(base//history_ending)
+      call remove_tables(base)
       call remove_old_vtu(base)
    end subroutine remove_old_results
+
+   !> Remove the tables beside the listing BASE.out, those that are there.
+   subroutine remove_tables(base)
+      character(*), intent(in) :: base
+      integer :: i
+
+      if (base == '') return
+      do i = 1, size(table_endings)
+         call remove_file(base//trim(table_endings(i)))
+      end do
+   end subroutine remove_tables
 
    !> Whether the name of a result may end so, behind its base.
    pure logical function is_result_ending(ending)
       character(*), intent(in) :: ending
 
-      is_result_ending = ending == listing_ending .or. ending == history_ending .or. is_vtu_ending(ending)
+      is_result_ending = ending == listing_ending .or. any(ending == table_endings) .or. is_vtu_ending(ending)
    end function is_result_ending
 
 end module results

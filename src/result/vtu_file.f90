@@ -32,7 +32,7 @@ module vtu_file
    implicit none
    private
 
-   public :: xml_text, write_collection
+   public :: named, xml_text, write_collection
 
    integer(int8), parameter, public :: vtk_vertex = 1_int8 !! a type of cell; those of bodies: element_kinds
 
@@ -65,12 +65,14 @@ module vtu_file
       integer(int64) :: n_bytes = 0          ! of data so far
       type(array_type), allocatable :: arrays(:)
       logical, public :: is_open = .false.
+      logical :: waits = .false.             ! complete, for its name
    contains
       procedure :: start
       procedure :: points
       procedure :: cells
       generic   :: add => add_reals, add_integers
       procedure :: failed
+      procedure :: complete
       procedure :: finish
       procedure :: discard
       procedure, private :: add_reals, add_integers
@@ -194,14 +196,12 @@ contains
       failed = self%status /= 0
    end function failed
 
-   !> Write the header, close the file and give it its name. OK is false, and no file is left by us, where that failed.
-   subroutine finish(self, ok)
+   !> Write the header and close the file. It has no name yet.
+   subroutine complete(self)
       class(vtu_file_type), intent(inout) :: self
-      logical, intent(out)                :: ok
       character(:), allocatable :: header
       integer(int64) :: n_written
 
-      ok = .false.
       if (.not. self%is_open) return
       header = header_text(self%n_points, self%n_cells, self%arrays)
       call require(self, self%n_cells >= 0 .and. len(header) == data_start)
@@ -216,9 +216,23 @@ contains
       self%is_open = .false.
       if (self%status == 0) then ! that the disk is full may show in nothing but the size
          inquire (file=self%path//suffix, size=n_written)
-         if (n_written == data_start + self%n_bytes + len(closing)) call rename_file(self%path//suffix, self%path, ok)
-         call require(self, ok)
+         call require(self, n_written == data_start + self%n_bytes + len(closing))
       end if
+      self%waits = self%status == 0
+      if (.not. self%waits) call remove_file(self%path//suffix)
+   end subroutine complete
+
+   !> Complete the file and give it its name. OK is false, and no file is left by us, where that failed.
+   subroutine finish(self, ok)
+      class(vtu_file_type), intent(inout) :: self
+      logical, intent(out)                :: ok
+
+      ok = .false.
+      call self%complete()
+      if (.not. self%waits) return
+      self%waits = .false.
+      call rename_file(self%path//suffix, self%path, ok)
+      call require(self, ok)
       if (.not. ok) call remove_file(self%path//suffix)
    end subroutine finish
 
@@ -227,9 +241,10 @@ contains
       class(vtu_file_type), intent(inout) :: self
       integer :: status
 
-      if (.not. self%is_open) return
-      close (self%unit, iostat=status)
+      if (.not. (self%is_open .or. self%waits)) return
+      if (self%is_open) close (self%unit, iostat=status)
       self%is_open = .false.
+      self%waits = .false.
       call remove_file(self%path//suffix)
    end subroutine discard
 
@@ -265,6 +280,15 @@ contains
       text = text//repeat(' ', max(0, data_start - len(text) - len(last)))//last
    end function header_text
 
+   !> NAME of an array with the UNIT of its values; alone where the deck names none.
+   pure function named(name, unit) result(words)
+      character(*), intent(in)  :: name, unit
+      character(:), allocatable :: words
+
+      words = name
+      if (unit /= '') words = name//' ['//trim(unit)//']'
+   end function named
+
    !> TEXT as it may stand between the quotes of an XML attribute.
    pure function xml_text(text) result(escaped)
       character(*), intent(in)  :: text
@@ -284,11 +308,12 @@ contains
    !! where it cannot be written.
    subroutine write_collection(path, times, parts, names, ok)
       character(*), intent(in) :: path
-      integer, intent(in)      :: times(:) !! the numbers of the stages
+      real(real64), intent(in) :: times(:) !! ascending
       integer, intent(in)      :: parts(:) !! 0, 1, ... within one time
       character(*), intent(in) :: names(:) !! the .vtu files, as seen from the folder of the list
       logical, intent(out)     :: ok
       type(output_file_type) :: file
+      character(24) :: time
       integer :: i
 
       call file%start(path)
@@ -296,7 +321,8 @@ contains
       call file%put('<VTKFile type="Collection" version="1.0">')
       call file%put('  <Collection>')
       do i = 1, size(names)
-         call file%put('    <DataSet timestep="'//integer_text(times(i))//'" group="" part="'//integer_text(parts(i))//'"')
+         write (time, '(f24.9)') times(i)
+         call file%put('    <DataSet timestep="'//trim(adjustl(time))//'" group="" part="'//integer_text(parts(i))//'"')
          call file%put('             file="'//xml_text(trim(names(i)))//'"/>') ! a line of its own: names may be long
       end do
       call file%put('  </Collection>')

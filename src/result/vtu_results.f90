@@ -1,60 +1,65 @@
-!> Results for ParaView: for a stage with OUTPUT = VTU the bodies in one file and the interface elements in another, and where
-!! there is more than one stage their list NAME.pvd. All stay unnamed until the whole run is complete.
+!> Results for ParaView: for a stage with OUTPUT = VTU the bodies in one file and the joints in another, with STEPS after every increment,
+!! and where there may be more than one of each their list NAME.pvd. All stay unnamed until the whole run is complete.
 module vtu_results
    use, intrinsic :: iso_fortran_env, only: int8
    use analysis_state, only: analysis_type
    use body_elements, only: node_stresses, whole_stress
-   use c_library, only: remove_file
+   use c_library, only: read_all_bytes, remove_file
    use element_kinds, only: element_table
    use elasticity, only: max_stresses
-   use interface_operator, only: at_first_end
    use kinds, only: wp
-   use model_data, only: corners_of, has_gaps, model_type, n_points
-   use normal_stiffness, only: branch_open
-   use output_file, only: output_file_type
+   use listing_table, only: label_type
+   use model_data, only: corners_of, model_type, n_points
    use stage_plan, only: stage_plan_type
    use stress_measures, only: principal_stresses, von_mises
    use text_tools, only: integer_text
-   use vtu_file, only: cell_data, point_data, vtk_vertex, vtu_file_type, write_collection, xml_text
+   use vtu_file, only: cell_data, named, point_data, vtu_file_type, write_collection, xml_text
+   use vtu_joints, only: write_joints
    implicit none
    private
 
-   public :: start_vtu, write_vtu, finish_vtu, discard_vtu, remove_old_vtu, is_vtu_ending
-
-   integer, parameter :: most_old = 999 ! stages whose old files are looked for
+   public :: start_vtu, write_vtu, finish_vtu, discard_vtu, remove_old_vtu, vtu_names, is_vtu_ending
 
    !> A file of the run.
    type :: part_type
       type(vtu_file_type) :: file
-      character(24) :: ending = ''                ! of its name
-      integer :: stage = 0
-      integer :: part = 0                         ! of the stage: 0 the bodies, 1 the joint
+      character(48) :: ending = ''                ! of its name
+      real(wp) :: time = 0.0_wp                   ! of its stage the number less one, and how much of its load is on
+      integer  :: part = 0                        ! 0 the bodies, 1 the joints
    end type part_type
 
    type, public :: vtu_results_type
       private
       character(:), allocatable :: name           ! files begin with it; empty: none are written
+      type(label_type) :: labels
       type(part_type), allocatable :: parts(:)
       integer :: n = 0
-      logical :: many = .false.                   ! more than one stage
+      logical :: many = .false.                   ! more than one stage, or every increment of one
    end type vtu_results_type
 
 contains
 
    !> NAME: what the names of the files begin with, folder included; empty: none are written.
-   subroutine start_vtu(results, name, plan)
+   subroutine start_vtu(results, name, labels, plan)
       type(vtu_results_type), intent(inout) :: results
       character(*), intent(in)              :: name
+      type(label_type), intent(in)          :: labels
       type(stage_plan_type), intent(in)     :: plan
+      integer :: most, s
 
       results%name = name
+      results%labels = labels
       results%n = 0
-      results%many = size(plan%stages) > 1
+      results%many = size(plan%stages) > 1 .or. any(plan%stages%steps)
+      most = 0
+      do s = 1, size(plan%stages)
+         most = most + merge(size(plan%stages(s)%shares), 1, plan%stages(s)%steps)
+      end do
       if (allocated(results%parts)) deallocate (results%parts)
-      allocate (results%parts(2*size(plan%stages)))
+      allocate (results%parts(2*most))
    end subroutine start_vtu
 
-   !> Write the files of the stage just completed, where it asks for them.
+   !> Write the files of the increment just completed, where the stage asks for any.
    subroutine write_vtu(results, model, plan, analysis)
       type(vtu_results_type), intent(inout) :: results
       type(model_type), intent(in)          :: model
@@ -64,11 +69,13 @@ contains
       if (results%name == '' .or. .not. plan%stages(analysis%stage)%vtu) return
       if (model%n_elements > 0) then
          call open_next('.vtu', 0)
-         call write_bodies(results%parts(results%n)%file, model, analysis)
+         call write_bodies(results%parts(results%n)%file, results%labels, model, analysis)
+         call results%parts(results%n)%file%complete()
       end if
       if (size(model%interface) > 0) then
          call open_next('.joint.vtu', 1)
-         call write_joint(results%parts(results%n)%file, model, analysis)
+         call write_joints(results%parts(results%n)%file, results%labels, model, analysis)
+         call results%parts(results%n)%file%complete()
       end if
 
    contains
@@ -78,11 +85,12 @@ contains
          integer, intent(in)      :: part
 
          results%n = results%n + 1
-         associate (next => results%parts(results%n))
-            next%stage = plan%stages(analysis%stage)%id
+         associate (next => results%parts(results%n), stage => plan%stages(analysis%stage))
+            next%time = real(stage%id - 1, wp) + analysis%fraction
             next%part = part
             next%ending = ending
-            if (results%many) next%ending = '.'//integer_text(next%stage)//ending
+            if (stage%steps) next%ending = '.'//integer_text(analysis%increment)//next%ending
+            if (results%many) next%ending = '.'//integer_text(stage%id)//next%ending
             call next%file%start(results%name//trim(next%ending))
          end associate
       end subroutine open_next
@@ -90,8 +98,9 @@ contains
    end subroutine write_vtu
 
    !> Elements with stresses at their centres, nodes with displacements and the mean of the stresses of its elements there.
-   subroutine write_bodies(file, model, analysis)
+   subroutine write_bodies(file, labels, model, analysis)
       type(vtu_file_type), intent(inout) :: file
+      type(label_type), intent(in)       :: labels
       type(model_type), intent(in)       :: model
       type(analysis_type), intent(in)    :: analysis
       real(wp), allocatable :: u(:, :), at_node(:, :), at_centre(:, :), principal(:, :)
@@ -121,49 +130,16 @@ contains
       call file%points(model%x(:, :m))
       call file%cells(connected, ends, types)
       call file%add(point_data, 'node', model%node_id(:m))
-      call file%add(point_data, 'displacement', u)
-      call file%add(point_data, 'stress', at_node)
-      call file%add(point_data, 'von_mises', [(von_mises(at_node(:, i)), i = 1, m)])
+      call file%add(point_data, named('displacement', labels%length), u)
+      call file%add(point_data, named('stress', labels%pressure), at_node)
+      call file%add(point_data, named('von_mises', labels%pressure), [(von_mises(at_node(:, i)), i = 1, m)])
       call file%add(cell_data, 'element', model%element_id)
       call file%add(cell_data, 'property', properties)
-      call file%add(cell_data, 'stress_at_centre', at_centre)
-      call file%add(cell_data, 'principal_stress', principal)
-      call file%add(cell_data, 'von_mises_at_centre', [(von_mises(at_centre(:, e)), e = 1, model%n_elements)])
+      call file%add(cell_data, named('stress_at_centre', labels%pressure), at_centre)
+      call file%add(cell_data, named('principal_stress', labels%pressure), principal)
+      call file%add(cell_data, named('von_mises_at_centre', labels%pressure), &
+                    [(von_mises(at_centre(:, e)), e = 1, model%n_elements)])
    end subroutine write_bodies
-
-   !> A vertex for every interface element, at its node 1. BRANCH is 1 load, 2 unload, 3 open, 4 reload as in the chart; TAU the
-   !! shear stress on side 2 in global axes; GAP, in decks with a JGAP, how far an open element is from touching now.
-   subroutine write_joint(file, model, analysis)
-      type(vtu_file_type), intent(inout) :: file
-      type(model_type), intent(in)       :: model
-      type(analysis_type), intent(in)    :: analysis
-      real(wp), allocatable :: x(:, :), tau(:, :), u(:, :)
-      integer :: i, n
-
-      n = size(model%interface)
-      allocate (x(3, n), tau(3, n))
-      allocate (u(3, n), source=0.0_wp)
-      do i = 1, n
-         associate (element => model%interface(i))
-            x(:, i) = at_first_end(element, model%x)
-            u(:model%dimension, i) = at_first_end(element, analysis%all_u)
-            tau(:, i) = matmul(element%axes(:, :2), analysis%states(i)%shear%tau)
-         end associate
-      end do
-      call file%points(x)
-      call file%cells([(i, i = 1, n)], [(i, i = 1, n)], [(vtk_vertex, i = 1, n)])
-      call file%add(point_data, 'element', model%interface%id)
-      call file%add(point_data, 'joint', model%joints(model%interface%joint)%id)
-      call file%add(point_data, 'displacement', u)
-      call file%add(point_data, 'lambda', analysis%states%normal%lambda)
-      call file%add(point_data, 'p', analysis%states%normal%pressure)
-      call file%add(point_data, 'branch', analysis%states%normal%branch)
-      call file%add(point_data, 'tau', tau)
-      call file%add(point_data, 'slip', merge(1, 0, analysis%states%slips))
-      call file%add(point_data, 'area', model%interface%area)
-      if (has_gaps(model)) call file%add(point_data, 'gap', merge(analysis%states%normal%lambda_b - analysis%states%normal%lambda, &
-                                                                  0.0_wp, analysis%states%normal%branch == branch_open))
-   end subroutine write_joint
 
    !> Give all files their names. All or none: OK is false where one could not be written.
    subroutine finish_vtu(results, ok)
@@ -180,11 +156,27 @@ contains
       if (ok .and. results%many .and. results%n > 0) then
          base = results%name(index(results%name, '/', back=.true.) + 1:)
          associate (parts => results%parts(:results%n))
-            call write_collection(results%name//'.pvd', parts%stage, parts%part, base//parts%ending, ok)
+            call write_collection(results%name//'.pvd', parts%time, parts%part, base//parts%ending, ok)
          end associate
       end if
       if (.not. ok) call discard_vtu(results)
    end subroutine finish_vtu
+
+   !> The files by their endings, each behind a comma: of many their list alone.
+   pure function vtu_names(results) result(words)
+      type(vtu_results_type), intent(in) :: results
+      character(:), allocatable :: words
+      integer :: i
+
+      words = ''
+      if (results%many .and. results%n > 0) then
+         words = ', .pvd'
+      else
+         do i = 1, results%n
+            words = words//', '//trim(results%parts(i)%ending)
+         end do
+      end if
+   end function vtu_names
 
    !> Leave nothing behind, files that have their names already included.
    subroutine discard_vtu(results)
@@ -200,31 +192,42 @@ contains
    end subroutine discard_vtu
 
    !> Whether a file of a deck may end so, behind the name of the deck: .vtu, .joint.vtu, both with the number of a stage before
-   !! them, .pvd.
+   !! them, or of a stage and an increment; .pvd.
    pure logical function is_vtu_ending(ending)
       character(*), intent(in) :: ending
-      integer :: first
+      integer :: first, k, length
 
-      is_vtu_ending = ending == '.vtu' .or. ending == '.joint.vtu' .or. ending == '.pvd'
-      if (is_vtu_ending .or. len(ending) < 2) return
-      if (ending(1:1) /= '.') return
-      first = verify(ending(2:), '0123456789') + 1
-      if (first > 2) is_vtu_ending = ending(first:) == '.vtu' .or. ending(first:) == '.joint.vtu'
+      is_vtu_ending = ending == '.pvd'
+      first = 1
+      do k = 0, 2
+         is_vtu_ending = is_vtu_ending .or. ending(first:) == '.vtu' .or. ending(first:) == '.joint.vtu'
+         if (is_vtu_ending .or. len(ending) < first + 2) return
+         length = verify(ending(first + 1:), '0123456789') - 1
+         if (ending(first:first) /= '.' .or. length < 1) return
+         first = first + 1 + length
+      end do
    end function is_vtu_ending
 
-   !> Remove what an earlier run left.
+   !> Remove what an earlier run left: the files without a number, and those of its list.
    subroutine remove_old_vtu(name)
       character(*), intent(in) :: name
-      logical :: there
-      integer :: k
+      character(*), parameter   :: mark = 'file="'
+      character(:), allocatable :: bytes, base, ending
+      integer :: at, first
+      logical :: ok
 
       call remove_file(name//'.vtu')
       call remove_file(name//'.joint.vtu')
-      inquire (file=name//'.pvd', exist=there)
-      if (.not. there) return
-      do k = 1, most_old
-         call remove_file(name//'.'//integer_text(k)//'.vtu')
-         call remove_file(name//'.'//integer_text(k)//'.joint.vtu')
+      call read_all_bytes(name//'.pvd', bytes, ok)
+      if (.not. ok) return
+      base = mark//xml_text(name(index(name, '/', back=.true.) + 1:))
+      first = 1
+      do
+         at = index(bytes(first:), base)
+         if (at == 0) exit
+         first = first + at - 1 + len(base)
+         ending = bytes(first:first + index(bytes(first:)//'"', '"') - 2)
+         if (is_vtu_ending(ending)) call remove_file(name//ending)
       end do
       call remove_file(name//'.pvd')
    end subroutine remove_old_vtu

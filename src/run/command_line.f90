@@ -1,9 +1,11 @@
 !> The command line: options and decks.
 module command_line
    use c_library, only: true_path
+   use card_manual, only: manual_entry, manual_names
    use command_arguments, only: argument_text, complain, input_argument, input_of, is_option, say, standard_input, version
    use deck_numbers, only: parse_integer
    use results, only: history_ending, is_result_ending, listing_ending
+   use text_tools, only: upper
    use vtu_results, only: is_vtu_ending
    implicit none
    private
@@ -21,6 +23,7 @@ module command_line
       logical :: check_only = .false.       !! --check
       logical :: quiet      = .false.       !! -q
       logical :: times      = .false.       !! --times
+      logical :: dated      = .false.       !! --date
       integer :: threads    = 0             !! --threads, 0: all cores
       character(:), allocatable :: folder   !! -o, with a slash at its end, empty: here
       type(deck_argument), allocatable :: decks(:)
@@ -56,7 +59,11 @@ contains
          case ('--')
             options = .false.
          case ('--help', '-h')
-            call print_help(status)
+            if (i < n) then
+               call print_entry(upper(argument_text(i + 1)), status)
+            else
+               call print_help(status)
+            end if
             return
          case ('--version')
             call say(program//' '//version, status)
@@ -67,6 +74,8 @@ contains
             command%quiet = .true.
          case ('--times')
             command%times = .true.
+         case ('--date')
+            command%dated = .true.
          case ('-o', '--threads')
             if (i == n) then
                call complain(program, argument//' needs a value behind it')
@@ -170,6 +179,21 @@ contains
       if (dot > 1) name = name(:dot - 1)
    end function base_name
 
+   !> The entry of NAME in the card manual.
+   subroutine print_entry(name, status)
+      character(*), intent(in) :: name
+      integer, intent(out)     :: status
+      character(:), allocatable :: text
+
+      text = manual_entry(name)
+      if (text /= '') then
+         call say(text(:len(text) - 2), status) ! an empty line stands at its end
+      else
+         call complain(program, 'the manual has no entry '''//name//'''; it has'//trim(manual_names))
+         status = 1
+      end if
+   end subroutine print_entry
+
    subroutine print_help(status)
       integer, intent(out) :: status
       character(*), parameter :: nl = new_line('a')
@@ -179,19 +203,23 @@ contains
          ''//nl// &
          'Solves each deck: a structure with flexible joints, loaded in increments. A deck `-` is read from the'//nl// &
          'standard input, and its listing goes to the standard output. For beam.bdf the results are beam.out, the'//nl// &
-         'listing, and beam.joint.csv, every interface element after every increment.'//nl// &
+         'listing, beam.joint.csv, every interface element after every increment, beam.stage.csv, the answer of'//nl// &
+         'every stage, and with bolts beam.bolt.csv. The answers, and the names of the files, go to the standard'//nl// &
+         'output at the end.'//nl// &
          ''//nl// &
          '   -o DIR        where the results go (default: here)'//nl// &
          '   --check       read and check the decks, solve nothing'//nl// &
          '   -q            no progress on the terminal'//nl// &
          '   --threads N   at most N threads (default: all cores; the results do not depend on it)'//nl// &
+         '   --date        date and time in the head of the listing'//nl// &
          '   --times       print seconds of each phase, operations and memory, on the standard error'//nl// &
          '   --version     print the version'//nl// &
          '   --help        print this'//nl// &
+         '   --help CARD   print what the manual says of a card, or of a key of case control'//nl// &
          ''//nl// &
          'exit status: 0 all decks ran, 1 wrong usage or unreadable file, 2 errors in a deck, 3 a structure that'//nl// &
          'cannot be solved, 4 output that cannot be written; of several decks the highest. The cards are explained'//nl// &
-         'in input/README.md.', status)
+         'in input/README.md, each by --help CARD.', status)
    end subroutine print_help
 
 end module command_line

@@ -16,17 +16,18 @@ module run_boxes
    use failures, only: failure_type
    use incomplete_results, only: watch_allocations
    use law_distance, only: follow_laws
-   use listing_opening, only: tetra_words
    use listing_steps, only: distance_words
    use load_path, only: recover_bodies
+   use kinds, only: wp
    use machine, only: keep_memory, use_threads
    use memory_need, only: check_model_size
    use model_build, only: build_model
    use model_data, only: model_type, n_points
+   use model_warnings, only: tetra_words
    use newton_method, only: seat_joints
    use progress, only: phase_build, phase_factor, phase_increments, phase_order, phase_recover, phase_write, progress_type
    use results, only: discard_results, finish_results, history_ending, list_results => print_increment, listing_ending, &
-                      print_stage_results => print_stage, remove_old_results, results_type, start_results
+                      print_stage_results => print_stage, remove_old_results, results_type, show_answers, start_results
    use stage_plan, only: factorisations_of, shows_bodies, stage_plan_type
    use text_tools, only: plural
    implicit none
@@ -46,11 +47,12 @@ module run_boxes
    type, public :: run_type
       type(failure_type) :: failure            !! the structure cannot be solved
       type(deck_argument), private   :: argument
-      logical, private               :: check_only = .false.
+      logical, private               :: check_only = .false., is_dated = .false.
       type(deck_error_list), private :: errors
       type(results_type), private    :: results
       type(progress_type), private   :: progress
       integer, private               :: ending = goes_on
+      logical, private               :: keeps = .false. !! it ended early, but what there was in equilibrium is a result
    end type run_type
 
 contains
@@ -85,6 +87,7 @@ contains
 
       run%argument = argument
       run%check_only = command%check_only
+      run%is_dated = command%dated
       call run%progress%start(argument%name, command%quiet, command%times)
       call read_deck(argument%path, deck, run%errors, readable)
       if (.not. readable) then
@@ -136,9 +139,20 @@ contains
       if (run%failure%raised) return
       call run%progress%enter(phase_write)
       run%progress%solver = system%description
+      if (run%is_dated) run%results%listing%page%date = date_and_hour()
       call start_results(run%argument%base, deck, model, plan, system, run%results, ok)
       if (.not. ok) run%ending = is_unwritten
    end subroutine form_bodies
+
+   !> Now, as 2026-11-22 09:30.
+   function date_and_hour() result(words)
+      character(16) :: words
+      character(8)  :: date
+      character(10) :: time
+
+      call date_and_time(date, time)
+      words = date(:4)//'-'//date(5:6)//'-'//date(7:)//' '//time(:2)//':'//time(3:4)
+   end function date_and_hour
 
    !> NORM and SHEAR for a structure at rest, its interference in equilibrium (BACK takes all at once).
    subroutine start_joints(run, deck, model, plan, system, analysis)
@@ -184,14 +198,28 @@ contains
       type(stage_plan_type), intent(in)  :: plan
       class(equation_system), intent(in) :: system
       type(analysis_type), intent(inout) :: analysis
+      real(wp), allocatable :: u(:, :), unbalanced(:, :)
 
-      if (is_over(run)) return
+      run%keeps = run%failure%raised .and. run%ending == goes_on .and. analysis%ends_early
+      if (is_over(run) .and. .not. run%keeps) return
+      if (run%keeps .and. .not. analysis%is_partial) then ! it is printed, but for the tables of the end
+         call recover_bodies(model, system, analysis)
+         return
+      end if
       call note_largest(analysis)
       call follow_laws(model, analysis)
       if (plan%stages(analysis%stage)%condensed .and. analysis%increment == 1) &
          call condense_on_joints(model, system, analysis%felt_before, analysis%felt_after, analysis%condensed)
       call run%progress%enter(phase_recover)
-      if (analysis%moves .or. shows_bodies(plan, analysis%stage, analysis%increment)) call recover_bodies(model, system, analysis)
+      if (run%keeps .or. analysis%moves .or. shows_bodies(plan, analysis%stage, analysis%increment)) then
+         call recover_bodies(model, system, analysis)
+      else if (analysis%increment == size(plan%stages(analysis%stage)%shares)) then
+         u = analysis%u                   ! for the answer of the stage alone: what goes on from here is left as it is
+         unbalanced = analysis%unbalanced
+         call recover_bodies(model, system, analysis)
+         analysis%u = u
+         analysis%unbalanced = unbalanced
+      end if
       call run%progress%enter(phase_write)
       call list_results(model, plan, analysis, run%results)
       call run%progress%advance(analysis%stage, analysis%increment, size(plan%stages(analysis%stage)%shares))
@@ -205,7 +233,8 @@ contains
       type(stage_plan_type), intent(in) :: plan
       type(analysis_type), intent(in)   :: analysis
 
-      if (is_over(run)) return
+      if (is_over(run) .and. .not. run%keeps) return
+      if (analysis%increment == 0) return
       call run%progress%enter(phase_write)
       call print_stage_results(model, plan, analysis, run%results)
       call run%progress%enter(phase_increments)
@@ -219,11 +248,11 @@ contains
       type(model_type), intent(in)      :: model
       type(stage_plan_type), intent(in) :: plan
       character(:), allocatable :: words
-      logical :: ok
+      logical :: ok, shown
 
-      if (.not. is_over(run)) then
+      if (run%keeps .or. .not. is_over(run)) then
          call run%progress%enter(phase_write)
-         call finish_results(plan, run%results, ok)
+         call finish_results(plan, run%failure, run%results, ok)
          call run%progress%finish()
          associate (n => run%results%listing%watch%n_warnings)
             if (n > 0) write (error_unit, '(4a)') run%argument%name, ': ', plural(n, 'warning'), ' in the listing'
@@ -232,7 +261,12 @@ contains
          if (words /= '') write (error_unit, '(3a)') run%argument%name, ': ', words
          if (tetra_words(model) /= '') write (error_unit, '(3a)') run%argument%name, ': ', tetra_words(model)
          call say_of_deck(run, deck)
-         if (.not. ok) run%ending = is_unwritten
+         if (ok) then
+            call show_answers(model, run%results, shown)
+            if (.not. shown) exit_status = max(exit_status, status_of(is_unwritten))
+         else
+            run%ending = is_unwritten
+         end if
       end if
       if (run%failure%raised) run%ending = is_unsolved
       call run%progress%clear()
@@ -278,8 +312,9 @@ contains
                              new_line('a'), ok)
             if (.not. ok) exit_status = max(exit_status, status_of(is_unwritten))
          case (is_unsolved)
-            write (error_unit, '(4a)') name, ': ', run%failure%message, '; no results'
-            call discard_results(run%results)
+            write (error_unit, '(4a)') name, ': ', run%failure%message, &
+               trim(merge('; the results end there', '; no results           ', run%keeps))
+            if (.not. run%keeps) call discard_results(run%results)
          case (is_unwritten)
             if (base == '') then
                write (error_unit, '(2a)') name, ': the listing cannot be written to the standard output'

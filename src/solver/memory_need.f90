@@ -10,7 +10,7 @@ module memory_need
    implicit none
    private
 
-   public :: check_model_size, check_memory, shortage
+   public :: check_model_size, check_memory, nodes_of_block, shortage
 
    real(wp), parameter :: node_bytes = 500.0_wp !! of a node, its elements, the graph, arrays over nodes; a factor takes far more
 

@@ -224,22 +224,30 @@ measure_lists() {
    done
 }
 
-# ------------------------------------------------------------------ a mesh from Gmsh: two blocks of tetrahedra
+# ------------------------------------------------------------------ meshes from Gmsh: two blocks of linear tetrahedra, a column of second order
 measure_gmsh() {
-   local turn
-   command -v gmsh > /dev/null || { echo 'bench: gmsh is not installed, its mesh is left out' >&2; return; }
-   echo 'bench: two blocks from Gmsh' >&2
-   rm -f "$work/ours"
+   command -v gmsh > /dev/null || { echo 'bench: gmsh is not installed, its meshes are left out' >&2; return; }
    "$here/../gmsh_fine.sh" "$work" || fail 'no mesh from gmsh'
+   measure_mesh two_blocks "$work/two_blocks_fine.bdf" "$work/gmsh/two_blocks_fine_mesh.bdf"
+   "$here/../calculix/column.sh" --mesh "$work" 15.7 || fail 'no column from gmsh'
+   measure_mesh column "$work/column.bdf" "$work/column_mesh.bdf"
+}
+
+# The deck $2 with the mesh $3 under the name $1.
+measure_mesh() {
+   local turn name
+   name=$(basename "$2" .bdf)
+   echo "bench: $1 from Gmsh" >&2
+   rm -f "$work/ours"
    for turn in 1 2; do
-      run_program 1 "$work/two_blocks_fine.bdf"
-      { figures "$work/two_blocks_fine.bdf"; of_listing "$work/two_blocks_fine.out"; } > "$work/one"
+      run_program 1 "$2"
+      { figures "$2"; of_listing "$work/$name.out"; } > "$work/one"
       keep_faster "$work/one" "$work/ours"
       enough 10 "$work/ours" && break
    done
-   awk '/^GRID/ { n++ } END { print "nodes", n }' "$work/gmsh/two_blocks_fine_mesh.bdf" >> "$work/ours"
-   record gmsh two_blocks "$work/ours"
-   remove_results two_blocks_fine
+   awk '/^GRID/ { n++ } END { print "nodes", n }' "$3" >> "$work/ours"
+   record gmsh "$1" "$work/ours"
+   remove_results "$name"
 }
 
 # ------------------------------------------------------------------ the machine

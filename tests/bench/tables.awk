@@ -135,12 +135,12 @@ function rates(    i, m) {
 
 function gmsh(    i, k, m, n, names, line) {
    if (!rows["gmsh"]) return
-   title("Two blocks from Gmsh, tetrahedra: seconds of the phases, 2 increments, one thread")
+   title("From Gmsh: two blocks of linear tetrahedra, 2 increments; a column of second-order ones: seconds of the phases, one thread")
    n = split("read build order assemble factor increments recover write all", names, " ")
-   head("nodes;unknowns;left;joints;read;build;order;assemble;factor;increments;recover;write;all;peak MiB")
+   head("mesh;nodes;unknowns;left;joints;read;build;order;assemble;factor;increments;recover;write;all;peak MiB")
    for (i = 1; i <= rows["gmsh"]; i++) {
       m = row["gmsh", i]
-      line = v["gmsh", m, "nodes"] ";" either(v["gmsh", m, "unknowns"]) ";" either(v["gmsh", m, "left"]) ";" \
+      line = m ";" v["gmsh", m, "nodes"] ";" either(v["gmsh", m, "unknowns"]) ";" either(v["gmsh", m, "left"]) ";" \
          words_of(v["gmsh", m, "ordering"])
       for (k = 1; k <= n; k++) line = line ";" seconds(v["gmsh", m, names[k]])
       cells(line ";" either(v["gmsh", m, "memory"]))

@@ -253,13 +253,6 @@ DECK
       all 'gap = 0.25 within 1e-12 and pressure = 0.2 within 1e-9 and lambda = 8e-3*0.2^0.5 within 1e-11 and branch = "LOAD"'
 done
 
-# The open distance is a field of the file for ParaView, in decks with a gap alone.
-for deck in apart plain; do sed 's/OUTPUT = NONE/OUTPUT = NONE,VTU/' "$work/$deck.bdf" > "$work/$deck.vtu.bdf" && run "$deck.vtu"; done
-says 'the gap in the file for ParaView' "$work/apart.vtu.5.joint.vtu" 'Name="gap"'
-same 'no gap in that of a deck without' "$(grep -c 'Name="gap"' "$work/plain.vtu.5.joint.vtu")" 0
-
-# Faces that do not match, 5 over 7: the distance through the lists of nodes.
-sed 's/^BLOCK2,2,1,4,2/BLOCK2,2,1,7,2/; s/^BLOCK2,1,1,4,2/BLOCK2,1,1,5,2/; s/JOINT,1,1,21,20/JOINT,1,1,20,21/' "$work/true.bdf" > "$work/lists.bdf"
-run lists && ask 'true distance of faces that do not match' lists count 8 \
-   all 'gap = 0.25 within 1e-12 and pressure = 0.2 within 1e-9 and lambda = 8e-3*0.2^0.5 within 1e-11' &&
-   ask 'true distance of faces that do not match: lists' lists rows 'node2 = -1' all 'gap > 0' count 6
+# The open distance is a field of the file for ParaView.
+sed 's/OUTPUT = NONE/OUTPUT = NONE,VTU/' "$work/apart.bdf" > "$work/apart.vtu.bdf" && run apart.vtu &&
+   says 'the gap in the file for ParaView' "$work/apart.vtu.5.joint.vtu" 'Name="gap"'

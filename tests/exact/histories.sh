@@ -135,23 +135,23 @@ run range && {
    ask 'a softening cubic: tangents by hand, never below zero' range rows 'stage = 2 and joint = 1' count 10 all 'min(k_sx) = 0' \
       all "k_sx = $slope within 1e-5 and delta_x = before(delta_x) + 6/(1000 + $slope) within 1e-10" \
       all "tau_x = before(tau_x) + $slope/100*6/(1000 + $slope) within 1e-8"
-   first=$(value range rows 'stage = 2 and joint = 1 and delta_x > 0.006' print 'first(increment)' print 'first(delta_x*1000)')
-   judge 'range left: the warning names node, increment, p and d' -v first="$first" '
-      /WARNING: NODE/ {
+   first=$(value range rows 'stage = 2 and joint = 1 and delta_x > 0.006' print 'first(increment)' print 'last(delta_x*1000)')
+   judge 'range left: a line a bound names elements, first increment, worst p and d' -v first="$first" '
+      /WARNING: JOINT 1.*BEYOND D = 0.006/ {
          n++; split(first, v, " ")
-         if ($0 !~ "NODE 7, STAGE 2, INCREMENT " v[1] ":") print
-         p = $0; sub(/.*P = /, "", p); d = $0; sub(/.*D = /, "", d)
+         if ($0 !~ "STAGE 2: 1 ELEMENT BEYOND.*, FIRST NODE 7 .INCREMENT " v[1] "., WORST 7: ") print
+         p = $0; sub(/.*: P = /, "", p); d = $0; sub(/.*, D = /, "", d)
          if ((p / 0.5 - 1)^2 > 1e-9 || (d * 1000 / v[2] - 1)^2 > 1e-9) print p, d ", not 0.5", v[2] / 1000
       }
       END { if (n != 1) print n + 0 " warnings"; print "checked " n }' "$work/range.out"
 }
 # p beyond PMAX, and within both no warning
 sed 's/^+,0.6,0.006/+,0.4,0.1/' "$work/range.bdf" > "$work/range_p.bdf"
-run range_p && says 'range of p left' "$work/range_p.out" 'WARNING: NODE 7, STAGE 1, INCREMENT 1'
+run range_p && says 'range of p left' "$work/range_p.out" 'WARNING: JOINT 1, STAGE 1: 1 ELEMENT BEYOND P = 0.4 OF THE SHEAR LAW, FIRST NODE 7 (INCREMENT 1)'
 sed 's/^+,0.6,0.006/+,0.6,0.1/' "$work/range.bdf" > "$work/range_in.bdf"
 run range_in && {
-   same 'within the range no warning of it' "$(grep -c 'OUTSIDE THE TESTED RANGE' "$work/range_in.out")" 0
-   says 'but one that the slope is lost' "$work/range_in.out" 'NO POSITIVE SLOPE IN THE SHEAR LAW'
+   same 'within the range no warning of it' "$(grep -c 'ELEMENT BEYOND' "$work/range_in.out")" 0
+   says 'but one that the slope is lost' "$work/range_in.out" 'WITHOUT A POSITIVE SLOPE OF THE SHEAR LAW'
 }
 
 # Shear under a pressure that rises, one increment a curve (Fig. 4b), by hand: k_s of each increment at the pressure before it.

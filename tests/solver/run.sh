@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Every deck of input/, and those beside this script, moved supports, one large enough for several threads, one large enough to be
+# Every deck of input/ (two large ones by TREE alone), and those beside this script, moved supports, one large enough for several threads, one large enough to be
 # ordered by a coarse graph, by SOLVER = TREE and by SOLVER = SKYLINE: the same results. By TREE with one thread and with several: the same bytes.
 #
 #    run.sh PROGRAM QUERY WORK_FOLDER
@@ -65,12 +65,17 @@ same() {
    done
 }
 
+# too many unknowns for the profile: minutes by SKYLINE
+by_tree_alone='bracket flanged_column'
+
 for deck in input/*.bdf $here/*.bdf; do
    name=$(basename "$deck" .bdf)
    with_solver "$deck" TREE > "$work/tree/$name.bdf"
    with_solver "$deck" SKYLINE > "$work/skyline/$name.bdf"
    words=
-   if run tree tree --threads 1 && run skyline skyline; then
+   if [[ " $by_tree_alone " = *" $name "* ]]; then
+      if run tree tree --threads 1; then passed=$((passed + 1)) words='by TREE alone'; else failed=$((failed + 1)) words='FAILED to run'; fi
+   elif run tree tree --threads 1 && run skyline skyline; then
       if words=$(same_history "$work/skyline/$name" "$work/tree/$name" &&
                  awk -f $here/compare.awk "$work/skyline/$name.out" "$work/tree/$name.out"); then
          passed=$((passed + 1))

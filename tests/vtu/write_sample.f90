@@ -94,7 +94,7 @@ contains
       character(*), intent(in) :: path
       logical, intent(out)     :: ok
 
-      call write_collection(path, [1, 1, 3, 3], [0, 1, 0, 1], [character(20) :: &
+      call write_collection(path, [1.0_real64, 1.0_real64, 3.0_real64, 3.0_real64], [0, 1, 0, 1], [character(20) :: &
                             'sample.1.vtu', 'sample.1.joint.vtu', 'sample.2 & <3>.vtu', 'sample.2.joint.vtu'], ok)
    end subroutine write_list
 

@@ -1,0 +1,193 @@
+!> The answer at the end of a stage as a block of short tables, the same in the listing and on the screen.
+module answer_block
+   use kinds, only: wp
+   use listing_table, only: axes, column, heading, label_type, listing_table_type
+   use model_data, only: joint_node_id, model_type
+   use output_file, only: output_file_type
+   use stage_answer, only: bolt_answer_type, joint_answer, peak_type, stage_answer_type
+   use text_tools, only: clean
+   implicit none
+   private
+
+   public :: print_answer
+
+contains
+
+   !> Print ANSWER under TITLE into FILE.
+   subroutine print_answer(file, labels, title, model, answer)
+      type(output_file_type), intent(inout) :: file
+      type(label_type), intent(in)          :: labels
+      character(*), intent(in)              :: title
+      type(model_type), intent(in)          :: model
+      type(stage_answer_type), intent(in)   :: answer
+
+      call heading(file, title)
+      call print_peaks(file, labels, model, answer)
+      if (size(answer%joints) > 0) call print_joints(file, labels, model, answer)
+      if (size(answer%joints) > 0) call print_stiffnesses(file, labels, model, answer)
+      if (size(answer%bolts) > 0) call print_bolts(file, labels, model, answer%bolts)
+   end subroutine print_answer
+
+   !> Displacement and stress.
+   subroutine print_peaks(file, labels, model, answer)
+      type(output_file_type), intent(inout) :: file
+      type(label_type), intent(in)          :: labels
+      type(model_type), intent(in)          :: model
+      type(stage_answer_type), intent(in)   :: answer
+      type(listing_table_type) :: table
+
+      call table%start('', [column('', 'a33'), column('VALUE', 'es13.4'), column('', 'a13'), column('AT', 'a8'), &
+                            column('NUMBER', 'i11'), column(axes(:model%dimension), 'es13.5', labels%length)])
+      call table%print_head(file)
+      call row('LARGEST DISPLACEMENT', labels%length, 'NODE', answer%displacement)
+      call row('LARGEST VON MISES, CENTRES', labels%pressure, 'ELEMENT', answer%at_centre)
+      call row('LARGEST VON MISES, NODES', labels%pressure, 'NODE', answer%at_node)
+
+   contains
+
+      subroutine row(words, unit, kind, peak)
+         character(*), intent(in)    :: words, unit, kind
+         type(peak_type), intent(in) :: peak
+         character(31) :: name
+         character(12) :: label
+
+         if (.not. peak%is_there) return
+         name = words
+         label = unit
+         call table%add(name)
+         call table%add([peak%value])
+         call table%add(label)
+         call table%add(kind)
+         call table%add([peak%id])
+         call table%add(clean(peak%x(:model%dimension)))
+         call table%print_row(file)
+      end subroutine row
+
+   end subroutine print_peaks
+
+   !> Contact, and what the joints transmit.
+   subroutine print_joints(file, labels, model, answer)
+      type(output_file_type), intent(inout) :: file
+      type(label_type), intent(in)          :: labels
+      type(model_type), intent(in)          :: model
+      type(stage_answer_type), intent(in)   :: answer
+      type(listing_table_type) :: table
+      integer :: j
+
+      call file%put('')
+      call table%start('', [column('JOINT', 'i11'), column('CONTACT %', 'f10.2'), column('P MAX', 'es12.4', labels%pressure), &
+                            column('AT NODE', 'i11'), column('GAP MAX', 'es12.4', labels%length), column('AT NODE', 'i11'), &
+                            column('SLIPPING', 'i9'), column(['N', 'T'], 'es12.4', labels%force), &
+                            column('M', 'es12.4', labels%moment), column('MU N/T', 'f11.3'), column('', 'a')])
+      call table%print_head(file)
+      do j = 1, size(answer%joints)
+         associate (joint => answer%joints(j))
+            call table%add([model%joints(j)%id])
+            call table%add([100.0_wp*joint%contact, joint%pressure])
+            call add_node(joint%pressed_at)
+            call table%add([joint%gap])
+            call add_node(joint%open_at)
+            call table%add([joint%slipping])
+            call table%add([joint%normal, joint%shear, joint%moment])
+            if (joint%has_safety) then
+               call table%add([min(joint%safety, 999999.0_wp)])
+            else
+               call table%skip(1)
+            end if
+            if (joint%frame%closed) call table%add('  CLOSED')
+            call table%print_row(file)
+         end associate
+      end do
+
+   contains
+
+      !> The node of interface element I; nothing where there is none.
+      subroutine add_node(i)
+         integer, intent(in) :: i
+
+         if (i > 0) call table%add([joint_node_id(model, i, 1)])
+         if (i == 0) call table%skip(1)
+      end subroutine add_node
+
+   end subroutine print_joints
+
+   !> Stiffnesses about the centroids.
+   subroutine print_stiffnesses(file, labels, model, answer)
+      type(output_file_type), intent(inout) :: file
+      type(label_type), intent(in)          :: labels
+      type(model_type), intent(in)          :: model
+      type(stage_answer_type), intent(in)   :: answer
+      character(14), parameter :: names(6) = [character(14) :: 'ALONG X', 'ALONG Y', 'NORMAL', 'TILT ABOUT X', 'TILT ABOUT Y', &
+                                              'TWIST']
+      type(listing_table_type) :: table
+      character(20) :: unit(6)
+      integer :: c, j
+      logical :: shown(6)
+
+      shown = [(any([(answer%joints(j)%frame%exists(c), j = 1, size(answer%joints))]), c = 1, 6)]
+      unit(:3) = labels%stiffness
+      unit(4:) = labels%moment
+      call file%put('')
+      call table%start('', [column('JOINT', 'i11'), column('STIFFNESS', 'a10'), &
+                            column(pack(names, shown), 'es14.4', pack(unit, shown))])
+      call table%print_head(file)
+      do j = 1, size(answer%joints)
+         associate (joint => answer%joints(j))
+            call row('TANGENT', joint%tangent, joint%frame%exists)
+            call row('SECANT', joint%secant, joint%has_secant)
+         end associate
+      end do
+
+   contains
+
+      subroutine row(kind, stiffness, is_there)
+         character(*), intent(in) :: kind
+         real(wp), intent(in)     :: stiffness(6)
+         logical, intent(in)      :: is_there(6)
+         integer :: k
+
+         call table%add([model%joints(j)%id])
+         call table%add(kind)
+         do k = 1, 6
+            if (.not. shown(k)) cycle
+            if (is_there(k)) call table%add([stiffness(k)])
+            if (.not. is_there(k)) call table%skip(1)
+         end do
+         call table%print_row(file)
+      end subroutine row
+
+   end subroutine print_stiffnesses
+
+   subroutine print_bolts(file, labels, model, bolts)
+      type(output_file_type), intent(inout) :: file
+      type(label_type), intent(in)          :: labels
+      type(model_type), intent(in)          :: model
+      type(bolt_answer_type), intent(in)    :: bolts(:)
+      type(listing_table_type) :: table
+      integer :: i
+
+      call file%put('')
+      call table%start('', [column([character(7) :: 'BOLT', 'ELEMENT', 'SURFACE'], 'i11'), &
+                            column([character(6) :: 'FORCE', 'CHANGE', 'LOAD'], 'es13.4', labels%force), &
+                            column('CHANGE/LOAD', 'f13.5'), column('BENDING', 'es13.4', labels%moment)])
+      call table%print_head(file)
+      do i = 1, size(bolts)
+         associate (bolt => bolts(i))
+            call table%add([bolt%bolt%id])
+            if (bolt%bolt%section > 0) then
+               call table%skip(1)
+               call table%add([model%sections(bolt%bolt%section)%surface])
+            else
+               call table%add([bolt%bolt%element])
+               call table%skip(1)
+            end if
+            call table%add([bolt%force, bolt%change, bolt%load_change])
+            if (bolt%has_ratio) call table%add([bolt%ratio])
+            if (.not. bolt%has_ratio) call table%skip(1)
+            if (bolt%has_moment) call table%add([bolt%moment])
+            call table%print_row(file)
+         end associate
+      end do
+   end subroutine print_bolts
+
+end module answer_block

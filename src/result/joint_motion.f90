@@ -1,0 +1,240 @@
+!> A joint as a whole: its axes and centroid, what it transmits, how its sides move against each other as rigid bodies would, and
+!! how stiffly. Six components in the joint's axes: forces (movements) along x, y and the normal z, moments (turns) about them.
+module joint_motion
+   use analysis_state, only: analysis_type, element_force
+   use interface_axes, only: joint_axes
+   use interface_operator, only: at_first_end
+   use kinds, only: wp
+   use model_data, only: joint_type, model_type
+   use normal_stiffness, only: branch_open
+   use vector_product, only: cross
+   implicit none
+   private
+
+   public :: find_frame, is_closed, find_resultant, rigid_movement, stiffness_about
+
+   real(wp), parameter :: closed_below = 0.1_wp ! length of the mean normal of a joint that faces all ways, as a pin in its bore
+   real(wp), parameter :: straight = 1.0e-9_wp  ! of the largest moment of inertia: a turn that moves no element
+
+   type, public :: joint_frame
+      logical  :: closed = .false.          !! no mean normal: the axes are those of the model
+      logical  :: exists(6) = .false.       !! movements that the model and the places of the elements have
+      real(wp) :: axes(3, 3) = 0.0_wp       !! columns x, y, z
+      real(wp) :: centroid(3) = 0.0_wp      !! of the area [length]
+      real(wp) :: extent = 0.0_wp           !! largest distance of an element from it [length]
+   end type joint_frame
+
+   !> What side 1 transmits to side 2.
+   type, public :: joint_resultant
+      real(wp) :: normal = 0.0_wp           !! N: sum of the normal forces of the elements, compression positive [force]
+      real(wp) :: along(2) = 0.0_wp         !! sums of the shear forces in the elements' own x and y [force]
+      real(wp) :: shear(3) = 0.0_wp         !! the same as a vector, global axes [force]
+      real(wp) :: force(3) = 0.0_wp         !! all of it, global axes [force]
+      real(wp) :: moment(3) = 0.0_wp        !! about the centroid of the area, global axes [force x length]
+   end type joint_resultant
+
+contains
+
+   !> Mean of the normals by area, 1 long where the joint is plane.
+   pure function mean_normal(model, joint) result(normal)
+      type(model_type), intent(in) :: model
+      type(joint_type), intent(in) :: joint
+      real(wp) :: normal(3)
+      integer  :: i
+
+      normal = 0.0_wp
+      do i = joint%first, joint%last
+         normal = normal + model%interface(i)%area*model%interface(i)%axes(:, 3)/joint%area
+      end do
+   end function mean_normal
+
+   !> Whether JOINT faces all ways, so that its mean normal says nothing.
+   pure logical function is_closed(model, joint)
+      type(model_type), intent(in) :: model
+      type(joint_type), intent(in) :: joint
+
+      is_closed = norm2(mean_normal(model, joint)) < closed_below
+   end function is_closed
+
+   !> Axes and centroid of JOINT. The axes are those that an interface element with the mean normal has; of a closed joint the model's
+   !! in space, in the plane z is +Y.
+   pure function find_frame(model, joint) result(frame)
+      type(model_type), intent(in) :: model
+      type(joint_type), intent(in) :: joint
+      type(joint_frame) :: frame
+      real(wp) :: arm(3), inertia(3, 3), normal(3), kept(3)
+      integer  :: i
+
+      normal = mean_normal(model, joint)
+      if (model%axisymmetric) normal(1) = 0.0_wp ! all round the ring it is the part along the axis
+      frame%closed = norm2(normal) < closed_below
+      if (frame%closed) then
+         normal = 0.0_wp
+         normal(model%dimension) = 1.0_wp
+      end if
+      frame%axes = joint_axes(model, normal/norm2(normal))
+      do i = joint%first, joint%last
+         frame%centroid = frame%centroid + model%interface(i)%area*at_first_end(model%interface(i), model%x)/joint%area
+      end do
+      inertia = 0.0_wp
+      do i = joint%first, joint%last
+         arm = arm_of(model, frame, i)
+         frame%extent = max(frame%extent, norm2(arm))
+         inertia = inertia + model%interface(i)%area*(dot_product(arm, arm)*unit_matrix() - outer(arm, arm))
+      end do
+      frame%exists = .true.
+      if (model%dimension == 2) frame%exists = [.true., .false., .true., .false., .true., .false.]
+      if (model%axisymmetric) frame%exists = [.false., .false., .true., .false., .false., .false.]
+      if (frame%extent <= straight*norm2(frame%centroid)) frame%exists(4:) = .false. ! all in one place, but for rounding
+      call solve(inertia, [1.0_wp, 1.0_wp, 1.0_wp], frame%exists(4:), kept)
+   end function find_frame
+
+   !> What JOINT transmits now.
+   pure function find_resultant(model, analysis, joint) result(total)
+      type(model_type), intent(in)    :: model
+      type(analysis_type), intent(in) :: analysis
+      type(joint_type), intent(in)    :: joint
+      type(joint_resultant) :: total
+      type(joint_frame) :: frame
+      real(wp) :: force(3)
+      integer  :: i
+
+      frame = find_frame(model, joint)
+      do i = joint%first, joint%last
+         associate (element => model%interface(i), state => analysis%states(i))
+            force = element_force(element, state)
+            total%force = total%force + force
+            total%moment = total%moment + cross(at_first_end(element, model%x) - frame%centroid, force)
+            total%normal = total%normal + state%normal%sumf
+            total%along = total%along + state%shear%tau*element%area
+            total%shear = total%shear + matmul(element%axes(:, :2), state%shear%tau*element%area)
+         end associate
+      end do
+   end function find_resultant
+
+   !> Movement of side 1 against side 2 as of rigid bodies, nearest to the deflections {d} of the elements that are not open (delta_x,
+   !! delta_y, lambda as in the joint history) by least squares, their areas the weights: sum a [m]^T [m] {q} = sum a [m]^T {d},
+   !! the columns of [m] as in rigid_mode. It is that of the point at the centroid; a component that the places of these elements
+   !! do not tell is 0 [length; radians].
+   pure function rigid_movement(model, analysis, joint, frame) result(q)
+      type(model_type), intent(in)    :: model
+      type(analysis_type), intent(in) :: analysis
+      type(joint_type), intent(in)    :: joint
+      type(joint_frame), intent(in)   :: frame
+      real(wp) :: q(6)
+      real(wp) :: d(3), m(3, 6), a(6, 6), b(6), scale
+      logical  :: exists(6)
+      integer  :: c, i
+
+      a = 0.0_wp
+      b = 0.0_wp
+      scale = max(frame%extent, tiny(1.0_wp)) ! turns as what they move there
+      do i = joint%first, joint%last
+         if (analysis%states(i)%normal%branch == branch_open) cycle
+         associate (element => model%interface(i), state => analysis%states(i))
+            d(:2) = merge(state%shear%delta, analysis%movement(:2, i), joint%law%shear%given)
+            d(3) = state%normal%lambda
+            d = matmul(element%axes, d)
+            d = matmul(d, frame%axes)
+            do c = 1, 6
+               m(:, c) = rigid_mode(model, frame, i, c)
+               if (c > 3) m(:, c) = m(:, c)/scale
+            end do
+            do c = 1, 6
+               a(:, c) = a(:, c) + element%area*matmul(m(:, c), m)
+               b(c) = b(c) + element%area*dot_product(m(:, c), d)
+            end do
+         end associate
+      end do
+      exists = frame%exists
+      call solve(a, b, exists, q)
+      q(4:) = q(4:)/scale
+   end function rigid_movement
+
+   !> What rigid movement C of 1, along an axis or about it, moves at interface element I, in the axes of FRAME.
+   pure function rigid_mode(model, frame, i, c) result(moved)
+      type(model_type), intent(in)  :: model
+      type(joint_frame), intent(in) :: frame
+      integer, intent(in)           :: i, c
+      real(wp) :: moved(3), axis(3)
+
+      axis = 0.0_wp
+      axis(modulo(c - 1, 3) + 1) = 1.0_wp
+      moved = axis
+      if (c > 3) moved = cross(axis, arm_of(model, frame, i))
+   end function rigid_mode
+
+   !> What resists each of the six rigid movements while the five others are held: {m}^T [k] {m} summed over the elements
+   !! [force/length; force x length].
+   pure function stiffness_about(model, joint, frame, k) result(total)
+      type(model_type), intent(in)  :: model
+      type(joint_type), intent(in)  :: joint
+      type(joint_frame), intent(in) :: frame
+      real(wp), intent(in)          :: k(:, :) !! (3, n) of all interface elements, in their own axes [force/length]
+      real(wp) :: total(6)
+      real(wp) :: moved(3)
+      integer  :: c, i
+
+      total = 0.0_wp
+      do i = joint%first, joint%last
+         do c = 1, 6
+            moved = matmul(frame%axes, rigid_mode(model, frame, i, c))
+            moved = matmul(moved, model%interface(i)%axes)
+            total(c) = total(c) + dot_product(k(:, i), moved**2)
+         end do
+      end do
+      total = merge(total, 0.0_wp, frame%exists)
+   end function stiffness_about
+
+   !> From the centroid to where interface element I acts, in the axes of FRAME [length].
+   pure function arm_of(model, frame, i) result(arm)
+      type(model_type), intent(in)  :: model
+      type(joint_frame), intent(in) :: frame
+      integer, intent(in)           :: i
+      real(wp) :: arm(3)
+
+      arm = at_first_end(model%interface(i), model%x) - frame%centroid
+      arm = matmul(arm, frame%axes)
+   end function arm_of
+
+   !> [A] {x} = {b} for the components that exist; one that A does not hold ceases to exist. The others are 0.
+   pure subroutine solve(a, b, exists, x)
+      real(wp), intent(in)   :: a(:, :) !! symmetric, no negative eigenvalue
+      real(wp), intent(in)   :: b(:)
+      logical, intent(inout) :: exists(:)
+      real(wp), intent(out)  :: x(:)
+      real(wp) :: left(size(b), size(b)), right(size(b)), largest
+      integer  :: c, r
+
+      left = a
+      right = b
+      largest = maxval(abs(a))
+      do c = 1, size(b)
+         exists(c) = exists(c) .and. left(c, c) > straight*largest
+         if (.not. exists(c)) cycle
+         do r = 1, size(b)
+            if (r == c .or. .not. exists(r)) cycle
+            right(r) = right(r) - left(r, c)/left(c, c)*right(c)
+            left(r, :) = left(r, :) - left(r, c)/left(c, c)*left(c, :)
+         end do
+      end do
+      x = 0.0_wp
+      do c = 1, size(b)
+         if (exists(c)) x(c) = right(c)/left(c, c)
+      end do
+   end subroutine solve
+
+   pure function unit_matrix() result(matrix)
+      real(wp) :: matrix(3, 3)
+
+      matrix = reshape([1.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 1.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 1.0_wp], [3, 3])
+   end function unit_matrix
+
+   pure function outer(a, b) result(matrix)
+      real(wp), intent(in) :: a(3), b(3)
+      real(wp) :: matrix(3, 3)
+
+      matrix = spread(a, 2, 3)*spread(b, 1, 3)
+   end function outer
+
+end module joint_motion

@@ -1,0 +1,224 @@
+!> The answer at the end of a stage: the numbers that an engineer asks for, of the bodies, of each joint and of each bolt. What only
+!! rounding makes of them is zero, what means nothing is absent.
+module stage_answer
+   use analysis_state, only: analysis_type
+   use body_elements, only: element_centre, node_stresses, whole_stress
+   use bolt_answer, only: bending_moment, bolt_type, find_bolts, load_along
+   use elasticity, only: max_stresses
+   use joint_motion, only: find_frame, find_resultant, joint_frame, joint_resultant, rigid_movement, stiffness_about
+   use joint_tangents, only: tangents_now
+   use kinds, only: wp
+   use listing_table, only: noise
+   use model_data, only: joint_type, model_type, n_points
+   use normal_stiffness, only: branch_open, normal_state
+   use stress_measures, only: von_mises
+   use text_tools, only: clean
+   implicit none
+   private
+
+   public :: find_answer, find_bolt_answers, stands_apart
+
+   ! Of forces and movements what is left of sums and differences that would be zero but for rounding and for what iterations leave,
+   ! and how far values may differ that a symmetric structure would have alike.
+   real(wp), parameter :: remainder = 1.0e-7_wp, tie = 1.0e-6_wp
+
+   !> The largest of some kind of value, and where.
+   type, public :: peak_type
+      logical  :: is_there = .false.
+      real(wp) :: value = 0.0_wp
+      integer  :: id = 0                       !! of a node, or of an element
+      real(wp) :: x(3) = 0.0_wp                !! the place [length]
+   end type peak_type
+
+   type, public :: joint_answer
+      type(joint_frame) :: frame
+      real(wp) :: contact = 0.0_wp             !! share of the area whose elements are not open
+      integer  :: pressed_at = 0, open_at = 0  !! interface elements of the largest pressure and gap; 0: none
+      real(wp) :: pressure = 0.0_wp            !! the largest [pressure]
+      real(wp) :: gap = 0.0_wp                 !! the largest [length]
+      integer  :: slipping = 0                 !! interface elements
+      real(wp) :: normal = 0.0_wp, shear = 0.0_wp, moment = 0.0_wp !! N, T, M [force; force x length]
+      logical  :: has_safety = .false.
+      real(wp) :: safety = 0.0_wp              !! mu N/T
+      real(wp) :: force(6) = 0.0_wp            !! and moment, in the axes of the joint
+      real(wp) :: movement(6) = 0.0_wp         !! deflection: of side 1 against side 2
+      real(wp) :: tangent(6) = 0.0_wp, secant(6) = 0.0_wp
+      logical  :: has_secant(6) = .false.
+   end type joint_answer
+
+   type, public :: bolt_answer_type
+      type(bolt_type) :: bolt
+      real(wp) :: force = 0.0_wp               !! tension [force]
+      real(wp) :: change = 0.0_wp              !! since the end of the stage before [force]
+      real(wp) :: load_change = 0.0_wp         !! of the load along it [force]
+      logical  :: has_ratio = .false., has_moment = .false.
+      real(wp) :: ratio = 0.0_wp               !! change over load_change
+      real(wp) :: moment = 0.0_wp              !! bending [force x length]
+   end type bolt_answer_type
+
+   type, public :: stage_answer_type
+      type(peak_type) :: displacement          !! the length of the vector [length]
+      type(peak_type) :: at_centre, at_node    !! von Mises [pressure]
+      type(joint_answer), allocatable     :: joints(:)
+      type(bolt_answer_type), allocatable :: bolts(:)
+   end type stage_answer_type
+
+contains
+
+   !> The answer at the end of the stage just completed, the bodies recovered.
+   subroutine find_answer(model, analysis, method, largest_force, before, answer)
+      type(model_type), intent(in)    :: model
+      type(analysis_type), intent(in) :: analysis
+      integer, intent(in)             :: method        !! of case control
+      real(wp), intent(in)            :: largest_force !! ever applied at a node, for the noise [force]
+      real(wp), intent(in)            :: before(:)     !! forces of the bolts at the end of the stage before
+      type(stage_answer_type), intent(out) :: answer
+      real(wp), allocatable :: k(:, :)
+      integer :: j
+
+      call find_peaks(model, analysis, answer)
+      allocate (answer%joints(size(model%joints)))
+      allocate (k, source=tangents_now(model, analysis, method))
+      do j = 1, size(model%joints)
+         call describe_joint(model, analysis, model%joints(j), answer%joints(j))
+         call describe_stiffness(model, analysis, model%joints(j), k, remainder*largest_force, answer%joints(j))
+      end do
+      call find_bolt_answers(model, analysis, largest_force, before, answer%bolts)
+   end subroutine find_answer
+
+   !> Largest displacement of a node; largest von Mises stress at the centre of an element, and at a node as the mean of its elements.
+   subroutine find_peaks(model, analysis, answer)
+      type(model_type), intent(in)           :: model
+      type(analysis_type), intent(in)        :: analysis
+      type(stage_answer_type), intent(inout) :: answer
+      real(wp), allocatable :: at_node(:, :), size_of(:)
+      integer :: e, node
+
+      allocate (size_of(n_points(model)))
+      do node = 1, size(size_of)
+         size_of(node) = norm2(analysis%all_u(:, node))
+      end do
+      node = first_largest(size_of, model%used(:size(size_of)))
+      if (node > 0) answer%displacement = peak_type(.true., maxval(size_of, mask=model%used(:size(size_of))), &
+                                                    model%node_id(node), model%x(:, node))
+      if (model%n_elements == 0) return
+      allocate (at_node(max_stresses, n_points(model)))
+      call node_stresses(model, analysis%all_u, analysis%temperature, at_node)
+      do node = 1, size(size_of)
+         size_of(node) = von_mises(at_node(:, node))
+      end do
+      node = first_largest(size_of, model%used(:size(size_of)))
+      answer%at_node = peak_type(.true., maxval(size_of), model%node_id(node), model%x(:, node))
+      deallocate (size_of)
+      allocate (size_of(model%n_elements))
+      do e = 1, model%n_elements
+         size_of(e) = von_mises(whole_stress(model, e, analysis%all_u, analysis%temperature))
+      end do
+      e = first_largest(size_of, size_of >= 0.0_wp)
+      answer%at_centre = peak_type(.true., size_of(e), model%element_id(e))
+      answer%at_centre%value = maxval(size_of)
+      answer%at_centre%x(:model%dimension) = element_centre(model, e)
+   end subroutine find_peaks
+
+   !> Where the largest of the VALUES that count is, the first of those that are as large but for what rounding may have made; 0 where
+   !! none counts.
+   pure integer function first_largest(values, counts) result(at)
+      real(wp), intent(in) :: values(:) !! none negative
+      logical, intent(in)  :: counts(:)
+
+      at = 0
+      if (any(counts)) at = findloc(counts .and. values >= (1.0_wp - tie)*maxval(values, mask=counts), .true., dim=1)
+   end function first_largest
+
+   !> Contact of JOINT.
+   pure subroutine describe_joint(model, analysis, joint, answer)
+      type(model_type), intent(in)      :: model
+      type(analysis_type), intent(in)   :: analysis
+      type(joint_type), intent(in)      :: joint
+      type(joint_answer), intent(inout) :: answer
+
+      associate (states => analysis%states(joint%first:joint%last), elements => model%interface(joint%first:joint%last))
+         answer%contact = clean(1.0_wp - sum(elements%area, mask=states%normal%branch == branch_open)/joint%area, noise)
+         answer%slipping = count(states%slips)
+         answer%pressure = clean(maxval(states%normal%pressure), noise*analysis%largest_p)
+         answer%gap = clean(maxval(stands_apart(states%normal)), noise*analysis%largest_lambda)
+         if (answer%pressure > 0.0_wp) answer%pressed_at = &
+            joint%first - 1 + first_largest(states%normal%pressure, states%normal%pressure > 0.0_wp)
+         if (answer%gap > 0.0_wp) answer%open_at = &
+            joint%first - 1 + first_largest(stands_apart(states%normal), states%normal%branch == branch_open)
+      end associate
+   end subroutine describe_joint
+
+   !> How far the faces stand apart at an interface element in this STATE: from where they would touch [length].
+   elemental real(wp) function stands_apart(state) result(gap)
+      type(normal_state), intent(in) :: state
+
+      gap = 0.0_wp
+      if (state%branch == branch_open) gap = max(0.0_wp, state%lambda_b - state%lambda)
+   end function stands_apart
+
+   !> What JOINT transmits, its safety against slip, and how stiff it is.
+   pure subroutine describe_stiffness(model, analysis, joint, k, floor, answer)
+      type(model_type), intent(in)      :: model
+      type(analysis_type), intent(in)   :: analysis
+      type(joint_type), intent(in)      :: joint
+      real(wp), intent(in)              :: k(:, :) !! (3, n) tangents of all interface elements
+      real(wp), intent(in)              :: floor   !! of forces: below it there is only rounding
+      type(joint_answer), intent(inout) :: answer
+      type(joint_resultant) :: total
+      real(wp) :: least(6)
+
+      answer%frame = find_frame(model, joint)
+      total = find_resultant(model, analysis, joint)
+      associate (frame => answer%frame)
+         if (model%axisymmetric) total%shear(1) = 0.0_wp ! all round the ring it balances
+         answer%normal = clean(total%normal, floor)
+         answer%shear = clean(norm2(total%shear), floor)
+         answer%force(:3) = clean(matmul(total%force, frame%axes), floor)
+         answer%force(4:) = clean(matmul(total%moment, frame%axes), floor*frame%extent)
+         answer%force = merge(answer%force, 0.0_wp, frame%exists)
+         answer%moment = norm2(answer%force(4:))
+         answer%has_safety = joint%law%has_friction .and. answer%shear > 0.0_wp
+         if (answer%has_safety) answer%safety = joint%law%mu*max(0.0_wp, answer%normal)/answer%shear
+         least = remainder*analysis%largest_lambda
+         least(4:) = least(4:)/max(frame%extent, tiny(1.0_wp))
+         answer%movement = clean(rigid_movement(model, analysis, joint, frame), least)
+         answer%tangent = stiffness_about(model, joint, frame, k)
+         answer%has_secant = frame%exists .and. answer%force*answer%movement > 0.0_wp
+         where (answer%has_secant) answer%secant = answer%force/answer%movement
+      end associate
+   end subroutine describe_stiffness
+
+   !> The bolts after the increment just completed. The bending of solid ones is known where the bodies are, at the end of a stage.
+   subroutine find_bolt_answers(model, analysis, largest_force, before, answers)
+      type(model_type), intent(in)    :: model
+      type(analysis_type), intent(in) :: analysis
+      real(wp), intent(in)            :: largest_force
+      real(wp), intent(in)            :: before(:)
+      type(bolt_answer_type), allocatable, intent(out) :: answers(:)
+      type(bolt_type), allocatable :: bolts(:)
+      integer :: i
+
+      allocate (bolts, source=find_bolts(model, analysis))
+      allocate (answers(size(bolts)))
+      do i = 1, size(bolts)
+         associate (answer => answers(i), bolt => bolts(i), floor => remainder*largest_force)
+            answer%bolt = bolt
+            answer%force = clean(bolt%force, floor)
+            answer%change = clean(bolt%force - before(i), floor)
+            answer%load_change = clean(load_along(model, bolt%direction, analysis%stage, analysis%fraction) &
+                                       - load_along(model, bolt%direction, analysis%stage - 1, 1.0_wp), floor)
+            answer%has_ratio = .not. bolt%is_tightened .and. abs(answer%load_change) > 0.0_wp
+            if (answer%has_ratio) answer%ratio = answer%change/answer%load_change
+            answer%has_moment = bolt%section > 0 .and. analysis%fraction >= 1.0_wp
+            if (answer%has_moment) then
+               associate (section => model%sections(bolt%section))
+                  answer%moment = clean(bending_moment(model, section, analysis%all_u, analysis%temperature), &
+                                        floor*sqrt(section%area))
+               end associate
+            end if
+         end associate
+      end do
+   end subroutine find_bolt_answers
+
+end module stage_answer

@@ -1,0 +1,235 @@
+!> The joints as ParaView shows them: the faces of their side 1 with what the interface elements have there, in the places of the nodes;
+!! joints of single elements (CJOINT) as points.
+module vtu_joints
+   use, intrinsic :: iso_fortran_env, only: int8
+   use analysis_state, only: analysis_type
+   use interface_operator, only: at_first_end, nodes_of_end, weights_of_end
+   use kinds, only: wp
+   use listing_table, only: label_type
+   use model_data, only: joint_type, model_type, surface_type
+   use stage_answer, only: stands_apart
+   use surface_sides, only: nodes_of
+   use vtu_file, only: named, point_data, vtk_vertex, vtu_file_type
+   implicit none
+   private
+
+   public :: write_joints
+
+   integer, parameter :: n_values = 8 ! lambda, pressure, tau(3), gap, slip as it is averaged, area
+
+   !> Points and cells of all joints as they are gathered.
+   type :: grid_type
+      integer :: n_points = 0, n_cells = 0, n_corners = 0
+      real(wp), allocatable :: x(:, :), u(:, :), values(:, :)
+      integer, allocatable  :: element(:)      ! interface element that a point has its branch of
+      integer, allocatable  :: corners(:), ends(:)
+      integer(int8), allocatable :: types(:)
+   end type grid_type
+
+contains
+
+   !> Write all joints into FILE. BRANCH is 1 load, 2 unload, 3 open, 4 reload as in the chart; TAU the shear stress on side 2 in global
+   !! axes; GAP how far the faces stand apart. Where a node of a face has no element of its own, the corners of faces of second order, it
+   !! has the mean of those beside it; its branch is that of the first of them.
+   subroutine write_joints(file, labels, model, analysis)
+      type(vtu_file_type), intent(inout) :: file
+      type(label_type), intent(in)       :: labels
+      type(model_type), intent(in)       :: model
+      type(analysis_type), intent(in)    :: analysis
+      type(grid_type) :: grid
+      integer :: j, n
+
+      call make_room(model, grid)
+      do j = 1, size(model%joints)
+         if (model%joints(j)%side_1 > 0) then
+            call add_faces(model, analysis, model%joints(j), model%surfaces(model%joints(j)%side_1), grid)
+         else
+            call add_points(model, analysis, model%joints(j), grid)
+         end if
+      end do
+      n = grid%n_points
+      call file%points(grid%x(:, :n))
+      call file%cells(grid%corners(:grid%n_corners), grid%ends(:grid%n_cells), grid%types(:grid%n_cells))
+      associate (values => grid%values(:, :n), of => grid%element(:n))
+         call file%add(point_data, 'element', model%interface(of)%id)
+         call file%add(point_data, 'joint', model%joints(model%interface(of)%joint)%id)
+         call file%add(point_data, named('displacement', labels%length), grid%u(:, :n))
+         call file%add(point_data, named('lambda', labels%length), values(1, :))
+         call file%add(point_data, named('pressure', labels%pressure), values(2, :))
+         call file%add(point_data, named('gap', labels%length), values(6, :))
+         call file%add(point_data, named('tau', labels%pressure), values(3:5, :))
+         call file%add(point_data, 'branch', analysis%states(of)%normal%branch)
+         call file%add(point_data, 'slip', nint(values(7, :)))
+         call file%add(point_data, named('area', labels%area), values(8, :))
+      end associate
+   end subroutine write_joints
+
+   !> Room for as many points and cells as there can be.
+   subroutine make_room(model, grid)
+      type(model_type), intent(in)   :: model
+      type(grid_type), intent(inout) :: grid
+      integer :: cells, j, points
+
+      points = 0
+      cells = 0
+      do j = 1, size(model%joints)
+         if (model%joints(j)%side_1 > 0) then
+            associate (surface => model%surfaces(model%joints(j)%side_1))
+               points = points + sum(surface%n_nodes(:surface%n))
+               cells = cells + surface%n
+            end associate
+         else
+            points = points + model%joints(j)%last - model%joints(j)%first + 1
+            cells = cells + model%joints(j)%last - model%joints(j)%first + 1
+         end if
+      end do
+      allocate (grid%x(3, points), grid%element(points), grid%corners(points), grid%ends(cells), grid%types(cells))
+      allocate (grid%u(3, points), grid%values(n_values, points), source=0.0_wp)
+   end subroutine make_room
+
+   !> JOINT as the faces of SURFACE, its side 1, that have an element at any of their nodes.
+   subroutine add_faces(model, analysis, joint, surface, grid)
+      type(model_type), intent(in)    :: model
+      type(analysis_type), intent(in) :: analysis
+      type(joint_type), intent(in)    :: joint
+      type(surface_type), intent(in)  :: surface
+      type(grid_type), intent(inout)  :: grid
+      integer, allocatable :: all_nodes(:), own(:), point(:), share(:)
+      integer :: before, f, i, k
+
+      allocate (own(model%n_nodes), point(model%n_nodes), source=0) ! the element, and the point, of a node
+      allocate (share(size(grid%element)), source=0)
+      do i = joint%first, joint%last
+         associate (nodes => nodes_of_end(model%interface(i), 1), weights => weights_of_end(model%interface(i), 1))
+            own(nodes(maxloc(weights, dim=1))) = i
+         end associate
+      end do
+      before = grid%n_points
+      do f = 1, surface%n
+         associate (nodes => surface%nodes(:surface%n_nodes(f), f))
+            if (any(own(nodes) > 0)) point(nodes) = -1
+         end associate
+      end do
+      all_nodes = nodes_of(surface)
+      do k = 1, size(all_nodes)
+         if (point(all_nodes(k)) == 0) cycle
+         call add_point(model, analysis, all_nodes(k), model%x(:, all_nodes(k)), grid)
+         point(all_nodes(k)) = grid%n_points
+      end do
+      do f = 1, surface%n
+         associate (nodes => surface%nodes(:surface%n_nodes(f), f))
+            if (all(own(nodes) == 0)) cycle
+            do k = 1, size(nodes)
+               if (own(nodes(k)) > 0) then
+                  call take(own(nodes(k)), point(nodes(k)), .true.)
+               else
+                  associate (near => beside(k, surface%corners(f), size(nodes)))
+                     do i = 1, size(near)
+                        if (own(nodes(near(i))) > 0) call take(own(nodes(near(i))), point(nodes(k)), .false.)
+                     end do
+                  end associate
+               end if
+            end do
+            call add_cell(point(nodes), cell_type(surface%corners(f), size(nodes)), grid)
+         end associate
+      end do
+      do k = before + 1, grid%n_points
+         grid%values(:, k) = grid%values(:, k)/max(1, share(k))
+      end do
+
+   contains
+
+      !> Point K has the values of element E, as its ONLY one or among others.
+      subroutine take(e, k, only)
+         integer, intent(in) :: e, k
+         logical, intent(in) :: only
+
+         if (only .and. share(k) > 0) return
+         if (share(k) == 0) grid%element(k) = e
+         share(k) = share(k) + 1
+         grid%values(:, k) = grid%values(:, k) + values_of(model, analysis, e)
+      end subroutine take
+
+   end subroutine add_faces
+
+   !> The nodes of a side, by their places among its N, that say what node K of it has that has no element of its own: of a corner of a
+   !! side of second order the nodes between it and its neighbours, else all.
+   pure function beside(k, corners, n) result(near)
+      integer, intent(in)  :: k, corners, n
+      integer, allocatable :: near(:)
+      integer :: i
+
+      near = [(i, i = 1, n)]
+      if (n == corners .or. k > corners) return
+      near = [n]                                          ! an edge has one
+      if (corners > 2) near = [corners + k, corners + modulo(k - 2, corners) + 1]
+   end function beside
+
+   !> JOINT as a point an interface element.
+   subroutine add_points(model, analysis, joint, grid)
+      type(model_type), intent(in)    :: model
+      type(analysis_type), intent(in) :: analysis
+      type(joint_type), intent(in)    :: joint
+      type(grid_type), intent(inout)  :: grid
+      integer :: i
+
+      do i = joint%first, joint%last
+         associate (nodes => nodes_of_end(model%interface(i), 1))
+            call add_point(model, analysis, nodes(1), at_first_end(model%interface(i), model%x), grid)
+         end associate
+         grid%element(grid%n_points) = i
+         grid%values(:, grid%n_points) = values_of(model, analysis, i)
+         call add_cell([grid%n_points], vtk_vertex, grid)
+      end do
+   end subroutine add_points
+
+   !> A point at X that moves as NODE does.
+   subroutine add_point(model, analysis, node, x, grid)
+      type(model_type), intent(in)    :: model
+      type(analysis_type), intent(in) :: analysis
+      integer, intent(in)             :: node
+      real(wp), intent(in)            :: x(3)
+      type(grid_type), intent(inout)  :: grid
+
+      grid%n_points = grid%n_points + 1
+      grid%x(:, grid%n_points) = x
+      grid%u(:model%dimension, grid%n_points) = analysis%all_u(:, node)
+   end subroutine add_point
+
+   subroutine add_cell(points, kind, grid)
+      integer, intent(in)            :: points(:)
+      integer(int8), intent(in)      :: kind
+      type(grid_type), intent(inout) :: grid
+
+      grid%corners(grid%n_corners + 1:grid%n_corners + size(points)) = points
+      grid%n_corners = grid%n_corners + size(points)
+      grid%n_cells = grid%n_cells + 1
+      grid%ends(grid%n_cells) = grid%n_corners
+      grid%types(grid%n_cells) = kind
+   end subroutine add_cell
+
+   !> VTK's type of a side with so many corners and NODES in all.
+   pure integer(int8) function cell_type(corners, nodes)
+      integer, intent(in) :: corners, nodes
+      integer, parameter :: linear(2:4) = [3, 5, 9], quadratic(2:4) = [21, 22, 23]
+
+      cell_type = int(merge(linear(corners), quadratic(corners), nodes == corners), int8)
+   end function cell_type
+
+   !> What the point of interface element I shows.
+   pure function values_of(model, analysis, i) result(values)
+      type(model_type), intent(in)    :: model
+      type(analysis_type), intent(in) :: analysis
+      integer, intent(in)             :: i
+      real(wp) :: values(n_values)
+
+      associate (state => analysis%states(i), element => model%interface(i))
+         values(1:2) = [state%normal%lambda, state%normal%pressure]
+         values(3:5) = matmul(element%axes(:, :2), state%shear%tau)
+         values(6) = stands_apart(state%normal)
+         values(7) = merge(1.0_wp, 0.0_wp, state%slips)
+         values(8) = element%area
+      end associate
+   end function values_of
+
+end module vtu_joints

@@ -1,0 +1,124 @@
+# The answer at the end of a stage, number by number: NAME.stage.csv and NAME.bolt.csv against computations from the joint history and the
+# tables of the listing, and the block of the listing against these files.
+
+# of NAME FILE ACTION...: what query_results prints of NAME.FILE.csv
+of() { "$query" "$work/$1.$2.csv" "${@:3}"; }
+
+# one_joint NAME STAGE JOINT MU ACROSS: a plane joint whose z is +-Y, its x +X, all of whose interface elements have their whole load
+# history in the stages, by NEWTON. ACROSS: its shear directions, 'x' or 'x y'
+one_joint() {
+   local name=$1 stage=$2 joint=$3 mu=$4 row last s words="$1, stage $2, joint $3"
+   row=(rows "stage = $stage and joint = $joint")
+   last=("${row[@]}" rows 'increment = max(increment)')
+   s=$(of "$name" stage "${row[@]}" print x)
+   sum() { value "$name" "${last[@]}" print "$1"; }
+   at() { of "$name" stage "${row[@]}" print "$1"; }
+   near "$words: area" "$(at area)" "$(sum 'sum(area)')" 1e-12
+   near "$words: centroid" "$(at x)" "$(sum 'sum(area*x)/sum(area)')" 1e-12 1e-9
+   near "$words: share in contact" "$(at contact)" "$(sum 'sum(if(branch = "OPEN", 0, area))/sum(area)')" 1e-12
+   near "$words: largest pressure" "$(at p_max)" "$(sum 'max(pressure)')" 1e-12
+   near "$words: node of the largest pressure" "$(sum "sum(if(node1 = $(at p_node), pressure, 0))")" "$(at p_max)" 2e-6
+   near "$words: slipping" "$(at slipping)" "$(sum 'sum(slip)')" 0
+   near "$words: N" "$(at n)" "$(sum 'sum(force)')" 1e-12
+   near "$words: M" "$(at m)" "$(sum "abs(sum(force*(x - $s)))")" 1e-9 1e-6
+   near "$words: stiffness, normal" "$(at tangent_n)" "$(sum 'sum(k_n)')" 1e-12
+   near "$words: stiffness, tilt" "$(at tangent_tilt_y)" "$(sum "sum(k_n*(x - $s)^2)")" 1e-10
+   # the plane w + r s through the deflections of the elements in contact: least squares, areas the weights
+   local a='if(branch = "OPEN", 0, area)' d="(x - $s)" s0 s1 s2 b0 b1
+   s0=$(sum "sum($a)") s1=$(sum "sum($a*$d)") s2=$(sum "sum($a*$d^2)") b0=$(sum "sum($a*lambda)") b1=$(sum "sum($a*$d*lambda)")
+   near "$words: deflection" "$(at move_n)" "(($b0)*($s2) - ($b1)*($s1))/(($s0)*($s2) - ($s1)^2)" 1e-9
+   near "$words: turn" "abs($(at turn_y))" "abs((($b1)*($s0) - ($b0)*($s1))/(($s0)*($s2) - ($s1)^2))" 1e-9 1e-12
+   near "$words: secant, normal" "$(at secant_n)" "($(at n))/($(at move_n))" 1e-12
+   if [ "$(at secant_tilt_y)" != '' ]; then
+      near "$words: secant, tilt" "$(at secant_tilt_y)" "($(at m))/abs($(at turn_y))" 1e-9
+   fi
+   if [ "$mu" != 0 ]; then
+      near "$words: T" "$(at t)" "$(sum 'sqrt(sum(tau_x*area)^2 + sum(tau_y*area)^2)')" 1e-9 1e-7
+      near "$words: stiffness along x" "$(at tangent_x)" "$(sum 'sum(if(slip = 1, 0, k_sx))')" 1e-12
+      if [ "$(at 't > 0')" = 1 ]; then near "$words: safety" "$(at safety)" "$mu*($(at n))/($(at t))" 1e-9
+      else same "$words: no safety without T" "$(of "$name" stage "${row[@]}" all 'safety = ""' 2>&1)" ''; fi
+   fi
+}
+
+run_input lap_joint && {
+   for stage in 1 2 3; do one_joint lap_joint $stage 1 0.2; done
+   # an open element stands apart by what is missing to point B, A the farthest of the loading curve: lambda_A - p_A/EU
+   near 'lap_joint: largest gap' "$(of lap_joint stage rows 'stage = 2' print gap_max)" \
+      "$(value lap_joint rows "node1 = $(of lap_joint stage rows 'stage = 2' print gap_node) and stage < 3" \
+         print 'max(lambda) - max(pressure)/9500 - last(lambda)')" 1e-9
+}
+sed 's/^ *OUTPUT.*//; s/^SUBCASE.*/&\nOUTPUT = LAST, STRESS/' input/prism_newton.bdf > "$work/prism_answer.bdf"
+run prism_answer && {
+   one_joint prism_answer 1 1 0
+   of prism_answer stage print u_max print u_node print mises_centre print mises_element > "$work/said"
+   judge 'largest displacement and von Mises stress against the tables' '
+      NR == FNR { u = $1; u_node = $2; mises = $3; element = $4; next }
+      /^ DISPLACEMENTS/ { table = "u" } /^ PRINCIPAL/ { table = "mises" } /^ (REACTIONS|STRESSES|ANSWER)/ { table = "" }
+      table == "u" && NF == 5 && $1 ~ /^[0-9]+$/ { d = sqrt($4^2 + $5^2); if (d > most) { most = d; node = $1 } n++ }
+      table == "mises" && NF == 5 && $1 ~ /^[0-9]+$/ { if ($5 > largest) { largest = $5; worst = $1 } n++ }
+      END {
+         if ((u / most - 1)^2 > 1e-10 || u_node != node) print u, u_node, "not", most, node
+         if ((mises / largest - 1)^2 > 1e-10 || element != worst) print mises, element, "not", largest, worst
+         print "checked " n
+      }' "$work/said" "$work/prism_answer.out"
+   near 'largest gap on the way of one load' "$(of prism_answer stage print gap_max)" \
+      "$(value prism_answer rows "node1 = $(of prism_answer stage print gap_node)" \
+         print 'if(max(lambda) > 0, max(lambda) - max(pressure)/9500, 0) - last(lambda)')" 1e-9 1e-12
+}
+# second order: stresses at nodes, the mean of their elements, stand in the listing
+nodes='SUBCASE 1;LOAD = 1;OUTPUT = LAST, STRESS;BEGIN BULK;GRID,1,,0.,0.;GRID,2,,4.,0.;GRID,3,,4.,2.;GRID,4,,0.,2.;GRID,5,,9.,0.;GRID,6,,9.,3.;GRID,7,,2.,0.;GRID,8,,6.5,0.'
+cards='CQUAD8,1,1,1,2,3,4,7;CQUAD8,2,1,2,5,6,3,8;PSHELL,1,1,1.;MAT1,1,1000.,,.3;SPC1,1,12,1,4;FORCE,1,6,,1.,1.,3.;ENDDATA'
+echo "SPC = 1;$nodes;$cards" | tr ';' '\n' > "$work/nodes.bdf"
+run nodes && {
+   of nodes stage print mises_max print mises_node > "$work/said"
+   judge 'largest von Mises stress of nodes; a deck without joints' '
+      NR == FNR { mises = $1; node = $2; next }
+      /^ STRESSES AT NODES/ { on = 1 } /^ (REACTIONS|ANSWER)/ { on = 0 }
+      on && NF == 5 && $1 ~ /^[0-9]+$/ { n++; if ($5 > largest) { largest = $5; worst = $1 } }
+      END { if ((mises / largest - 1)^2 > 1e-10 || node != worst) print mises, node, "not", largest, worst; print "checked " n }' \
+      "$work/said" "$work/nodes.out"
+   same 'a deck without joints has a row a stage' "$(of nodes stage count 1 print joint)" 0
+}
+
+# Bolts: forces as in the listing, changes from stage to stage, the load by hand: 40000 along the bolt, in the second stage
+run_input flange_pair && {
+   judge 'flange_pair: bolt forces of the listing' '
+      NR == FNR { if (FNR > 1) { split($0, v, ","); force[++n] = v[5] } next }
+      /^ BOLT FORCES/ { on = 1 } /^ ENERGY/ { on = 0 }
+      on && $1 ~ /^[0-9]+$/ && $2 == 1 { k++; if ((force[k] / $6 - 1)^2 > 1e-10) print force[k], "not", $6 }
+      END { if (k != n) print k " rows, not " n; print "checked " k }' "$work/flange_pair.bolt.csv" "$work/flange_pair.out"
+   end=$(of flange_pair bolt rows 'stage = 1' print 'last(force)')
+   near 'flange_pair: preload' "$end" 80000 1e-12
+   of flange_pair bolt rows 'stage = 2' all "change = force - $end within 1e-6" all 'load_change = 40000*load within 1e-6' \
+      all 'ratio = change/load_change within 1e-12' > "$work/said" 2>&1 && passed=$((passed + 1)) || { cat "$work/said"; fail 'flange_pair: bolt rows'; }
+}
+
+# The block has the numbers of the files, to its digits
+for name in lap_joint flange_pair; do
+   judge "$name: the block against the files" -v bolts="$work/$name.bolt.csv" -v name="$name" '
+      function close_to(a, b, digits) { return (a - b)^2 <= (digits * (b < 0 ? -b : b) + 1e-9)^2 }
+      FNR == NR {
+         n = split($0, v, ",")
+         if (FNR == 1) { for (i = 1; i <= n; i++) at[v[i]] = i; next }
+         for (c in at) row[v[1], c] = v[at[c]]
+         next
+      }
+      /^ ANSWER AT THE END OF STAGE/ { s = $7; on = 1; next }
+      /^ END OF LISTING/ || /^ INCREMENTS/ { on = 0 }
+      on && /LARGEST DISPLACEMENT/ { checked++; if (!close_to($3, row[s, "u_max"], 1e-4) || $0 !~ "NODE +" row[s, "u_node"] " ") print }
+      on && /VON MISES, CENTRES/ { checked++; if (!close_to($5, row[s, "mises_centre"], 1e-4)) print }
+      on && /VON MISES, NODES/ { checked++; if (!close_to($5, row[s, "mises_max"], 1e-4)) print }
+      on && /JOINT CONTACT/ { table = "contact"; next }
+      on && /JOINT STIFFNESS/ { table = "stiffness"; next }
+      on && /BOLT +ELEMENT/ { table = "bolt"; next }
+      on && table == "contact" && $1 ~ /^[0-9]+$/ {
+         checked++
+         k = 5 + (row[s, "gap_node"] != "")
+         if (!close_to($2, 100 * row[s, "contact"], 1e-4) || !close_to($3, row[s, "p_max"], 1e-4) || $4 != row[s, "p_node"] ||
+             !close_to($5, row[s, "gap_max"], 1e-4) || $(k + 1) != row[s, "slipping"] || !close_to($(k + 2), row[s, "n"], 1e-4) ||
+             !close_to($(k + 3), row[s, "t"], 1e-4) || !close_to($(k + 4), row[s, "m"], 1e-4)) print
+         if (row[s, "safety"] != "" && !close_to($(k + 5), row[s, "safety"], 1e-3)) print
+      }
+      on && table == "stiffness" && /TANGENT/ { checked++; if (!close_to($(name == "lap_joint" ? 4 : 3), row[s, "tangent_n"], 1e-4)) print }
+      END { print "checked " checked }' "$work/$name.stage.csv" "$work/$name.out"
+done

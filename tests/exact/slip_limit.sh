@@ -1,0 +1,47 @@
+# What was in equilibrium is kept where NEWTON cannot go on. A block pressed by 1,000 and pushed by up to 500 with mu = 0.2 slips as a
+# whole at 200, at 0.4 of the push; pulled by up to 4,000 instead, it is loose at 1,000, at 0.25.
+
+limit() { # NAME FX FY
+   cat > "$work/$1.bdf" <<END
+METHOD = NEWTON
+SUBCASE 1
+  LOAD = 1
+SUBCASE 2
+  LOAD = 4
+  INCR = 2
+BEGIN BULK
+BLOCK2,1,1,4,1,0.,0.
++,40.,10.
++,20,,21
+PMARK,20
+PMARK,21
+PSHELL,1,1,10.
+MAT1,1,210000.,,0.0
+JOINT,1,1,20
+PJOINT,1,1,1,,0.2
+JNORM,1,8.-3,0.5,9500.
+JSHEAR,1,100.,300.
+FORCEM,1,1000.,0.,-1.,0.,21
+FORCEM,2,1.,$2,$3,0.,20
+LOAD,4,1.,1.,1,1.,2
+JINCR,2,3,LIST,0.2,0.5,0.3
+ENDDATA
+END
+   rm -f "$work/$1".*.csv "$work/$1.out"
+   run "$1" 3
+}
+
+limit limit_pushed 500. 0.
+says 'pushed over its friction: the message' "$work/limit_pushed.log" 'joint 1 slips .*the last state in equilibrium stands at 0.[34][0-9]* of stage 2; the results end there'
+ask 'the last row is the last state' limit_pushed rows 'stage = 2' all 'load <= 0.4001'
+near 'the limit load to three digits' "$(value limit_pushed rows 'stage = 2 and increment = 2 and node1 = 1' print load)" 0.4 0 5e-4
+ask 'where friction is all but used up' limit_pushed rows 'stage = 2 and increment = 2' all 'abs(tau_x) = 0.2*pressure within 2e-3*pressure'
+says 'the listing is marked' "$work/limit_pushed.out" '^ ENDED EARLY'
+same 'and has no end as of others' "$(grep -c '^ END OF LISTING' "$work/limit_pushed.out")" 0
+limit limit_pulled 0. 4000.
+near 'pulled loose: the limit load' "$(value limit_pulled rows 'stage = 2 and increment = 2 and node1 = 1' print load)" 0.25 0 5e-4
+sed -i 's/^FORCEM,1,1000\.,0\.,-1\./FORCEM,1,1000.,0.9,-1./' "$work/limit_pushed.bdf"
+rm -f "$work/limit_pushed".*.csv "$work/limit_pushed.out"
+run limit_pushed 3
+same 'nothing in equilibrium: no results' "$(ls "$work"/limit_pushed.out "$work"/limit_pushed.*.csv 2> /dev/null)" ''
+says 'nothing in equilibrium: said' "$work/limit_pushed.log" 'no results'
