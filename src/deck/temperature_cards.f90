@@ -18,7 +18,7 @@ contains
       type(card_reader_type), intent(inout) :: cards
       type(bulk_data_type), intent(inout)   :: bulk
       type(card_values) :: values
-      character(:), allocatable :: k
+      character(1) :: k
       logical :: for_all
       integer :: field, first, i, n
 
