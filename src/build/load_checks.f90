@@ -170,6 +170,7 @@ contains
       character(:), allocatable :: name
       integer :: i, k
 
+      name = ''
       do i = 1, size(deck%bulk%load)
          associate (card => deck%bulk%load(i))
             do k = 1, size(card%sets)
