@@ -9,7 +9,7 @@ here=$(dirname "$0")
 [ -f "$deck" ] || { echo "there is no deck $deck"; exit 1; }
 command -v gnuplot > /dev/null || { echo 'make figures needs gnuplot: apt-get install gnuplot-nox'; exit 1; }
 mkdir -p "$work"
-"$program" -q -o "$work" "$deck"
+"$program" -q -o "$work" "$deck" > /dev/null
 status=$?
 [ $status -eq 0 ] || { echo "$deck ended with status $status: nothing is drawn"; exit $status; }
 

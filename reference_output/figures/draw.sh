@@ -10,13 +10,13 @@ command -v gnuplot > /dev/null || { echo 'make figures needs gnuplot: apt-get in
 mkdir -p "$work"
 decks='normal_loop shear_cycles shear_step shear_pressure friction_none friction_once friction_full
        prism03 prism05 prism10 prism15 prism_newton prism_back'
-for deck in $decks; do "$program" -q -o "$work" "input/$deck.bdf"; done
+for deck in $decks; do "$program" -q -o "$work" "input/$deck.bdf" > /dev/null; done
 
 # the prism by STEP in 3 to 320 increments, against NEWTON in 40: deflection of node 51, pressures, largest error
 prism() { # METHOD INCREMENTS FIRST
    sed -E "s/^METHOD.*/METHOD = $1/; s/^JINCR.*/JINCR,$2,$2,ARITH,$3/; s/^( *INCR =).*/\\1 $2/" input/prism05.bdf \
       > "$work/$1_$2.bdf"
-   "$program" -q -o "$work" "$work/$1_$2.bdf"
+   "$program" -q -o "$work" "$work/$1_$2.bdf" > /dev/null
 }
 at_the_end() { # METHOD INCREMENTS: the increments, the deflection of node 51, the pressures of nodes 6, 11, ..., 51
    awk -F, -v n=$2 '$2 == n { pressure[$6] = $14; lambda[$6] = $13 }
@@ -45,7 +45,7 @@ echo 'thickness,flexible,stiff' > "$work/flange.csv"
 for t in 2 3 4 5 6 7 8 9 10 11 12; do
    for law in '1.0-3,0.5,2.0+5' '1.0-5,0.5,2.0+7'; do
       awk -v t=$t -f tests/exact/flange_thickness.awk input/flange_pair.bdf | sed "s/^JNORM.*/JNORM,1,$law/" > "$work/flange.bdf"
-      "$program" -q -o "$work" "$work/flange.bdf"
+      "$program" -q -o "$work" "$work/flange.bdf" > /dev/null
       contact_edges "$query" "$work/flange.joint.csv"
    done | awk -v t=$t '{ reach[NR] = $2 - 40 } END { print t "," reach[1] "," reach[2] }' >> "$work/flange.csv"
 done

@@ -1,7 +1,7 @@
 !> The parts of a model: bodies and nodes that elements, bars and bolts connect. Joints connect nothing here.
 module connected_parts
    use disjoint_sets, only: join, root_of
-   use model_data, only: model_type, n_bars, n_sections
+   use model_data, only: model_type, n_bars, n_rotations, n_sections
    use section_coupling, only: section_node
    implicit none
    private
@@ -10,7 +10,7 @@ module connected_parts
 
 contains
 
-   !> Number the connected bodies (a node without a body is a part of its own). Behind the section of a solid bolt the node of the
+   !> Number the connected bodies (a node without a body is a part of its own). What depends on others is one with them. Behind the section of a solid bolt the node of the
    !! section stands for those that it cuts.
    pure subroutine find_parts(model, with_bolts)
       type(model_type), intent(inout) :: model
@@ -29,6 +29,14 @@ contains
       do k = 1, n_bars(model)
          if (model%bars(k)%nodes(2) == 0) cycle ! the ground
          if (with_bolts .or. model%bars(k)%bolt == 0) call join(parent, model%bars(k)%nodes(1), model%bars(k)%nodes(2))
+      end do
+      if (allocated(model%coupling%of_node)) then
+         do node = 1, model%n_nodes
+            call join_coupled(model, node, parent)
+         end do
+      end if
+      do k = 1, n_rotations(model)
+         call join(parent, model%rotations(k)%point, model%rotations(k)%node)
       end do
       if (with_bolts) then
          do k = 1, n_sections(model)
@@ -59,5 +67,20 @@ contains
       end function uncut
 
    end subroutine find_parts
+
+   !> NODE and all those whose unknowns it moves with are one part.
+   pure subroutine join_coupled(model, node, parent)
+      type(model_type), intent(in) :: model
+      integer, intent(in)          :: node
+      integer, intent(inout)       :: parent(:)
+      integer :: k
+
+      associate (coupling => model%coupling, c => model%coupling%of_node(node))
+         if (c == 0) return
+         do k = coupling%first(c), coupling%first(c + 1) - 1
+            call join(parent, node, coupling%node(k))
+         end do
+      end associate
+   end subroutine join_coupled
 
 end module connected_parts

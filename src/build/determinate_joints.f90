@@ -4,7 +4,7 @@ module determinate_joints
    use id_table, only: distinct
    use interface_operator, only: nodes_of_end
    use kinds, only: wp
-   use model_data, only: joint_type, model_type, n_bars, n_points, n_sections, stage_load_type
+   use model_data, only: joint_type, model_type, n_bars, n_points, n_rotations, n_sections, stage_load_type, supported
    use node_coupling, only: is_coupled
    implicit none
    private
@@ -28,7 +28,7 @@ contains
       allocate (held(model%dimension, model%n_parts), source=.false.)
       do node = 1, n_points(model)
          if (is_coupled(model, [node])) cycle ! its directions are others
-         held(:, model%part(node)) = held(:, model%part(node)) .or. model%held(:, node)
+         held(:, model%part(node)) = held(:, model%part(node)) .or. supported(model, node)
       end do
       do i = 1, n_bars(model)
          associate (spring => model%bars(i))
@@ -167,12 +167,12 @@ contains
       resultant = 0.0_wp
       do i = 1, loads%n
          node = loads%node(i)
-         if (node > n_points(model)) then  ! a pair of forces that shortens a solid bolt
-            associate (section => model%sections(node - n_points(model)))
+         if (node > n_points(model) + n_rotations(model)) then  ! a pair of forces that shortens a solid bolt
+            associate (section => model%sections(node - n_points(model) - n_rotations(model)))
                if (joint%carries(model%part(node))) call add(loads%force(1, i)*section%direction)
                if (joint%carries(model%part(section%point))) call add(-loads%force(1, i)*section%direction)
             end associate
-         else if (joint%carries(model%part(node))) then
+         else if (node <= n_points(model) .and. joint%carries(model%part(node))) then ! behind these moments
             call add(loads%force(:, i))
          end if
       end do

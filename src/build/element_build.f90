@@ -150,7 +150,7 @@ contains
       end if
    end subroutine check_property
 
-   !> No element number twice, bodies, faces, edges and interface elements counted together as NASTRAN does.
+   !> No element number twice, bodies, faces, edges, interface elements and rigid ones counted together as NASTRAN does.
    subroutine check_element_numbers(deck, blocks)
       type(checked_deck), intent(in) :: deck
       type(block_type), intent(in)   :: blocks(:)
@@ -158,12 +158,12 @@ contains
       integer :: b, n, n_cards, k
 
       associate (bulk => deck%bulk)
-         n_cards = size(bulk%element) + size(bulk%edge) + size(bulk%cjoint) + size(bulk%conrod) + &
+         n_cards = size(bulk%element) + size(bulk%edge) + size(bulk%cjoint) + size(bulk%conrod) + size(bulk%rigid) + &
                    size(bulk%spring) + size(bulk%mass)
          allocate (id(n_cards + n_elements(blocks)), line(n_cards + n_elements(blocks)))
-         id(:n_cards) = [bulk%element%id, bulk%edge%id, bulk%cjoint%id, bulk%conrod%id, bulk%spring%id, bulk%mass%id]
-         line(:n_cards) = [bulk%element%line, bulk%edge%line, bulk%cjoint%line, bulk%conrod%line, bulk%spring%line, &
-                             bulk%mass%line]
+         id(:n_cards) = [bulk%element%id, bulk%edge%id, bulk%cjoint%id, bulk%conrod%id, bulk%rigid%id, bulk%spring%id, bulk%mass%id]
+         line(:n_cards) = [bulk%element%line, bulk%edge%line, bulk%cjoint%line, bulk%conrod%line, bulk%rigid%line, &
+                           bulk%spring%line, bulk%mass%line]
       end associate
       n = n_cards
       do b = 1, size(blocks)

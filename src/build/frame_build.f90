@@ -16,7 +16,8 @@ module frame_build
 contains
 
    !> Couple the nodes of MODEL that have a CD, and their twins of split surfaces, to unknowns along its directions.
-   !! Errors: no such system; a node on the axis of a cylindrical or spherical one; directions that leave the plane of a plane model.
+   !! Errors: no such system; a node on the axis of a cylindrical or spherical one; directions out of the plane of a plane
+   !! model.
    subroutine build_frames(deck, model)
       type(checked_deck), intent(in)  :: deck
       type(model_type), intent(inout) :: model

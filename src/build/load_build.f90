@@ -8,6 +8,7 @@ module load_build
    use load_checks, only: check_load_cards, has_set, nor_others
    use model_data, only: corners_of, model_type, stage_load_type, surface_type
    use nodal_forces, only: find_nodal_forces
+   use reference_nodes, only: place_of_component
    use section_coupling, only: add_section_share
    use pressed_sides, only: add_pressure, find_pressed_sides, pressed_side
    use surface_build, only: side_influence
@@ -25,10 +26,11 @@ contains
       type(checked_deck), intent(in)  :: deck
       type(model_type), intent(inout) :: model
       type(pressed_side), allocatable :: pressed(:)
-      real(wp), allocatable :: force(:, :) ! of the cards of nodal forces
+      integer, allocatable  :: node(:)     ! of the cards of nodal forces
+      real(wp), allocatable :: force(:, :) ! likewise
       integer :: i, k, s
 
-      call find_nodal_forces(deck, model, force)
+      call find_nodal_forces(deck, model, node, force)
       call check_load_cards(deck, model)
       call find_pressed_sides(deck, model, pressed)
       allocate (model%stage_loads(size(deck%control%stages)))
@@ -40,11 +42,11 @@ contains
             if (i > 0) then
                associate (load => deck%bulk%load(i))
                   do k = 1, size(load%sets)
-                     call add_set(deck, model, force, pressed, load%sets(k), load%scale*load%factors(k), loads)
+                     call add_set(deck, model, node, force, pressed, load%sets(k), load%scale*load%factors(k), loads)
                   end do
                end associate
             else
-               call add_set(deck, model, force, pressed, reference%id, 1.0_wp, loads)
+               call add_set(deck, model, node, force, pressed, reference%id, 1.0_wp, loads)
                if (.not. has_set(deck%bulk, reference%id)) call deck%errors%add(reference%line, &
                   'LOAD: there is no FORCE or LOAD with set '//integer_text(reference%id)//nor_others)
             end if
@@ -53,10 +55,11 @@ contains
    end subroutine build_loads
 
    !> Add FACTOR times everything of SET to LOADS: nodal forces one by one, distributed loads summed up at every node.
-   subroutine add_set(deck, model, force, pressed, set, factor, loads)
+   subroutine add_set(deck, model, nodal, force, pressed, set, factor, loads)
       type(checked_deck), intent(in)       :: deck
       type(model_type), intent(in)         :: model
-      real(wp), intent(in)                 :: force(:, :) !! (3, cards of nodal forces), in global axes [force]
+      integer, intent(in)                  :: nodal(:)    !! (cards of nodal forces) the nodes on which they act
+      real(wp), intent(in)                 :: force(:, :) !! (3, likewise), in global axes [force]
       type(pressed_side), intent(in)       :: pressed(:)
       integer, intent(in)                  :: set
       real(wp), intent(in)                 :: factor
@@ -67,8 +70,7 @@ contains
 
       associate (bulk => deck%bulk)
          do i = 1, size(bulk%force)
-            if (bulk%force(i)%set == set) call add_force(model%node_table%find(bulk%force(i)%node), &
-                                                         factor*force(:, i), loads)
+            if (bulk%force(i)%set == set) call add_force(nodal(i), factor*force(:, i), loads)
          end do
          do i = 1, size(bulk%displacement)
             if (bulk%displacement(i)%set == set) call add_displacement(i)
@@ -112,10 +114,15 @@ contains
             at = model%node_table%find(displacement%node)
             if (at == 0) return
             if (.not. allocated(loads%moved)) allocate (loads%moved(model%dimension, model%n_nodes), source=0.0_wp)
-            do d = 1, model%dimension
+            do d = 1, 6
                if (.not. has_component(displacement%components, d)) cycle
-               loads%moved(d, at) = loads%moved(d, at) + factor*displacement%value
-               if (model%twin(at) > 0) loads%moved(d, model%twin(at)) = loads%moved(d, at) ! a split node: both of it
+               associate (place => place_of_component(model, at, d))
+                  if (place%node == 0) cycle
+                  associate (moved => loads%moved(place%d, place%node))
+                     moved = moved + factor*displacement%value*place%scale
+                     if (model%twin(place%node) > 0) loads%moved(d, model%twin(at)) = moved ! a split node: both of it
+                  end associate
+               end associate
             end do
          end associate
       end subroutine add_displacement

@@ -4,7 +4,8 @@ module load_checks
    use coordinate_systems, only: rectangular
    use deck_check, only: checked_deck
    use kinds, only: wp
-   use model_data, only: model_type
+   use model_data, only: model_type, supported
+   use reference_nodes, only: component_place, place_of_component
    use surface_build, only: find_surface
    use surface_sides, only: nodes_of
    use system_build, only: find_system
@@ -152,17 +153,29 @@ contains
             do d = 1, 6
                if (.not. has_component(card%components, d)) cycle
                words = ''
-               if (d > model%dimension) then
-                  words = ', expected 1 to '//integer_text(model%dimension)
-               else if (.not. model%held(d, node)) then
-                  words = ' of node '//integer_text(card%node)//' is not supported: SPCD moves components that an SPC holds'
-               end if
+               associate (place => place_of_component(model, node, d))
+                  if (place%node == 0) then
+                     words = ', expected 1 to '//integer_text(model%dimension)
+                  else if (.not. is_supported(model, place)) then
+                     words = ' of node '//integer_text(card%node)//' is not supported: SPCD moves components that an SPC holds'
+                  end if
+               end associate
                if (words /= '') call deck%field_error(card%line, card%field + 1, 'component '//integer_text(d)//words, &
                                                       called='C')
             end do
          end associate
       end do
    end subroutine check_displacements
+
+   !> Whether the component at PLACE is supported.
+   pure logical function is_supported(model, place)
+      type(model_type), intent(in)      :: model
+      type(component_place), intent(in) :: place
+      logical :: held(model%dimension)
+
+      held = supported(model, place%node)
+      is_supported = held(place%d)
+   end function is_supported
 
    !> LOAD cards combine sets that are there.
    subroutine check_combinations(deck)
@@ -175,10 +188,13 @@ contains
          associate (card => deck%bulk%load(i))
             do k = 1, size(card%sets)
                if (card%sets(k) <= 0 .or. has_set(deck%bulk, card%sets(k))) cycle
-               name = 'there is no FORCE with set '//integer_text(card%sets(k))//nor_others
-               if (any(deck%bulk%load%set == card%sets(k))) name = integer_text(card%sets(k))//' is a LOAD too; expected the '// &
-                  'sets of forces and pressures that it combines'
-               call deck%field_error(card%line, card%at(k), name, called='L'//integer_text(k))
+               if (any(deck%bulk%load%set == card%sets(k))) then
+                  call deck%field_error(card%line, card%at(k), integer_text(card%sets(k))//' is a LOAD too; expected the '// &
+                                        'sets of forces and pressures that it combines', called='L'//integer_text(k))
+               else
+                  call deck%field_error(card%line, card%at(k), 'there is no FORCE with set '//integer_text(card%sets(k))// &
+                                        nor_others, called='L'//integer_text(k))
+               end if
             end do
             if (.not. has_set(deck%bulk, card%set)) cycle
             name = others

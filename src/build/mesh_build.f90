@@ -49,7 +49,8 @@ contains
       end do
       call build_systems(deck, model%systems)
       call collect_nodes(deck, model%systems, blocks, raw)
-      if (size(deck%bulk%element) + size(blocks) == 0) model%dimension = merge(3, 2, any(abs(raw%x(3, :raw%n)) > 0.0_wp)) ! bars alone
+      if (size(deck%bulk%element) + size(blocks) == 0) & ! bars alone
+         model%dimension = merge(3, 2, any(abs(raw%x(3, :raw%n)) > 0.0_wp))
       call order_nodes(raw, model, position)
       call resolve_properties(deck, model)
       call collect_elements(deck, blocks, raw, position, model)

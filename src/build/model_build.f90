@@ -15,6 +15,8 @@ module model_build
    use load_build, only: build_loads
    use mesh_build, only: build_mesh, marked_sides
    use model_data, only: model_type, n_sections
+   use rigid_build, only: build_dependents
+   use rotation_build, only: build_rotations
    use section_build, only: build_sections
    use shown_nodes, only: find_shown_nodes
    use spring_build, only: build_springs
@@ -48,10 +50,12 @@ contains
       call build_joints(checked, model)
       call build_gaps(checked, model)
       call build_bars(checked, model)
+      call build_rotations(checked, model)
       call build_supports(checked, model)
       call build_sections(checked, model)
       call build_frames(checked, model)
       call build_springs(checked, model)
+      call build_dependents(checked, model)
       call build_loads(checked, model)
       call build_temperatures(checked, model)
       call plan_stages(deck, plan, errors)

@@ -103,8 +103,8 @@ contains
       end associate
    end subroutine find_direction
 
-   !> PLOAD4 I on faces that elements mark, from its EID to its EID2: along the normals of these elements, the right hand round their
-   !! corners, or along its direction.
+   !> PLOAD4 I on faces that elements mark, from its EID to its EID2: along the normals of these elements, the right hand round
+   !! their corners, or along its direction.
    subroutine press_on_marked(deck, model, i, pressed, n)
       type(checked_deck), intent(in)                 :: deck
       type(model_type), intent(in)                   :: model

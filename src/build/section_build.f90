@@ -4,6 +4,7 @@ module section_build
    use bulk_data, only: bolt_card
    use deck_check, only: checked_deck
    use element_kinds, only: max_side_nodes
+   use extra_nodes, only: append_node
    use kinds, only: wp
    use model_data, only: model_type, section_type
    use surface_build, only: find_surface, side_influence, surface_node_list, surface_nodes
@@ -155,28 +156,12 @@ contains
    !> Append a node for every section, behind all others: its first component free. Its elements are those behind the section.
    subroutine append_section_nodes(model)
       type(model_type), intent(inout) :: model
-      integer, allocatable  :: behind(:), none(:)
-      logical, allocatable  :: held(:, :)
-      integer :: e, k, n
+      integer :: e, k
 
-      n = model%n_nodes
-      associate (m => size(model%sections))
-         allocate (none(m), source=0)
-         allocate (held(model%dimension, m), source=.true.)
-         held(1, :) = .false.
-         model%node_id = [model%node_id, none]
-         model%twin = [model%twin, none]
-         model%node_section = [model%node_section, none]
-         model%used = [model%used, .not. held(1, :)]
-         model%held = reshape([model%held, held], [model%dimension, n + m])
-         model%n_nodes = n + m
-      end associate
       do k = 1, size(model%sections)
-         behind = pack([(e, e = 1, model%n_elements)], model%element_section == k)
-         model%sections(k)%node = n + k
-         model%x = reshape([model%x, model%x(:, model%sections(k)%point)], [3, n + k])
-         model%elements_at = [model%elements_at, behind]
-         model%first_at = [model%first_at, size(model%elements_at) + 1]
+         call append_node(model, model%x(:, model%sections(k)%point), [.true., spread(.false., 1, model%dimension - 1)], &
+                          pack([(e, e = 1, model%n_elements)], model%element_section == k))
+         model%sections(k)%node = model%n_nodes
       end do
    end subroutine append_section_nodes
 

@@ -2,7 +2,8 @@
 module support_build
    use bulk_data, only: has_component, support_card
    use deck_check, only: checked_deck
-   use model_data, only: model_type, n_bars
+   use model_data, only: model_type, n_bars, n_points
+   use reference_nodes, only: place_of_component
    use surface_build, only: find_surface
    use surface_sides, only: nodes_of
    use text_tools, only: integer_text
@@ -103,7 +104,7 @@ contains
          end if
          ! G1 THRU G2: the nodes that are there, as in NASTRAN; there must be one
          any_node = support%last(k) < support%first(k) ! said already
-         do node = first_from(model, support%first(k)), model%n_nodes
+         do node = first_from(model, support%first(k)), n_points(model)
             if (model%node_id(node) > support%last(k)) exit
             any_node = .true.
             if (active) call hold(model, node, support%components)
@@ -120,7 +121,7 @@ contains
       integer :: low, high, middle
 
       low = 1
-      high = model%n_nodes + 1
+      high = n_points(model) + 1
       do while (low < high)
          middle = (low + high)/2
          if (model%node_id(middle) < id) then
@@ -132,17 +133,20 @@ contains
       node = low
    end function first_from
 
-   !> Hold NODE in COMPONENTS; those that a plane model does not have (3 to 6) are held anyway.
+   !> Hold NODE in COMPONENTS, those of rotations where it has any; what a node does not have (3 to 5 in the plane) is held anyway.
    pure subroutine hold(model, node, components)
       type(model_type), intent(inout) :: model
       integer, intent(in)             :: node, components
       integer :: d
 
       if (node == 0) return
-      do d = 1, model%dimension
+      do d = 1, 6
          if (.not. has_component(components, d)) cycle
-         model%held(d, node) = .true.
-         if (model%twin(node) > 0) model%held(d, model%twin(node)) = .true. ! a split node: both of it
+         associate (place => place_of_component(model, node, d))
+            if (place%node == 0) cycle
+            model%held(place%d, place%node) = .true.
+            if (model%twin(place%node) > 0) model%held(d, model%twin(node)) = .true. ! a split node: both of it
+         end associate
       end do
    end subroutine hold
 

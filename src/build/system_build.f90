@@ -1,5 +1,5 @@
-!> Coordinate systems from their cards, each in global axes, whatever stands on whatever; and the vectors and nodes that are given in
-!! them.
+!> Coordinate systems from their cards, each in global axes, whatever stands on whatever; and the vectors and nodes that are given
+!! in them.
 module system_build
    use bulk_data, only: system_card
    use coordinate_systems, only: coordinate_system, directions_at, make_system, position_in, rectangular
@@ -14,8 +14,8 @@ module system_build
 
 contains
 
-   !> The SYSTEMS of all CORD cards, in their order. CORD2 may stand on any other system, CORD1 on nodes that are given in any other;
-   !! what stands on itself is an error.
+   !> The SYSTEMS of all CORD cards, in their order. CORD2 may stand on any other system, CORD1 on nodes that are given in any
+   !! other; what stands on itself is an error.
    subroutine build_systems(deck, systems)
       type(checked_deck), intent(in)                    :: deck
       type(coordinate_system), allocatable, intent(out) :: systems(:)

@@ -100,6 +100,23 @@ module bulk_data
       integer, allocatable :: first(:), last(:), at(:)  ! AT(k): data field of FIRST(k)
    end type support_card
 
+   !> RBE2: the NODES move with the reference node as a rigid body, each in its DIRECTIONS; RBE3: the COMPONENTS of the reference node
+   !! are the mean of the NODES, each with its WEIGHT in its DIRECTIONS.
+   type, public :: rigid_card
+      integer :: line = 0, id = 0
+      logical :: is_mean = .false.                      ! RBE3
+      integer :: node = 0, components = 0               ! the reference node; RBE2: the components are the directions
+      integer, allocatable  :: nodes(:), directions(:), at(:) ! AT(k): data field of NODES(k)
+      real(wp), allocatable :: weight(:)
+   end type rigid_card
+
+   !> MPC: the sum of FACTOR(k) times COMPONENT(k) of NODE(k) is zero; the first term depends on the others.
+   type, public :: equation_card
+      integer :: line = 0, set = 0
+      integer, allocatable  :: node(:), component(:), at(:) ! AT(k): data field of NODE(k)
+      real(wp), allocatable :: factor(:)
+   end type equation_card
+
    !> SPCADD: the union of support SETS.
    type, public :: support_sum_card
       integer :: line = 0, set = 0
@@ -260,6 +277,8 @@ module bulk_data
       type(mat1_card), allocatable         :: mat1(:)
       type(support_card), allocatable      :: support(:)
       type(support_sum_card), allocatable  :: support_sum(:)
+      type(rigid_card), allocatable        :: rigid(:)
+      type(equation_card), allocatable     :: equation(:)
       type(force_card), allocatable        :: force(:)
       type(pressure_card), allocatable     :: pressure(:)
       type(surface_load_card), allocatable :: surface_load(:)

@@ -36,6 +36,7 @@ module case_control
       type(set_reference) :: increments
       type(set_reference) :: supports
       type(set_reference) :: temperature !! at the end of the stage; none: all is at its TREF
+      type(set_reference) :: equations !! between components, MPC
       integer :: output = output_last
       logical :: plot   = .false.
       logical :: vtu    = .false.
@@ -169,7 +170,7 @@ contains
       select case (entry%key)
       case ('SUBCASE')
          call start_stage(entry, control, common, errors)
-      case ('LABEL', 'LOAD', 'INCR', 'SPC', 'OUTPUT', 'TEMPERATURE')
+      case ('LABEL', 'LOAD', 'INCR', 'SPC', 'MPC', 'OUTPUT', 'TEMPERATURE')
          if (n == 0) then
             call read_stage_entry(entry, common, errors)
          else
@@ -260,6 +261,8 @@ contains
          call read_number(entry, stage%increments, errors)
       case ('SPC')
          call read_number(entry, stage%supports, errors)
+      case ('MPC')
+         call read_number(entry, stage%equations, errors)
       case ('OUTPUT')
          call read_output(entry, stage, errors)
       case ('TEMPERATURE')
@@ -360,10 +363,12 @@ contains
       if (control%method == method_back .and. size(control%stages) > 1) call errors%add(control%stages(2)%line, &
          'SUBCASE: METHOD = BACK knows loading only, in one stage; METHOD = STEP or NEWTON follow a history')
       do i = 2, size(control%stages)
-         if (control%stages(i)%supports%id /= control%stages(1)%supports%id) then
-            call errors%add(max(control%stages(i)%supports%line, control%stages(i)%line), &
-                            'SPC: all stages must have the same supports; give SPC above the first SUBCASE')
-         end if
+         associate (this => control%stages(i), first => control%stages(1))
+            if (this%supports%id /= first%supports%id) call errors%add(max(this%supports%line, this%line), &
+               'SPC: all stages must have the same supports; give SPC above the first SUBCASE')
+            if (this%equations%id /= first%equations%id) call errors%add(max(this%equations%line, this%line), &
+               'MPC: all stages must have the same equations; give MPC above the first SUBCASE')
+         end associate
       end do
    end subroutine check_stages
 

@@ -12,7 +12,7 @@ module case_entries
    !> Keys that hold for all stages, and those of a stage.
    character(8), parameter, public :: global_keys(10) = [character(8) :: 'SOL', 'TITLE', 'UNITS', 'METHOD', 'TOL', 'PRESSURE', &
       'CARRY', 'AVERAGE', 'SOLVER', 'ECHO']
-   character(11), parameter :: stage_keys(6) = [character(11) :: 'SPC', 'LABEL', 'LOAD', 'INCR', 'OUTPUT', 'TEMPERATURE']
+   character(11), parameter :: stage_keys(7) = [character(11) :: 'SPC', 'MPC', 'LABEL', 'LOAD', 'INCR', 'OUTPUT', 'TEMPERATURE']
 
    !> A key with a number, and the line it stands on (0: not given).
    type, public :: set_reference

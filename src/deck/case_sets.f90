@@ -1,5 +1,5 @@
-!> SET n = 1, 3, 10 THRU 20, 30 THRU 50 EXCEPT 35, 36: numbers to which case control gives a name. A set is kept as it is written; what
-!! is wrong with one that nothing uses does no harm.
+!> SET n = 1, 3, 10 THRU 20, 30 THRU 50 EXCEPT 35, 36: numbers to which case control gives a name. A set is kept as it is
+!! written; what is wrong with one that nothing uses does no harm.
 module case_sets
    use case_entries, only: entry_type
    use deck_errors, only: deck_error_list

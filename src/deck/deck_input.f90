@@ -16,6 +16,7 @@ module deck_input
    use nastran_habits, only: is_idle_card
    use parameter_cards, only: read_parameter
    use property_cards, only: read_conrod, read_mat1, read_paxis, read_prod, read_pshell, read_psolid
+   use rigid_cards, only: read_equation, read_rigid
    use spring_cards, only: read_mass, read_spring, read_spring_property
    use support_cards, only: read_displacement, read_support, read_support_sum
    use system_cards, only: fill_grid_defaults, read_grid_defaults, read_system, system_names
@@ -61,6 +62,8 @@ contains
       call cards%add_kinds(['MAT1'], read_mat1)
       call cards%add_kinds(['SPC ', 'SPC1', 'SPCM'], read_support)
       call cards%add_kinds(['SPCADD'], read_support_sum)
+      call cards%add_kinds(['RBE2', 'RBE3'], read_rigid)
+      call cards%add_kinds(['MPC'], read_equation)
       call cards%add_kinds(['FORCE ', 'FORCE1', 'FORCE2', 'MOMENT'], read_force)
       call cards%add_kinds(['PLOAD4', 'PLOADE', 'PLOAD '], read_pressure)
       call cards%add_kinds(['PLOADM', 'FORCEM'], read_surface_load)

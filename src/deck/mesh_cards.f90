@@ -39,8 +39,8 @@ contains
    end subroutine read_grid
 
    !> CTRIA3, CTRIA6, CQUAD4, CQUAD8, CTETRA, CPENTA and CHEXA, the body elements; in a model of solids, faces of marked surfaces
-   !! are those of the plane too. Any mid-side node makes the element one of second order. THETA turns the axes of a material, which is
-   !! isotropic here: read without effect. ZOFFS and corner thicknesses of plates must be blank.
+   !! are those of the plane too. Any mid-side node makes the element one of second order. THETA turns the axes of a material, which
+   !! is isotropic here: read without effect. ZOFFS and corner thicknesses of plates must be blank.
    subroutine read_element(cards, bulk)
       type(card_reader_type), intent(inout) :: cards
       type(bulk_data_type), intent(inout)   :: bulk

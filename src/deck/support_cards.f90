@@ -1,5 +1,5 @@
-!> The cards of supports: SPC, SPC1, SPCM, their sum SPCADD, and SPCD, which moves them. A routine for each array of the bulk data, a
-!! table for each kind.
+!> The cards of supports: SPC, SPC1, SPCM, their sum SPCADD, and SPCD, which moves them. A routine for each array of the bulk data,
+!! a table for each kind.
 module support_cards
    use bulk_data, only: bulk_data_type, displacement_card, support_card, support_sum_card
    use card_fields, only: card_values, decode_integer

@@ -1,6 +1,6 @@
-!> Nodal forces of a warm element: those that its nodes need to stay in their places, with the opposite sign. The temperature varies
-!! as the shape functions between its values at the nodes. Integrated as the stiffness is, so that an element free to expand under an
-!! even temperature has no stress, whatever its shape.
+!> Nodal forces of a warm element: those that its nodes need to stay in their places, with the opposite sign. The temperature
+!! varies as the shape functions between its values at the nodes. Integrated as the stiffness is, so that an element free to expand
+!! under an even temperature has no stress, whatever its shape.
 !! Source: Zienkiewicz, Taylor, Zhu, The Finite Element Method, 6th ed., sections 2.2 and 2.3: initial strains.
 module thermal_forces
    use elasticity, only: axisymmetric, solid

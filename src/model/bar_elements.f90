@@ -1,5 +1,5 @@
-!> Bars: two nodes and a stiffness E A/L along the line between them. Springs are bars in all this, with directions of their own, and
-!! the ground for their second node where they have but one.
+!> Bars: two nodes and a stiffness E A/L along the line between them. Springs are bars in all this, with directions of their own,
+!! and the ground for their second node where they have but one.
 module bar_elements
    use kinds, only: wp
    use model_data, only: bar_nodes, bar_type, model_type, temperature_type

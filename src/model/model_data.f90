@@ -12,7 +12,7 @@ module model_data
    private
 
    public :: corners_of, has_gaps, has_ground_springs, has_second_order, is_coarser, joint_node_id, n_bars, n_springs, bar_nodes, &
-             n_sections, n_points
+             n_sections, n_rotations, n_points, supported
 
    !> Section and material of body elements.
    type, public :: property_type
@@ -114,6 +114,15 @@ module model_data
       integer  :: stage = 0                  !! position of the stage that tightens it; from its end on g is held as it then is
    end type section_type
 
+   !> The rotations of a reference node, which moves with others as a rigid body: they are components of a node of their own, x, y, z
+   !! in space, in the plane the first one alone, about z. What is kept there is the rotation times an arm, a displacement, so
+   !! that all unknowns have one unit; the force on it is the moment by the arm.
+   type, public :: rotation_type
+      integer  :: point = 0                  !! the reference node
+      integer  :: node = 0                   !! that of its rotations
+      real(wp) :: arm = 1.0_wp               !! root mean square of the distances of the nodes that move with it [length]
+   end type rotation_type
+
    !> Nodes whose displacements are not their own unknowns in global axes: see node_coupling.
    type, public :: node_coupling_type
       integer :: n = 0                       !! coupled nodes
@@ -129,11 +138,13 @@ module model_data
       integer :: n_nodes = 0
       integer :: n_filled = 0                !! of these put at the middle of edges, see mid_side_nodes
       integer :: first_filled = 0            !! position of the first of them
-      integer, allocatable  :: node_id(:)    !! ascending; behind the last the nodes of sections, 0
+      integer, allocatable  :: node_id(:)    !! ascending; behind the last those of rotations, then those of sections, 0
       real(wp), allocatable :: x(:, :)       !! (3, n_nodes) [length]
       integer, allocatable  :: twin(:)       !! (n_nodes) the node that a split surface put opposite, 0: none
       logical, allocatable  :: used(:)       !! (n_nodes) whether any element holds the node
       logical, allocatable  :: held(:, :)    !! (dimension, n_nodes) supported, component by component of its unknowns
+      logical, allocatable  :: left_out(:, :) !! (dimension, n_nodes) no unknowns though not supported: components that depend on
+                                             !! others, or are of reference nodes and move nothing; held too; where any are
       type(node_coupling_type) :: coupling   !! of displacements with unknowns
       integer, allocatable  :: node_system(:) !! (n_nodes) the system CD of a node, 0: global axes; where any has one
       type(id_table_type)   :: node_table
@@ -152,6 +163,7 @@ module model_data
       type(interface_element), allocatable :: interface(:)
       type(bar_type), allocatable          :: bars(:)
       type(section_type), allocatable      :: sections(:)
+      type(rotation_type), allocatable     :: rotations(:)
       integer, allocatable  :: node_section(:)       !! (n_nodes) the section that a node lies in, 0: none; where there are any
       integer, allocatable  :: element_section(:)    !! (n_elements) the section that an element touches from behind, likewise
       type(stage_load_type), allocatable   :: stage_loads(:)
@@ -219,8 +231,26 @@ contains
    pure integer function n_points(model)
       type(model_type), intent(in) :: model
 
-      n_points = model%n_nodes - n_sections(model)
+      n_points = model%n_nodes - n_sections(model) - n_rotations(model)
    end function n_points
+
+   !> How many reference nodes with rotations there are.
+   pure integer function n_rotations(model)
+      type(model_type), intent(in) :: model
+
+      n_rotations = 0
+      if (allocated(model%rotations)) n_rotations = size(model%rotations)
+   end function n_rotations
+
+   !> Which components of NODE a support holds.
+   pure function supported(model, node) result(held)
+      type(model_type), intent(in) :: model
+      integer, intent(in)          :: node
+      logical :: held(model%dimension)
+
+      held = model%held(:, node)
+      if (allocated(model%left_out)) held = held .and. .not. model%left_out(:, node)
+   end function supported
 
    !> The number of the node that interface element I names for END 1 or 2: 0 for a rigid base, -1 where several share end 2.
    pure integer function joint_node_id(model, i, end) result(id)

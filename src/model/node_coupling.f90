@@ -1,5 +1,5 @@
 !> How nodes move with the unknowns of the equations. An ordinary node has its own, its displacements in global axes. Others are
-!! coupled: their displacements are sums over parts, {u} = sum of [T] {q}, each the unknowns q of a node, their own or another one's:
+!! coupled: their displacements are sums over parts, {u} = sum of [T] {q}, each the unknowns q of a node, their own or another's:
 !! of a node with a displacement system CD one part, its own unknowns along the directions of the system. Elements, loads, interface
 !! elements and results know displacements; what they give to the equations, and take from them, goes through here:
 !!
@@ -29,7 +29,7 @@ contains
       end do
    end function is_coupled
 
-   !> Couple NODE, which has not been so far: u = sum of T(:, :, k) q of the node MASTERS(k), in COUPLING of N_NODES nodes in all.
+   !> Couple NODE, anew where it has been so far: u = sum of T(:, :, k) q of the node MASTERS(k), in COUPLING of N_NODES nodes in all.
    pure subroutine couple_node(coupling, n_nodes, node, masters, t)
       type(node_coupling_type), intent(inout) :: coupling
       integer, intent(in)                     :: n_nodes, node, masters(:)

@@ -92,8 +92,8 @@ contains
 
    end function load_along
 
-   !> Bending moment at the section of a solid bolt: what the elements behind it exert on the nodes of the section, about the centroid
-   !! of its area, across the bolt [force x length]. Weight of these elements is neglected.
+   !> Bending moment at the section of a solid bolt: what the elements behind it exert on the nodes of the section, about the
+   !! centroid of its area, across the bolt [force x length]. Weight of these elements is neglected.
    pure real(wp) function bending_moment(model, section, u, temperature) result(moment)
       type(model_type), intent(in)   :: model
       type(section_type), intent(in) :: section

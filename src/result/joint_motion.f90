@@ -56,8 +56,8 @@ contains
       is_closed = norm2(mean_normal(model, joint)) < closed_below
    end function is_closed
 
-   !> Axes and centroid of JOINT. The axes are those that an interface element with the mean normal has; of a closed joint the model's
-   !! in space, in the plane z is +Y.
+   !> Axes and centroid of JOINT. The axes are those that an interface element with the mean normal has; of a closed joint the
+   !! model's in space, in the plane z is +Y.
    pure function find_frame(model, joint) result(frame)
       type(model_type), intent(in) :: model
       type(joint_type), intent(in) :: joint
@@ -112,9 +112,9 @@ contains
       end do
    end function find_resultant
 
-   !> Movement of side 1 against side 2 as of rigid bodies, nearest to the deflections {d} of the elements that are not open (delta_x,
-   !! delta_y, lambda as in the joint history) by least squares, their areas the weights: sum a [m]^T [m] {q} = sum a [m]^T {d},
-   !! the columns of [m] as in rigid_mode. It is that of the point at the centroid; a component that the places of these elements
+   !> Movement of side 1 against side 2 as of rigid bodies, nearest to the deflections {d} of the elements that are not open
+   !! (delta_x, delta_y, lambda as in the joint history) by least squares, their areas the weights: sum a [m]^T [m] {q} =
+   !! sum a [m]^T {d}, the columns of [m] as in rigid_mode. It is that of the point at the centroid; a component that the places of these elements
    !! do not tell is 0 [length; radians].
    pure function rigid_movement(model, analysis, joint, frame) result(q)
       type(model_type), intent(in)    :: model

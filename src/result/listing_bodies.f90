@@ -7,7 +7,8 @@ module listing_bodies
    use interface_operator, only: named_node
    use kinds, only: wp
    use listing_table, only: axes, column, listing_table_type, noise, page_type
-   use model_data, only: has_ground_springs, has_second_order, model_type, n_bars, n_points
+   use listing_rotations, only: list_moments, list_rotations
+   use model_data, only: has_ground_springs, has_second_order, model_type, n_bars, n_points, supported
    use node_coupling, only: held_forces
    use shown_rows, only: shows_element, shows_node
    use stress_measures, only: principal_stresses, von_mises
@@ -27,9 +28,11 @@ contains
       type(analysis_type), intent(in) :: analysis
 
       call list_displacements(page, model, analysis)
+      call list_rotations(page, model, analysis)
       if (model%n_elements > 0) call list_stresses(page, principal, model, analysis)
       if (principal .and. has_second_order(model)) call list_node_stresses(page, model, analysis)
       call list_reactions(page, model, analysis)
+      call list_moments(page, model, analysis)
    end subroutine list_bodies
 
    subroutine list_displacements(page, model, analysis)
@@ -176,7 +179,7 @@ contains
       supports = 0.0_wp
       allocate (held, source=held_forces(model, analysis%all_unbalanced))
       do node = 1, n_points(model)
-         if (.not. any(model%held(:, node)) .or. .not. model%used(node)) cycle
+         if (.not. any(supported(model, node)) .or. .not. model%used(node)) cycle
          reaction = -held(:, node)
          supports = supports + reaction
          if (.not. shows_node(page, node)) cycle

@@ -2,16 +2,15 @@
 module listing_opening
    use branch_cubic, only: cubic
    use command_arguments, only: standard_input, version
-   use deck_cards, only: card_name, is_continuation
    use case_control, only: method_newton, method_step, pressure_eq10
    use deck_input, only: deck_type
    use equation_solver, only: equation_system
-   use line_scan, only: is_include
    use joint_motion, only: is_closed
    use kinds, only: long, wp
    use listing_covers, only: write_covers
+   use listing_echo, only: write_echo
    use listing_table, only: axes, column, cut, heading, listing_table_type, page_type, page_width
-   use model_data, only: has_gaps, model_type, n_bars, n_points, n_sections, n_springs
+   use model_data, only: has_gaps, model_type, n_bars, n_points, n_rotations, n_sections, n_springs, supported
    use model_warnings, only: tetra_words
    use normal_stiffness, only: branch_load, branch_name, branch_reload, branch_unload, pressure_floor
    use output_file, only: output_file_type
@@ -23,8 +22,6 @@ module listing_opening
    private
 
    public :: write_opening
-
-   integer, parameter :: most_echoed = 5000 ! cards of a deck that are echoed without being asked for
 
 contains
 
@@ -63,103 +60,6 @@ contains
       if (allocated(page%date)) words = words//'   '//page%date
    end function origin_words
 
-   !> The deck as read, cards counted, under a field ruler. INCLUDE files are counted, not shown, and so are the cards of a deck that
-   !! has very many of its own, unless ECHO asks for them.
-   subroutine write_echo(file, deck)
-      type(output_file_type), intent(inout) :: file
-      type(deck_type), intent(in)           :: deck
-      character(:), allocatable :: line
-      character(10) :: counter
-      integer :: i, cards, hidden !! lines of INCLUDE files since the last one shown
-      logical :: in_bulk, ended, shows_cards
-
-      if (.not. deck%control%echo) then
-         call heading(file, 'DECK: '//integer_text(deck%bulk%n_cards)//' CARDS, NOT ECHOED')
-         return
-      end if
-      call heading(file, 'DECK ECHO')
-      cards = own_cards(deck)
-      shows_cards = deck%control%echo_asked .or. cards <= most_echoed
-      cards = 0
-      hidden = 0
-      in_bulk = .false.
-      ended = .false.
-      do i = 1, deck%text%n
-         line = deck%text%card_part(i)
-         counter = ''
-         if (in_bulk .and. begins_card(line)) then
-            cards = cards + 1
-            write (counter, '(i9, a)') cards, '-'
-         else if (in_bulk .and. ends_bulk(line)) then
-            in_bulk = deck%text%file_number(i) > 1
-            ended = .not. in_bulk
-         end if
-         if (deck%text%file_number(i) > 1) then
-            hidden = hidden + 1
-         else if (shows_cards .or. .not. in_bulk) then
-            call count_hidden()
-            call file%put(' '//counter//' '//cut(deck%text%line(i), page_width - 13))
-         end if
-         if (.not. (in_bulk .or. ended) .and. index(adjustl(upper(line)), 'BEGIN') == 1) then
-            in_bulk = .true.
-            if (.not. shows_cards) cycle
-            call file%put('   CARD')
-            call file%put('  COUNT-    .   1  ..   2  ..   3  ..   4  ..   5  ..   6  ..   7  ..   8  ..   9  ..  10  .')
-         end if
-      end do
-      call count_hidden()
-      call file%put('')
-      call file%put('  TOTAL COUNT '//integer_text(cards)//' CARDS')
-      if (.not. shows_cards) call file%put('  THE DECK ITSELF HAS MORE THAN '//integer_text(most_echoed)// &
-                                           ', NOT ECHOED: ECHO = YES SHOWS THEM')
-
-   contains
-
-      subroutine count_hidden()
-         if (hidden > 0) call file%put('            ('//upper(plural(hidden, 'line'))//' OF INCLUDE FILES, NOT ECHOED)')
-         hidden = 0
-      end subroutine count_hidden
-
-   end subroutine write_echo
-
-   !> How many cards stand in the deck itself, not in INCLUDE files.
-   integer function own_cards(deck) result(n)
-      type(deck_type), intent(in) :: deck
-      character(:), allocatable :: line
-      integer :: i
-      logical :: in_bulk
-
-      n = 0
-      in_bulk = .false.
-      do i = 1, deck%text%n
-         if (deck%text%file_number(i) > 1) cycle
-         line = deck%text%card_part(i)
-         if (in_bulk .and. begins_card(line)) n = n + 1
-         if (in_bulk .and. ends_bulk(line)) exit
-         if (.not. in_bulk) in_bulk = index(adjustl(upper(line)), 'BEGIN') == 1
-      end do
-   end function own_cards
-
-   !> Whether a card begins with this LINE of the bulk data.
-   pure logical function begins_card(line)
-      character(*), intent(in) :: line
-
-      begins_card = .false.
-      if (line == '') return
-      if (is_continuation(line)) return
-      begins_card = card_name(line) /= 'ENDDATA' .and. .not. is_include(line)
-   end function begins_card
-
-   !> Whether this LINE of the bulk data is ENDDATA.
-   pure logical function ends_bulk(line)
-      character(*), intent(in) :: line
-
-      ends_bulk = .false.
-      if (line == '') return
-      if (is_continuation(line)) return
-      ends_bulk = card_name(line) == 'ENDDATA'
-   end function ends_bulk
-
    !> What the model has of everything, and how it is solved.
    subroutine write_summary(file, deck, model, system)
       type(output_file_type), intent(inout) :: file
@@ -180,7 +80,11 @@ contains
       if (n_sections(model) > 0) call count_line('SOLID BOLTS', size(model%sections, kind=long))
       call count_line('JOINTS', size(model%joints, kind=long))
       call count_line('INTERFACE ELEMENTS', size(model%interface, kind=long))
-      call count_line('SUPPORTED COMPONENTS', count(model%held(:, :n_points(model)), kind=long))
+      call count_line('SUPPORTED COMPONENTS', &
+                      sum([(count(supported(model, i), kind=long), i = 1, n_points(model) + n_rotations(model))]))
+      if (size(deck%bulk%rigid) > 0) call count_line('RIGID ELEMENTS', size(deck%bulk%rigid, kind=long))
+      if (allocated(model%left_out)) call count_line('COMPONENTS DEPENDENT OR IDLE', &
+                                                     count(model%left_out, kind=long))
       call count_line('UNKNOWNS', int(system%n, long))
       do i = 1, size(system%description%words)
          if (system%description%words(i) /= '') call count_line(trim(system%description%words(i)), system%description%numbers(i))
@@ -364,7 +268,7 @@ contains
       call table%print_head(page%file)
       do s = 1, size(plan%stages)
          associate (stage => plan%stages(s), loads => model%stage_loads(s))
-            total = sum(loads%force(:, :loads%n), dim=2)
+            total = sum(loads%force(:, :loads%n), dim=2, mask=spread(loads%node(:loads%n) <= n_points(model), 1, 3)) ! no moments
             largest = 0.0_wp
             if (loads%n > 0) largest = maxval(abs(loads%force(:, :loads%n)))
             call table%add([stage%id, size(stage%shares)])

@@ -1,5 +1,5 @@
-!> Line-printer plots of a joint, as the period had them: pressure and deflection along the interface, in space the pressure as a map
-!! over its plane.
+!> Line-printer plots of a joint, as the period had them: pressure and deflection along the interface, in space the pressure as
+!! a map over its plane.
 module listing_plot
    use analysis_state, only: analysis_type
    use interface_operator, only: at_first_end
@@ -34,8 +34,8 @@ contains
       end do
    end subroutine plot_joints
 
-   !> The pressure of JOINT over its plane, seen against its normal: x of the joint to the right, y upwards. A character has the largest
-   !! pressure of the interface elements there: tenths of the largest of all, which is *; - where all are open.
+   !> The pressure of JOINT over its plane, seen against its normal: x of the joint to the right, y upwards. A character has the
+   !! largest pressure of the interface elements there: tenths of the largest of all, which is *; - where all are open.
    subroutine map_joint(page, model, analysis, joint)
       type(page_type), intent(inout)  :: page
       type(model_type), intent(in)    :: model

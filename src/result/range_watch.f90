@@ -1,6 +1,6 @@
-!> Warnings: shear laws whose loops do not close or whose branches part (once a law), and used outside their range (one line a bound,
-!! joint and stage, with the number of interface elements and the worst of them); unloading softer than loading (once a joint), and
-!! stages that end far from balance.
+!> Warnings: shear laws whose loops do not close or whose branches part (once a law), and used outside their range (one line a
+!! bound, joint and stage, with the number of interface elements and the worst of them); unloading softer than loading (once a
+!! joint), and stages that end far from balance.
 module range_watch
    use analysis_state, only: analysis_type, free_norm
    use joint_laws, only: friction_excess, friction_limit
@@ -172,7 +172,7 @@ contains
             associate (tally => watch%tallies(which, j))
                if (tally%n == 0) cycle
                watch%n_warnings = watch%n_warnings + 1
-               call keep_folded('  WARNING: JOINT '//integer_text(model%joints(j)%id)//', STAGE '// &
+               call keep_two_parts(watch, '  WARNING: JOINT '//integer_text(model%joints(j)%id)//', STAGE '// &
                   integer_text(plan%stages(analysis%stage)%id)//': '//upper(plural(tally%n, 'element'))//' '// &
                   words_of(which, tally%bound)//' OF THE SHEAR LAW, FIRST NODE '//integer_text(tally%node)//' (INCREMENT '// &
                   integer_text(tally%increment)//'),', &
@@ -181,22 +181,20 @@ contains
          end do
       end do
       watch%tallies = tally_type()
-
-   contains
-
-      !> One line of two halves, or two where it would be too wide.
-      subroutine keep_folded(first, second)
-         character(*), intent(in) :: first, second
-
-         if (len(first) + len(second) <= page_width) then
-            call watch%rows%keep_line(first//second)
-         else
-            call watch%rows%keep_line(first)
-            call watch%rows%keep_line('          '//second)
-         end if
-      end subroutine keep_folded
-
    end subroutine say_ranges
+
+   !> Keep a line of two parts, or where it is too long a line each.
+   subroutine keep_two_parts(watch, first, second)
+      type(range_watch_type), intent(inout) :: watch
+      character(*), intent(in)              :: first, second
+
+      if (len(first) + len(second) <= page_width) then
+         call watch%rows%keep_line(first//second)
+      else
+         call watch%rows%keep_line(first)
+         call watch%rows%keep_line('          '//second)
+      end if
+   end subroutine keep_two_parts
 
    !> The BOUND of kind WHICH in words.
    pure function words_of(which, bound) result(words)

@@ -1,5 +1,5 @@
-!> Which rows the tables of a stage have where OUTPUT limits them to some nodes: those of the nodes, and of the elements that have any
-!! of them.
+!> Which rows the tables of a stage have where OUTPUT limits them to some nodes: those of the nodes, and of the elements that have
+!! any of them.
 module shown_rows
    use listing_table, only: page_type
    use model_data, only: corners_of, model_type

@@ -86,7 +86,8 @@ contains
       call find_bolt_answers(model, analysis, largest_force, before, answer%bolts)
    end subroutine find_answer
 
-   !> Largest displacement of a node; largest von Mises stress at the centre of an element, and at a node as the mean of its elements.
+   !> Largest displacement of a node; largest von Mises stress at the centre of an element, and at a node as the mean of its
+   !! elements.
    subroutine find_peaks(model, analysis, answer)
       type(model_type), intent(in)           :: model
       type(analysis_type), intent(in)        :: analysis
@@ -120,8 +121,8 @@ contains
       answer%at_centre%x(:model%dimension) = element_centre(model, e)
    end subroutine find_peaks
 
-   !> Where the largest of the VALUES that count is, the first of those that are as large but for what rounding may have made; 0 where
-   !! none counts.
+   !> Where the largest of the VALUES that count is, the first of those that are as large but for what rounding may have made; 0
+   !! where none counts.
    pure integer function first_largest(values, counts) result(at)
       real(wp), intent(in) :: values(:) !! none negative
       logical, intent(in)  :: counts(:)

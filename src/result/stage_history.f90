@@ -1,5 +1,5 @@
-!> NAME.stage.csv: the answer of every stage, a row a joint; NAME.bolt.csv: every bolt after every increment. Both in full precision;
-!! a field is empty where there is nothing to say.
+!> NAME.stage.csv: the answer of every stage, a row a joint; NAME.bolt.csv: every bolt after every increment. Both in full
+!! precision; a field is empty where there is nothing to say.
 module stage_history
    use csv_line, only: csv_line_type
    use kinds, only: wp

@@ -1,5 +1,5 @@
-!> The joints as ParaView shows them: the faces of their side 1 with what the interface elements have there, in the places of the nodes;
-!! joints of single elements (CJOINT) as points.
+!> The joints as ParaView shows them: the faces of their side 1 with what the interface elements have there, in the places of the
+!! nodes; joints of single elements (CJOINT) as points.
 module vtu_joints
    use, intrinsic :: iso_fortran_env, only: int8
    use analysis_state, only: analysis_type
@@ -28,9 +28,9 @@ module vtu_joints
 
 contains
 
-   !> Write all joints into FILE. BRANCH is 1 load, 2 unload, 3 open, 4 reload as in the chart; TAU the shear stress on side 2 in global
-   !! axes; GAP how far the faces stand apart. Where a node of a face has no element of its own, the corners of faces of second order, it
-   !! has the mean of those beside it; its branch is that of the first of them.
+   !> Write all joints into FILE. BRANCH is 1 load, 2 unload, 3 open, 4 reload as in the chart; TAU the shear stress on side 2 in
+   !! global axes; GAP how far the faces stand apart. Where a node of a face has no element of its own, the corners of faces of
+   !! second order, it has the mean of those beside it; its branch is that of the first of them.
    subroutine write_joints(file, labels, model, analysis)
       type(vtu_file_type), intent(inout) :: file
       type(label_type), intent(in)       :: labels
@@ -152,8 +152,8 @@ contains
 
    end subroutine add_faces
 
-   !> The nodes of a side, by their places among its N, that say what node K of it has that has no element of its own: of a corner of a
-   !! side of second order the nodes between it and its neighbours, else all.
+   !> The nodes of a side, by their places among its N, that say what node K of it has that has no element of its own: of a corner
+   !! of a side of second order the nodes between it and its neighbours, else all.
    pure function beside(k, corners, n) result(near)
       integer, intent(in)  :: k, corners, n
       integer, allocatable :: near(:)

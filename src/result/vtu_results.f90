@@ -1,5 +1,5 @@
-!> Results for ParaView: for a stage with OUTPUT = VTU the bodies in one file and the joints in another, with STEPS after every increment,
-!! and where there may be more than one of each their list NAME.pvd. All stay unnamed until the whole run is complete.
+!> Results for ParaView: for a stage with OUTPUT = VTU the bodies in one file and the joints in another, with STEPS after every
+!! increment, and where there may be more than one of each their list NAME.pvd. All stay unnamed until the whole run is complete.
 module vtu_results
    use, intrinsic :: iso_fortran_env, only: int8
    use analysis_state, only: analysis_type

@@ -2,8 +2,8 @@
 #
 #    awk -f card_manual.awk input/README.md > card_manual.f90
 #
-# An entry is a key of case control (a heading #### in the section on case control) or a card (### in that on bulk data cards); the heading
-# may name several, with commas between them. Links are left out.
+# An entry is a key of case control (a heading #### in the section on case control) or a card (### in that on bulk data cards);
+# the heading may name several, with commas between them. Links are left out.
 
 /^## / {
    key = /[Cc]ase control/ ? "####" : /[Bb]ulk data cards/ ? "###" : ""

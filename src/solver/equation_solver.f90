@@ -9,7 +9,7 @@ module equation_solver
    use failures, only: failure_type
    use interface_operator, only: interface_element
    use kinds, only: long, wp
-   use model_data, only: model_type, n_points
+   use model_data, only: model_type, n_points, n_rotations
    use node_graph, only: node_graph_type
    use text_tools, only: integer_text
    implicit none
@@ -207,8 +207,18 @@ contains
          if (.not. allocated(model%node_system)) return
          if (model%node_system(node) > 0) words = 'node '//integer_text(model%node_id(node))//' has no stiffness in direction '// &
             integer_text(d)//' of its system '//integer_text(model%systems(model%node_system(node))%id)
+      else if (node <= n_points(model) + n_rotations(model)) then
+         associate (point => model%rotations(node - n_points(model))%point)
+            words = 'node '//integer_text(model%node_id(point))//' has no stiffness against rotation about '// &
+                    direction_name(merge(d, 3, model%dimension == 3))
+            if (.not. allocated(model%node_system)) return
+            if (model%node_system(point) > 0) words = 'node '//integer_text(model%node_id(point))//' has no stiffness against '// &
+               'rotation about direction '//integer_text(d)//' of its system '//integer_text(model%systems(model%node_system( &
+               point))%id)
+         end associate
       else
-         words = 'nothing holds BOLT '//integer_text(model%sections(node - n_points(model))%bolt)//' together at its section'
+         words = 'nothing holds BOLT '//integer_text(model%sections(node - n_points(model) - n_rotations(model))%bolt)// &
+                 ' together at its section'
       end if
    end function what_is_loose
 

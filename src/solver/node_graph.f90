@@ -85,11 +85,21 @@ contains
       end do
       if (.not. allocated(model%coupling%of_node)) return
       do e = 1, model%n_elements
-         if (size(unknown_nodes(model, felt_nodes(model, e))) > size(felt_nodes(model, e))) call join(coupled_nodes(model, e))
+         if (moves_with_others(e)) call join(coupled_nodes(model, e))
       end do
       joined = joined(:, :n)
 
    contains
+
+      !> Whether element E couples the unknowns of nodes that it does not touch.
+      logical function moves_with_others(this)
+         integer, intent(in) :: this
+         integer :: k
+
+         associate (felt => felt_nodes(model, this), unknown => coupled_nodes(model, this))
+            moves_with_others = any([(all(felt /= unknown(k)), k = 1, size(unknown))])
+         end associate
+      end function moves_with_others
 
       subroutine join(nodes)
          integer, intent(in) :: nodes(:)

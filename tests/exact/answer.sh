@@ -47,6 +47,11 @@ run_input lap_joint && {
       "$(value lap_joint rows "node1 = $(of lap_joint stage rows 'stage = 2' print gap_node) and stage < 3" \
          print 'max(lambda) - max(pressure)/9500 - last(lambda)')" 1e-9
 }
+# STEP: the stiffness at the end of a stage is that of its next increment
+run_input prism_history && for stage in 1 2; do
+   near "prism_history: stiffness after stage $stage" "$(of prism_history stage rows "stage = $stage" print tangent_n)" \
+      "$(value prism_history rows "stage = $stage + 1 and increment = 1" print 'sum(k_n)')" 1e-12
+done
 sed 's/^ *OUTPUT.*//; s/^SUBCASE.*/&\nOUTPUT = LAST, STRESS/' input/prism_newton.bdf > "$work/prism_answer.bdf"
 run prism_answer && {
    one_joint prism_answer 1 1 0
@@ -122,3 +127,40 @@ for name in lap_joint flange_pair; do
       on && table == "stiffness" && /TANGENT/ { checked++; if (!close_to($(name == "lap_joint" ? 4 : 3), row[s, "tangent_n"], 1e-4)) print }
       END { print "checked " checked }' "$work/$name.stage.csv" "$work/$name.out"
 done
+
+# Tables limited to a set and a surface, a long deck not echoed, the map of a joint in space (its normal is +X, so its x is +Y, its y +Z)
+sed 's/^ *OUTPUT.*//; s/^SUBCASE.*/SET 7 = 2 THRU 4 EXCEPT 3,\n 55\n&\nOUTPUT = LAST, SET 7, PMARK 20/' input/prism_newton.bdf > "$work/only.bdf"
+run only && judge 'tables limited to a set and a surface: nodes 2, 4, 55 and the lower edge 1, 6, 11, ...' '
+   /^ [A-Z]/ { table = /^ DISPLACEMENTS.*ONLY SET 7, ONLY PMARK 20/ ? "nodes" : /^ INTERFACE ELEMENTS.*ONLY/ ? "joint" : /^ STRESSES.*ONLY/ ? "elements" : "" }
+   table != "" && $1 ~ /^[0-9]+$/ { n[table]++; seen[table, $1] = 1 }
+   END {
+      for (k = 1; k <= 55; k++) if (((k % 5 == 1) || k == 2 || k == 4 || k == 55) != (("nodes", k) in seen)) print "node " k
+      if (n["nodes"] != 14 || n["joint"] != 11) print n["nodes"], n["joint"]
+      # elements at the lower edge, in the first column, at node 55
+      for (k = 1; k <= 40; k++) if ((k % 4 == 1 || k <= 4 || k == 40) != (("elements", k) in seen)) print "element " k
+      print "checked " n["nodes"] + n["joint"] + n["elements"]
+   }' "$work/only.out"
+long_deck() { echo "SPC = 1;${1}$nodes;$cards" | sed 's/;ENDDATA//' | tr ';' '\n'; seq -f 'GRID,%.0f,,0.0,0.0' 100 5200; echo ENDDATA; }
+long_deck '' > "$work/long.bdf"
+long_deck 'ECHO = YES;' > "$work/asked.bdf"
+run long && same 'a long deck: no card is echoed' "$(grep -c 'GRID,' "$work/long.out")" 0 && says 'and that is said' "$work/long.out" 'NOT ECHOED: ECHO = YES'
+run asked && same 'a long deck that is asked for' "$(grep -c 'GRID,' "$work/asked.out")" 5109
+sed 's/^ *OUTPUT.*//; s/^SUBCASE.*/&\nOUTPUT = NONE, PLOT/' input/bolted_cantilever.bdf > "$work/map.bdf"
+run map && judge 'the map of a joint: tenths of the largest pressure, rows from above, from left to right' '
+   NR == FNR {
+      n = split($0, v, ","); if (FNR == 1) { for (i = 1; i <= n; i++) at[v[i]] = i; next }
+      if (v[at["stage"]] == 2 && v[at["load"]] == 1) { k++; p[k] = v[at["pressure"]]; x[k] = v[at["y"]]; y[k] = v[at["z"]]; if (p[k] > most) most = p[k] }
+      next
+   }
+   /^ MAP OF JOINT 1, STAGE 2/ { on = 1 } /^ ANSWER/ { on = 0 }
+   on && /^ +[|]/ { gsub(/[ |]/, ""); signs = signs $0 }
+   END {
+      while (done < k) { # the next one from above, from left to right
+         b = 0
+         for (i = 1; i <= k; i++) if (!(i in used) && (!b || y[i] > y[b] + 1e-6 || (y[i] > y[b] - 1e-6 && x[i] < x[b]))) b = i
+         used[b] = 1; done++
+         expected = expected (p[b] > most * (1 - 1e-9) ? "*" : int(10 * (1 + 1e-9) * p[b] / most))
+      }
+      if (signs != expected) print signs " not " expected
+      print "checked " k
+   }' "$work/map.joint.csv" "$work/map.out"
