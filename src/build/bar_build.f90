@@ -61,7 +61,7 @@ contains
       type(model_type), intent(in)   :: model
       type(bar_type), intent(inout)  :: bar
       integer  :: material
-      real(wp) :: length
+      real(wp) :: along(3), length
 
       material = findloc(deck%bulk%mat1%id, prod%material, dim=1)
       if (material == 0) then
@@ -69,15 +69,17 @@ contains
          return
       end if
       if (any(bar%nodes == 0)) return
-      bar%direction = model%x(:, bar%nodes(2)) - model%x(:, bar%nodes(1))
-      length = norm2(bar%direction)
+      along = model%x(:, bar%nodes(2)) - model%x(:, bar%nodes(1))
+      length = norm2(along)
       if (length <= 0.0_wp) then
          call deck%errors%add(line, 'bar '//integer_text(bar%id)//' has no length')
          return
       end if
-      bar%direction = bar%direction/length
+      bar%direction = spread(along/length, 2, 2)
       bar%stiffness = deck%bulk%mat1(material)%e*prod%area/length
-      if (model%axisymmetric .and. abs(bar%direction(1)) > 1.0e-9_wp) call deck%errors%add(line, 'bar '// &
+      bar%expansion = deck%bulk%mat1(material)%alpha*length
+      bar%reference = deck%bulk%mat1(material)%reference
+      if (model%axisymmetric .and. abs(bar%direction(1, 1)) > 1.0e-9_wp) call deck%errors%add(line, 'bar '// &
          integer_text(bar%id)//': in an axisymmetric model bars stand along y; their area is that of all round the ring')
    end subroutine build_bar
 

@@ -27,6 +27,7 @@ contains
          end do
       end do
       do k = 1, n_bars(model)
+         if (model%bars(k)%nodes(2) == 0) cycle ! the ground
          if (with_bolts .or. model%bars(k)%bolt == 0) call join(parent, model%bars(k)%nodes(1), model%bars(k)%nodes(2))
       end do
       if (allocated(model%coupling%of_node)) then

@@ -4,7 +4,7 @@ module determinate_joints
    use id_table, only: distinct
    use interface_operator, only: nodes_of_end
    use kinds, only: wp
-   use model_data, only: joint_type, model_type, n_points, n_rotations, n_sections, stage_load_type, supported
+   use model_data, only: joint_type, model_type, n_bars, n_points, n_rotations, n_sections, stage_load_type, supported
    use node_coupling, only: is_coupled
    implicit none
    private
@@ -29,6 +29,14 @@ contains
       do node = 1, n_points(model)
          if (is_coupled(model, [node])) cycle ! its directions are others
          held(:, model%part(node)) = held(:, model%part(node)) .or. supported(model, node)
+      end do
+      do i = 1, n_bars(model)
+         associate (spring => model%bars(i))
+            if (spring%nodes(2) > 0) cycle ! else to the ground
+            associate (part => model%part(spring%nodes(1)))
+               held(:, part) = held(:, part) .or. abs(spring%direction(:model%dimension, 1)) > 1.0e-9_wp
+            end associate
+         end associate
       end do
       do j = 1, size(model%joints)
          associate (joint => model%joints(j))

@@ -49,6 +49,8 @@ contains
                if (deck%bulk%mat1(k)%bars_only) call deck%field_error(card%line, 2, 'MAT1 '//integer_text(card%material)// &
                   ' has E alone, which is enough for bars only; expected two of E, G and NU on it')
                property%rho = deck%bulk%mass_factor*deck%bulk%mat1(k)%rho
+               property%alpha = deck%bulk%mat1(k)%alpha
+               property%reference = deck%bulk%mat1(k)%reference
             else if (card%material > 0) then
                call deck%field_error(card%line, 2, 'there is no MAT1 '//integer_text(card%material))
             end if
@@ -156,10 +158,12 @@ contains
       integer :: b, n, n_cards, k
 
       associate (bulk => deck%bulk)
-         n_cards = size(bulk%element) + size(bulk%edge) + size(bulk%cjoint) + size(bulk%conrod) + size(bulk%rigid)
+         n_cards = size(bulk%element) + size(bulk%edge) + size(bulk%cjoint) + size(bulk%conrod) + size(bulk%rigid) + &
+                   size(bulk%spring) + size(bulk%mass)
          allocate (id(n_cards + n_elements(blocks)), line(n_cards + n_elements(blocks)))
-         id(:n_cards) = [bulk%element%id, bulk%edge%id, bulk%cjoint%id, bulk%conrod%id, bulk%rigid%id]
-         line(:n_cards) = [bulk%element%line, bulk%edge%line, bulk%cjoint%line, bulk%conrod%line, bulk%rigid%line]
+         id(:n_cards) = [bulk%element%id, bulk%edge%id, bulk%cjoint%id, bulk%conrod%id, bulk%rigid%id, bulk%spring%id, bulk%mass%id]
+         line(:n_cards) = [bulk%element%line, bulk%edge%line, bulk%cjoint%line, bulk%conrod%line, bulk%rigid%line, &
+                           bulk%spring%line, bulk%mass%line]
       end associate
       n = n_cards
       do b = 1, size(blocks)

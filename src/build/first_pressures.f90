@@ -116,7 +116,7 @@ contains
             do k = 1, 2
                n = n + 1
                loads%node(n) = bar%nodes(k)
-               loads%force(:, n) = merge(1.0_wp, -1.0_wp, k == 1)*bar%preload*bar%direction
+               loads%force(:, n) = merge(1.0_wp, -1.0_wp, k == 1)*bar%preload*bar%direction(:, k)
             end do
          end associate
       end do

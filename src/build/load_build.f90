@@ -97,6 +97,7 @@ contains
             acceleration = factor*bulk%gravity(i)%acceleration
             if (s > 0) acceleration = matmul(model%systems(s)%axes, acceleration)
             call add_gravity(model, acceleration, spread_out)
+            call add_mass_weights(deck, model, acceleration, spread_out)
          end do
       end associate
       do node = 1, model%n_nodes
@@ -212,5 +213,19 @@ contains
          end associate
       end do
    end subroutine add_gravity
+
+   !> The weight of masses at nodes.
+   subroutine add_mass_weights(deck, model, acceleration, force)
+      type(checked_deck), intent(in) :: deck
+      type(model_type), intent(in)   :: model
+      real(wp), intent(in)           :: acceleration(3)
+      real(wp), intent(inout)        :: force(:, :) !! (3, n_nodes)
+      integer :: i, node
+
+      do i = 1, size(deck%bulk%mass)
+         node = model%node_table%find(deck%bulk%mass(i)%node)
+         if (node > 0) force(:, node) = force(:, node) + deck%bulk%mass_factor*deck%bulk%mass(i)%mass*acceleration
+      end do
+   end subroutine add_mass_weights
 
 end module load_build

@@ -27,6 +27,7 @@ contains
 
       call check_surface_loads(deck, model)
       call check_gravity(deck, model)
+      call check_masses(deck, model)
       call check_displacements(deck, model)
       call check_combinations(deck)
    end subroutine check_load_cards
@@ -109,11 +110,30 @@ contains
             call check_plane(deck, model, card%line, acceleration, turned=card%system > 0)
             if (model%axisymmetric .and. abs(acceleration(1)) > 1.0e-12_wp*norm2(acceleration)) &
                call deck%field_error(card%line, 'N1', 'not zero, but in an axisymmetric model gravity acts along y')
-            if (all(model%properties%rho <= 0.0_wp)) &
+            if (all(model%properties%rho <= 0.0_wp) .and. all(deck%bulk%mass%mass <= 0.0_wp)) &
                call deck%errors%add(card%line, 'GRAV: no body has a mass; give RHO on its MAT1')
          end associate
       end do
    end subroutine check_gravity
+
+   !> CONM2 stands at nodes that some element holds.
+   subroutine check_masses(deck, model)
+      type(checked_deck), intent(in) :: deck
+      type(model_type), intent(in)   :: model
+      integer :: i, node
+
+      do i = 1, size(deck%bulk%mass)
+         associate (card => deck%bulk%mass(i))
+            if (card%node == 0) cycle
+            node = model%node_table%find(card%node)
+            if (node == 0) then
+               call deck%field_error(card%line, 'G', 'there is no GRID '//integer_text(card%node))
+            else if (.not. model%used(node)) then
+               call deck%field_error(card%line, 'G', 'node '//integer_text(card%node)//' belongs to no element')
+            end if
+         end associate
+      end do
+   end subroutine check_masses
 
    !> SPCD moves components that are held.
    subroutine check_displacements(deck, model)

@@ -51,6 +51,7 @@ contains
          end associate
       end do
       model%n_filled = n_new
+      model%first_filled = model%n_nodes + 1
       if (n_new > 0) call place_nodes(deck, model, edges, n_new)
       where (model%element_nodes == blank_node) model%element_nodes = 0 ! of edges whose corners are in error
    end subroutine fill_mid_sides

@@ -19,9 +19,11 @@ module model_build
    use rotation_build, only: build_rotations
    use section_build, only: build_sections
    use shown_nodes, only: find_shown_nodes
+   use spring_build, only: build_springs
    use stage_plan, only: plan_stages, stage_plan_type
    use support_build, only: build_supports
    use surface_build, only: build_surfaces
+   use temperature_build, only: build_temperatures
    implicit none
    private
 
@@ -52,8 +54,10 @@ contains
       call build_supports(checked, model)
       call build_sections(checked, model)
       call build_frames(checked, model)
+      call build_springs(checked, model)
       call build_dependents(checked, model)
       call build_loads(checked, model)
+      call build_temperatures(checked, model)
       call plan_stages(deck, plan, errors)
       call find_shown_nodes(deck, model, plan, errors)
       if (.not. any(model%used)) call errors%add(0, 'nothing to solve: expected body elements or interface elements')

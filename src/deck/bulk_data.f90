@@ -61,10 +61,36 @@ module bulk_data
       real(wp) :: area = 0.0_wp
    end type conrod_card
 
+   !> CELAS1, CELAS2 (between component COMPONENTS(1) of node 1 and COMPONENTS(2) of node 2) and CBUSH (along three axes).
+   type, public :: spring_card
+      integer  :: line = 0, id = 0, nodes(2) = 0        ! 0: the ground
+      integer  :: property = 0                          ! of PELAS or PBUSH; 0: a CELAS2
+      integer  :: components(2) = 0
+      logical  :: is_bush = .false.
+      integer  :: system = -1                           ! CID of a CBUSH, 0: global axes, -1: blank
+      real(wp) :: stiffness = 0.0_wp                    ! of a CELAS2
+   end type spring_card
+
+   !> PELAS (the first stiffness) and PBUSH.
+   type, public :: spring_property_card
+      integer  :: line = 0, id = 0
+      logical  :: is_bush = .false.
+      integer  :: field = 1                             ! data field of the id
+      real(wp) :: stiffness(3) = 0.0_wp
+   end type spring_property_card
+
+   !> CONM2: a mass at a node.
+   type, public :: mass_card
+      integer  :: line = 0, id = 0, node = 0
+      real(wp) :: mass = 0.0_wp
+      real(wp) :: inertia(6) = 0.0_wp                   ! I11, I21, I22, I31, I32, I33, about the node
+   end type mass_card
+
    type, public :: mat1_card
       integer  :: line = 0, id = 0
       logical  :: bars_only = .false.                   ! E alone is given
       real(wp) :: e = 0.0_wp, nu = 0.0_wp, rho = 0.0_wp
+      real(wp) :: alpha = 0.0_wp, reference = 0.0_wp    ! A and TREF
    end type mat1_card
 
    !> SPC, SPC1 and SPCM alike: nodes FIRST(k) to LAST(k), or all nodes of a marked surface.
@@ -140,6 +166,15 @@ module bulk_data
       integer  :: field = 0                             ! data field of the node
       real(wp) :: value = 0.0_wp
    end type displacement_card
+
+   !> TEMP, the temperature of a node, and TEMPD, that of all nodes without one.
+   type, public :: temperature_card
+      integer  :: line = 0, set = 0
+      logical  :: is_default = .false.                  ! TEMPD
+      integer  :: node = 0                              ! of a TEMP
+      integer  :: field = 0                             ! data field of the node, of a TEMPD of the set
+      real(wp) :: value = 0.0_wp
+   end type temperature_card
 
    !> BOLT: a bolt tightened to PRELOAD in the stage of SUBCASE STAGE, locked afterwards: the CROD ELEMENT, or a solid cut at
    !! the marked SURFACE.
@@ -236,6 +271,9 @@ module bulk_data
       type(property_card), allocatable     :: pshell(:), paxis(:), psolid(:)
       type(prod_card), allocatable         :: prod(:)
       type(conrod_card), allocatable       :: conrod(:)
+      type(spring_card), allocatable       :: spring(:)
+      type(spring_property_card), allocatable :: spring_property(:)
+      type(mass_card), allocatable         :: mass(:)
       type(mat1_card), allocatable         :: mat1(:)
       type(support_card), allocatable      :: support(:)
       type(support_sum_card), allocatable  :: support_sum(:)
@@ -246,6 +284,7 @@ module bulk_data
       type(surface_load_card), allocatable :: surface_load(:)
       type(gravity_card), allocatable      :: gravity(:)
       type(displacement_card), allocatable :: displacement(:)
+      type(temperature_card), allocatable  :: temperature(:)
       type(load_card), allocatable         :: load(:)
       type(bolt_card), allocatable         :: bolt(:)
       type(block_card), allocatable        :: block(:)

@@ -35,6 +35,7 @@ module case_control
       type(set_reference) :: load     !! total load at the end of the stage; none: no load
       type(set_reference) :: increments
       type(set_reference) :: supports
+      type(set_reference) :: temperature !! at the end of the stage; none: all is at its TREF
       type(set_reference) :: equations !! between components, MPC
       integer :: output = output_last
       logical :: plot   = .false.
@@ -163,13 +164,13 @@ contains
       end if
       if (n > 0 .and. any(global_keys == entry%key)) &
          call errors%add(entry%line, entry%key//': holds for all stages, expected above the first SUBCASE')
-      if (entry%describers /= '' .and. entry%key /= 'ECHO') &
+      if (entry%describers /= '' .and. entry%key /= 'ECHO' .and. entry%key /= 'TEMPERATURE') &
          call errors%add(entry%line, entry%key//'('//entry%describers//'): expected no parentheses behind '//entry%key)
       choice = 0
       select case (entry%key)
       case ('SUBCASE')
          call start_stage(entry, control, common, errors)
-      case ('LABEL', 'LOAD', 'INCR', 'SPC', 'MPC', 'OUTPUT')
+      case ('LABEL', 'LOAD', 'INCR', 'SPC', 'MPC', 'OUTPUT', 'TEMPERATURE')
          if (n == 0) then
             call read_stage_entry(entry, common, errors)
          else
@@ -264,6 +265,10 @@ contains
          call read_number(entry, stage%equations, errors)
       case ('OUTPUT')
          call read_output(entry, stage, errors)
+      case ('TEMPERATURE')
+         call read_number(entry, stage%temperature, errors)
+         if (entry%describers /= 'LOAD') call errors%add(entry%line, 'TEMPERATURE: expected TEMPERATURE(LOAD) = set, the '// &
+            'temperatures at the end of the stage; those without thermal strain are TREF on MAT1')
       end select
    end subroutine read_stage_entry
 

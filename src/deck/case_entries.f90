@@ -12,7 +12,7 @@ module case_entries
    !> Keys that hold for all stages, and those of a stage.
    character(8), parameter, public :: global_keys(10) = [character(8) :: 'SOL', 'TITLE', 'UNITS', 'METHOD', 'TOL', 'PRESSURE', &
       'CARRY', 'AVERAGE', 'SOLVER', 'ECHO']
-   character(6), parameter :: stage_keys(6) = ['SPC   ', 'MPC   ', 'LABEL ', 'LOAD  ', 'INCR  ', 'OUTPUT']
+   character(11), parameter :: stage_keys(7) = [character(11) :: 'SPC', 'MPC', 'LABEL', 'LOAD', 'INCR', 'OUTPUT', 'TEMPERATURE']
 
    !> A key with a number, and the line it stands on (0: not given).
    type, public :: set_reference
@@ -43,6 +43,7 @@ contains
       last = scan(line(first:), ' =,(')
       last = merge(len(line), first + last - 2, last == 0)
       entry%key = upper(line(first:last))
+      if (len(entry%key) >= 4 .and. index('TEMPERATURE', entry%key) == 1) entry%key = 'TEMPERATURE'
       first = last + max(1, verify(line(last + 1:), ' '))
       if (line(first:min(first, len(line))) == '(') then
          closing = index(line(first:), ')')

@@ -17,8 +17,10 @@ module deck_input
    use parameter_cards, only: read_parameter
    use property_cards, only: read_conrod, read_mat1, read_paxis, read_prod, read_pshell, read_psolid
    use rigid_cards, only: read_equation, read_rigid
+   use spring_cards, only: read_mass, read_spring, read_spring_property
    use support_cards, only: read_displacement, read_support, read_support_sum
    use system_cards, only: fill_grid_defaults, read_grid_defaults, read_system, system_names
+   use temperature_cards, only: read_temperature
    use unused_cards, only: count_unused
    implicit none
    private
@@ -54,6 +56,9 @@ contains
       call cards%add_kinds(['PSOLID'], read_psolid)
       call cards%add_kinds(['PROD'], read_prod)
       call cards%add_kinds(['CONROD'], read_conrod)
+      call cards%add_kinds(['CELAS1', 'CELAS2', 'CBUSH '], read_spring)
+      call cards%add_kinds(['PELAS', 'PBUSH'], read_spring_property)
+      call cards%add_kinds(['CONM2'], read_mass)
       call cards%add_kinds(['MAT1'], read_mat1)
       call cards%add_kinds(['SPC ', 'SPC1', 'SPCM'], read_support)
       call cards%add_kinds(['SPCADD'], read_support_sum)
@@ -64,6 +69,7 @@ contains
       call cards%add_kinds(['PLOADM', 'FORCEM'], read_surface_load)
       call cards%add_kinds(['GRAV'], read_gravity)
       call cards%add_kinds(['SPCD'], read_displacement)
+      call cards%add_kinds(['TEMP ', 'TEMPD'], read_temperature)
       call cards%add_kinds(['LOAD'], read_load)
       call cards%add_kinds(['BOLT'], read_bolt)
       call cards%add_kinds(['JOINT'], read_joint)

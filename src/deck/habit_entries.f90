@@ -35,7 +35,7 @@ contains
          else
             call errors%add(entry%line, ''''//entry%key(:min(40, len(entry%key)))//''' is no key of case control; '// &
                             'expected TITLE, UNITS, METHOD, TOL, PRESSURE, CARRY, AVERAGE, SOLVER, ECHO, SPC, MPC, SUBCASE, '// &
-                            'LABEL, LOAD, INCR, OUTPUT or BEGIN BULK')
+                            'LABEL, LOAD, TEMPERATURE(LOAD), INCR, OUTPUT or BEGIN BULK')
          end if
       end select
    end subroutine read_habit

@@ -118,7 +118,8 @@ contains
          call cards%next(values)
          if (values%ok) call fill_in(cards, values)
          bulk%mat1(i) = mat1_card(line=cards%line, id=values%integers(1), e=values%reals(2), nu=values%reals(4), &
-                                  rho=values%reals(5), bars_only=values%given(2) .and. .not. any(values%given(3:4)))
+                                  rho=values%reals(5), alpha=values%reals(6), reference=values%reals(7), &
+                                  bars_only=values%given(2) .and. .not. any(values%given(3:4)))
       end do
    end subroutine read_mat1
 

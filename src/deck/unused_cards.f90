@@ -29,7 +29,8 @@ contains
       end do
       if (size(bulk%system) == 0) return
       call find_named(bulk%system%id, [bulk%system%reference, bulk%force%system, bulk%pressure%system, bulk%gravity%system, &
-                                       without_repeats(bulk%grid%cp), without_repeats(bulk%grid%cd)], named)
+                                       bulk%spring%system, without_repeats(bulk%grid%cp), &
+                                       without_repeats(bulk%grid%cd)], named)
       do i = 1, size(named)
          associate (card => bulk%system(i))
             if (named(i) == 0 .and. card%id > 0) call bulk%idle%add(system_names(card%kind, merge(2, 1, card%nodes(1) > 0)))

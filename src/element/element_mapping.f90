@@ -3,7 +3,7 @@
 !! Source: Zienkiewicz, Taylor, Zhu, The Finite Element Method, 6th ed., section 5.5; the incompatible modes: Taylor,
 !! Beresford, Wilson, A non-conforming element for stress analysis, Int. J. Numer. Meth. Engng 10 (1976) 1211-1219.
 module element_mapping
-   use elasticity, only: axisymmetric, elasticity_matrix, max_stresses, solid
+   use elasticity, only: axisymmetric, elasticity_matrix, max_stresses, plane_strain, solid
    use element_kinds, only: element_table, kind_hexa8, kind_quad4, max_nodes, side_kind
    use kinds, only: wp
    use local_nodes, only: centre_point, node_point
@@ -24,6 +24,7 @@ module element_mapping
       real(wp) :: thickness = 1.0_wp                      !! of a plane body [length]; not used by the others
       logical  :: incompatible = .false.                  !! with the modes of Wilson and Taylor, where the kind has them
       real(wp) :: d(max_stresses, max_stresses) = 0.0_wp  !! [D]: isotropic, or orthotropic along the axes [pressure]
+      real(wp) :: expansion(3) = 0.0_wp                   !! direct strains of a body free to expand, per degree [1/temperature]
    end type element_law
 
    !> The nodes of one element and what is the same at all its points.
@@ -39,18 +40,23 @@ module element_mapping
 
 contains
 
-   !> The law of an element of isotropic material.
-   pure type(element_law) function make_element_law(kind, state, e, nu, thickness, incompatible) result(law)
+   !> The law of an element of isotropic material. In plane strain what cannot expand across the plane expands the more in it: a
+   !! strain alpha across it, held, is one of nu alpha along it.
+   pure type(element_law) function make_element_law(kind, state, e, nu, thickness, incompatible, alpha) result(law)
       integer, intent(in)  :: kind, state                 !! kind_tria3 ... kind_hexa20; plane_stress ... solid
       real(wp), intent(in) :: e, nu                       !! [pressure], > 0; [-], -1 < nu < 0.5
       real(wp), intent(in) :: thickness                   !! of a plane body [length], > 0
       logical, intent(in)  :: incompatible                !! wanted; the plane quadrilateral and the hexahedron have modes
+      real(wp), intent(in), optional :: alpha             !! thermal expansion, 0 [1/temperature]
 
       law%kind = kind
       law%state = state
       law%thickness = thickness
       law%incompatible = incompatible .and. (kind == kind_hexa8 .or. (kind == kind_quad4 .and. state /= axisymmetric))
       call elasticity_matrix(state, e, nu, law%d)
+      if (.not. present(alpha)) return
+      law%expansion(:2) = merge((1.0_wp + nu)*alpha, alpha, state == plane_strain)
+      if (state == axisymmetric .or. state == solid) law%expansion(3) = alpha
    end function make_element_law
 
    !> Take up the nodes of an element.

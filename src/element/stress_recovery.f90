@@ -10,6 +10,7 @@ module stress_recovery
    use local_nodes, only: centre_point, node_point
    use quadrature, only: gauss, integration_rule, stress_rule, tetra_far, tetra_near
    use shape_functions, only: shape_values
+   use thermal_forces, only: condensed_thermal_forces
    implicit none
    private
 
@@ -18,11 +19,12 @@ module stress_recovery
 contains
 
    !> Stress at the centre, where a linear element is at its best. The incompatible modes have no strain there.
-   pure subroutine centre_stress(law, x, u, stress)
+   pure subroutine centre_stress(law, x, u, stress, rise)
       type(element_law), intent(in) :: law
       real(wp), intent(in)    :: x(:, :)         !! nodes (dimension, nodes) [length]
       real(wp), intent(in)    :: u(:, :)         !! displacements (dimension, nodes) [length]
       real(wp), intent(inout) :: stress(:)       !! (n_stresses(state)) [pressure], set here; components as in elasticity
+      real(wp), intent(in), optional :: rise(:)  !! (nodes) T - TREF, 0 [temperature]
       type(element_map) :: map
       real(wp) :: g(3, max_shapes), q(3, max_shapes), strain(max_stresses), volume
       integer  :: n
@@ -32,6 +34,7 @@ contains
       q(:size(u, 1), :map%n) = u(:, :map%n)
       call map_point(law, map, centre_point(:, law%kind), g, volume)
       call strain_at(law, map%n, g, q, strain)
+      if (present(rise)) call take_expansion(law, centre_point(:, law%kind), rise, strain)
       n = n_stresses(law%state)
       stress(:n) = matmul(law%d(:n, :n), strain(:n))
    end subroutine centre_stress
@@ -39,11 +42,12 @@ contains
    !> Stresses at the nodes: those of the points of stress_rule, with the parameters of the incompatible modes, continued by the
    !! shape functions of corners through these points, linear between them. Where the element has one such point its stress stands
    !! at all nodes.
-   pure subroutine nodal_stress(law, x, u, stress)
+   pure subroutine nodal_stress(law, x, u, stress, rise)
       type(element_law), intent(in) :: law
       real(wp), intent(in)    :: x(:, :)         !! nodes (dimension, nodes) [length]
       real(wp), intent(in)    :: u(:, :)         !! displacements (dimension, nodes) [length]
       real(wp), intent(inout) :: stress(:, :)    !! (n_stresses(state), nodes) [pressure], set here
+      real(wp), intent(in), optional :: rise(:)  !! (nodes) T - TREF, 0 [temperature]
       type(element_map)      :: map
       type(integration_rule) :: rule
       real(wp) :: g(3, max_shapes), q(3, max_shapes), strain(max_stresses), at_point(max_stresses, max_nodes)
@@ -54,11 +58,12 @@ contains
       call map_element(law, x, map)
       q = 0.0_wp ! of the modes, and the third component in the plane
       q(:size(u, 1), :map%n) = u(:, :map%n)
-      if (map%n_modes > 0) call recover_modes(law, x, q)
+      if (map%n_modes > 0) call recover_modes(law, x, q, rise)
       call stress_rule(law%kind, law%state == axisymmetric, rule)
       do k = 1, rule%n
          call map_point(law, map, rule%point(:, k), g, volume)
          call strain_at(law, map%n + map%n_modes, g, q, strain)
+         if (present(rise)) call take_expansion(law, rule%point(:, k), rise, strain)
          at_point(:m, k) = matmul(law%d(:m, :m), strain(:m))
       end do
       linear = element_table(law%kind)%linear
@@ -83,21 +88,37 @@ contains
       if (kind == kind_tetra4) scaled = (point - tetra_far)/(tetra_near - tetra_far)
    end function in_points
 
-   !> Parameters of the incompatible modes, which the condensation has left behind: no force works on them.
-   pure subroutine recover_modes(law, x, q)
+   !> Take from the STRAIN at a point what is free expansion.
+   pure subroutine take_expansion(law, point, rise, strain)
       type(element_law), intent(in) :: law
-      real(wp), intent(in)          :: x(:, :)
-      real(wp), intent(inout)       :: q(3, max_shapes)
-      real(wp) :: full(max_unknowns, max_unknowns), values(max_unknowns)
+      real(wp), intent(in)    :: point(3), rise(:)
+      real(wp), intent(inout) :: strain(max_stresses)
+      real(wp) :: n(max_nodes)
+      integer  :: direct
+
+      call shape_values(law%kind, point, n)
+      direct = merge(3, 2, law%state == solid .or. law%state == axisymmetric)
+      strain(:direct) = strain(:direct) - law%expansion(:direct)*dot_product(n(:size(rise)), rise)
+   end subroutine take_expansion
+
+   !> Parameters of the incompatible modes, which the condensation has left behind: no force but that of warmth works on them.
+   pure subroutine recover_modes(law, x, q, rise)
+      type(element_law), intent(in)  :: law
+      real(wp), intent(in)           :: x(:, :)
+      real(wp), intent(inout)        :: q(3, max_shapes)
+      real(wp), intent(in), optional :: rise(:)
+      real(wp) :: full(max_unknowns, max_unknowns), thermal(max_unknowns), values(max_unknowns)
       integer  :: d, i, n, n_all, p
 
       d = element_table(law%kind)%dimension
       call condensed_stiffness(law, x, full, n, n_all)
+      thermal = 0.0_wp
+      if (present(rise)) call condensed_thermal_forces(law, x, rise, full, thermal)
       do i = 1, n/d
          values(d*(i - 1) + 1:d*i) = q(:d, i)
       end do
       do p = n + 1, n_all
-         values(p) = -dot_product(full(:p - 1, p), values(:p - 1))/full(p, p)
+         values(p) = (thermal(p) - dot_product(full(:p - 1, p), values(:p - 1)))/full(p, p)
       end do
       do i = n/d + 1, n_all/d
          q(:d, i) = values(d*(i - 1) + 1:d*i)

@@ -7,7 +7,7 @@ module analysis_state
    use interface_operator, only: add_global_force, interface_element, joint_movement
    use joint_laws, only: element_state, element_stiffness_of, joint_law
    use kinds, only: wp
-   use model_data, only: model_type, n_bars, n_sections
+   use model_data, only: model_type, n_bars, n_sections, temperature_type
    use normal_stiffness, only: at_rest, branch_load, branch_open, is_virgin, normal_secant
    use branch_starts, only: note_turns, turning_point
    implicit none
@@ -57,8 +57,11 @@ module analysis_state
       real(wp) :: tolerance = 0.0_wp                !! the same as a force, for the largest load so far
       ! over all nodes
       real(wp), allocatable :: load_before(:, :)    !! at the start of the stage [force]
-      real(wp), allocatable :: load_after(:, :)     !! at its end; what is not elastic in bolts included
+      real(wp), allocatable :: load_after(:, :)     !! at its end; what is not elastic in bolts and what warmth pushes included
       real(wp), allocatable :: applied(:, :)        !! now
+      type(temperature_type) :: temperature_before  !! at the start of the stage
+      type(temperature_type) :: temperature_after   !! at its end
+      type(temperature_type) :: temperature         !! now
       integer, allocatable  :: loaded(:)            !! nodes on which loads act in this stage
       logical  :: is_moved = .false.                !! whether supports are out of their places in this stage
       logical  :: moves = .false.                   !! whether they are moved in this increment
@@ -80,7 +83,7 @@ module analysis_state
       real(wp), allocatable :: unbalanced(:, :)     !! felt - internal forces
       ! of bars and of the sections of solid bolts
       logical, allocatable  :: is_elastic(:)        !! of bars: no bolt, or locked
-      real(wp), allocatable :: pull(:)              !! of locked bolts: tension at the lengths of the model at rest [force]
+      real(wp), allocatable :: pull(:)              !! of locked bolts: tension at the lengths of the model at rest, all of it at its TREF [force]
       logical, allocatable  :: is_locked(:)         !! of sections
       ! of interface elements and joints
       type(element_state), allocatable :: states(:)

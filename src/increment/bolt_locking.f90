@@ -3,10 +3,10 @@
 !! overlap g at its section; from the end of that stage on g is held as it then is.
 module bolt_locking
    use analysis_state, only: analysis_type
-   use bar_elements, only: add_pull, bar_elongation
+   use bar_elements, only: add_pull, bar_elongation, thermal_pull
    use equations, only: add_bar, equation_system, lock_unknown
    use kinds, only: wp
-   use model_data, only: model_type, n_bars, n_sections
+   use model_data, only: bar_nodes, model_type, n_bars, n_sections
    use node_coupling, only: displacements_at
    implicit none
    private
@@ -29,6 +29,7 @@ contains
             analysis%is_elastic(i) = .true.
             analysis%pull(i) = bar%preload - bar%stiffness*elongation_now(model, analysis, i)
             call add_pull(model, i, analysis%pull(i) - bar%preload, analysis%applied)
+            analysis%pull(i) = analysis%pull(i) - thermal_pull(bar, analysis%temperature) ! which is among the loads from here on
             call add_bar(model, i, system)
          end associate
       end do
@@ -50,7 +51,7 @@ contains
       type(analysis_type), intent(in) :: analysis
       integer, intent(in)             :: i
 
-      elongation = bar_elongation(model%bars(i), displacements_at(model, model%bars(i)%nodes, analysis%place, analysis%u))
+      elongation = bar_elongation(model%bars(i), displacements_at(model, bar_nodes(model%bars(i)), analysis%place, analysis%u))
    end function elongation_now
 
    !> Overlap g at the section of solid bolt I now [length].
@@ -71,7 +72,7 @@ contains
       tension = 0.0_wp
       associate (bar => model%bars(i))
          if (analysis%is_elastic(i)) then
-            tension = analysis%pull(i) + bar%stiffness*elongation_now(model, analysis, i)
+            tension = analysis%pull(i) + bar%stiffness*elongation_now(model, analysis, i) + thermal_pull(bar, analysis%temperature)
          else if (bar%stage == analysis%stage) then
             tension = analysis%fraction*bar%preload
          end if

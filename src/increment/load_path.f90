@@ -1,13 +1,14 @@
 !> The way of the load: from stage to stage, from increment to increment, and what it does to all nodes of the bodies.
 module load_path
    use analysis_state, only: all_held, analysis_type, joint_energy, subtract_joint_forces
-   use bar_elements, only: add_bar_forces, add_pull
-   use body_elements, only: internal_forces
+   use bar_elements, only: add_bar_forces, add_pull, add_thermal_pulls
+   use body_elements, only: add_thermal_forces, internal_forces
    use equations, only: condense_load, equation_system, forces_in_bodies, recover_displacements
    use kinds, only: wp
    use model_data, only: model_type, n_bars, n_sections
    use node_coupling, only: displacements, forces_on_unknowns
    use stage_plan, only: stage_plan_type
+   use temperatures, only: temperature_between
    implicit none
    private
 
@@ -31,6 +32,8 @@ contains
       analysis%load_after = 0.0_wp
       analysis%moved_before = analysis%moved
       analysis%moved_after = 0.0_wp
+      analysis%temperature_before = analysis%temperature
+      analysis%temperature_after = model%stage_loads(stage)%temperature
       associate (loads => model%stage_loads(stage))
          if (allocated(loads%moved)) analysis%moved_after = loads%moved
          do i = 1, loads%n
@@ -41,6 +44,10 @@ contains
          if (model%bars(i)%stage == stage) analysis%pull(i) = model%bars(i)%preload
          call add_pull(model, i, analysis%pull(i), analysis%load_after)
       end do
+      if (allocated(analysis%temperature_after%at)) then
+         call add_thermal_forces(model, analysis%temperature_after, analysis%load_after)
+         call add_thermal_pulls(model, analysis%is_elastic, analysis%temperature_after, analysis%load_after)
+      end if
       do i = 1, n_sections(model)
          associate (section => model%sections(i))
             associate (load => analysis%load_after(1, section%node))
@@ -114,6 +121,7 @@ contains
       associate (nodes => analysis%loaded)
          analysis%applied(:, nodes) = between(analysis%fraction, analysis%load_before(:, nodes), analysis%load_after(:, nodes))
       end associate
+      analysis%temperature = temperature_between(analysis%temperature_before, analysis%temperature_after, analysis%fraction)
       analysis%moves = .false.
       analysis%move = 0.0_wp
       if (analysis%is_moved) then

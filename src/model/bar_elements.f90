@@ -1,22 +1,51 @@
-!> Bars: two nodes and a stiffness E A/L along the line between them.
+!> Bars: two nodes and a stiffness E A/L along the line between them. Springs are bars in all this, with directions of their own,
+!! and the ground for their second node where they have but one.
 module bar_elements
    use kinds, only: wp
-   use model_data, only: bar_type, model_type
+   use model_data, only: bar_nodes, bar_type, model_type, temperature_type
    use node_coupling, only: onto_unknowns, unknown_nodes
+   use temperatures, only: bar_rise
    implicit none
    private
 
-   public :: bar_elongation, add_pull, add_bar_forces, bar_stiffness, coupled_bar_stiffness
+   public :: bar_elongation, thermal_pull, add_pull, add_thermal_pulls, add_bar_forces, bar_stiffness, coupled_bar_stiffness
 
 contains
 
-   !> How much longer BAR is under the displacements of its nodes [length].
+   !> How much longer BAR is under the displacements of its bar_nodes [length].
    pure real(wp) function bar_elongation(bar, u) result(elongation)
       type(bar_type), intent(in) :: bar
-      real(wp), intent(in)       :: u(:, :) !! (dimension, 2) [length]
+      real(wp), intent(in)       :: u(:, :) !! (dimension, bar_nodes) [length]
+      real(wp) :: second(size(u, 1))
 
-      elongation = dot_product(u(:, 2) - u(:, 1), bar%direction(:size(u, 1)))
+      associate (d => size(u, 1))
+         second = 0.0_wp
+         if (size(u, 2) == 2) second = u(:, 2)
+         elongation = dot_product(second - u(:, 1), bar%direction(:d, 2)) + &
+                      dot_product(u(:, 1), bar%direction(:d, 2) - bar%direction(:d, 1))
+      end associate
    end function bar_elongation
+
+   !> Tension of BAR, held at its length, at this TEMPERATURE: pressure where it is warm [force].
+   pure real(wp) function thermal_pull(bar, temperature) result(tension)
+      type(bar_type), intent(in)         :: bar
+      type(temperature_type), intent(in) :: temperature
+
+      tension = -bar%stiffness*bar%expansion*bar_rise(bar, temperature)
+   end function thermal_pull
+
+   !> Add to F the nodal forces of the thermal pulls of elastic bars.
+   pure subroutine add_thermal_pulls(model, is_elastic, temperature, f)
+      type(model_type), intent(in)       :: model
+      logical, intent(in)                :: is_elastic(:) !! (bars)
+      type(temperature_type), intent(in) :: temperature
+      real(wp), intent(inout)            :: f(:, :)       !! (dimension, n_nodes) [force]
+      integer :: i
+
+      do i = 1, size(is_elastic)
+         if (is_elastic(i)) call add_pull(model, i, thermal_pull(model%bars(i), temperature), f)
+      end do
+   end subroutine add_thermal_pulls
 
    !> Add to F the nodal forces by which bar I pulls its nodes together under a tension N.
    pure subroutine add_pull(model, i, n, f)
@@ -26,8 +55,8 @@ contains
       real(wp), intent(inout)      :: f(:, :) !! (dimension, n_nodes) [force]
 
       associate (bar => model%bars(i), d => model%dimension)
-         f(:, bar%nodes(1)) = f(:, bar%nodes(1)) + n*bar%direction(:d)
-         f(:, bar%nodes(2)) = f(:, bar%nodes(2)) - n*bar%direction(:d)
+         f(:, bar%nodes(1)) = f(:, bar%nodes(1)) + n*bar%direction(:d, 1)
+         if (bar%nodes(2) > 0) f(:, bar%nodes(2)) = f(:, bar%nodes(2)) - n*bar%direction(:d, 2)
       end associate
    end subroutine add_pull
 
@@ -41,12 +70,12 @@ contains
 
       do i = 1, size(is_elastic)
          associate (bar => model%bars(i))
-            if (is_elastic(i)) call add_pull(model, i, -bar%stiffness*bar_elongation(bar, u(:, bar%nodes)), f)
+            if (is_elastic(i)) call add_pull(model, i, -bar%stiffness*bar_elongation(bar, u(:, bar_nodes(bar))), f)
          end associate
       end do
    end subroutine add_bar_forces
 
-   !> [k] of bar I, components of node 1 first [force/length].
+   !> [k] of bar I between its nodes, components of node 1 first; zero on the ground [force/length].
    pure function bar_stiffness(model, i) result(k)
       type(model_type), intent(in) :: model
       integer, intent(in)          :: i
@@ -54,7 +83,8 @@ contains
       integer  :: row
 
       associate (bar => model%bars(i), d => model%dimension)
-         between = [-bar%direction(:d), bar%direction(:d)]
+         between = [-bar%direction(:d, 1), bar%direction(:d, 2)]
+         if (bar%nodes(2) == 0) between(d + 1:) = 0.0_wp
          do row = 1, 2*d
             k(row, :) = bar%stiffness*between(row)*between
          end do
@@ -69,10 +99,10 @@ contains
       integer :: n, m
 
       n = 2*model%dimension
-      m = model%dimension*size(unknown_nodes(model, model%bars(i)%nodes))
+      m = model%dimension*size(unknown_nodes(model, bar_nodes(model%bars(i))))
       allocate (k(max(n, m), max(n, m)), source=0.0_wp)
       k(:n, :n) = bar_stiffness(model, i)
-      call onto_unknowns(model, model%bars(i)%nodes, k)
+      call onto_unknowns(model, bar_nodes(model%bars(i)), k)
       k = k(:m, :m)
    end function coupled_bar_stiffness
 

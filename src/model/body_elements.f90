@@ -7,16 +7,18 @@ module body_elements
    use isoparametric, only: stiffness
    use kinds, only: wp
    use local_nodes, only: centre_point
-   use model_data, only: corners_of, model_type
+   use model_data, only: corners_of, model_type, temperature_type
    use node_coupling, only: onto_unknowns
-   use section_coupling, only: corner_displacements, extend_stiffness, felt_nodes
+   use section_coupling, only: add_section_share, corner_displacements, extend_stiffness, felt_nodes
    use shape_functions, only: shape_values
    use stress_recovery, only: centre_stress, nodal_stress
+   use temperatures, only: element_rise
+   use thermal_forces, only: nodal_thermal_forces
    implicit none
    private
 
-   public :: coupled_stiffness, element_centre, element_stress, element_nodal_stress, node_stresses, full_stress, element_weight
-   public :: internal_forces, law_of
+   public :: coupled_stiffness, element_centre, element_stress, element_nodal_stress, node_stresses, whole_stress, element_weight
+   public :: internal_forces, element_thermal_forces, add_thermal_forces, law_of
 
 contains
 
@@ -57,56 +59,77 @@ contains
       end associate
    end function element_centre
 
-   !> Stress at the centre of element E under the displacements U: components as in elasticity [pressure].
-   pure function element_stress(model, e, u) result(stress)
-      type(model_type), intent(in) :: model
-      integer, intent(in)          :: e
-      real(wp), intent(in)         :: u(:, :) !! (dimension, n_nodes) [length]
+   !> Stress at the centre of element E under the displacements U at this TEMPERATURE: components as in elasticity [pressure].
+   pure function element_stress(model, e, u, temperature) result(stress)
+      type(model_type), intent(in)       :: model
+      integer, intent(in)                :: e
+      real(wp), intent(in)               :: u(:, :) !! (dimension, n_nodes) [length]
+      type(temperature_type), intent(in) :: temperature
       real(wp) :: stress(n_stresses(model%properties(model%element_property(e))%state))
 
       associate (nodes => corners_of(model, e))
-         call centre_stress(law_of(model, e), model%x(:model%dimension, nodes), corner_displacements(model, e, u), stress)
+         call centre_stress(law_of(model, e), model%x(:model%dimension, nodes), corner_displacements(model, e, u), stress, &
+                            element_rise(model, e, temperature))
       end associate
    end function element_stress
 
    !> Stresses at the nodes of element E, as element_stress.
-   pure subroutine element_nodal_stress(model, e, u, stress)
-      type(model_type), intent(in) :: model
-      integer, intent(in)          :: e
-      real(wp), intent(in)         :: u(:, :)      !! (dimension, n_nodes) [length]
-      real(wp), intent(inout)      :: stress(:, :) !! (components, nodes) [pressure], set here
+   pure subroutine element_nodal_stress(model, e, u, temperature, stress)
+      type(model_type), intent(in)       :: model
+      integer, intent(in)                :: e
+      real(wp), intent(in)               :: u(:, :) !! (dimension, n_nodes) [length]
+      type(temperature_type), intent(in) :: temperature
+      real(wp), intent(inout)            :: stress(:, :) !! (components, nodes) [pressure], set here
 
       associate (nodes => corners_of(model, e))
-         call nodal_stress(law_of(model, e), model%x(:model%dimension, nodes), corner_displacements(model, e, u), stress)
+         call nodal_stress(law_of(model, e), model%x(:model%dimension, nodes), corner_displacements(model, e, u), stress, &
+                           element_rise(model, e, temperature))
       end associate
    end subroutine element_nodal_stress
 
-   !> Stresses at nodes as full_stress, of every node the mean of those that its elements have there; 0 where it has none.
-   pure subroutine node_stresses(model, u, at_node)
-      type(model_type), intent(in) :: model
-      real(wp), intent(in)         :: u(:, :)       !! (dimension, n_nodes) [length]
-      real(wp), intent(out)        :: at_node(:, :) !! (max_stresses, points) [pressure]
-      real(wp) :: own(max_stresses, max_nodes)
+   !> Stresses at nodes as whole_stress, of every node the mean of those that its elements have there; 0 where it has none.
+   pure subroutine node_stresses(model, u, temperature, at_node)
+      type(model_type), intent(in)       :: model
+      real(wp), intent(in)               :: u(:, :)       !! (dimension, n_nodes) [length]
+      type(temperature_type), intent(in) :: temperature
+      real(wp), intent(out)              :: at_node(:, :) !! (max_stresses, points) [pressure]
+      real(wp) :: own(max_stresses, max_nodes), rise(max_nodes)
       integer  :: c, e, i
 
       at_node = 0.0_wp
       do e = 1, model%n_elements
          associate (nodes => corners_of(model, e))
             c = n_stresses(model%properties(model%element_property(e))%state)
-            call element_nodal_stress(model, e, u, own(:c, :size(nodes)))
+            call element_nodal_stress(model, e, u, temperature, own(:c, :size(nodes)))
+            rise(:size(nodes)) = element_rise(model, e, temperature)
             do i = 1, size(nodes)
-               at_node(:, nodes(i)) = at_node(:, nodes(i)) + full_stress(model, e, own(:c, i))/ &
+               at_node(:, nodes(i)) = at_node(:, nodes(i)) + full_stress(model, e, own(:c, i), rise(i))/ &
                                       real(model%first_at(nodes(i) + 1) - model%first_at(nodes(i)), wp)
             end do
          end associate
       end do
    end subroutine node_stresses
 
-   !> STRESS of element E as (xx, yy, zz, xy, yz, zx), the stress across the plane and along the hoop included.
-   pure function full_stress(model, e, stress) result(full)
+   !> Stress at the centre of element E as (xx, yy, zz, xy, yz, zx), the stress across the plane and along the hoop included.
+   pure function whole_stress(model, e, u, temperature) result(whole)
+      type(model_type), intent(in)       :: model
+      integer, intent(in)                :: e
+      real(wp), intent(in)               :: u(:, :) !! (dimension, n_nodes) [length]
+      type(temperature_type), intent(in) :: temperature
+      real(wp) :: whole(max_stresses), n(max_nodes)
+
+      call shape_values(model%element_kind(e), centre_point(:, model%element_kind(e)), n)
+      associate (rise => element_rise(model, e, temperature))
+         whole = full_stress(model, e, element_stress(model, e, u, temperature), dot_product(n(:size(rise)), rise))
+      end associate
+   end function whole_stress
+
+   !> The same from the STRESS somewhere in element E, which is warmer than its reference temperature by RISE there.
+   pure function full_stress(model, e, stress, rise) result(full)
       type(model_type), intent(in) :: model
       integer, intent(in)          :: e
       real(wp), intent(in)         :: stress(:) !! components as in elasticity
+      real(wp), intent(in)         :: rise      !! [temperature]
       real(wp) :: full(max_stresses)
 
       full = 0.0_wp
@@ -117,7 +140,7 @@ contains
             full(:2) = stress(:2)
             full(4) = stress(size(stress))
             if (size(stress) == 4) full(3) = stress(3)
-            if (property%state == plane_strain) full(3) = property%nu*(stress(1) + stress(2))
+            if (property%state == plane_strain) full(3) = property%nu*(stress(1) + stress(2)) - property%e*property%alpha*rise
          end if
       end associate
    end function full_stress
@@ -158,6 +181,35 @@ contains
       end do
    end subroutine internal_forces
 
+   !> F: what element E at this TEMPERATURE pushes its nodes with.
+   pure subroutine element_thermal_forces(model, e, temperature, f)
+      type(model_type), intent(in)       :: model
+      integer, intent(in)                :: e
+      type(temperature_type), intent(in) :: temperature
+      real(wp), intent(inout)            :: f(:, :) !! (dimension, nodes) [force], set here
+
+      associate (nodes => corners_of(model, e))
+         call nodal_thermal_forces(law_of(model, e), model%x(:model%dimension, nodes), element_rise(model, e, temperature), f)
+      end associate
+   end subroutine element_thermal_forces
+
+   !> Add to F what the bodies at this TEMPERATURE push their nodes with.
+   pure subroutine add_thermal_forces(model, temperature, f)
+      type(model_type), intent(in)       :: model
+      type(temperature_type), intent(in) :: temperature
+      real(wp), intent(inout)            :: f(:, :) !! (dimension, n_nodes) [force]
+      real(wp) :: own(model%dimension, max_nodes)
+      integer  :: e
+
+      do e = 1, model%n_elements
+         associate (nodes => corners_of(model, e))
+            call element_thermal_forces(model, e, temperature, own)
+            f(:, nodes) = f(:, nodes) + own(:, :size(nodes))
+            call add_section_share(model, e, nodes, own, f)
+         end associate
+      end do
+   end subroutine add_thermal_forces
+
    !> What element E is made of.
    pure type(element_law) function law_of(model, e)
       type(model_type), intent(in) :: model
@@ -165,7 +217,7 @@ contains
 
       associate (property => model%properties(model%element_property(e)))
          law_of = make_element_law(model%element_kind(e), property%state, property%e, property%nu, property%thickness, &
-                                   property%incompatible)
+                                   property%incompatible, property%alpha)
       end associate
    end function law_of
 

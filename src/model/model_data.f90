@@ -11,7 +11,8 @@ module model_data
    implicit none
    private
 
-   public :: corners_of, has_gaps, has_second_order, is_coarser, joint_node_id, n_bars, n_sections, n_rotations, n_points, supported
+   public :: corners_of, has_gaps, has_ground_springs, has_second_order, is_coarser, joint_node_id, n_bars, n_springs, bar_nodes, &
+             n_sections, n_rotations, n_points, supported
 
    !> Section and material of body elements.
    type, public :: property_type
@@ -20,6 +21,8 @@ module model_data
       real(wp) :: thickness = 0.0_wp         !! of a plane one [length]
       real(wp) :: e = 0.0_wp, nu = 0.0_wp    !! [pressure], [-]
       real(wp) :: rho = 0.0_wp               !! mass density [force x time^2/length^4]
+      real(wp) :: alpha = 0.0_wp             !! thermal expansion [1/temperature]
+      real(wp) :: reference = 0.0_wp         !! TREF, at which it has no thermal strain [temperature]
       logical  :: incompatible = .false.     !! modes of Wilson and Taylor
    end type property_type
 
@@ -67,23 +70,35 @@ module model_data
       real(wp) :: direction = 1.0_wp         !! +1: those parts are on side 1; -1: on side 2
    end type joint_type
 
-   !> Forces on nodes and displacements of supports: the total load at the end of a stage.
+   !> How warm everything is. What a material is warmer than its reference temperature is AT - REFERENCE_SHARE TREF: the share is 1
+   !! where the deck gives temperatures, 0 where it gives none (all is at its TREF then), between them on the way.
+   type, public :: temperature_type
+      real(wp), allocatable :: at(:)         !! (n_nodes) [temperature]; not allocated: none are given
+      real(wp) :: reference_share = 0.0_wp   !! [-]
+   end type temperature_type
+
+   !> Forces on nodes, displacements of supports, temperatures: the total load at the end of a stage.
    type, public :: stage_load_type
       integer :: n = 0
       integer, allocatable  :: node(:)       !! (n), a node may stand here more than once
       real(wp), allocatable :: force(:, :)   !! (3, n)
       real(wp), allocatable :: moved(:, :)   !! (dimension, n_nodes) of held unknowns [length]; where any move
+      type(temperature_type) :: temperature
    end type stage_load_type
 
-   !> A bar, which may be a bolt.
+   !> A bar, which may be a bolt, or a spring: a force that grows with its elongation, direction 2 . u_2 - direction 1 . u_1.
    type, public :: bar_type
       integer  :: id = 0
-      integer  :: nodes(2) = 0
-      real(wp) :: direction(3) = 0.0_wp      !! from node 1 to node 2, unit
+      integer  :: nodes(2) = 0               !! of a spring to the ground the second is 0
+      real(wp) :: direction(3, 2) = 0.0_wp   !! at each node, unit: of a bar both from node 1 to node 2
       real(wp) :: stiffness = 0.0_wp         !! E A/L [force/length]
+      logical  :: ground_first = .false.     !! of a spring: its card names the ground as its first node
+      character(2) :: axis = ''              !! of a spring: T1, T2 or T3, as the card numbers its components; blank: a bar
       integer  :: bolt = 0                   !! BOLT id, 0: none
       real(wp) :: preload = 0.0_wp           !! of a bolt [force]
       integer  :: stage = 0                  !! position of the stage that tightens it; a bolt is elastic from its end on
+      real(wp) :: expansion = 0.0_wp         !! alpha L [length/temperature]
+      real(wp) :: reference = 0.0_wp         !! TREF [temperature]
    end type bar_type
 
    !> The section at which a solid bolt is cut. Its nodes move with the marked side; for the elements behind it they are where
@@ -122,6 +137,7 @@ module model_data
       logical :: axisymmetric = .false.      !! about y; loads, areas and forces are those of the whole ring
       integer :: n_nodes = 0
       integer :: n_filled = 0                !! of these put at the middle of edges, see mid_side_nodes
+      integer :: first_filled = 0            !! position of the first of them
       integer, allocatable  :: node_id(:)    !! ascending; behind the last those of rotations, then those of sections, 0
       real(wp), allocatable :: x(:, :)       !! (3, n_nodes) [length]
       integer, allocatable  :: twin(:)       !! (n_nodes) the node that a split surface put opposite, 0: none
@@ -171,6 +187,30 @@ contains
       n_bars = 0
       if (allocated(model%bars)) n_bars = size(model%bars)
    end function n_bars
+
+   !> How many of the bars are springs.
+   pure integer function n_springs(model)
+      type(model_type), intent(in) :: model
+
+      n_springs = 0
+      if (allocated(model%bars)) n_springs = count(model%bars%axis /= '')
+   end function n_springs
+
+   !> Whether any spring stands on the ground.
+   pure logical function has_ground_springs(model)
+      type(model_type), intent(in) :: model
+
+      has_ground_springs = .false.
+      if (allocated(model%bars)) has_ground_springs = any(model%bars%nodes(2) == 0)
+   end function has_ground_springs
+
+   !> The nodes of BAR, without the ground.
+   pure function bar_nodes(bar) result(nodes)
+      type(bar_type), intent(in) :: bar
+      integer, allocatable :: nodes(:)
+
+      nodes = pack(bar%nodes, bar%nodes > 0)
+   end function bar_nodes
 
    !> How many sections of solid bolts there are.
    pure integer function n_sections(model)

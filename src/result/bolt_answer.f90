@@ -1,11 +1,11 @@
 !> What a bolt bears after an increment, and of which load: of bars and of solid bolts alike.
 module bolt_answer
    use analysis_state, only: analysis_type
-   use body_elements, only: coupled_stiffness
+   use body_elements, only: coupled_stiffness, element_thermal_forces
    use bolt_locking, only: bar_tension, elongation_now, overlap_now, section_tension
-   use element_kinds, only: max_coupled_dofs
+   use element_kinds, only: max_coupled_dofs, max_nodes
    use kinds, only: wp
-   use model_data, only: corners_of, model_type, n_bars, n_sections, section_type
+   use model_data, only: corners_of, model_type, n_bars, n_sections, section_type, temperature_type
    use section_coupling, only: corner_displacements
    use surface_build, only: surface_node_list, surface_nodes
    use vector_product, only: cross
@@ -47,7 +47,8 @@ contains
          associate (bar => model%bars(i))
             if (bar%bolt == 0) cycle
             n = n + 1
-            bolts(n) = bolt_type(id=bar%bolt, element=bar%id, is_tightened=bar%stage == analysis%stage, direction=bar%direction, &
+            bolts(n) = bolt_type(id=bar%bolt, element=bar%id, is_tightened=bar%stage == analysis%stage, &
+                                 direction=bar%direction(:, 1), &
                                  force=bar_tension(model, analysis, i), longer=elongation_now(model, analysis, i))
          end associate
       end do
@@ -93,12 +94,13 @@ contains
 
    !> Bending moment at the section of a solid bolt: what the elements behind it exert on the nodes of the section, about the
    !! centroid of its area, across the bolt [force x length]. Weight of these elements is neglected.
-   pure real(wp) function bending_moment(model, section, u) result(moment)
+   pure real(wp) function bending_moment(model, section, u, temperature) result(moment)
       type(model_type), intent(in)   :: model
       type(section_type), intent(in) :: section
       real(wp), intent(in)           :: u(:, :) !! (dimension, n_nodes) of all nodes [length]
+      type(temperature_type), intent(in) :: temperature
       type(surface_node_list) :: list
-      real(wp) :: centroid(3), force(3), total(3)
+      real(wp) :: centroid(3), force(3), thermal(3, max_nodes), total(3)
       real(wp) :: k(max_coupled_dofs, max_coupled_dofs), p(max_coupled_dofs)
       integer  :: d, e, i, j, n, s
 
@@ -113,13 +115,14 @@ contains
       do j = model%first_at(section%node), model%first_at(section%node + 1) - 1
          e = model%elements_at(j)
          call coupled_stiffness(model, e, k)
+         call element_thermal_forces(model, e, temperature, thermal(:d, :))
          associate (nodes => corners_of(model, e))
             n = d*size(nodes)
             p(:n) = matmul(k(:n, :n), reshape(corner_displacements(model, e, u), [n]))
             do i = 1, size(nodes)
                if (model%node_section(nodes(i)) /= model%element_section(e)) cycle
                force = 0.0_wp
-               force(:d) = p(d*(i - 1) + 1:d*i)
+               force(:d) = p(d*(i - 1) + 1:d*i) - thermal(:d, i)
                total = total + cross(model%x(:, nodes(i)) - centroid, force)
             end do
          end associate

@@ -8,7 +8,7 @@ module listing
    use failures, only: failure_type
    use joint_motion, only: is_closed
    use kinds, only: wp
-   use listing_bars, only: note_bars, note_sections
+   use listing_bars, only: note_bars, note_sections, note_springs
    use listing_bodies, only: list_bodies
    use listing_joints, only: list_energy, list_interface, note_passes, note_resultants
    use listing_opening, only: write_opening
@@ -31,7 +31,7 @@ module listing
    type, public :: listing_type
       type(page_type) :: page
       integer :: method = 0
-      type(listing_table_type) :: increments, distances, resultants, passes, slips, bars, sections ! of the stage so far
+      type(listing_table_type) :: increments, distances, resultants, passes, slips, bars, springs, sections ! of the stage so far
       type(farthest_type) :: farthest !! from the laws
       integer :: n_increments = 0, n_removed = 0
       type(range_watch_type) :: watch
@@ -97,6 +97,7 @@ contains
          call note_passes(page, listing%method, analysis, listing%passes)
          call note_slips(page, model, analysis, listing%slips)
          call note_bars(page, model, analysis, listing%bars)
+         call note_springs(page, model, analysis, listing%springs)
          call note_sections(page, model, analysis, listing%sections)
          call watch_ranges(model, analysis, listing%watch)
          if (listing%method /= method_back) then
@@ -127,6 +128,7 @@ contains
          call listing%slips%print_kept(page%file)
          call listing%resultants%print_kept(page%file)
          call listing%bars%print_kept(page%file)
+         call listing%springs%print_kept(page%file)
          call listing%sections%print_kept(page%file)
          call list_energy(page, model, analysis)
          if (stage%output >= output_last) call list_joints(page, stage%state, model, analysis)

@@ -1,13 +1,14 @@
 !> Tables of the bodies: displacements, stresses, reactions, and the balance of the outer forces.
 module listing_bodies
    use analysis_state, only: analysis_type, element_force
-   use body_elements, only: element_centre, element_stress, full_stress, node_stresses
+   use bolt_locking, only: bar_tension
+   use body_elements, only: element_centre, element_stress, node_stresses, whole_stress
    use elasticity, only: max_stresses, n_stresses
    use interface_operator, only: named_node
    use kinds, only: wp
    use listing_table, only: axes, column, listing_table_type, noise, page_type
    use listing_rotations, only: list_moments, list_rotations
-   use model_data, only: has_second_order, model_type, n_points, supported
+   use model_data, only: has_ground_springs, has_second_order, model_type, n_bars, n_points, supported
    use node_coupling, only: held_forces
    use shown_rows, only: shows_element, shows_node
    use stress_measures, only: principal_stresses, von_mises
@@ -70,7 +71,7 @@ contains
       n = 0
       do e = 1, model%n_elements
          n = n_stresses(model%properties(model%element_property(e))%state)
-         stress(:n, e) = element_stress(model, e, analysis%all_u)
+         stress(:n, e) = element_stress(model, e, analysis%all_u, analysis%temperature)
       end do
       floor = noise*maxval(abs(stress))
       call table%start('STRESSES AT THE CENTRES OF ELEMENTS'//page%now//in_units(page%labels%pressure), &
@@ -84,7 +85,7 @@ contains
          call table%add(clean(stress(:n, e), floor))
          call table%print_row(page%file)
       end do
-      if (principal) call list_principal(page, model, stress(:n, :), floor)
+      if (principal) call list_principal(page, model, analysis, floor)
    end subroutine list_stresses
 
    !> Which of the stresses (xx, yy, zz, xy, yz, zx) the tables of MODEL have.
@@ -121,7 +122,7 @@ contains
       integer  :: node
 
       allocate (stress(max_stresses, n_points(model)))
-      call node_stresses(model, analysis%all_u, stress)
+      call node_stresses(model, analysis%all_u, analysis%temperature, stress)
       floor = noise*maxval(abs(stress))
       shown = shown_stresses(model)
       call table%start('STRESSES AT NODES, MEAN OF THEIR ELEMENTS'//page%now//in_units(page%labels%pressure), &
@@ -137,10 +138,10 @@ contains
    end subroutine list_node_stresses
 
    !> Principal stresses and the equivalent stress of von Mises at the centres.
-   subroutine list_principal(page, model, stress, floor)
+   subroutine list_principal(page, model, analysis, floor)
       type(page_type), intent(inout) :: page
       type(model_type), intent(in)   :: model
-      real(wp), intent(in)           :: stress(:, :) !! (stresses of a state, elements)
+      type(analysis_type), intent(in) :: analysis
       real(wp), intent(in)           :: floor
       type(listing_table_type) :: table
       real(wp) :: full(max_stresses)
@@ -151,7 +152,7 @@ contains
       call table%print_head(page%file)
       do e = 1, model%n_elements
          if (.not. shows_element(page, model, e)) cycle
-         full = full_stress(model, e, stress(:, e))
+         full = whole_stress(model, e, analysis%all_u, analysis%temperature)
          call table%add([model%element_id(e)])
          call table%add(clean(principal_stresses(full), floor))
          call table%add([clean(von_mises(full), floor)])
@@ -165,7 +166,7 @@ contains
       type(model_type), intent(in)    :: model
       type(analysis_type), intent(in) :: analysis
       type(listing_table_type) :: table
-      real(wp), dimension(model%dimension) :: reaction, supports, base, loads
+      real(wp), dimension(model%dimension) :: reaction, supports, base, ground, loads
       real(wp), allocatable :: held(:, :)
       real(wp) :: floor, force(3)
       integer  :: first, i, node
@@ -193,6 +194,11 @@ contains
          force = element_force(model%interface(i), analysis%states(i))
          base = base - force(:model%dimension)
       end do
+      ground = 0.0_wp
+      do i = 1, n_bars(model)
+         if (model%bars(i)%nodes(2) > 0) cycle
+         ground = ground + bar_tension(model, analysis, i)*model%bars(i)%direction(:model%dimension, 1)
+      end do
       loads = sum(analysis%applied(:, :n_points(model)), dim=2)
       first = merge(2, 1, model%axisymmetric)
       call table%start('BALANCE OF FORCES'//page%now//in_units(page%labels%force), &
@@ -202,7 +208,8 @@ contains
       call balance_line('LOADS', loads(first:))
       call balance_line('SUPPORTS', supports(first:))
       call balance_line('RIGID BASES, THROUGH THE JOINTS', base(first:))
-      call balance_line('SUM: LEFT UNBALANCED', loads(first:) + supports(first:) + base(first:))
+      if (has_ground_springs(model)) call balance_line('GROUND, THROUGH SPRINGS', ground(first:))
+      call balance_line('SUM: LEFT UNBALANCED', loads(first:) + supports(first:) + base(first:) + ground(first:))
 
    contains
 

@@ -10,7 +10,7 @@ module listing_opening
    use listing_covers, only: write_covers
    use listing_echo, only: write_echo
    use listing_table, only: axes, column, cut, heading, listing_table_type, page_type, page_width
-   use model_data, only: has_gaps, model_type, n_bars, n_points, n_rotations, n_sections, supported
+   use model_data, only: has_gaps, model_type, n_bars, n_points, n_rotations, n_sections, n_springs, supported
    use model_warnings, only: tetra_words
    use normal_stiffness, only: branch_load, branch_name, branch_reload, branch_unload, pressure_floor
    use output_file, only: output_file_type
@@ -75,7 +75,8 @@ contains
       if (model%n_filled > 0) call count_line('   OF THESE PUT AT THE MIDDLE OF EDGES', int(model%n_filled, long))
       if (any(model%twin > 0)) call count_line('   OF THESE DOUBLED AT SPLIT SURFACES', count(model%twin > 0, kind=long))
       call count_line('BODY ELEMENTS', int(model%n_elements, long))
-      if (n_bars(model) > 0) call count_line('BARS, BOLTS INCLUDED', size(model%bars, kind=long))
+      if (n_bars(model) > n_springs(model)) call count_line('BARS, BOLTS INCLUDED', int(n_bars(model) - n_springs(model), long))
+      if (n_springs(model) > 0) call count_line('SPRINGS, ONE A DIRECTION', int(n_springs(model), long))
       if (n_sections(model) > 0) call count_line('SOLID BOLTS', size(model%sections, kind=long))
       call count_line('JOINTS', size(model%joints, kind=long))
       call count_line('INTERFACE ELEMENTS', size(model%interface, kind=long))

@@ -2,7 +2,7 @@
 !! rounding makes of them is zero, what means nothing is absent.
 module stage_answer
    use analysis_state, only: analysis_type
-   use body_elements, only: element_centre, element_stress, full_stress, node_stresses
+   use body_elements, only: element_centre, node_stresses, whole_stress
    use bolt_answer, only: bending_moment, bolt_type, find_bolts, load_along
    use elasticity, only: max_stresses
    use joint_motion, only: find_frame, find_resultant, joint_frame, joint_resultant, rigid_movement, stiffness_about
@@ -104,7 +104,7 @@ contains
                                                     model%node_id(node), model%x(:, node))
       if (model%n_elements == 0) return
       allocate (at_node(max_stresses, n_points(model)))
-      call node_stresses(model, analysis%all_u, at_node)
+      call node_stresses(model, analysis%all_u, analysis%temperature, at_node)
       do node = 1, size(size_of)
          size_of(node) = von_mises(at_node(:, node))
       end do
@@ -113,7 +113,7 @@ contains
       deallocate (size_of)
       allocate (size_of(model%n_elements))
       do e = 1, model%n_elements
-         size_of(e) = von_mises(full_stress(model, e, element_stress(model, e, analysis%all_u)))
+         size_of(e) = von_mises(whole_stress(model, e, analysis%all_u, analysis%temperature))
       end do
       e = first_largest(size_of, size_of >= 0.0_wp)
       answer%at_centre = peak_type(.true., size_of(e), model%element_id(e))
@@ -214,7 +214,8 @@ contains
             answer%has_moment = bolt%section > 0 .and. analysis%fraction >= 1.0_wp
             if (answer%has_moment) then
                associate (section => model%sections(bolt%section))
-                  answer%moment = clean(bending_moment(model, section, analysis%all_u), floor*sqrt(section%area))
+                  answer%moment = clean(bending_moment(model, section, analysis%all_u, analysis%temperature), &
+                                        floor*sqrt(section%area))
                end associate
             end if
          end associate

@@ -3,7 +3,7 @@
 module vtu_results
    use, intrinsic :: iso_fortran_env, only: int8
    use analysis_state, only: analysis_type
-   use body_elements, only: element_stress, full_stress, node_stresses
+   use body_elements, only: node_stresses, whole_stress
    use c_library, only: read_all_bytes, remove_file
    use element_kinds, only: element_table
    use elasticity, only: max_stresses
@@ -122,11 +122,11 @@ contains
             ends(e) = n
             types(e) = int(element_table(model%element_kind(e))%vtk_type, int8)
             properties(e) = model%properties(model%element_property(e))%id
-            at_centre(:, e) = full_stress(model, e, element_stress(model, e, analysis%all_u))
+            at_centre(:, e) = whole_stress(model, e, analysis%all_u, analysis%temperature)
             principal(:, e) = principal_stresses(at_centre(:, e))
          end associate
       end do
-      call node_stresses(model, analysis%all_u, at_node)
+      call node_stresses(model, analysis%all_u, analysis%temperature, at_node)
       call file%points(model%x(:, :m))
       call file%cells(connected, ends, types)
       call file%add(point_data, 'node', model%node_id(:m))

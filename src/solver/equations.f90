@@ -8,7 +8,7 @@ module equations
    use failures, only: failure_type
    use interface_operator, only: add_global_force, global_stiffness, relative_movement
    use kinds, only: wp
-   use model_data, only: model_type, n_bars
+   use model_data, only: bar_nodes, model_type, n_bars
    use node_coupling, only: list_on_unknowns, unknown_nodes
    use node_graph, only: build_node_graph, node_graph_type
    use solver_choice, only: choose_solver
@@ -84,7 +84,7 @@ contains
       integer, intent(in)                   :: i
       class(equation_system), intent(inout) :: system
 
-      associate (nodes => unknown_nodes(model, model%bars(i)%nodes))
+      associate (nodes => unknown_nodes(model, bar_nodes(model%bars(i))))
          call system%add_to_bodies([system%number(:, nodes)], coupled_bar_stiffness(model, i))
       end associate
       system%stiffest = max(system%stiffest, model%bars(i)%stiffness)

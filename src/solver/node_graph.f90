@@ -1,6 +1,6 @@
 !> Which nodes share an element: the graph that orderings work on.
 module node_graph
-   use model_data, only: model_type, n_bars
+   use model_data, only: bar_nodes, model_type, n_bars
    use node_coupling, only: unknown_nodes
    use reverse_lists, only: list_owners
    use section_coupling, only: coupled_nodes, felt_nodes, section_node
@@ -81,7 +81,7 @@ contains
          call join(unknown_nodes(model, model%interface(i)%node))
       end do
       do i = 1, n_bars(model)
-         call join(unknown_nodes(model, model%bars(i)%nodes))
+         call join(unknown_nodes(model, bar_nodes(model%bars(i))))
       end do
       if (.not. allocated(model%coupling%of_node)) return
       do e = 1, model%n_elements

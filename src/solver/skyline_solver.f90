@@ -9,7 +9,7 @@ module skyline_solver
    use interface_operator, only: interface_element
    use kinds, only: long, wp
    use memory_need, only: shortage
-   use model_data, only: model_type, n_bars
+   use model_data, only: bar_nodes, model_type, n_bars
    use node_coupling, only: list_on_unknowns, unknown_nodes
    use section_coupling, only: coupled_nodes
    use node_graph, only: node_graph_type
@@ -103,7 +103,7 @@ contains
          call couple(unknown_nodes(model, model%interface(i)%node))
       end do
       do i = 1, n_bars(model)
-         call couple(unknown_nodes(model, model%bars(i)%nodes))
+         call couple(unknown_nodes(model, bar_nodes(model%bars(i))))
       end do
       profile = 0
       do i = 1, numbers%n

@@ -15,7 +15,7 @@ module tree_solver
    use front_tree, only: front_tree_type, largest_diagonal, start_front_tree
    use kinds, only: long, wp
    use memory_need, only: check_memory
-   use model_data, only: model_type, n_bars, n_sections
+   use model_data, only: bar_nodes, model_type, n_bars, n_sections
    use node_coupling, only: unknown_nodes
    use nested_dissection, only: dissect
    use node_graph, only: node_graph_type
@@ -104,7 +104,7 @@ contains
          in_joint(unknown_nodes(model, model%interface(i)%node)) = .true.
       end do
       do i = 1, n_bars(model)
-         in_joint(unknown_nodes(model, model%bars(i)%nodes)) = .true.
+         in_joint(unknown_nodes(model, bar_nodes(model%bars(i)))) = .true.
       end do
       do i = 1, n_sections(model)
          in_joint(model%sections(i)%node) = .true.

@@ -37,8 +37,8 @@ contains
       do i = 1, n_bars(model)
          if (model%bars(i)%bolt > 0) cycle
          associate (d => model%dimension, bar => model%bars(i))
-            pull(:d) = bar%direction(:d)
-            pull(d + 1:) = -bar%direction(:d)
+            pull(:d) = bar%direction(:d, 1)
+            pull(d + 1:) = -bar%direction(:d, 2)
             call add(rows_of(model, bar%nodes), bar%stiffness*matmul(reshape(pull, [2*d, 1]), reshape(pull, [1, 2*d])))
          end associate
       end do

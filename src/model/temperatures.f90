@@ -1,0 +1,55 @@
+!> Temperatures: how much warmer than their reference temperatures elements and bars are.
+module temperatures
+   use element_kinds, only: element_table
+   use kinds, only: wp
+   use model_data, only: bar_type, corners_of, model_type, temperature_type
+   implicit none
+   private
+
+   public :: element_rise, bar_rise, temperature_between
+
+contains
+
+   !> T - TREF at the nodes of element E [temperature].
+   pure function element_rise(model, e, temperature) result(rise)
+      type(model_type), intent(in)       :: model
+      integer, intent(in)                :: e
+      type(temperature_type), intent(in) :: temperature
+      real(wp) :: rise(element_table(model%element_kind(e))%n_nodes)
+
+      rise = 0.0_wp
+      if (.not. allocated(temperature%at)) return
+      rise = temperature%at(corners_of(model, e)) - temperature%reference_share* &
+             model%properties(model%element_property(e))%reference
+   end function element_rise
+
+   !> The mean of T - TREF along BAR; of a spring none [temperature].
+   pure real(wp) function bar_rise(bar, temperature) result(rise)
+      type(bar_type), intent(in)         :: bar
+      type(temperature_type), intent(in) :: temperature
+
+      rise = 0.0_wp
+      if (bar%axis /= '' .or. .not. allocated(temperature%at)) return
+      rise = 0.5_wp*sum(temperature%at(bar%nodes)) - temperature%reference_share*bar%reference
+   end function bar_rise
+
+   !> The temperatures at a FRACTION of the way from BEFORE to AFTER.
+   pure function temperature_between(before, after, fraction) result(now)
+      type(temperature_type), intent(in) :: before, after
+      real(wp), intent(in)               :: fraction !! [-], 0 to 1
+      type(temperature_type) :: now
+
+      if (fraction >= 1.0_wp) then
+         now = after
+         return
+      end if
+      now%reference_share = before%reference_share + fraction*(after%reference_share - before%reference_share)
+      if (allocated(before%at)) now%at = (1.0_wp - fraction)*before%at
+      if (allocated(now%at) .and. allocated(after%at)) then
+         now%at = now%at + fraction*after%at
+      else if (allocated(after%at)) then
+         now%at = fraction*after%at
+      end if
+   end function temperature_between
+
+end module temperatures

@@ -1,0 +1,108 @@
+# Temperatures and springs: whole runs against closed formulas.
+
+# ---- a bolted joint of aluminium on steel, warmed and cooled ----
+
+# Two columns of nu = 0 with a joint between them, tied together by two bolts of steel to N0 = 10: the lengths of the bolts and of
+# the columns with the joint stay equal, (N - N0)/k_b + 20 alpha_s T = -(N - N0)/k_c - lambda(N) + lambda(N0) + (8 alpha_s + 12 alpha_a) T,
+# on the curve where N grows, along E_u = 30 where it falls.
+warm_columns() { # NAME T SOLVER
+   cat > "$work/$1.bdf" <<DECK
+METHOD = NEWTON
+SOLVER = $3
+SPC = 1
+SUBCASE 1
+  TEMPERATURE(LOAD) = 6
+SUBCASE 2
+  TEMPERATURE(LOAD) = 7
+  INCR = 5
+BEGIN BULK
+MAT1,1,200.,,.0,,1.2-5,20.
+MAT1,2,70.,,.0,,2.3-5,20.
+PSHELL,1,1,2.
+PSHELL,2,2,2.
+BLOCK2,1,1,1,2,0.,0.
++,10.,8.
++,20,,21
+BLOCK2,2,2,1,2,0.,8.
++,10.,20.,,,,,101,101
++,,,,,1
+PMARK,20
+PMARK,21
+SPCM,1,2,20
+SPC1,1,1,1,2,3,102,103
+JOINT,1,1,21
+PJOINT,1,1
+JNORM,1,.02,.5,30.
+CROD,301,3,1,103
+CROD,302,3,4,106
+PROD,3,1,1.
+BOLT,1,301,5.
+BOLT,2,302,5.
+JINCR,5,4,ARITH,.25
+TEMPD,6,20.,7,$2
+ENDDATA
+DECK
+   run "$1"
+}
+for solver in SKYLINE TREE; do
+   for warmth in 2000 -2000; do
+      warm_columns columns "$((warmth + 20))." $solver || continue
+      judge "bolts of two columns, $warmth degrees, $solver" -F, -v warmth=$warmth '
+         function lambda(n) { return n > 10 ? 0.02 * (sqrt(n / 20) - sqrt(0.5)) : (n / 20 - 0.5) / 30 }
+         function force(t,   k, low, high, n) {
+            low = 0; high = 40
+            for (k = 0; k < 100; k++) {
+               n = (low + high) / 2
+               if ((n - 10) * (1 / 20 + 8 / 4000 + 12 / 1400) + lambda(n) < 12 * 1.1e-5 * t) low = n; else high = n
+            }
+            return n
+         }
+         FNR > 1 {
+            checked++
+            expected = force($1 == 1 ? 0 : $3 * warmth) / 2
+            if (!($5 - expected < 1e-8 && expected - $5 < 1e-8)) print "stage " $1 ", increment " $2 ": " $5 ", expected " expected
+         }
+         END { print "checked " checked }' "$work/columns.bolt.csv"
+      ask "joint of two columns, $warmth degrees, $solver" columns rows 'stage = 2 and increment = 4' count 2 \
+         all "sum(force) = 2*$(awk -F, '$1 == 2 && $2 == 4 { n = $5 } END { print n }' "$work/columns.bolt.csv") within 1e-8"
+   done
+done
+
+# ---- the flange of input/: what is warm bears on nothing but the joint and its bolt ----
+
+if run_input flange_warm; then
+   while IFS=, read -r stage increment force; do
+      ask "flange, stage $stage, increment $increment: bolt and joint" flange_warm rows "stage = $stage and increment = $increment" \
+         count 25 all "sum(force) = $force within 1e-6*$force"
+   done < <(awk -F, 'FNR > 1 { print $1 "," $2 "," $5 }' "$work/flange_warm.bolt.csv")
+   judge 'flange: supports and loads' '
+      / BALANCE OF FORCES/ { on = 1 }
+      on && /LOADS|UNBALANCED/ { checked++; if ($NF + $(NF - 1) + $(NF - 2) != 0) print }
+      END { print "checked " checked }' "$work/flange_warm.out"
+fi
+
+# ---- springs to the ground: they stand in the balance ----
+
+cat > "$work/springs.bdf" <<'DECK'
+SPC = 1
+SUBCASE 1
+  LOAD = 10
+BEGIN BULK
+MAT1,1,100.,,.0
+PSHELL,1,1,2.
+BLOCK2,1,1,1,1,0.,0.
++,4.,3.
+SPC1,1,2,1
+CELAS1,51,7,1,1
+CELAS2,52,20.,,,2,1
+PELAS,7,20.
+FORCE,10,3,,6.,1.
+FORCE,10,4,,6.,1.
+ENDDATA
+DECK
+if run springs; then
+   same 'springs: the ground' "$(table springs 'BALANCE OF FORCES' | awk '/GROUND/ { print $(NF - 1), $NF } /UNBALANCED/ { print $(NF - 1), $NF }' | tr '\n' ' ')" \
+      '-1.20000E+01 0.00000E+00 0.00000E+00 0.00000E+00 '
+   same 'springs: forces' "$(table springs 'FORCES OF SPRINGS' | awk '$1 == 1 { print $2, $3, $4, $5, $6, $7 }' | tr '\n' ';')" \
+      '51 1 0 T1 6.00000E+00 3.00000E-01;52 0 2 T1 -6.00000E+00 -3.00000E-01;'
+fi
