@@ -1,9 +1,10 @@
 !> The stages of the load history and the shares of their increments, as case control and JINCR cards give them.
 module stage_plan
-   use case_control, only: method_back, method_newton, output_all, output_last
+   use case_control, only: method_back, method_newton
    use deck_errors, only: deck_error_list
    use deck_input, only: deck_type
    use kinds, only: wp
+   use stage_entries, only: output_all, output_last
    use text_tools, only: integer_text
    implicit none
    private

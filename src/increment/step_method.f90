@@ -1,7 +1,6 @@
 !> METHOD = STEP, the step-wise tangent-stiffness method: one routine a box of the flow chart (Fig. 6a).
 module step_method
    use analysis_state, only: analysis_type, pass_record, record_pass, slip_record, tally_work
-   use case_control, only: output_joint
    use equations, only: equation_system, forces_in_bodies, form_structure_stiffness, solve_equations
    use failures, only: failure_type
    use interface_operator, only: add_force, joint_movement
@@ -9,6 +8,7 @@ module step_method
    use kinds, only: wp
    use model_data, only: joint_node_id, model_type
    use normal_stiffness, only: pressure_reached
+   use stage_entries, only: output_joint
    use stage_plan, only: stage_plan_type, where_in_plan
    use text_tools, only: integer_text, real_text
    implicit none

@@ -1,7 +1,7 @@
 !> The listing NAME.out: increments of each stage, and the tables that OUTPUT asks for.
 module listing
    use analysis_state, only: analysis_type, free_norm
-   use case_control, only: method_back, output_all, output_joint, output_last
+   use case_control, only: method_back
    use deck_input, only: deck_type
    use determinate_joints, only: carried_resultant
    use equation_solver, only: equation_system
@@ -21,6 +21,7 @@ module listing
    use node_coupling, only: held_forces
    use normal_stiffness, only: branch_open
    use range_watch, only: range_watch_type, say_ranges, watch_balance, watch_ranges, watch_shear_laws, watch_unloading
+   use stage_entries, only: output_all, output_joint, output_last
    use stage_plan, only: stage_plan_type
    use text_tools, only: clean, integer_text, plural, upper
    implicit none

@@ -1,0 +1,144 @@
+!> The entries of case control that belong to one stage: what loads it, what is printed of it.
+module stage_entries
+   use case_entries, only: choose, entry_type, read_number, set_reference, value_error
+   use deck_errors, only: deck_error_list
+   use deck_numbers, only: parse_integer
+   use text_tools, only: upper
+   implicit none
+   private
+
+   public :: read_stage_entry
+
+   integer, parameter, public :: output_none = 0, output_last = 1, output_joint = 2, output_all = 3 !! OUTPUT =
+
+   !> What the tables of a stage are limited to: a SET of node numbers, or the nodes of a marked surface.
+   type, public :: limit_type
+      logical :: is_mark = .false.
+      integer :: id = 0, line = 0
+   end type limit_type
+
+   !> One SUBCASE: a stage of the load history.
+   type, public :: stage_type
+      integer :: id = 0, line = 0
+      character(:), allocatable :: label
+      type(set_reference) :: load     !! total load at the end of the stage; none: no load
+      type(set_reference) :: increments
+      type(set_reference) :: supports
+      type(set_reference) :: temperature !! at the end of the stage; none: all is at its TREF
+      type(set_reference) :: equations !! between components, MPC
+      integer :: output = output_last
+      logical :: plot   = .false.
+      logical :: vtu    = .false.
+      logical :: steps  = .false.   !! files for ParaView after every increment
+      logical :: stress = .false.   !! principal stresses and von Mises in the listing
+      logical :: state  = .false.   !! what the interface elements remember
+      logical :: condensed = .false. !! [k_b] condensed on the interface
+      type(limit_type), allocatable :: only(:) !! not allocated: the tables have all nodes and elements
+   end type stage_type
+
+contains
+
+   !> One of LABEL, LOAD, INCR, SPC, TEMPERATURE, MPC and OUTPUT of STAGE.
+   subroutine read_stage_entry(entry, stage, errors)
+      type(entry_type), intent(in)         :: entry
+      type(stage_type), intent(inout)      :: stage
+      type(deck_error_list), intent(inout) :: errors
+
+      select case (entry%key)
+      case ('LABEL')
+         stage%label = entry%value
+      case ('LOAD')
+         call read_number(entry, stage%load, errors)
+      case ('INCR')
+         call read_number(entry, stage%increments, errors)
+      case ('SPC')
+         call read_number(entry, stage%supports, errors)
+      case ('MPC')
+         call read_number(entry, stage%equations, errors)
+      case ('OUTPUT')
+         call read_output(entry, stage, errors)
+      case ('TEMPERATURE')
+         call read_number(entry, stage%temperature, errors)
+         if (entry%describers /= 'LOAD') call errors%add(entry%line, 'TEMPERATURE: expected TEMPERATURE(LOAD) = set, the '// &
+            'temperatures at the end of the stage; those without thermal strain are TREF on MAT1')
+      end select
+   end subroutine read_stage_entry
+
+   !> OUTPUT = LAST, PLOT: words between commas.
+   subroutine read_output(entry, stage, errors)
+      type(entry_type), intent(in)         :: entry
+      type(stage_type), intent(inout)      :: stage
+      type(deck_error_list), intent(inout) :: errors
+      character(*), parameter :: beside = 'PLOT, STRESS, VTU, STEPS, STATE, CONDENSED, SET N, PMARK N' ! a level, not in place of one
+      character(:), allocatable :: rest, word
+      integer :: comma, levels
+      logical :: ok, twice
+
+      stage%output = output_last
+      stage%plot = .false.
+      stage%vtu = .false.
+      stage%steps = .false.
+      if (allocated(stage%only)) deallocate (stage%only)
+      stage%stress = .false.
+      stage%state = .false.
+      stage%condensed = .false.
+      levels = 0
+      twice = .false.
+      rest = upper(entry%value)
+      if (rest == '') call value_error(entry, 'ALL or JOINT or LAST or NONE or '//beside, errors)
+      do while (rest /= '')
+         comma = index(rest//',', ',')
+         levels = levels + 1
+         word = trim(adjustl(rest(:comma - 1)))
+         select case (word)
+         case ('ALL');    stage%output = output_all
+         case ('JOINT');  stage%output = output_joint
+         case ('LAST');   stage%output = output_last
+         case ('NONE');   stage%output = output_none
+         case ('PLOT');   call switch_on(stage%plot)
+         case ('STRESS'); call switch_on(stage%stress)
+         case ('VTU');    call switch_on(stage%vtu)
+         case ('STEPS');  call switch_on(stage%steps)
+         case ('STATE');  call switch_on(stage%state)
+         case ('CONDENSED'); call switch_on(stage%condensed)
+         case default
+            call read_limit(ok)
+            if (.not. ok) then
+               call value_error(entry, 'ALL, JOINT, LAST or NONE, and with a comma '//beside, errors)
+               return
+            end if
+         end select
+         rest = rest(min(comma + 1, len(rest) + 1):)
+      end do
+      if (levels > 1 .or. twice) call value_error(entry, 'one of ALL, JOINT, LAST, NONE, and with commas '//beside, errors)
+
+   contains
+
+      !> WORD as 'SET 5' or 'PMARK 20'.
+      subroutine read_limit(ok)
+         logical, intent(out) :: ok
+         type(limit_type) :: limit
+
+         ok = index(word, 'SET ') == 1 .or. index(word, 'PMARK ') == 1
+         if (.not. ok) return
+         limit%is_mark = word(1:1) == 'P'
+         limit%line = entry%line
+         call parse_integer(trim(adjustl(word(index(word, ' '):))), limit%id, ok)
+         if (.not. ok) return
+         if (.not. allocated(stage%only)) allocate (stage%only(0))
+         stage%only = [stage%only, limit]
+         levels = levels - 1
+      end subroutine read_limit
+
+      !> A word that stands beside a level, not in place of one.
+      subroutine switch_on(switch)
+         logical, intent(inout) :: switch
+
+         twice = twice .or. switch
+         switch = .true.
+         levels = levels - 1
+      end subroutine switch_on
+
+   end subroutine read_output
+
+end module stage_entries
