@@ -83,6 +83,7 @@ contains
          end if
          if (integrals%seen <= 0.0_wp) cycle
          found%is_any = .true.
+         if (sum(area) <= 0.0_wp) cycle ! its thickness could not be read
          own_parts = own_parts + n_parts(model%dimension, n)
          found%cover%spacing(1) = found%cover%spacing(1) + seen_area(face%seen)
          call fit_face(model%dimension, n, share >= whole_share, integrals, part)
