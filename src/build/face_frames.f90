@@ -5,6 +5,7 @@ module face_frames
    use kinds, only: wp
    use local_nodes, only: centre_point
    use shape_functions, only: shape_derivatives, shape_values
+   use vector_product, only: cross
    implicit none
    private
 
@@ -127,12 +128,5 @@ contains
          vector = vector/abs(vector(3))
       end if
    end function surface_vector
-
-   pure function cross(a, b) result(c)
-      real(wp), intent(in) :: a(3), b(3)
-      real(wp) :: c(3)
-
-      c = [a(2)*b(3) - a(3)*b(2), a(3)*b(1) - a(1)*b(3), a(1)*b(2) - a(2)*b(1)]
-   end function cross
 
 end module face_frames

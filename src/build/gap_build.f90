@@ -6,7 +6,7 @@ module gap_build
    use interface_axes, only: joint_axes
    use interface_operator, only: at_first_end, joint_movement, nodes_of_end
    use kinds, only: wp
-   use model_data, only: joint_type, model_type
+   use model_data, only: joint_centroid, joint_type, model_type
    use text_tools, only: integer_text
    implicit none
    private
@@ -64,7 +64,8 @@ contains
          return
       end if
       axes = joint_axes(model, joint%normal)
-      centroid = centroid_of(model, joint)
+      centroid = joint_centroid(model, joint)
+      if (model%axisymmetric) centroid(1) = 0.0_wp ! that of rings lies on the axis
       ok = .true.
       if (card%kind == 'TABLE') call start_table(deck, card, axes, centroid, model%dimension == 2, table, ok)
       if (card%kind == 'PLANE' .and. model%dimension == 2) call check_no_y(deck, card)
@@ -83,20 +84,6 @@ contains
          where (abs(gaps) <= rounding*maxval(abs(gaps))) gaps = 0.0_wp
       end associate
    end subroutine gaps_by_place
-
-   !> The centroid of the area of JOINT; that of rings lies on the axis.
-   pure function centroid_of(model, joint) result(centroid)
-      type(model_type), intent(in) :: model
-      type(joint_type), intent(in) :: joint
-      real(wp) :: centroid(3)
-      integer  :: i
-
-      centroid = 0.0_wp
-      do i = joint%first, joint%last
-         centroid = centroid + model%interface(i)%area*at_first_end(model%interface(i), model%x)/joint%area
-      end do
-      if (model%axisymmetric) centroid(1) = 0.0_wp
-   end function centroid_of
 
    !> A joint in the plane has no y.
    subroutine check_no_y(deck, card)

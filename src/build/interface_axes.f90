@@ -2,6 +2,7 @@
 module interface_axes
    use kinds, only: wp
    use model_data, only: corners_of, model_type
+   use vector_product, only: cross
    implicit none
    private
 
@@ -27,7 +28,7 @@ contains
          if (x(1) < -1.0e-9_wp .or. (abs(x(1)) <= 1.0e-9_wp .and. x(2) < 0.0_wp)) x = -x
       end if
       axes(:, 1) = x
-      axes(:, 2) = [z(2)*x(3) - z(3)*x(2), z(3)*x(1) - z(1)*x(3), z(1)*x(2) - z(2)*x(1)]
+      axes(:, 2) = cross(z, x)
       axes(:, 3) = z
    end function joint_axes
 

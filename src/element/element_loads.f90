@@ -7,6 +7,7 @@ module element_loads
    use kinds, only: wp
    use quadrature, only: integration_rule, side_rule, volume_rule
    use shape_functions, only: shape_derivatives, shape_values
+   use vector_product, only: cross
    implicit none
    private
 
@@ -131,7 +132,7 @@ contains
             a = a + dn(1, i)*x(:3, i)
             b = b + dn(2, i)*x(:3, i)
          end do
-         normal = [a(2)*b(3) - a(3)*b(2), a(3)*b(1) - a(1)*b(3), a(1)*b(2) - a(2)*b(1)]
+         normal = cross(a, b)
       else
          scale = thickness
          if (state == axisymmetric) scale = two_pi*dot_product(n(:size(x, 2)), x(1, :))

@@ -9,6 +9,7 @@ module element_mapping
    use local_nodes, only: centre_point, node_point
    use quadrature, only: body_rule, integration_rule, max_points, side_rule, volume_rule
    use shape_functions, only: shape_derivatives, shape_values
+   use vector_product, only: cross
    implicit none
    private
 
@@ -164,13 +165,6 @@ contains
          jacobian = dot_product(j(:, 1), cross(j(:, 2), j(:, 3)))
       end if
    end subroutine jacobian_matrix
-
-   pure function cross(a, b) result(c)
-      real(wp), intent(in) :: a(3), b(3)
-      real(wp) :: c(3)
-
-      c = [a(2)*b(3) - a(3)*b(2), a(3)*b(1) - a(1)*b(3), a(1)*b(2) - a(2)*b(1)]
-   end function cross
 
    !> The smallest det J over the integration points, and of a linear element the corners, divided by the longest edge to the power
    !! of the dimension and scaled so that a square or cube has 1 [-]. Not above zero for an element that is turned round, folded, or

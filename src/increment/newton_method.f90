@@ -237,15 +237,13 @@ contains
       type(model_type), intent(in)          :: model
       class(equation_system), intent(inout) :: system
       type(analysis_type), intent(inout)    :: analysis
-      type(attempt_type), intent(in)        :: attempt
+      type(attempt_type), intent(inout)     :: attempt !! whose trouble, if this iteration has any, does not count
       type(trial_type), intent(inout)       :: now, next
-      type(attempt_type)    :: last
       real(wp), allocatable :: direction(:, :)
 
-      last = attempt
       allocate (direction, mold=analysis%u)
-      call find_direction(model, now, analysis, .false., system, last, direction)
-      if (last%trouble%raised) return
+      call find_direction(model, now, analysis, .false., system, attempt, direction)
+      if (attempt%trouble%raised) return
       call take_whole_step(model, system, attempt%load, analysis, now, direction, next)
       if (.not. next%size < now%size) return
       call record_pass(analysis, pass_record(before=now%size, after=next%size, step=1.0_wp, changes=0, part=analysis%n_parts + 1))

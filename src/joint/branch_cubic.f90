@@ -13,6 +13,9 @@ module branch_cubic
       real(wp) :: coefficients(2, 3) = 0.0_wp  !! (a_k1 and a_k2, k)
    end type cubic
 
+   real(wp), parameter :: one(0:4) = [1.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp] ! as a polynomial
+   real(wp), parameter :: exponents(2, 3) = reshape([real(wp) :: 1, 1, 2, 2, 3, 3], [2, 3])
+
 contains
 
    !> P at D under the pressure P [pressure].
@@ -39,35 +42,33 @@ contains
    pure function value_on_way(curve, d, p) result(c)
       type(cubic), intent(in) :: curve
       real(wp), intent(in)    :: d(2), p(2)
-      real(wp) :: c(0:4), power(0:4)
-      integer  :: k
+      real(wp) :: c(0:4)
 
-      c = 0.0_wp
-      power = [1.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp]
-      do k = 1, 3
-         power = times(power, d)
-         associate (a => curve%coefficients(:, k))
-            c = c + times(power, [a(1) + a(2)*p(1), a(2)*p(2)])
-         end associate
-      end do
+      c = sum_on_way(curve%coefficients, times(one, d), d, p)
    end function value_on_way
 
    !> dP/dd likewise, not cut off at zero: sum of c_k f**k, k up to 3 [pressure/length].
    pure function slope_on_way(curve, d, p) result(c)
       type(cubic), intent(in) :: curve
       real(wp), intent(in)    :: d(2), p(2)
+      real(wp) :: c(0:4)
+
+      c = sum_on_way(curve%coefficients*exponents, one, d, p)
+   end function slope_on_way
+
+   !> The sum of (a_k1 + a_k2 p) FIRST d**(k - 1) on that way.
+   pure function sum_on_way(a, first, d, p) result(c)
+      real(wp), intent(in) :: a(2, 3), first(0:4), d(2), p(2)
       real(wp) :: c(0:4), power(0:4)
       integer  :: k
 
       c = 0.0_wp
-      power = [1.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp]
+      power = first
       do k = 1, 3
-         associate (a => k*curve%coefficients(:, k))
-            c = c + times(power, [a(1) + a(2)*p(1), a(2)*p(2)])
-         end associate
+         c = c + times(power, [a(1, k) + a(2, k)*p(1), a(2, k)*p(2)])
          power = times(power, d)
       end do
-   end function slope_on_way
+   end function sum_on_way
 
    !> A polynomial times FACTOR(1) + FACTOR(2) f; nothing of a fifth power arises here.
    pure function times(c, factor) result(product)

@@ -3,6 +3,7 @@
 !! x), z, spherical ones r, theta (degrees from z), phi (degrees from x about z).
 module coordinate_systems
    use kinds, only: wp
+   use vector_product, only: cross
    implicit none
    private
 
@@ -46,13 +47,6 @@ contains
       system%origin = a
       system%axes = reshape([x, cross(z, x), z], [3, 3])
    end subroutine make_system
-
-   pure function cross(a, b) result(product)
-      real(wp), intent(in) :: a(3), b(3)
-      real(wp) :: product(3)
-
-      product = [a(2)*b(3) - a(3)*b(2), a(3)*b(1) - a(1)*b(3), a(1)*b(2) - a(2)*b(1)]
-   end function cross
 
    !> Where the point with these COORDINATES in SYSTEM lies, in global axes [length].
    pure function position_in(system, coordinates) result(x)

@@ -5,14 +5,14 @@ module model_data
    use elasticity, only: plane_stress
    use element_kinds, only: element_table
    use id_table, only: id_table_type
-   use interface_operator, only: interface_element, named_node
+   use interface_operator, only: at_first_end, interface_element, named_node
    use joint_laws, only: joint_law
    use kinds, only: wp
    implicit none
    private
 
-   public :: corners_of, has_gaps, has_ground_springs, has_second_order, is_coarser, joint_node_id, n_bars, n_springs, bar_nodes, &
-             n_sections, n_rotations, n_points, supported
+   public :: corners_of, has_gaps, has_ground_springs, has_second_order, is_coarser, joint_centroid, joint_node_id, n_bars, &
+             n_springs, bar_nodes, n_sections, n_rotations, n_points, supported
 
    !> Section and material of body elements.
    type, public :: property_type
@@ -226,6 +226,19 @@ contains
 
       has_gaps = any(model%joints%gap_kind /= '')
    end function has_gaps
+
+   !> The centroid of the area of JOINT [length].
+   pure function joint_centroid(model, joint) result(centroid)
+      type(model_type), intent(in) :: model
+      type(joint_type), intent(in) :: joint
+      real(wp) :: centroid(3)
+      integer  :: i
+
+      centroid = 0.0_wp
+      do i = joint%first, joint%last
+         centroid = centroid + model%interface(i)%area*at_first_end(model%interface(i), model%x)/joint%area
+      end do
+   end function joint_centroid
 
    !> How many nodes are points of the structure; the nodes of sections follow.
    pure integer function n_points(model)

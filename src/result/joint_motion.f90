@@ -5,7 +5,7 @@ module joint_motion
    use interface_axes, only: joint_axes
    use interface_operator, only: at_first_end
    use kinds, only: wp
-   use model_data, only: joint_type, model_type
+   use model_data, only: joint_centroid, joint_type, model_type
    use normal_stiffness, only: branch_open
    use vector_product, only: cross
    implicit none
@@ -73,9 +73,7 @@ contains
          normal(model%dimension) = 1.0_wp
       end if
       frame%axes = joint_axes(model, normal/norm2(normal))
-      do i = joint%first, joint%last
-         frame%centroid = frame%centroid + model%interface(i)%area*at_first_end(model%interface(i), model%x)/joint%area
-      end do
+      frame%centroid = joint_centroid(model, joint)
       inertia = 0.0_wp
       do i = joint%first, joint%last
          arm = arm_of(model, frame, i)

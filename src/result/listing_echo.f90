@@ -1,6 +1,6 @@
 !> The echo of the deck at the head of the listing.
 module listing_echo
-   use deck_cards, only: card_name, is_continuation
+   use deck_cards, only: card_name
    use deck_input, only: deck_type
    use line_scan, only: is_include
    use listing_table, only: cut, heading, page_width
@@ -42,7 +42,7 @@ contains
          if (in_bulk .and. begins_card(line)) then
             cards = cards + 1
             write (counter, '(i9, a)') cards, '-'
-         else if (in_bulk .and. ends_bulk(line)) then
+         else if (in_bulk .and. card_name(line) == 'ENDDATA') then
             in_bulk = deck%text%file_number(i) > 1
             ended = .not. in_bulk
          end if
@@ -87,7 +87,7 @@ contains
          if (deck%text%file_number(i) > 1) cycle
          line = deck%text%card_part(i)
          if (in_bulk .and. begins_card(line)) n = n + 1
-         if (in_bulk .and. ends_bulk(line)) exit
+         if (in_bulk .and. card_name(line) == 'ENDDATA') exit
          if (.not. in_bulk) in_bulk = index(adjustl(upper(line)), 'BEGIN') == 1
       end do
    end function own_cards
@@ -96,20 +96,7 @@ contains
    pure logical function begins_card(line)
       character(*), intent(in) :: line
 
-      begins_card = .false.
-      if (line == '') return
-      if (is_continuation(line)) return
-      begins_card = card_name(line) /= 'ENDDATA' .and. .not. is_include(line)
+      begins_card = card_name(line) /= '' .and. card_name(line) /= 'ENDDATA' .and. .not. is_include(line)
    end function begins_card
-
-   !> Whether this LINE of the bulk data is ENDDATA.
-   pure logical function ends_bulk(line)
-      character(*), intent(in) :: line
-
-      ends_bulk = .false.
-      if (line == '') return
-      if (is_continuation(line)) return
-      ends_bulk = card_name(line) == 'ENDDATA'
-   end function ends_bulk
 
 end module listing_echo
