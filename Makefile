@@ -13,7 +13,10 @@ FFLAGS_CHECKED = -O1 -g -fopenmp $(WARNINGS) -fcheck=all,no-array-temps,no-recur
 LIBRARIES  = -lmetis -lopenblas
 
 MANUAL     = $(BUILD)/manual/card_manual.f90
-SOURCES    = $(sort $(wildcard src/*/*.f90)) $(MANUAL)
+# one process, or those of mpirun with PETSc: `make mpi`
+ENGINE     = serial
+OTHERS     = $(filter-out $(ENGINE),serial mpi)
+SOURCES    = $(sort $(filter-out src/$(OTHERS)/%,$(wildcard src/*/*.f90))) $(MANUAL)
 MODULES    = $(notdir $(SOURCES:.f90=))
 VPATH      = $(sort $(dir $(SOURCES)))
 
@@ -31,6 +34,7 @@ all: bin/jointfem bin/jointfit
 .PHONY: help
 help:
 	@echo 'make            the program, bin/jointfem'
+	@echo 'make mpi        the program on several processes, bin/jointfem_mpi; needs PETSc'
 	@echo 'make run        the worked example: the prism with 3, 5, 10 and 15 increments'
 	@echo 'make test       unit tests, every deck of input against reference_output, bad decks'
 	@echo 'make check      only the decks against reference_output'
@@ -47,6 +51,16 @@ help:
 $(BIN)/jointfem: src/jointfem.f90 $(RELEASE_OBJECTS)
 	@mkdir -p $(@D)
 	$(FC) $(FFLAGS) -I$(BUILD)/release -o $@ $< $(RELEASE_OBJECTS) $(LIBRARIES)
+
+# The program on several processes
+.PHONY: mpi
+mpi:
+	@pkg-config --exists petsc || { echo 'make mpi needs PETSc: apt-get install libpetsc-real-dev'; exit 1; }
+	@$(MAKE) --no-print-directory ENGINE=mpi FC=mpifort BUILD=$(BUILD)/mpi PETSC="$$(pkg-config --libs petsc)" bin/jointfem_mpi
+
+$(BIN)/jointfem_mpi: src/jointfem.f90 $(RELEASE_OBJECTS)
+	@mkdir -p $(@D)
+	$(FC) $(FFLAGS) -I$(BUILD)/release -o $@ $< $(RELEASE_OBJECTS) $(PETSC) $(LIBRARIES)
 
 $(BIN)/jointfit: src/jointfit.f90 $(RELEASE_OBJECTS)
 	@mkdir -p $(@D)

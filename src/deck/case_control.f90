@@ -18,7 +18,8 @@ module case_control
 
    integer, parameter, public :: method_step = 1, method_newton = 2, method_back = 3                !! METHOD =
    integer, parameter, public :: pressure_sumf = 1, pressure_eq10 = 2                               !! PRESSURE =
-   integer, parameter, public :: solver_auto = 1, solver_skyline = 2, solver_tree = 3               !! SOLVER =
+   integer, parameter, public :: solver_auto = 1, solver_skyline = 2, solver_tree = 3, solver_petsc = 4, &
+                                 solver_mumps = 5                                                  !! SOLVER =
 
    real(wp), parameter :: newton_tolerance = 1.0e-10_wp, back_tolerance = 1.0e-6_wp ! TOL that is not given
 
@@ -175,7 +176,7 @@ contains
          call choose(entry, '|YES|NO|', choice, errors)
          control%average = choice /= 2
       case ('SOLVER')
-         call choose(entry, '|AUTO|SKYLINE|TREE|', control%solver, errors)
+         call choose(entry, '|AUTO|SKYLINE|TREE|PETSC|MUMPS|', control%solver, errors)
       case ('ECHO')
          call read_echo(entry, control%echo, errors)
          control%echo_asked = control%echo

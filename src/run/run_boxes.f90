@@ -10,6 +10,7 @@ module run_boxes
    use command_line, only: command_type, deck_argument, is_result_of, read_command_line
    use deck_errors, only: deck_error_list
    use deck_input, only: deck_type, read_deck
+   use distribution, only: join_processes, leave_processes
    use equation_solver, only: equation_system
    use equations, only: form_body_stiffness, start_equations
    use error_report, only: print_errors
@@ -57,12 +58,14 @@ module run_boxes
 
 contains
 
-   !> The command line; where it leaves nothing to do the program ends. Threads, and a watch on the memory.
+   !> The command line; where it leaves nothing to do the program ends. Threads, and a watch on the memory. Of several processes one
+   !! goes on, the others work for it from here on.
    subroutine start_program(command)
       type(command_type), intent(out) :: command
       logical :: finished
       integer :: status
 
+      call join_processes()
       call read_command_line(command, finished, status)
       if (finished) call end_program(status)
       call use_threads(command%threads)
@@ -333,6 +336,7 @@ contains
       integer, intent(in), optional :: status !! 0
 
       if (present(status)) exit_status = max(exit_status, status)
+      call leave_processes()
       call end_run(exit_status)
    end subroutine end_program
 

@@ -4,7 +4,7 @@
 !!
 !! A solver numbers the unknowns, and the increments solve for some of these EQUATIONS: all, or those that are left when the
 !! bodies have been condensed. Vectors go over all equations, and are set or read at these alone unless it says otherwise.
-!! FAULT is 0, no_memory, or an equation without stiffness.
+!! FAULT is 0, no_memory, no_solution, or an equation without stiffness.
 module equation_solver
    use failures, only: failure_type
    use interface_operator, only: interface_element
@@ -16,6 +16,7 @@ module equation_solver
    private
 
    integer, parameter, public :: no_memory = -1                !! as FAULT: an allocation failed
+   integer, parameter, public :: no_solution = -2              !! as FAULT: the solver has a COMPLAINT
    real(wp), parameter, public :: pivot_tolerance = 1.0e-12_wp !! of the diagonal entry: below it there is no stiffness
 
    !> A solver in numbers, for the listing and --times.
@@ -44,6 +45,7 @@ module equation_solver
       logical :: one_solution = .false.              !! whether with this k_int the increment solves but once
       integer :: factorisations = 20                 !! that are to be expected
       character(:), allocatable :: where             !! stage and increment, for messages
+      character(:), allocatable :: complaint         !! why there is no solution
       type(solver_description) :: description        !! of the solver, once it has started
    contains
       procedure(start_solver), deferred     :: start
@@ -188,6 +190,8 @@ contains
 
       if (fault == no_memory) then
          call failure%raise(where//'no memory for the factor of '//integer_text(self%n)//' equations')
+      else if (fault == no_solution) then
+         call failure%raise(where//self%complaint)
       else if (fault > 0) then
          call failure%raise(where//'the structure is a mechanism: '// &
             what_is_loose(model, self%node(fault), self%direction(fault))// &

@@ -6,7 +6,7 @@ module metis
    implicit none
    private
 
-   public :: order_by_metis, separate_by_metis
+   public :: order_by_metis, separate_by_metis, part_by_metis
 
    integer, parameter :: n_options = 40         ! METIS_NOPTIONS
    integer, parameter :: compress = 13          ! METIS_OPTION_COMPRESS, from 1 on
@@ -40,6 +40,17 @@ module metis
          integer(c_int32_t), intent(out)   :: old_of_new(*), new_of_old(*)
          integer(c_int32_t), intent(inout) :: sizes(*)   !! (2 parts - 1) of leaves and separators, the root last
       end function metis_node_ndp
+
+      integer(c_int32_t) function metis_part_kway(n, constraints, first, neighbours, weights, sizes, link_weights, parts, shares, &
+                                                  imbalance, options, cut, part) bind(c, name='METIS_PartGraphKway')
+         import :: c_int32_t, c_ptr
+         integer(c_int32_t), intent(in)  :: n, constraints
+         integer(c_int32_t), intent(in)  :: first(*), neighbours(*)  !! from 0 on
+         type(c_ptr), value              :: weights, sizes, link_weights, shares, imbalance
+         integer(c_int32_t), intent(in)  :: parts
+         integer(c_int32_t), intent(in)  :: options(*)
+         integer(c_int32_t), intent(out) :: cut, part(*)
+      end function metis_part_kway
    end interface
 
 contains
@@ -107,5 +118,27 @@ contains
       end subroutine hand_out
 
    end subroutine separate_by_metis
+
+   !> PART, 0 to N_PARTS - 1, of every node of GRAPH: parts of like size with few links between them. OK as above.
+   subroutine part_by_metis(graph, n_parts, part, ok)
+      type(node_graph_type), intent(in) :: graph
+      integer, intent(in)               :: n_parts
+      integer, allocatable, intent(out) :: part(:) !! (graph%n)
+      logical, intent(out)              :: ok
+      integer(c_int32_t) :: cut, options(n_options)
+      integer, allocatable :: room(:, :)
+      integer :: status
+
+      allocate (part(graph%n), source=0)
+      ok = .true.
+      if (n_parts == 1 .or. graph%n < n_parts) return
+      allocate (room(words, graph%n + size(graph%neighbours)), stat=status)
+      ok = status == 0
+      if (.not. ok) return
+      deallocate (room)
+      status = metis_set_default_options(options)
+      ok = metis_part_kway(graph%n, 1, graph%first - 1, graph%neighbours - 1, c_null_ptr, c_null_ptr, c_null_ptr, n_parts, &
+                           c_null_ptr, c_null_ptr, options, cut, part) == metis_ok
+   end subroutine part_by_metis
 
 end module metis

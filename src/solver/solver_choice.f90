@@ -1,6 +1,7 @@
 !> Which solver a structure gets. A new one is a line here, and a word of case control.
 module solver_choice
    use case_control, only: solver_auto, solver_skyline
+   use distribution, only: choose_distributed
    use equation_solver, only: equation_system
    use kinds, only: long
    use model_data, only: model_type
@@ -30,6 +31,8 @@ contains
       type(skyline_solver_type), allocatable :: candidate
       logical :: is_skyline
 
+      call choose_distributed(graph, n, model%dimension, wanted, system)
+      if (allocated(system)) return
       is_skyline = wanted == solver_skyline
       if (wanted == solver_auto .and. n <= most_tried) then
          allocate (candidate)

@@ -2,6 +2,8 @@
 #
 #    awk -f dependencies.awk -v folder=build/release -v objects='build/release/kinds.o ...' src/*/*.f90
 #
+# A submodule, `submodule(parent) name`, needs its parent.
+#
 # FOLDER: where the objects of these sources go; OBJECTS: all that they may need. A module without an object is passed over.
 
 BEGIN {
@@ -14,6 +16,12 @@ FNR == 1 { me = name_of(FILENAME) }
 $1 == "use" {
    used = $2
    sub(/,.*/, "", used)
+   if (used in object) print folder "/" me ".o: " object[used]
+}
+
+/^submodule\(/ {
+   used = $0
+   gsub(/^submodule\(|\).*/, "", used)
    if (used in object) print folder "/" me ".o: " object[used]
 }
 

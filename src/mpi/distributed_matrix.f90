@@ -1,0 +1,253 @@
+!> The stiffness of the structure over all processes, a matrix of PETSc in blocks of the dimension, and what is done with it in step
+!! by all of them: every routine here is called by all processes, what is said to be rank 0's matters there alone.
+module distributed_matrix
+   use, intrinsic :: iso_c_binding, only: c_double, c_f_pointer, c_int, c_null_ptr, c_ptr
+   use body_elements, only: coupled_stiffness
+   use element_kinds, only: max_coupled_dofs
+   use kinds, only: wp
+   use model_data, only: corners_of
+   use petsc_library
+   use ranks, only: gather, give_up, largest_of_all, n_ranks, rank, scatter
+   use rigid_modes, only: own_modes
+   use shares, only: share_type
+   implicit none
+   private
+
+   public :: start_matrix, add_blocks, finish_matrix, read_touched, write_touched, matrix_times_vector, free_matrix, put_vector, &
+             take_vector, check
+
+   type, public :: distributed_matrix_type
+      type(c_ptr) :: matrix = c_null_ptr
+      type(c_ptr) :: x = c_null_ptr, b = c_null_ptr, r = c_null_ptr !! vectors to it
+      real(wp) :: unit = 1.0_wp               !! on the diagonal of held components [force/length]
+      integer, allocatable :: counts(:)       !! (ranks) rows of each
+      integer, allocatable :: touched(:, :)   !! (2, own touched blocks) row and column, from 0 on
+      integer, allocatable :: touched_counts(:) !! (ranks) entries of touched blocks of each
+   end type distributed_matrix_type
+
+contains
+
+   !> The matrix of the own elements, not yet assembled: rank 0 may add_blocks.
+   subroutine start_matrix(share, counts, stiffness)
+      type(share_type), intent(in)               :: share
+      integer, intent(in)                        :: counts(:) !! (ranks) blocks of each
+      type(distributed_matrix_type), intent(out) :: stiffness
+      real(wp) :: k(max_coupled_dofs, max_coupled_dofs)
+      integer  :: d, e, n
+
+      d = share%dimension
+      stiffness%counts = d*counts
+      associate (a => stiffness%matrix, own => int(d*share%n_own, c_int), all => int(d*share%n_blocks, c_int))
+         call check(mat_create(petsc_comm_world, a))
+         call check(mat_set_sizes(a, own, own, all, all))
+         call check(mat_set_type(a, 'aij'//char(0)))
+         call check(mat_set_block_size(a, d))
+         call check(mat_set_preallocation(a, d, share%inside, share%outside, c_null_ptr, c_null_ptr))
+         call check(mat_set_option(a, mat_spd, petsc_true))
+      end associate
+      do e = 1, share%model%n_elements
+         call coupled_stiffness(share%model, e, k)
+         associate (nodes => corners_of(share%model, e))
+            n = d*size(nodes)
+            call add_blocks(share%block(nodes), share%held(:, nodes), k(:n, :n), stiffness)
+         end associate
+      end do
+   end subroutine start_matrix
+
+   !> Add the symmetric matrix K between BLOCKS; what is HELD is left out.
+   subroutine add_blocks(blocks, held, k, stiffness)
+      integer, intent(in)  :: blocks(:)  !! from 0 on
+      logical, intent(in)  :: held(:, :) !! (dimension, blocks)
+      real(wp), intent(in) :: k(:, :)    !! (dimension x blocks, likewise) [force/length]
+      type(distributed_matrix_type), intent(in) :: stiffness
+      real(wp) :: values(size(k, 1), size(k, 2))
+      logical  :: out(size(k, 1))
+      integer  :: i
+
+      values = k
+      out = reshape(held, [size(k, 1)])
+      do i = 1, size(out)
+         if (.not. out(i)) cycle
+         values(i, :) = 0.0_wp
+         values(:, i) = 0.0_wp
+      end do
+      call check(mat_set_values_blocked(stiffness%matrix, size(blocks), blocks, size(blocks), blocks, values, add_values))
+   end subroutine add_blocks
+
+   !> Assemble the matrix; held components get the identity, times the largest entry of the diagonal: STIFFEST, of all.
+   subroutine finish_matrix(share, stiffness, stiffest)
+      type(share_type), intent(in)                 :: share
+      type(distributed_matrix_type), intent(inout) :: stiffness
+      real(wp), intent(out)                        :: stiffest !! [force/length]
+      real(wp) :: block(share%dimension, share%dimension), own
+      real(c_double), pointer :: diagonal(:)
+      type(c_ptr) :: values
+      integer :: b, c
+
+      call assemble(stiffness)
+      call check(mat_create_vecs(stiffness%matrix, stiffness%x, stiffness%b))
+      call check(vec_duplicate(stiffness%b, stiffness%r))
+      call check(mat_get_diagonal(stiffness%matrix, stiffness%r))
+      call check(vec_get_array(stiffness%r, values))
+      call c_f_pointer(values, diagonal, [stiffness%counts(rank + 1)])
+      own = 0.0_wp
+      if (size(diagonal) > 0) own = maxval(diagonal)
+      call check(vec_restore_array(stiffness%r, values))
+      stiffest = largest_of_all(own)
+      stiffness%unit = stiffest
+      do b = 1, share%n_own
+         if (.not. any(share%held_own(:, b))) cycle
+         block = 0.0_wp
+         do c = 1, share%dimension
+            if (share%held_own(c, b)) block(c, c) = stiffness%unit
+         end do
+         call check(mat_set_values_blocked(stiffness%matrix, 1, [share%first + b - 1], 1, [share%first + b - 1], block, add_values))
+      end do
+      call assemble(stiffness)
+      call give_near_null_space(share, stiffness)
+   end subroutine finish_matrix
+
+   subroutine assemble(stiffness)
+      type(distributed_matrix_type), intent(in) :: stiffness
+
+      call check(mat_assembly_begin(stiffness%matrix, final_assembly))
+      call check(mat_assembly_end(stiffness%matrix, final_assembly))
+   end subroutine assemble
+
+   !> The motions of a rigid body, which the coarse levels of the preconditioner have to represent.
+   subroutine give_near_null_space(share, stiffness)
+      type(share_type), intent(in)              :: share
+      type(distributed_matrix_type), intent(in) :: stiffness
+      real(wp), allocatable    :: modes(:, :)
+      type(c_ptr), allocatable :: vectors(:)
+      type(c_ptr) :: null_space
+      real(wp)    :: product
+      integer     :: i, j
+
+      call own_modes(share, modes)
+      allocate (vectors(size(modes, 2)))
+      do i = 1, size(vectors)
+         call check(vec_duplicate(stiffness%b, vectors(i)))
+         call put_own(vectors(i), modes(:, i))
+         do j = 1, i - 1
+            call check(vec_dot(vectors(i), vectors(j), product))
+            call check(vec_axpy(vectors(i), -product, vectors(j)))
+         end do
+         call check(vec_norm(vectors(i), norm_2, product))
+         if (product > 0.0_wp) call check(vec_scale(vectors(i), 1.0_wp/product))
+      end do
+      call check(mat_null_space_create(petsc_comm_world, petsc_false, size(vectors), vectors, null_space))
+      call check(mat_set_near_null_space(stiffness%matrix, null_space))
+      call check(mat_null_space_destroy(null_space))
+      do i = 1, size(vectors)
+         call check(vec_destroy(vectors(i)))
+      end do
+   end subroutine give_near_null_space
+
+   !> BLOCKS, of rank 0: what stands now in the touched blocks.
+   subroutine read_touched(d, stiffness, blocks)
+      integer, intent(in)                       :: d !! dimension
+      type(distributed_matrix_type), intent(in) :: stiffness
+      real(wp), intent(inout)                   :: blocks(:) !! (d, d, touched blocks of all) [force/length]
+      real(wp) :: own(d, d, size(stiffness%touched, 2)), rows(d, d)
+      integer  :: c, i
+
+      do i = 1, size(own, 3)
+         associate (touched => stiffness%touched(:, i))
+            call check(mat_get_values(stiffness%matrix, d, [(d*touched(1) + c, c = 0, d - 1)], &
+                                      d, [(d*touched(2) + c, c = 0, d - 1)], rows))
+            own(:, :, i) = transpose(rows)
+         end associate
+      end do
+      call gather(reshape(own, [size(own)]), stiffness%touched_counts, blocks)
+   end subroutine read_touched
+
+   !> Write BLOCKS, of rank 0, into the touched blocks.
+   subroutine write_touched(d, blocks, stiffness)
+      integer, intent(in)                       :: d         !! dimension
+      real(wp), intent(in)                      :: blocks(:) !! (d, d, touched blocks of all) [force/length]
+      type(distributed_matrix_type), intent(in) :: stiffness
+      real(wp) :: own(d*d*size(stiffness%touched, 2))
+      integer  :: i
+
+      call scatter(blocks, stiffness%touched_counts, own)
+      do i = 1, size(stiffness%touched, 2)
+         associate (touched => stiffness%touched(:, i), block => reshape(own(d*d*(i - 1) + 1:d*d*i), [d, d]))
+            call check(mat_set_values_blocked(stiffness%matrix, 1, touched(1:1), 1, touched(2:2), transpose(block), insert_values))
+         end associate
+      end do
+      call assemble(stiffness)
+   end subroutine write_touched
+
+   !> Y = matrix times X, both of rank 0, row after row.
+   subroutine matrix_times_vector(x, stiffness, y)
+      real(wp), intent(in)                      :: x(:)
+      type(distributed_matrix_type), intent(in) :: stiffness
+      real(wp), intent(inout)                   :: y(:)
+
+      call put_vector(x, stiffness, stiffness%r)
+      call check(mat_mult(stiffness%matrix, stiffness%r, stiffness%b))
+      call take_vector(stiffness%b, stiffness, y)
+   end subroutine matrix_times_vector
+
+   !> VALUES of rank 0 into VECTOR.
+   subroutine put_vector(values, stiffness, vector)
+      real(wp), intent(in)                      :: values(:)
+      type(distributed_matrix_type), intent(in) :: stiffness
+      type(c_ptr), intent(in)                   :: vector
+      real(wp) :: own(stiffness%counts(rank + 1))
+
+      call scatter(values, stiffness%counts, own)
+      call put_own(vector, own)
+   end subroutine put_vector
+
+   subroutine put_own(vector, own)
+      type(c_ptr), intent(in) :: vector
+      real(wp), intent(in)    :: own(:)
+      real(c_double), pointer :: array(:)
+      type(c_ptr) :: values
+
+      call check(vec_get_array(vector, values))
+      call c_f_pointer(values, array, [size(own)])
+      array = own
+      call check(vec_restore_array(vector, values))
+   end subroutine put_own
+
+   !> VALUES of rank 0 from VECTOR.
+   subroutine take_vector(vector, stiffness, values)
+      type(c_ptr), intent(in)                   :: vector
+      type(distributed_matrix_type), intent(in) :: stiffness
+      real(wp), intent(inout)                   :: values(:)
+      real(c_double), pointer :: array(:)
+      type(c_ptr) :: own
+
+      call check(vec_get_array(vector, own))
+      call c_f_pointer(own, array, [stiffness%counts(rank + 1)])
+      call gather(array, stiffness%counts, values)
+      call check(vec_restore_array(vector, own))
+   end subroutine take_vector
+
+   subroutine free_matrix(stiffness)
+      type(distributed_matrix_type), intent(inout) :: stiffness
+
+      call check(mat_destroy(stiffness%matrix))
+      call check(vec_destroy(stiffness%x))
+      call check(vec_destroy(stiffness%b))
+      call check(vec_destroy(stiffness%r))
+   end subroutine free_matrix
+
+   !> What PETSc cannot do on one process none of them can do.
+   subroutine check(code)
+      integer(c_int), intent(in) :: code
+      character(12) :: digits
+
+      if (code == 0) return
+      write (digits, '(i0)') code
+      if (code == out_of_memory) then
+         call give_up('no memory for the stiffness of the structure; more processes on more machines have more')
+      else
+         call give_up('PETSc gives the error code '//trim(digits))
+      end if
+   end subroutine check
+
+end module distributed_matrix

@@ -1,0 +1,219 @@
+!> The solvers PETSC and MUMPS: the equations of all nodes over the processes of the run, solved by PETSc. As with SKYLINE nothing
+!! is condensed; the increments solve for all equations. What rank 0 does is here, what all do in engine.
+module petsc_solver
+   use body_elements, only: coupled_stiffness
+   use distributed_matrix, only: add_blocks
+   use distributed_solution, only: by_gamg, by_mumps
+   use element_kinds, only: max_coupled_dofs
+   use engine, only: order, order_finish, order_multiply, order_read, order_renew, order_solve, order_start, order_take, &
+                     order_touched, order_write, share, solution, stiffness, stiffest_of_all => stiffest
+   use equation_solver, only: equation_system, no_solution
+   use factor_reuse, only: factor_reuse_type, forget_factor, may_reuse, note_factor, note_failure, note_steps
+   use failures, only: failure_type
+   use interface_equations, only: interface_equations_type, list_interface_equations
+   use interface_operator, only: interface_element
+   use kinds, only: long, wp
+   use model_data, only: model_type
+   use node_coupling, only: list_on_unknowns
+   use node_graph, only: node_graph_type
+   use ranks, only: n_ranks
+   use section_coupling, only: coupled_nodes
+   use shares, only: deal_blocks, deal_type, is_entangled, send_share, share_of, share_type
+   use text_tools, only: integer_text, real_text
+   use touched_blocks, only: add_touched, list_touched, structure_values, touched_type
+   implicit none
+   private
+
+   integer, parameter :: steps_of_set_up = 30 !! that cost what a new preconditioner does, GAMG
+
+   type, extends(equation_system), public :: petsc_solver_type
+      integer :: way = by_gamg                    !! or by_mumps
+      type(deal_type) :: deal
+      type(touched_type) :: touched
+      type(interface_equations_type) :: joints
+      type(factor_reuse_type) :: reuse            !! when to use an earlier preconditioner
+      integer :: fresh_steps = 0                  !! that a solution took with one of its own stiffness
+      integer, allocatable  :: row(:)             !! (n) of the matrix, from 1 on
+      logical :: is_own = .false.                 !! whether the preconditioner is that of the stiffness now
+      real(wp), allocatable :: structure(:)       !! touched blocks with the joints
+   contains
+      procedure :: start
+      procedure :: form_bodies
+      procedure :: add_to_bodies
+      procedure :: form_structure
+      procedure :: solve
+      procedure :: multiply
+   end type petsc_solver_type
+
+contains
+
+   !> Deal the structure out. All equations are left to the increments.
+   subroutine start(self, model, graph, failure)
+      class(petsc_solver_type), intent(inout) :: self
+      type(model_type), intent(in)            :: model
+      type(node_graph_type), intent(in)       :: graph
+      type(failure_type), intent(inout)       :: failure
+      type(interface_element), allocatable :: elements(:)
+      type(share_type) :: other
+      integer :: i, r
+      logical :: ok
+
+      call deal_blocks(model, graph, self%deal, ok)
+      if (.not. ok) then
+         call failure%raise('no memory to deal out '//integer_text(model%n_nodes)//' nodes')
+         return
+      end if
+      call self%number_unknowns(model, self%deal%order)
+      self%row = [(model%dimension*self%deal%block(self%node(i)) + self%direction(i), i = 1, self%n)]
+      call order(order_take)
+      do r = 1, n_ranks - 1
+         call share_of(model, graph, self%deal, r, other)
+         call send_share(other, r)
+      end do
+      call share_of(model, graph, self%deal, 0, share)
+      self%equations = [(i, i = 1, self%n)]
+      self%retained = pack([(i, i = 1, model%n_nodes)], model%used)
+      call list_on_unknowns(model, elements)
+      call list_interface_equations(elements, self%number, self%joints)
+      call list_touched(model, graph, self%deal, elements, self%touched)
+      self%reuse%most_steps = steps_of_set_up
+      associate (description => self%description)
+         description%name = trim(merge('PETSC, CONJUGATE GRADIENTS WITH GAMG', 'PETSC, FACTOR BY MUMPS              ', &
+                                       self%way == by_gamg))
+         description%words(1) = 'ENTRIES OF THE STIFFNESS MATRIX'
+         description%numbers(1) = int(model%dimension, long)**2*(size(graph%neighbours) + int(model%n_nodes, long))
+      end associate
+   end subroutine start
+
+   !> [k_b]: every process forms its elements, rank 0 those beside that hang on the unknowns of others.
+   subroutine form_bodies(self, model, fault)
+      class(petsc_solver_type), intent(inout) :: self
+      type(model_type), intent(in)            :: model
+      integer, intent(out)                    :: fault
+      real(wp) :: k(max_coupled_dofs, max_coupled_dofs)
+      integer  :: e, n
+
+      fault = 0
+      call order(order_start, self%deal%counts)
+      do e = 1, model%n_elements
+         if (.not. is_entangled(model, e)) cycle
+         call coupled_stiffness(model, e, k)
+         associate (nodes => coupled_nodes(model, e))
+            n = model%dimension*size(nodes)
+            call add_blocks(self%deal%block(nodes), model%held(:, nodes), k(:n, :n), stiffness)
+         end associate
+      end do
+      call order(order_finish, [self%way])
+      self%stiffest = stiffest_of_all
+      call order(order_touched, [self%touched%counts, self%touched%row, self%touched%column])
+      call read_bodies(self)
+   end subroutine form_bodies
+
+   !> What the elements leave in the touched blocks.
+   subroutine read_bodies(self)
+      class(petsc_solver_type), intent(inout) :: self
+      real(wp), allocatable :: blocks(:)
+
+      allocate (blocks(size(self%touched%bodies)))
+      call order(order_read, values=blocks)
+      self%touched%bodies = self%touched%bodies + reshape(blocks, shape(self%touched%bodies))
+   end subroutine read_bodies
+
+   subroutine add_to_bodies(self, rows, k)
+      class(petsc_solver_type), intent(inout) :: self
+      integer, intent(in)                     :: rows(:)
+      real(wp), intent(in)                    :: k(:, :)
+      integer :: blocks(size(rows)), components(size(rows)), i
+
+      blocks = -1
+      components = 1
+      do i = 1, size(rows)
+         if (rows(i) == 0) cycle
+         blocks(i) = self%deal%block(self%node(rows(i)))
+         components(i) = self%direction(rows(i))
+      end do
+      call add_touched(self%touched, blocks, components, k)
+      self%is_own = .false.
+   end subroutine add_to_bodies
+
+   !> [k_s] = [k_b] + sum of [k_int], Eq. (8), in the matrix; an earlier preconditioner is kept while that pays.
+   subroutine form_structure(self, fault)
+      class(petsc_solver_type), intent(inout) :: self
+      integer, intent(out)                    :: fault
+      real(wp), allocatable :: values(:, :, :)
+      integer :: i
+      logical :: reuse
+
+      fault = 0
+      call structure_values(self%touched, self%joints, self%k_int, &
+                            reshape([(self%direction(self%locked(i)), self%deal%block(self%node(self%locked(i))), &
+                                      i = 1, size(self%locked))], [2, size(self%locked)]), stiffness%unit, values)
+      self%structure = reshape(values, [size(values)])
+      call order(order_write, values=self%structure)
+      self%is_own = .false.
+      call may_reuse(self%reuse, reuse)
+      if (.not. reuse) call renew(self)
+   end subroutine form_structure
+
+   subroutine renew(self)
+      class(petsc_solver_type), intent(inout) :: self
+
+      call order(order_renew)
+      self%is_own = .true.
+      call note_factor(self%reuse)
+   end subroutine renew
+
+   !> Where the preconditioner is of an earlier stiffness and does not get there, by a new one.
+   subroutine solve(self, x, fault)
+      class(petsc_solver_type), intent(inout) :: self
+      real(wp), intent(inout)                 :: x(:)
+      integer, intent(out)                    :: fault
+      real(wp), allocatable :: values(:)
+
+      fault = 0
+      x(self%locked) = 0.0_wp
+      allocate (values(size(self%deal%order)*size(self%number, 1)), source=0.0_wp)
+      values(self%row) = x(self%equations)
+      call order(order_solve, values=values)
+      if (solution%converged .and. self%is_own) then
+         self%fresh_steps = solution%steps
+      else if (solution%converged) then
+         call note_steps(self%reuse, max(0, solution%steps - self%fresh_steps))
+      else if (.not. self%is_own) then
+         call note_failure(self%reuse)
+         call renew(self)
+         values = 0.0_wp
+         values(self%row) = x(self%equations)
+         call order(order_solve, values=values)
+         self%fresh_steps = solution%steps
+      end if
+      if (.not. solution%converged) then
+         call forget_factor(self%reuse)
+         fault = no_solution
+         self%complaint = 'PETSc does not solve the '//integer_text(self%n)//' equations: after '// &
+                          integer_text(solution%steps)//' steps the residual is '//real_text(solution%residual)// &
+                          ' of the load; the structure may be a mechanism, which SOLVER = TREE would name'
+      end if
+      x(self%equations) = values(self%row)
+   end subroutine solve
+
+   !> Y = [k_b] X, with the joints out of the matrix for the moment.
+   subroutine multiply(self, x, y)
+      class(petsc_solver_type), intent(in) :: self
+      real(wp), intent(in)                 :: x(:)
+      real(wp), intent(inout)              :: y(:)
+      real(wp), allocatable :: values(:), blocks(:)
+
+      blocks = reshape(self%touched%bodies, [size(self%touched%bodies)])
+      call order(order_write, values=blocks)
+      allocate (values(size(self%deal%order)*size(self%number, 1)), source=0.0_wp)
+      values(self%row) = x(self%equations)
+      call order(order_multiply, values=values)
+      y(self%equations) = values(self%row)
+      if (allocated(self%structure)) then
+         blocks = self%structure
+         call order(order_write, values=blocks)
+      end if
+   end subroutine multiply
+
+end module petsc_solver

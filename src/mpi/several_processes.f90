@@ -1,0 +1,56 @@
+!> The seam of distribution in the program for several processes: PETSc on all that mpirun has started.
+submodule(distribution) several_processes
+   use, intrinsic :: iso_c_binding, only: c_funloc, c_null_ptr
+   use c_library, only: end_run
+   use case_control, only: solver_auto, solver_mumps, solver_petsc
+   use distributed_matrix, only: check
+   use distributed_solution, only: by_gamg, by_mumps, set_library_options
+   use engine, only: end_engine, obey, order, order_end
+   use petsc_library, only: petsc_finalize, petsc_initialize, petsc_pop_signal_handler, petsc_push_error_handler, &
+                            petsc_return_error_handler
+   use petsc_solver, only: petsc_solver_type
+   use ranks, only: find_ranks, leave_ranks, rank
+   implicit none
+
+contains
+
+   pure module logical function has_distributed()
+      has_distributed = .true.
+   end function has_distributed
+
+   module subroutine join_processes()
+      call find_ranks()
+      call set_library_options()
+      call check(petsc_initialize())
+      call check(petsc_pop_signal_handler())
+      call check(petsc_push_error_handler(c_funloc(petsc_return_error_handler), c_null_ptr))
+      if (rank == 0) return
+      call obey()
+      call leave()
+      call end_run(0)
+   end subroutine join_processes
+
+   module subroutine leave_processes()
+      call order(order_end)
+      call leave()
+   end subroutine leave_processes
+
+   subroutine leave()
+      call end_engine()
+      call check(petsc_finalize())
+      call leave_ranks()
+   end subroutine leave
+
+   module subroutine choose_distributed(graph, n, dimension, wanted, system)
+      type(node_graph_type), intent(in) :: graph
+      integer, intent(in)               :: n, dimension, wanted
+      class(equation_system), allocatable, intent(out) :: system
+      type(petsc_solver_type), allocatable :: solver
+
+      if (wanted /= solver_petsc .and. wanted /= solver_mumps) return
+      allocate (solver)
+      solver%way = merge(by_mumps, by_gamg, wanted == solver_mumps)
+      call move_alloc(solver, system)
+   end subroutine choose_distributed
+
+end submodule several_processes

@@ -1,0 +1,247 @@
+!> What stands between two blocks of equations and changes in the run, as rank 0 sees it: joints, bars, and the sections of bolts
+!! that are locked. These blocks have a list of their own; their values in all states of the matrix are made here,
+!!
+!!      bodies       what elements and bars leave there
+!!      structure    that and the joints; of a locked equation, row and column, the identity
+!!
+!! and the processes that have them put them in their places.
+module touched_blocks
+   use interface_equations, only: interface_equations_type
+   use interface_operator, only: interface_element
+   use kinds, only: wp
+   use model_data, only: bar_nodes, model_type, n_bars, n_sections
+   use node_coupling, only: unknown_nodes
+   use node_graph, only: node_graph_type
+   use shares, only: deal_type
+   implicit none
+   private
+
+   public :: list_touched, add_touched, structure_values
+
+   type, public :: touched_type
+      integer :: n = 0
+      integer, allocatable  :: row(:), column(:)   !! (n) blocks from 0 on, ascending by row, then by column
+      integer, allocatable  :: first(:)            !! (blocks + 1) rows first(b + 1) to first(b + 2) - 1 are of block b
+      integer, allocatable  :: counts(:)           !! (ranks) of the rows of each
+      integer, allocatable  :: joint_first(:), joint_at(:) !! element i: its pairs of nodes stand at joint_at(joint_first(i) + ...)
+      real(wp), allocatable :: bodies(:, :, :)     !! (dimension, dimension, n) [force/length]
+   end type touched_type
+
+contains
+
+   !> The touched blocks of the interface ELEMENTS, on unknowns, of the bars and of the sections of MODEL.
+   subroutine list_touched(model, graph, deal, elements, touched)
+      type(model_type), intent(in)        :: model
+      type(node_graph_type), intent(in)   :: graph
+      type(deal_type), intent(in)         :: deal
+      type(interface_element), intent(in) :: elements(:)
+      type(touched_type), intent(out)     :: touched
+      integer, allocatable :: pairs(:, :)
+      integer :: i, k, n, pass
+
+      do pass = 1, 2 ! count, then fill
+         n = 0
+         do i = 1, size(elements)
+            call pair(elements(i)%node)
+         end do
+         do i = 1, n_bars(model)
+            call pair(unknown_nodes(model, bar_nodes(model%bars(i))))
+         end do
+         do i = 1, n_sections(model)
+            associate (node => model%sections(i)%node)
+               do k = graph%first(node), graph%first(node + 1) - 1
+                  call pair([node, graph%neighbours(k)])
+               end do
+            end associate
+         end do
+         if (pass == 1) allocate (pairs(2, n))
+      end do
+      call sort_once(size(deal%order), pairs, touched)
+      allocate (touched%bodies(model%dimension, model%dimension, touched%n), source=0.0_wp)
+      allocate (touched%counts(size(deal%counts)))
+      n = 0
+      do i = 1, size(deal%counts)
+         touched%counts(i) = touched%first(n + deal%counts(i) + 1) - touched%first(n + 1)
+         n = n + deal%counts(i)
+      end do
+      call place_joints(deal, elements, touched)
+
+   contains
+
+      subroutine pair(nodes)
+         integer, intent(in) :: nodes(:)
+         integer :: a, b
+
+         do b = 1, size(nodes)
+            do a = 1, size(nodes)
+               if (deal%block(nodes(a)) < 0 .or. deal%block(nodes(b)) < 0) cycle
+               n = n + 1
+               if (pass == 2) pairs(:, n) = deal%block([nodes(a), nodes(b)])
+            end do
+         end do
+      end subroutine pair
+
+   end subroutine list_touched
+
+   !> The PAIRS, each once, in their order: sorted by counting, by column and then by row.
+   subroutine sort_once(n_blocks, pairs, touched)
+      integer, intent(in)               :: n_blocks
+      integer, intent(in)               :: pairs(:, :)
+      type(touched_type), intent(inout) :: touched
+      integer :: by_column(size(pairs, 2)), by_row(size(pairs, 2)), i, k
+
+      by_column = counted(n_blocks, pairs(2, :))
+      by_row = by_column(counted(n_blocks, pairs(1, by_column)))
+      allocate (touched%row(size(by_row)), touched%column(size(by_row)))
+      do i = 1, size(by_row)
+         k = touched%n
+         if (k > 0) then
+            if (touched%row(k) == pairs(1, by_row(i)) .and. touched%column(k) == pairs(2, by_row(i))) cycle
+         end if
+         touched%n = k + 1
+         touched%row(k + 1) = pairs(1, by_row(i))
+         touched%column(k + 1) = pairs(2, by_row(i))
+      end do
+      touched%row = touched%row(:touched%n)
+      touched%column = touched%column(:touched%n)
+      allocate (touched%first(n_blocks + 1), source=0)
+      do i = 1, touched%n
+         touched%first(touched%row(i) + 1) = touched%first(touched%row(i) + 1) + 1
+      end do
+      touched%first(n_blocks + 1) = touched%n + 1
+      do i = n_blocks, 1, -1
+         touched%first(i) = touched%first(i + 1) - touched%first(i)
+      end do
+   end subroutine sort_once
+
+   !> The order in which KEYS, 0 to N - 1, ascend; equal ones as they stand.
+   pure function counted(n, keys) result(order)
+      integer, intent(in) :: n, keys(:)
+      integer :: order(size(keys)), next(0:n), i
+
+      next = 0
+      do i = 1, size(keys)
+         next(keys(i) + 1) = next(keys(i) + 1) + 1
+      end do
+      do i = 1, n
+         next(i) = next(i) + next(i - 1)
+      end do
+      do i = 1, size(keys)
+         next(keys(i)) = next(keys(i)) + 1
+         order(next(keys(i))) = i
+      end do
+   end function counted
+
+   !> Where the pairs of nodes of interface elements stand in the list; 0: a node without unknowns.
+   subroutine place_joints(deal, elements, touched)
+      type(deal_type), intent(in)         :: deal
+      type(interface_element), intent(in) :: elements(:)
+      type(touched_type), intent(inout)   :: touched
+      integer :: a, b, i, n
+
+      allocate (touched%joint_first(size(elements) + 1))
+      touched%joint_first(1) = 1
+      do i = 1, size(elements)
+         touched%joint_first(i + 1) = touched%joint_first(i) + size(elements(i)%node)**2
+      end do
+      allocate (touched%joint_at(touched%joint_first(size(elements) + 1) - 1), source=0)
+      do i = 1, size(elements)
+         n = touched%joint_first(i)
+         associate (blocks => deal%block(elements(i)%node))
+            do b = 1, size(blocks)
+               do a = 1, size(blocks)
+                  if (blocks(a) >= 0 .and. blocks(b) >= 0) touched%joint_at(n) = place_of(touched, blocks(a), blocks(b))
+                  n = n + 1
+               end do
+            end do
+         end associate
+      end do
+   end subroutine place_joints
+
+   !> Where the block of ROW and COLUMN stands; it is there.
+   pure integer function place_of(touched, row, column) result(place)
+      type(touched_type), intent(in) :: touched
+      integer, intent(in)            :: row, column
+      integer :: high, middle
+
+      place = touched%first(row + 1)
+      high = touched%first(row + 2) - 1
+      do while (place < high)
+         middle = (place + high)/2
+         if (touched%column(middle) < column) then
+            place = middle + 1
+         else
+            high = middle
+         end if
+      end do
+   end function place_of
+
+   !> Add the symmetric matrix K between the components C(i) of the blocks B(i) to the bodies; a block below 0 is none.
+   pure subroutine add_touched(touched, b, c, k)
+      type(touched_type), intent(inout) :: touched
+      integer, intent(in)               :: b(:), c(:)
+      real(wp), intent(in)              :: k(:, :) !! [force/length]
+      integer :: i, j
+
+      do j = 1, size(b)
+         if (b(j) < 0) cycle
+         do i = 1, size(b)
+            if (b(i) < 0) cycle
+            associate (place => place_of(touched, b(i), b(j)))
+               touched%bodies(c(i), c(j), place) = touched%bodies(c(i), c(j), place) + k(i, j)
+            end associate
+         end do
+      end do
+   end subroutine add_touched
+
+   !> The values with the joints K_INT; LOCKED are components (1, i) of blocks (2, i), which get the diagonal UNIT.
+   subroutine structure_values(touched, joints, k_int, locked, unit, values)
+      type(touched_type), intent(in)             :: touched
+      type(interface_equations_type), intent(in) :: joints
+      real(wp), intent(in)                       :: k_int(:, :, :) !! (3, 3, joints%n) [force/length]
+      integer, intent(in)                        :: locked(:, :)   !! (2, n)
+      real(wp), intent(in)                       :: unit           !! [force/length]
+      real(wp), allocatable, intent(out)         :: values(:, :, :)
+      integer :: a, at, b, d, i, k, n
+
+      allocate (values, source=touched%bodies)
+      d = size(values, 1)
+      do i = 1, joints%n
+         associate (matrix => joints%matrix_of(i, k_int(:, :, i)), rows => joints%rows_of(i))
+            n = size(rows)/d
+            do b = 1, n
+               do a = 1, n
+                  at = touched%joint_at(touched%joint_first(i) + a - 1 + n*(b - 1))
+                  if (at == 0) cycle
+                  call add_free(rows(d*(a - 1) + 1:d*a), rows(d*(b - 1) + 1:d*b), &
+                                matrix(d*(a - 1) + 1:d*a, d*(b - 1) + 1:d*b), values(:, :, at))
+               end do
+            end do
+         end associate
+      end do
+      do i = 1, size(locked, 2)
+         associate (c => locked(1, i), block => locked(2, i))
+            do k = 1, touched%n
+               if (touched%row(k) == block) values(c, :, k) = 0.0_wp
+               if (touched%column(k) == block) values(:, c, k) = 0.0_wp
+               if (touched%row(k) == block .and. touched%column(k) == block) values(c, c, k) = unit
+            end do
+         end associate
+      end do
+   end subroutine structure_values
+
+   !> Add to the block VALUE what of K is between components with equations.
+   pure subroutine add_free(rows, columns, k, value)
+      integer, intent(in)     :: rows(:), columns(:) !! (dimension) 0: held
+      real(wp), intent(in)    :: k(:, :)
+      real(wp), intent(inout) :: value(:, :)
+      integer :: c, d
+
+      do d = 1, size(columns)
+         do c = 1, size(rows)
+            if (rows(c) > 0 .and. columns(d) > 0) value(c, d) = value(c, d) + k(c, d)
+         end do
+      end do
+   end subroutine add_free
+
+end module touched_blocks
