@@ -13,8 +13,8 @@ module distributed_matrix
    implicit none
    private
 
-   public :: start_matrix, add_blocks, finish_matrix, read_touched, write_touched, matrix_times_vector, free_matrix, put_vector, &
-             take_vector, check
+   public :: start_matrix, reserve_touched, add_blocks, finish_matrix, read_touched, write_touched, matrix_times_vector, &
+             free_matrix, put_vector, take_vector, check
 
    type, public :: distributed_matrix_type
       type(c_ptr) :: matrix = c_null_ptr
@@ -27,7 +27,7 @@ module distributed_matrix
 
 contains
 
-   !> The matrix of the own elements, not yet assembled: rank 0 may add_blocks.
+   !> The matrix of the own elements, not yet assembled: reserve_touched comes then, and rank 0 may add_blocks.
    subroutine start_matrix(share, counts, stiffness)
       type(share_type), intent(in)               :: share
       integer, intent(in)                        :: counts(:) !! (ranks) blocks of each
@@ -53,6 +53,24 @@ contains
          end associate
       end do
    end subroutine start_matrix
+
+   !> Keep room for the touched blocks and the diagonal: what is empty when the matrix is assembled is given back.
+   subroutine reserve_touched(share, stiffness)
+      type(share_type), intent(in)              :: share
+      type(distributed_matrix_type), intent(in) :: stiffness
+      real(wp) :: nothing(share%dimension, share%dimension)
+      integer  :: i
+
+      nothing = 0.0_wp
+      do i = 1, size(stiffness%touched, 2)
+         associate (touched => stiffness%touched(:, i))
+            call check(mat_set_values_blocked(stiffness%matrix, 1, touched(1:1), 1, touched(2:2), nothing, add_values))
+         end associate
+      end do
+      do i = share%first, share%first + share%n_own - 1
+         call check(mat_set_values_blocked(stiffness%matrix, 1, [i], 1, [i], nothing, add_values))
+      end do
+   end subroutine reserve_touched
 
    !> Add the symmetric matrix K between BLOCKS; what is HELD is left out.
    subroutine add_blocks(blocks, held, k, stiffness)

@@ -2,7 +2,7 @@
 !! gives an order and does its part of it; the others take orders until the run ends. One structure at a time.
 module engine
    use distributed_matrix, only: check, distributed_matrix_type, finish_matrix, free_matrix, matrix_times_vector, read_touched, &
-                                 start_matrix, write_touched
+                                 reserve_touched, start_matrix, write_touched
    use distributed_solution, only: distributed_solution_type, free_solution, renew_preconditioner, solve_distributed, start_solution
    use kinds, only: wp
    use ranks, only: rank, tell
@@ -12,7 +12,7 @@ module engine
 
    public :: order, obey, end_engine
 
-   integer, parameter, public :: order_end = 0, order_take = 1, order_start = 2, order_finish = 3, order_touched = 4, &
+   integer, parameter, public :: order_end = 0, order_take = 1, order_start = 2, order_touched = 3, order_finish = 4, &
                                  order_read = 5, order_write = 6, order_renew = 7, order_solve = 8, order_multiply = 9
 
    type(share_type), public                :: share
@@ -104,6 +104,7 @@ contains
          stiffness%touched(2, :) = words(first + n + 1:first + n + own)
       end associate
       stiffness%touched_counts = share%dimension**2*words(:n_ranks)
+      call reserve_touched(share, stiffness)
    end subroutine take_touched
 
    subroutine multiply(values)

@@ -95,6 +95,7 @@ contains
 
       fault = 0
       call order(order_start, self%deal%counts)
+      call order(order_touched, [self%touched%counts, self%touched%row, self%touched%column])
       do e = 1, model%n_elements
          if (.not. is_entangled(model, e)) cycle
          call coupled_stiffness(model, e, k)
@@ -105,7 +106,6 @@ contains
       end do
       call order(order_finish, [self%way])
       self%stiffest = stiffest_of_all
-      call order(order_touched, [self%touched%counts, self%touched%row, self%touched%column])
       call read_bodies(self)
    end subroutine form_bodies
 

@@ -7,26 +7,14 @@ set -u
 export LC_ALL=C
 program=$1 query=$2 work=$3
 here=tests/solver
+. $here/lib.sh
+compare_within 1e-9
 passed=0 failed=0
 rm -rf "$work"
 mkdir -p "$work/tree" "$work/skyline" "$work/threads"
 for kind in tree skyline; do
    for included in input/*/ $here/*.inc; do ln -s "$PWD/${included%/}" "$work/$kind/"; done # INCLUDE looks beside the deck
 done
-
-# with_solver DECK SOLVER: the deck with SOLVER above its other case control. NEWTON stops where its tolerance is met, not at the
-# same place by both solvers: it has to go on to the last digits.
-with_solver() {
-   awk -v solver="$2" '
-      toupper($0) ~ /^ *BEGIN +BULK/ { bulk = 1 }
-      !bulk && toupper($0) ~ /^ *(SOLVER|TOL) *=/ { next }
-      !bulk && !done && toupper($0) ~ /^ *(TITLE|UNITS|METHOD|SPC|SUBCASE)/ {
-         print "SOLVER = " solver
-         print "TOL = 1.E-13"
-         done = 1
-      }
-      { print }' "$1"
-}
 
 # run FOLDER DECK_FOLDER [OPTION...]: the deck NAME
 run() {
@@ -35,27 +23,6 @@ run() {
    "$program" -q "$@" -o "$work/$folder" "$work/$decks/$name.bdf" > "$work/$folder/$name.log" 2>&1 && return
    cat "$work/$folder/$name.log"
    return 1
-}
-
-# The history by TREE has that by SKYLINE beside it. A number may be off by 1E-9 of the largest in its column, or of a thousandth of
-# the largest of its kind where that is more: the columns of a direction in which nothing happens hold rounding alone.
-rules=() worst=0
-for column in stage increment joint element node1 node2 branch branch_x branch_y slip; do rules+=(all "$column = other.$column"); done
-for column in load x y z area force k_n k_sx k_sy; do rules+=(all "$column = other.$column within 1e-9*max(abs(other.$column))"); done
-for kind in 'lambda delta_x delta_y' 'pressure tau_x tau_y'; do
-   set -- $kind
-   for column; do
-      scale="max(max(abs(other.$column)), 1e-3*max(max(abs(other.$1)), max(max(abs(other.$2)), max(abs(other.$3)))))"
-      rules+=(all "$column = other.$column within 1e-9*$scale")
-      worst="max($worst, max(abs($column - other.$column))/max($scale, 1e-300))"
-   done
-done
-
-same_history() { # EXPECTED ACTUAL: without a joint both hold titles alone
-   local off=0
-   cmp -s "$1.joint.csv" "$2.joint.csv" || off=$("$query" "$2.joint.csv" with "$1.joint.csv" "${rules[@]}" print "$worst" 2>&1) ||
-      { echo "$off"; return 1; }
-   printf 'history within %.1E of its scales, ' $off
 }
 
 same() {

@@ -1,0 +1,45 @@
+#!/usr/bin/env bash
+# Every deck of input/ by SOLVER = PETSC and by MUMPS, on one process and on two, against SOLVER = TREE of the program without MPI.
+# Where there is no mpirun or no PETSc the part says so, and counts nothing.
+#
+#    run.sh PROGRAM PROGRAM_MPI QUERY WORK_FOLDER [DECK...]
+set -u
+export LC_ALL=C
+program=$1 distributed=$2 query=$3 work=$4
+shift 4
+. tests/solver/lib.sh
+compare_within 1e-8
+passed=0 failed=0
+if ! [ -x "$distributed" ] || ! command -v mpirun > /dev/null; then
+   echo 'skipped: there is no program built by make mpi'
+   echo '0 passed, 0 failed'
+   exit 0
+fi
+export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMP_NUM_THREADS=1 OMPI_MCA_mpi_yield_when_idle=1
+rm -rf "$work"
+mkdir -p "$work"/{decks,tree,petsc1,petsc2,mumps2}
+for included in input/*/ tests/solver/*.inc; do ln -s "$PWD/${included%/}" "$work/decks/"; done # INCLUDE looks beside the deck
+
+[ $# -gt 0 ] || set -- input/*.bdf tests/solver/*.bdf
+for deck; do
+   name=$(basename "$deck" .bdf)
+   with_solver "$deck" TREE > "$work/decks/$name.bdf"
+   if ! "$program" -q -o "$work/tree" "$work/decks/$name.bdf" > "$work/tree/$name.log" 2>&1; then
+      echo "$name: does not run by TREE"; failed=$((failed + 1))
+      continue
+   fi
+   for way in 'PETSC 1' 'PETSC 2' 'MUMPS 2'; do
+      read -r solver n <<< "$way"
+      folder=$work/${solver,,}$n
+      with_solver "$deck" $solver > "$work/decks/$name.bdf"
+      if words=$(mpirun -q --oversubscribe -n $n "$distributed" -q -o "$folder" "$work/decks/$name.bdf" 2>&1) &&
+         words=$(same_history "$work/tree/$name" "$folder/$name"); then
+         passed=$((passed + 1))
+      else
+         failed=$((failed + 1))
+         echo "$name by $solver on $n: $words" | head -n 5
+      fi
+   done
+done
+echo "$passed passed, $failed failed"
+[ $failed -eq 0 ] && [ $passed -gt 0 ]
