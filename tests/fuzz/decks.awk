@@ -1,31 +1,13 @@
 # Decks made from decks: damaged, changed at random, or moderately.
 #
-#     awk -v seed=N -v from=A -v to=B -v folder=OUT -v only=KIND -f damage.awk -f cards.awk -f changes.awk -f decks.awk MANUAL DECK...
+#     awk -v seed=N -v from=A -v to=B -v folder=OUT -v only=KIND -f random.awk -f damage.awk -f cards.awk -f changes.awk -f decks.awk MANUAL DECK...
 #
 # Writes OUT/fuzz_A.bdf ... OUT/fuzz_B.bdf and prints a line for each: its number, its kind, the deck it comes from, what was done.
 # MANUAL is the manual of the cards: its filled-in cards are put into decks too. Kinds: `bad`, no valid deck any more, the program
 # must refuse it; `wild`, anything may happen but a crash; `mild`, most are still valid and reach the equations. KIND makes all
 # of them of that kind.
 #
-# A deck depends on the seed, on its number and on the decks, not on the other numbers nor on whatever awk this is: the random numbers
-# are made here. Run with LC_ALL=C.
-
-# A whole number from 0 to n - 1 (Park and Miller's generator).
-function random(n) {
-   state = (16807 * state) % 2147483647
-   return int(state / 2147483647 * n)
-}
-
-function start_random(copy,   i) {
-   state = (48271 * (seed % 2147483647) + 69621 * copy + 12345) % 2147483646 + 1
-   for (i = 1; i <= 5; i++) random(2)
-}
-
-# One of the words of a list
-function chance(list,   words, n) {
-   n = split(list, words, " ")
-   return words[1 + random(n)]
-}
+# A deck depends on the seed, on its number and on the decks, not on the other numbers nor on whatever awk this is. Run with LC_ALL=C.
 
 function insert(k, new,   i) {
    for (i = n; i > k; i--) line[i + 1] = line[i]

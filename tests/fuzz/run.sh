@@ -28,7 +28,7 @@ for build in "$@"; do
    [ -x "${build#*=}" ] || { echo "no program: $build" >&2; exit 2; }
    builds+=("${build%%=*}=$(realpath "${build#*=}")")
 done
-export ASAN_OPTIONS=detect_leaks=1:max_allocation_size_mb=2000:allocator_may_return_null=1 UBSAN_OPTIONS=print_stacktrace=1
+export ASAN_OPTIONS=detect_leaks=1:max_allocation_size_mb=2000:allocator_may_return_null=1 LSAN_OPTIONS=exitcode=0 UBSAN_OPTIONS=print_stacktrace=1
 
 # the decks that others are made from: those that take no second
 seeds=()
@@ -106,7 +106,7 @@ batch() {
    rm -rf "$where/decks"
    mkdir -p "$where/decks"
    link_includes "$where/decks"
-   awk -v seed="$seed" -v from="$first" -v to="$last" -v only="$kind" -v folder="$where/decks" -f "$here/damage.awk" \
+   awk -v seed="$seed" -v from="$first" -v to="$last" -v only="$kind" -v folder="$where/decks" -f "$here/random.awk" -f "$here/damage.awk" \
       -f "$here/cards.awk" -f "$here/changes.awk" -f "$here/decks.awk" "$root/input/README.md" "${seeds[@]}" > "$where/list" || return 1
    awk '{ print "fuzz_" $1, $2 }' "$where/list" > "$where/all"
    before=''
