@@ -13,5 +13,5 @@ sanitized:
 # make fuzz MINUTES=60 SEED=7; DECKS=100 in place of minutes, FROM=401: from that deck on
 .PHONY: fuzz
 fuzz: bin/jointfem bin/jointfit $(BUILD)/checked/jointfem $(BUILD)/checked/jointfit sanitized
-	@tests/fuzz/run.sh -s $(SEED) -f $(FROM) $(if $(DECKS),-n $(DECKS),-m $(MINUTES)) $(BUILD)/fuzz \
+	@tests/fuzz/run.sh -s $(SEED) -f $(FROM) $(if $(DECKS),-n $(DECKS),-m $(MINUTES)) -a 4 $(BUILD)/fuzz \
 	   release=bin/jointfem checked=$(BUILD)/checked/jointfem asan=$(BUILD)/asan/bin/jointfem

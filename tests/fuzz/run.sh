@@ -1,20 +1,20 @@
 #!/usr/bin/env bash
 # Decks and test data made from good ones at random, through one or several builds of the programs.
 #
-#     run.sh [-s SEED] [-m MINUTES | -n DECKS] [-f FROM] [-k KIND] [-j JOBS] FOLDER NAME=PROGRAM...
+#     run.sh [-s SEED] [-m MINUTES | -n DECKS] [-f FROM] [-k KIND] [-a EVERY] [-j JOBS] FOLDER NAME=PROGRAM...
 #
 # Decks number 1 (FROM) and up, 60 MINUTES of them or as many as DECKS; KIND: only `bad`, `wild` or `mild` ones. Every build runs every
-# deck; NAME begins with `asan` for one with sanitizers, whose memory cannot be limited. What fails is kept in FOLDER/failed, and
+# deck; NAME begins with `asan` for one with sanitizers, whose memory cannot be limited and which takes EVERY such batch of 50 only. What fails is kept in FOLDER/failed, and
 # how to run it again is printed. README.md says what must hold. Ends with "N passed, N failed"; exit status 1 if anything
 # failed, 2 wrong usage.
 set -u
 export LC_ALL=C
 here=$(cd "$(dirname "$0")" && pwd)
 root=$(cd "$here/../.." && pwd)
-seed=1 minutes=60 decks=0 from=1 kind='' jobs=2 size=50
-while getopts 's:m:n:f:k:j:' option; do
+seed=1 minutes=60 decks=0 from=1 kind='' jobs=2 size=50 every=1
+while getopts 's:m:n:f:k:a:j:' option; do
    case $option in
-   s) seed=$OPTARG ;; m) minutes=$OPTARG ;; n) decks=$OPTARG ;; f) from=$OPTARG ;; k) kind=$OPTARG ;; j) jobs=$OPTARG ;;
+   s) seed=$OPTARG ;; m) minutes=$OPTARG ;; n) decks=$OPTARG ;; f) from=$OPTARG ;; k) kind=$OPTARG ;; a) every=$OPTARG ;; j) jobs=$OPTARG ;;
    *) exit 2 ;;
    esac
 done
@@ -114,6 +114,7 @@ batch() {
    before=''
    for build in "${builds[@]}"; do
       name=${build%%=*} program=${build#*=}
+      case $name in asan*) [ $(((first - 1) / size % every)) -eq 0 ] || continue ;; esac
       run_decks "$name" "$program" 60 "$where/all" "$where" > "$where/wrong"
       cp "$where/statuses" "$where/statuses.$name"
       if [ -s "$where/wrong" ]; then : > "$where/statuses.$name"; run_singly "$name" "$program" "$where"; fi
@@ -123,8 +124,17 @@ batch() {
          [ -z "$differ" ] || echo "DIFFER: $before and $name: $differ" | cut -c 1-300
       fi
       before=$name
+      echo $((last - first + 1)) >> "$where/runs"
    done
    echo $((last - first + 1)) >> "$where/done"
+}
+
+# The first ten numbers of every fourth batch are those of test data too.
+some_data() {
+   local last=$(($1 + 9))
+   if [ $((($1 - 1) / size % 4)) -ne 0 ] && { [ "$decks" -eq 0 ] || [ "$decks" -ge "$size" ]; }; then return 0; fi
+   [ "$last" -le "$2" ] || last=$2
+   batch_of_data "$1" "$last" "$3"
 }
 
 # Every JOBS-th batch, until the time is over
@@ -135,13 +145,13 @@ work() {
    while [ "$decks" -gt 0 ] && [ "$first" -lt $((from + decks)) ] || [ "$decks" -eq 0 ] && [ $SECONDS -lt $((60 * minutes)) ]; do
       last=$((first + size - 1))
       [ "$decks" -gt 0 ] && [ "$last" -ge $((from + decks)) ] && last=$((from + decks - 1))
-      batch "$first" "$last" "$where" && batch_of_data $((first / 5)) $((last / 5)) "$where" || { echo "FAILED: no decks $first to $last"; echo 1 >> "$where/failed"; return; }
+      batch "$first" "$last" "$where" && some_data "$first" "$last" "$where" || { echo "FAILED: no decks $first to $last"; echo 1 >> "$where/failed"; return; }
       first=$((first + jobs * size))
    done
 }
 
 echo "seed $seed"
-for ((job = 0; job < jobs; job++)); do work $job & done
+for ((job = 0; job < jobs; job++)); do work $job 2>> "$folder/shell" & done # the shell tells of crashes too
 wait
 count() { cat "$folder"/work_*/"$1" 2> /dev/null | awk '{ n += $1 } END { print n + 0 }'; }
 for build in "${builds[@]}"; do
@@ -152,6 +162,6 @@ done
 made=$(count done) failed=$(count failed)
 data=$(count data_runs)
 echo "test data: $data runs"
-runs=$((made * ${#builds[@]} + data))
+runs=$(($(count runs) + data))
 echo "$((runs - failed)) passed, $failed failed"
 [ "$failed" -eq 0 ] && [ "$made" -gt 0 ]
