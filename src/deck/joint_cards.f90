@@ -91,7 +91,7 @@ contains
       integer :: i
 
       call cards%set_table([integer_field('NID'), real_field('C', above=0.0_wp), &
-         real_field('M', above=0.0_wp, most=1.0_wp), real_field('EU', default=0.0_wp, above=0.0_wp)])
+         real_field('M', least=least_power, most=1.0_wp), real_field('EU', default=0.0_wp, above=0.0_wp)])
       allocate (bulk%jnorm(cards%n))
       do i = 1, cards%n
          call cards%next(values)
