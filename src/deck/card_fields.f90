@@ -13,7 +13,7 @@ module card_fields
 
    integer, parameter :: most_rules = 32
 
-   real(wp), parameter, public :: largest_size = 1.0e60_wp !! of a number in a deck: its fifth power is still one
+   real(wp), parameter, public :: largest_size = 1.0e75_wp !! of a number in a deck: its fourth power is still one
 
    !> The fields of one card, decoded. Field k is in INTEGERS(k) or REALS(k) or WORDS(k) by its rule.
    type, public :: card_values

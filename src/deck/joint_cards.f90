@@ -8,6 +8,7 @@ module joint_cards
    use field_rules, only: blank_field, integer_field, real_field, word_field
    use kinds, only: wp
    use load_shares, only: arithmetic_shares, geometric_shares
+   use normal_stiffness, only: least_power
    use shear_stiffness, only: shear_law
    use text_tools, only: integer_text, real_text
    implicit none
