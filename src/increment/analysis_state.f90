@@ -2,6 +2,7 @@
 module analysis_state
    use case_control, only: case_control_type, method_step, pressure_eq10
    use condensed_interface, only: condensed_type
+   use condition_estimate, only: condition_type
    use equation_solver, only: equation_system
    use failures, only: failure_type
    use interface_operator, only: add_global_force, interface_element, joint_movement
@@ -93,6 +94,7 @@ module analysis_state
       type(turning_point), allocatable :: turns(:, :) !! (2, n) where the shear branches began
       integer, allocatable  :: kind(:), next_kind(:) !! of the normal stiffness used in this increment, and in the next one
       type(condensed_type)  :: condensed            !! [k_b] on the interface, where OUTPUT asks for it
+      type(condition_type)  :: condition            !! of the stiffness that the increment used
       type(joint_energy), allocatable  :: energy(:) !! of the joints
       type(pass_record), allocatable   :: passes(:) !! of the last increment
       type(slip_record), allocatable   :: slips(:)  !! of the last increment, where OUTPUT asks for them

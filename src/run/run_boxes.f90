@@ -7,6 +7,7 @@ module run_boxes
    use case_control, only: method_back
    use command_arguments, only: complain_of_input
    use condensed_interface, only: condense_on_joints
+   use condition_estimate, only: watch_condition
    use command_line, only: command_type, deck_argument, is_result_of, read_command_line
    use deck_errors, only: deck_error_list
    use deck_input, only: deck_type, read_deck
@@ -209,6 +210,7 @@ contains
       end if
       call note_largest(analysis)
       call follow_laws(model, analysis)
+      call watch_condition(system, analysis%condition)
       if (plan%stages(analysis%stage)%condensed .and. analysis%increment == 1) &
          call condense_on_joints(model, system, analysis%felt_before, analysis%felt_after, analysis%condensed)
       call run%progress%enter(phase_recover)
@@ -258,6 +260,8 @@ contains
          associate (n => run%results%listing%watch%n_warnings)
             if (n > 0) write (error_unit, '(4a)') run%argument%name, ': ', plural(n, 'warning'), ' in the listing'
          end associate
+         words = run%results%listing%poor_condition
+         if (words /= '') write (error_unit, '(3a)') run%argument%name, ': ', words
          words = distance_words(run%results%listing%farthest)
          if (words /= '') write (error_unit, '(3a)') run%argument%name, ': ', words
          if (tetra_words(model) /= '') write (error_unit, '(3a)') run%argument%name, ': ', tetra_words(model)
