@@ -27,6 +27,7 @@ module normal_stiffness
    !> The least m. The pressure (lambda/c)^(1/m) has 1/m times the relative error of lambda, of 16 digits three less at 1/1000; and it
    !! overflows where lambda exceeds c by the factor 10^(308 m), twice at 1/1000: further down no iteration would stand its way.
    real(wp), parameter, public :: least_power = 1.0e-3_wp
+   real(wp), parameter :: largest_pressure = 1.0e110_wp      ! of a trial far off: its square is still a number
    real(wp), parameter :: rounding = 1.0e-10_wp              ! of its force, or of p_av a_i: a change below is none
 
    type, public :: normal_law
@@ -241,7 +242,7 @@ contains
       type(normal_law), intent(in) :: law
       real(wp), intent(in)         :: lambda
 
-      p = (lambda/law%c)**(1.0_wp/law%m)
+      p = min((lambda/law%c)**(1.0_wp/law%m), largest_pressure)
    end function loading_pressure
 
    !> lambda of the loading curve at P >= 0, Eq. (1) [length].
