@@ -7,7 +7,8 @@ endif
 BUILD      = build
 BIN        = bin
 WARNINGS   = -std=f2018 -Wall -Wextra
-FFLAGS     = -O2 -fopenmp -fno-backtrace $(WARNINGS)
+# -fcheck=mem: of what the compiler allocates on its own, failures too are found
+FFLAGS     = -O2 -fopenmp -fcheck=mem -fno-backtrace $(WARNINGS)
 # the check of recursion would take another thread in the same routine for one
 FFLAGS_CHECKED = -O1 -g -fopenmp $(WARNINGS) -fcheck=all,no-array-temps,no-recursion -ffpe-trap=invalid,zero
 LIBRARIES  = -lmetis -lopenblas
