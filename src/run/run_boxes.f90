@@ -65,10 +65,10 @@ contains
       logical :: finished
       integer :: status
 
+      call watch_allocations()
       call read_command_line(command, finished, status)
       if (finished) call end_program(status)
       call use_threads(command%threads)
-      call watch_allocations()
       call tell_failed_writes()
    end subroutine start_program
 
