@@ -11,7 +11,8 @@ export LC_ALL=C
 build=$(realpath "$1") compare=$(realpath "$2") query=$(realpath "$3") n=$4 seed=$5
 here=$(cd "$(dirname "$0")" && pwd)
 checked=$build/checked units=$build/unit-fallback tree=$build/tree
-slow='bracket|flanged_column'                    # decks that take most of the time: after the unit tests
+slow='bracket|flanged_column'                    # decks, and below suites, that take most of the time: behind the others
+slow_suites="number_text|threads|front_kernel|law_distance|fitted_joints|joints_on_lists|nested_dissection"
 # Parts of run_all.sh that no mutant goes through: those above, what speaks of the tests themselves, and what takes long for little.
 passed_over='unit tests|modules use|runner itself|decks against their|processors|run-time checks|comparison|queries|benchmark|do not fit'
 passed_over+='|TREE and SKYLINE|STEP tends|errors of elements|Gmsh|pyNastran|damaged|pictures'
@@ -54,7 +55,11 @@ until_failure() {
 
 # The suites that use the module, and all others
 suites_of() { (cd "$tree" && grep -liE "^ *use +$1 *(,|$)" tests/unit/*.pf | xargs -r -n 1 basename -s .pf); }
-other_suites() { (cd "$tree" && grep -LiE "^ *use +$1 *(,|$)" tests/unit/*.pf | xargs -r -n 1 basename -s .pf); }
+other_suites() {
+   (cd "$tree" && grep -LiE "^ *use +$1 *(,|$)" tests/unit/*.pf | xargs -r -n 1 basename -s .pf) > "$work/others"
+   grep -vE "_($slow_suites)$" "$work/others"
+   grep -E "_($slow_suites)$" "$work/others"
+}
 
 # Killed by unit tests? The pipe breaks at the first that fails.
 suites_fail() {
