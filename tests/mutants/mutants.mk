@@ -9,10 +9,10 @@ AGAIN =
 MUTANT_FLAGS = -O1 -fopenmp -w -fcheck=all,no-array-temps,no-recursion -ffpe-trap=invalid,zero
 
 .PHONY: mutants mutants-run
-mutants: $(COMPARE) $(QUERY)
+mutants: bin/jointfem bin/jointfit $(COMPARE) $(QUERY)
 	@$(MAKE) --no-print-directory BUILD=$(BUILD)/mutants FFLAGS_CHECKED='$(MUTANT_FLAGS)' COMPARE=$(COMPARE) QUERY=$(QUERY) \
-	   mutants-run
+	   RELEASE=$(BUILD)/release mutants-run
 
-mutants-run: $(BUILD)/checked/jointfem $(BUILD)/checked/jointfit $(UNIT_PROGRAM)
+mutants-run: $(CHECKED_LIBRARY) $(UNIT_PROGRAM)
 	@FC='$(FC)' FLAGS='$(FFLAGS_CHECKED)' LIBRARIES='$(LIBRARIES)' AGAIN='$(AGAIN)' JOBS='$(JOBS)' \
-	   tests/mutants/run.sh $(BUILD) $(COMPARE) $(QUERY) $(N) $(SEED)
+	   tests/mutants/run.sh $(BUILD) $(RELEASE) $(COMPARE) $(QUERY) $(N) $(SEED)

@@ -2,18 +2,20 @@
 # Draws N single changes of src (mutate.awk), builds each and lets the tests look for it, the quick ones first; prints those that no
 # test noticed. Called by mutants.mk, which sets FC, FLAGS, LIBRARIES, AGAIN and JOBS in the environment.
 #
-#    run.sh BUILD COMPARE QUERY N SEED
+#    run.sh BUILD RELEASE COMPARE QUERY N SEED
 #
-# BUILD holds the checked build and the unit tests. Mutants work in BUILD/tree, a copy of all that tests read, so that none
+# BUILD holds the checked build and the unit tests, RELEASE the objects of the program. Mutants work in BUILD/tree, a copy of all that tests read, so that none
 # touches the project itself. BUILD/results has a line per mutant: its place in the draw, what became of it, file, line, change.
 set -u
 export LC_ALL=C
-build=$(realpath "$1") compare=$(realpath "$2") query=$(realpath "$3") n=$4 seed=$5
+build=$(realpath "$1") release=$(realpath "$2") compare=$(realpath "$3") query=$(realpath "$4") n=$5 seed=$6
+program_flags="-O1 -fopenmp -w"
 here=$(cd "$(dirname "$0")" && pwd)
 checked=$build/checked units=$build/unit-fallback tree=$build/tree
-slow='bracket|flanged_column'                    # decks, and below suites, that take most of the time: behind the others
+# What takes most of the time: these decks no mutant goes through, these suites only where they use the module.
+slow="bracket|flanged_column"
 slow_suites="number_text|threads|front_kernel|law_distance|fitted_joints|joints_on_lists|nested_dissection"
-# Parts of run_all.sh that no mutant goes through: those above, what speaks of the tests themselves, and what takes long for little.
+# Nor through these parts of run_all.sh: those above, what speaks of the tests themselves, and what takes long for little.
 passed_over='unit tests|modules use|runner itself|decks against their|processors|run-time checks|comparison|queries|benchmark|do not fit'
 passed_over+='|TREE and SKYLINE|STEP tends|errors of elements|Gmsh|pyNastran|damaged|pictures'
 without=${WITHOUT:+|$WITHOUT}                    # more parts of run_all.sh that are passed over
@@ -32,6 +34,8 @@ awk 'BEGIN { print "program chosen_tests\n   use funit, only: finish_tests\n   i
              for (i = 1; i < ARGC; i++) printf "      case (\"%s\")\n         call %s_suite()\n", ARGV[i], ARGV[i]
              print "      case default\n         error stop \"no such suite\"\n      end select\n   end do\n   call finish_tests()\nend program chosen_tests"
    }' $(basename -s .pf tests/unit/*.pf) > "$build/chosen_tests.f90"
+rm -f "$build/librelease.a"
+ar rcs "$build/librelease.a" "$release"/*.o || exit 1
 for main in "$build/chosen_tests.f90" src/jointfem.f90 src/jointfit.f90; do
    $FC $FLAGS -I"$checked" -I"$units" -J"$build" -c -o "$build/$(basename "$main" .f90).main.o" "$main" || exit 1
 done
@@ -56,9 +60,7 @@ until_failure() {
 # The suites that use the module, and all others
 suites_of() { (cd "$tree" && grep -liE "^ *use +$1 *(,|$)" tests/unit/*.pf | xargs -r -n 1 basename -s .pf); }
 other_suites() {
-   (cd "$tree" && grep -LiE "^ *use +$1 *(,|$)" tests/unit/*.pf | xargs -r -n 1 basename -s .pf) > "$work/others"
-   grep -vE "_($slow_suites)$" "$work/others"
-   grep -E "_($slow_suites)$" "$work/others"
+   (cd "$tree" && grep -LiE "^ *use +$1 *(,|$)" tests/unit/*.pf | xargs -r -n 1 basename -s .pf) | grep -vE "_($slow_suites)$"
 }
 
 # Killed by unit tests? The pipe breaks at the first that fails.
@@ -97,22 +99,21 @@ rest_fails() {
 
 # fate FILE LINE NOW: what becomes of it, one word
 fate() {
-   local file=$1 line=$2 now=$3 module all small
+   local file=$1 line=$2 now=$3 module decks
    module=$(basename "$file" .f90)
    line=$line now=$now awk 'NR == ENVIRON["line"] + 0 { print ENVIRON["now"]; next } { print }' "src/$file" > "$work/$module.f90"
    (cd "$work" && timeout 300 $FC $FLAGS -I"$checked" -J"$work/modules" -c -o mutant.o "$module.f90") > "$work/build.log" 2>&1 ||
       { echo unbuilt; return; }
+   (cd "$work" && $FC $program_flags -I"$release" -J"$work/modules" -c -o program.o "$module.f90") >> "$work/build.log" 2>&1
    $FC $FLAGS -o "$work/unit_tests" "$build/chosen_tests.main.o" $unit_objects "$work/mutant.o" "$checked/libjointfem.a" $LIBRARIES \
       >> "$work/build.log" 2>&1 || { echo unbuilt; return; }
    for main in jointfem jointfit; do
-      $FC $FLAGS -o "$work/$main" "$build/$main.main.o" "$work/mutant.o" "$checked/libjointfem.a" $LIBRARIES >> "$work/build.log" 2>&1
+      $FC $program_flags -o "$work/$main" "$build/$main.main.o" "$work/program.o" "$build/librelease.a" $LIBRARIES >> "$work/build.log" 2>&1
    done
-   all=$(cd "$tree/input" && basename -s .bdf *.bdf)
-   small=$(grep -vxE "$slow" <<< "$all")
+   decks=$(cd "$tree/input" && basename -s .bdf *.bdf | grep -vxE "$slow")
    if suites_fail $(suites_of "$module"); then echo 'killed by its unit tests'
-   elif decks_fail $small; then echo 'killed by decks'
+   elif decks_fail $decks; then echo 'killed by decks'
    elif suites_fail $(other_suites "$module"); then echo 'killed by other unit tests'
-   elif decks_fail $all; then echo 'killed by decks'
    elif rest_fails "$without"; then echo "killed by: $(sed -n 's/^---- //p' "$work/command.log" | tail -n 1)"
    else echo survived
    fi
