@@ -161,6 +161,8 @@ accept: bin/jointfem
 # Speed and pictures ----------------------------------------------------------------------------------------------
 
 include tests/bench/bench.mk
+include tests/coverage/coverage.mk
+include tests/mutants/mutants.mk
 
 # The figures of the paper; with DECK=path those of one deck, with DATA=file those of test data
 .PHONY: figures
