@@ -25,7 +25,7 @@ contains
    !> For every node of side 1 the node of side 2 at the same place.
    subroutine pair_nodes(model, surface, side1, side2, tol, partner, fault)
       type(model_type), intent(in)        :: model
-      integer, intent(in)                 :: surface(2)   !! of MODEL
+      integer, intent(in)                 :: surface(2)   !! of the model
       type(surface_node_list), intent(in) :: side1, side2 !! their nodes
       real(wp), intent(in)                :: tol          !! 0: the default [length]
       integer, intent(inout)              :: partner(:)
