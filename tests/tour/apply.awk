@@ -6,18 +6,21 @@
 #
 # What does not apply is printed; the status is 1 then.
 
-/^--- / { end_file(); is_new = $2 == "/dev/null"; next }
+/^--- / { end_file(); next }
 /^\+\+\+ / && file == "" {
    file = root "/" substr($2, 3)
    n = 0
-   if (!is_new) {
-      while ((status = (getline line < file)) > 0) text[++n] = line
-      if (status < 0) complain("there is no such file")
-      close(file)
-   }
+   while ((status = (getline line < file)) > 0) text[++n] = line
+   close(file)
    next
 }
-/^@@ / { end_hunk(); in_hunk = 1; head = FNR; next }
+/^@@ / {
+   end_hunk()
+   in_hunk = 1
+   head = FNR
+   if (status < 0 && $2 != "-0,0") complain("there is no such file")
+   next
+}
 in_hunk {
    mark = substr($0, 1, 1)
    if (mark == " " || mark == "-" || $0 == "") old[++n_old] = substr($0, 2)
