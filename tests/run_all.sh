@@ -70,11 +70,13 @@ part 'decks against their references' tests/check.sh "$program" "$compare" "$bui
 everything_so_far
 part 'unit tests' ${MAKE:-make} --no-print-directory -s unit-test
 part 'modules use what stands to the left' tests/folders.sh README.md src
+part 'the tour of the source' tests/tour/readme.sh src/README.md src
 part 'the test runner itself' env -u MAKELEVEL tests/runner/selftest.sh
 # the long ones first
 part 'bad decks and command lines' tests/bad/run.sh "$PWD/$checked"
 part 'damaged decks' tests/damage/run.sh "$PWD/$checked" "$PWD/input"
 part 'decks on other processors, built otherwise' tests/processors.sh "$program" "$compare" "$build"
+part 'worked examples of the tour' tests/tour/run.sh "$query" "$build/tour"
 part 'decks through the program with run-time checks' tests/check.sh "$checked" "$compare" "$build/check-checked"
 part 'what the paper says of the prism' tests/prism_findings.sh "$query" "$build/check"
 part 'exact answers and independent computations' tests/exact/run.sh "$program" "$query" "$build/exact"
