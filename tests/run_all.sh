@@ -3,7 +3,7 @@
 #
 #    run_all.sh PROGRAM CHECKED_PROGRAM COMPARE QUERY BUILD_FOLDER
 #
-# CHECKED_PROGRAM is the program with run-time checks; bad and damaged decks go through it, so that a bound exceeded or a
+# CHECKED_PROGRAM is the program with run-time checks; bad decks and those made at random go through it, so that a bound exceeded or a
 # floating-point exception is seen. Every part ends with a line `N passed, N failed`; a part without one has failed. As many parts
 # run side by side as there are cores (TOGETHER=n: n of them); each has a folder of its own.
 # WITHOUT in the environment: a pattern of titles that are passed over.
@@ -74,7 +74,8 @@ part 'the tour of the source' tests/tour/readme.sh src/README.md src
 part 'the test runner itself' env -u MAKELEVEL tests/runner/selftest.sh
 # the long ones first
 part 'bad decks and command lines' tests/bad/run.sh "$PWD/$checked"
-part 'damaged decks' tests/damage/run.sh "$PWD/$checked" "$PWD/input"
+part 'decks made at random' tests/fuzz/run.sh -s 1984 -n 1000 -j 1 "$build/test/fuzz" checked="$checked"
+part 'the fuzzer itself' tests/fuzz/selftest.sh
 part 'decks on other processors, built otherwise' tests/processors.sh "$program" "$compare" "$build"
 part 'worked examples of the tour' tests/tour/run.sh "$query" "$build/tour"
 part 'decks through the program with run-time checks' tests/check.sh "$checked" "$compare" "$build/check-checked"
