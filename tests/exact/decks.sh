@@ -388,3 +388,18 @@ beam3() { # NAME MODES DIRECTION: in y (depth 0.2) or z (depth 0.1)
      for g in 25 26 27 28; do printf 'FORCE,1,%d,,0.25,0.0,%s\n' $g "$([ "$3" = y ] && echo 1.0,0.0 || echo 0.0,1.0)"; done; echo ENDDATA; } > "$work/$1.bdf"
    run "$1"
 }
+
+# ---- decks of input/ in more increments ----
+
+# input/DECK.bdf as $work/DECK.METHOD.N.bdf, with N equal increments in every stage
+variant() { # DECK METHOD N
+   awk -v method="$2" -v n="$3" '
+      BEGIN { share = sprintf("%.7f", 1 / n) }
+      /^METHOD/ { next }
+      /^TITLE/ { print; print "METHOD = " method; next }
+      /^ *OUTPUT/ { next }
+      /^SUBCASE/ { print; print "  OUTPUT = NONE"; next }
+      /^JINCR/ { gsub(",", " "); printf "JINCR,%d,%d,ARITH,%s\n", $2, n, share; next }
+      { print }' "input/$1.bdf" > "$work/$1.$2.$3.bdf"
+   run "$1.$2.$3"
+}
