@@ -1,4 +1,5 @@
-# For run.sh and the verification manual: run a deck, ask its results, compare. Every comparison counts one test; a value that is not a number fails.
+# For run.sh, other test scripts and the verification manual: run a deck, ask its results, compare. Every comparison counts one test; a
+# value that is not a number fails.
 
 export LC_ALL=C
 passed=0 failed=0

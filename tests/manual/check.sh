@@ -24,6 +24,14 @@ if [ -f "$made" ] && compare "$committed" "$made"; then pass; else
    fail "$committed is not what this program gives; if the change is meant: make manual, and say why in the commit"
 fi
 
+# the page is sound: tables, links to headings, and the files that it names
+awk -f "$here/numbers.awk" -f "$here/lint.awk" "$committed" > "$work/said" 2>&1
+grep -oE '\]\([^)#]+' "$committed" | cut -c3- | sort -u | while read -r file; do [ -e "reference_output/$file" ] || echo "no file $file"; done >> "$work/said"
+grep -oE '`(input|tests|exact|unit)/[A-Za-z0-9_./]+`' "$committed" | tr -d '`' | sort -u | while read -r file; do
+   [ -e "$file" ] || [ -e "tests/$file" ] || echo "no file $file"
+done >> "$work/said"
+if [ -s "$work/said" ]; then cat "$work/said"; fail 'the page is not sound'; else pass; fi
+
 # notices WHAT SED-COMMAND: a page changed so is told from the committed one; overlooks: it is not
 changed() { sed -E "$2" "$committed" > "$work/changed.md"; ! cmp -s "$committed" "$work/changed.md" || fail "$1: nothing is changed"; }
 notices() { changed "$@"; if compare "$committed" "$work/changed.md"; then fail "not noticed: $1"; else pass; fi; }

@@ -1,6 +1,5 @@
 # The second pass: {{contents}}, {{NAME}} of notes, {{3.1}} the largest difference of a case.
 #    awk -f numbers.awk -f fill.awk -v notes=FILE -v found=FILE DRAFT DRAFT
-function anchor(title) { title = tolower(title); gsub(/[^a-z0-9 _-]/, "", title); gsub(/ /, "-", title); return title }
 BEGIN {
    while ((getline line < notes) > 0) { name = line; sub(/ .*/, "", name); sub(/^[^ ]* /, "", line); value[name] = line }
    while ((getline line < found) > 0) {
@@ -16,7 +15,9 @@ NR == FNR {
    next
 }
 /^{{contents}}$/ { printf "%s", contents; next }
+/^$/ && blank { next }
 {
+   blank = /^$/
    while (match($0, /{{[^}]*}}/)) {
       name = substr($0, RSTART + 2, RLENGTH - 4)
       if (!(name in value)) { print "nothing is known of {{" name "}}" > "/dev/stderr"; exit 1 }
