@@ -6,8 +6,9 @@
 # CHECKED_PROGRAM is the program with run-time checks; bad and damaged decks go through it, so that a bound exceeded or a
 # floating-point exception is seen. Every part ends with a line `N passed, N failed`; a part without one has failed. As many parts
 # run side by side as there are cores (TOGETHER=n: n of them); each has a folder of its own.
+# WITHOUT in the environment: a pattern of titles that are passed over.
 set -u
-program=$1 checked=$2 compare=$3 query=$4 build=$5
+program=$1 checked=$2 compare=$3 query=$4 build=$5 without=${WITHOUT:-}
 together=${TOGETHER:-$(nproc)}
 passed=0 failed=0 begun=0 shown=0
 titles=()
@@ -17,6 +18,7 @@ mkdir -p "$build/test/logs"
 # part TITLE COMMAND...: begins it as soon as fewer than TOGETHER parts run
 part() {
    local log
+   [[ -n $without && $1 =~ $without ]] && return
    show_finished
    while [ "$(jobs -rp | wc -l)" -ge "$together" ]; do wait -n; done
    log=$build/test/logs/$begun

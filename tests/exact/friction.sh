@@ -86,6 +86,23 @@ sheared_spring spring NEWTON 1 13.86 && {
    same 'spring, 0.99: NEWTON sticks' "$(sides spring slip)" 0
 }
 
+# the points t_1 and t_1' of every pass: of 48 the first eight, and the last after a line of dots
+sed 's/^METHOD = .*/METHOD = STEP/; s/^SUBCASE 2/&\n  OUTPUT = JOINT/; s/^\(PJOINT,1,1,1,,0.2\),.*/\1,-1,0.5/; s/^FORCE,12,1,.*/FORCE,12,1,,14.14,1.0/' "$work/spring.bdf" > "$work/spring_passes.bdf"
+run spring_passes && {
+   table spring_passes 'SLIPPING ELEMENTS BEFORE AND AFTER EACH RE-ANALYSIS' > "$work/passes"
+   judge 'spring: deflection and stress before and after each re-analysis' '
+      function size(a) { return a < 0 ? -a : a }
+      function near(what, is, wanted) { if (size(size(is) - wanted) > 6e-6*wanted) print what " " is ", expected " wanted ": " $0 }
+      $1 == "..." { dots++; if (last != 8) print "dots behind pass " last }
+      $1 == 1 {
+         n++; k = last = $2; f = 5/7
+         near("DELTA", $6, 4.04e-4 + 1e-5*(1 - f^(k - 1))); near("DELTA AFTER", $9, 4.04e-4 + 1e-5*(1 - f^k))
+         near("TAU", $7, 0.1 + 1e-3*f^(k - 1)); near("TAU AFTER", $10, 0.1 + 1e-3*f^k); near("LIMIT", $8, 0.1); near("LIMIT AFTER", $11, 0.1)
+         if (k != n && n < 9) print "pass " k " in line " n
+      }
+      END { if (n != 9 || dots != 1 || last < 20) print n " rows, " dots " lines of dots, last pass " last; print "checked " n }' "$work/passes"
+}
+
 # The block of input/friction_once.bdf, NREAN 0, 1, 2, 5, against an independent computation.
 for nrean in 0 1 2 5; do
    awk -v nrean=$nrean '/^PJOINT/ { $0 = "PJOINT,1,1,1,,0.2," nrean } { print }' input/friction_once.bdf > "$work/block$nrean.bdf"
