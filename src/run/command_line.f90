@@ -38,7 +38,6 @@ contains
       logical, intent(out)            :: finished
       integer, intent(out)            :: status
       character(:), allocatable :: argument
-      type(deck_argument) :: deck
       integer :: i, n
       logical :: options, ok
 
