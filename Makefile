@@ -38,6 +38,7 @@ help:
 	@echo 'make sanitize   decks under the address, undefined and thread sanitizers, and valgrind: minutes'
 	@echo 'make install PREFIX=dir  programs, manual pages, documents; default /usr/local'
 	@echo 'make accept CASE=name    take the results of input/name.bdf as the new reference'
+	@echo 'make manual     the verification manual, reference_output/README.md, from runs'
 	@echo 'make bench      speed and memory, MODELS=small: only of small models'
 	@echo 'make figures    the pictures, from the CSV files of the decks'
 	@echo 'make figures DECK=path   pressure, deflection and loops of the joints of any deck'
@@ -158,6 +159,11 @@ accept: bin/jointfem
 	bin/jointfem -q -o $(BUILD)/accept 'input/$(CASE).bdf'
 	cp '$(BUILD)/accept/$(CASE).out' '$(BUILD)/accept/$(CASE).joint.csv' reference_output
 	@echo 'say in the commit message why the reference changed'
+
+# The verification manual, its numbers from runs
+.PHONY: manual
+manual: bin/jointfem $(QUERY)
+	@tests/manual/make.sh bin/jointfem $(QUERY) $(BUILD)/manual-runs reference_output/README.md
 
 # Speed and pictures ----------------------------------------------------------------------------------------------
 

@@ -70,15 +70,18 @@ part 'decks against their references' tests/check.sh "$program" "$compare" "$bui
 everything_so_far
 part 'unit tests' ${MAKE:-make} --no-print-directory -s unit-test
 part 'modules use what stands to the left' tests/folders.sh README.md src
+part 'the tour of the source' tests/tour/readme.sh src/README.md src
 part 'the test runner itself' env -u MAKELEVEL tests/runner/selftest.sh
 # the long ones first
 part 'bad decks and command lines' tests/bad/run.sh "$PWD/$checked"
 part 'decks made at random' tests/fuzz/run.sh -s 1984 -n 1000 -j 1 "$build/test/fuzz" checked="$checked"
 part 'the fuzzer itself' tests/fuzz/selftest.sh
 part 'decks on other processors, built otherwise' tests/processors.sh "$program" "$compare" "$build"
+part 'worked examples of the tour' tests/tour/run.sh "$query" "$build/tour"
 part 'decks through the program with run-time checks' tests/check.sh "$checked" "$compare" "$build/check-checked"
 part 'what the paper says of the prism' tests/prism_findings.sh "$query" "$build/check"
 part 'exact answers and independent computations' tests/exact/run.sh "$program" "$query" "$build/exact"
+part 'the verification manual as it stands' tests/manual/check.sh "$program" "$query" "$build/manual-check"
 part 'TREE and SKYLINE, one thread and several' tests/solver/run.sh "$program" "$query" "$build/solver"
 part 'models that do not fit into the memory' tests/memory.sh "$program" "$build/memory"
 part 'linear decks against CalculiX' tests/calculix/run.sh "$program" "$build/calculix"
