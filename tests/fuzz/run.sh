@@ -22,6 +22,7 @@ shift $((OPTIND - 1))
 [ $# -ge 2 ] || { sed -n 's/^#     run.sh/usage: run.sh/p' "$0" >&2; exit 2; }
 mkdir -p "$1/failed" || exit 2
 folder=$(realpath "$1")
+rm -rf "$folder"/work_*
 shift
 builds=()
 for build in "$@"; do
