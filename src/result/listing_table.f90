@@ -167,9 +167,11 @@ contains
       end do
    end subroutine add_integers
 
+   !> The next values of the row. One that is too large for the digits of its column is written with an exponent.
    pure subroutine add_reals(self, values)
       class(listing_table_type), intent(inout) :: self
       real(wp), intent(in)                     :: values(:)
+      character(20) :: form
       integer :: i
 
       do i = 1, size(values)
@@ -178,7 +180,12 @@ contains
             if (column%is_short) then
                call write_short(values(i), self%row(column%last - short_width + 1:column%last))
             else
-               write (self%row(column%last - column%width + 1:column%last), column%form) values(i)
+               associate (cell => self%row(column%last - column%width + 1:column%last))
+                  write (cell, column%form) values(i)
+                  if (cell(column%width:) /= '*') cycle
+                  write (form, '(a, i0, a, i0, a)') '(es', column%width, '.', max(0, column%width - 8), 'e3)'
+                  write (cell, form) values(i)
+               end associate
             end if
          end associate
       end do
