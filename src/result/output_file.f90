@@ -1,14 +1,15 @@
-!> Result files that appear under their names only when they are complete: written as NAME.part, renamed at the end.
+!> Result files that appear under their names only when they are complete: written as NAME.abcdef.part, renamed at the end.
 !! With no name the lines go to the standard output, at the end too.
 module output_file
-   use c_library, only: close_file, create_file, remove_file, rename_file, write_bytes
-   use incomplete_results, only: note_incomplete, suffix
+   use c_library, only: close_file, remove_file, write_bytes
+   use incomplete_results, only: create_part, name_part
    implicit none
    private
 
    type, public :: output_file_type
       private
       character(:), allocatable :: path          ! empty: standard output
+      character(:), allocatable :: part          ! its name until it is complete
       character(:), allocatable :: buffer
       integer :: used = 0
       integer :: descriptor = -1
@@ -34,8 +35,8 @@ contains
       self%path = path
       if (allocated(self%buffer)) deallocate (self%buffer)
       allocate (character(room) :: self%buffer)
-      call note_incomplete(path)
-      if (path /= '') call create_file(path//suffix, self%descriptor)
+      self%used = 0
+      if (path /= '') call create_part(path, self%part, self%descriptor)
       self%fault = path /= '' .and. self%descriptor < 0
       self%is_open = .not. self%fault
    end subroutine start
@@ -95,8 +96,11 @@ contains
       if (self%path /= '') then
          call close_file(self%descriptor, closed)
          ok = ok .and. closed
-         if (ok) call rename_file(self%path//suffix, self%path, ok)
-         if (.not. ok) call remove_file(self%path//suffix)
+         if (ok) then
+            call name_part(self%part, self%path, ok)
+         else
+            call remove_file(self%part)
+         end if
       end if
       self%is_open = .false.
       self%fault = .not. ok
@@ -111,7 +115,7 @@ contains
       self%is_open = .false.
       if (self%path == '') return
       call close_file(self%descriptor, closed)
-      call remove_file(self%path//suffix)
+      call remove_file(self%part)
    end subroutine discard
 
 end module output_file

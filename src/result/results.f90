@@ -3,11 +3,11 @@ module results
    use analysis_state, only: analysis_type
    use answer_block, only: print_answer
    use bolt_answer, only: n_bolts
-   use c_library, only: remove_file
+   use c_library, only: close_file, lock_folder
    use deck_input, only: deck_type
    use equation_solver, only: equation_system
    use failures, only: failure_type
-   use incomplete_results, only: all_complete
+   use incomplete_results, only: all_complete, give_up_parts, remove_old
    use joint_history, only: write_history, write_history_header
    use kinds, only: wp
    use listing, only: finish_listing, list_increment, list_stage, listing_type, start_listing
@@ -53,6 +53,7 @@ contains
       logical, intent(out)              :: ok
       integer :: i
 
+      call all_complete()
       results%base = base
       allocate (results%bolts_before(n_bolts(model)), source=0.0_wp)
       if (base == '') call start_listing(results%listing, '', deck, model, plan, system)
@@ -121,20 +122,29 @@ contains
       type(failure_type), intent(in)    :: failure !! raised: the results end before it
       type(results_type), intent(inout) :: results
       logical, intent(out)              :: ok
-      integer :: i
+      integer :: i, hold
+      logical :: closed
 
+      call lock_folder(folder_of(results%base), hold)
+      call remove_all(results%base) ! of two runs of one name the last to come here leaves all of its files, and no others
       ok = .true.
       do i = 1, size(table_endings)
          if (ok .and. results%tables(i)%is_open) call results%tables(i)%finish(ok)
       end do
       if (ok) call finish_vtu(results%vtu, ok)
       if (ok) call finish_listing(results%listing, plan, failure, ok)
-      if (.not. ok) then
-         call discard_results(results)
-         call remove_tables(results%base)
-      end if
-      call all_complete()
+      if (.not. ok) call discard_results(results)
+      if (ok) call all_complete()
+      call close_file(hold, closed)
    end subroutine finish_results
+
+   !> The folder in which files are that begin with BASE.
+   pure function folder_of(base) result(folder)
+      character(*), intent(in)  :: base
+      character(:), allocatable :: folder
+
+      folder = base(:index(base, '/', back=.true.))//'.'
+   end function folder_of
 
    !> Show the answers on the standard output, and behind them the names of the files. OK is false where that fails.
    subroutine show_answers(model, results, ok)
@@ -153,7 +163,7 @@ contains
       call results%screen%finish(ok)
    end subroutine show_answers
 
-   !> Leave nothing behind that could be taken for a result.
+   !> Leave nothing behind that could be taken for a result; of another run nothing is touched.
    subroutine discard_results(results)
       type(results_type), intent(inout) :: results
       integer :: i
@@ -164,29 +174,33 @@ contains
       end do
       call results%screen%discard()
       call discard_vtu(results%vtu)
-      call all_complete()
+      call give_up_parts()
    end subroutine discard_results
 
    !> Remove what an earlier run of the same deck left: it is not the result of this deck any more, wherever the run ends.
    subroutine remove_old_results(base)
       character(*), intent(in) :: base
+      integer :: hold
+      logical :: closed
 
       if (base == '') return
-      call remove_file(base//listing_ending)
-      call remove_tables(base)
-      call remove_old_vtu(base)
+      call lock_folder(folder_of(base), hold)
+      call remove_all(base)
+      call close_file(hold, closed)
    end subroutine remove_old_results
 
-   !> Remove the tables beside the listing BASE.out, those that are there.
-   subroutine remove_tables(base)
+   !> Remove the results whose names begin with BASE, none where it is empty.
+   subroutine remove_all(base)
       character(*), intent(in) :: base
       integer :: i
 
       if (base == '') return
+      call remove_old(base//listing_ending)
       do i = 1, size(table_endings)
-         call remove_file(base//trim(table_endings(i)))
+         call remove_old(base//trim(table_endings(i)))
       end do
-   end subroutine remove_tables
+      call remove_old_vtu(base)
+   end subroutine remove_all
 
    !> Whether the name of a result may end so, behind its base.
    pure logical function is_result_ending(ending)

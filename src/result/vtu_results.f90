@@ -4,9 +4,10 @@ module vtu_results
    use, intrinsic :: iso_fortran_env, only: int8
    use analysis_state, only: analysis_type
    use body_elements, only: node_stresses, whole_stress
-   use c_library, only: read_all_bytes, remove_file
+   use c_library, only: is_regular_file, read_all_bytes, remove_file
    use element_kinds, only: element_table
    use elasticity, only: max_stresses
+   use incomplete_results, only: remove_old
    use kinds, only: wp
    use listing_table, only: label_type
    use model_data, only: corners_of, model_type, n_points
@@ -35,6 +36,7 @@ module vtu_results
       type(part_type), allocatable :: parts(:)
       integer :: n = 0
       logical :: many = .false.                   ! more than one stage, or every increment of one
+      logical :: is_listed = .false.              ! the list has its name
    end type vtu_results_type
 
 contains
@@ -50,6 +52,7 @@ contains
       results%name = name
       results%labels = labels
       results%n = 0
+      results%is_listed = .false.
       results%many = size(plan%stages) > 1 .or. any(plan%stages%steps)
       most = 0
       do s = 1, size(plan%stages)
@@ -158,6 +161,7 @@ contains
          associate (parts => results%parts(:results%n))
             call write_collection(results%name//'.pvd', parts%time, parts%part, base//parts%ending, ok)
          end associate
+         results%is_listed = ok
       end if
       if (.not. ok) call discard_vtu(results)
    end subroutine finish_vtu
@@ -185,9 +189,9 @@ contains
 
       do i = 1, results%n
          call results%parts(i)%file%discard()
-         call remove_file(results%name//trim(results%parts(i)%ending))
       end do
-      if (results%n > 0) call remove_file(results%name//'.pvd')
+      if (results%is_listed) call remove_file(results%name//'.pvd')
+      results%is_listed = .false.
       results%n = 0
    end subroutine discard_vtu
 
@@ -216,8 +220,9 @@ contains
       integer :: at, first
       logical :: ok
 
-      call remove_file(name//'.vtu')
-      call remove_file(name//'.joint.vtu')
+      call remove_old(name//'.vtu')
+      call remove_old(name//'.joint.vtu')
+      if (.not. is_regular_file(name//'.pvd')) return
       call read_all_bytes(name//'.pvd', bytes, ok)
       if (.not. ok) return
       base = mark//xml_text(name(index(name, '/', back=.true.) + 1:))
@@ -227,9 +232,9 @@ contains
          if (at == 0) exit
          first = first + at - 1 + len(base)
          ending = bytes(first:first + index(bytes(first:)//'"', '"') - 2)
-         if (is_vtu_ending(ending)) call remove_file(name//ending)
+         if (is_vtu_ending(ending)) call remove_old(name//ending)
       end do
-      call remove_file(name//'.pvd')
+      call remove_old(name//'.pvd')
    end subroutine remove_old_vtu
 
 end module vtu_results

@@ -14,7 +14,7 @@ module run_boxes
    use equations, only: form_body_stiffness, start_equations
    use error_report, only: print_errors
    use failures, only: failure_type
-   use incomplete_results, only: watch_allocations
+   use incomplete_results, only: watch_ends, what_is_in_the_way
    use law_distance, only: follow_laws
    use listing_steps, only: distance_words
    use load_path, only: recover_bodies
@@ -66,7 +66,7 @@ contains
       call read_command_line(command, finished, status)
       if (finished) call end_program(status)
       call use_threads(command%threads)
-      call watch_allocations()
+      call watch_ends()
       call tell_failed_writes()
    end subroutine start_program
 
@@ -319,6 +319,9 @@ contains
          case (is_unwritten)
             if (base == '') then
                write (error_unit, '(2a)') name, ': the listing cannot be written to the standard output'
+            else if (what_is_in_the_way() /= '') then
+               write (error_unit, '(4a)') name, ': the results cannot be written: ', what_is_in_the_way(), &
+                  '; remove it, or take another folder by -o'
             else
                write (error_unit, '(5a)') name, ': the results ', base//listing_ending, ' and ', base//history_ending, &
                   ' cannot be written: is the folder there, and is there room on the disk?'
