@@ -6,9 +6,9 @@ module c_library
    implicit none
    private
 
-   public :: read_all_bytes, create_unique, write_bytes, close_file, rename_file, remove_file, remove_terminated, &
-             true_path, kind_of_file, is_regular_file, is_terminal, tell_failed_writes, call_at_interrupts, end_by_signal, &
-             lock_folder, end_run
+   public :: read_all_bytes, open_file, read_bytes, create_unique, write_bytes, close_file, rename_file, remove_file, &
+             remove_terminated, true_path, kind_of_file, is_regular_file, is_terminal, tell_failed_writes, &
+             call_at_interrupts, end_by_signal, lock_folder, end_run
 
    !> What a path may lead to.
    integer, parameter, public :: no_file = 0, pipe_file = 1, device_file = 2, folder_file = 4, block_file = 6, regular_file = 8, &
@@ -153,8 +153,26 @@ contains
       bytes = bytes(:used)
    end subroutine read_all_bytes
 
-   !> Create a file for writing that was not there: NAME, a dot, six letters, ENDING. It is no link, pipe or device that waited under
-   !! that name, and no other run has it. Its PATH; DESCRIPTOR is below zero where that fails.
+   !> Open the file PATH for reading. DESCRIPTOR is below zero where that fails.
+   subroutine open_file(path, descriptor)
+      character(*), intent(in) :: path
+      integer, intent(out)     :: descriptor
+      integer(c_int), parameter :: to_read = 0 ! O_RDONLY
+
+      descriptor = int(c_open(path//c_null_char, to_read))
+   end subroutine open_file
+
+   !> Read the next BYTES of DESCRIPTOR, as many as there are room and bytes for; GOT is how many, 0 at the end, below on failure.
+   subroutine read_bytes(descriptor, bytes, got)
+      integer, intent(in)            :: descriptor
+      character(*), intent(inout)    :: bytes
+      integer(c_size_t), intent(out) :: got
+
+      got = c_read(int(descriptor, c_int), bytes, len(bytes, c_size_t))
+   end subroutine read_bytes
+
+   !> Create a file for writing that was not there: NAME, a dot, six letters, ENDING. It is no link, pipe or device that waited
+   !! under that name, and no other run has it. Its PATH; DESCRIPTOR is below zero where that fails.
    subroutine create_unique(name, ending, path, descriptor)
       character(*), intent(in)               :: name, ending
       character(:), allocatable, intent(out) :: path

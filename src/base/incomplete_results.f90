@@ -40,8 +40,8 @@ module incomplete_results
 
 contains
 
-   !> Create the file PART, which will be PATH. DESCRIPTOR is below zero where that fails, or where PATH is there and is no file that
-   !! could be replaced: a folder, a pipe, a device.
+   !> Create the file PART, which will be PATH. DESCRIPTOR is below zero where that fails, or where PATH is there and is no file
+   !! that could be replaced: a folder, a pipe, a device.
    subroutine create_part(path, part, descriptor)
       character(*), intent(in)               :: path
       character(:), allocatable, intent(out) :: part
@@ -59,14 +59,19 @@ contains
       call end_of_change()
    end subroutine create_part
 
-   !> PART is complete: it becomes PATH. OK is false where that failed; the part is removed then.
-   subroutine name_part(part, path, ok)
-      character(*), intent(in) :: part, path
-      logical, intent(out)     :: ok
+   !> PART is complete: it becomes PATH, and is no result yet while other files have no names, but for one that STAYS as it is. OK is
+   !! false where that failed; the part is removed then.
+   subroutine name_part(part, path, ok, stays)
+      character(*), intent(in)      :: part, path
+      logical, intent(out)          :: ok
+      logical, intent(in), optional :: stays !! false
+      logical :: is_noted
 
+      is_noted = .true.
+      if (present(stays)) is_noted = .not. stays
       is_changing = .true.
       call rename_file(part, path, ok)
-      if (ok) call note(path) ! no result yet while other files have no names
+      if (ok .and. is_noted) call note(path)
       if (.not. ok) call remove_file(part)
       call end_of_change()
    end subroutine name_part

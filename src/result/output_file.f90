@@ -3,6 +3,7 @@
 module output_file
    use c_library, only: close_file, remove_file, write_bytes
    use incomplete_results, only: create_part, name_part
+   use restart_stream, only: restart_stream_type
    implicit none
    private
 
@@ -21,6 +22,7 @@ module output_file
       procedure :: failed
       procedure :: finish
       procedure :: discard
+      procedure :: record
    end type output_file_type
 
    integer, parameter :: room = 1048576          ! bytes that are gathered before they are written
@@ -117,5 +119,33 @@ contains
       call close_file(self%descriptor, closed)
       call remove_file(self%part)
    end subroutine discard
+
+   !> Write all that the file has so far to a restart file; or read it, and it has that and nothing else.
+   subroutine record(self, stream)
+      class(output_file_type), intent(inout)   :: self
+      type(restart_stream_type), intent(inout) :: stream
+      character(:), allocatable :: text
+      logical :: ok
+
+      call stream%mark('OUTPUT')
+      if (self%path == '') then
+         if (stream%writes) text = self%buffer(:self%used)
+         call stream%list(text)
+         if (stream%writes .or. .not. allocated(text)) return
+         self%used = 0
+         call make_room(self, len(text))
+         self%used = len(text)
+         self%buffer(:self%used) = text
+      else if (stream%writes) then
+         if (self%used > 0) call write_bytes(self%descriptor, self%buffer(:self%used), ok)
+         if (self%used > 0) self%fault = self%fault .or. .not. ok
+         self%used = 0
+         call stream%file(self%part, self%descriptor)
+      else
+         call self%discard()
+         call self%start(self%path)
+         if (self%is_open) call stream%file(self%part, self%descriptor)
+      end if
+   end subroutine record
 
 end module output_file

@@ -8,6 +8,7 @@ module range_watch
    use listing_table, only: axes, listing_table_type, page_width
    use model_data, only: joint_node_id, model_type
    use normal_stiffness, only: branch_load, branch_open, loading_deflection, normal_tangent
+   use restart_stream, only: restart_stream_type
    use shear_closure, only: loop_closure, worst_closure
    use shear_stiffness, only: shear_law, shear_slope
    use stage_plan, only: stage_plan_type, where_in_plan
@@ -15,7 +16,7 @@ module range_watch
    implicit none
    private
 
-   public :: watch_shear_laws, watch_ranges, say_ranges, watch_unloading, watch_balance
+   public :: watch_shear_laws, watch_ranges, say_ranges, watch_unloading, watch_balance, record_watch
 
    real(wp), parameter :: much = 0.01_wp ! of the largest load, or of the friction limits: what may be left without a warning
    real(wp), parameter :: rounding = 1.0e-9_wp
@@ -271,5 +272,43 @@ contains
          call watch%rows%keep_line(words//'FRICTION LIMITS ARE STILL EXCEEDED BY '//real_text(excess)//' IN ALL: SEE NREAN')
       end if
    end subroutine watch_balance
+
+   !> Write what has been warned of, and what is to be, to a restart file, or read it.
+   subroutine record_watch(stream, watch)
+      type(restart_stream_type), intent(inout) :: stream
+      type(range_watch_type), intent(inout)    :: watch
+      integer :: j, n, which
+
+      call stream%mark('WARNINGS')
+      call stream%item(watch%n_warnings)
+      call watch%rows%record(stream)
+      call stream%list(watch%stage)
+      call stream%list(watch%soft_line)
+      call stream%list(watch%first_of)
+      call stream%list(watch%parted)
+      n = 0
+      if (allocated(watch%tallies)) n = size(watch%tallies, 2)
+      call stream%count(n, 48*no_slope)
+      if (.not. stream%writes .and. n > 0) allocate (watch%tallies(no_slope, n))
+      do j = 1, n
+         do which = 1, no_slope
+            call record_tally(stream, watch%tallies(which, j))
+         end do
+      end do
+   end subroutine record_watch
+
+   subroutine record_tally(stream, tally)
+      type(restart_stream_type), intent(inout) :: stream
+      type(tally_type), intent(inout)          :: tally
+
+      call stream%item(tally%n)
+      call stream%item(tally%node)
+      call stream%item(tally%increment)
+      call stream%item(tally%worst_node)
+      call stream%item(tally%p)
+      call stream%item(tally%d)
+      call stream%item(tally%excess)
+      call stream%item(tally%bound)
+   end subroutine record_tally
 
 end module range_watch

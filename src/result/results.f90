@@ -10,21 +10,23 @@ module results
    use incomplete_results, only: all_complete, give_up_parts, remove_old
    use joint_history, only: write_history, write_history_header
    use kinds, only: wp
-   use listing, only: finish_listing, list_increment, list_stage, listing_type, start_listing
+   use listing, only: finish_listing, list_increment, list_stage, listing_type, record_listing, start_listing
    use model_data, only: model_type
    use output_file, only: output_file_type
+   use restart_stream, only: restart_stream_type
    use stage_answer, only: bolt_answer_type, find_answer, find_bolt_answers, stage_answer_type
    use stage_history, only: write_bolt_header, write_bolts, write_stage, write_stage_header
    use stage_plan, only: stage_plan_type
    use text_tools, only: real_text
-   use vtu_results, only: discard_vtu, finish_vtu, is_vtu_ending, remove_old_vtu, start_vtu, vtu_names, vtu_results_type, write_vtu
+   use vtu_results, only: discard_vtu, finish_vtu, is_vtu_ending, record_vtu, remove_old_vtu, start_vtu, vtu_names, &
+                          vtu_results_type, write_vtu
    implicit none
    private
 
-   public :: start_results, print_increment, print_stage, finish_results, discard_results, remove_old_results, show_answers, &
-             is_result_ending
+   public :: start_results, print_increment, print_stage, finish_results, discard_results, record_results, remove_old_results, &
+             show_answers, is_result_ending
 
-   character(*), parameter, public :: listing_ending = '.out', history_ending = '.joint.csv'
+   character(*), parameter, public :: listing_ending = '.out', history_ending = '.joint.csv', restart_ending = '.restart'
 
    ! the tables beside the listing, in the order of their endings
    integer, parameter :: joint_file = 1, stage_file = 2, bolt_file = 3
@@ -177,6 +179,21 @@ contains
       call give_up_parts()
    end subroutine discard_results
 
+   !> Write all results so far to a restart file; or read them into files that start_results has opened for the same deck.
+   subroutine record_results(stream, results)
+      type(restart_stream_type), intent(inout) :: stream
+      type(results_type), intent(inout)        :: results
+      integer :: i
+
+      call record_listing(stream, results%listing)
+      do i = 1, size(table_endings)
+         if (results%tables(i)%is_open) call results%tables(i)%record(stream)
+      end do
+      call results%screen%record(stream)
+      call record_vtu(results%vtu, stream)
+      call stream%item(results%bolts_before)
+   end subroutine record_results
+
    !> Remove what an earlier run of the same deck left: it is not the result of this deck any more, wherever the run ends.
    subroutine remove_old_results(base)
       character(*), intent(in) :: base
@@ -206,7 +223,7 @@ contains
    pure logical function is_result_ending(ending)
       character(*), intent(in) :: ending
 
-      is_result_ending = ending == listing_ending .or. any(ending == table_endings) .or. is_vtu_ending(ending)
+      is_result_ending = any(ending == [character(10) :: listing_ending, restart_ending, table_endings]) .or. is_vtu_ending(ending)
    end function is_result_ending
 
 end module results

@@ -28,6 +28,7 @@ module vtu_file
    use c_library, only: close_file, remove_file
    use incomplete_results, only: create_part, name_part
    use output_file, only: output_file_type
+   use restart_stream, only: restart_stream_type
    use text_tools, only: integer_text
    implicit none
    private
@@ -77,6 +78,7 @@ module vtu_file
       procedure :: complete
       procedure :: finish
       procedure :: discard
+      procedure :: record
       procedure, private :: add_reals, add_integers
    end type vtu_file_type
 
@@ -256,6 +258,28 @@ contains
       self%waits = .false.
       call remove_file(self%part)
    end subroutine discard
+
+   !> Write the complete file to a restart file; or read it, which will be PATH, and wait with it for its name.
+   subroutine record(self, path, stream)
+      class(vtu_file_type), intent(inout)      :: self
+      character(*), intent(in)                 :: path
+      type(restart_stream_type), intent(inout) :: stream
+      integer :: descriptor
+      logical :: ok
+
+      if (stream%writes) then
+         call stream%file(self%part, -1)
+         return
+      end if
+      self%path = path
+      self%is_named = .false.
+      call create_part(path, self%part, descriptor)
+      self%status = merge(0, wrong_call, descriptor >= 0)
+      call stream%file(self%part, descriptor)
+      call close_file(descriptor, ok)
+      call require(self, ok)
+      self%waits = self%status == 0
+   end subroutine record
 
    !> The header, at least data_start bytes long: longer where the arrays are too many.
    pure function header_text(n_points, n_cells, arrays) result(text)

@@ -11,6 +11,7 @@ module vtu_results
    use kinds, only: wp
    use listing_table, only: label_type
    use model_data, only: corners_of, model_type, n_points
+   use restart_stream, only: restart_stream_type
    use stage_plan, only: stage_plan_type
    use stress_measures, only: principal_stresses, von_mises
    use text_tools, only: integer_text
@@ -19,7 +20,7 @@ module vtu_results
    implicit none
    private
 
-   public :: start_vtu, write_vtu, finish_vtu, discard_vtu, remove_old_vtu, vtu_names, is_vtu_ending
+   public :: start_vtu, write_vtu, finish_vtu, discard_vtu, record_vtu, remove_old_vtu, vtu_names, is_vtu_ending
 
    !> A file of the run.
    type :: part_type
@@ -194,6 +195,27 @@ contains
       results%is_listed = .false.
       results%n = 0
    end subroutine discard_vtu
+
+   !> Write the files so far to a restart file, or read them.
+   subroutine record_vtu(results, stream)
+      type(vtu_results_type), intent(inout)    :: results
+      type(restart_stream_type), intent(inout) :: stream
+      integer :: i, n
+
+      call stream%mark('PARAVIEW')
+      n = results%n
+      call stream%count(n, 68)
+      n = min(n, size(results%parts))
+      do i = 1, n
+         associate (part => results%parts(i))
+            call stream%item(part%ending)
+            call stream%item(part%time)
+            call stream%item(part%part)
+            call part%file%record(results%name//trim(part%ending), stream)
+         end associate
+         results%n = max(results%n, i)
+      end do
+   end subroutine record_vtu
 
    !> Whether a file of a deck may end so, behind the name of the deck: .vtu, .joint.vtu, both with the number of a stage before
    !! them, or of a stage and an increment; .pvd.

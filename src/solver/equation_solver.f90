@@ -58,6 +58,7 @@ module equation_solver
       procedure(solve_vector), deferred     :: solve
       procedure(multiply_vector), deferred  :: multiply
       procedure :: recover
+      procedure :: forget_past
    end type equation_system
 
    abstract interface
@@ -177,6 +178,14 @@ contains
 
       x(self%equations) = u(self%equations)
    end subroutine recover
+
+   !> What the increments so far have left, a factor or solutions, is of no use from now on: what follows is the same to the last
+   !! digit as in a run that begins here. Here nothing is left.
+   subroutine forget_past(self)
+      class(equation_system), intent(inout) :: self
+
+      self%one_solution = .false.
+   end subroutine forget_past
 
    !> FAULT, an equation without stiffness or no_memory, in words.
    subroutine report_fault(self, model, fault, where, failure)
