@@ -264,21 +264,22 @@ contains
    subroutine record(self, stream)
       class(listing_table_type), intent(inout) :: self
       type(restart_stream_type), intent(inout) :: stream
-      type(column_type), allocatable :: columns(:)
       integer :: i, n
+      logical :: is_there
 
       call stream%list(self%title)
-      n = -1
-      if (allocated(self%columns)) n = size(self%columns)
-      if (stream%writes) allocate (columns(max(0, n)))
-      if (n > 0 .and. stream%writes) columns = self%columns
-      n = n + 1
-      call stream%count(n, 12)
-      if (.not. stream%writes) allocate (columns(max(0, n - 1)))
-      do i = 1, size(columns)
-         call record_column(stream, columns(i))
+      is_there = allocated(self%columns)
+      call stream%item(is_there)
+      n = 0
+      if (is_there .and. stream%writes) n = size(self%columns)
+      call stream%count(n, 91)
+      if (is_there .and. .not. stream%writes) then
+         if (allocated(self%columns)) deallocate (self%columns)
+         allocate (self%columns(n))
+      end if
+      do i = 1, n
+         call record_column(stream, self%columns(i))
       end do
-      if (n > 0) call move_alloc(columns, self%columns)
       call stream%count(self%n_kept, page_width)
       if (.not. allocated(self%kept)) allocate (self%kept(max(64, self%n_kept)))
       if (size(self%kept) < self%n_kept) then

@@ -278,6 +278,7 @@ contains
       type(restart_stream_type), intent(inout) :: stream
       type(range_watch_type), intent(inout)    :: watch
       integer :: j, n, which
+      logical :: is_there
 
       call stream%mark('WARNINGS')
       call stream%item(watch%n_warnings)
@@ -286,10 +287,12 @@ contains
       call stream%list(watch%soft_line)
       call stream%list(watch%first_of)
       call stream%list(watch%parted)
+      is_there = allocated(watch%tallies)
+      call stream%item(is_there)
       n = 0
-      if (allocated(watch%tallies)) n = size(watch%tallies, 2)
+      if (is_there .and. stream%writes) n = size(watch%tallies, 2)
       call stream%count(n, 48*no_slope)
-      if (.not. stream%writes .and. n > 0) allocate (watch%tallies(no_slope, n))
+      if (is_there .and. .not. stream%writes) allocate (watch%tallies(no_slope, n))
       do j = 1, n
          do which = 1, no_slope
             call record_tally(stream, watch%tallies(which, j))
