@@ -1,12 +1,13 @@
 !> Which result files are being written, so that none stays behind where the program ends in the midst of it: a failure, an
 !! interrupt, and as the last resort an allocation that fails where nobody looks. That one ends the program through the run-time
-!! library, with exit status 1 and words of its own; here it becomes a message of the program and the status of what cannot be
-!! solved.
+!! library, with exit status 1 and words of its own; or, where the compiler allocates what is assigned and does not look either, it
+!! uses the address of nothing. Here both become a message of the program and the status of what cannot be solved.
 !!
 !! A file is written as NAME.abcdef.part, its letters those of no other file: two runs in one folder do not meet. When it is
 !! complete it gets its name, and replaces what file or link has it.
 module incomplete_results
-   use, intrinsic :: iso_c_binding, only: c_associated, c_funloc, c_funptr, c_int, c_null_char, c_null_ptr, c_ptr
+   use, intrinsic :: iso_c_binding, only: c_associated, c_f_pointer, c_funloc, c_funptr, c_int, c_intptr_t, c_null_char, &
+                                          c_null_ptr, c_ptr
    use c_library, only: call_at_interrupts, create_unique, device_file, block_file, end_by_signal, folder_file, has_ended, &
                         kind_of_file, no_file, pipe_file, regular_file, remove_file, remove_terminated, rename_file, write_bytes
    implicit none
@@ -24,6 +25,7 @@ module incomplete_results
    integer(c_int), volatile :: interrupt = 0         ! that came then
 
    integer(c_int), parameter :: status_of_library = 1, status_unsolved = 3
+   integer(c_int), parameter :: sigsegv = 11, enomem = 12 ! of Linux
 
    interface
       integer(c_int) function c_on_exit(routine, argument) bind(c, name='on_exit')
@@ -31,6 +33,16 @@ module incomplete_results
          type(c_funptr), value :: routine
          type(c_ptr), value    :: argument
       end function c_on_exit
+
+      integer(c_intptr_t) function c_signal(signal, handler) bind(c, name='signal')
+         import :: c_funptr, c_int, c_intptr_t
+         integer(c_int), value :: signal
+         type(c_funptr), value :: handler
+      end function c_signal
+
+      type(c_ptr) function c_errno_place() bind(c, name='__errno_location')
+         import :: c_ptr
+      end function c_errno_place
 
       subroutine c_exit_at_once(status) bind(c, name='_exit')
          import :: c_int
@@ -154,9 +166,11 @@ contains
 
    !> Watch allocations and interrupts from now on. Where the C library does not do the first the status stays 1.
    subroutine watch_ends()
-      integer(c_int) :: status
+      integer(c_int)      :: status
+      integer(c_intptr_t) :: before
 
       status = c_on_exit(c_funloc(end_without_memory), c_null_ptr)
+      before = c_signal(sigsegv, c_funloc(end_at_no_address))
       call call_at_interrupts(end_by_interrupt)
    end subroutine watch_ends
 
@@ -170,6 +184,18 @@ contains
       call remove_incomplete()
       call end_by_signal(signal)
    end subroutine end_by_interrupt
+
+   !> Called by the kernel where an address is used at which nothing is. After an allocation that failed, the last that the C library
+   !! tells this thread, that is why; otherwise the program ends as it would have done, at the same place.
+   subroutine end_at_no_address(signal) bind(c)
+      integer(c_int), value   :: signal
+      integer(c_int), pointer :: error
+      integer(c_intptr_t)     :: before
+
+      call c_f_pointer(c_errno_place(), error)
+      if (error == enomem) call end_without_memory(status_of_library, c_null_ptr)
+      before = c_signal(signal, transfer(0_c_intptr_t, c_funloc(end_at_no_address))) ! 0: SIG_DFL
+   end subroutine end_at_no_address
 
    !> Called by the C library when the program ends with STATUS.
    subroutine end_without_memory(status, argument) bind(c)

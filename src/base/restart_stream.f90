@@ -454,18 +454,18 @@ contains
       integer, intent(inout)                    :: extents(:)
       integer, intent(in)                       :: width
       integer(int64) :: extent
-      integer(long)  :: left
+      integer(long)  :: most, together
       integer :: k
 
-      left = huge(0)
-      if (.not. self%writes) left = (self%last - self%used)/width
+      together = 1
       do k = 1, size(extents)
          extent = extents(k)
          call long_item(self, extent)
-         if (extent < merge(-1, 0, k == 1) .or. extent > min(left, int(huge(0), long))) &
-            call fail(self, 'an array is longer than there are bytes')
+         most = huge(0)
+         if (.not. self%writes) most = min(most, (self%last - self%used)/(width*together))
+         if (extent < merge(-1, 0, k == 1) .or. extent > most) call fail(self, 'an array is longer than there are bytes')
          if (allocated(self%fault)) extent = 0
-         if (extent > 0) left = left/extent
+         together = together*max(1_long, extent)
          extents(k) = int(extent)
          if (extents(1) < 0) exit
       end do

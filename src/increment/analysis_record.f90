@@ -2,6 +2,7 @@
 module analysis_record
    use analysis_state, only: analysis_type, joint_energy, pass_record, slip_record
    use branch_starts, only: turning_point
+   use condition_estimate, only: condition_type
    use model_data, only: temperature_type
    use restart_stream, only: restart_stream_type
    use state_record, only: record_states
@@ -93,6 +94,7 @@ contains
       call record_turns(stream, analysis%turns)
       call stream%item(analysis%kind)
       call stream%item(analysis%next_kind)
+      call record_condition(stream, analysis%condition)
       call record_energy(stream, analysis%energy)
       call record_passes(stream, analysis%passes, analysis%n_passes)
       call record_slips(stream, analysis%slips)
@@ -126,6 +128,17 @@ contains
          end do
       end do
    end subroutine record_turns
+
+   subroutine record_condition(stream, condition)
+      type(restart_stream_type), intent(inout) :: stream
+      type(condition_type), intent(inout)      :: condition
+
+      call stream%item(condition%number)
+      call stream%item(condition%node)
+      call stream%item(condition%direction)
+      call stream%item(condition%weakest)
+      call stream%item(condition%is_new)
+   end subroutine record_condition
 
    subroutine record_energy(stream, energy)
       type(restart_stream_type), intent(inout) :: stream

@@ -5,10 +5,13 @@ module run_boxes
    use c_library, only: tell_failed_writes
    use case_control, only: method_back
    use condensed_interface, only: condense_on_joints
+   use condition_estimate, only: watch_condition
    use command_line, only: command_type, deck_argument, is_result_of, read_command_line
    use deck_input, only: deck_type, read_deck
    use equation_solver, only: equation_system
    use equations, only: form_body_stiffness, start_equations
+   use failures, only: failure_type
+   use finite_state, only: check_state
    use incomplete_results, only: watch_ends
    use law_distance, only: follow_laws
    use load_path, only: recover_bodies
@@ -38,10 +41,10 @@ contains
       logical :: finished
       integer :: status
 
+      call watch_ends()
       call read_command_line(command, finished, status)
       if (finished) call end_program(status)
       call use_threads(command%threads)
-      call watch_ends()
       call tell_failed_writes()
    end subroutine start_program
 
@@ -170,6 +173,7 @@ contains
       type(stage_plan_type), intent(in)  :: plan
       class(equation_system), intent(in) :: system
       type(analysis_type), intent(inout) :: analysis
+      type(failure_type)    :: overflow
       real(wp), allocatable :: u(:, :), unbalanced(:, :)
 
       run%keeps = run%failure%raised .and. run%ending == goes_on .and. analysis%ends_early
@@ -180,6 +184,7 @@ contains
       end if
       call note_largest(analysis)
       call follow_laws(model, analysis)
+      call watch_condition(system, analysis%condition)
       if (plan%stages(analysis%stage)%condensed .and. analysis%increment == 1) &
          call condense_on_joints(model, system, analysis%felt_before, analysis%felt_after, analysis%condensed)
       call run%progress%enter(phase_recover)
@@ -191,6 +196,12 @@ contains
          call recover_bodies(model, system, analysis)
          analysis%u = u
          analysis%unbalanced = unbalanced
+      end if
+      call check_state(model, plan, system, analysis, overflow)
+      if (overflow%raised) then
+         run%failure = overflow
+         run%keeps = .false.
+         return
       end if
       call run%progress%enter(phase_write)
       call list_results(model, plan, analysis, run%results)
@@ -204,12 +215,17 @@ contains
       type(model_type), intent(in)      :: model
       type(stage_plan_type), intent(in) :: plan
       type(analysis_type), intent(in)   :: analysis
+      type(failure_type) :: overflow
 
       if (is_over(run) .and. .not. run%keeps) return
       if (analysis%increment == 0) return
       if (analysis%increment < size(plan%stages(analysis%stage)%shares) .and. .not. run%keeps) return
       call run%progress%enter(phase_write)
-      call print_stage_results(model, plan, analysis, run%results)
+      call print_stage_results(model, plan, analysis, run%results, overflow)
+      if (overflow%raised) then
+         run%failure = overflow
+         run%keeps = .false.
+      end if
       call run%progress%enter(phase_increments)
    end subroutine print_stage
 

@@ -44,6 +44,8 @@ contains
          associate (n => run%results%listing%watch%n_warnings)
             if (n > 0) write (error_unit, '(4a)') run%argument%name, ': ', plural(n, 'warning'), ' in the listing'
          end associate
+         words = run%results%listing%poor_condition
+         if (words /= '') write (error_unit, '(3a)') run%argument%name, ': ', words
          words = distance_words(run%results%listing%farthest)
          if (words /= '') write (error_unit, '(3a)') run%argument%name, ': ', words
          if (tetra_words(model) /= '') write (error_unit, '(3a)') run%argument%name, ': ', tetra_words(model)
