@@ -47,6 +47,7 @@ module analysis_state
    !! (dimension, retained); recover_bodies completes them.
    type, public :: analysis_type
       integer  :: stage = 0, increment = 0
+      logical  :: goes_on = .false.                 !! the stage has been taken up from a restart file in its midst
       real(wp) :: share = 0.0_wp                    !! of the stage's load change, this increment
       real(wp) :: fraction = 0.0_wp                 !! of it, so far: exactly 1 at the end of the stage
       logical  :: carry = .false.

@@ -12,6 +12,7 @@ module listing_table
    use kinds, only: wp
    use number_text, only: integer_width, short_width, write_integer, write_short
    use output_file, only: output_file_type
+   use restart_stream, only: restart_stream_type
    implicit none
    private
 
@@ -67,6 +68,7 @@ module listing_table
       procedure :: keep_row
       procedure :: keep_line
       procedure :: print_kept
+      procedure :: record
       procedure, private :: add_integers, add_reals, add_text
    end type listing_table_type
 
@@ -259,6 +261,51 @@ contains
       end do
       self%n_kept = 0
    end subroutine print_kept
+
+   !> Write the table as it is between two rows to a restart file, or read it.
+   subroutine record(self, stream)
+      class(listing_table_type), intent(inout) :: self
+      type(restart_stream_type), intent(inout) :: stream
+      integer :: i, n
+      logical :: is_there
+
+      call stream%list(self%title)
+      is_there = allocated(self%columns)
+      call stream%item(is_there)
+      n = 0
+      if (is_there .and. stream%writes) n = size(self%columns)
+      call stream%count(n, 91)
+      if (is_there .and. .not. stream%writes) then
+         if (allocated(self%columns)) deallocate (self%columns)
+         allocate (self%columns(n))
+      end if
+      do i = 1, n
+         call record_column(stream, self%columns(i))
+      end do
+      call stream%count(self%n_kept, page_width)
+      if (.not. allocated(self%kept)) allocate (self%kept(max(64, self%n_kept)))
+      if (size(self%kept) < self%n_kept) then
+         deallocate (self%kept)
+         allocate (self%kept(self%n_kept))
+      end if
+      do i = 1, self%n_kept
+         call stream%item(self%kept(i))
+      end do
+   end subroutine record
+
+   subroutine record_column(stream, column)
+      type(restart_stream_type), intent(inout) :: stream
+      type(column_type), intent(inout)         :: column
+
+      call stream%item(column%heading)
+      call stream%item(column%form)
+      call stream%item(column%unit)
+      call stream%item(column%width)
+      call stream%item(column%last)
+      call stream%item(column%heading_shift)
+      call stream%item(column%unit_shift)
+      call stream%item(column%is_short)
+   end subroutine record_column
 
    !> A heading of a table, with an empty line before it.
    subroutine heading(file, words)

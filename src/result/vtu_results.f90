@@ -4,12 +4,14 @@ module vtu_results
    use, intrinsic :: iso_fortran_env, only: int8
    use analysis_state, only: analysis_type
    use body_elements, only: node_stresses, whole_stress
-   use c_library, only: read_all_bytes, remove_file
+   use c_library, only: is_regular_file, read_all_bytes, remove_file
    use element_kinds, only: element_table
    use elasticity, only: max_stresses
+   use incomplete_results, only: remove_old
    use kinds, only: wp
    use listing_table, only: label_type
    use model_data, only: corners_of, model_type, n_points
+   use restart_stream, only: restart_stream_type
    use stage_plan, only: stage_plan_type
    use stress_measures, only: principal_stresses, von_mises
    use text_tools, only: integer_text
@@ -18,7 +20,7 @@ module vtu_results
    implicit none
    private
 
-   public :: start_vtu, write_vtu, finish_vtu, discard_vtu, remove_old_vtu, vtu_names, is_vtu_ending
+   public :: start_vtu, write_vtu, finish_vtu, discard_vtu, record_vtu, remove_old_vtu, vtu_names, is_vtu_ending
 
    !> A file of the run.
    type :: part_type
@@ -35,6 +37,7 @@ module vtu_results
       type(part_type), allocatable :: parts(:)
       integer :: n = 0
       logical :: many = .false.                   ! more than one stage, or every increment of one
+      logical :: is_listed = .false.              ! the list has its name
    end type vtu_results_type
 
 contains
@@ -50,6 +53,7 @@ contains
       results%name = name
       results%labels = labels
       results%n = 0
+      results%is_listed = .false.
       results%many = size(plan%stages) > 1 .or. any(plan%stages%steps)
       most = 0
       do s = 1, size(plan%stages)
@@ -158,6 +162,7 @@ contains
          associate (parts => results%parts(:results%n))
             call write_collection(results%name//'.pvd', parts%time, parts%part, base//parts%ending, ok)
          end associate
+         results%is_listed = ok
       end if
       if (.not. ok) call discard_vtu(results)
    end subroutine finish_vtu
@@ -185,11 +190,32 @@ contains
 
       do i = 1, results%n
          call results%parts(i)%file%discard()
-         call remove_file(results%name//trim(results%parts(i)%ending))
       end do
-      if (results%n > 0) call remove_file(results%name//'.pvd')
+      if (results%is_listed) call remove_file(results%name//'.pvd')
+      results%is_listed = .false.
       results%n = 0
    end subroutine discard_vtu
+
+   !> Write the files so far to a restart file, or read them.
+   subroutine record_vtu(results, stream)
+      type(vtu_results_type), intent(inout)    :: results
+      type(restart_stream_type), intent(inout) :: stream
+      integer :: i, n
+
+      call stream%mark('PARAVIEW')
+      n = results%n
+      call stream%count(n, 68)
+      n = min(n, size(results%parts))
+      do i = 1, n
+         associate (part => results%parts(i))
+            call stream%item(part%ending)
+            call stream%item(part%time)
+            call stream%item(part%part)
+            call part%file%record(results%name//trim(part%ending), stream)
+         end associate
+         results%n = max(results%n, i)
+      end do
+   end subroutine record_vtu
 
    !> Whether a file of a deck may end so, behind the name of the deck: .vtu, .joint.vtu, both with the number of a stage before
    !! them, or of a stage and an increment; .pvd.
@@ -216,8 +242,9 @@ contains
       integer :: at, first
       logical :: ok
 
-      call remove_file(name//'.vtu')
-      call remove_file(name//'.joint.vtu')
+      call remove_old(name//'.vtu')
+      call remove_old(name//'.joint.vtu')
+      if (.not. is_regular_file(name//'.pvd')) return
       call read_all_bytes(name//'.pvd', bytes, ok)
       if (.not. ok) return
       base = mark//xml_text(name(index(name, '/', back=.true.) + 1:))
@@ -227,9 +254,9 @@ contains
          if (at == 0) exit
          first = first + at - 1 + len(base)
          ending = bytes(first:first + index(bytes(first:)//'"', '"') - 2)
-         if (is_vtu_ending(ending)) call remove_file(name//ending)
+         if (is_vtu_ending(ending)) call remove_old(name//ending)
       end do
-      call remove_file(name//'.pvd')
+      call remove_old(name//'.pvd')
    end subroutine remove_old_vtu
 
 end module vtu_results
