@@ -15,7 +15,7 @@ module run_boxes
    use equations, only: form_body_stiffness, start_equations
    use error_report, only: print_errors
    use failures, only: failure_type
-   use finite_state, only: check_state
+   use finite_state, only: check_precision, check_state
    use incomplete_results, only: watch_allocations
    use law_distance, only: follow_laws
    use listing_steps, only: distance_words
@@ -226,6 +226,7 @@ contains
          analysis%unbalanced = unbalanced
       end if
       call check_state(model, plan, system, analysis, overflow)
+      call check_precision(model, plan, system, analysis, overflow)
       if (overflow%raised) then
          run%failure = overflow
          run%keeps = .false.
