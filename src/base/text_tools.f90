@@ -84,20 +84,20 @@ contains
       text = buffer(:last)//'E'//integer_text(exponent)
    end function scientific
 
-   !> VALUE with an exponent and as many digits as there is ROOM for, for what its column cannot hold: 123456 in four characters is
-   !! 1E5.
+   !> VALUE with as many digits as there is ROOM for, for what its column cannot hold: 123456 in four characters is 1E5.
    pure function fitted_text(value, room) result(text)
       real(wp), intent(in)      :: value
       integer, intent(in)       :: room !! at least 4: 8 for any real
       character(:), allocatable :: text
       integer :: decimals
 
+      text = real_text(value)
+      if (len(text) <= room) return
       if (.not. ieee_is_finite(value)) then
-         text = real_text(value)
-         text = text(:min(room, len(text)))
+         text = text(:room)
          return
       end if
-      do decimals = 5, 0, -1
+      do decimals = 4, 0, -1
          text = scientific(value, decimals)
          if (len(text) <= room) return
       end do
