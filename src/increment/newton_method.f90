@@ -14,6 +14,7 @@ module newton_method
    use normal_stiffness, only: at_rest, branch_name, branch_open, pressure_floor
    use stage_plan, only: stage_plan_type, where_in_plan
    use text_tools, only: integer_text, real_text
+   use unknown_names, only: unknown_name
    implicit none
    private
 
@@ -227,6 +228,8 @@ contains
       end do
       attempt%imprecise = noise > precise*load_size .and. .not. carried
       attempt%loose = loose_joint(model, now)
+      attempt%worst = maxloc(abs(now%residual), mask=.not. analysis%held)
+      attempt%worst = [system%retained(max(1, attempt%worst(2))), attempt%worst(1)]
       if (attempt%seats) analysis%tolerance = analysis%load_tolerance*load_size
       if (.not. attempt%converged) return
       if (now%size > max(far_below*analysis%tolerance, noise)) call refine(model, system, analysis, attempt, now, next)
@@ -284,6 +287,7 @@ contains
          words = words//': '//no_balance
       else if (analysis%n_passes > 0) then
          words = words//', '//real_text(analysis%passes(analysis%n_passes)%after)//' of force are left unbalanced'
+         if (attempt%worst(2) > 0) words = words//', most at '//unknown_name(model, attempt%worst(1), attempt%worst(2))
       end if
       if (size(attempt%flips) > 0) then
          worst = maxloc(attempt%flips, dim=1)
