@@ -86,6 +86,9 @@ part 'the verification manual as it stands' tests/manual/check.sh "$program" "$q
 part 'TREE and SKYLINE, one thread and several' tests/solver/run.sh "$program" "$query" "$build/solver"
 part 'models that do not fit into the memory' tests/memory.sh "$program" "$build/memory"
 part 'linear decks against CalculiX' tests/calculix/run.sh "$program" "$build/calculix"
+part 'block, law and load over all decades' tests/sweep/run.sh "$program" "$build/sweep"
+part 'the same problems in 13 systems of units' tests/sweep/units.sh "$program" "$build/units"
+part 'the largest numbers, and what overflows' tests/sweep/widths.sh "$program" "$build/widths"
 part 'errors of elements as the manual has them' tests/elements.sh "$program" "$build/elements"
 part 'STEP tends to NEWTON' tests/convergence.sh "$program" "$query" "$build/convergence"
 part 'the comparison itself' tests/compare/test_compare.sh "$compare" reference_output tests/compare/tolerances.txt
