@@ -8,8 +8,10 @@ module analysis_state
    use interface_operator, only: add_global_force, interface_element, joint_movement
    use joint_laws, only: element_state, element_stiffness_of, joint_law
    use kinds, only: wp
+   use measures, only: is_measure
    use model_data, only: model_type, n_bars, n_sections, temperature_type
-   use normal_stiffness, only: at_rest, branch_load, branch_open, is_virgin, normal_secant
+   use normal_curve, only: normal_secant
+   use normal_stiffness, only: at_rest, branch_load, branch_open, is_virgin
    use branch_starts, only: note_turns, turning_point
    implicit none
    private
@@ -239,13 +241,15 @@ contains
       end do
    end subroutine subtract_joint_forces
 
-   !> Euclidean norm of nodal forces F over the components that are not HELD [force].
+   !> Euclidean norm of nodal forces F over the components that are not HELD [force]; the largest number where they leave all measure.
    pure real(wp) function free_norm(f, held) result(norm)
       real(wp), intent(in) :: f(:, :)    !! (dimension, nodes)
       logical, intent(in)  :: held(:, :) !! likewise
       real(wp) :: largest
       integer  :: i
 
+      norm = huge(1.0_wp)
+      if (.not. all(is_measure(f))) return
       largest = maxval(abs(f), mask=.not. held)
       norm = 0.0_wp
       if (largest <= 0.0_wp) return

@@ -15,6 +15,7 @@ module run_boxes
    use equations, only: form_body_stiffness, start_equations
    use error_report, only: print_errors
    use failures, only: failure_type
+   use finite_state, only: check_state
    use incomplete_results, only: watch_allocations
    use law_distance, only: follow_laws
    use listing_steps, only: distance_words
@@ -200,6 +201,7 @@ contains
       type(stage_plan_type), intent(in)  :: plan
       class(equation_system), intent(in) :: system
       type(analysis_type), intent(inout) :: analysis
+      type(failure_type)    :: overflow
       real(wp), allocatable :: u(:, :), unbalanced(:, :)
 
       run%keeps = run%failure%raised .and. run%ending == goes_on .and. analysis%ends_early
@@ -223,6 +225,12 @@ contains
          analysis%u = u
          analysis%unbalanced = unbalanced
       end if
+      call check_state(model, plan, system, analysis, overflow)
+      if (overflow%raised) then
+         run%failure = overflow
+         run%keeps = .false.
+         return
+      end if
       call run%progress%enter(phase_write)
       call list_results(model, plan, analysis, run%results)
       call run%progress%advance(analysis%stage, analysis%increment, size(plan%stages(analysis%stage)%shares))
@@ -235,11 +243,16 @@ contains
       type(model_type), intent(in)      :: model
       type(stage_plan_type), intent(in) :: plan
       type(analysis_type), intent(in)   :: analysis
+      type(failure_type) :: overflow
 
       if (is_over(run) .and. .not. run%keeps) return
       if (analysis%increment == 0) return
       call run%progress%enter(phase_write)
-      call print_stage_results(model, plan, analysis, run%results)
+      call print_stage_results(model, plan, analysis, run%results, overflow)
+      if (overflow%raised) then
+         run%failure = overflow
+         run%keeps = .false.
+      end if
       call run%progress%enter(phase_increments)
    end subroutine print_stage
 
