@@ -66,6 +66,7 @@ module listing_table
       generic   :: add => add_integers, add_reals, add_text
       procedure :: skip
       procedure :: print_row
+      procedure :: take_row
       procedure :: keep_row
       procedure :: keep_line
       procedure :: print_kept
@@ -232,6 +233,16 @@ contains
       self%row = ''
       self%used = 0
    end subroutine print_row
+
+   !> The ROW is complete, and its place is another one than the file.
+   pure subroutine take_row(self, row)
+      class(listing_table_type), intent(inout) :: self
+      character(page_width), intent(out)       :: row
+
+      row = self%row
+      self%row = ''
+      self%used = 0
+   end subroutine take_row
 
    !> The row is complete: keep it until the table is printed.
    pure subroutine keep_row(self)
