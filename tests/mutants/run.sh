@@ -101,7 +101,7 @@ rest_fails() {
 fate() {
    local file=$1 line=$2 now=$3 module decks
    module=$(basename "$file" .f90)
-   line=$line now=$now awk 'NR == ENVIRON["line"] + 0 { print ENVIRON["now"]; next } { print }' "src/$file" > "$work/$module.f90"
+   line=$line now=$now awk 'NR == ENVIRON["line"] + 0 { print ENVIRON["now"]; next } { print }' "$tree/src/$file" > "$work/$module.f90"
    (cd "$work" && timeout 300 $FC $FLAGS -I"$checked" -J"$work/modules" -c -o mutant.o "$module.f90") > "$work/build.log" 2>&1 ||
       { echo unbuilt; return; }
    (cd "$work" && $FC $program_flags -I"$release" -J"$work/modules" -c -o program.o "$module.f90") >> "$work/build.log" 2>&1
