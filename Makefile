@@ -7,7 +7,8 @@ endif
 BUILD      = build
 BIN        = bin
 WARNINGS   = -std=f2018 -Wall -Wextra
-FFLAGS     = -O2 -fopenmp -fno-backtrace $(WARNINGS)
+# -fcheck=mem: of what the compiler allocates on its own, failures too are found
+FFLAGS     = -O2 -fopenmp -fcheck=mem -fno-backtrace $(WARNINGS)
 # the check of recursion would take another thread in the same routine for one
 FFLAGS_CHECKED = -O1 -g -fopenmp $(WARNINGS) -fcheck=all,no-array-temps,no-recursion -ffpe-trap=invalid,zero
 LIBRARIES  = -lmetis -lopenblas
@@ -34,6 +35,7 @@ help:
 	@echo 'make run        the worked example: the prism with 3, 5, 10 and 15 increments'
 	@echo 'make test       unit tests, every deck of input against reference_output, bad decks'
 	@echo 'make check      only the decks against reference_output'
+	@echo 'make sanitize   decks under the address, undefined and thread sanitizers, and valgrind: minutes'
 	@echo 'make install PREFIX=dir  programs, manual pages, documents; default /usr/local'
 	@echo 'make accept CASE=name    take the results of input/name.bdf as the new reference'
 	@echo 'make bench      speed and memory, MODELS=small: only of small models'
@@ -140,6 +142,11 @@ test: bin/jointfem $(BUILD)/checked/jointfem $(BUILD)/checked/jointfit $(COMPARE
 .PHONY: check
 check: bin/jointfem $(COMPARE)
 	@tests/check.sh bin/jointfem $(COMPARE) $(BUILD)/check
+
+# PART=threads: only that part
+.PHONY: sanitize
+sanitize: bin/jointfem
+	@MAKE='$(MAKE)' FC='$(FC)' tests/sanitize/run.sh $(BUILD)/sanitize $(PART)
 
 # The results of one deck become its reference: make accept CASE=prism05
 .PHONY: accept

@@ -44,8 +44,11 @@ contains
       character(*), intent(in) :: argument
       type(input_argument)     :: input
 
-      input = input_argument(path=argument, name=argument)
-      if (argument == '-') input = input_argument(path=standard_input, name='standard input')
+      input%path = argument ! a structure constructor of deferred lengths leaks in gfortran 12
+      input%name = argument
+      if (argument /= '-') return
+      input%path = standard_input
+      input%name = 'standard input'
    end function input_of
 
    !> Write TEXT and a line end on the standard output; STATUS is 0, or 4 where it cannot be written.

@@ -52,7 +52,7 @@ contains
          if (card%fit /= fit_yes) then
             call surface_nodes(model, model%surfaces(surface(2)), side2)
             partner = 0
-            call pair_nodes(model, model%surfaces(surface), side1, side2, card%tolerance, partner, fault)
+            call pair_nodes(model, surface, side1, side2, card%tolerance, partner, fault)
          end if
          if (fault%words == '') then
             call pair_elements(deck, j, model, model%surfaces(surface(1)), side1, partner, elements)

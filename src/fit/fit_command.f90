@@ -8,7 +8,7 @@ module fit_command
    use deck_numbers, only: parse_integer
    use fit_help, only: help_text
    use kinds, only: wp
-   use text_tools, only: upper
+   use text_tools, only: integer_text, plural, upper
    implicit none
    private
 
@@ -91,6 +91,9 @@ contains
          call complain(program, 'no data file given')
       else if (command%as > 0 .and. command%only == 0) then
          call complain(program, '--as needs --branch: which branch of the data is meant?')
+      else if (command%id > huge(1) - (size(command%files) - 1)) then
+         call complain(program, '--id '//integer_text(command%id)//': the laws of '//plural(size(command%files), 'file')// &
+                       ' would have numbers beyond '//integer_text(huge(1)))
       else
          if (command%as == 0) command%as = command%only
          finished = .false.

@@ -166,6 +166,7 @@ contains
       integer, intent(in)                :: n          !! tuples, as it has to be
       type(*), intent(in), contiguous, target :: values(..) !! (n) or (components, n)
       integer(int8), pointer :: as_bytes(:)
+      type(array_type) :: array
       integer        :: components
       integer(int64) :: n_bytes
 
@@ -175,7 +176,12 @@ contains
       ! an empty array constructor has an extent of -1 in gfortran 12
       call require(self, self%is_open .and. components > 0 .and. max(0, size(values, rank(values))) == n)
       if (self%status /= 0) return
-      self%arrays = [self%arrays, array_type(name, number, section, components, self%n_bytes)]
+      array%name = name ! a structure constructor of deferred lengths leaks in gfortran 12
+      array%number = number
+      array%section = section
+      array%components = components
+      array%offset = self%n_bytes
+      self%arrays = [self%arrays, array]
       call c_f_pointer(c_loc(values), as_bytes, [n_bytes])
       write (self%unit, iostat=self%status) n_bytes, as_bytes
       self%n_bytes = self%n_bytes + storage_size(n_bytes)/8 + n_bytes

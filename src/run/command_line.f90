@@ -38,6 +38,7 @@ contains
       logical, intent(out)            :: finished
       integer, intent(out)            :: status
       character(:), allocatable :: argument
+      type(deck_argument) :: deck
       integer :: i, n
       logical :: options, ok
 
@@ -52,7 +53,9 @@ contains
          i = i + 1
          argument = argument_text(i)
          if (.not. is_option(argument, options)) then
-            command%decks = [command%decks, deck_argument(input_of(argument), base='')]
+            deck%input_argument = input_of(argument)
+            deck%base = ''
+            command%decks = [command%decks, deck]
             cycle
          end if
          select case (argument)

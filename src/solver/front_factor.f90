@@ -102,9 +102,13 @@ contains
             call start_front(model, tree, front, fault)
          end if
          if (fault /= 0) return
-         if (.not. front%moves) front%largest = maxval(front%diagonal(:front%p))
+         tree%diagonal(front%first:front%first + front%p - 1) = front%diagonal(:front%p)
          call eliminate(front%p, front%r, front%panel, front%update, front%diagonal, pivot_tolerance, fault)
-         if (fault > 0) fault = front%first + fault - 1
+         if (fault > 0) then
+            fault = front%first + fault - 1
+         else
+            front%weakest = minval([(front%panel(i, i)**2/front%diagonal(i), i = 1, front%p)])
+         end if
          if (front%parent == 0) deallocate (front%update)
       end associate
    end subroutine eliminate_subtree

@@ -43,19 +43,19 @@ unit_objects=$(for file in tests/unit/*.pf tests/unit/*.f90; do file=${file##*/}
 
 # ---- one mutant: the functions work in the folder $work ----
 
-# until_failure LOG COMMAND...: ends with the command, or at the first line of LOG that tells of a failure
+# until_failure LOGS COMMAND...: ends with the command, or at the first line in the folder LOGS that tells of a failure
 until_failure() {
-   local log=$1 id
+   local logs=$1 id
    shift
-   : > "$log"
    setsid "$@" > "$work/command.log" 2>&1 &
    id=$!
    while kill -0 $id 2> /dev/null; do
-      if grep -qE 'FAILED|[^0-9][1-9][0-9]* failed' "$log" 2> /dev/null; then kill -KILL -- -$id; break; fi
+      if tells "$logs"; then kill -KILL -- -$id; break; fi
       sleep 0.2
    done
-   wait $id 2> /dev/null && ! grep -qE 'FAILED|[^0-9][1-9][0-9]* failed' "$log"
+   wait $id 2> /dev/null && ! tells "$logs"
 }
+tells() { cat "$1"/* 2> /dev/null | grep -qE "FAILED|[^0-9][1-9][0-9]* failed"; }
 
 # The suites that use the module, and all others
 suites_of() { (cd "$tree" && grep -liE "^ *use +$1 *(,|$)" tests/unit/*.pf | xargs -r -n 1 basename -s .pf); }
@@ -93,7 +93,7 @@ rest_fails() {
    ln -f "$work/jointfem" "$work/jointfit" "$work/checked"
    (cd "$tree"; ulimit -t 60
     WITHOUT="$passed_over$1" \
-       until_failure "$work/test/part.log" tests/run_all.sh "$work/jointfem" "$work/checked/jointfem" "$compare" "$query" "$work")
+       TOGETHER=1 until_failure "$work/test/logs" tests/run_all.sh "$work/jointfem" "$work/checked/jointfem" "$compare" "$query" "$work")
    [ $? -ne 0 ]
 }
 
