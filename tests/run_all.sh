@@ -18,6 +18,7 @@ mkdir -p "$build/test/logs"
 # part TITLE COMMAND...: begins it as soon as fewer than TOGETHER parts run
 part() {
    local log
+   [[ -n $without && $1 =~ $without ]] && return
    show_finished
    while [ "$(jobs -rp | wc -l)" -ge "$together" ]; do wait -n; done
    log=$build/test/logs/$begun
