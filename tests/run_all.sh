@@ -71,6 +71,7 @@ everything_so_far
 part 'unit tests' ${MAKE:-make} --no-print-directory -s unit-test
 part 'modules use what stands to the left' tests/folders.sh README.md src
 part 'the test runner itself' env -u MAKELEVEL tests/runner/selftest.sh
+part 'the tools of make mutants and make coverage' tests/mutants/selftest.sh
 # the long ones first
 part 'bad decks and command lines' tests/bad/run.sh "$PWD/$checked"
 part 'damaged decks' tests/damage/run.sh "$PWD/$checked" "$PWD/input"
