@@ -88,12 +88,13 @@ decks_fail() {
 
 # Killed by anything else that make test runs?
 rest_fails() {
+   local own=../${work##*/} # run_all.sh puts the folder in front of it
    rm -rf "$work/test"
    mkdir -p "$work/checked" "$work/test"
    ln -f "$work/jointfem" "$work/jointfit" "$work/checked"
    (cd "$tree"; ulimit -t 60
     WITHOUT="$passed_over$1" \
-       TOGETHER=1 until_failure "$work/test/logs" tests/run_all.sh "$work/jointfem" "$work/checked/jointfem" "$compare" "$query" "$work")
+       TOGETHER=1 until_failure "$work/test/logs" tests/run_all.sh "$own/jointfem" "$own/checked/jointfem" "$compare" "$query" "$own")
    [ $? -ne 0 ]
 }
 
