@@ -38,12 +38,14 @@ help:
 	@echo 'make sanitize   decks under the address, undefined and thread sanitizers, and valgrind: minutes'
 	@echo 'make install PREFIX=dir  programs, manual pages, documents; default /usr/local'
 	@echo 'make accept CASE=name    take the results of input/name.bdf as the new reference'
+	@echo 'make manual     the verification manual, reference_output/README.md, from runs'
 	@echo 'make bench      speed and memory, MODELS=small: only of small models'
 	@echo 'make coverage   which lines of src no test runs'
 	@echo 'make mutants    which single changes of src no test notices: N=150 SEED=1 JOBS=1'
 	@echo 'make figures    the pictures, from the CSV files of the decks'
 	@echo 'make figures DECK=path   pressure, deflection and loops of the joints of any deck'
 	@echo 'make figures DATA=file   test data and their fit'
+	@echo 'make fuzz MINUTES=60 SEED=7  decks made at random, through the program, with run-time checks and sanitizers'
 	@echo 'make clean'
 
 # The program, optimised and with run-time checks -----------------------------------------------------------------
@@ -160,8 +162,14 @@ accept: bin/jointfem
 	cp '$(BUILD)/accept/$(CASE).out' '$(BUILD)/accept/$(CASE).joint.csv' reference_output
 	@echo 'say in the commit message why the reference changed'
 
+# The verification manual, its numbers from runs
+.PHONY: manual
+manual: bin/jointfem $(QUERY)
+	@tests/manual/make.sh bin/jointfem $(QUERY) $(BUILD)/manual-runs reference_output/README.md
+
 # Speed and pictures ----------------------------------------------------------------------------------------------
 
+include tests/fuzz/fuzz.mk
 include tests/bench/bench.mk
 include tests/coverage/coverage.mk
 include tests/mutants/mutants.mk

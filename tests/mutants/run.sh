@@ -17,7 +17,7 @@ slow="bracket|flanged_column"
 slow_suites="number_text|threads|front_kernel|law_distance|fitted_joints|joints_on_lists|nested_dissection"
 # Nor through these parts of run_all.sh: those above, what speaks of the tests themselves, and what takes long for little.
 passed_over='unit tests|modules use|runner itself|decks against their|processors|run-time checks|comparison|queries|benchmark|do not fit'
-passed_over+='|TREE and SKYLINE|STEP tends|errors of elements|Gmsh|pyNastran|damaged|pictures'
+passed_over+='|TREE and SKYLINE|STEP tends|errors of elements|Gmsh|pyNastran|at random|fuzzer|tour|pictures'
 without=${WITHOUT:+|$WITHOUT}                    # more parts of run_all.sh that are passed over
 
 mkdir -p "$tree"
