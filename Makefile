@@ -40,6 +40,8 @@ help:
 	@echo 'make accept CASE=name    take the results of input/name.bdf as the new reference'
 	@echo 'make manual     the verification manual, reference_output/README.md, from runs'
 	@echo 'make bench      speed and memory, MODELS=small: only of small models'
+	@echo 'make coverage   which lines of src no test runs'
+	@echo 'make mutants    which single changes of src no test notices: N=150 SEED=1 JOBS=1'
 	@echo 'make figures    the pictures, from the CSV files of the decks'
 	@echo 'make figures DECK=path   pressure, deflection and loops of the joints of any deck'
 	@echo 'make figures DATA=file   test data and their fit'

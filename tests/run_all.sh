@@ -72,6 +72,7 @@ part 'unit tests' ${MAKE:-make} --no-print-directory -s unit-test
 part 'modules use what stands to the left' tests/folders.sh README.md src
 part 'the tour of the source' tests/tour/readme.sh src/README.md src
 part 'the test runner itself' env -u MAKELEVEL tests/runner/selftest.sh
+part 'the tools of make mutants and make coverage' tests/mutants/selftest.sh
 # the long ones first
 part 'bad decks and command lines' tests/bad/run.sh "$PWD/$checked"
 part 'runs that are killed and go on' tests/restart/run.sh "$program" "$build/restart"
