@@ -3,11 +3,12 @@
 #
 #    run_all.sh PROGRAM CHECKED_PROGRAM COMPARE QUERY BUILD_FOLDER
 #
-# CHECKED_PROGRAM is the program with run-time checks; bad and damaged decks go through it, so that a bound exceeded or a
+# CHECKED_PROGRAM is the program with run-time checks; bad decks and those made at random go through it, so that a bound exceeded or a
 # floating-point exception is seen. Every part ends with a line `N passed, N failed`; a part without one has failed. As many parts
 # run side by side as there are cores (TOGETHER=n: n of them); each has a folder of its own.
+# WITHOUT in the environment: a pattern of titles that are passed over.
 set -u
-program=$1 checked=$2 compare=$3 query=$4 build=$5
+program=$1 checked=$2 compare=$3 query=$4 build=$5 without=${WITHOUT:-}
 together=${TOGETHER:-$(nproc)}
 passed=0 failed=0 begun=0 shown=0
 titles=()
@@ -17,6 +18,7 @@ mkdir -p "$build/test/logs"
 # part TITLE COMMAND...: begins it as soon as fewer than TOGETHER parts run
 part() {
    local log
+   [[ -n $without && $1 =~ $without ]] && return
    show_finished
    while [ "$(jobs -rp | wc -l)" -ge "$together" ]; do wait -n; done
    log=$build/test/logs/$begun
@@ -72,12 +74,14 @@ part 'the tour of the source' tests/tour/readme.sh src/README.md src
 part 'the test runner itself' env -u MAKELEVEL tests/runner/selftest.sh
 # the long ones first
 part 'bad decks and command lines' tests/bad/run.sh "$PWD/$checked"
-part 'damaged decks' tests/damage/run.sh "$PWD/$checked" "$PWD/input"
+part 'decks made at random' tests/fuzz/run.sh -s 1984 -n 1000 -j 1 "$build/test/fuzz" checked="$checked"
+part 'the fuzzer itself' tests/fuzz/selftest.sh
 part 'decks on other processors, built otherwise' tests/processors.sh "$program" "$compare" "$build"
 part 'worked examples of the tour' tests/tour/run.sh "$query" "$build/tour"
 part 'decks through the program with run-time checks' tests/check.sh "$checked" "$compare" "$build/check-checked"
 part 'what the paper says of the prism' tests/prism_findings.sh "$query" "$build/check"
 part 'exact answers and independent computations' tests/exact/run.sh "$program" "$query" "$build/exact"
+part 'the verification manual as it stands' tests/manual/check.sh "$program" "$query" "$build/manual-check"
 part 'TREE and SKYLINE, one thread and several' tests/solver/run.sh "$program" "$query" "$build/solver"
 part 'models that do not fit into the memory' tests/memory.sh "$program" "$build/memory"
 part 'linear decks against CalculiX' tests/calculix/run.sh "$program" "$build/calculix"

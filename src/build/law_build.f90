@@ -36,12 +36,9 @@ contains
       type(joint_type), intent(inout) :: joint
       integer :: direction, i, k
 
-      if (id == 0) return
-      i = tables%pjoint%find(id)
-      if (i == 0) then
-         call deck%field_error(joint%line, 'PJID', 'there is no PJOINT '//integer_text(id))
-         return
-      end if
+      i = 0
+      if (id > 0) i = tables%pjoint%find(id)
+      if (i == 0) return ! said where the laws are checked
       associate (pjoint => deck%bulk%pjoint(i), law => joint%law)
          if (pjoint%p0_given) joint%p0 = pjoint%p0
          law%has_friction = pjoint%mu_given

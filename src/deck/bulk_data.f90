@@ -98,6 +98,7 @@ module bulk_data
    type, public :: support_card
       integer :: line = 0, set = 0, components = 0
       integer :: surface = 0                            ! PMARK id, 0: the nodes below
+      real(wp) :: value = 0.0_wp                        ! D of an SPC, which has one node
       integer, allocatable :: first(:), last(:), at(:)  ! AT(k): data field of FIRST(k)
    end type support_card
 

@@ -8,7 +8,7 @@ module joint_cards
    use field_rules, only: blank_field, integer_field, real_field, word_field
    use kinds, only: wp
    use load_shares, only: arithmetic_shares, geometric_shares
-   use normal_curve, only: normal_law
+   use normal_curve, only: least_power, normal_law
    use shear_stiffness, only: shear_law
    use text_tools, only: integer_text, real_text
    implicit none
@@ -92,7 +92,7 @@ contains
       integer :: i
 
       call cards%set_table([integer_field('NID'), real_field('C', above=0.0_wp), &
-         real_field('M', above=0.0_wp, most=1.0_wp), real_field('EU', default=0.0_wp, above=0.0_wp)])
+         real_field('M', least=least_power, most=1.0_wp), real_field('EU', default=0.0_wp, above=0.0_wp)])
       allocate (bulk%jnorm(cards%n))
       do i = 1, cards%n
          call cards%next(values)

@@ -8,10 +8,14 @@ module normal_curve
    public :: loading_deflection, loading_pressure, normal_secant, normal_tangent, curve_work
 
    real(wp), parameter, public :: pressure_floor = 1.0e-6_wp !! of p_av: the least p that a loading element has
+   !> The least m. The pressure (lambda/c)^(1/m) has 1/m times the relative error of lambda, of 16 digits three less at 1/1000; and it
+   !! overflows where lambda exceeds c by the factor 10^(308 m), twice at 1/1000: further down no iteration would stand its way.
+   real(wp), parameter, public :: least_power = 1.0e-3_wp
+   real(wp), parameter :: largest_pressure = 1.0e110_wp      ! of a trial far off: its square is still a number
 
    type, public :: normal_law
       real(wp) :: c   = 0.0_wp     !! [length/pressure^m], > 0
-      real(wp) :: m   = 0.0_wp     !! [-], 0 < m <= 1
+      real(wp) :: m   = 0.0_wp     !! [-], least_power <= m <= 1
       real(wp) :: e_u = 0.0_wp     !! E_u, slope dp/dlambda of unloading [pressure/length], > 0
    end type normal_law
 
@@ -22,7 +26,7 @@ contains
       type(normal_law), intent(in) :: law
       real(wp), intent(in)         :: lambda
 
-      p = (lambda/law%c)**(1.0_wp/law%m)
+      p = min((lambda/law%c)**(1.0_wp/law%m), largest_pressure)
    end function loading_pressure
 
    !> lambda of the loading curve at P >= 0, Eq. (1) [length].
