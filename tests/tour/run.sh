@@ -7,7 +7,7 @@
 # The program is built without optimisation; what an earlier run has built and nothing has changed is kept.
 set -u
 query=$1 top=$2
-here=tests/tour work=$2/decks program=$PWD/$2/tree/bin/jointfem
+here=tests/tour work=$2/decks program=$2/tree/bin/jointfem
 . tests/exact/lib.sh
 examples='card element law solver'
 rm -rf "$work" "$top/alone" "$top/next"
