@@ -76,7 +76,7 @@ part 'the tools of make mutants and make coverage' tests/mutants/selftest.sh
 # the long ones first
 part 'bad decks and command lines' tests/bad/run.sh "$PWD/$checked"
 part 'runs that are killed and go on' tests/restart/run.sh "$program" "$build/restart"
-part 'decks made at random' tests/fuzz/run.sh -s 1984 -n 1000 -j 1 "$build/test/fuzz" checked="$checked"
+part 'decks made at random' tests/fuzz/run.sh -s 1984 -n 2000 -j 1 "$build/test/fuzz" checked="$checked"
 part 'the fuzzer itself' tests/fuzz/selftest.sh
 part 'decks on other processors, built otherwise' tests/processors.sh "$program" "$compare" "$build"
 part 'worked examples of the tour' tests/tour/run.sh "$query" "$build/tour"
