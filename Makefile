@@ -43,6 +43,7 @@ help:
 	@echo 'make figures    the pictures, from the CSV files of the decks'
 	@echo 'make figures DECK=path   pressure, deflection and loops of the joints of any deck'
 	@echo 'make figures DATA=file   test data and their fit'
+	@echo 'make fuzz MINUTES=60 SEED=7  decks made at random, through the program, with run-time checks and sanitizers'
 	@echo 'make clean'
 
 # The program, optimised and with run-time checks -----------------------------------------------------------------
@@ -166,6 +167,7 @@ manual: bin/jointfem $(QUERY)
 
 # Speed and pictures ----------------------------------------------------------------------------------------------
 
+include tests/fuzz/fuzz.mk
 include tests/bench/bench.mk
 include tests/coverage/coverage.mk
 include tests/mutants/mutants.mk

@@ -3,7 +3,7 @@
 #
 #    run_all.sh PROGRAM CHECKED_PROGRAM COMPARE QUERY BUILD_FOLDER
 #
-# CHECKED_PROGRAM is the program with run-time checks; bad and damaged decks go through it, so that a bound exceeded or a
+# CHECKED_PROGRAM is the program with run-time checks; bad decks and those made at random go through it, so that a bound exceeded or a
 # floating-point exception is seen. Every part ends with a line `N passed, N failed`; a part without one has failed. As many parts
 # run side by side as there are cores (TOGETHER=n: n of them); each has a folder of its own.
 # WITHOUT in the environment: a pattern of titles that are passed over.
@@ -70,11 +70,14 @@ part 'decks against their references' tests/check.sh "$program" "$compare" "$bui
 everything_so_far
 part 'unit tests' ${MAKE:-make} --no-print-directory -s unit-test
 part 'modules use what stands to the left' tests/folders.sh README.md src
+part 'the tour of the source' tests/tour/readme.sh src/README.md src
 part 'the test runner itself' env -u MAKELEVEL tests/runner/selftest.sh
 # the long ones first
 part 'bad decks and command lines' tests/bad/run.sh "$PWD/$checked"
-part 'damaged decks' tests/damage/run.sh "$PWD/$checked" "$PWD/input"
+part 'decks made at random' tests/fuzz/run.sh -s 1984 -n 1000 -j 1 "$build/test/fuzz" checked="$checked"
+part 'the fuzzer itself' tests/fuzz/selftest.sh
 part 'decks on other processors, built otherwise' tests/processors.sh "$program" "$compare" "$build"
+part 'worked examples of the tour' tests/tour/run.sh "$query" "$build/tour"
 part 'decks through the program with run-time checks' tests/check.sh "$checked" "$compare" "$build/check-checked"
 part 'what the paper says of the prism' tests/prism_findings.sh "$query" "$build/check"
 part 'exact answers and independent computations' tests/exact/run.sh "$program" "$query" "$build/exact"

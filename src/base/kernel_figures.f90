@@ -75,7 +75,7 @@ contains
       if (first == 0 .or. second == first) return
       associate (controllers => line(first + 1:second - 1))
          if (controllers == '') then
-            hierarchy%folder = root//'/sys/fs/cgroup' ! a structure constructor of deferred lengths leaks in gfortran 12
+            hierarchy%folder = root//'/sys/fs/cgroup'
             hierarchy%limit = '/memory.max'
             hierarchy%used = '/memory.current'
             hierarchy%reclaimable = 'inactive_file '

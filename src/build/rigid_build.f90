@@ -6,7 +6,7 @@ module rigid_build
    use kinds, only: wp
    use model_data, only: model_type, n_rotations
    use node_coupling, only: couple_node
-   use reference_nodes, only: component_place, node_axes, place_of_component, rotation_at
+   use reference_nodes, only: component_place, node_axes, place_of_component, rotation_at, third_axis
    use rigid_motion, only: by_rotation, mean_motion
    use text_tools, only: integer_text
    implicit none
@@ -111,7 +111,7 @@ contains
 
       motion(:, :3) = node_axes(model, point)
       motion(:, 4:) = matmul(by_rotation(arm), motion(:, :3))
-      if (model%dimension == 2) motion(:, 6) = matmul(by_rotation(arm), [0.0_wp, 0.0_wp, 1.0_wp])
+      if (model%dimension == 2) motion(:, 6) = matmul(by_rotation(arm), third_axis(model, point))
       if (.not. model%axisymmetric) return
       motion(1, :) = 0.0_wp
       motion(3, :) = 0.0_wp
@@ -165,7 +165,7 @@ contains
       real(wp) :: direction(6), axes(3, 3)
 
       axes = node_axes(model, point)
-      if (model%dimension == 2) axes(:, 3) = [0.0_wp, 0.0_wp, 1.0_wp]
+      if (model%dimension == 2) axes(:, 3) = third_axis(model, point)
       direction = 0.0_wp
       if (digit <= 3) direction(:3) = axes(:, digit)
       if (digit > 3) direction(4:) = axes(:, digit - 3)

@@ -10,7 +10,7 @@ module support_build
    implicit none
    private
 
-   public :: build_supports
+   public :: build_supports, support_sets
 
 contains
 
@@ -18,7 +18,7 @@ contains
    subroutine build_supports(deck, model)
       type(checked_deck), intent(in)  :: deck
       type(model_type), intent(inout) :: model
-      integer, allocatable :: sets(:) ! that hold
+      integer, allocatable :: sets(:)
       integer :: i, set, set_line
 
       allocate (model%held(model%dimension, model%n_nodes), source=.false.)
@@ -39,10 +39,7 @@ contains
          set = deck%control%stages(1)%supports%id
          set_line = deck%control%stages(1)%supports%line
       end if
-      sets = [set]
-      do i = 1, size(deck%bulk%support_sum)
-         if (deck%bulk%support_sum(i)%set == set .and. set > 0) sets = deck%bulk%support_sum(i)%sets
-      end do
+      allocate (sets, source=support_sets(deck))
       do i = 1, size(deck%bulk%support)
          call apply_support(deck, deck%bulk%support(i), any(sets == deck%bulk%support(i)%set), model)
       end do
@@ -50,6 +47,20 @@ contains
       if (set > 0 .and. all(deck%bulk%support%set /= set) .and. all(deck%bulk%support_sum%set /= set)) &
          call deck%errors%add(set_line, 'SPC: there is no SPC, SPC1, SPCM or SPCADD with set '//integer_text(set))
    end subroutine build_supports
+
+   !> The sets of supports that hold: that of case control, or those of its SPCADD.
+   pure function support_sets(deck) result(sets)
+      type(checked_deck), intent(in) :: deck
+      integer, allocatable :: sets(:)
+      integer :: i, set
+
+      set = 0
+      if (size(deck%control%stages) > 0) set = deck%control%stages(1)%supports%id
+      sets = [set]
+      do i = 1, size(deck%bulk%support_sum)
+         if (deck%bulk%support_sum(i)%set == set .and. set > 0) sets = deck%bulk%support_sum(i)%sets
+      end do
+   end function support_sets
 
    !> SPCADD cards sum up sets that are there, and have numbers of their own.
    subroutine check_sums(deck)

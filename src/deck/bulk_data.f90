@@ -5,6 +5,7 @@ module bulk_data
    use element_kinds, only: max_nodes
    use entry_tally, only: entry_tally_type
    use kinds, only: wp
+   use normal_curve, only: normal_law
    use shear_stiffness, only: shear_law
    implicit none
    private
@@ -97,6 +98,7 @@ module bulk_data
    type, public :: support_card
       integer :: line = 0, set = 0, components = 0
       integer :: surface = 0                            ! PMARK id, 0: the nodes below
+      real(wp) :: value = 0.0_wp                        ! D of an SPC, which has one node
       integer, allocatable :: first(:), last(:), at(:)  ! AT(k): data field of FIRST(k)
    end type support_card
 
@@ -233,9 +235,9 @@ module bulk_data
    end type pjoint_card
 
    type, public :: jnorm_card
-      integer  :: line = 0, id = 0
-      real(wp) :: c = 0.0_wp, m = 0.0_wp, e_u = 0.0_wp
-      logical  :: e_u_given = .false.
+      integer :: line = 0, id = 0
+      type(normal_law) :: law
+      logical :: e_u_given = .false.
    end type jnorm_card
 
    type, public :: jshear_card

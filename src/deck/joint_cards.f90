@@ -8,7 +8,7 @@ module joint_cards
    use field_rules, only: blank_field, integer_field, real_field, word_field
    use kinds, only: wp
    use load_shares, only: arithmetic_shares, geometric_shares
-   use normal_stiffness, only: least_power
+   use normal_curve, only: least_power, normal_law
    use shear_stiffness, only: shear_law
    use text_tools, only: integer_text, real_text
    implicit none
@@ -96,8 +96,8 @@ contains
       allocate (bulk%jnorm(cards%n))
       do i = 1, cards%n
          call cards%next(values)
-         bulk%jnorm(i) = jnorm_card(line=cards%line, id=values%integers(1), c=values%reals(2), m=values%reals(3), &
-                                    e_u=values%reals(4), e_u_given=values%given(4))
+         bulk%jnorm(i) = jnorm_card(line=cards%line, id=values%integers(1), e_u_given=values%given(4), &
+                                    law=normal_law(c=values%reals(2), m=values%reals(3), e_u=values%reals(4)))
       end do
    end subroutine read_jnorm
 

@@ -4,7 +4,7 @@ module support_cards
    use bulk_data, only: bulk_data_type, displacement_card, support_card, support_sum_card
    use card_fields, only: card_values, decode_integer
    use card_reader, only: card_reader_type
-   use field_rules, only: blank_field, component_field, integer_field, real_field
+   use field_rules, only: component_field, integer_field, real_field
    use kinds, only: wp
    use text_tools, only: integer_text
    implicit none
@@ -14,7 +14,7 @@ module support_cards
 
 contains
 
-   !> SPC: one or two nodes held in the components C; a displacement other than zero is not for this card. SPC1: components C of the
+   !> SPC: one or two nodes held in the components C at the displacement D. SPC1: components C of the
    !! nodes G1, G2, ..., or G1 THRU G2. SPCM: components C of all nodes of the marked surface PID.
    subroutine read_support(cards, bulk)
       type(card_reader_type), intent(inout) :: cards
@@ -22,8 +22,8 @@ contains
       type(card_values) :: values
       integer :: field, i, n
 
-      call cards%set_table([integer_field('SID'), integer_field('G1'), component_field('C1'), blank_field('D1'), &
-         integer_field('G2', default=0), component_field('C2', default=0), blank_field('D2')], 'SPC')
+      call cards%set_table([integer_field('SID'), integer_field('G1'), component_field('C1'), real_field('D1', default=0.0_wp), &
+         integer_field('G2', default=0), component_field('C2', default=0), real_field('D2', default=0.0_wp)], 'SPC')
       call cards%set_table([integer_field('SID'), component_field('C')], 'SPC1', open_ended=.true.)
       call cards%set_table([integer_field('SID'), component_field('C'), integer_field('PID')], 'SPCM')
       allocate (bulk%support(2*cards%n))
@@ -34,11 +34,13 @@ contains
          associate (line => cards%line, integers => values%integers, given => values%given)
             select case (cards%card%name)
             case ('SPC')
-               if (given(5) .neqv. given(6)) call cards%error('G2', 'node and components C2 go together')
+               if ((given(5) .neqv. given(6)) .or. (given(7) .and. .not. given(5))) &
+                  call cards%error('G2', 'node, components C2 and displacement D2 go together')
                do field = 2, merge(5, 2, given(5)), 3
                   n = n + merge(1, 0, field > 2)
                   bulk%support(n) = support_card(line=line, set=integers(1), components=integers(field + 1), &
-                                                 first=integers(field:field), last=integers(field:field), at=[field])
+                                                 value=values%reals(field + 2), first=integers(field:field), &
+                                                 last=integers(field:field), at=[field])
                end do
             case ('SPC1')
                bulk%support(n) = support_card(line=line, set=integers(1), components=integers(2))

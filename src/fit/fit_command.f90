@@ -1,7 +1,7 @@
 !> The command line of jointfit: options and data files.
 module fit_command
    use branch_fit, only: fit_choice
-   use command_arguments, only: argument_text, complain, input_argument, input_of, is_option, say, version
+   use command_arguments, only: argument_text, complain, input_argument, is_option, say, set_input, version
    use data_columns, only: branch_number, reading_type
    use data_entries, only: read_number
    use data_units, only: read_system
@@ -54,7 +54,7 @@ contains
          i = i + 1
          argument = argument_text(i)
          if (.not. is_option(argument, options)) then
-            command%files = [command%files, input_of(argument)]
+            call add_file(command%files, argument)
             cycle
          end if
          select case (argument)
@@ -100,6 +100,18 @@ contains
          status = 0
       end if
    end subroutine read_fit_command
+
+   !> One more of FILES, the one that ARGUMENT means. (An array constructor would leak its names in gfortran 12.)
+   subroutine add_file(files, argument)
+      type(input_argument), allocatable, intent(inout) :: files(:)
+      character(*), intent(in) :: argument
+      type(input_argument), allocatable :: more(:)
+
+      allocate (more(size(files) + 1))
+      more(:size(files)) = files
+      call set_input(more(size(more)), argument)
+      call move_alloc(more, files)
+   end subroutine add_file
 
    !> The VALUE behind an OPTION; empty where the command ends.
    subroutine read_value(option, value, command, ok)

@@ -4,7 +4,7 @@ module normal_fit
    use kinds, only: wp
    use least_squares, only: fit_line, solve_least_squares
    use loop_fit, only: loop_fit_type
-   use normal_stiffness, only: least_power
+   use normal_curve, only: least_power
    use text_tools, only: real_text
    implicit none
    private

@@ -10,7 +10,8 @@ module analysis_state
    use kinds, only: wp
    use measures, only: is_measure
    use model_data, only: model_type, n_bars, n_sections, temperature_type
-   use normal_stiffness, only: at_rest, branch_load, branch_open, is_virgin, normal_secant
+   use normal_curve, only: normal_secant
+   use normal_stiffness, only: at_rest, branch_load, branch_open, is_virgin
    use branch_starts, only: note_turns, turning_point
    implicit none
    private

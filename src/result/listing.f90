@@ -89,6 +89,7 @@ contains
          if (analysis%increment == 1) then
             if (allocated(page%shown)) deallocate (page%shown)
             if (allocated(stage%shown)) page%shown = stage%shown
+            page%along_cd = stage%along_cd
          end if
          page%largest_force = max(page%largest_force, maxval(abs(analysis%applied(:, analysis%loaded))))
          if (analysis%is_moved) page%largest_force = &

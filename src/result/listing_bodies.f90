@@ -6,6 +6,7 @@ module listing_bodies
    use elasticity, only: max_stresses, n_stresses
    use interface_operator, only: named_node
    use kinds, only: wp
+   use listing_directions, only: add_directed, direction_columns, direction_words
    use listing_table, only: axes, column, listing_table_type, noise, page_type
    use listing_rotations, only: list_moments, list_rotations
    use model_data, only: has_ground_springs, has_second_order, model_type, n_bars, n_points, supported
@@ -43,16 +44,16 @@ contains
       real(wp) :: floor
       integer  :: node
 
-      call table%start('DISPLACEMENTS OF NODES'//page%now//in_units(page%labels%length), &
+      call table%start('DISPLACEMENTS OF NODES'//direction_words(page)//page%now//in_units(page%labels%length), &
                        [column('NODE', 'i11'), column(axes(:model%dimension), 'es13.5'), &
-                        column('U'//axes(:model%dimension), 'es13.5')])
+                        direction_columns(page, 'U', model%dimension)])
       call table%print_head(page%file)
       floor = noise*maxval(abs(analysis%all_u(:, :n_points(model))))
       do node = 1, n_points(model)
          if (.not. model%used(node) .or. .not. shows_node(page, node)) cycle
          call table%add([model%node_id(node)])
          call table%add(clean(model%x(:model%dimension, node)))
-         call table%add(clean(analysis%all_u(:, node), floor))
+         call add_directed(page, model, node, analysis%all_u(:, node), floor, table)
          call table%print_row(page%file)
       end do
    end subroutine list_displacements
@@ -171,9 +172,9 @@ contains
       real(wp) :: floor, force(3)
       integer  :: first, i, node
 
-      call table%start('REACTIONS AT SUPPORTS'//page%now//in_units(page%labels%force), &
+      call table%start('REACTIONS AT SUPPORTS'//direction_words(page)//page%now//in_units(page%labels%force), &
                        [column('NODE', 'i11'), column(axes(:model%dimension), 'es13.5'), &
-                        column('R'//axes(:model%dimension), 'es13.5')])
+                        direction_columns(page, 'R', model%dimension)])
       call table%print_head(page%file)
       floor = noise*max(page%largest_force, tiny(1.0_wp))
       supports = 0.0_wp
@@ -185,7 +186,7 @@ contains
          if (.not. shows_node(page, node)) cycle
          call table%add([model%node_id(node)])
          call table%add(clean(model%x(:model%dimension, node)))
-         call table%add(clean(reaction, floor))
+         call add_directed(page, model, node, reaction, floor, table)
          call table%print_row(page%file)
       end do
       base = 0.0_wp

@@ -34,10 +34,12 @@ module listing_table
       character(:), allocatable :: stage, now !! where the run is: 'STAGE 2'; ', STAGE 2, INCREMENT 5' behind a title
       real(wp) :: largest_force = 0.0_wp      !! ever applied, for the noise
       logical, allocatable :: shown(:)        !! nodes that the tables of this stage are limited to; not allocated: all
+      logical :: along_cd = .false.           !! tables of nodes of this stage have the directions of their systems CD
       character(:), allocatable :: date       !! for its head, where it is to have one
    end type page_type
 
-   type :: column_type
+   type, public :: column_type
+      private
       character(48) :: heading = ''
       character(10) :: form = ''
       character(20) :: unit = ''

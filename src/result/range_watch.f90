@@ -7,7 +7,8 @@ module range_watch
    use kinds, only: wp
    use listing_table, only: axes, listing_table_type, page_width
    use model_data, only: joint_node_id, model_type
-   use normal_stiffness, only: branch_load, branch_open, loading_deflection, normal_tangent
+   use normal_curve, only: loading_deflection, normal_tangent
+   use normal_stiffness, only: branch_load, branch_open
    use shear_closure, only: loop_closure, worst_closure
    use shear_stiffness, only: shear_law, shear_slope
    use stage_plan, only: stage_plan_type, where_in_plan
