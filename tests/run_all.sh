@@ -48,7 +48,9 @@ part 'published surfaces' tests/fit/surfaces.sh "$program"
 mkdir -p "$build/vtu-deck"
 sed -E 's/^( *INCR = .*)/\1\n  OUTPUT = LAST, VTU/; /OUTPUT = (ALL|JOINT|LAST|NONE)$/d' input/prism_history.bdf > "$build/vtu-deck/history.bdf"
 "$program" -q -o "$build/vtu-deck" "$build/vtu-deck/history.bdf" 2> /dev/null
-part 'files for ParaView' tests/vtu/run.sh "$build/vtu" "$build/vtu-deck/history.pvd" "$build/check/post_on_plate.pvd" \
+sed -e '/^ *TEMPERATURE(LOAD) = 20/d' -e 's/^OUTPUT = .*/OUTPUT = LAST, STEPS/' input/flange_warm.bdf > "$build/vtu-deck/warm.bdf"
+"$program" -q -o "$build/vtu-deck" "$build/vtu-deck/warm.bdf" 2> /dev/null > /dev/null
+part 'files for ParaView' tests/vtu/run.sh "$build/vtu" "$build/vtu-deck/history.pvd" "$build/vtu-deck/warm.pvd@20:20:50:20" "$build/check/post_on_plate.pvd" \
    "$build/check/column_tetra10.pvd"
 part 'meshes from Gmsh' tests/gmsh.sh "$program" "$query" "$build/gmsh"
 part 'decks to and from pyNastran' tests/pynastran/run.sh "$program" "$build/pynastran"
