@@ -35,7 +35,7 @@ help:
 	@echo 'make test       unit tests, every deck of input against reference_output, bad decks'
 	@echo 'make check      only the decks against reference_output'
 	@echo 'make install PREFIX=dir  programs, manual pages, documents; default /usr/local'
-	@echo 'make accept CASE=name    take the results of input/name.bdf as the new reference'
+	@echo 'make accept CASE=name    take the results of input/name.bdf as the new reference; TABLES="stage bolt": of these too'
 	@echo 'make bench      speed and memory, MODELS=small: only of small models'
 	@echo 'make figures    the pictures, from the CSV files of the decks'
 	@echo 'make figures DECK=path   pressure, deflection and loops of the joints of any deck'
@@ -141,7 +141,8 @@ test: bin/jointfem $(BUILD)/checked/jointfem $(BUILD)/checked/jointfit $(COMPARE
 check: bin/jointfem $(COMPARE)
 	@tests/check.sh bin/jointfem $(COMPARE) $(BUILD)/check
 
-# The results of one deck become its reference: make accept CASE=prism05
+# The results of one deck become its reference: make accept CASE=prism05; its tables of stages and bolts where there are references of them,
+# or where TABLES='stage bolt' asks for them
 .PHONY: accept
 accept: bin/jointfem
 	@test -n '$(CASE)' || { echo 'usage: make accept CASE=name, for input/name.bdf'; exit 1; }
@@ -149,6 +150,9 @@ accept: bin/jointfem
 	@mkdir -p $(BUILD)/accept
 	bin/jointfem -q -o $(BUILD)/accept 'input/$(CASE).bdf'
 	cp '$(BUILD)/accept/$(CASE).out' '$(BUILD)/accept/$(CASE).joint.csv' reference_output
+	for table in stage bolt; do test ! -f 'reference_output/$(CASE)'.$$table.csv || \
+	   cp '$(BUILD)/accept/$(CASE)'.$$table.csv reference_output; done
+	for table in $(TABLES); do cp '$(BUILD)/accept/$(CASE)'.$$table.csv reference_output || exit 1; done
 	@echo 'say in the commit message why the reference changed'
 
 # Speed and pictures ----------------------------------------------------------------------------------------------
