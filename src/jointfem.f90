@@ -74,7 +74,7 @@ contains
                call structure_stiffness(model, plan, analysis, system, run%failure)
 
                ! --------------------------------------------------------- SOLVE [k_s] {du} = {dF}
-               call solve_increment(model, plan, system, analysis, run%failure)
+               call solve_increment(model, system, analysis, run%failure)
 
                ! --------------------------------------------------------- ACCUMULATE {u}, DEFLECTIONS, FORCES
                call accumulate(model, system, analysis, run%failure)

@@ -1,8 +1,10 @@
 !> Which result files are being written, so that none stays behind where the program ends in the midst of it. The last resort is
 !! for an allocation that fails where nobody looks: it ends the program through the run-time library, with exit status 1 and words
-!! of its own. Here that becomes a message of the program and the status of what cannot be solved.
+!! of its own; or, where the compiler allocates what is assigned and does not look either, it uses the address of nothing. Here
+!! both become a message of the program and the status of what cannot be solved.
 module incomplete_results
-   use, intrinsic :: iso_c_binding, only: c_associated, c_funloc, c_funptr, c_int, c_null_char, c_null_ptr, c_ptr
+   use, intrinsic :: iso_c_binding, only: c_associated, c_f_pointer, c_funloc, c_funptr, c_int, c_intptr_t, c_null_char, &
+                                          c_null_ptr, c_ptr
    use c_library, only: has_ended, remove_terminated, write_bytes
    implicit none
    private
@@ -14,6 +16,7 @@ module incomplete_results
    character(:), allocatable :: names ! one after the other, each with a null character at its end
 
    integer(c_int), parameter :: status_of_library = 1, status_unsolved = 3
+   integer(c_int), parameter :: sigsegv = 11, enomem = 12 ! of Linux
 
    interface
       integer(c_int) function c_on_exit(routine, argument) bind(c, name='on_exit')
@@ -21,6 +24,16 @@ module incomplete_results
          type(c_funptr), value :: routine
          type(c_ptr), value    :: argument
       end function c_on_exit
+
+      integer(c_intptr_t) function c_signal(signal, handler) bind(c, name='signal')
+         import :: c_funptr, c_int, c_intptr_t
+         integer(c_int), value :: signal
+         type(c_funptr), value :: handler
+      end function c_signal
+
+      type(c_ptr) function c_errno_place() bind(c, name='__errno_location')
+         import :: c_ptr
+      end function c_errno_place
 
       subroutine c_exit_at_once(status) bind(c, name='_exit')
          import :: c_int
@@ -59,10 +72,24 @@ contains
 
    !> Watch allocations from now on. Where glibc does not do it the status stays 1.
    subroutine watch_allocations()
-      integer(c_int) :: status
+      integer(c_int)      :: status
+      integer(c_intptr_t) :: before
 
       status = c_on_exit(c_funloc(end_without_memory), c_null_ptr)
+      before = c_signal(sigsegv, c_funloc(end_at_no_address))
    end subroutine watch_allocations
+
+   !> Called by the kernel where an address is used at which nothing is. After an allocation that failed, the last that the C library
+   !! tells this thread, that is why; otherwise the program ends as it would have done, at the same place.
+   subroutine end_at_no_address(signal) bind(c)
+      integer(c_int), value   :: signal
+      integer(c_int), pointer :: error
+      integer(c_intptr_t)     :: before
+
+      call c_f_pointer(c_errno_place(), error)
+      if (error == enomem) call end_without_memory(status_of_library, c_null_ptr)
+      before = c_signal(signal, transfer(0_c_intptr_t, c_funloc(end_at_no_address))) ! 0: SIG_DFL
+   end subroutine end_at_no_address
 
    !> Called by the C library when the program ends with STATUS.
    subroutine end_without_memory(status, argument) bind(c)

@@ -1,5 +1,6 @@
 !> Small services for text: case, numbers as words, clean zeros.
 module text_tools
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use kinds, only: wp
    use number_text, only: integer_width, write_integer
    implicit none
@@ -40,7 +41,11 @@ contains
       character(24) :: buffer
       integer :: e, exponent, last
 
-      if (abs(value) < tiny(1.0_wp)) then
+      if (.not. ieee_is_finite(value)) then
+         write (buffer, '(f0.1)') value ! NaN, Infinity
+         text = trim(buffer)
+         return
+      else if (abs(value) < tiny(1.0_wp)) then
          text = '0'
          return
       else if (abs(value) >= 1.0e-3_wp .and. abs(value) < 1.0e6_wp) then

@@ -4,7 +4,7 @@ module first_pressures
    use determinate_joints, only: carried_resultant
    use kinds, only: wp
    use model_data, only: joint_type, model_type, n_bars, n_sections, stage_load_type
-   use normal_stiffness, only: loading_pressure
+   use normal_curve, only: loading_pressure
    use text_tools, only: integer_text, real_text
    implicit none
    private

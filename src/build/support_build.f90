@@ -82,8 +82,6 @@ contains
       do k = 1, size(support%first)
          if (support%first(k) == support%last(k)) then
             node = model%node_table%find(support%first(k))
-            if (node == 0 .and. support%first(k) > 0) call deck%field_error(support%line, support%at(k), &
-               'there is no GRID '//integer_text(support%first(k)), called='G')
             if (node > 0 .and. active) call hold(model, node, support%components)
             cycle
          end if

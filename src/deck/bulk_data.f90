@@ -5,6 +5,7 @@ module bulk_data
    use element_kinds, only: max_nodes
    use entry_tally, only: entry_tally_type
    use kinds, only: wp
+   use normal_curve, only: normal_law
    use shear_stiffness, only: shear_law
    implicit none
    private
@@ -237,9 +238,9 @@ module bulk_data
    end type pjoint_card
 
    type, public :: jnorm_card
-      integer  :: line = 0, id = 0
-      real(wp) :: c = 0.0_wp, m = 0.0_wp, e_u = 0.0_wp
-      logical  :: e_u_given = .false.
+      integer :: line = 0, id = 0
+      type(normal_law) :: law
+      logical :: e_u_given = .false.
    end type jnorm_card
 
    type, public :: jshear_card

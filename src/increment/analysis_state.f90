@@ -2,13 +2,16 @@
 module analysis_state
    use case_control, only: case_control_type, method_step, pressure_eq10
    use condensed_interface, only: condensed_type
+   use condition_estimate, only: condition_type
    use equation_solver, only: equation_system
    use failures, only: failure_type
    use interface_operator, only: add_global_force, interface_element, joint_movement
    use joint_laws, only: element_state, element_stiffness_of, joint_law
    use kinds, only: wp
+   use measures, only: is_measure
    use model_data, only: model_type, n_bars, n_sections, temperature_type
-   use normal_stiffness, only: at_rest, branch_load, branch_open, is_virgin, normal_secant
+   use normal_curve, only: normal_secant
+   use normal_stiffness, only: at_rest, branch_load, branch_open, is_virgin
    use branch_starts, only: note_turns, turning_point
    implicit none
    private
@@ -93,6 +96,7 @@ module analysis_state
       type(turning_point), allocatable :: turns(:, :) !! (2, n) where the shear branches began
       integer, allocatable  :: kind(:), next_kind(:) !! of the normal stiffness used in this increment, and in the next one
       type(condensed_type)  :: condensed            !! [k_b] on the interface, where OUTPUT asks for it
+      type(condition_type)  :: condition            !! of the stiffness that the increment used
       type(joint_energy), allocatable  :: energy(:) !! of the joints
       type(pass_record), allocatable   :: passes(:) !! of the last increment
       type(slip_record), allocatable   :: slips(:)  !! of the last increment, where OUTPUT asks for them
@@ -237,13 +241,15 @@ contains
       end do
    end subroutine subtract_joint_forces
 
-   !> Euclidean norm of nodal forces F over the components that are not HELD [force].
+   !> Euclidean norm of nodal forces F over the components that are not HELD [force]; the largest number where they leave all measure.
    pure real(wp) function free_norm(f, held) result(norm)
       real(wp), intent(in) :: f(:, :)    !! (dimension, nodes)
       logical, intent(in)  :: held(:, :) !! likewise
       real(wp) :: largest
       integer  :: i
 
+      norm = huge(1.0_wp)
+      if (.not. all(is_measure(f))) return
       largest = maxval(abs(f), mask=.not. held)
       norm = 0.0_wp
       if (largest <= 0.0_wp) return

@@ -17,7 +17,8 @@ module back_method
    use joint_laws, only: back_stiffness, exceeds_limit, loading_work, rest_margin
    use kinds, only: wp
    use model_data, only: joint_node_id, model_type
-   use normal_stiffness, only: branch_load, branch_open, loading_deflection, loading_pressure, pressure_floor
+   use normal_curve, only: loading_deflection, loading_pressure, pressure_floor
+   use normal_stiffness, only: branch_load, branch_open
    use stage_plan, only: stage_plan_type, where_in_plan
    use text_tools, only: integer_text, real_text
    implicit none

@@ -11,7 +11,8 @@ module newton_method
    use newton_direction, only: attempt_type, close_gaps, find_direction
    use newton_trial, only: commit, evaluate, search, start_trial, swap, take_whole_step, trial_type
    use node_coupling, only: forces_on_unknowns
-   use normal_stiffness, only: at_rest, branch_name, branch_open, pressure_floor
+   use normal_curve, only: pressure_floor
+   use normal_stiffness, only: at_rest, branch_name, branch_open
    use stage_plan, only: stage_plan_type, where_in_plan
    use text_tools, only: integer_text, real_text
    implicit none

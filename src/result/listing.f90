@@ -20,7 +20,8 @@ module listing
    use model_warnings, only: tetra_words
    use node_coupling, only: held_forces
    use normal_stiffness, only: branch_open
-   use range_watch, only: range_watch_type, say_ranges, watch_balance, watch_ranges, watch_shear_laws, watch_unloading
+   use range_watch, only: note_condition, range_watch_type, say_ranges, watch_balance, watch_ranges, watch_shear_laws, &
+                          watch_unloading
    use stage_entries, only: output_all, output_joint, output_last
    use stage_plan, only: stage_plan_type
    use text_tools, only: clean, integer_text, plural, upper
@@ -34,6 +35,7 @@ module listing
       integer :: method = 0
       type(listing_table_type) :: increments, distances, resultants, passes, slips, bars, springs, sections ! of the stage so far
       type(farthest_type) :: farthest !! from the laws
+      character(:), allocatable :: poor_condition !! the last warning of it, '': none
       integer :: n_increments = 0, n_removed = 0
       type(range_watch_type) :: watch
    end type listing_type
@@ -51,6 +53,7 @@ contains
 
       call listing%page%file%start(path)
       listing%method = deck%control%method
+      listing%poor_condition = ''
       if (deck%control%length_unit /= '') call set_labels(trim(deck%control%length_unit), trim(deck%control%force_unit), &
                                                           listing%page%labels)
       call write_opening(listing%page, deck, model, plan, system)
@@ -101,6 +104,7 @@ contains
          call note_bars(page, model, analysis, listing%bars)
          call note_springs(page, model, analysis, listing%springs)
          call note_sections(page, model, analysis, listing%sections)
+         if (analysis%condition%is_new) call note_condition(model, plan, analysis, listing%watch, listing%poor_condition)
          call watch_ranges(model, analysis, listing%watch)
          if (listing%method /= method_back) then
             call watch_shear_laws(model, plan, analysis, listing%watch)

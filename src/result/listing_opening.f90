@@ -12,7 +12,8 @@ module listing_opening
    use listing_table, only: axes, column, cut, heading, listing_table_type, page_type, page_width
    use model_data, only: has_gaps, model_type, n_bars, n_points, n_rotations, n_sections, n_springs, supported
    use model_warnings, only: tetra_words
-   use normal_stiffness, only: branch_load, branch_name, branch_reload, branch_unload, pressure_floor
+   use normal_curve, only: pressure_floor
+   use normal_stiffness, only: branch_load, branch_name, branch_reload, branch_unload
    use output_file, only: output_file_type
    use shear_closure, only: loop_closure, worst_closure
    use shear_stiffness, only: cubic_of

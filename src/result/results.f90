@@ -13,9 +13,9 @@ module results
    use listing, only: finish_listing, list_increment, list_stage, listing_type, start_listing
    use model_data, only: model_type
    use output_file, only: output_file_type
-   use stage_answer, only: bolt_answer_type, find_answer, find_bolt_answers, stage_answer_type
+   use stage_answer, only: bolt_answer_type, fault_of_answer, find_answer, find_bolt_answers, stage_answer_type
    use stage_history, only: write_bolt_header, write_bolts, write_stage, write_stage_header
-   use stage_plan, only: stage_plan_type
+   use stage_plan, only: stage_plan_type, where_in_plan
    use text_tools, only: real_text
    use vtu_results, only: discard_vtu, finish_vtu, is_vtu_ending, remove_old_vtu, start_vtu, vtu_names, vtu_results_type, write_vtu
    implicit none
@@ -90,18 +90,22 @@ contains
                        bolts)
    end subroutine print_increment
 
-   !> The stage just completed.
-   subroutine print_stage(model, plan, analysis, results)
+   !> The stage just completed. FAILURE is raised where a figure of its answer is beyond all measure.
+   subroutine print_stage(model, plan, analysis, results, failure)
       type(model_type), intent(in)      :: model
       type(stage_plan_type), intent(in) :: plan
       type(analysis_type), intent(in)   :: analysis
       type(results_type), intent(inout) :: results
+      type(failure_type), intent(inout) :: failure
       type(stage_answer_type) :: answer
-      character(:), allocatable :: title
+      character(:), allocatable :: fault, title
 
       call list_stage(results%listing, model, plan, analysis)
       associate (stage => plan%stages(analysis%stage), page => results%listing%page)
          call find_answer(model, analysis, results%listing%method, page%largest_force, results%bolts_before, answer)
+         fault = fault_of_answer(model, answer)
+         if (fault /= '') call failure%raise(where_in_plan(plan, analysis%stage, analysis%increment)//': '//fault// &
+                                             ' is beyond all measure; are loads, lengths and stiffnesses in consistent units?')
          title = 'ANSWER AT THE END OF '//page%stage//'   '//stage%label
          if (analysis%ends_early) title = 'ANSWER WHERE THE RUN ENDED EARLY, '//page%stage//', LOAD '// &
                                           real_text(analysis%fraction)//'   '//stage%label

@@ -175,11 +175,31 @@ contains
       ! an empty array constructor has an extent of -1 in gfortran 12
       call require(self, self%is_open .and. components > 0 .and. max(0, size(values, rank(values))) == n)
       if (self%status /= 0) return
-      self%arrays = [self%arrays, array_type(name, number, section, components, self%n_bytes)]
+      call add_array(self%arrays, name, number, section, components, self%n_bytes)
       call c_f_pointer(c_loc(values), as_bytes, [n_bytes])
       write (self%unit, iostat=self%status) n_bytes, as_bytes
       self%n_bytes = self%n_bytes + storage_size(n_bytes)/8 + n_bytes
    end subroutine write_array
+
+   !> One more of ARRAYS. (An array constructor would leak the words of its elements in gfortran 12.)
+   pure subroutine add_array(arrays, name, number, section, components, offset)
+      type(array_type), allocatable, intent(inout) :: arrays(:)
+      character(*), intent(in)   :: name, number
+      integer, intent(in)        :: section, components
+      integer(int64), intent(in) :: offset
+      type(array_type), allocatable :: more(:)
+
+      allocate (more(size(arrays) + 1))
+      more(:size(arrays)) = arrays
+      associate (added => more(size(more)))
+         added%name = name
+         added%number = number
+         added%section = section
+         added%components = components
+         added%offset = offset
+      end associate
+      call move_alloc(more, arrays)
+   end subroutine add_array
 
    !> The file has failed unless a call FITS what went before.
    pure subroutine require(self, fits)

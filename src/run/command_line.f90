@@ -2,7 +2,7 @@
 module command_line
    use c_library, only: true_path
    use card_manual, only: manual_entry, manual_names
-   use command_arguments, only: argument_text, complain, input_argument, input_of, is_option, say, standard_input, version
+   use command_arguments, only: argument_text, complain, input_argument, is_option, say, set_input, standard_input, version
    use deck_numbers, only: parse_integer
    use results, only: history_ending, is_result_ending, listing_ending
    use text_tools, only: upper
@@ -52,7 +52,7 @@ contains
          i = i + 1
          argument = argument_text(i)
          if (.not. is_option(argument, options)) then
-            command%decks = [command%decks, deck_argument(input_of(argument), base='')]
+            call add_deck(command%decks, argument)
             cycle
          end if
          select case (argument)
@@ -106,6 +106,19 @@ contains
       finished = .false.
       status = 0
    end subroutine read_command_line
+
+   !> One more of DECKS, the one that ARGUMENT means. (An array constructor would leak its names in gfortran 12.)
+   subroutine add_deck(decks, argument)
+      type(deck_argument), allocatable, intent(inout) :: decks(:)
+      character(*), intent(in) :: argument
+      type(deck_argument), allocatable :: more(:)
+
+      allocate (more(size(decks) + 1))
+      more(:size(decks)) = decks
+      call set_input(more(size(more)), argument)
+      more(size(more))%base = ''
+      call move_alloc(more, decks)
+   end subroutine add_deck
 
    !> beam.bdf gives beam.out and beam.joint.csv. No two decks may write the same files, none may overwrite a deck.
    subroutine name_results(command, ok)

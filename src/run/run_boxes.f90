@@ -7,6 +7,7 @@ module run_boxes
    use case_control, only: method_back
    use command_arguments, only: complain_of_input
    use condensed_interface, only: condense_on_joints
+   use condition_estimate, only: watch_condition
    use command_line, only: command_type, deck_argument, is_result_of, read_command_line
    use deck_errors, only: deck_error_list
    use deck_input, only: deck_type, read_deck
@@ -14,6 +15,7 @@ module run_boxes
    use equations, only: form_body_stiffness, start_equations
    use error_report, only: print_errors
    use failures, only: failure_type
+   use finite_state, only: check_state
    use incomplete_results, only: watch_allocations
    use law_distance, only: follow_laws
    use listing_steps, only: distance_words
@@ -63,10 +65,10 @@ contains
       logical :: finished
       integer :: status
 
+      call watch_allocations()
       call read_command_line(command, finished, status)
       if (finished) call end_program(status)
       call use_threads(command%threads)
-      call watch_allocations()
       call tell_failed_writes()
    end subroutine start_program
 
@@ -199,6 +201,7 @@ contains
       type(stage_plan_type), intent(in)  :: plan
       class(equation_system), intent(in) :: system
       type(analysis_type), intent(inout) :: analysis
+      type(failure_type)    :: overflow
       real(wp), allocatable :: u(:, :), unbalanced(:, :)
 
       run%keeps = run%failure%raised .and. run%ending == goes_on .and. analysis%ends_early
@@ -209,6 +212,7 @@ contains
       end if
       call note_largest(analysis)
       call follow_laws(model, analysis)
+      call watch_condition(system, analysis%condition)
       if (plan%stages(analysis%stage)%condensed .and. analysis%increment == 1) &
          call condense_on_joints(model, system, analysis%felt_before, analysis%felt_after, analysis%condensed)
       call run%progress%enter(phase_recover)
@@ -220,6 +224,12 @@ contains
          call recover_bodies(model, system, analysis)
          analysis%u = u
          analysis%unbalanced = unbalanced
+      end if
+      call check_state(model, plan, system, analysis, overflow)
+      if (overflow%raised) then
+         run%failure = overflow
+         run%keeps = .false.
+         return
       end if
       call run%progress%enter(phase_write)
       call list_results(model, plan, analysis, run%results)
@@ -233,11 +243,16 @@ contains
       type(model_type), intent(in)      :: model
       type(stage_plan_type), intent(in) :: plan
       type(analysis_type), intent(in)   :: analysis
+      type(failure_type) :: overflow
 
       if (is_over(run) .and. .not. run%keeps) return
       if (analysis%increment == 0) return
       call run%progress%enter(phase_write)
-      call print_stage_results(model, plan, analysis, run%results)
+      call print_stage_results(model, plan, analysis, run%results, overflow)
+      if (overflow%raised) then
+         run%failure = overflow
+         run%keeps = .false.
+      end if
       call run%progress%enter(phase_increments)
    end subroutine print_stage
 
@@ -258,6 +273,8 @@ contains
          associate (n => run%results%listing%watch%n_warnings)
             if (n > 0) write (error_unit, '(4a)') run%argument%name, ': ', plural(n, 'warning'), ' in the listing'
          end associate
+         words = run%results%listing%poor_condition
+         if (words /= '') write (error_unit, '(3a)') run%argument%name, ': ', words
          words = distance_words(run%results%listing%farthest)
          if (words /= '') write (error_unit, '(3a)') run%argument%name, ': ', words
          if (tetra_words(model) /= '') write (error_unit, '(3a)') run%argument%name, ': ', tetra_words(model)

@@ -24,10 +24,11 @@ contains
       type(model_type), intent(in)         :: model
       type(front_tree_type), intent(inout) :: tree
       integer, intent(out)                 :: fault
+      real(wp) :: no_stiffness(3, 3, 0)
       integer, allocatable :: faults(:)
       integer :: k
 
-      call eliminate_fronts(tree, faults, model=model)
+      call eliminate_fronts(tree, faults, .false., no_stiffness, model)
       fault = first_fault(faults)
       if (fault /= 0) return
       !$omp parallel do schedule(dynamic, 8) default(shared) if(tree%is_parallel)
@@ -50,17 +51,17 @@ contains
       end if
    end function first_fault
 
-   !> Eliminate all fronts that do not move, those of MODEL, or all that do, with the stiffnesses K: one of the two is there.
-   subroutine eliminate_fronts(tree, faults, model, k)
+   !> Eliminate all fronts that do not move, those of MODEL, or all that are MOVING, with the stiffnesses K. (An optional array would be
+   !! shared by the tasks with bounds that are not set where it is absent.)
+   subroutine eliminate_fronts(tree, faults, moving, k, model)
       type(front_tree_type), intent(inout)   :: tree
       integer, allocatable, intent(out)      :: faults(:)  !! (fronts)
+      logical, intent(in)                    :: moving
+      real(wp), intent(in)                   :: k(:, :, :) !! of no element where they do not move
       type(model_type), intent(in), optional :: model
-      real(wp), intent(in), optional         :: k(:, :, :)
       integer :: f
-      logical :: moving
 
       allocate (faults(size(tree%fronts)), source=0)
-      moving = present(k)
       !$omp parallel default(shared) if(tree%is_parallel)
       !$omp single
       do f = 1, size(tree%fronts)
@@ -69,7 +70,7 @@ contains
             if (tree%fronts(tree%fronts(f)%parent)%moves .eqv. moving) cycle
          end if
          !$omp task default(shared) firstprivate(f) if(tree%fronts(f)%work > task_work)
-         call eliminate_subtree(tree, f, faults, model, k)
+         call eliminate_subtree(tree, f, faults, k, model)
          !$omp end task
       end do
       !$omp end single
@@ -77,19 +78,19 @@ contains
    end subroutine eliminate_fronts
 
    !> Eliminate front F after those of its subtree that move as it does, or do not.
-   recursive subroutine eliminate_subtree(tree, f, faults, model, k)
+   recursive subroutine eliminate_subtree(tree, f, faults, k, model)
       type(front_tree_type), intent(inout)   :: tree
       integer, intent(in)                    :: f
       integer, intent(inout)                 :: faults(:)
+      real(wp), intent(in)                   :: k(:, :, :)
       type(model_type), intent(in), optional :: model
-      real(wp), intent(in), optional         :: k(:, :, :)
       integer :: c, i
 
       do i = 1, size(tree%fronts(f)%children)
          c = tree%fronts(f)%children(i)
          if (tree%fronts(c)%moves .neqv. tree%fronts(f)%moves) cycle
          !$omp task default(shared) firstprivate(c) if(tree%fronts(c)%work > task_work)
-         call eliminate_subtree(tree, c, faults, model, k)
+         call eliminate_subtree(tree, c, faults, k, model)
          !$omp end task
       end do
       !$omp taskwait
@@ -102,9 +103,13 @@ contains
             call start_front(model, tree, front, fault)
          end if
          if (fault /= 0) return
-         if (.not. front%moves) front%largest = maxval(front%diagonal(:front%p))
+         tree%diagonal(front%first:front%first + front%p - 1) = front%diagonal(:front%p)
          call eliminate(front%p, front%r, front%panel, front%update, front%diagonal, pivot_tolerance, fault)
-         if (fault > 0) fault = front%first + fault - 1
+         if (fault > 0) then
+            fault = front%first + fault - 1
+         else
+            front%weakest = minval([(front%panel(i, i)**2/front%diagonal(i), i = 1, front%p)])
+         end if
          if (front%parent == 0) deallocate (front%update)
       end associate
    end subroutine eliminate_subtree
@@ -186,7 +191,7 @@ contains
       integer, allocatable :: faults(:)
       integer :: f, i
 
-      call eliminate_fronts(tree, faults, k=k)
+      call eliminate_fronts(tree, faults, .true., k)
       fault = first_fault(faults)
       if (fault == 0) return
       do i = 1, size(tree%moving)

@@ -1,14 +1,14 @@
 !> Right-hand sides and solutions in a tree of fronts, factorised by front_factor: L y = b, L^T x = y, in the two parts that the
 !! increments need, the fronts that do not move and those that do.
 module front_solve
-   use blas_lapack, only: dgemv, dtrsv
+   use blas_lapack, only: dgemv, dtrmv, dtrsv
    use front_blocks, only: block_times_vector
    use front_tree, only: front_tree_type
    use kinds, only: wp
    implicit none
    private
 
-   public :: eliminate_fixed, recover_fixed, solve_moving, moving_times_vector
+   public :: eliminate_fixed, recover_fixed, solve_moving, moving_times_vector, factor_times_vector
 
 contains
 
@@ -114,5 +114,32 @@ contains
          end associate
       end do
    end subroutine moving_times_vector
+
+   !> X = L L^T X on all equations, zero where they are locked: the product with the matrix that the factor is of.
+   subroutine factor_times_vector(tree, x)
+      type(front_tree_type), intent(in) :: tree
+      real(wp), intent(inout)           :: x(tree%n)
+      real(wp) :: work(tree%most_rows)
+      integer  :: f, i
+
+      where (tree%locked) x = 0.0_wp
+      do f = 1, size(tree%fronts) ! L^T x: the rows beyond are those of fronts that follow
+         associate (front => tree%fronts(f), p => tree%fronts(f)%p, r => tree%fronts(f)%r, first => tree%fronts(f)%first)
+            call dtrmv('L', 'T', 'N', p, front%panel, p + r, x(first), 1)
+            work(:r) = x(front%rows)
+            if (r > 0) call dgemv('T', r, p, 1.0_wp, front%panel(p + 1, 1), p + r, work, 1, 1.0_wp, x(first), 1)
+         end associate
+      end do
+      do f = size(tree%fronts), 1, -1
+         associate (front => tree%fronts(f), p => tree%fronts(f)%p, r => tree%fronts(f)%r, first => tree%fronts(f)%first)
+            if (r > 0) call dgemv('N', r, p, 1.0_wp, front%panel(p + 1, 1), p + r, x(first), 1, 0.0_wp, work, 1)
+            do i = 1, r
+               x(front%rows(i)) = x(front%rows(i)) + work(i)
+            end do
+            call dtrmv('L', 'N', 'N', p, front%panel, p + r, x(first), 1)
+         end associate
+      end do
+      where (tree%locked) x = 0.0_wp
+   end subroutine factor_times_vector
 
 end module front_solve

@@ -326,3 +326,35 @@ if [ "$(grep -c '^DECK ERROR' "$work/stderr")" = 1 ]; then pass; else fail '3000
 run -o results many.bdf;              check '3000 errors' 2 'DECK ERROR 10 OF 3000' 'and 2990 more errors, not printed, of the kind of ERROR 10'
 if [ -z "$(wrong_numbers)" ]; then pass; else fail "3000 errors: $(wrong_numbers)"; fi
 holds results 'no file after many INCLUDEs'
+
+# ---- standard streams above 1 MiB, the terminal ----
+
+cd "$work/command" || exit 2
+fresh here
+# 20,000 lines of comment, and a listing of 2,000 increments in full
+{ sed '/^BEGIN/q; s/^SUBCASE.*/&\n  OUTPUT = ALL/' good.bdf; yes "\$ $(printf '%070d' 0)" | head -n 20000; sed '1,/^BEGIN/d; s/^JINCR.*/JINCR   5       2000    ARITH   2.0-4/' good.bdf
+} > large.bdf
+run -o here large.bdf;                check 'a deck above 1 MiB' 0
+run - < large.bdf;                    check 'a deck and a listing above 1 MiB through the standard streams' 0
+if [ "$(wc -c < large.bdf)" -gt 1048576 ] && [ "$(wc -c < here/large.out)" -gt 1048576 ] && cmp -s <(without_deck here/large.out) <(without_deck "$work/stdout"); then pass
+else fail 'a listing above 1 MiB on the standard output is not that of the file'
+fi
+run -o here /proc/self/mem;           check 'a file that cannot be read' 1 '/proc/self/mem: cannot be read'
+
+run --times -q -o here large.bdf;     check '--times' 0 'memory' 'operations fixed' 'operations moving' 's of factor'
+if awk '$1 != "large.bdf:" { next } $NF == "s" { n++; if ($3 + 0 < 0 || $3 !~ /^[0-9.]+$/) bad = 1 } $2 == "memory" { m = $3 }
+        END { exit bad || n != 7 || m < 1 }' "$work/stderr"; then pass
+else fail '--times: not the seconds of seven phases and the memory'
+fi
+if command -v script > /dev/null; then
+   # terminal OPTION...: what a terminal shows of a run
+   terminal() { script -qec "$program $* -o here large.bdf" /dev/null < /dev/null > "$work/stdout"; tr '\r' '\n' < "$work/stdout" > "$work/stderr"; }
+   terminal; status=0
+   check 'on a terminal: the phases' 0 'large.bdf: build' 'large.bdf: order' 'large.bdf: factor'
+   if awk '/: stage 1, increment/ { n++; k = $5; if ($7 != "2000," || k <= last || k > 2000 || $9 != "s" || $8 !~ /^[0-9]+$/) bad = 1; last = k }
+           END { exit bad || !n }' "$work/stderr"; then pass; else fail 'on a terminal: increment of how many, seconds left'; fi
+   if tr '\r' '\n' < "$work/stdout" | grep -q '^ \{60,\}$'; then pass; else fail 'on a terminal: the line is not cleared'; fi
+   terminal -q
+   if grep -q ", increment [0-9]* of" "$work/stderr"; then fail '-q on a terminal: progress'; else pass; fi
+fi
+rm -rf here large.bdf

@@ -1,33 +1,5 @@
 # A block on its joint, moved by SPCD at its top alone, by NEWTON: no force anywhere.
 
-# moved_block NAME NX NY P0 STAGE...: 10 x 5 x 2, nu = 0; a STAGE is UX:UY of the top at its end
-moved_block() {
-   local name=$1 nx=$2 ny=$3 p0=$4 stage s=0
-   shift 4
-   { echo 'METHOD = NEWTON
-SPC = 1'
-     for stage; do s=$((s + 1)); printf 'SUBCASE %d\n  LOAD = %d\n' $s $s; done
-     echo "BEGIN BULK
-BLOCK2,1,1,$nx,$ny,0.0,0.0
-+,10.0,5.0
-+,20,,21
-PSHELL,1,1,2.0
-MAT1,1,9500.0,,0.0
-PMARK,20
-PMARK,21
-JOINT,1,1,20
-PJOINT,1,1,,,,,$p0
-JNORM,1,8.0-3,0.5
-SPCM,1,12,21"
-     s=0
-     for stage; do
-        s=$((s + 1))
-        for ((i = 1; i <= nx + 1; i++)); do printf 'SPCD,%d,%d,1,%s,,,2,%s\n' $s $((i*(ny + 1))) "${stage%:*}" "${stage#*:}"; done
-     done | awk -F, '{ print $1 "," $2 "," $3 "," $4 "," $5; print $1 "," $2 "," $3 "," $8 "," $9 }'
-     echo ENDDATA; } > "$work/$name.bdf"
-   run "$name"
-}
-
 # the joint and the bar above it in series: c sqrt(p) + p H/E = D, so sqrt(p) = 2 D/(c + sqrt(c^2 + 4 D H/E))
 in_series() { number "(2*$1/(8e-3 + sqrt(8e-3^2 + 4*$1*5/9500)))^2"; }
 
