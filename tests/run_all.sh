@@ -63,7 +63,10 @@ files_for_paraview() {
    mkdir -p "$build/vtu-deck"
    sed -E 's/^( *INCR = .*)/\1\n  OUTPUT = LAST, VTU/; /OUTPUT = (ALL|JOINT|LAST|NONE)$/d' input/prism_history.bdf > "$build/vtu-deck/history.bdf"
    "$program" -q -o "$build/vtu-deck" "$build/vtu-deck/history.bdf" 2> /dev/null
-   tests/vtu/run.sh "$build/vtu" "$build/vtu-deck/history.pvd" "$build/check/post_on_plate.pvd" "$build/check/column_tetra10.pvd"
+   sed -e '/^ *TEMPERATURE(LOAD) = 20/d' -e 's/^OUTPUT = .*/OUTPUT = LAST, STEPS/' input/flange_warm.bdf > "$build/vtu-deck/warm.bdf"
+   "$program" -q -o "$build/vtu-deck" "$build/vtu-deck/warm.bdf" > /dev/null 2>&1
+   tests/vtu/run.sh "$build/vtu" "$build/vtu-deck/history.pvd" "$build/vtu-deck/warm.pvd@20:20:50:20" "$build/check/post_on_plate.pvd" \
+      "$build/check/column_tetra10.pvd"
 }
 
 part 'decks against their references' tests/check.sh "$program" "$compare" "$build/check"
