@@ -24,6 +24,7 @@ module command_line
       logical :: quiet      = .false.       !! -q
       logical :: times      = .false.       !! --times
       logical :: dated      = .false.       !! --date
+      logical :: resume     = .false.       !! --resume
       integer :: threads    = 0             !! --threads, 0: all cores
       character(:), allocatable :: folder   !! -o, with a slash at its end, empty: here
       type(deck_argument), allocatable :: decks(:)
@@ -76,6 +77,8 @@ contains
             command%times = .true.
          case ('--date')
             command%dated = .true.
+         case ('--resume')
+            command%resume = .true.
          case ('-o', '--threads')
             if (i == n) then
                call complain(program, argument//' needs a value behind it')
@@ -100,6 +103,13 @@ contains
       if (size(command%decks) == 0) then
          call complain(program, 'no deck given')
          return
+      end if
+      if (command%resume) then
+         do i = 1, size(command%decks)
+            if (command%decks(i)%path /= standard_input) cycle
+            call complain(program, '--resume: a deck from the standard input has no restart file')
+            return
+         end do
       end if
       call name_results(command, ok)
       if (.not. ok) return
@@ -224,6 +234,8 @@ contains
          '   --check       read and check the decks, solve nothing'//nl// &
          '   -q            no progress on the terminal'//nl// &
          '   --threads N   at most N threads (default: all cores; the results do not depend on it)'//nl// &
+         '   --resume      continue each deck from its restart file, beam.restart, where the run was broken off: the'//nl// &
+         '                 results are those of an unbroken run. A deck without one starts from the beginning.'//nl// &
          '   --date        date and time in the head of the listing'//nl// &
          '   --times       print seconds of each phase, operations and memory, on the standard error'//nl// &
          '   --version     print the version'//nl// &

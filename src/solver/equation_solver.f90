@@ -61,6 +61,7 @@ module equation_solver
       procedure(solve_vector), deferred     :: solve
       procedure(multiply_vector), deferred  :: multiply
       procedure :: recover
+      procedure :: forget_past
       procedure(diagonal_of_matrix), deferred :: diagonal_of_factor
       procedure(use_of_factor), deferred      :: solve_by_factor
       procedure(use_of_factor), deferred      :: multiply_by_factor
@@ -198,6 +199,15 @@ contains
 
       x(self%equations) = u(self%equations)
    end subroutine recover
+
+   !> What the increments so far have left, a factor or solutions, is of no use from now on: what follows is the same to the last
+   !! digit as in a run that begins here. Here nothing is left.
+   subroutine forget_past(self)
+      class(equation_system), intent(inout) :: self
+
+      self%one_solution = .false.
+      self%weakest = 1.0_wp
+   end subroutine forget_past
 
    !> FAULT, an equation without stiffness or no_memory, in words.
    subroutine report_fault(self, model, fault, where, failure)

@@ -8,7 +8,7 @@ module tree_solver
    use failures, only: failure_type
    use conjugate_gradients, only: iterate_moving
    use earlier_solutions, only: earlier_solutions_type, forget_solutions, guess_solution, note_solution
-   use factor_reuse, only: factor_reuse_type, forget_factor, may_reuse, note_factor, note_failure, note_steps
+   use factor_reuse, only: factor_reuse_type, forget_factor, forget_steps, may_reuse, note_factor, note_failure, note_steps
    use front_factor, only: add_to_moving, factorise_fixed, factorise_moving
    use front_layout, only: bytes_needed, choose_layout, front_layout_type
    use front_solve, only: eliminate_fixed, factor_times_vector, moving_times_vector, recover_fixed, solve_moving
@@ -48,6 +48,7 @@ module tree_solver
       procedure :: solve
       procedure :: multiply
       procedure :: recover
+      procedure :: forget_past
       procedure :: diagonal_of_factor
       procedure :: solve_by_factor
       procedure :: multiply_by_factor
@@ -239,6 +240,16 @@ contains
       call forget_factor(self%factor%reuse)
       call forget_solutions(self%factor%earlier)
    end subroutine forget
+
+   !> As at the start, the costs of a factorisation aside.
+   subroutine forget_past(self)
+      class(tree_solver_type), intent(inout) :: self
+
+      call forget(self)
+      call forget_steps(self%factor%reuse)
+      self%factor%is_own = .false.
+      self%factor%is_awaited = .false.
+   end subroutine forget_past
 
    subroutine multiply(self, x, y)
       class(tree_solver_type), intent(in) :: self

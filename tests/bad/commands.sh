@@ -260,30 +260,6 @@ for path in pipe /dev/zero .; do
 done
 rm -f pipe included.bdf
 
-# ---- an interrupted run ----
-
-fresh results
-sed -e 's/^GRID.*//; s/^CQUAD4.*/BLOCK2  1       1       100     60      0.0     0.0/
-   s/^CBAR.*/+       150.0   100.0\n+       20/; s/^SPC1.*/SPCM    1       1       20/
-   s/^FORCE.* 3 .*/FORCE   10      61              50.0    0.0     -1.0/; s/^FORCE.* 4 .*//
-   s/^JINCR.*/JINCR   5       10000   ARITH   1.0-4/' good.bdf > long.bdf
-"$program" -o results long.bdf >"$work/stdout" 2>"$work/stderr" &
-runner=$!
-for ((i = 0; i < 200; i++)); do
-   [ -n "$(find results -name '*.part' -size +8k)" ] && break
-   kill -0 $runner 2>/dev/null || break
-   sleep 0.05
-done
-kill -9 $runner 2>/dev/null
-{ wait $runner; status=$?; } 2>/dev/null
-check 'a run that is killed' 137
-if ls -A results | grep -q '\.part$'; then pass; else fail 'a run that is killed: it had not begun to write'; fi
-if ls -A results | grep -q -v '\.part$'; then fail "a run that is killed: it left $(ls -A results | tr '\n' ' ')"; else pass; fi
-sed 's/10000   ARITH   1.0-4/2/' long.bdf > short.bdf
-mv short.bdf long.bdf
-run -o results long.bdf;              check 'the same deck again, with fewer increments' 0
-holds results 'the same deck again' long.joint.csv long.out long.stage.csv
-
 # ---- lines of 100 megabytes, many files ----
 
 # long_line WHAT TEXT: run long.bdf, which must end in 30 seconds with a message that can be read and holds TEXT
