@@ -178,7 +178,7 @@ middle='(first(lambda) + last(lambda))/2' slope='(last(lambda) - first(lambda))/
 rigid_block() { # NAME NX M E: the load is shared by the two nodes on top next to its place
    awk -v nx="$2" -v m="$3" -v e="$4" 'BEGIN {
       print "METHOD = NEWTON\nTOL = 1.0E-9\nSPC = 1\nSUBCASE 1\n  LOAD = 1\n  OUTPUT = NONE\nBEGIN BULK"
-      print "BLOCK2,1,1," nx ",1,-50.0,0.0\n+,50.0,100.0\n+,20\nPMARK,20\nPSHELL,1,1,20.0\nMAT1,1,1.0E10,,0.0"
+      print "BLOCK2,1,1," nx ",1,-50.0,0.0\n+,50.0,100.0\n+,20\nPMARK,20\nPSHELL,1,1,20.0\nMAT1,1,2.0E9,,0.0"
       print "JOINT,1,1,20\nPJOINT,1,1\nJNORM,1,8.0-3," m ",9500.0\nSPC1,1,1,1"
       i = int((e + 50) * nx / 100 + 1e-9); if (i == nx) i--
       right = (e - (-50 + 100 * i / nx)) * nx / 100
@@ -207,7 +207,7 @@ pushed_block() { # NAME METHOD NREAN SHARE-OF-THE-LIMIT
 gap_block() { # NAME METHOD NX M E INCREMENTS GUIDED JGAP-LINES
    awk -v method="$2" -v nx="$3" -v m="$4" -v e="$5" -v n="$6" -v guided="$7" -v card="$8" 'BEGIN {
       print "METHOD = " method "\nTOL = " (method == "BACK" ? "1.0E-7" : "1.0E-9") "\nSPC = 1\nSUBCASE 1\n  LOAD = 1\n  INCR = 1\n  OUTPUT = NONE\nBEGIN BULK"
-      print "BLOCK2,1,1," nx ",1,-50.0,0.0\n+,50.0,100.0\n+,20\nPMARK,20\nPSHELL,1,1,20.0\nMAT1,1,1.0E10,,0.0"
+      print "BLOCK2,1,1," nx ",1,-50.0,0.0\n+,50.0,100.0\n+,20\nPMARK,20\nPSHELL,1,1,20.0\nMAT1,1,2.0E9,,0.0"
       print "JOINT,1,1,20\nPJOINT,1,1\nJNORM,1,8.0-3," m ",9500.0\nSPC1,1,1,1" (guided ? ",2" : "")
       print card
       i = int((e + 50)*nx/100 + 1e-9); if (i == nx) i--
