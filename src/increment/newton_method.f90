@@ -229,8 +229,10 @@ contains
       end do
       attempt%imprecise = noise > precise*load_size .and. .not. carried
       attempt%loose = loose_joint(model, now)
-      attempt%worst = maxloc(abs(now%residual), mask=.not. analysis%held)
-      attempt%worst = [system%retained(max(1, attempt%worst(2))), attempt%worst(1)]
+      if (size(system%retained) > 0) then
+         attempt%worst = maxloc(abs(now%residual), mask=.not. analysis%held)
+         attempt%worst = [system%retained(max(1, attempt%worst(2))), attempt%worst(1)]
+      end if
       if (attempt%seats) analysis%tolerance = analysis%load_tolerance*load_size
       if (.not. attempt%converged) return
       if (now%size > max(far_below*analysis%tolerance, noise)) call refine(model, system, analysis, attempt, now, next)
