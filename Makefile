@@ -37,9 +37,11 @@ help:
 	@echo 'make check      only the decks against reference_output'
 	@echo 'make sanitize   decks under the address, undefined and thread sanitizers, and valgrind: minutes'
 	@echo 'make install PREFIX=dir  programs, manual pages, documents; default /usr/local'
-	@echo 'make accept CASE=name    take the results of input/name.bdf as the new reference'
+	@echo 'make accept CASE=name    take the results of input/name.bdf as the new reference; TABLES="stage bolt": of these too'
 	@echo 'make manual     the verification manual, reference_output/README.md, from runs'
 	@echo 'make bench      speed and memory, MODELS=small: only of small models'
+	@echo 'make coverage   which lines of src no test runs'
+	@echo 'make mutants    which single changes of src no test notices: N=150 SEED=1 JOBS=1'
 	@echo 'make figures    the pictures, from the CSV files of the decks'
 	@echo 'make figures DECK=path   pressure, deflection and loops of the joints of any deck'
 	@echo 'make figures DATA=file   test data and their fit'
@@ -150,7 +152,8 @@ check: bin/jointfem $(COMPARE)
 sanitize: bin/jointfem
 	@MAKE='$(MAKE)' FC='$(FC)' tests/sanitize/run.sh $(BUILD)/sanitize $(PART)
 
-# The results of one deck become its reference: make accept CASE=prism05
+# The results of one deck become its reference: make accept CASE=prism05; its tables of stages and bolts where there are references of them,
+# or where TABLES='stage bolt' asks for them
 .PHONY: accept
 accept: bin/jointfem
 	@test -n '$(CASE)' || { echo 'usage: make accept CASE=name, for input/name.bdf'; exit 1; }
@@ -158,6 +161,9 @@ accept: bin/jointfem
 	@mkdir -p $(BUILD)/accept
 	bin/jointfem -q -o $(BUILD)/accept 'input/$(CASE).bdf'
 	cp '$(BUILD)/accept/$(CASE).out' '$(BUILD)/accept/$(CASE).joint.csv' reference_output
+	for table in stage bolt; do test ! -f 'reference_output/$(CASE)'.$$table.csv || \
+	   cp '$(BUILD)/accept/$(CASE)'.$$table.csv reference_output; done
+	for table in $(TABLES); do cp '$(BUILD)/accept/$(CASE)'.$$table.csv reference_output || exit 1; done
 	@echo 'say in the commit message why the reference changed'
 
 # The verification manual, its numbers from runs

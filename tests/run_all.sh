@@ -63,7 +63,10 @@ files_for_paraview() {
    mkdir -p "$build/vtu-deck"
    sed -E 's/^( *INCR = .*)/\1\n  OUTPUT = LAST, VTU/; /OUTPUT = (ALL|JOINT|LAST|NONE)$/d' input/prism_history.bdf > "$build/vtu-deck/history.bdf"
    "$program" -q -o "$build/vtu-deck" "$build/vtu-deck/history.bdf" 2> /dev/null
-   tests/vtu/run.sh "$build/vtu" "$build/vtu-deck/history.pvd" "$build/check/post_on_plate.pvd" "$build/check/column_tetra10.pvd"
+   sed -e '/^ *TEMPERATURE(LOAD) = 20/d' -e 's/^OUTPUT = .*/OUTPUT = LAST, STEPS/' input/flange_warm.bdf > "$build/vtu-deck/warm.bdf"
+   "$program" -q -o "$build/vtu-deck" "$build/vtu-deck/warm.bdf" > /dev/null 2>&1
+   tests/vtu/run.sh "$build/vtu" "$build/vtu-deck/history.pvd" "$build/vtu-deck/warm.pvd@20:20:50:20" "$build/check/post_on_plate.pvd" \
+      "$build/check/column_tetra10.pvd"
 }
 
 part 'decks against their references' tests/check.sh "$program" "$compare" "$build/check"
@@ -72,10 +75,11 @@ part 'unit tests' ${MAKE:-make} --no-print-directory -s unit-test
 part 'modules use what stands to the left' tests/folders.sh README.md src
 part 'the tour of the source' tests/tour/readme.sh src/README.md src
 part 'the test runner itself' env -u MAKELEVEL tests/runner/selftest.sh
+part 'the tools of make mutants and make coverage' tests/mutants/selftest.sh
 # the long ones first
 part 'bad decks and command lines' tests/bad/run.sh "$PWD/$checked"
 part 'runs that are killed and go on' tests/restart/run.sh "$program" "$build/restart"
-part 'decks made at random' tests/fuzz/run.sh -s 1984 -n 1000 -j 1 "$build/test/fuzz" checked="$checked"
+part 'decks made at random' tests/fuzz/run.sh -s 1984 -n 2000 -j 1 "$build/test/fuzz" checked="$checked"
 part 'the fuzzer itself' tests/fuzz/selftest.sh
 part 'decks on other processors, built otherwise' tests/processors.sh "$program" "$compare" "$build"
 part 'worked examples of the tour' tests/tour/run.sh "$query" "$build/tour"
@@ -86,6 +90,9 @@ part 'the verification manual as it stands' tests/manual/check.sh "$program" "$q
 part 'TREE and SKYLINE, one thread and several' tests/solver/run.sh "$program" "$query" "$build/solver"
 part 'models that do not fit into the memory' tests/memory.sh "$program" "$build/memory"
 part 'linear decks against CalculiX' tests/calculix/run.sh "$program" "$build/calculix"
+part 'block, law and load over all decades' tests/sweep/run.sh "$program" "$build/sweep"
+part 'the same problems in 13 systems of units' tests/sweep/units.sh "$program" "$build/units"
+part 'the largest numbers, and what overflows' tests/sweep/widths.sh "$program" "$build/widths"
 part 'errors of elements as the manual has them' tests/elements.sh "$program" "$build/elements"
 part 'STEP tends to NEWTON' tests/convergence.sh "$program" "$query" "$build/convergence"
 part 'the comparison itself' tests/compare/test_compare.sh "$compare" reference_output tests/compare/tolerances.txt

@@ -81,7 +81,8 @@ contains
       end do
       p = force/joint%area
       if (p <= 0.0_wp) p = loading_pressure(joint%law%normal, moved)
-      if (p <= 0.0_wp) p = 1.0e-6_wp*maxval([1.0_wp, model%properties%e])
+      if (p <= 0.0_wp) p = 1.0e-6_wp*maxval(model%properties%e)
+      if (p <= 0.0_wp) p = 1.0_wp ! nothing says in which units
    end function guessed_pressure
 
    !> The area of JOINT that takes the first increment: A_int, or where there are gaps the part that stands closed at first; where

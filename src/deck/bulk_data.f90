@@ -110,6 +110,9 @@ module bulk_data
       integer :: node = 0, components = 0               ! the reference node; RBE2: the components are the directions
       integer, allocatable  :: nodes(:), directions(:), at(:) ! AT(k): data field of NODES(k)
       real(wp), allocatable :: weight(:)
+      integer, allocatable  :: um_nodes(:), um_components(:), um_at(:) ! of an RBE3 with UM: what depends in place of the COMPONENTS
+      real(wp) :: alpha = 0.0_wp                        ! coefficient of thermal expansion
+      integer  :: alpha_at = 0                          ! its data field
    end type rigid_card
 
    !> MPC: the sum of FACTOR(k) times COMPONENT(k) of NODE(k) is zero; the first term depends on the others.
@@ -119,11 +122,11 @@ module bulk_data
       real(wp), allocatable :: factor(:)
    end type equation_card
 
-   !> SPCADD: the union of support SETS.
-   type, public :: support_sum_card
+   !> SPCADD, MPCADD: the union of SETS of supports, of equations.
+   type, public :: set_sum_card
       integer :: line = 0, set = 0
       integer, allocatable :: sets(:), at(:)            ! AT(k): data field of SETS(k)
-   end type support_sum_card
+   end type set_sum_card
 
    !> FORCE (a vector), FORCE1 (a force from node ENDS(1) to ENDS(2)), FORCE2 (across two such lines), MOMENT.
    type, public :: force_card
@@ -278,7 +281,7 @@ module bulk_data
       type(mass_card), allocatable         :: mass(:)
       type(mat1_card), allocatable         :: mat1(:)
       type(support_card), allocatable      :: support(:)
-      type(support_sum_card), allocatable  :: support_sum(:)
+      type(set_sum_card), allocatable      :: support_sum(:), equation_sum(:)
       type(rigid_card), allocatable        :: rigid(:)
       type(equation_card), allocatable     :: equation(:)
       type(force_card), allocatable        :: force(:)
@@ -303,7 +306,7 @@ module bulk_data
 contains
 
    !> Whether digit D, 1 to 6, is among COMPONENTS.
-   pure logical function has_component(components, d)
+   elemental logical function has_component(components, d)
       integer, intent(in) :: components, d
       integer :: k
 

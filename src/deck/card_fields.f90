@@ -14,6 +14,7 @@ module card_fields
    integer, parameter :: most_rules = 32
 
    real(wp), parameter, public :: largest_size = 1.0e75_wp !! of a number in a deck: its fourth power is still one
+   real(wp), parameter, public :: smallest_size = 1.0e-75_wp !! of one that must be above zero
 
    !> The fields of one card, decoded. Field k is in INTEGERS(k) or REALS(k) or WORDS(k) by its rule.
    type, public :: card_values
@@ -183,8 +184,8 @@ contains
       ok = .false.
       if (abs(value) > largest_size) then
          call wrong_entry(card, k, name, 'is too large to compute with, expected no more than '//real_text(largest_size), errors)
-      else if (is_positive .and. value < 1.0_wp/largest_size) then
-         call wrong_entry(card, k, name, 'is too small to compute with, expected at least '//real_text(1.0_wp/largest_size), &
+      else if (is_positive .and. value < smallest_size) then
+         call wrong_entry(card, k, name, 'is too small to compute with, expected at least '//real_text(smallest_size), &
                           errors)
       else
          ok = .true.

@@ -128,7 +128,6 @@ contains
          words = 'an integer'
          if (has_least .and. has_most) then
             words = words//' from '//integer_text(nint(rule%least))//' to '//integer_text(nint(rule%most))
-            if (nint(rule%least) == nint(rule%most)) words = integer_text(nint(rule%least))
          else if (has_least) then
             words = words//' of '//integer_text(nint(rule%least))//' or more'
          end if

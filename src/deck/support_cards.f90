@@ -1,7 +1,7 @@
-!> The cards of supports: SPC, SPC1, SPCM, their sum SPCADD, and SPCD, which moves them. A routine for each array of the bulk data,
+!> The cards of supports: SPC, SPC1, SPCM, their sum SPCADD (MPCADD sums up equations likewise), and SPCD, which moves them. A routine for each array of the bulk data,
 !! a table for each kind.
 module support_cards
-   use bulk_data, only: bulk_data_type, displacement_card, support_card, support_sum_card
+   use bulk_data, only: bulk_data_type, displacement_card, support_card, set_sum_card
    use card_fields, only: card_values, decode_integer
    use card_reader, only: card_reader_type
    use field_rules, only: component_field, integer_field, real_field
@@ -10,7 +10,7 @@ module support_cards
    implicit none
    private
 
-   public :: read_support, read_support_sum, read_displacement
+   public :: read_support, read_support_sum, read_equation_sum, read_displacement
 
 contains
 
@@ -99,30 +99,47 @@ contains
    subroutine read_support_sum(cards, bulk)
       type(card_reader_type), intent(inout) :: cards
       type(bulk_data_type), intent(inout)   :: bulk
+
+      call read_sums(cards, 'a support set', bulk%support_sum)
+   end subroutine read_support_sum
+
+   !> MPCADD: the equations of all sets S1, S2, ...
+   subroutine read_equation_sum(cards, bulk)
+      type(card_reader_type), intent(inout) :: cards
+      type(bulk_data_type), intent(inout)   :: bulk
+
+      call read_sums(cards, 'a set of equations', bulk%equation_sum)
+   end subroutine read_equation_sum
+
+   !> Cards that sum up sets S1, S2, ..., each the number of A_SET.
+   subroutine read_sums(cards, a_set, sums)
+      type(card_reader_type), intent(inout) :: cards
+      character(*), intent(in)              :: a_set
+      type(set_sum_card), allocatable, intent(out) :: sums(:)
       type(card_values) :: values
       integer :: i, k, set
       logical :: ok
 
       call cards%set_table(integer_field(['SID', 'S1 ']), open_ended=.true.)
-      allocate (bulk%support_sum(cards%n))
+      allocate (sums(cards%n))
       do i = 1, cards%n
          call cards%next(values)
-         associate (total => bulk%support_sum(i), card => cards%card)
+         associate (total => sums(i), card => cards%card)
             total%line = cards%line
             total%set = values%integers(1)
             total%sets = values%integers(2:2)
             total%at = [2]
             do k = 3, card%n
                if (card%fields(k)%length == 0) cycle
-               call decode_integer(card, k, 'S', 'the number of a support set', set, ok, cards%errors)
+               call decode_integer(card, k, 'S', 'the number of '//a_set, set, ok, cards%errors)
                if (ok .and. set < 1) call card%field_error(k, 'S: '''//integer_text(set)// &
-                  ''' is out of range, expected the number of a support set, 1 or more', cards%errors)
+                  ''' is out of range, expected the number of '//a_set//', 1 or more', cards%errors)
                total%sets = [total%sets, set]
                total%at = [total%at, k]
             end do
          end associate
       end do
-   end subroutine read_support_sum
+   end subroutine read_sums
 
    !> SPCD: displacements of held components, in a load set: the total at the end of the stage, as for forces.
    subroutine read_displacement(cards, bulk)

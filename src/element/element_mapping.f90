@@ -202,11 +202,11 @@ contains
          if (rule%n > n) elsewhere = min(elsewhere, least_at(kind, nodes, rule%point(:, :rule%n)))
       end if
       smallest = element_table(kind)%jacobian_scale*min(smallest, elsewhere)
-      if (smallest > flat*longest**d) then
+      if (smallest > flat*longest**d .and. longest**d >= tiny(longest)) then
          smallest = smallest/longest**d
       else
          smallest = min(smallest, 0.0_wp)
-         if (longest > 0.0_wp) smallest = smallest/longest**d
+         if (longest**d >= tiny(longest)) smallest = smallest/longest**d
       end if
    end function smallest_jacobian
 

@@ -17,7 +17,9 @@ module analysis_state
    private
 
    public :: start_analysis, all_held, interface_stiffness, find_movements, find_unbalanced, subtract_joint_forces, &
-             element_force, tally_work, record_pass, note_largest, free_norm, kind_on_branch
+             element_force, tally_work, record_pass, note_largest, free_norm, force_noise, kind_on_branch
+
+   real(wp), parameter, public :: precise = 1.0e-6_wp !! of the load: what rounding may leave of the forces that joints are to balance
 
    integer, parameter, public :: no_stiffness = 1, secant_stiffness = 2, tangent_stiffness = 3, e_u_stiffness = 4 !! k_n used
 
@@ -104,6 +106,7 @@ module analysis_state
       integer  :: n_passes  = 0
       real(wp) :: largest_p = 0.0_wp                !! pressure or shear stress so far, anywhere: the measure of noise
       real(wp) :: largest_lambda = 0.0_wp           !! deflection so far, likewise
+      real(wp) :: largest_load = 0.0_wp             !! on the structure or on the joints so far [force]
       integer  :: n_removed = 0                     !! interface elements removed by the last increment
       logical  :: ends_early = .false.              !! NEWTON cannot go on: this is the last state in equilibrium, there is one
       logical  :: is_partial = .false.              !! ... and it is a part of the way into an increment
@@ -260,6 +263,14 @@ contains
       norm = largest*sqrt(norm)
    end function free_norm
 
+   !> What rounding leaves of the forces in the bodies under the displacements U, at most: they are differences of large numbers [force].
+   pure real(wp) function force_noise(system, u) result(noise)
+      class(equation_system), intent(in) :: system
+      real(wp), intent(in)               :: u(:, :) !! [length]
+
+      noise = 10.0_wp*epsilon(1.0_wp)*system%stiffest*maxval(abs(u))
+   end function force_noise
+
    !> Add the works (by shear, by normal forces) done on one element to those of its joint.
    pure subroutine tally_work(energy, work)
       type(joint_energy), intent(inout) :: energy
@@ -275,6 +286,8 @@ contains
       integer :: k
 
       if (size(analysis%states) == 0) return
+      analysis%largest_load = max(analysis%largest_load, free_norm(analysis%felt, analysis%held), &
+                                  norm2(analysis%states%normal%sumf))
       analysis%largest_p = max(analysis%largest_p, maxval(abs(analysis%states%normal%pressure)))
       analysis%largest_lambda = max(analysis%largest_lambda, maxval(abs(analysis%states%normal%lambda)))
       do k = 1, 2

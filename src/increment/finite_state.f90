@@ -1,19 +1,20 @@
 !> The one place where the state that an increment has reached is tested: what leaves all measure never gets into a result, and is
 !! said with where it happened first.
 module finite_state
-   use analysis_state, only: analysis_type
+   use analysis_state, only: analysis_type, force_noise, precise
    use equations, only: equation_system
    use failures, only: failure_type
    use kinds, only: wp
    use measures, only: is_measure
    use model_data, only: joint_node_id, model_type, n_bars
+   use newton_method, only: no_balance
    use stage_plan, only: stage_plan_type, where_in_plan
    use text_tools, only: integer_text, real_text
    use unknown_names, only: unknown_name
    implicit none
    private
 
-   public :: check_state
+   public :: check_state, check_precision
 
 contains
 
@@ -93,5 +94,23 @@ contains
       end subroutine check
 
    end subroutine check_state
+
+   !> FAILURE says that rounding alone leaves no small part of the forces that the joints bear: soft joints under stiff bodies, or
+   !! bodies that have moved far. What moved supports take along and what interference has pushed away bears nothing.
+   subroutine check_precision(model, plan, system, analysis, failure)
+      type(model_type), intent(in)       :: model
+      type(stage_plan_type), intent(in)  :: plan
+      class(equation_system), intent(in) :: system
+      type(analysis_type), intent(in)    :: analysis
+      type(failure_type), intent(inout)  :: failure
+      real(wp) :: noise
+
+      if (size(model%interface) == 0) return
+      noise = force_noise(system, analysis%u)
+      if (noise <= precise*analysis%largest_load) return
+      if (noise >= analysis%largest_load .and. (analysis%is_moved .or. any(model%interface%gap < 0.0_wp))) return
+      call failure%raise(where_in_plan(plan, analysis%stage, analysis%increment)//': '//no_balance//', '//real_text(noise)// &
+                         ' of force where '//real_text(analysis%largest_load)//' act: see CONDITION OF THE STIFFNESS in the manual')
+   end subroutine check_precision
 
 end module finite_state

@@ -13,10 +13,11 @@ module listing_table
    use number_text, only: integer_width, short_width, write_integer, write_short
    use output_file, only: output_file_type
    use restart_stream, only: restart_stream_type
+   use text_tools, only: fitted_text
    implicit none
    private
 
-   public :: column, heading, cut
+   public :: column, heading, cut, in_form
 
    integer, parameter, public      :: page_width = 132
    real(wp), parameter, public     :: noise = 1.0e-9_wp !! of the largest number of its kind: below it only rounding is printed
@@ -65,6 +66,7 @@ module listing_table
       generic   :: add => add_integers, add_reals, add_text
       procedure :: skip
       procedure :: print_row
+      procedure :: take_row
       procedure :: keep_row
       procedure :: keep_line
       procedure :: print_kept
@@ -149,7 +151,7 @@ contains
       line(last - len(words) + 1:last) = words
    end subroutine place
 
-   !> The next values of the row: stars where one is wider than its column.
+   !> The next values of the row. What its column cannot hold is printed with an exponent and fewer digits, behind a blank.
    pure subroutine add_integers(self, values)
       class(listing_table_type), intent(inout) :: self
       integer, intent(in)                      :: values(:)
@@ -161,7 +163,7 @@ contains
          self%used = self%used + 1
          associate (column => self%columns(self%used))
             if (length > column%width) then
-               call place(self%row, repeat('*', column%width), column%last)
+               call place(self%row, fitted_text(real(values(i), wp), column%width - 1), column%last)
             else
                call place(self%row, digits(:length), column%last)
             end if
@@ -180,11 +182,24 @@ contains
             if (column%is_short) then
                call write_short(values(i), self%row(column%last - short_width + 1:column%last))
             else
-               write (self%row(column%last - column%width + 1:column%last), column%form) values(i)
+               call place(self%row, in_form(values(i), column%form, column%width), column%last)
             end if
          end associate
       end do
    end subroutine add_reals
+
+   !> VALUE as the format FORM has it in WIDTH characters; where they do not hold it, with an exponent and fewer digits, behind a blank.
+   pure function in_form(value, form, width) result(field)
+      real(wp), intent(in)     :: value
+      character(*), intent(in) :: form  !! '(f9.3)'
+      integer, intent(in)      :: width
+      character(width) :: field
+
+      write (field, form) value
+      if (index(field, '*') == 0) return
+      field = fitted_text(value, width - 1)
+      field = adjustr(field)
+   end function in_form
 
    !> WORDS with all their blanks, at the end of their column.
    pure subroutine add_text(self, words)
@@ -218,6 +233,16 @@ contains
       self%row = ''
       self%used = 0
    end subroutine print_row
+
+   !> The ROW is complete, and its place is another one than the file.
+   pure subroutine take_row(self, row)
+      class(listing_table_type), intent(inout) :: self
+      character(page_width), intent(out)       :: row
+
+      row = self%row
+      self%row = ''
+      self%used = 0
+   end subroutine take_row
 
    !> The row is complete: keep it until the table is printed.
    pure subroutine keep_row(self)

@@ -113,9 +113,11 @@ contains
       answer%at_node = peak_type(.true., largest(size_of), model%node_id(node), model%x(:, node))
       deallocate (size_of)
       allocate (size_of(model%n_elements))
+      !$omp parallel do schedule(dynamic, 512) default(shared) if(model%n_elements > 4096)
       do e = 1, model%n_elements
          size_of(e) = von_mises(whole_stress(model, e, analysis%all_u, analysis%temperature))
       end do
+      !$omp end parallel do
       e = first_largest(size_of, size_of >= 0.0_wp)
       answer%at_centre = peak_type(.true., size_of(e), model%element_id(e))
       answer%at_centre%value = largest(size_of)

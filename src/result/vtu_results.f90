@@ -14,6 +14,7 @@ module vtu_results
    use restart_stream, only: restart_stream_type
    use stage_plan, only: stage_plan_type
    use stress_measures, only: principal_stresses, von_mises
+   use temperatures, only: has_temperatures, node_temperatures
    use text_tools, only: integer_text
    use vtu_file, only: cell_data, named, point_data, vtu_file_type, write_collection, xml_text
    use vtu_joints, only: write_joints
@@ -137,6 +138,11 @@ contains
       call file%add(point_data, named('displacement', labels%length), u)
       call file%add(point_data, named('stress', labels%pressure), at_node)
       call file%add(point_data, named('von_mises', labels%pressure), [(von_mises(at_node(:, i)), i = 1, m)])
+      if (has_temperatures(model)) then
+         associate (t => node_temperatures(model, analysis%temperature))
+            call file%add(point_data, 'temperature [deg]', t(:m))
+         end associate
+      end if
       call file%add(cell_data, 'element', model%element_id)
       call file%add(cell_data, 'property', properties)
       call file%add(cell_data, named('stress_at_centre', labels%pressure), at_centre)

@@ -11,7 +11,7 @@ module run_boxes
    use equation_solver, only: equation_system
    use equations, only: form_body_stiffness, start_equations
    use failures, only: failure_type
-   use finite_state, only: check_state
+   use finite_state, only: check_precision, check_state
    use incomplete_results, only: watch_ends
    use law_distance, only: follow_laws
    use load_path, only: recover_bodies
@@ -198,6 +198,7 @@ contains
          analysis%unbalanced = unbalanced
       end if
       call check_state(model, plan, system, analysis, overflow)
+      call check_precision(model, plan, system, analysis, overflow)
       if (overflow%raised) then
          run%failure = overflow
          run%keeps = .false.

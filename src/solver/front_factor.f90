@@ -6,7 +6,8 @@ module front_factor
    use front_blocks, only: add_to_block, keep_block, restore_block
    use front_kernel, only: eliminate, top_row
    use front_tree, only: front_of, front_tree_type, front_type
-   use kinds, only: wp
+   use kinds, only: long, wp
+   use machine, only: give_back
    use model_data, only: model_type
    use omp_lib, only: omp_get_wtime
    implicit none
@@ -15,6 +16,8 @@ module front_factor
    public :: factorise_fixed, factorise_moving, add_to_moving
 
    real(wp), parameter :: task_work = 2.0e6_wp         ! operations of a subtree that is worth a task
+   integer(long), parameter :: large = 8388608_long    ! entries of a matrix whose pages are worth to be given back
+   integer, parameter  :: strip = 128                  ! columns that are given back together
 
 contains
 
@@ -147,22 +150,60 @@ contains
       do k = 1, size(front%children)
          c = front%children(k)
          if (tree%fronts(c)%moves) cycle
-         call add_update(tree%fronts(c), front)
-         deallocate (tree%fronts(c)%update, tree%fronts(c)%diagonal)
+         call take_update(tree%fronts(c), front)
       end do
       fault = 0
    end subroutine start_front
 
-   !> Zero, as far as the kernel touches it.
-   pure subroutine set_to_zero(m, n, a)
+   !> Add to FRONT what the elimination of CHILD left, and nothing of that is left then. That of a large one is given back as it is
+   !! added: together the two never take much more memory than one of them.
+   subroutine take_update(child, front)
+      type(front_type), intent(inout) :: child, front
+      integer(long) :: first, last
+      integer :: j, until
+      logical :: ok
+
+      if (size(child%update, kind=long) < large) then
+         call add_update(child, front, 1, child%r)
+      else
+         do j = 1, child%r, strip
+            until = min(child%r, j + strip - 1)
+            call add_update(child, front, j, until)
+            call give_back(int(child%r, long)*(until - j + 1), child%update(1, j), ok, first, last)
+         end do
+      end if
+      deallocate (child%update, child%diagonal)
+   end subroutine take_update
+
+   !> Zero, as far as the kernel touches it. Of a large one the pages are given back, they are zero when they come again: of these
+   !! the memory is taken when they are written, see take_update.
+   subroutine set_to_zero(m, n, a)
       integer, intent(in)     :: m, n
       real(wp), intent(inout) :: a(m, n)
+      integer(long) :: first, last
       integer :: j
+      logical :: ok
 
+      if (int(m, long)*n >= large) then
+         call give_back(int(m, long)*n, a, ok, first, last)
+         if (ok) then
+            call set_ends_to_zero(int(m, long)*n, first, last, a)
+            return
+         end if
+      end if
       do j = 1, n
          a(top_row(j):, j) = 0.0_wp
       end do
    end subroutine set_to_zero
+
+   !> Zero in a(:FIRST) and a(LAST:).
+   pure subroutine set_ends_to_zero(n, first, last, a)
+      integer(long), intent(in) :: n, first, last
+      real(wp), intent(inout)   :: a(n)
+
+      a(:first) = 0.0_wp
+      a(last:) = 0.0_wp
+   end subroutine set_ends_to_zero
 
    !> Keep what moving FRONT begins with.
    subroutine keep_start(model, tree, front, fault)
@@ -221,7 +262,7 @@ contains
       do i = 1, size(front%children)
          c = front%children(i)
          if (.not. tree%fronts(c)%moves) cycle
-         call add_update(tree%fronts(c), front)
+         call add_update(tree%fronts(c), front, 1, tree%fronts(c)%r)
          deallocate (tree%fronts(c)%update)
       end do
       call lock(tree%locked(front%first:front%first + front%p - 1), front)

@@ -11,6 +11,6 @@ coverage: $(COMPARE) $(QUERY)
 
 coverage-run: $(BUILD)/checked/jointfem $(BUILD)/checked/jointfit $(UNIT_PROGRAM)
 	@find $(BUILD) -name '*.gcda' -delete
-	@-MAKE='$(MAKE)' WITHOUT='processors|benchmark|comparison|queries|runner itself' tests/run_all.sh $(BUILD)/checked/jointfem \
+	@-MAKE='$(MAKE)' WITHOUT='other processors|run-time checks|benchmark|queries|itself|tools of make|tour' tests/run_all.sh $(BUILD)/checked/jointfem \
 	   $(BUILD)/checked/jointfem $(COMPARE) $(QUERY) $(BUILD) > $(BUILD)/tests.log 2>&1; tail -n 1 $(BUILD)/tests.log
 	@tests/coverage/table.sh $(BUILD)/checked src tests/coverage/explained.txt

@@ -350,7 +350,29 @@ DECK
    run "$1"
 }
 
-# ---- bodies without a joint: Lame's cylinder, the slender beam of MacNeal and Harder ----
+# ---- bodies without a joint: springs, Lame's cylinder, the slender beam of MacNeal and Harder ----
+
+# A plate on two springs of 20 to the ground, pulled by 12.
+two_springs() { # NAME
+   cat > "$work/$1.bdf" <<'DECK'
+SPC = 1
+SUBCASE 1
+  LOAD = 10
+BEGIN BULK
+MAT1,1,100.,,.0
+PSHELL,1,1,2.
+BLOCK2,1,1,1,1,0.,0.
++,4.,3.
+SPC1,1,2,1
+CELAS1,51,7,1,1
+CELAS2,52,20.,,,2,1
+PELAS,7,20.
+FORCE,10,3,,6.,1.
+FORCE,10,4,,6.,1.
+ENDDATA
+DECK
+   run "$1"
+}
 
 # inner radius 20, outer 40, pressure 525 inside (so that six digits tell most), ends free: u(r) = p a**2/(b**2 - a**2)/E ((1 - nu) r + (1 + nu) b**2/r)
 cylinder() { # NAME N: bodies of revolution, N elements through the wall

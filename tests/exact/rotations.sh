@@ -70,3 +70,16 @@ run condensed && {
 sed -e 's/^GRID,900.*/&\nBLOCK2,2,1,1,1,20.0,0.0\n+,28.0,5.0,,,,,101,101\nCELAS2,90,50.0,101,1\nCELAS2,91,50.0,101,2\nCELAS2,92,50.0,103,2/' "$work/condensed.bdf" > "$work/hangs.bdf"
 sed -i 's/^SPC = 1/&\nSOLVER = SKYLINE/' "$work/hangs.bdf"
 run hangs && same 'condensed: with a body on springs beside it' "$(table hangs '[K_B] CONDENSED')" "$(table condensed '[K_B] CONDENSED')"
+
+# A mean movement names components that a plane model has not: they are no equations
+for components in 126 123456; do
+   printf 'SPC = 1\nSUBCASE 1\n  LOAD = 10\n  INCR = 5\nBEGIN BULK\nMAT1,1,9500.0,,0.25\nGRID,900,,45.0,4.0\nBLOCK2,1,1,4,2,0.0,0.0\n+,40.0,10.0\nPSHELL,1,1,2.0
+SPC1,1,12,1,2,3\nRBE3,51,,900,%s,1.0,12,13,14\n+,15\nFORCE,10,900,,7.0,3.0,-1.0\nMOMENT,10,900,,30.0,0.0,0.0,1.0\nJINCR,5,2\nENDDATA\n' $components > "$work/mean_$components.bdf"
+   run mean_$components
+done
+same 'RBE3 in the plane: components of space alone change nothing' "$(table mean_123456 'DISPLACEMENTS OF NODES')" "$(table mean_126 'DISPLACEMENTS OF NODES')"
+holds 'and the reference node moves' "abs($(table mean_126 'DISPLACEMENTS OF NODES' | awk '$1 == 900 { v = $5 } END { print v }')) > 1e-6"
+
+# What is too large to be condensed as a full matrix is said, and by how much
+sed -e 's/\b900\b/9000/g; s/^SPC = 1/SOLVER = SKYLINE\n&/; s/^BLOCK2,1,1,1,1,/BLOCK2,1,1,3,400,/; s/^RBE2.*/RBE2,5000,9000,126,1,402,803,1204/; s/^SPC1,1,12,2,4/SPC1,1,12,401,802,1203,1604/' "$work/condensed.bdf" > "$work/many.bdf"
+run many && says 'too much to condense' "$work/many.out" 'NOT PRINTED, 3195 EQUATIONS ARE LEFT, MORE THAN 3000; SOLVER = TREE LEAVES FEWER$'

@@ -41,24 +41,7 @@ fi
 
 # ---- springs to the ground: they stand in the balance ----
 
-cat > "$work/springs.bdf" <<'DECK'
-SPC = 1
-SUBCASE 1
-  LOAD = 10
-BEGIN BULK
-MAT1,1,100.,,.0
-PSHELL,1,1,2.
-BLOCK2,1,1,1,1,0.,0.
-+,4.,3.
-SPC1,1,2,1
-CELAS1,51,7,1,1
-CELAS2,52,20.,,,2,1
-PELAS,7,20.
-FORCE,10,3,,6.,1.
-FORCE,10,4,,6.,1.
-ENDDATA
-DECK
-if run springs; then
+if two_springs springs; then
    same 'springs: the ground' "$(table springs 'BALANCE OF FORCES' | awk '/GROUND/ { print $(NF - 1), $NF } /UNBALANCED/ { print $(NF - 1), $NF }' | tr '\n' ' ')" \
       '-1.20000E+01 0.00000E+00 0.00000E+00 0.00000E+00 '
    same 'springs: forces' "$(table springs 'FORCES OF SPRINGS' | awk '$1 == 1 { print $2, $3, $4, $5, $6, $7 }' | tr '\n' ';')" \

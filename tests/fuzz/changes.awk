@@ -292,7 +292,8 @@ function change_value(   k, f, i, old, factor) {
    }
    if (i > 20) return ""
    old = field[f]
-   factor = chance("0.5 2 10 0.1 1000 0.001 -1 1.0001 3 1E6 1E-6 0")
+   if (card_name == "MAT1" && f == 4) return ""
+   factor = chance("0.5 2 10 0.1 1000 0.001 -1 1.0001 3 1E6 1E-6")
    field[f] = real_entry(value_of(old) * factor)
    write_card(k, any_form())
    return card_name " field " f + 1 " from '" old "' to '" field[f] "'"
@@ -314,11 +315,13 @@ function change_law(   k, what) {
    return card_name " changed"
 }
 
-function change_method() {
-   line[stage] = chance("METHOD=STEP METHOD=NEWTON METHOD=BACK PRESSURE=EQ10 CARRY=YES SOLVER=TREE SOLVER=SKYLINE AVERAGE=NO TOL=1E-6") "\n" line[stage]
-   for (k_method = 1; k_method < stage; k_method++)
-      if (toupper(line[k_method]) ~ /^ *(METHOD|PRESSURE|CARRY|SOLVER|AVERAGE|TOL) *=/ && random(10) < 9) line[k_method] = gone
-   return "method"
+# An entry for all stages, in the place of the one that is there
+function change_method(   entry, key, k) {
+   entry = chance("METHOD=STEP METHOD=NEWTON METHOD=BACK PRESSURE=EQ10 CARRY=YES SOLVER=TREE SOLVER=SKYLINE AVERAGE=NO TOL=1E-6")
+   key = substr(entry, 1, index(entry, "=") - 1)
+   for (k = 1; k < stage; k++) if (toupper(line[k]) ~ "^ *" key " *=") line[k] = gone
+   global_entry[key] = entry
+   return entry
 }
 
 function change_output(   i, out) {

@@ -50,10 +50,13 @@ function swap_lines(a, b, what,   kept) {
    return what " (line " a ") and line " b " swapped"
 }
 
+function first_of(list,   words) { split(list, words, " "); return words[1] }
+
+# ENDDATA with the first card: what is lost farther down may not be needed
 function swap_structure(   kind) {
    kind = random(4)
    if (kind == 0) return swap_lines(first, chance(my_cards), "BEGIN BULK")
-   if (kind == 1) return swap_lines(last, chance(my_cards), "ENDDATA")
+   if (kind == 1) return swap_lines(last, first_of(my_cards), "ENDDATA")
    if (kind == 2) return swap_lines(stage, chance(my_cards), "SUBCASE")
    return swap_lines(stage, first, "SUBCASE")
 }

@@ -51,6 +51,7 @@ function take(d,   i) {
    for (i = 1; i <= n; i++) line[i] = text[d, i]
    first = begin[d]; last = end[d]; stage = subcase[d]; my_cards = cards[d]; my_keys = keys[d]
    source = d
+   split("", global_entry)
 }
 
 function kind_of_copy(   k) {
@@ -83,6 +84,7 @@ END {
       file = folder "/fuzz_" copy ".bdf"
       printf "" > file
       ORS = line_end
+      for (i = 1; i <= global_entries; i++) if (global_key[i] in global_entry) print global_entry[global_key[i]] > file
       for (i = 1; i <= n; i++) if (line[i] != gone) print line[i] > file
       close(file)
       ORS = line_end = "\n"
@@ -90,4 +92,4 @@ END {
       print copy, kind, name[source] ": " substr(what, 1, 200)
    }
 }
-BEGIN { line_end = "\n"; gone = "\001gone\001" }
+BEGIN { line_end = "\n"; gone = "\001gone\001"; global_entries = split("METHOD PRESSURE CARRY SOLVER AVERAGE TOL", global_key, " ") }

@@ -22,6 +22,7 @@ shift $((OPTIND - 1))
 [ $# -ge 2 ] || { sed -n 's/^#     run.sh/usage: run.sh/p' "$0" >&2; exit 2; }
 mkdir -p "$1/failed" || exit 2
 folder=$(realpath "$1")
+rm -rf "$folder"/work_*
 shift
 builds=()
 for build in "$@"; do
@@ -49,6 +50,7 @@ link_includes() {
 link_includes "$folder/failed"
 
 . "$here/data.sh"
+. "$here/restart.sh"
 
 # limits NAME PROGRAM SECONDS: processor time and memory of what follows in this shell
 limits() {
@@ -129,12 +131,12 @@ batch() {
    echo $((last - first + 1)) >> "$where/done"
 }
 
-# The first ten numbers of every fourth batch are those of test data too.
+# The first ten numbers of every fourth batch are those of test data too, the first five those of restart files.
 some_data() {
    local last=$(($1 + 9))
    if [ $((($1 - 1) / size % 4)) -ne 0 ] && { [ "$decks" -eq 0 ] || [ "$decks" -ge "$size" ]; }; then return 0; fi
    [ "$last" -le "$2" ] || last=$2
-   batch_of_data "$1" "$last" "$3"
+   batch_of_data "$1" "$last" "$3" && batch_of_restarts "$1" $((($1 + last)/2)) "$3"
 }
 
 # Every JOBS-th batch, until the time is over
@@ -161,7 +163,8 @@ for build in "${builds[@]}"; do
 done
 made=$(count done) failed=$(count failed)
 data=$(count data_runs)
-echo "test data: $data runs"
-runs=$(($(count runs) + data))
+restarts=$(count restart_runs)
+echo "test data: $data runs, restart files: $restarts"
+runs=$(($(count runs) + data + restarts))
 echo "$((runs - failed)) passed, $failed failed"
 [ "$failed" -eq 0 ] && [ "$made" -gt 0 ]

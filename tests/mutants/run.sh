@@ -17,7 +17,7 @@ slow="bracket|flanged_column"
 slow_suites="number_text|threads|front_kernel|law_distance|fitted_joints|joints_on_lists|nested_dissection"
 # Nor through these parts of run_all.sh: those above, what speaks of the tests themselves, and what takes long for little.
 passed_over='unit tests|modules use|runner itself|decks against their|processors|run-time checks|comparison|queries|benchmark|do not fit'
-passed_over+='|TREE and SKYLINE|STEP tends|errors of elements|Gmsh|pyNastran|damaged|pictures'
+passed_over+='|TREE and SKYLINE|STEP tends|errors of elements|Gmsh|pyNastran|at random|fuzzer|tour|pictures'
 without=${WITHOUT:+|$WITHOUT}                    # more parts of run_all.sh that are passed over
 
 mkdir -p "$tree"
@@ -43,19 +43,19 @@ unit_objects=$(for file in tests/unit/*.pf tests/unit/*.f90; do file=${file##*/}
 
 # ---- one mutant: the functions work in the folder $work ----
 
-# until_failure LOG COMMAND...: ends with the command, or at the first line of LOG that tells of a failure
+# until_failure LOGS COMMAND...: ends with the command, or at the first line in the folder LOGS that tells of a failure
 until_failure() {
-   local log=$1 id
+   local logs=$1 id
    shift
-   : > "$log"
    setsid "$@" > "$work/command.log" 2>&1 &
    id=$!
    while kill -0 $id 2> /dev/null; do
-      if grep -qE 'FAILED|[^0-9][1-9][0-9]* failed' "$log" 2> /dev/null; then kill -KILL -- -$id; break; fi
+      if tells "$logs"; then kill -KILL -- -$id; break; fi
       sleep 0.2
    done
-   wait $id 2> /dev/null && ! grep -qE 'FAILED|[^0-9][1-9][0-9]* failed' "$log"
+   wait $id 2> /dev/null && ! tells "$logs"
 }
+tells() { cat "$1"/* 2> /dev/null | grep -qE "FAILED|[^0-9][1-9][0-9]* failed"; }
 
 # The suites that use the module, and all others
 suites_of() { (cd "$tree" && grep -liE "^ *use +$1 *(,|$)" tests/unit/*.pf | xargs -r -n 1 basename -s .pf); }
@@ -88,12 +88,13 @@ decks_fail() {
 
 # Killed by anything else that make test runs?
 rest_fails() {
+   local own=../${work##*/} # run_all.sh puts the folder in front of it
    rm -rf "$work/test"
    mkdir -p "$work/checked" "$work/test"
    ln -f "$work/jointfem" "$work/jointfit" "$work/checked"
    (cd "$tree"; ulimit -t 60
     WITHOUT="$passed_over$1" \
-       until_failure "$work/test/part.log" tests/run_all.sh "$work/jointfem" "$work/checked/jointfem" "$compare" "$query" "$work")
+       TOGETHER=1 until_failure "$work/test/logs" tests/run_all.sh "$own/jointfem" "$own/checked/jointfem" "$compare" "$query" "$own")
    [ $? -ne 0 ]
 }
 
@@ -101,7 +102,7 @@ rest_fails() {
 fate() {
    local file=$1 line=$2 now=$3 module decks
    module=$(basename "$file" .f90)
-   line=$line now=$now awk 'NR == ENVIRON["line"] + 0 { print ENVIRON["now"]; next } { print }' "src/$file" > "$work/$module.f90"
+   line=$line now=$now awk 'NR == ENVIRON["line"] + 0 { print ENVIRON["now"]; next } { print }' "$tree/src/$file" > "$work/$module.f90"
    (cd "$work" && timeout 300 $FC $FLAGS -I"$checked" -J"$work/modules" -c -o mutant.o "$module.f90") > "$work/build.log" 2>&1 ||
       { echo unbuilt; return; }
    (cd "$work" && $FC $program_flags -I"$release" -J"$work/modules" -c -o program.o "$module.f90") >> "$work/build.log" 2>&1

@@ -12,7 +12,7 @@ $2 == "unbuilt" { unbuilt++; next }
 function row(name) { printf "| %s | %d | %d |\n", name, drawn[name], alive[name] | "sort"; }
 END {
    print "| noticed by | mutants |\n|---|---|"
-   for (f in fates) { printf "| %s | %d |\n", substr(f, 11), fates[f] | "sort" }
+   for (f in fates) { name = f; sub(/^killed by:? */, "", name); printf "| %s | %d |\n", name, fates[f] | "sort" }
    close("sort")
    print "\n| folder | mutants | survived |\n|---|---|---|"
    for (f in folders) row(f)
@@ -21,6 +21,6 @@ END {
    for (f in operators) row(f)
    close("sort")
    if (left) print "\nSurvivors:" list
-   printf "\n%d mutants, %d did not build and do not count, %d survived: %.1f %%\n", n, unbuilt, left, n > 0 ? 100*left/n : 0
+   printf "\n%d mutants, %d did not build and do not count, %d survived: %.1f %%\n", n, unbuilt, left, (n > 0 ? 100*left/n : 0)
    if (n == 0) exit 1
 }

@@ -7,7 +7,7 @@
 # The program is built without optimisation; what an earlier run has built and nothing has changed is kept.
 set -u
 query=$1 top=$2
-here=tests/tour work=$2/decks program=$PWD/$2/tree/bin/jointfem
+here=tests/tour work=$2/decks program=$2/tree/bin/jointfem
 . tests/exact/lib.sh
 examples='card element law solver'
 rm -rf "$work" "$top/alone" "$top/next"
@@ -15,8 +15,12 @@ mkdir -p "$work" "$top/tree"
 
 # source_tree FOLDER: what the program is built from
 source_tree() {
-   mkdir -p "$1/input" "$1/tests/bench"
-   cp -R Makefile src "$1" && cp -R tests/runner "$1/tests" && cp tests/bench/bench.mk "$1/tests/bench" && cp input/README.md "$1/input"
+   local file
+   mkdir -p "$1/input" "$1/tests"
+   cp -R Makefile src "$1" && cp -R tests/runner "$1/tests" && cp input/README.md "$1/input"
+   for file in $(awk '$1 == "include" { print $2 }' Makefile); do
+      mkdir -p "$1/$(dirname "$file")" && cp "$file" "$1/$file"
+   done
 }
 
 # applies WORDS FOLDER EXAMPLE
@@ -122,9 +126,31 @@ for solver in BAND SKYLINE; do # a section locked, increments by STEP
    done
    sed "s/BAND/$solver/; /^SPCM/d; /^SPC =/d; s/^SPCD.*//" $here/solver.bdf > "$work/loose.$solver.bdf"
    run loose.$solver 3
+   cat > "$work/soft.$solver.bdf" <<DECK
+SOLVER = $solver
+SPC = 1
+SUBCASE 1
+  LOAD = 10
+BEGIN BULK
+BLOCK2,1,1,8,6,0.0,0.0
++,100.0,60.0
+PSHELL,1,1,20.0
+MAT1,1,9500.0,,0.0
+MAT1,2,1.0-6,,0.0
+GRID,900,,50.0,-100.0
+CROD,901,2,29,900
+PROD,2,2,100.0
+SPC1,1,12,900
+SPC1,1,1,1,THRU,63
+FORCE,10,29,,800.0,0.0,-1.0
+ENDDATA
+DECK
+   run soft.$solver
 done
 same_rows 'BAND and SKYLINE, a locked section' solid_bolt.BAND solid_bolt.SKYLINE 1e-10
 same_rows 'BAND and SKYLINE, STEP' prism15.BAND prism15.SKYLINE 1e-12
+same 'BAND, condition of a soft bar' "$(grep -o 'condition.*' "$work/soft.BAND.log")" "$(grep -o 'condition.*' "$work/soft.SKYLINE.log")"
+says 'BAND, condition of a soft bar' "$work/soft.BAND.log" 'condition of the stiffness about'
 same 'BAND names what is loose' "$(cut -d: -f2- "$work/loose.BAND.log")" "$(cut -d: -f2- "$work/loose.SKYLINE.log")"
 
 echo "$passed passed, $failed failed"
