@@ -38,6 +38,9 @@ for option in --help -h; do
 done
 run --help CROD; check '--help of a card' 0
 prints '--help of a card: its entry' '^| CROD   | EID '
+if [ "$(tail -n 1 "$work/stdout")" = "$(awk '/^### CROD$/ { on = 1; next } /^### / { on = 0 } on && NF { last = $0 } END { print last }' "$here/../../input/README.md")" ]; then pass
+else fail '--help of a card: not its last line at the end'
+fi
 run --help output; check '--help of a key' 0
 prints '--help of a key: its entry' '^What the listing holds'
 run --help SPC; prints '--help of a name that key and card have: both' '^The number of a set of SPC'

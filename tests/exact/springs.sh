@@ -32,5 +32,6 @@ run springs && {
    for id in 81 83; do near "bars and springs: spring $id" "$(last 'FORCES OF SPRINGS' $id 6)" "-$below*$top" 2e-6; done
    same 'rods are no springs' "$(table springs 'FORCES OF SPRINGS' | grep -c '^ *[12]  *9[24]')" 0
    same 'springs are no rods' "$(table springs 'BOLT FORCES' | grep -c '^ *[12]  *8[13]')" 0
+   same 'rods are no bolts' "$(ls "$work"/springs.bolt.csv 2> /dev/null) $(grep -c '^ *BOLT ' "$work/springs.out")" ' 1'
 }
 
