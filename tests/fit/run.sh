@@ -149,6 +149,9 @@ near 'commas, other columns, capitals, DOS line ends' 1e-10 all
 fit - < all.dat
 near 'standard input' 1e-10 all
 says 'standard input has a name' cards 'standard input'
+cp all.dat ./-all.dat
+fit -- -all.dat
+near 'a name that begins with a hyphen, behind --' 1e-10 all
 { points 0 LOAD; points 0 RELOAD; } > two_headers.dat
 fit two_headers.dat
 law_fields 1 60 1.5 LOAD RELOAD > load_reload
