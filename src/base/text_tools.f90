@@ -42,8 +42,9 @@ contains
       integer :: last
 
       if (.not. ieee_is_finite(value)) then
-         write (buffer, '(f0.1)') value ! NaN, Infinity
-         text = trim(buffer)
+         text = 'NaN'
+         if (value > 0.0_wp) text = 'Infinity'
+         if (value < 0.0_wp) text = '-Infinity'
          return
       else if (abs(value) < tiny(1.0_wp)) then
          text = '0'

@@ -229,10 +229,8 @@ contains
       end do
       attempt%imprecise = noise > precise*load_size .and. .not. carried
       attempt%loose = loose_joint(model, now)
-      if (size(system%retained) > 0) then
-         attempt%worst = maxloc(abs(now%residual), mask=.not. analysis%held)
-         attempt%worst = [system%retained(max(1, attempt%worst(2))), attempt%worst(1)]
-      end if
+      attempt%worst = maxloc(abs(now%residual), mask=.not. analysis%held)
+      if (all(attempt%worst > 0)) attempt%worst = [system%retained(attempt%worst(2)), attempt%worst(1)]
       if (attempt%seats) analysis%tolerance = analysis%load_tolerance*load_size
       if (.not. attempt%converged) return
       if (now%size > max(far_below*analysis%tolerance, noise)) call refine(model, system, analysis, attempt, now, next)
@@ -290,7 +288,7 @@ contains
          words = words//': '//no_balance
       else if (analysis%n_passes > 0) then
          words = words//', '//real_text(analysis%passes(analysis%n_passes)%after)//' of force are left unbalanced'
-         if (attempt%worst(2) > 0) words = words//', most at '//unknown_name(model, attempt%worst(1), attempt%worst(2))
+         if (all(attempt%worst > 0)) words = words//', most at '//unknown_name(model, attempt%worst(1), attempt%worst(2))
       end if
       if (size(attempt%flips) > 0) then
          worst = maxloc(attempt%flips, dim=1)
