@@ -42,9 +42,8 @@ contains
       integer :: last
 
       if (.not. ieee_is_finite(value)) then
-         text = 'NaN'
-         if (value > 0.0_wp) text = 'Infinity'
-         if (value < 0.0_wp) text = '-Infinity'
+         write (buffer, '(f24.1)') value ! NaN, Infinity
+         text = trim(adjustl(buffer))
          return
       else if (abs(value) < tiny(1.0_wp)) then
          text = '0'
