@@ -7,7 +7,8 @@ endif
 BUILD      = build
 BIN        = bin
 WARNINGS   = -std=f2018 -Wall -Wextra
-FFLAGS     = -O2 -fopenmp -fno-backtrace $(WARNINGS)
+# -fcheck=mem: of what the compiler allocates on its own, failures too are found
+FFLAGS     = -O2 -fopenmp -fcheck=mem -fno-backtrace $(WARNINGS)
 # the check of recursion would take another thread in the same routine for one
 FFLAGS_CHECKED = -O1 -g -fopenmp $(WARNINGS) -fcheck=all,no-array-temps,no-recursion -ffpe-trap=invalid,zero
 LIBRARIES  = -lmetis -lopenblas
@@ -38,12 +39,17 @@ help:
 	@echo 'make run        the worked example: the prism with 3, 5, 10 and 15 increments'
 	@echo 'make test       unit tests, every deck of input against reference_output, bad decks'
 	@echo 'make check      only the decks against reference_output'
+	@echo 'make sanitize   decks under the address, undefined and thread sanitizers, and valgrind: minutes'
 	@echo 'make install PREFIX=dir  programs, manual pages, documents; default /usr/local'
-	@echo 'make accept CASE=name    take the results of input/name.bdf as the new reference'
+	@echo 'make accept CASE=name    take the results of input/name.bdf as the new reference; TABLES="stage bolt": of these too'
+	@echo 'make manual     the verification manual, reference_output/README.md, from runs'
 	@echo 'make bench      speed and memory, MODELS=small: only of small models'
+	@echo 'make coverage   which lines of src no test runs'
+	@echo 'make mutants    which single changes of src no test notices: N=150 SEED=1 JOBS=1'
 	@echo 'make figures    the pictures, from the CSV files of the decks'
 	@echo 'make figures DECK=path   pressure, deflection and loops of the joints of any deck'
 	@echo 'make figures DATA=file   test data and their fit'
+	@echo 'make fuzz MINUTES=60 SEED=7  decks made at random, through the program, with run-time checks and sanitizers'
 	@echo 'make clean'
 
 # The program, optimised and with run-time checks -----------------------------------------------------------------
@@ -155,7 +161,13 @@ test: bin/jointfem $(BUILD)/checked/jointfem $(BUILD)/checked/jointfit $(COMPARE
 check: bin/jointfem $(COMPARE)
 	@tests/check.sh bin/jointfem $(COMPARE) $(BUILD)/check
 
-# The results of one deck become its reference: make accept CASE=prism05
+# PART=threads: only that part
+.PHONY: sanitize
+sanitize: bin/jointfem
+	@MAKE='$(MAKE)' FC='$(FC)' tests/sanitize/run.sh $(BUILD)/sanitize $(PART)
+
+# The results of one deck become its reference: make accept CASE=prism05; its tables of stages and bolts where there are references of them,
+# or where TABLES='stage bolt' asks for them
 .PHONY: accept
 accept: bin/jointfem
 	@test -n '$(CASE)' || { echo 'usage: make accept CASE=name, for input/name.bdf'; exit 1; }
@@ -163,11 +175,22 @@ accept: bin/jointfem
 	@mkdir -p $(BUILD)/accept
 	bin/jointfem -q -o $(BUILD)/accept 'input/$(CASE).bdf'
 	cp '$(BUILD)/accept/$(CASE).out' '$(BUILD)/accept/$(CASE).joint.csv' reference_output
+	for table in stage bolt; do test ! -f 'reference_output/$(CASE)'.$$table.csv || \
+	   cp '$(BUILD)/accept/$(CASE)'.$$table.csv reference_output; done
+	for table in $(TABLES); do cp '$(BUILD)/accept/$(CASE)'.$$table.csv reference_output || exit 1; done
 	@echo 'say in the commit message why the reference changed'
+
+# The verification manual, its numbers from runs
+.PHONY: manual
+manual: bin/jointfem $(QUERY)
+	@tests/manual/make.sh bin/jointfem $(QUERY) $(BUILD)/manual-runs reference_output/README.md
 
 # Speed and pictures ----------------------------------------------------------------------------------------------
 
+include tests/fuzz/fuzz.mk
 include tests/bench/bench.mk
+include tests/coverage/coverage.mk
+include tests/mutants/mutants.mk
 
 # The figures of the paper; with DECK=path those of one deck, with DATA=file those of test data
 .PHONY: figures

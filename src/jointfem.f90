@@ -12,8 +12,11 @@ program jointfem
    use load_path, only: start_increment, start_stage
    use model_data, only: model_type
    use newton_method, only: cross_gaps, newton_increment
-   use run_boxes, only: another_increment, another_stage, build_structure, end_program, finish_run, form_bodies, &
-                        print_increment, print_stage, read_data, run_type, start_joints, start_program
+   use restart_file, only: take_up, write_restart
+   use run_boxes, only: another_increment, another_stage, build_structure, form_bodies, print_increment, print_stage, read_data, &
+                        start_joints, start_program
+   use run_end, only: end_program, finish_run
+   use run_state, only: run_type
    use stage_plan, only: stage_plan_type
    use step_method, only: accumulate, limit_friction, solve_increment, structure_stiffness
    implicit none
@@ -49,6 +52,9 @@ contains
       ! ------------------------------------------------------------------ NORM, SHEAR: FIRST STIFFNESS OF THE JOINTS
       call start_joints(run, deck, model, plan, system, analysis)
 
+      ! ------------------------------------------------------------------ TAKE UP FROM THE RESTART FILE
+      call take_up(run, model, plan, system, analysis)
+
       do while (another_stage(run, plan, analysis))
          ! --------------------------------------------------------------- BOLTS OF THE STAGE BEFORE LOCKED
          call lock_bolts(model, system, analysis)
@@ -74,7 +80,7 @@ contains
                call structure_stiffness(model, plan, analysis, system, run%failure)
 
                ! --------------------------------------------------------- SOLVE [k_s] {du} = {dF}
-               call solve_increment(model, plan, system, analysis, run%failure)
+               call solve_increment(model, system, analysis, run%failure)
 
                ! --------------------------------------------------------- ACCUMULATE {u}, DEFLECTIONS, FORCES
                call accumulate(model, system, analysis, run%failure)
@@ -91,8 +97,11 @@ contains
 
             ! ------------------------------------------------------------ PRINT
             call print_increment(run, model, plan, system, analysis)
+            call print_stage(run, model, plan, analysis)
+
+            ! ------------------------------------------------------------ WRITE THE RESTART FILE
+            call write_restart(run, deck, plan, system, analysis)
          end do
-         call print_stage(run, model, plan, analysis)
       end do
       call finish_run(run, deck, model, plan)
    end subroutine analyse

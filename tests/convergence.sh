@@ -11,21 +11,9 @@
 set -u
 program=$1 query=$2 work=$3
 source tests/exact/lib.sh
+source tests/exact/decks.sh
 mkdir -p "$work"
 counts='10 20 40 80 160'
-
-# the deck with METHOD $2 and $3 equal increments in every stage
-variant() {
-   awk -v method="$2" -v n="$3" '
-      BEGIN { share = sprintf("%.7f", 1 / n) }
-      /^METHOD/ { next }
-      /^TITLE/ { print; print "METHOD = " method; next }
-      /^ *OUTPUT/ { next }
-      /^SUBCASE/ { print; print "  OUTPUT = NONE"; next }
-      /^JINCR/ { gsub(",", " "); printf "JINCR,%d,%d,ARITH,%s\n", $2, n, share; next }
-      { print }' "input/$1.bdf" > "$work/$1.$2.$3.bdf"
-   run "$1.$2.$3"
-}
 
 printf '%-16s' deck; for n in $counts; do printf '%12s' "$n"; done; echo
 while read -r deck stage newton history; do

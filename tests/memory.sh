@@ -103,6 +103,42 @@ for shape in hex8_16x16x16 q4_400x80; do # the plate is large enough to be order
    done
 done
 
+# ------------------------------------------------------------------ every allocation may be the first that fails, by failing_malloc.c
+# requests ARGUMENT...: how many there are in a run that ends well
+requests() {
+   FAIL_COUNT="$work/count" LD_PRELOAD="$work/failing.so" "$program" "$@" > "$work/said" 2>&1 && cat "$work/count" || echo 0
+}
+
+# failing DECK THREADS: 40 runs, the first failure anywhere between the first request of the program and the last one
+failing() {
+   local deck=$1 threads=$2 first n k i
+   first=$(requests --version) # most of them the run-time library's, before the program begins
+   n=$(requests -q --threads "$threads" -o "$work" "$deck")
+   if [ "$n" -lt $((first + 100)) ]; then
+      failed=$((failed + 1)); echo "FAILED $deck: $n allocations"; return
+   fi
+   for ((i = 0; i < 40; i++)); do
+      k=$((first + 1 + i*(n - first - 1)/40))
+      find "$work" -type f ! -name '*.bdf' ! -name 'failing.so' -delete
+      FAIL_FROM=$k LD_PRELOAD="$work/failing.so" timeout 60 "$program" -q --threads "$threads" -o "$work" "$deck" > "$work/said" 2>&1
+      status=$?
+      results=$(find "$work" -type f ! -name '*.bdf' ! -name 'failing.so' ! -name said | wc -l)
+      check "$deck, $threads threads, allocation $k of $n" 3 0 'memory|llocat'
+   done
+}
+
+if command -v gcc > /dev/null && gcc -shared -fPIC -O1 -o "$work/failing.so" tests/failing_malloc.c 2> /dev/null; then
+   tests/bench/make_deck.sh hex8_8x8x8 TREE NONE > "$work/one.bdf"
+   tests/bench/make_deck.sh q4_200x6 TREE LAST > "$work/parts.bdf"
+   tests/bench/make_deck.sh over_8x6x3 TREE NONE 2 > "$work/friction.bdf"
+   tests/bench/make_deck.sh hex8_5x5x3 TREE NONE | sed '/^SPC =/i METHOD = NEWTON' > "$work/newton.bdf"
+   tests/bench/make_deck.sh q4_40x8 SKYLINE VTU > "$work/skyline.bdf"
+   for name in one parts friction newton skyline; do failing "$work/$name.bdf" 1; done
+   failing "$work/one.bdf" 2
+else
+   echo 'the failure of every allocation: skipped, there is no gcc'
+fi
+
 # ------------------------------------------------------------------ an allocation fails in the midst of the results: none is left
 tests/bench/make_deck.sh q4_1x1 SKYLINE VTU 24 | sed -E -e 's/^BEGIN/SUBCASE 2\n  LOAD = 11\n  INCR = 6\nBEGIN/' \
    -e 's/^ENDDATA/LOAD,11,1.5,1.0,10\nJINCR,6,40000,ARITH,2.5-5\nENDDATA/' > "$work/long.bdf"

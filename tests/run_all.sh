@@ -3,21 +3,51 @@
 #
 #    run_all.sh PROGRAM CHECKED_PROGRAM COMPARE QUERY BUILD_FOLDER
 #
-# CHECKED_PROGRAM is the program with run-time checks; bad and damaged decks go through it, so that a bound exceeded or a
-# floating-point exception is seen. Every part ends with a line `N passed, N failed`; a part without one has failed.
+# CHECKED_PROGRAM is the program with run-time checks; bad decks and those made at random go through it, so that a bound exceeded or a
+# floating-point exception is seen. Every part ends with a line `N passed, N failed`; a part without one has failed. As many parts
+# run side by side as there are cores (TOGETHER=n: n of them); each has a folder of its own.
+# WITHOUT in the environment: a pattern of titles that are passed over.
 set -u
-program=$1 checked=$2 compare=$3 query=$4 build=$5
-passed=0 failed=0
-mkdir -p "$build/test"
+program=$1 checked=$2 compare=$3 query=$4 build=$5 without=${WITHOUT:-}
+together=${TOGETHER:-$(nproc)}
+passed=0 failed=0 begun=0 shown=0
+titles=()
+rm -rf "$build/test/logs"
+mkdir -p "$build/test/logs"
 
+# part TITLE COMMAND...: begins it as soon as fewer than TOGETHER parts run
 part() {
-   local title=$1 log="$build/test/part.log" last
+   local log
+   [[ -n $without && $1 =~ $without ]] && return
+   show_finished
+   while [ "$(jobs -rp | wc -l)" -ge "$together" ]; do wait -n; done
+   log=$build/test/logs/$begun
+   titles[begun]=$1
    shift
+   { "$@" > "$log" 2>&1; echo $? > "$log.status"; } &
+   begun=$((begun + 1))
+}
+
+# What the parts said, in the order in which they stand below, as far as they have ended
+show_finished() {
+   while [ $shown -lt $begun ] && [ -s "$build/test/logs/$shown.status" ]; do
+      judge "${titles[shown]}" "$build/test/logs/$shown" "$(cat "$build/test/logs/$shown.status")"
+      shown=$((shown + 1))
+   done
+}
+
+# everything_so_far: what follows uses results of the parts above
+everything_so_far() {
+   wait
+   show_finished
+}
+
+# judge TITLE LOG STATUS
+judge() {
+   local title=$1 status=$3 last
    echo "---- $title"
-   "$@" > "$log" 2>&1
-   local status=$?
-   cat "$log"
-   last=$(grep -E '^[0-9]+ passed, [0-9]+ failed$' "$log" | tail -n 1)
+   cat "$2"
+   last=$(grep -E '^[0-9]+ passed, [0-9]+ failed$' "$2" | tail -n 1)
    if [ -z "$last" ]; then
       echo "$title: ended without a count, with status $status"
       failed=$((failed + 1))
@@ -25,37 +55,56 @@ part() {
    fi
    set -- $last
    passed=$((passed + $1)) failed=$((failed + $3))
-   [ $status -ne 0 ] && [ "$3" -eq 0 ] && { echo "$title: status $status"; failed=$((failed + 1)); }
+   [ "$status" -ne 0 ] && [ "$3" -eq 0 ] && { echo "$title: status $status"; failed=$((failed + 1)); }
 }
 
+# A history of several stages as files for ParaView
+files_for_paraview() {
+   mkdir -p "$build/vtu-deck"
+   sed -E 's/^( *INCR = .*)/\1\n  OUTPUT = LAST, VTU/; /OUTPUT = (ALL|JOINT|LAST|NONE)$/d' input/prism_history.bdf > "$build/vtu-deck/history.bdf"
+   "$program" -q -o "$build/vtu-deck" "$build/vtu-deck/history.bdf" 2> /dev/null
+   sed -e '/^ *TEMPERATURE(LOAD) = 20/d' -e 's/^OUTPUT = .*/OUTPUT = LAST, STEPS/' input/flange_warm.bdf > "$build/vtu-deck/warm.bdf"
+   "$program" -q -o "$build/vtu-deck" "$build/vtu-deck/warm.bdf" > /dev/null 2>&1
+   tests/vtu/run.sh "$build/vtu" "$build/vtu-deck/history.pvd" "$build/vtu-deck/warm.pvd@20:20:50:20" "$build/check/post_on_plate.pvd" \
+      "$build/check/column_tetra10.pvd"
+}
+
+part 'decks against their references' tests/check.sh "$program" "$compare" "$build/check"
+everything_so_far
 part 'unit tests' ${MAKE:-make} --no-print-directory -s unit-test
 part 'modules use what stands to the left' tests/folders.sh README.md src
+part 'the tour of the source' tests/tour/readme.sh src/README.md src
 part 'the test runner itself' env -u MAKELEVEL tests/runner/selftest.sh
-part 'decks against their references' tests/check.sh "$program" "$compare" "$build/check"
+part 'the tools of make mutants and make coverage' tests/mutants/selftest.sh
+# the long ones first
+part 'bad decks and command lines' tests/bad/run.sh "$PWD/$checked"
+part 'runs that are killed and go on' tests/restart/run.sh "$program" "$build/restart"
+part 'decks made at random' tests/fuzz/run.sh -s 1984 -n 2000 -j 1 "$build/test/fuzz" checked="$checked"
+part 'the fuzzer itself' tests/fuzz/selftest.sh
 part 'decks on other processors, built otherwise' tests/processors.sh "$program" "$compare" "$build"
+part 'worked examples of the tour' tests/tour/run.sh "$query" "$build/tour"
 part 'decks through the program with run-time checks' tests/check.sh "$checked" "$compare" "$build/check-checked"
 part 'what the paper says of the prism' tests/prism_findings.sh "$query" "$build/check"
 part 'exact answers and independent computations' tests/exact/run.sh "$program" "$query" "$build/exact"
+part 'the verification manual as it stands' tests/manual/check.sh "$program" "$query" "$build/manual-check"
 part 'TREE and SKYLINE, one thread and several' tests/solver/run.sh "$program" "$query" "$build/solver"
 part 'models that do not fit into the memory' tests/memory.sh "$program" "$build/memory"
 part 'linear decks against CalculiX' tests/calculix/run.sh "$program" "$build/calculix"
+part 'block, law and load over all decades' tests/sweep/run.sh "$program" "$build/sweep"
+part 'the same problems in 13 systems of units' tests/sweep/units.sh "$program" "$build/units"
+part 'the largest numbers, and what overflows' tests/sweep/widths.sh "$program" "$build/widths"
 part 'errors of elements as the manual has them' tests/elements.sh "$program" "$build/elements"
 part 'STEP tends to NEWTON' tests/convergence.sh "$program" "$query" "$build/convergence"
 part 'the comparison itself' tests/compare/test_compare.sh "$compare" reference_output tests/compare/tolerances.txt
 part 'the queries of histories' tests/compare/test_query.sh "$query"
 part 'from test data to cards' tests/fit/run.sh "$build/checked/jointfit" "$program"
 part 'published surfaces' tests/fit/surfaces.sh "$program"
-mkdir -p "$build/vtu-deck"
-sed -E 's/^( *INCR = .*)/\1\n  OUTPUT = LAST, VTU/; /OUTPUT = (ALL|JOINT|LAST|NONE)$/d' input/prism_history.bdf > "$build/vtu-deck/history.bdf"
-"$program" -q -o "$build/vtu-deck" "$build/vtu-deck/history.bdf" 2> /dev/null
-part 'files for ParaView' tests/vtu/run.sh "$build/vtu" "$build/vtu-deck/history.pvd" "$build/check/post_on_plate.pvd" \
-   "$build/check/column_tetra10.pvd"
+part 'files for ParaView' files_for_paraview
 part 'meshes from Gmsh' tests/gmsh.sh "$program" "$query" "$build/gmsh"
 part 'decks to and from pyNastran' tests/pynastran/run.sh "$program" "$build/pynastran"
 part 'pictures of a deck, flow charts' tests/figures.sh "$program" "$build/test/figures"
 part 'the benchmark, without measuring' tests/bench/test_bench.sh "$program" "$build/test/bench"
-part 'bad decks and command lines' tests/bad/run.sh "$PWD/$checked"
-part 'damaged decks' tests/damage/run.sh "$PWD/$checked" "$PWD/input"
+everything_so_far
 echo '----'
 echo "$passed passed, $failed failed"
 [ $failed -eq 0 ]

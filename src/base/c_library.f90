@@ -1,12 +1,18 @@
 !> The few services of the C library that Fortran has no word for: reading and writing files by bytes with
-!! every failure told, renaming and removing a file, its true path and whether it is one, and whether a stream is a terminal.
+!! every failure told, renaming and removing a file, its true path and what it is, and whether a stream is a terminal.
 module c_library
-   use, intrinsic :: iso_c_binding, only: c_associated, c_char, c_int, c_int8_t, c_int16_t, c_intptr_t, c_null_char, c_ptr, c_size_t
+   use, intrinsic :: iso_c_binding, only: c_associated, c_char, c_funloc, c_int, c_int8_t, c_int16_t, c_intptr_t, c_null_char, &
+                                          c_ptr, c_size_t
    implicit none
    private
 
-   public :: read_all_bytes, create_file, write_bytes, close_file, rename_file, remove_file, remove_terminated, &
-             true_path, is_regular_file, is_terminal, tell_failed_writes, end_run
+   public :: read_all_bytes, open_file, read_bytes, create_unique, write_bytes, close_file, rename_file, remove_file, &
+             remove_terminated, true_path, kind_of_file, is_regular_file, is_terminal, tell_failed_writes, &
+             call_at_interrupts, end_by_signal, lock_folder, end_run
+
+   !> What a path may lead to.
+   integer, parameter, public :: no_file = 0, pipe_file = 1, device_file = 2, folder_file = 4, block_file = 6, regular_file = 8, &
+                                 link_file = 10, socket_file = 12 !! S_IFMT of Linux, by 4096
 
    logical, public, protected :: has_ended = .false. !! by end_run
 
@@ -17,11 +23,22 @@ module c_library
          integer(c_int), value :: flags
       end function c_open
 
-      integer(c_int) function c_creat(path, mode) bind(c, name='creat')
+      !> A new file that nobody else has, its name TEMPLATE with other letters for the six X before so many at its end.
+      integer(c_int) function c_mkstemps(template, letters_behind) bind(c, name='mkstemps')
          import :: c_char, c_int
-         character(kind=c_char), intent(in) :: path(*)
-         integer(c_int), value :: mode
-      end function c_creat
+         character(kind=c_char), intent(inout) :: template(*)
+         integer(c_int), value :: letters_behind
+      end function c_mkstemps
+
+      integer(c_int) function c_fchmod(descriptor, mode) bind(c, name='fchmod')
+         import :: c_int
+         integer(c_int), value :: descriptor, mode
+      end function c_fchmod
+
+      integer(c_int) function c_umask(mask) bind(c, name='umask')
+         import :: c_int
+         integer(c_int), value :: mask
+      end function c_umask
 
       !> What has been read, 0 at the end of the file, -1 on failure.
       integer(c_size_t) function c_read(descriptor, bytes, count) bind(c, name='read')
@@ -75,6 +92,21 @@ module c_library
          integer(c_intptr_t), value :: handler
       end function c_signal
 
+      integer(c_int) function c_raise(signal) bind(c, name='raise')
+         import :: c_int
+         integer(c_int), value :: signal
+      end function c_raise
+
+      integer(c_int) function c_flock(descriptor, operation) bind(c, name='flock')
+         import :: c_int
+         integer(c_int), value :: descriptor, operation
+      end function c_flock
+
+      integer(c_int) function c_usleep(microseconds) bind(c, name='usleep')
+         import :: c_int
+         integer(c_int), value :: microseconds
+      end function c_usleep
+
       integer(c_int) function c_isatty(descriptor) bind(c, name='isatty')
          import :: c_int
          integer(c_int), value :: descriptor
@@ -121,14 +153,42 @@ contains
       bytes = bytes(:used)
    end subroutine read_all_bytes
 
-   !> Create the file PATH, empty, for writing. DESCRIPTOR is below zero where that fails.
-   subroutine create_file(path, descriptor)
+   !> Open the file PATH for reading. DESCRIPTOR is below zero where that fails.
+   subroutine open_file(path, descriptor)
       character(*), intent(in) :: path
       integer, intent(out)     :: descriptor
-      integer(c_int), parameter :: read_and_write_for_all = int(o'666', c_int) ! less the user's mask
+      integer(c_int), parameter :: to_read = 0 ! O_RDONLY
 
-      descriptor = int(c_creat(path//c_null_char, read_and_write_for_all))
-   end subroutine create_file
+      descriptor = int(c_open(path//c_null_char, to_read))
+   end subroutine open_file
+
+   !> Read the next BYTES of DESCRIPTOR, as many as there are room and bytes for; GOT is how many, 0 at the end, below on failure.
+   subroutine read_bytes(descriptor, bytes, got)
+      integer, intent(in)            :: descriptor
+      character(*), intent(inout)    :: bytes
+      integer(c_size_t), intent(out) :: got
+
+      got = c_read(int(descriptor, c_int), bytes, len(bytes, c_size_t))
+   end subroutine read_bytes
+
+   !> Create a file for writing that was not there: NAME, a dot, six letters, ENDING. It is no link, pipe or device that waited
+   !! under that name, and no other run has it. Its PATH; DESCRIPTOR is below zero where that fails.
+   subroutine create_unique(name, ending, path, descriptor)
+      character(*), intent(in)               :: name, ending
+      character(:), allocatable, intent(out) :: path
+      integer, intent(out)                   :: descriptor
+      integer(c_int), parameter :: read_and_write_for_all = int(o'666', c_int) ! less the user's mask
+      integer(c_int) :: mask, status
+
+      path = name//'.XXXXXX'//ending//c_null_char
+      descriptor = int(c_mkstemps(path, len(ending, c_int)))
+      path = path(:len(path) - 1)
+      if (descriptor < 0) return
+      mask = c_umask(0_c_int) ! that is how it is asked for
+      status = c_umask(mask)
+      status = c_fchmod(int(descriptor, c_int), iand(read_and_write_for_all, not(mask)))
+      if (status /= 0) return   ! a file system without modes: as good
+   end subroutine create_unique
 
    !> Write all BYTES to DESCRIPTOR (1: the standard output). OK is false where some could not be written, as on a full disk:
    !! the operating system is asked itself, nothing waits in a buffer.
@@ -191,16 +251,23 @@ contains
       if (c_associated(c_realpath(path//c_null_char, text))) resolved = text(:index(text, c_null_char) - 1)
    end function true_path
 
+   !> What PATH is, links followed: no_file where it leads nowhere.
+   integer function kind_of_file(path) result(kind)
+      character(*), intent(in) :: path
+      integer(c_int), parameter :: here = -100, follow_links = 0, kind_asked = 1 ! AT_FDCWD, STATX_TYPE
+      integer, parameter :: mode_at = 29                                        ! of stx_mode
+      integer(c_int8_t) :: status(256)
+
+      kind = no_file
+      if (c_statx(here, path//c_null_char, follow_links, kind_asked, status) /= 0) return
+      kind = ibits(int(transfer(status(mode_at:mode_at + 1), 0_c_int16_t)), 12, 4)
+   end function kind_of_file
+
    !> Whether PATH is a plain file, links followed: no folder, device or pipe.
    logical function is_regular_file(path)
       character(*), intent(in) :: path
-      integer(c_int), parameter :: here = -100, follow_links = 0, kind_asked = 1              ! AT_FDCWD, STATX_TYPE
-      integer, parameter :: kind_bits = int(o'170000'), regular = int(o'100000'), mode_at = 29 ! S_IFMT, S_IFREG, stx_mode
-      integer(c_int8_t) :: status(256)
 
-      is_regular_file = c_statx(here, path//c_null_char, follow_links, kind_asked, status) == 0
-      if (is_regular_file) &
-         is_regular_file = iand(int(transfer(status(mode_at:mode_at + 1), 0_c_int16_t)), kind_bits) == regular
+      is_regular_file = kind_of_file(path) == regular_file
    end function is_regular_file
 
    !> A write into a pipe that nobody reads, or beyond the size that files may have, fails from now on as one on a full disk does,
@@ -216,6 +283,55 @@ contains
          if (before < 0) return ! SIG_ERR: it stays as it was
       end do
    end subroutine tell_failed_writes
+
+   !> HANDLER is called with the number of the signal when the user interrupts the program, hangs up or has it terminated; what is
+   !! ignored, as behind nohup, stays so.
+   subroutine call_at_interrupts(handler)
+      interface
+         subroutine handler(signal) bind(c)
+            import :: c_int
+            integer(c_int), value :: signal
+         end subroutine handler
+      end interface
+      integer(c_int), parameter      :: signals(3) = [1, 2, 15] ! SIGHUP, SIGINT, SIGTERM
+      integer(c_intptr_t), parameter :: ignore = 1              ! SIG_IGN
+      integer(c_intptr_t) :: before
+      integer :: i
+
+      do i = 1, size(signals)
+         before = c_signal(signals(i), transfer(c_funloc(handler), before))
+         if (before == ignore) before = c_signal(signals(i), ignore)
+      end do
+   end subroutine call_at_interrupts
+
+   !> End the program as SIGNAL ends one that does not handle it.
+   subroutine end_by_signal(signal)
+      integer(c_int), intent(in) :: signal
+      integer(c_intptr_t) :: before
+      integer(c_int)      :: status
+
+      before = c_signal(signal, 0_c_intptr_t) ! SIG_DFL
+      status = c_raise(signal)
+      if (before < 0 .or. status /= 0) return ! not that way
+   end subroutine end_by_signal
+
+   !> Wait until no other run holds the FOLDER, but not for ever, and hold it until DESCRIPTOR is closed.
+   subroutine lock_folder(folder, descriptor)
+      character(*), intent(in) :: folder
+      integer, intent(out)     :: descriptor
+      integer(c_int), parameter :: to_read = 0, alone = 2 + 4 ! O_RDONLY; LOCK_EX, LOCK_NB
+      integer, parameter        :: tries = 200                ! of 50 ms
+      integer(c_int) :: status
+      integer :: i
+
+      descriptor = int(c_open(folder//c_null_char, to_read))
+      do i = 1, tries
+         if (descriptor < 0) return
+         if (c_flock(int(descriptor, c_int), alone) == 0) return
+         status = c_usleep(50000_c_int)
+         if (status /= 0) cycle ! a signal: the sooner the next try
+      end do
+   end subroutine lock_folder
 
    !> Whether the stream DESCRIPTOR (1 standard output, 2 standard error) is a terminal.
    logical function is_terminal(descriptor)

@@ -5,7 +5,7 @@ module command_arguments
    implicit none
    private
 
-   public :: argument_text, is_option, input_of, say, complain, complain_of_input
+   public :: argument_text, is_option, set_input, say, complain, complain_of_input
 
    character(*), parameter, public :: version = '0.1.0'
    character(*), parameter, public :: standard_input = '/dev/stdin' !! the path of the file that `-` means
@@ -39,14 +39,17 @@ contains
       is_option = before_dashes .and. argument /= '-' .and. index(argument, '-') == 1
    end function is_option
 
-   !> The file that ARGUMENT means.
-   pure function input_of(argument) result(input)
-      character(*), intent(in) :: argument
-      type(input_argument)     :: input
+   !> INPUT becomes the file that ARGUMENT means.
+   pure subroutine set_input(input, argument)
+      class(input_argument), intent(inout) :: input
+      character(*), intent(in)             :: argument
 
-      input = input_argument(path=argument, name=argument)
-      if (argument == '-') input = input_argument(path=standard_input, name='standard input')
-   end function input_of
+      input%path = argument
+      input%name = argument
+      if (argument /= '-') return
+      input%path = standard_input
+      input%name = 'standard input'
+   end subroutine set_input
 
    !> Write TEXT and a line end on the standard output; STATUS is 0, or 4 where it cannot be written.
    subroutine say(text, status)

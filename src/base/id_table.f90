@@ -20,6 +20,8 @@ module id_table
 
    integer, parameter :: sparsest = 8 ! numbers between the least and the largest for each in a table that is looked up directly
 
+   integer, parameter :: few = 48 ! keys that are sorted faster one by one than by their bytes
+
 contains
 
    !> Take the numbers IDS(n); find(IDS(k)) is k from now on.
@@ -97,6 +99,10 @@ contains
       end do
       if (n < 2) return
       if (all(keys(2:) >= keys(:n - 1))) return
+      if (n <= few) then
+         call insert_one_by_one(keys, order)
+         return
+      end if
       least = minval(keys)
       above = maxval(keys) - least
       byte = 0
@@ -119,6 +125,23 @@ contains
          byte = byte + 1
       end do
    end subroutine sorted_order
+
+   !> The same of few KEYS: no counting by bytes, every one goes in front of those that are larger.
+   pure subroutine insert_one_by_one(keys, order)
+      integer, intent(in)  :: keys(:)
+      integer, intent(out) :: order(:)
+      integer :: i, j
+
+      do i = 1, size(keys)
+         j = i
+         do while (j > 1)
+            if (keys(order(j - 1)) <= keys(i)) exit
+            order(j) = order(j - 1)
+            j = j - 1
+         end do
+         order(j) = i
+      end do
+   end subroutine insert_one_by_one
 
    !> The numbers among KEYS, each once, in ascending order.
    pure subroutine distinct(keys, values)

@@ -1,19 +1,31 @@
-!> Which result files are being written, so that none stays behind where the program ends in the midst of it. The last resort is
-!! for an allocation that fails where nobody looks: it ends the program through the run-time library, with exit status 1 and words
-!! of its own. Here that becomes a message of the program and the status of what cannot be solved.
+!> Which result files are being written, so that none stays behind where the program ends in the midst of it: a failure, an
+!! interrupt, and as the last resort an allocation that fails where nobody looks. That one ends the program through the run-time
+!! library, with exit status 1 and words of its own; or, where the compiler allocates what is assigned and does not look either, it
+!! uses the address of nothing. Here both become a message of the program and the status of what cannot be solved.
+!!
+!! A file is written as NAME.abcdef.part, its letters those of no other file: two runs in one folder do not meet. When it is
+!! complete it gets its name, and replaces what file or link has it.
 module incomplete_results
-   use, intrinsic :: iso_c_binding, only: c_associated, c_funloc, c_funptr, c_int, c_null_char, c_null_ptr, c_ptr
-   use c_library, only: has_ended, remove_terminated, write_bytes
+   use, intrinsic :: iso_c_binding, only: c_associated, c_f_pointer, c_funloc, c_funptr, c_int, c_intptr_t, c_null_char, &
+                                          c_null_ptr, c_ptr
+   use c_library, only: call_at_interrupts, create_unique, device_file, block_file, end_by_signal, folder_file, has_ended, &
+                        kind_of_file, no_file, pipe_file, regular_file, remove_file, remove_terminated, rename_file, write_bytes
    implicit none
    private
 
-   public :: note_incomplete, remove_incomplete, all_complete, watch_allocations
+   public :: create_part, name_part, remove_incomplete, give_up_parts, remove_old, all_complete, watch_ends, &
+             what_is_in_the_way
 
    character(*), parameter, public :: suffix = '.part' !! that a file has until it is complete
 
-   character(:), allocatable :: names ! one after the other, each with a null character at its end
+   character(:), allocatable :: names     ! one after the other, each with a null character at its end
+   character(:), allocatable :: in_the_way ! of the first file that could not be created: what has its name, in words
+
+   logical, volatile        :: is_changing = .false. ! the files are about to be others than NAMES has
+   integer(c_int), volatile :: interrupt = 0         ! that came then
 
    integer(c_int), parameter :: status_of_library = 1, status_unsolved = 3
+   integer(c_int), parameter :: sigsegv = 11, enomem = 12 ! of Linux
 
    interface
       integer(c_int) function c_on_exit(routine, argument) bind(c, name='on_exit')
@@ -21,6 +33,16 @@ module incomplete_results
          type(c_funptr), value :: routine
          type(c_ptr), value    :: argument
       end function c_on_exit
+
+      integer(c_intptr_t) function c_signal(signal, handler) bind(c, name='signal')
+         import :: c_funptr, c_int, c_intptr_t
+         integer(c_int), value :: signal
+         type(c_funptr), value :: handler
+      end function c_signal
+
+      type(c_ptr) function c_errno_place() bind(c, name='__errno_location')
+         import :: c_ptr
+      end function c_errno_place
 
       subroutine c_exit_at_once(status) bind(c, name='_exit')
          import :: c_int
@@ -30,18 +52,103 @@ module incomplete_results
 
 contains
 
-   !> The file PATH is about to be written: neither it nor PATH.part is a result yet.
-   subroutine note_incomplete(path)
-      character(*), intent(in) :: path   !! empty: the standard output, nothing to note
+   !> Create the file PART, which will be PATH. DESCRIPTOR is below zero where that fails, or where PATH is there and is no file
+   !! that could be replaced: a folder, a pipe, a device.
+   subroutine create_part(path, part, descriptor)
+      character(*), intent(in)               :: path
+      character(:), allocatable, intent(out) :: part
+      integer, intent(out)                   :: descriptor
 
-      if (path == '') return
+      part = ''
+      descriptor = -1
+      if (.not. is_free(path)) then
+         if (.not. allocated(in_the_way)) in_the_way = path//' is '//kind_in_words(kind_of_file(path))//' and no file'
+         return
+      end if
+      is_changing = .true.
+      call create_unique(path, suffix, part, descriptor)
+      if (descriptor >= 0) call note(part)
+      call end_of_change()
+   end subroutine create_part
+
+   !> PART is complete: it becomes PATH, and is no result yet while other files have no names, but for one that STAYS as it is. OK is
+   !! false where that failed; the part is removed then.
+   subroutine name_part(part, path, ok, stays)
+      character(*), intent(in)      :: part, path
+      logical, intent(out)          :: ok
+      logical, intent(in), optional :: stays !! false
+      logical :: is_noted
+
+      is_noted = .true.
+      if (present(stays)) is_noted = .not. stays
+      is_changing = .true.
+      call rename_file(part, path, ok)
+      if (ok .and. is_noted) call note(path)
+      if (.not. ok) call remove_file(part)
+      call end_of_change()
+   end subroutine name_part
+
+   !> The file PATH goes where a run is given up.
+   subroutine note(path)
+      character(*), intent(in) :: path
+
       if (.not. allocated(names)) names = ''
-      names = names//path//c_null_char//path//suffix//c_null_char
-   end subroutine note_incomplete
+      names = names//path//c_null_char
+   end subroutine note
 
-   !> All files that have been noted are results now, or have been given up in an orderly way.
-   subroutine all_complete()
+   !> What came in the midst of a change is due now.
+   subroutine end_of_change()
+      is_changing = .false.
+      if (interrupt /= 0) call end_by_interrupt(interrupt)
+   end subroutine end_of_change
+
+   !> Whether nothing has the name PATH, or a file, or a link to one or to nothing: what may be replaced.
+   logical function is_free(path)
+      character(*), intent(in) :: path
+
+      is_free = any(kind_of_file(path) == [no_file, regular_file])
+   end function is_free
+
+   !> KIND, as kind_of_file has it, in words.
+   pure function kind_in_words(kind) result(words)
+      integer, intent(in)       :: kind
+      character(:), allocatable :: words
+
+      words = 'something else'
+      if (kind == folder_file) words = 'a folder'
+      if (kind == pipe_file) words = 'a pipe'
+      if (kind == device_file .or. kind == block_file) words = 'a device'
+   end function kind_in_words
+
+   !> Why the first file could not be created, in words; empty where its name was free.
+   function what_is_in_the_way() result(words)
+      character(:), allocatable :: words
+
+      words = ''
+      if (allocated(in_the_way)) words = in_the_way
+   end function what_is_in_the_way
+
+   !> Remove the result PATH of an earlier run, where it is there; no folder, pipe or device of that name.
+   subroutine remove_old(path)
+      character(*), intent(in) :: path
+
+      if (is_free(path)) call remove_file(path)
+   end subroutine remove_old
+
+   !> Remove the files that have been noted, in an orderly way.
+   subroutine give_up_parts()
+      is_changing = .true.
+      call remove_incomplete()
       if (allocated(names)) deallocate (names)
+      call end_of_change()
+   end subroutine give_up_parts
+
+   !> All files that have been noted are results now; or there are none yet.
+   subroutine all_complete()
+      is_changing = .true.
+      if (allocated(names)) deallocate (names)
+      if (allocated(in_the_way)) deallocate (in_the_way)
+      call end_of_change()
    end subroutine all_complete
 
    !> Remove the files that have been noted, as far as they are there. Takes no memory.
@@ -57,12 +164,38 @@ contains
       end do
    end subroutine remove_incomplete
 
-   !> Watch allocations from now on. Where glibc does not do it the status stays 1.
-   subroutine watch_allocations()
-      integer(c_int) :: status
+   !> Watch allocations and interrupts from now on. Where the C library does not do the first the status stays 1.
+   subroutine watch_ends()
+      integer(c_int)      :: status
+      integer(c_intptr_t) :: before
 
       status = c_on_exit(c_funloc(end_without_memory), c_null_ptr)
-   end subroutine watch_allocations
+      before = c_signal(sigsegv, c_funloc(end_at_no_address))
+      call call_at_interrupts(end_by_interrupt)
+   end subroutine watch_ends
+
+   !> Called when SIGNAL interrupts the program: it ends as if it had not been handled, but leaves no part. While the list of files
+   !! changes that has to wait.
+   subroutine end_by_interrupt(signal) bind(c)
+      integer(c_int), value :: signal
+
+      interrupt = signal
+      if (is_changing) return
+      call remove_incomplete()
+      call end_by_signal(signal)
+   end subroutine end_by_interrupt
+
+   !> Called by the kernel where an address is used at which nothing is. After an allocation that failed, the last that the C library
+   !! tells this thread, that is why; otherwise the program ends as it would have done, at the same place.
+   subroutine end_at_no_address(signal) bind(c)
+      integer(c_int), value   :: signal
+      integer(c_int), pointer :: error
+      integer(c_intptr_t)     :: before
+
+      call c_f_pointer(c_errno_place(), error)
+      if (error == enomem) call end_without_memory(status_of_library, c_null_ptr)
+      before = c_signal(signal, transfer(0_c_intptr_t, c_funloc(end_at_no_address))) ! 0: SIG_DFL
+   end subroutine end_at_no_address
 
    !> Called by the C library when the program ends with STATUS.
    subroutine end_without_memory(status, argument) bind(c)

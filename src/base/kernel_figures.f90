@@ -75,10 +75,15 @@ contains
       if (first == 0 .or. second == first) return
       associate (controllers => line(first + 1:second - 1))
          if (controllers == '') then
-            hierarchy = hierarchy_type(root//'/sys/fs/cgroup', '/memory.max', '/memory.current', 'inactive_file ')
+            hierarchy%folder = root//'/sys/fs/cgroup'
+            hierarchy%limit = '/memory.max'
+            hierarchy%used = '/memory.current'
+            hierarchy%reclaimable = 'inactive_file '
          else if (index(','//controllers//',', ',memory,') > 0) then
-            hierarchy = hierarchy_type(root//'/sys/fs/cgroup/memory', '/memory.limit_in_bytes', '/memory.usage_in_bytes', &
-                                       'total_inactive_file ')
+            hierarchy%folder = root//'/sys/fs/cgroup/memory'
+            hierarchy%limit = '/memory.limit_in_bytes'
+            hierarchy%used = '/memory.usage_in_bytes'
+            hierarchy%reclaimable = 'total_inactive_file '
          else
             return
          end if

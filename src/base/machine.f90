@@ -1,15 +1,18 @@
 !> What the machine has, and what the program takes of it: memory and threads.
 module machine
-   use, intrinsic :: iso_c_binding, only: c_int, c_size_t
+   use, intrinsic :: iso_c_binding, only: c_int, c_intptr_t, c_loc, c_size_t
    use kernel_figures, only: kernel_figure, memory_left_by_groups, no_figure
    use kinds, only: long, wp
    use omp_lib, only: omp_get_max_threads, omp_get_num_procs, omp_set_num_threads
    implicit none
    private
 
-   public :: available_memory, memory_for, peak_memory, keep_memory, use_threads
+   public :: available_memory, memory_for, peak_memory, keep_memory, give_back, use_threads
 
-   integer(c_int), parameter :: trim_threshold = -1, top_pad = -2, mmap_max = -4 ! parameters of mallopt, malloc.h of glibc
+   integer(c_int), parameter :: trim_threshold = -1, top_pad = -2, mmap_max = -4, arena_max = -8 ! parameters of mallopt,
+                                                                                             ! malloc.h of glibc
+   integer(c_int), parameter :: dont_need = 4       ! advice of madvise, sys/mman.h of Linux
+   integer(c_intptr_t), parameter :: page = 4096    ! of memory [bytes]; where pages are larger madvise refuses
 
    !> What a thread's first call of OpenBLAS takes of the address space; where it cannot have that it tries for ever.
    integer(long), parameter :: blas_buffer = 134217728_long ! BUFFER_SIZE of its common_x86_64.h
@@ -29,6 +32,13 @@ module machine
          integer(c_size_t), value :: left
       end function malloc_trim
 
+      integer(c_int) function madvise(first, length, advice) bind(c, name='madvise')
+         import :: c_int, c_intptr_t, c_size_t
+         integer(c_intptr_t), value :: first
+         integer(c_size_t), value   :: length
+         integer(c_int), value      :: advice
+      end function madvise
+
       type(heap_figures) function mallinfo2() bind(c)
          import :: heap_figures
       end function mallinfo2
@@ -41,8 +51,8 @@ module machine
 
 contains
 
-   !> What is deallocated stays with the program for the next allocation: new pages cost a sixth of a factorisation. Where glibc
-   !! does not do it nothing is lost.
+   !> What is deallocated stays with the program for the next allocation: new pages cost a sixth of a factorisation. All threads have
+   !! one heap: what one of them has deallocated another one can take. Where glibc does not do it nothing is lost.
    subroutine keep_memory()
       integer, allocatable, volatile :: first(:)
       integer(c_int) :: status
@@ -50,10 +60,29 @@ contains
       status = mallopt(trim_threshold, huge(1_c_int))
       status = mallopt(top_pad, 64_c_int*1048576_c_int)
       status = mallopt(mmap_max, 0_c_int)
+      status = mallopt(arena_max, 1_c_int)
       allocate (first(131072)) ! the heap grows now, where it is looked whether it can: not all of what the compiler takes is checked
       first(1) = 0
       deallocate (first)
    end subroutine keep_memory
+
+   !> Give the pages of A back to the machine, those that lie in it whole: a(first + 1) to a(last - 1). They are zero when they are
+   !! read again, and take memory again when they are written. OK is false where that is not done. A is from the heap.
+   subroutine give_back(n, a, ok, first, last)
+      integer(long), intent(in)       :: n
+      real(wp), intent(inout), target :: a(n)
+      logical, intent(out)            :: ok
+      integer(long), intent(out)      :: first, last
+      integer(c_intptr_t), parameter  :: bytes = storage_size(1.0_wp)/8
+      integer(c_intptr_t) :: begin, end
+
+      begin = transfer(c_loc(a), begin)
+      end = begin + bytes*n
+      first = (page*((begin + page - 1)/page) - begin)/bytes
+      last = (page*(end/page) - begin)/bytes + 1
+      ok = last - 1 > first
+      if (ok) ok = madvise(begin + bytes*first, int(bytes*(last - 1 - first), c_size_t), dont_need) == 0
+   end subroutine give_back
 
    !> Memory that the program can still take, of what the machine has free, what its control groups leave (a container's limit),
    !! and what a limit on its address space leaves [bytes]; huge where none of them can be read.

@@ -1,11 +1,12 @@
 !> Small services for text: case, numbers as words, clean zeros.
 module text_tools
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use kinds, only: wp
    use number_text, only: integer_width, write_integer
    implicit none
    private
 
-   public :: upper, integer_text, real_text, plural, clean
+   public :: upper, integer_text, real_text, fitted_text, plural, clean
 
 contains
 
@@ -38,9 +39,13 @@ contains
       real(wp), intent(in)      :: value
       character(:), allocatable :: text
       character(24) :: buffer
-      integer :: e, exponent, last
+      integer :: last
 
-      if (abs(value) < tiny(1.0_wp)) then
+      if (.not. ieee_is_finite(value)) then
+         write (buffer, '(f24.1)') value ! NaN, Infinity
+         text = trim(adjustl(buffer))
+         return
+      else if (abs(value) < tiny(1.0_wp)) then
          text = '0'
          return
       else if (abs(value) >= 1.0e-3_wp .and. abs(value) < 1.0e6_wp) then
@@ -56,14 +61,47 @@ contains
          end if
          return
       end if
-      write (buffer, '(es13.5e3)') value
+      text = scientific(value, 5)
+   end function real_text
+
+   !> A finite VALUE as 1.5E-7, with at most so many DECIMALS.
+   pure function scientific(value, decimals) result(text)
+      real(wp), intent(in)      :: value
+      integer, intent(in)       :: decimals
+      character(:), allocatable :: text
+      character(24) :: buffer
+      character(10) :: form
+      integer :: e, exponent, last
+
+      write (form, '(a, i0, a)') '(es24.', decimals, 'e3)'
+      write (buffer, form) value
       buffer = adjustl(buffer)
       e = index(buffer, 'E')
-      last = verify(buffer(:e - 1), '0', back=.true.)
+      last = e - 1
+      if (decimals > 0) last = verify(buffer(:e - 1), '0', back=.true.)
       if (buffer(last:last) == '.') last = last - 1
       read (buffer(e + 1:), *) exponent
       text = buffer(:last)//'E'//integer_text(exponent)
-   end function real_text
+   end function scientific
+
+   !> VALUE with as many digits as there is ROOM for, for what its column cannot hold: 123456 in four characters is 1E5.
+   pure function fitted_text(value, room) result(text)
+      real(wp), intent(in)      :: value
+      integer, intent(in)       :: room !! at least 4: 8 for any real
+      character(:), allocatable :: text
+      integer :: decimals
+
+      text = real_text(value)
+      if (len(text) <= room) return
+      if (.not. ieee_is_finite(value)) then
+         text = text(:room)
+         return
+      end if
+      do decimals = 4, 0, -1
+         text = scientific(value, decimals)
+         if (len(text) <= room) return
+      end do
+   end function fitted_text
 
    !> '1 error', '2 errors': a count with its noun.
    pure function plural(count, noun) result(text)

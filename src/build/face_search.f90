@@ -9,58 +9,58 @@ module face_search
 
    public :: find_face, own_corner
 
+   !> A face, and how corners that name it go round it.
+   type, public :: named_face
+      integer :: element = 0, side = 0       !! 0: there is no such face
+      integer :: first = 0                   !! position of the first corner on the side
+      logical :: outward = .false.           !! the right hand round the corners points out of the element
+   end type named_face
+
 contains
 
-   !> The SIDE of the ELEMENT whose corners have the numbers ID, in either sense; FIELD of the card on LINE names them. Not OK, with
-   !! an error, where there is none, or where bodies lie on both sides and forces on their nodes would be those of both.
-   subroutine find_face(deck, model, line, field, id, element, side, first, outward, ok)
+   !> The FACE whose corners have the numbers ID, in either sense; FIELD of the card on LINE names them. None, with an error, where
+   !! there is none, or where bodies lie on both sides and forces on their nodes would be those of both.
+   subroutine find_face(deck, model, line, field, id, face)
       type(checked_deck), intent(in) :: deck
       type(model_type), intent(in)   :: model
       integer, intent(in)            :: line
       character(*), intent(in)       :: field
       integer, intent(in)            :: id(:)         !! 3 or 4 corners, going round
-      integer, intent(out)           :: element, side
-      integer, intent(out)           :: first         !! position of ID(1) on the side
-      logical, intent(out)           :: outward, ok   !! the right hand round the corners points out of the element
-      integer :: found, i, k, node, s
+      type(named_face), intent(out)  :: face
+      type(named_face) :: tried
+      integer :: found, i, node, s
 
       found = 0
       node = model%node_table%find(id(1))
       do while (node > 0)
          do i = model%first_at(node), model%first_at(node + 1) - 1
             do s = 1, element_table(model%element_kind(model%elements_at(i)))%n_sides
-               call compare_corners(model, model%elements_at(i), s, id, k, outward)
-               if (k == 0) cycle
+               call compare_corners(model, model%elements_at(i), s, id, tried)
+               if (tried%element == 0) cycle
                found = found + 1
-               element = model%elements_at(i)
-               side = s
-               first = k
+               face = tried
             end do
          end do
          if (node /= model%node_table%find(id(1))) exit
          node = model%twin(node)
       end do
-      ok = found == 1
       if (found == 0) then
          call deck%field_error(line, field, 'no body element has a face with the corners '//list_of_numbers(id))
       else if (found > 1) then
          call deck%field_error(line, field, 'bodies lie on both sides of the face with the corners '//list_of_numbers(id)// &
                                ', so which one the pressure acts on is not known')
-      else
-         call compare_corners(model, element, side, id, first, outward)
+         face = named_face()
       end if
    end subroutine find_face
 
-   !> FIRST is the position on side S of element E of the corner with the number ID(1) where ID are the corners of the side, else 0.
-   pure subroutine compare_corners(model, e, s, id, first, outward)
-      type(model_type), intent(in) :: model
-      integer, intent(in)          :: e, s, id(:)
-      integer, intent(out)         :: first
-      logical, intent(out)         :: outward
+   !> Side S of element E where ID are its corners, else none.
+   pure subroutine compare_corners(model, e, s, id, face)
+      type(model_type), intent(in)  :: model
+      integer, intent(in)           :: e, s, id(:)
+      type(named_face), intent(out) :: face
       integer :: k, place(size(id))
+      logical :: outward
 
-      first = 0
-      outward = .false.
       associate (kind => element_table(model%element_kind(e)))
          if (kind%dimension /= 3 .or. kind%side_corners(s) /= size(id)) return
          do k = 1, size(id)
@@ -68,12 +68,9 @@ contains
          end do
       end associate
       if (any(place == 0)) return
-      if (all(place == cshift([(k, k = 1, size(id))], place(1) - 1))) then
-         outward = .true.
-      else if (any(place /= cshift([(k, k = size(id), 1, -1)], size(id) - place(1)))) then
-         return ! not going round
-      end if
-      first = place(1)
+      outward = all(place == cshift([(k, k = 1, size(id))], place(1) - 1))
+      if (.not. outward .and. any(place /= cshift([(k, k = size(id), 1, -1)], size(id) - place(1)))) return ! not going round
+      face = named_face(e, s, place(1), outward)
    end subroutine compare_corners
 
    !> Which corner of element E node ID is, the twin of a split node too; 0: none.

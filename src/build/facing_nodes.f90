@@ -23,9 +23,9 @@ module facing_nodes
 contains
 
    !> For every node of side 1 the node of side 2 at the same place.
-   subroutine pair_nodes(model, surfaces, side1, side2, tol, partner, fault)
+   subroutine pair_nodes(model, surface, side1, side2, tol, partner, fault)
       type(model_type), intent(in)        :: model
-      type(surface_type), intent(in)      :: surfaces(2)
+      integer, intent(in)                 :: surface(2)   !! of the model
       type(surface_node_list), intent(in) :: side1, side2 !! their nodes
       real(wp), intent(in)                :: tol          !! 0: the default [length]
       integer, intent(inout)              :: partner(:)
@@ -37,7 +37,7 @@ contains
       character(:), allocatable :: place
 
       fault%words = ''
-      tolerance = merge(tol, default_tolerance*shortest_edge(model, surfaces(1)), tol > 0.0_wp)
+      tolerance = merge(tol, default_tolerance*shortest_edge(model, model%surfaces(surface(1))), tol > 0.0_wp)
       call search%build(model%x(:, side2%node))
       allocate (taken(side2%n), source=.false.)
       lonely = 0; turned = 0; shared = 0; worst = 0.0_wp; worst_node = 0
@@ -74,7 +74,7 @@ contains
             ' their normals do not point against each other'
       else if (side2%n /= side1%n) then
          fault%words = 'SIDE2 has '//plural(side2%n, 'node')//', SIDE1 '//integer_text(side1%n)//': every node needs its partner'
-      else if (.not. same_order(surfaces, side1, partner)) then
+      else if (.not. same_order(model, surface, side1, partner)) then
          fault%words = 'nodes at the middle of edges face corners: one side is of second order, the other is not'
       end if
    end subroutine pair_nodes
@@ -96,15 +96,16 @@ contains
    end function shortest_edge
 
    !> Whether corners have corners for partners, and nodes between corners such nodes.
-   pure logical function same_order(surfaces, side1, partner)
-      type(surface_type), intent(in)      :: surfaces(2)
+   pure logical function same_order(model, surface, side1, partner)
+      type(model_type), intent(in)        :: model
+      integer, intent(in)                 :: surface(2)
       type(surface_node_list), intent(in) :: side1
       integer, intent(in)                 :: partner(:) !! of its nodes, each another one
       type(id_table_type) :: between(2)
       integer :: k
 
       do k = 1, 2
-         call between(k)%build(nodes_between(surfaces(k)))
+         call between(k)%build(nodes_between(model%surfaces(surface(k))))
       end do
       same_order = all([(between(1)%find(side1%node(k)) > 0 .eqv. between(2)%find(partner(k)) > 0, k = 1, side1%n)])
    end function same_order

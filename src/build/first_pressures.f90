@@ -4,7 +4,7 @@ module first_pressures
    use determinate_joints, only: carried_resultant
    use kinds, only: wp
    use model_data, only: joint_type, model_type, n_bars, n_sections, stage_load_type
-   use normal_stiffness, only: loading_pressure
+   use normal_curve, only: loading_pressure
    use text_tools, only: integer_text, real_text
    implicit none
    private
@@ -81,7 +81,8 @@ contains
       end do
       p = force/joint%area
       if (p <= 0.0_wp) p = loading_pressure(joint%law%normal, moved)
-      if (p <= 0.0_wp) p = 1.0e-6_wp*maxval([1.0_wp, model%properties%e])
+      if (p <= 0.0_wp) p = 1.0e-6_wp*maxval(model%properties%e)
+      if (p <= 0.0_wp) p = 1.0_wp ! nothing says in which units
    end function guessed_pressure
 
    !> The area of JOINT that takes the first increment: A_int, or where there are gaps the part that stands closed at first; where

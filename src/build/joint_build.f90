@@ -199,9 +199,21 @@ contains
       type(checked_deck), intent(in)  :: deck
       type(id_table_type), intent(in) :: joints !! of the JOINT cards, by their ids
       integer, intent(in)             :: law
+      integer :: highest, left
 
       number = law
-      if (joints%find(law) > 0) number = law + max(maxval(deck%bulk%joint%id), maxval(deck%bulk%pjoint%id))
+      if (joints%find(law) == 0) return
+      highest = max(maxval(deck%bulk%joint%id), maxval(deck%bulk%pjoint%id))
+      if (law <= huge(law) - highest) then
+         number = law + highest
+         return
+      end if
+      left = findloc(deck%bulk%pjoint%id, law, dim=1) ! behind the last number there is none: the free ones from 1 on, a law each
+      number = 0
+      do while (left > 0)
+         number = number + 1
+         if (joints%find(number) == 0 .and. all(deck%bulk%pjoint%id /= number)) left = left - 1
+      end do
    end function group_number
 
    !> Area and mean normal of a joint.

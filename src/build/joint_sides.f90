@@ -52,7 +52,7 @@ contains
          if (card%fit /= fit_yes) then
             call surface_nodes(model, model%surfaces(surface(2)), side2)
             partner = 0
-            call pair_nodes(model, model%surfaces(surface), side1, side2, card%tolerance, partner, fault)
+            call pair_nodes(model, surface, side1, side2, card%tolerance, partner, fault)
          end if
          if (fault%words == '') then
             call pair_elements(deck, j, model, model%surfaces(surface(1)), side1, partner, elements)
@@ -166,7 +166,7 @@ contains
          if (.not. found%is_any) then
             call deck%field_error(card%line, 'SIDE2', 'surface '//integer_text(card%sides(2))//' covers nothing of SIDE1: no '// &
                'face of it looks at one of SIDE1 within '//real_text(found%reach)//' along the normal; the nearest nodes are '// &
-               real_text(nearest_nodes(model, model%surfaces(surface)))//' apart. Mark the sides that face each other, or '// &
+               real_text(nearest_nodes(model, surface))//' apart. Mark the sides that face each other, or '// &
                'give a larger TOL')
          else if (found%double > 0) then
             call deck%field_error(card%line, 'SIDE2', 'faces of surface '//integer_text(card%sides(2))//' lie behind one '// &
@@ -180,16 +180,16 @@ contains
    end subroutine fitted_elements
 
    !> The shortest distance between a node of one surface and one of the other [length].
-   pure real(wp) function nearest_nodes(model, surfaces) result(shortest)
+   pure real(wp) function nearest_nodes(model, surface) result(shortest)
       type(model_type), intent(in)   :: model
-      type(surface_type), intent(in) :: surfaces(2)
+      integer, intent(in)            :: surface(2) !! of MODEL
       type(position_search_type) :: search
       real(wp) :: distance
       integer  :: found, k
 
       shortest = huge(1.0_wp)
-      call search%build(model%x(:, nodes_of(surfaces(2))))
-      associate (nodes => nodes_of(surfaces(1)))
+      call search%build(model%x(:, nodes_of(model%surfaces(surface(2)))))
+      associate (nodes => nodes_of(model%surfaces(surface(1))))
          do k = 1, size(nodes)
             call search%nearest(model%x(:, nodes(k)), shortest, found, distance)
             shortest = min(shortest, distance)

@@ -5,7 +5,6 @@ module law_build
    use interface_operator, only: nodes_of_end, weights_of_end
    use kinds, only: wp
    use model_data, only: joint_type, model_type
-   use normal_stiffness, only: normal_law
    use text_tools, only: integer_text
    implicit none
    private
@@ -37,12 +36,9 @@ contains
       type(joint_type), intent(inout) :: joint
       integer :: direction, i, k
 
-      if (id == 0) return
-      i = tables%pjoint%find(id)
-      if (i == 0) then
-         call deck%field_error(joint%line, 'PJID', 'there is no PJOINT '//integer_text(id))
-         return
-      end if
+      i = 0
+      if (id > 0) i = tables%pjoint%find(id)
+      if (i == 0) return ! said where the laws are checked
       associate (pjoint => deck%bulk%pjoint(i), law => joint%law)
          if (pjoint%p0_given) joint%p0 = pjoint%p0
          law%has_friction = pjoint%mu_given
@@ -50,7 +46,7 @@ contains
          joint%n_reanalyses = pjoint%n_reanalyses
          k = tables%jnorm%find(pjoint%normal_law)
          if (k > 0) then ! else said where PJOINT is checked
-            law%normal = normal_law(c=deck%bulk%jnorm(k)%c, m=deck%bulk%jnorm(k)%m, e_u=deck%bulk%jnorm(k)%e_u)
+            law%normal = deck%bulk%jnorm(k)%law
             joint%e_u_given = deck%bulk%jnorm(k)%e_u_given
          end if
          do direction = 1, 2

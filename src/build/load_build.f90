@@ -1,16 +1,15 @@
 !> Loads: which forces act, and which displacements are prescribed, at the end of every stage.
 module load_build
    use body_elements, only: element_weight
-   use bulk_data, only: has_component
    use deck_check, only: checked_deck
    use element_kinds, only: max_nodes, max_side_nodes
    use kinds, only: wp
    use load_checks, only: check_load_cards, has_set, nor_others
    use model_data, only: corners_of, model_type, stage_load_type, surface_type
    use nodal_forces, only: find_nodal_forces
-   use reference_nodes, only: place_of_component
    use section_coupling, only: add_section_share
    use pressed_sides, only: add_pressure, find_pressed_sides, pressed_side
+   use support_moves, only: add_moves, check_kept, keep_moved
    use surface_build, only: side_influence
    use system_build, only: system_of_id
    use text_tools, only: integer_text
@@ -32,11 +31,13 @@ contains
 
       call find_nodal_forces(deck, model, node, force)
       call check_load_cards(deck, model)
+      call check_kept(deck, model)
       call find_pressed_sides(deck, model, pressed)
       allocate (model%stage_loads(size(deck%control%stages)))
       do s = 1, size(deck%control%stages)
          associate (loads => model%stage_loads(s), reference => deck%control%stages(s)%load)
             allocate (loads%node(size(deck%bulk%force)), loads%force(3, size(deck%bulk%force)))
+            call keep_moved(deck, model, reference%id, loads)
             if (reference%id == 0) cycle
             i = findloc(deck%bulk%load%set, reference%id, dim=1)
             if (i > 0) then
@@ -72,9 +73,7 @@ contains
          do i = 1, size(bulk%force)
             if (bulk%force(i)%set == set) call add_force(nodal(i), factor*force(:, i), loads)
          end do
-         do i = 1, size(bulk%displacement)
-            if (bulk%displacement(i)%set == set) call add_displacement(i)
-         end do
+         call add_moves(deck, model, set, factor, loads)
          if (all(bulk%pressure%set /= set) .and. all(bulk%surface_load%set /= set) .and. all(bulk%gravity%set /= set)) return
          if (deck%errors%any()) return ! elements may be what nothing can be spread over
          allocate (spread_out(3, model%n_nodes), source=0.0_wp)
@@ -103,30 +102,6 @@ contains
       do node = 1, model%n_nodes
          if (any(abs(spread_out(:, node)) > 0.0_wp)) call add_force(node, spread_out(:, node), loads)
       end do
-
-   contains
-
-      subroutine add_displacement(card)
-         integer, intent(in) :: card
-         integer :: at, d
-
-         associate (displacement => deck%bulk%displacement(card))
-            at = model%node_table%find(displacement%node)
-            if (at == 0) return
-            if (.not. allocated(loads%moved)) allocate (loads%moved(model%dimension, model%n_nodes), source=0.0_wp)
-            do d = 1, 6
-               if (.not. has_component(displacement%components, d)) cycle
-               associate (place => place_of_component(model, at, d))
-                  if (place%node == 0) cycle
-                  associate (moved => loads%moved(place%d, place%node))
-                     moved = moved + factor*displacement%value*place%scale
-                     if (model%twin(place%node) > 0) loads%moved(d, model%twin(at)) = moved ! a split node: both of it
-                  end associate
-               end associate
-            end do
-         end associate
-      end subroutine add_displacement
-
    end subroutine add_set
 
    !> A FORCE at NODE, at the end of the list.

@@ -124,13 +124,10 @@ contains
 
       do i = 1, size(deck%bulk%mass)
          associate (card => deck%bulk%mass(i))
-            if (card%node == 0) cycle
             node = model%node_table%find(card%node)
-            if (node == 0) then
-               call deck%field_error(card%line, 'G', 'there is no GRID '//integer_text(card%node))
-            else if (.not. model%used(node)) then
+            if (node == 0) cycle
+            if (.not. model%used(node)) &
                call deck%field_error(card%line, 'G', 'node '//integer_text(card%node)//' belongs to no element')
-            end if
          end associate
       end do
    end subroutine check_masses
@@ -144,12 +141,8 @@ contains
 
       do i = 1, size(deck%bulk%displacement)
          associate (card => deck%bulk%displacement(i))
-            if (card%node == 0) cycle
             node = model%node_table%find(card%node)
-            if (node == 0) then
-               call deck%field_error(card%line, card%field, 'there is no GRID '//integer_text(card%node), called='G')
-               cycle
-            end if
+            if (node == 0) cycle
             do d = 1, 6
                if (.not. has_component(card%components, d)) cycle
                words = ''

@@ -15,6 +15,7 @@ module model_build
    use load_build, only: build_loads
    use mesh_build, only: build_mesh, marked_sides
    use model_data, only: model_type, n_sections
+   use named_nodes, only: check_named_nodes
    use rigid_build, only: build_dependents
    use rotation_build, only: build_rotations
    use section_build, only: build_sections
@@ -32,7 +33,8 @@ module model_build
 contains
 
    !> Build MODEL and the PLAN of its stages from DECK; what does not fit together goes to ERRORS, and then neither
-   !! is fit to be solved.
+   !! is fit to be solved. Of a faulty mesh nothing further is made: areas, fits and loads of it would be of numbers that nobody
+   !! gave. Errors that do not depend on each other are found together.
    subroutine build_model(deck, model, plan, errors)
       type(deck_type), intent(in), target          :: deck
       type(model_type), intent(out)                :: model
@@ -43,9 +45,15 @@ contains
 
       if (.not. deck%is_whole) return
       call checked%start(deck, errors)
+      ! what the cards say of each other, the load history, the mesh
       call checked%check_ids()
+      call plan_stages(deck, plan, errors)
       call build_mesh(checked, model, sides)
+      call check_named_nodes(checked, model)
+      if (checked%mesh_is_faulty()) return
       call build_surfaces(checked, sides, model)
+      if (checked%mesh_is_faulty()) return
+      ! what stands on the mesh: each is put together whatever is wrong with the others
       call split_shared_surfaces(checked, model)
       call build_joints(checked, model)
       call build_gaps(checked, model)
@@ -58,10 +66,10 @@ contains
       call build_dependents(checked, model)
       call build_loads(checked, model)
       call build_temperatures(checked, model)
-      call plan_stages(deck, plan, errors)
       call find_shown_nodes(deck, model, plan, errors)
       if (.not. any(model%used)) call errors%add(0, 'nothing to solve: expected body elements or interface elements')
       if (errors%any()) return
+      ! what all of it together does
       call find_parts(model, .false.)          ! bolts that are being tightened connect nothing yet
       call find_determinate_joints(model)
       call find_first_pressures(plan%stages(1)%shares(1), deck%control%method /= method_step, model, errors)

@@ -29,8 +29,6 @@ contains
       do i = 1, size(deck%bulk%force)
          associate (card => deck%bulk%force(i))
             node(i) = model%node_table%find(card%node)
-            if (node(i) == 0 .and. card%node > 0) call deck%field_error(card%line, 'G', 'there is no GRID '// &
-                                                                        integer_text(card%node))
             force(:, i) = card%force
             if (card%ends(1) > 0) then
                call along_lines(deck, model, card, force(:, i))
@@ -130,11 +128,7 @@ contains
       integer  :: k, nodes(4)
 
       force = 0.0_wp
-      do k = 1, 4
-         nodes(k) = model%node_table%find(card%ends(k))
-         if (nodes(k) == 0 .and. card%ends(k) > 0) call deck%field_error(card%line, k + 3, 'there is no GRID '// &
-                                                                         integer_text(card%ends(k)))
-      end do
+      nodes = [(model%node_table%find(card%ends(k)), k = 1, 4)]
       if (any(nodes == 0 .and. (card%ends > 0 .or. card%ends(3) > 0)) .or. any(nodes(:2) == 0)) return
       do k = 1, merge(2, 1, nodes(3) > 0)
          line(:, k) = model%x(:, nodes(2*k)) - model%x(:, nodes(2*k - 1))

@@ -128,7 +128,8 @@ contains
       call model%node_table%build(model%node_id)
    end subroutine order_nodes
 
-   !> Append nodes at X to those of MODEL, numbered behind the highest; the table of numbers has them too.
+   !> Append nodes at X to those of MODEL, numbered behind the highest; the table of numbers has them too. What would pass the largest
+   !! number that there is has that.
    subroutine append_nodes(model, x)
       type(model_type), intent(inout) :: model
       real(wp), intent(in)            :: x(:, :) !! (3, new nodes) [length]
@@ -140,7 +141,7 @@ contains
       all_x(:, :n) = model%x
       all_x(:, n + 1:) = x
       call move_alloc(all_x, model%x)
-      model%node_id = [model%node_id, (model%node_id(n) + k, k = 1, size(x, 2))]
+      model%node_id = [model%node_id, (model%node_id(n) + min(k, huge(1) - model%node_id(n)), k = 1, size(x, 2))]
       model%n_nodes = n + size(x, 2)
       call model%node_table%build(model%node_id)
    end subroutine append_nodes

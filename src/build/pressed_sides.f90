@@ -6,7 +6,7 @@ module pressed_sides
    use element_build, only: is_face
    use element_kinds, only: element_table, kind_hexa8, kind_penta6, kind_tetra4, max_side_nodes
    use element_loads, only: side_forces, side_tractions
-   use face_search, only: find_face, own_corner
+   use face_search, only: find_face, named_face, own_corner
    use id_table, only: id_table_type
    use kinds, only: wp
    use model_data, only: corners_of, model_type
@@ -112,8 +112,9 @@ contains
       type(pressed_side), allocatable, intent(inout) :: pressed(:)
       integer, intent(inout)                         :: n
       type(pressed_side) :: side
-      integer :: corner, f
-      logical :: any_face, outward, ok
+      type(named_face)   :: found
+      integer :: f
+      logical :: any_face
 
       any_face = .false.
       associate (card => deck%bulk%pressure(i))
@@ -129,20 +130,21 @@ contains
                if (face%id < card%first .or. face%id > card%last) cycle
                if (.not. is_face(model, face)) cycle
                any_face = .true.
-               call find_face(deck, model, card%line, 'EID', face%nodes(:element_table(face%kind)%n_corners), side%element, &
-                              side%side, corner, outward, ok)
-               if (.not. ok) cycle
+               call find_face(deck, model, card%line, 'EID', face%nodes(:element_table(face%kind)%n_corners), found)
+               if (found%element == 0) cycle
+               side%element = found%element
+               side%side = found%side
                associate (c => element_table(face%kind)%n_corners)
                   if (c == 3 .and. abs(card%pressure(4) - card%pressure(1)) > 0.0_wp) then
                      call no_fourth_corner(deck, card)
                      return
                   end if
-                  if (outward) then
-                     side%p(:c) = cshift(card%pressure(:c), 1 - corner)
+                  if (found%outward) then
+                     side%p(:c) = cshift(card%pressure(:c), 1 - found%first)
                   else
-                     side%p(:c) = cshift(card%pressure(c:1:-1), -corner)
+                     side%p(:c) = cshift(card%pressure(c:1:-1), -found%first)
                   end if
-                  if (outward .and. norm2(side%direction) <= 0.0_wp) side%p = -side%p
+                  if (found%outward .and. norm2(side%direction) <= 0.0_wp) side%p = -side%p
                   call append(side, pressed, n)
                end associate
             end associate
@@ -159,18 +161,14 @@ contains
       integer, intent(in)                            :: i
       type(pressed_side), allocatable, intent(inout) :: pressed(:)
       integer, intent(inout)                         :: n
-      type(pressed_side) :: side
-      integer :: corner
-      logical :: outward, ok
+      type(named_face) :: face
 
       associate (card => deck%bulk%pressure(i))
          if (any(card%corners(:3) == 0)) return ! said already
-         call find_face(deck, model, card%line, 'G1', card%corners(:merge(4, 3, card%corners(4) > 0)), side%element, side%side, &
-                        corner, outward, ok)
-         if (.not. ok) return
-         side%card = i
-         side%p = merge(-card%pressure, card%pressure, outward)
-         call append(side, pressed, n)
+         call find_face(deck, model, card%line, 'G1', card%corners(:merge(4, 3, card%corners(4) > 0)), face)
+         if (face%element == 0) return
+         call append(pressed_side(card=i, element=face%element, side=face%side, &
+                                  p=merge(-card%pressure, card%pressure, face%outward)), pressed, n)
       end associate
    end subroutine press_on_corners
 

@@ -4,10 +4,13 @@ module rigid_build
    use deck_check, only: checked_deck
    use dependences, only: add_dependence, add_term, check_dependences, dependence_list, eliminate
    use kinds, only: wp
+   use mean_build, only: add_mean
    use model_data, only: model_type, n_rotations
    use node_coupling, only: couple_node
-   use reference_nodes, only: component_place, node_axes, place_of_component, rotation_at
-   use rigid_motion, only: by_rotation, mean_motion
+   use reference_nodes, only: component_place, node_axes, place_of_component, third_axis
+   use rigid_motion, only: by_rotation
+   use rigid_nodes, only: find_node, no_displacement
+   use set_sums, only: check_sums, summed_sets
    use text_tools, only: integer_text
    implicit none
    private
@@ -23,15 +26,19 @@ contains
       type(model_type), intent(inout) :: model
       type(dependence_list) :: list
       logical, allocatable  :: without(:) ! nodes of these cards that no element holds
+      integer, allocatable  :: active(:)  ! sets of equations
       integer :: i, set
 
       set = 0
       if (size(deck%control%stages) > 0) set = deck%control%stages(1)%equations%id
-      if (set > 0 .and. all(deck%bulk%equation%set /= set)) call deck%errors%add(deck%control%stages(1)%equations%line, &
-         'MPC: there is no MPC with set '//integer_text(set))
+      if (set > 0 .and. all(deck%bulk%equation%set /= set) .and. all(deck%bulk%equation_sum%set /= set)) call deck%errors%add( &
+         deck%control%stages(1)%equations%line, 'MPC: there is no MPC or MPCADD with set '//integer_text(set))
+      call check_sums(deck, 'MPCADD', deck%bulk%equation_sum, deck%bulk%equation%set, 'MPC')
+      allocate (active, source=summed_sets(deck%bulk%equation_sum, set))
       if (size(deck%bulk%rigid) + size(deck%bulk%equation) == 0) return
       allocate (without(model%n_nodes), source=.false.)
       do i = 1, size(deck%bulk%rigid)
+         call check_expansion(deck, deck%bulk%rigid(i))
          if (deck%bulk%rigid(i)%is_mean) then
             call add_mean(deck, deck%bulk%rigid(i), model, list, without)
          else
@@ -39,7 +46,7 @@ contains
          end if
       end do
       do i = 1, size(deck%bulk%equation)
-         call add_equation(deck, deck%bulk%equation(i), deck%bulk%equation(i)%set == set, model, list, without)
+         call add_equation(deck, deck%bulk%equation(i), any(active == deck%bulk%equation(i)%set), model, list, without)
       end do
       model%used = model%used .or. without
       if (deck%errors%any() .or. list%n == 0) return
@@ -65,6 +72,16 @@ contains
       end subroutine turn_rotation
 
    end subroutine build_dependents
+
+   !> A rigid element that grows where there are temperatures: that is not done.
+   subroutine check_expansion(deck, card)
+      type(checked_deck), intent(in) :: deck
+      type(rigid_card), intent(in)   :: card
+
+      if (abs(card%alpha) > 0.0_wp .and. any(deck%control%stages%temperature%id > 0)) call deck%field_error(card%line, &
+         card%alpha_at, 'not zero, and case control has TEMPERATURE(LOAD), but rigid elements do not grow with their '// &
+         'temperature; expected blank or zero', called='ALPHA')
+   end subroutine check_expansion
 
    !> The dependences of an RBE2: the components CM of its nodes are those of a rigid body that moves with GN, {u} + theta x arm.
    subroutine add_rigid(deck, card, model, list, without)
@@ -111,120 +128,11 @@ contains
 
       motion(:, :3) = node_axes(model, point)
       motion(:, 4:) = matmul(by_rotation(arm), motion(:, :3))
-      if (model%dimension == 2) motion(:, 6) = matmul(by_rotation(arm), [0.0_wp, 0.0_wp, 1.0_wp])
+      if (model%dimension == 2) motion(:, 6) = matmul(by_rotation(arm), third_axis(model, point))
       if (.not. model%axisymmetric) return
       motion(1, :) = 0.0_wp
       motion(3, :) = 0.0_wp
    end function rigid_components
-
-   !> The dependences of an RBE3: the components REFC of its node are the weighted mean of those of its nodes.
-   subroutine add_mean(deck, card, model, list, without)
-      type(checked_deck), intent(in)       :: deck
-      type(rigid_card), intent(in)         :: card
-      type(model_type), intent(in)         :: model
-      type(dependence_list), intent(inout) :: list
-      logical, intent(inout)               :: without(:)
-      real(wp) :: t(6, 3, size(card%nodes)), direction(6)
-      integer  :: digit, i, nodes(size(card%nodes)), point, c
-      logical  :: determined(6)
-
-      call find_node(deck, card%line, 3, card%node, model, without, point)
-      do i = 1, size(card%nodes)
-         call find_node(deck, card%line, card%at(i), card%nodes(i), model, without, nodes(i))
-      end do
-      if (no_displacement(model, card%components) .and. .not. has_component(card%components, 6)) &
-         call deck%field_error(card%line, 'REFC', 'names no component that nodes of this model have')
-      call check_directions(deck, card, model)
-      if (point == 0 .or. any(nodes == 0) .or. deck%errors%any()) return
-      call motion_of_mean(model, card, point, nodes, t, determined)
-      do digit = 1, 6
-         if (.not. has_component(card%components, digit)) cycle
-         associate (place => place_of_component(model, point, digit))
-            if (place%node == 0) cycle
-            direction = direction_of(model, point, digit)
-            if (any(.not. determined .and. abs(direction) > 1.0e-10_wp)) then
-               call deck%field_error(card%line, 'REFC', 'component '//integer_text(digit)//' of node '// &
-                  integer_text(card%node)//' cannot be had from the components C of these nodes: they move so that it is left '// &
-                  'open, as nodes on a line leave the rotation about it')
-               return
-            end if
-            call add_dependence(list, place, card%line, 3)
-            do i = 1, size(nodes)
-               do c = 1, model%dimension
-                  call add_term(list, component_place(nodes(i), c), place%scale*dot_product(direction, t(:, c, i)))
-               end do
-            end do
-         end associate
-      end do
-   end subroutine add_mean
-
-   !> What of displacement and rotation in global axes the component DIGIT of POINT is.
-   pure function direction_of(model, point, digit) result(direction)
-      type(model_type), intent(in) :: model
-      integer, intent(in)          :: point, digit
-      real(wp) :: direction(6), axes(3, 3)
-
-      axes = node_axes(model, point)
-      if (model%dimension == 2) axes(:, 3) = [0.0_wp, 0.0_wp, 1.0_wp]
-      direction = 0.0_wp
-      if (digit <= 3) direction(:3) = axes(:, digit)
-      if (digit > 3) direction(4:) = axes(:, digit - 3)
-      if (model%axisymmetric) direction([1, 3, 4, 5, 6]) = 0.0_wp
-   end function direction_of
-
-   !> [T] of mean_motion for the NODES of CARD; on a ring, whose rotation does not count, from their displacements along the axis.
-   subroutine motion_of_mean(model, card, point, nodes, t, determined)
-      type(model_type), intent(in) :: model
-      type(rigid_card), intent(in) :: card
-      integer, intent(in)          :: point, nodes(:)
-      real(wp), intent(out)        :: t(:, :, :)
-      logical, intent(out)         :: determined(6)
-      real(wp) :: r(3, size(nodes)), axes(3, 3, size(nodes))
-      logical  :: used(3, size(nodes))
-      integer  :: c, i
-
-      do i = 1, size(nodes)
-         r(:, i) = model%x(:, nodes(i)) - model%x(:, point)
-         axes(:, :, i) = node_axes(model, nodes(i))
-         used(:, i) = [(c <= model%dimension .and. has_component(card%directions(i), c), c = 1, 3)]
-      end do
-      if (model%axisymmetric) then
-         r = 0.0_wp
-         axes([1, 3], :, :) = 0.0_wp
-      end if
-      call mean_motion(r, axes, used, card%weight, t, determined)
-   end subroutine motion_of_mean
-
-   !> The means are of displacements: C names no rotations, and some displacement.
-   subroutine check_directions(deck, card, model)
-      type(checked_deck), intent(in) :: deck
-      type(rigid_card), intent(in)   :: card
-      type(model_type), intent(in)   :: model
-      integer :: i
-
-      do i = 1, size(card%nodes)
-         if (card%directions(i) == 0) cycle ! said already
-         if (any([has_component(card%directions(i), 4), has_component(card%directions(i), 5), &
-                  has_component(card%directions(i), 6)])) then
-            call deck%field_error(card%line, card%at(i), 'its components C, '//integer_text(card%directions(i))// &
-               ', are rotations too, which nodes of bodies do not have; expected C of 1 to 3', called='G')
-            return
-         else if (no_displacement(model, card%directions(i))) then
-            call deck%field_error(card%line, card%at(i), 'its components C, '//integer_text(card%directions(i))// &
-               ', name no displacement that nodes of this model have', called='G')
-            return
-         end if
-      end do
-   end subroutine check_directions
-
-   !> Whether COMPONENTS name no displacement of MODEL.
-   pure logical function no_displacement(model, components)
-      type(model_type), intent(in) :: model
-      integer, intent(in)          :: components
-      integer :: d
-
-      no_displacement = components > 0 .and. .not. any([(has_component(components, d), d = 1, model%dimension)])
-   end function no_displacement
 
    !> The dependence of an MPC where it is ACTIVE.
    subroutine add_equation(deck, card, active, model, list, without)
@@ -257,28 +165,5 @@ contains
          call add_term(list, place(k), -card%factor(k)/card%factor(1)*place(1)%scale/place(k)%scale)
       end do
    end subroutine add_equation
-
-   !> The NODE with the number ID, which data field FIELD of the card on LINE names; 0, and an error, where there is none, or
-   !! where a joint split it. A node that no element holds is WITHOUT.
-   subroutine find_node(deck, line, field, id, model, without, node)
-      type(checked_deck), intent(in) :: deck
-      integer, intent(in)            :: line, field, id
-      type(model_type), intent(in)   :: model
-      logical, intent(inout)         :: without(:)
-      integer, intent(out)           :: node
-
-      node = 0
-      if (id == 0) return
-      node = model%node_table%find(id)
-      if (node == 0) then
-         call deck%field_error(line, field, 'there is no GRID '//integer_text(id), called='G')
-      else if (model%twin(node) > 0) then
-         call deck%field_error(line, field, 'node '//integer_text(id)//' is split by a JOINT: which of the two is meant is not '// &
-                               'known; expected nodes away from it, or bodies meshed apart', called='G')
-         node = 0
-      else
-         without(node) = without(node) .or. .not. model%used(node)
-      end if
-   end subroutine find_node
 
 end module rigid_build

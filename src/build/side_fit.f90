@@ -83,7 +83,6 @@ contains
          end if
          if (integrals%seen <= 0.0_wp) cycle
          found%is_any = .true.
-         if (sum(area) <= 0.0_wp) cycle ! its thickness could not be read
          own_parts = own_parts + n_parts(model%dimension, n)
          found%cover%spacing(1) = found%cover%spacing(1) + seen_area(face%seen)
          call fit_face(model%dimension, n, share >= whole_share, integrals, part)
@@ -153,8 +152,7 @@ contains
          end do
       end associate
       face%on_ring = model%axisymmetric
-      if (model%dimension == 2 .and. model%element_property(side1%element(s)) > 0) &
-         face%thickness = model%properties(model%element_property(side1%element(s)))%thickness
+      if (model%dimension == 2) face%thickness = model%properties(model%element_property(side1%element(s)))%thickness
       face%reach = merge(reach, default_reach*longest, reach > 0.0_wp)
    end subroutine look_at
 

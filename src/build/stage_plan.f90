@@ -16,6 +16,7 @@ module stage_plan
       character(:), allocatable :: label
       integer :: output = 0                 !! output_* of case_control
       logical :: plot = .false., vtu = .false., steps = .false., stress = .false., state = .false., condensed = .false.
+      logical :: along_cd = .false.         !! tables of nodes have the directions of their systems CD
       logical, allocatable :: shown(:)      !! nodes that its tables are limited to; not allocated: all
       character(:), allocatable :: shown_words !! of that, behind a title
       real(wp), allocatable :: shares(:)    !! of the stage's load change, one an increment, sum 1
@@ -47,6 +48,7 @@ contains
             stage%stress = given%stress
             stage%state = given%state
             stage%condensed = given%condensed
+            stage%along_cd = given%along_cd
             stage%shares = [1.0_wp]
             if (given%increments%id == 0) cycle
             k = findloc(deck%bulk%jincr%id, given%increments%id, dim=1)

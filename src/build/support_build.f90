@@ -4,13 +4,14 @@ module support_build
    use deck_check, only: checked_deck
    use model_data, only: model_type, n_bars, n_points
    use reference_nodes, only: place_of_component
+   use set_sums, only: check_sums, summed_sets
    use surface_build, only: find_surface
    use surface_sides, only: nodes_of
    use text_tools, only: integer_text
    implicit none
    private
 
-   public :: build_supports
+   public :: build_supports, support_sets
 
 contains
 
@@ -18,7 +19,7 @@ contains
    subroutine build_supports(deck, model)
       type(checked_deck), intent(in)  :: deck
       type(model_type), intent(inout) :: model
-      integer, allocatable :: sets(:) ! that hold
+      integer, allocatable :: sets(:)
       integer :: i, set, set_line
 
       allocate (model%held(model%dimension, model%n_nodes), source=.false.)
@@ -39,41 +40,25 @@ contains
          set = deck%control%stages(1)%supports%id
          set_line = deck%control%stages(1)%supports%line
       end if
-      sets = [set]
-      do i = 1, size(deck%bulk%support_sum)
-         if (deck%bulk%support_sum(i)%set == set .and. set > 0) sets = deck%bulk%support_sum(i)%sets
-      end do
+      allocate (sets, source=support_sets(deck))
       do i = 1, size(deck%bulk%support)
          call apply_support(deck, deck%bulk%support(i), any(sets == deck%bulk%support(i)%set), model)
       end do
-      call check_sums(deck)
+      call check_sums(deck, 'SPCADD', deck%bulk%support_sum, deck%bulk%support%set, 'SPC, SPC1 or SPCM')
       if (set > 0 .and. all(deck%bulk%support%set /= set) .and. all(deck%bulk%support_sum%set /= set)) &
          call deck%errors%add(set_line, 'SPC: there is no SPC, SPC1, SPCM or SPCADD with set '//integer_text(set))
    end subroutine build_supports
 
-   !> SPCADD cards sum up sets that are there, and have numbers of their own.
-   subroutine check_sums(deck)
+   !> The sets of supports that hold: that of case control, or those of its SPCADD.
+   pure function support_sets(deck) result(sets)
       type(checked_deck), intent(in) :: deck
-      integer :: i, k
+      integer, allocatable :: sets(:)
+      integer :: set
 
-      call deck%report_repeated('SPCADD', deck%bulk%support_sum%set, deck%bulk%support_sum%line)
-      do i = 1, size(deck%bulk%support_sum)
-         associate (card => deck%bulk%support_sum(i))
-            if (any(deck%bulk%support%set == card%set) .and. card%set > 0) call deck%field_error(card%line, 'SID', 'set '// &
-               integer_text(card%set)//' is that of an SPC, SPC1 or SPCM too: case control could mean either')
-            do k = 1, size(card%sets)
-               if (card%sets(k) <= 0 .or. any(deck%bulk%support%set == card%sets(k))) cycle
-               if (any(deck%bulk%support_sum%set == card%sets(k))) then
-                  call deck%field_error(card%line, card%at(k), integer_text(card%sets(k))//' is an SPCADD too; expected the '// &
-                                        'sets of supports that it sums up', called='S'//integer_text(k))
-               else
-                  call deck%field_error(card%line, card%at(k), 'there is no SPC, SPC1 or SPCM with set '// &
-                                        integer_text(card%sets(k)), called='S'//integer_text(k))
-               end if
-            end do
-         end associate
-      end do
-   end subroutine check_sums
+      set = 0
+      if (size(deck%control%stages) > 0) set = deck%control%stages(1)%supports%id
+      sets = summed_sets(deck%bulk%support_sum, set)
+   end function support_sets
 
    !> Check one support card, and hold its nodes where it is of the ACTIVE set.
    subroutine apply_support(deck, support, active, model)
@@ -97,8 +82,6 @@ contains
       do k = 1, size(support%first)
          if (support%first(k) == support%last(k)) then
             node = model%node_table%find(support%first(k))
-            if (node == 0 .and. support%first(k) > 0) call deck%field_error(support%line, support%at(k), &
-               'there is no GRID '//integer_text(support%first(k)), called='G')
             if (node > 0 .and. active) call hold(model, node, support%components)
             cycle
          end if

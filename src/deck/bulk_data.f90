@@ -5,6 +5,7 @@ module bulk_data
    use element_kinds, only: max_nodes
    use entry_tally, only: entry_tally_type
    use kinds, only: wp
+   use normal_curve, only: normal_law
    use shear_stiffness, only: shear_law
    implicit none
    private
@@ -97,6 +98,7 @@ module bulk_data
    type, public :: support_card
       integer :: line = 0, set = 0, components = 0
       integer :: surface = 0                            ! PMARK id, 0: the nodes below
+      real(wp) :: value = 0.0_wp                        ! D of an SPC, which has one node
       integer, allocatable :: first(:), last(:), at(:)  ! AT(k): data field of FIRST(k)
    end type support_card
 
@@ -108,6 +110,9 @@ module bulk_data
       integer :: node = 0, components = 0               ! the reference node; RBE2: the components are the directions
       integer, allocatable  :: nodes(:), directions(:), at(:) ! AT(k): data field of NODES(k)
       real(wp), allocatable :: weight(:)
+      integer, allocatable  :: um_nodes(:), um_components(:), um_at(:) ! of an RBE3 with UM: what depends in place of the COMPONENTS
+      real(wp) :: alpha = 0.0_wp                        ! coefficient of thermal expansion
+      integer  :: alpha_at = 0                          ! its data field
    end type rigid_card
 
    !> MPC: the sum of FACTOR(k) times COMPONENT(k) of NODE(k) is zero; the first term depends on the others.
@@ -117,11 +122,11 @@ module bulk_data
       real(wp), allocatable :: factor(:)
    end type equation_card
 
-   !> SPCADD: the union of support SETS.
-   type, public :: support_sum_card
+   !> SPCADD, MPCADD: the union of SETS of supports, of equations.
+   type, public :: set_sum_card
       integer :: line = 0, set = 0
       integer, allocatable :: sets(:), at(:)            ! AT(k): data field of SETS(k)
-   end type support_sum_card
+   end type set_sum_card
 
    !> FORCE (a vector), FORCE1 (a force from node ENDS(1) to ENDS(2)), FORCE2 (across two such lines), MOMENT.
    type, public :: force_card
@@ -233,9 +238,9 @@ module bulk_data
    end type pjoint_card
 
    type, public :: jnorm_card
-      integer  :: line = 0, id = 0
-      real(wp) :: c = 0.0_wp, m = 0.0_wp, e_u = 0.0_wp
-      logical  :: e_u_given = .false.
+      integer :: line = 0, id = 0
+      type(normal_law) :: law
+      logical :: e_u_given = .false.
    end type jnorm_card
 
    type, public :: jshear_card
@@ -276,7 +281,7 @@ module bulk_data
       type(mass_card), allocatable         :: mass(:)
       type(mat1_card), allocatable         :: mat1(:)
       type(support_card), allocatable      :: support(:)
-      type(support_sum_card), allocatable  :: support_sum(:)
+      type(set_sum_card), allocatable      :: support_sum(:), equation_sum(:)
       type(rigid_card), allocatable        :: rigid(:)
       type(equation_card), allocatable     :: equation(:)
       type(force_card), allocatable        :: force(:)
@@ -301,7 +306,7 @@ module bulk_data
 contains
 
    !> Whether digit D, 1 to 6, is among COMPONENTS.
-   pure logical function has_component(components, d)
+   elemental logical function has_component(components, d)
       integer, intent(in) :: components, d
       integer :: k
 

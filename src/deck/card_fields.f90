@@ -5,12 +5,16 @@ module card_fields
    use deck_numbers, only: parse_integer, parse_real
    use field_rules, only: expectation, field_rule, in_range, kind_blank, kind_components, kind_integer, kind_real, kind_word
    use kinds, only: wp
+   use text_tools, only: real_text
    implicit none
    private
 
    public :: decode_card, decode_integer, decode_real
 
    integer, parameter :: most_rules = 32
+
+   real(wp), parameter, public :: largest_size = 1.0e75_wp !! of a number in a deck: its fourth power is still one
+   real(wp), parameter, public :: smallest_size = 1.0e-75_wp !! of one that must be above zero
 
    !> The fields of one card, decoded. Field k is in INTEGERS(k) or REALS(k) or WORDS(k) by its rule.
    type, public :: card_values
@@ -91,10 +95,14 @@ contains
          end if
          call parse_real(card%fields(k)%text(:card%fields(k)%length), values%reals(k), ok)
          if (.not. ok) call decode_real(card, k, rule%name, expectation(rule), values%reals(k), ok, errors)
-         if (ok .and. .not. in_range(rule, values%reals(k))) then
+         if (.not. ok) return
+         ok = in_range(rule, values%reals(k))
+         if (ok) then
+            call check_size(card, k, rule%name, rule%above .and. rule%least >= 0.0_wp, values%reals(k), ok, errors)
+         else
             call wrong_entry(card, k, rule%name, 'is out of range, expected '//expectation(rule), errors)
-            values%reals(k) = rule%default
          end if
+         if (.not. ok) values%reals(k) = rule%default
       case (kind_word)
          values%words(k) = card%fields(k)%text(:8)
          if (index(rule%words, '|'//trim(card%fields(k)%text)//'|') == 0 .or. index(card%fields(k)%text, '|') > 0) &
@@ -146,7 +154,11 @@ contains
       logical :: is_integer
 
       call parse_real(card%fields(k)%text, value, ok)
-      if (ok) return
+      if (ok) then
+         call check_size(card, k, name, .false., value, ok, errors)
+         if (.not. ok) value = 0.0_wp
+         return
+      end if
       value = 0.0_wp
       call parse_integer(card%fields(k)%text, whole, is_integer)
       if (is_number_shape(card%fields(k)%text, '0123456789.+-ED') .and. scan(card%fields(k)%text, '.ED') > 0) then
@@ -157,6 +169,28 @@ contains
          call wrong_entry(card, k, name, 'is not a real number, expected '//expected, errors)
       end if
    end subroutine decode_real
+
+   !> Of numbers beyond all measure a stiffness, an area, a volume is none any more: such a VALUE in data field K of CARD is not OK,
+   !! and said so. One that must be above zero, IS_POSITIVE, must not vanish beside others either.
+   subroutine check_size(card, k, name, is_positive, value, ok, errors)
+      type(card_type), intent(in)          :: card
+      integer, intent(in)                  :: k
+      character(*), intent(in)             :: name
+      logical, intent(in)                  :: is_positive
+      real(wp), intent(in)                 :: value
+      logical, intent(out)                 :: ok
+      type(deck_error_list), intent(inout) :: errors
+
+      ok = .false.
+      if (abs(value) > largest_size) then
+         call wrong_entry(card, k, name, 'is too large to compute with, expected no more than '//real_text(largest_size), errors)
+      else if (is_positive .and. value < smallest_size) then
+         call wrong_entry(card, k, name, 'is too small to compute with, expected at least '//real_text(smallest_size), &
+                          errors)
+      else
+         ok = .true.
+      end if
+   end subroutine check_size
 
    !> Whether TEXT consists of LETTERS only, begins and ends like a number.
    pure logical function is_number_shape(text, letters)

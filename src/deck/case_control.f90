@@ -4,7 +4,7 @@ module case_control
                            value_error
    use case_sets, only: number_set, read_set
    use deck_errors, only: deck_error_list
-   use deck_numbers, only: parse_real
+   use deck_numbers, only: parse_integer, parse_real
    use deck_text, only: deck_text_type
    use entry_tally, only: entry_tally_type
    use habit_entries, only: read_echo, read_habit
@@ -14,12 +14,13 @@ module case_control
    implicit none
    private
 
-   public :: read_case_control
+   public :: read_case_control, offer_petsc
 
    integer, parameter, public :: method_step = 1, method_newton = 2, method_back = 3                !! METHOD =
    integer, parameter, public :: pressure_sumf = 1, pressure_eq10 = 2                               !! PRESSURE =
-   integer, parameter, public :: solver_auto = 1, solver_skyline = 2, solver_tree = 3, solver_petsc = 4, &
-                                 solver_mumps = 5                                                  !! SOLVER =
+   integer, parameter, public :: no_restart = -1, restart_stages = 0                                !! RESTART =, or a number
+   integer, parameter, public :: solver_auto = 1, solver_skyline = 2, solver_tree = 3, &
+                                 solver_petsc = 4, solver_mumps = 5                                !! SOLVER =
 
    real(wp), parameter :: newton_tolerance = 1.0e-10_wp, back_tolerance = 1.0e-6_wp ! TOL that is not given
 
@@ -32,6 +33,7 @@ module case_control
       logical :: average = .true.                        !! BACK: two consecutive sets of results
       integer :: solver = solver_auto
       real(wp) :: tolerance = newton_tolerance           !! NEWTON: unbalanced share of the largest load; BACK: change of pressures
+      integer :: restart = no_restart                    !! increments of a stage from restart file to restart file
       logical :: echo  = .true.
       logical :: echo_asked = .false.                    !! by ECHO: however many cards there are
       type(number_set), allocatable :: sets(:)
@@ -40,7 +42,14 @@ module case_control
       type(stage_type), allocatable :: stages(:)
    end type case_control_type
 
+   character(32) :: solver_words = '|AUTO|SKYLINE|TREE|' ! that SOLVER may be, in the order of solver_*
+
 contains
+
+   !> The program has the solvers PETSC and MUMPS.
+   subroutine offer_petsc()
+      solver_words = '|AUTO|SKYLINE|TREE|PETSC|MUMPS|'
+   end subroutine offer_petsc
 
    !> Read from line CURSOR of TEXT up to BEGIN BULK; CURSOR is left on the line behind it, FOUND_BULK tells whether
    !! it was there.
@@ -176,7 +185,14 @@ contains
          call choose(entry, '|YES|NO|', choice, errors)
          control%average = choice /= 2
       case ('SOLVER')
-         call choose(entry, '|AUTO|SKYLINE|TREE|PETSC|MUMPS|', control%solver, errors)
+         call choose(entry, trim(solver_words), control%solver, errors)
+      case ('RESTART')
+         call parse_integer(entry%value, n, ok)
+         if (.not. ok .or. n < 0) then
+            call value_error(entry, 'a number of increments, 0: at the ends of stages only', errors)
+         else
+            control%restart = n
+         end if
       case ('ECHO')
          call read_echo(entry, control%echo, errors)
          control%echo_asked = control%echo

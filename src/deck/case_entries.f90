@@ -10,8 +10,8 @@ module case_entries
    public :: cut_entry, check_repeated, choose, is_own_key, read_number, value_error
 
    !> Keys that hold for all stages, and those of a stage.
-   character(8), parameter, public :: global_keys(10) = [character(8) :: 'SOL', 'TITLE', 'UNITS', 'METHOD', 'TOL', 'PRESSURE', &
-      'CARRY', 'AVERAGE', 'SOLVER', 'ECHO']
+   character(8), parameter, public :: global_keys(11) = [character(8) :: 'SOL', 'TITLE', 'UNITS', 'METHOD', 'TOL', 'PRESSURE', &
+      'CARRY', 'AVERAGE', 'SOLVER', 'ECHO', 'RESTART']
    character(11), parameter :: stage_keys(7) = [character(11) :: 'SPC', 'MPC', 'LABEL', 'LOAD', 'INCR', 'OUTPUT', 'TEMPERATURE']
 
    !> A key with a number, and the line it stands on (0: not given).

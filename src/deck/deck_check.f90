@@ -25,8 +25,14 @@ module deck_check
       procedure, private :: kind_of_line, named_field_error, numbered_field_error
       generic :: field_error => named_field_error, numbered_field_error
       procedure :: check_ids
+      procedure :: mesh_is_faulty
       procedure :: report_repeated
    end type checked_deck
+
+   ! the cards that nodes, elements, properties and marked surfaces come from
+   character(8), parameter :: mesh_cards(*) = [character(8) :: 'GRID', 'GRDSET', 'CORD1R', 'CORD1C', 'CORD1S', 'CORD2R', 'CORD2C', &
+      'CORD2S', 'BLOCK2', 'BLOCK3', 'CTRIA3', 'CTRIA6', 'CQUAD4', 'CQUAD8', 'CTETRA', 'CPENTA', 'CHEXA', 'CBAR', 'CROD', 'CONROD', &
+      'PSHELL', 'PAXIS', 'PSOLID', 'PROD', 'PMARK', 'MAT1']
 
 contains
 
@@ -100,6 +106,15 @@ contains
          call self%report_repeated('JSHEAR', bulk%jshear%id, bulk%jshear%line)
          call self%report_repeated('JGAP of joint', bulk%jgap%joint, bulk%jgap%line)
          call self%report_repeated('JINCR', bulk%jincr%id, bulk%jincr%line)
+         do i = 1, size(bulk%joint)
+            call check_law(bulk%joint(i)%line, bulk%joint(i)%law)
+         end do
+         do i = 1, size(bulk%cjoint)
+            if (i > 1) then
+               if (bulk%cjoint(i)%law == bulk%cjoint(i - 1)%law) cycle
+            end if
+            call check_law(bulk%cjoint(i)%line, bulk%cjoint(i)%law)
+         end do
          do i = 1, size(bulk%pjoint)
             associate (card => bulk%pjoint(i))
                do direction = 1, 2
@@ -112,7 +127,36 @@ contains
             end associate
          end do
       end associate
+
+   contains
+
+      !> The PJOINT that a card names; 0 where that could not be read.
+      subroutine check_law(line, id)
+         integer, intent(in) :: line, id
+
+         if (id > 0 .and. all(self%bulk%pjoint%id /= id)) &
+            call self%field_error(line, 'PJID', 'there is no PJOINT '//integer_text(id))
+      end subroutine check_law
+
    end subroutine check_ids
+
+   !> Whether one of the errors so far is about what the mesh is made of: then what stands on the mesh cannot be put together.
+   logical function mesh_is_faulty(self) result(is_faulty)
+      class(checked_deck), intent(in) :: self
+      character(8) :: name
+      integer :: i, line
+
+      is_faulty = .false.
+      do i = 1, self%errors%n
+         name = ''
+         do line = self%errors%items(i)%line, 1, -1 ! back from a continuation to its card
+            name = card_name(self%text%card_part(line))
+            if (name /= '') exit
+         end do
+         is_faulty = any(mesh_cards == name)
+         if (is_faulty) return
+      end do
+   end function mesh_is_faulty
 
    !> Say which of the numbers ID(n), given on the cards of LINE(n), are given twice; a card that gives many is named once.
    subroutine report_repeated(self, noun, id, line, n_cards)

@@ -18,7 +18,7 @@ module deck_input
    use property_cards, only: read_conrod, read_mat1, read_paxis, read_prod, read_pshell, read_psolid
    use rigid_cards, only: read_equation, read_rigid
    use spring_cards, only: read_mass, read_spring, read_spring_property
-   use support_cards, only: read_displacement, read_support, read_support_sum
+   use support_cards, only: read_displacement, read_equation_sum, read_support, read_support_sum
    use system_cards, only: fill_grid_defaults, read_grid_defaults, read_system, system_names
    use temperature_cards, only: read_temperature
    use unused_cards, only: count_unused
@@ -64,6 +64,7 @@ contains
       call cards%add_kinds(['SPCADD'], read_support_sum)
       call cards%add_kinds(['RBE2', 'RBE3'], read_rigid)
       call cards%add_kinds(['MPC'], read_equation)
+      call cards%add_kinds(['MPCADD'], read_equation_sum)
       call cards%add_kinds(['FORCE ', 'FORCE1', 'FORCE2', 'MOMENT'], read_force)
       call cards%add_kinds(['PLOAD4', 'PLOADE', 'PLOAD '], read_pressure)
       call cards%add_kinds(['PLOADM', 'FORCEM'], read_surface_load)

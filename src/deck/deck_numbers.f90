@@ -95,6 +95,10 @@ contains
          if (text(1:1) == '-') value = -value
          if (ok) return
       end if
+      if (digits > 0 .and. digits + exponent - decimals > range(value) + 2) then ! the library would overflow
+         ok = .false.
+         return
+      end if
       plain = text(:i - 1)
       write (plain(i:), '(a, i0)') 'E', exponent
       read (plain, *, iostat=status) value

@@ -1,5 +1,6 @@
 !> The lines of a deck in the order in which they count, INCLUDE files opened in their place.
 module deck_text
+   use checksum, only: add_to_checksum, no_bytes
    use kinds, only: long
    use line_scan, only: included_path, is_include, line_place, scan_line
    use c_library, only: is_regular_file, read_all_bytes, true_path
@@ -9,7 +10,7 @@ module deck_text
    implicit none
    private
 
-   public :: read_deck_text, deck_text_of_bytes
+   public :: read_deck_text, deck_text_of_bytes, checksum_of
 
    integer, parameter :: max_files = 500 ! a deck and its INCLUDE files
    integer, parameter :: max_depth = 20  ! of INCLUDE in INCLUDE
@@ -71,6 +72,20 @@ contains
       text%files(1) = source_file(path='text', true_path='', bytes=bytes)
       call add_lines(text, 1, 0, errors)
    end subroutine deck_text_of_bytes
+
+   !> The checksum of all files of TEXT, in the order in which they were opened, each with its length.
+   integer(long) function checksum_of(text) result(sum)
+      type(deck_text_type), intent(in) :: text
+      character(20) :: length
+      integer :: i
+
+      sum = no_bytes
+      do i = 1, text%n_files
+         write (length, '(i20)') len(text%files(i)%bytes, long)
+         call add_to_checksum(length, sum)
+         call add_to_checksum(text%files(i)%bytes, sum)
+      end do
+   end function checksum_of
 
    subroutine start_text(text)
       type(deck_text_type), intent(inout) :: text

@@ -126,12 +126,10 @@ contains
       select case (rule%kind)
       case (kind_integer)
          words = 'an integer'
-         if (has_least .and. has_most .and. nint(rule%least) == nint(rule%most)) then
-            words = integer_text(nint(rule%least))
-         else if (has_least .and. has_most) then
-            words = words//' from '//integer_text(int(rule%least))//' to '//integer_text(int(rule%most))
+         if (has_least .and. has_most) then
+            words = words//' from '//integer_text(nint(rule%least))//' to '//integer_text(nint(rule%most))
          else if (has_least) then
-            words = words//' of '//integer_text(int(rule%least))//' or more'
+            words = words//' of '//integer_text(nint(rule%least))//' or more'
          end if
       case (kind_components)
          words = 'a list of components, different digits of 1 to 6'

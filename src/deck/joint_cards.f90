@@ -8,6 +8,7 @@ module joint_cards
    use field_rules, only: blank_field, integer_field, real_field, word_field
    use kinds, only: wp
    use load_shares, only: arithmetic_shares, geometric_shares
+   use normal_curve, only: least_power, normal_law
    use shear_stiffness, only: shear_law
    use text_tools, only: integer_text, real_text
    implicit none
@@ -91,12 +92,12 @@ contains
       integer :: i
 
       call cards%set_table([integer_field('NID'), real_field('C', above=0.0_wp), &
-         real_field('M', above=0.0_wp, most=1.0_wp), real_field('EU', default=0.0_wp, above=0.0_wp)])
+         real_field('M', least=least_power, most=1.0_wp), real_field('EU', default=0.0_wp, above=0.0_wp)])
       allocate (bulk%jnorm(cards%n))
       do i = 1, cards%n
          call cards%next(values)
-         bulk%jnorm(i) = jnorm_card(line=cards%line, id=values%integers(1), c=values%reals(2), m=values%reals(3), &
-                                    e_u=values%reals(4), e_u_given=values%given(4))
+         bulk%jnorm(i) = jnorm_card(line=cards%line, id=values%integers(1), e_u_given=values%given(4), &
+                                    law=normal_law(c=values%reals(2), m=values%reals(3), e_u=values%reals(4)))
       end do
    end subroutine read_jnorm
 

@@ -1,7 +1,7 @@
 !> The cards of dependent nodes: RBE2 (nodes that move with one as a rigid body), RBE3 (one that moves as the weighted mean of others),
 !! MPC (an equation between components).
 module rigid_cards
-   use bulk_data, only: bulk_data_type, equation_card, rigid_card
+   use bulk_data, only: bulk_data_type, equation_card, has_component, rigid_card
    use card_fields, only: card_values, decode_integer, decode_real
    use card_reader, only: card_reader_type
    use deck_numbers, only: parse_integer
@@ -41,39 +41,45 @@ contains
             allocate (rigid%nodes(0), rigid%at(0), rigid%directions(0), rigid%weight(0))
             if (rigid%is_mean) then
                call read_groups(cards, values%reals(5), integers(6), rigid)
+               if (any(has_component(rigid%directions, 4) .or. has_component(rigid%directions, 5) .or. &
+                       has_component(rigid%directions, 6))) call bulk%idle%add('456 in C of RBE3')
             else
                last = cards%card%n
-               if (last > 4) call take_expansion(cards, last)
+               if (last > 4) call take_expansion(cards, last, rigid)
                call read_list(cards, 4, last, rigid%components, 1.0_wp, rigid)
             end if
          end associate
       end do
    end subroutine read_rigid
 
-   !> ALPHA of an RBE2, a real behind the last node: rigid elements do not grow with their temperature, zero is no error. LAST is the
-   !! field before it.
-   subroutine take_expansion(cards, last)
+   !> ALPHA of an RBE2, a real behind the last node, or the first of two, the other TREF. LAST is the field before it.
+   subroutine take_expansion(cards, last, rigid)
       type(card_reader_type), intent(inout) :: cards
       integer, intent(inout)                :: last
+      type(rigid_card), intent(inout)       :: rigid
+      integer :: first
 
-      associate (field => cards%card%fields(last))
-         if (.not. is_real(field%text)) return
-         call check_expansion(cards, last)
-         last = last - 1
+      associate (fields => cards%card%fields)
+         if (.not. is_real(fields(last)%text)) return
+         first = merge(last - 1, last, is_real(fields(last - 1)%text))
       end associate
+      call read_expansion(cards, first, last, rigid)
+      last = first - 1
    end subroutine take_expansion
 
-   !> Data field K holds the coefficient of thermal expansion of a rigid element, which must be zero.
-   subroutine check_expansion(cards, k)
+   !> ALPHA in data field K, and TREF behind it where that is not behind field LAST.
+   subroutine read_expansion(cards, k, last, rigid)
       type(card_reader_type), intent(inout) :: cards
-      integer, intent(in)                   :: k
-      real(wp) :: alpha
+      integer, intent(in)                   :: k, last
+      type(rigid_card), intent(inout)       :: rigid
+      real(wp) :: reference
       logical  :: ok
 
-      call decode_real(cards%card, k, 'ALPHA', 'blank or zero', alpha, ok, cards%errors)
-      if (ok .and. abs(alpha) > 0.0_wp) call cards%card%field_error(k, 'ALPHA: not zero, but rigid elements do not grow with '// &
-         'their temperature; expected blank or zero', cards%errors)
-   end subroutine check_expansion
+      call decode_real(cards%card, k, 'ALPHA', 'a real number', rigid%alpha, ok, cards%errors)
+      if (.not. ok) rigid%alpha = 0.0_wp
+      rigid%alpha_at = k
+      if (k < last) call decode_real(cards%card, k + 1, 'TREF', 'a real number', reference, ok, cards%errors)
+   end subroutine read_expansion
 
    !> The groups of an RBE3 from data field 5 on: WEIGHT, DIRECTIONS and the nodes of the first one, which is decoded so far; behind
    !! its nodes a real begins the next one.
@@ -98,7 +104,7 @@ contains
          call read_list(cards, first, last - 1, these, this_weight, rigid)
          if (last > cards%card%n) return
          if (is_word(cards%card%fields(last)%text)) then
-            call read_tail(cards, last)
+            call read_tail(cards, last, rigid)
             return
          end if
          call decode_real(cards%card, last, 'WT', 'a weight, a real number above 0', this_weight, ok, cards%errors)
@@ -110,22 +116,59 @@ contains
       end do
    end subroutine read_groups
 
-   !> What stands behind the groups, from the word in data field K on: ALPHA and its value.
-   subroutine read_tail(cards, k)
+   !> What stands behind the groups, from the word in data field K on: UM and pairs of a node and its components, ALPHA and its value,
+   !! and perhaps TREF.
+   subroutine read_tail(cards, k, rigid)
       type(card_reader_type), intent(inout) :: cards
       integer, intent(in)                   :: k
+      type(rigid_card), intent(inout)       :: rigid
+      integer :: at
 
+      at = k
       associate (card => cards%card)
-         if (card%fields(k)%text == 'ALPHA' .and. k < card%n) then
-            call check_expansion(cards, k + 1)
-         else if (card%fields(k)%text == 'UM') then
-            call card%field_error(k, 'UM: the components REFC of the reference node are the dependent ones here; expected no UM', &
-                                  cards%errors)
-         else
-            call card%field_error(k, ''''//trim(card%fields(k)%text)//''', expected '//a_node//', a weight or ALPHA', cards%errors)
-         end if
+         do while (at <= card%n)
+            if (card%fields(at)%length == 0) then
+               at = at + 1
+            else if (card%fields(at)%text == 'UM' .and. .not. allocated(rigid%um_nodes)) then
+               call read_dependent(cards, at, rigid)
+            else if (card%fields(at)%text == 'ALPHA' .and. at < card%n .and. rigid%alpha_at == 0) then
+               call read_expansion(cards, at + 1, card%n, rigid)
+               return
+            else
+               call card%field_error(at, ''''//trim(card%fields(at)%text)//''', expected '//a_node//', a weight, UM or ALPHA', &
+                                     cards%errors)
+               return
+            end if
+         end do
       end associate
    end subroutine read_tail
+
+   !> The pairs behind UM in data field AT, which is left at the next word, or behind the card.
+   subroutine read_dependent(cards, at, rigid)
+      type(card_reader_type), intent(inout) :: cards
+      integer, intent(inout)                :: at
+      type(rigid_card), intent(inout)       :: rigid
+      integer :: components, node
+      logical :: ok
+
+      allocate (rigid%um_nodes(0), rigid%um_components(0), rigid%um_at(0))
+      associate (card => cards%card)
+         do
+            at = at + 1
+            if (at > card%n) exit
+            if (card%fields(at)%length == 0) cycle
+            if (is_word(card%fields(at)%text)) exit
+            call decode_integer(card, at, 'G', a_node, node, ok, cards%errors)
+            call read_components(cards, at + 1, component_field('C'), components)
+            if (ok) then
+               rigid%um_nodes = [rigid%um_nodes, node]
+               rigid%um_components = [rigid%um_components, components]
+               rigid%um_at = [rigid%um_at, at]
+            end if
+            at = at + 1
+         end do
+      end associate
+   end subroutine read_dependent
 
    !> Whether TEXT is a word, a letter first.
    pure logical function is_word(text)

@@ -33,6 +33,7 @@ module stage_entries
       logical :: stress = .false.   !! principal stresses and von Mises in the listing
       logical :: state  = .false.   !! what the interface elements remember
       logical :: condensed = .false. !! [k_b] condensed on the interface
+      logical :: along_cd = .false. !! vectors at nodes along their systems CD
       type(limit_type), allocatable :: only(:) !! not allocated: the tables have all nodes and elements
    end type stage_type
 
@@ -69,7 +70,7 @@ contains
       type(entry_type), intent(in)         :: entry
       type(stage_type), intent(inout)      :: stage
       type(deck_error_list), intent(inout) :: errors
-      character(*), parameter :: beside = 'PLOT, STRESS, VTU, STEPS, STATE, CONDENSED, SET N, PMARK N' ! a level, not in place of one
+      character(*), parameter :: beside = 'PLOT, STRESS, VTU, STEPS, STATE, CONDENSED, CD, SET N, PMARK N' ! not in place of a level
       character(:), allocatable :: rest, word
       integer :: comma, levels
       logical :: ok, twice
@@ -82,6 +83,7 @@ contains
       stage%stress = .false.
       stage%state = .false.
       stage%condensed = .false.
+      stage%along_cd = .false.
       levels = 0
       twice = .false.
       rest = upper(entry%value)
@@ -101,6 +103,7 @@ contains
          case ('STEPS');  call switch_on(stage%steps)
          case ('STATE');  call switch_on(stage%state)
          case ('CONDENSED'); call switch_on(stage%condensed)
+         case ('CD');     call switch_on(stage%along_cd)
          case default
             call read_limit(ok)
             if (.not. ok) then

@@ -27,6 +27,8 @@ contains
       do i = 1, size(id)
          if (named(i) == 0 .and. id(i) > 0) call bulk%idle%add(trim(property_names(sort(i))))
       end do
+      call count_spring_properties(.false., 'PELAS')
+      call count_spring_properties(.true., 'PBUSH')
       if (size(bulk%system) == 0) return
       call find_named(bulk%system%id, [bulk%system%reference, bulk%force%system, bulk%pressure%system, bulk%gravity%system, &
                                        bulk%spring%system, without_repeats(bulk%grid%cp), &
@@ -36,6 +38,23 @@ contains
             if (named(i) == 0 .and. card%id > 0) call bulk%idle%add(system_names(card%kind, merge(2, 1, card%nodes(1) > 0)))
          end associate
       end do
+
+   contains
+
+      !> PELAS, or PBUSH, which bushes alone name.
+      subroutine count_spring_properties(are_bushes, name)
+         logical, intent(in)      :: are_bushes
+         character(*), intent(in) :: name
+         integer, allocatable :: property(:)
+         integer :: k
+
+         allocate (property, source=pack(bulk%spring_property%id, bulk%spring_property%is_bush .eqv. are_bushes))
+         call find_named(property, pack(bulk%spring%property, bulk%spring%is_bush .eqv. are_bushes), named)
+         do k = 1, size(property)
+            if (named(k) == 0 .and. property(k) > 0) call bulk%idle%add(name)
+         end do
+      end subroutine count_spring_properties
+
    end subroutine count_unused
 
    !> NAMED(i) > 0 where ID(i) is among NAMES.

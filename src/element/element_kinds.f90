@@ -15,8 +15,8 @@ module element_kinds
    integer, parameter, public :: kind_tria6 = 6, kind_quad8 = 7     !! second order, serendipity
    integer, parameter, public :: kind_tetra10 = 8, kind_penta15 = 9, kind_hexa20 = 10
    integer, parameter, public :: n_kinds = 10, n_linear_kinds = 5
-   integer, parameter, public :: kind_edge2 = 11, kind_edge3 = 12   !! sides of plane elements, of no body
-   integer, parameter, public :: n_shapes = 12                      !! kinds of body and edges: all that have shape functions
+   integer, parameter, public :: kind_edge2 = n_kinds + 1, kind_edge3 = n_kinds + 2 !! sides of plane elements, of no body
+   integer, parameter, public :: n_shapes = n_kinds + 2             !! kinds of body and edges: all that have shape functions
 
    integer, parameter, public :: max_nodes = 20, max_dofs = 60      !! of one element
    integer, parameter, public :: max_coupled_dofs = max_dofs + 3    !! with the node of a section of a solid bolt
@@ -30,6 +30,7 @@ module element_kinds
       integer :: n_nodes
       integer :: n_corners
       integer :: linear                                             !! the kind of its corners alone, of a linear kind itself
+      integer :: jacobian_scale                                     !! 1/det J where its edges are 1 and at right angles
       integer :: n_sides
       integer :: n_edges
       integer :: vtk_type                                           !! cell type; VTK turns round the linear wedge only
@@ -53,30 +54,30 @@ module element_kinds
    integer, parameter :: hexa(2, 12) = reshape([1, 2, 2, 3, 3, 4, 4, 1, 1, 5, 2, 6, 3, 7, 4, 8, 5, 6, 6, 7, 7, 8, 8, 5], [2, 12])
 
    type(element_kind), parameter, public :: element_table(n_kinds) = [ &
-      element_kind('CTRIA3', 2, 3, 3, kind_tria3, 3, 3, 5, [in_turn(:3), no, no, 0], tria, [2, 2, 2, 0, 0, 0], [2, 2, 2, 0, 0, 0], &
-         reshape([1, 2, no(:6), 2, 3, no(:6), 3, 1], [8, 6], pad=no)), &
-      element_kind('CQUAD4', 2, 4, 4, kind_quad4, 4, 4, 9, [in_turn(:4), no, no], quad, [2, 2, 2, 2, 0, 0], [2, 2, 2, 2, 0, 0], &
+      element_kind('CTRIA3', 2, 3, 3, kind_tria3, 1, 3, 3, 5, [in_turn(:3), no, no, 0], tria, [2, 2, 2, 0, 0, 0], &
+         [2, 2, 2, 0, 0, 0], reshape([1, 2, no(:6), 2, 3, no(:6), 3, 1], [8, 6], pad=no)), &
+      element_kind('CQUAD4', 2, 4, 4, kind_quad4, 4, 4, 4, 9, [in_turn(:4), no, no], quad, [2, 2, 2, 2, 0, 0], [2, 2, 2, 2, 0, 0], &
          reshape([1, 2, no(:6), 2, 3, no(:6), 3, 4, no(:6), 4, 1], [8, 6], pad=no)), &
-      element_kind('CTETRA', 3, 4, 4, kind_tetra4, 4, 6, 10, [in_turn(:4), no, no], tetra, [3, 3, 3, 3, 0, 0], [3, 3, 3, 3, 0, 0], &
-         reshape([1, 3, 2, no(:5), 1, 2, 4, no(:5), 2, 3, 4, no(:5), 3, 1, 4], [8, 6], pad=no)), &
-      element_kind('CPENTA', 3, 6, 6, kind_penta6, 5, 9, 13, [1, 3, 2, 4, 6, 5, no, no(:6)], penta, [3, 3, 4, 4, 4, 0], &
+      element_kind('CTETRA', 3, 4, 4, kind_tetra4, 1, 4, 6, 10, [in_turn(:4), no, no], tetra, [3, 3, 3, 3, 0, 0], &
+         [3, 3, 3, 3, 0, 0], reshape([1, 3, 2, no(:5), 1, 2, 4, no(:5), 2, 3, 4, no(:5), 3, 1, 4], [8, 6], pad=no)), &
+      element_kind('CPENTA', 3, 6, 6, kind_penta6, 2, 5, 9, 13, [1, 3, 2, 4, 6, 5, no, no(:6)], penta, [3, 3, 4, 4, 4, 0], &
          [3, 3, 4, 4, 4, 0], &
          reshape([1, 3, 2, no(:5), 4, 5, 6, no(:5), 1, 2, 5, 4, no(:4), 2, 3, 6, 5, no(:4), 3, 1, 4, 6], [8, 6], pad=no)), &
-      element_kind('CHEXA ', 3, 8, 8, kind_hexa8, 6, 12, 12, [in_turn(:8), no, no(:4)], hexa, [4, 4, 4, 4, 4, 4], &
+      element_kind('CHEXA ', 3, 8, 8, kind_hexa8, 8, 6, 12, 12, [in_turn(:8), no, no(:4)], hexa, [4, 4, 4, 4, 4, 4], &
          [4, 4, 4, 4, 4, 4], &
          reshape([1, 4, 3, 2, no(:4), 5, 6, 7, 8, no(:4), 1, 2, 6, 5, no(:4), 2, 3, 7, 6, no(:4), 3, 4, 8, 7, no(:4), 4, 1, 5, 8], &
                  [8, 6], pad=no)), &
-      element_kind('CTRIA6', 2, 6, 3, kind_tria3, 3, 3, 22, [in_turn(:6), no, no(:6)], tria, [2, 2, 2, 0, 0, 0], &
+      element_kind('CTRIA6', 2, 6, 3, kind_tria3, 1, 3, 3, 22, [in_turn(:6), no, no(:6)], tria, [2, 2, 2, 0, 0, 0], &
          [3, 3, 3, 0, 0, 0], reshape([1, 2, 4, no(:5), 2, 3, 5, no(:5), 3, 1, 6], [8, 6], pad=no)), &
-      element_kind('CQUAD8', 2, 8, 4, kind_quad4, 4, 4, 23, [in_turn(:8), no, no(:4)], quad, [2, 2, 2, 2, 0, 0], &
+      element_kind('CQUAD8', 2, 8, 4, kind_quad4, 4, 4, 4, 23, [in_turn(:8), no, no(:4)], quad, [2, 2, 2, 2, 0, 0], &
          [3, 3, 3, 3, 0, 0], reshape([1, 2, 5, no(:5), 2, 3, 6, no(:5), 3, 4, 7, no(:5), 4, 1, 8], [8, 6], pad=no)), &
-      element_kind('CTETRA', 3, 10, 4, kind_tetra4, 4, 6, 24, [in_turn(:10), no, 0, 0], tetra, [3, 3, 3, 3, 0, 0], &
+      element_kind('CTETRA', 3, 10, 4, kind_tetra4, 1, 4, 6, 24, [in_turn(:10), no, 0, 0], tetra, [3, 3, 3, 3, 0, 0], &
          [6, 6, 6, 6, 0, 0], reshape([1, 3, 2, 7, 6, 5, 0, 0, 1, 2, 4, 5, 9, 8, 0, 0, 2, 3, 4, 6, 10, 9, 0, 0, &
                                       3, 1, 4, 7, 8, 10], [8, 6], pad=no)), &
-      element_kind('CPENTA', 3, 15, 6, kind_penta6, 5, 9, 26, upright_last_15, penta, [3, 3, 4, 4, 4, 0], [6, 6, 8, 8, 8, 0], &
+      element_kind('CPENTA', 3, 15, 6, kind_penta6, 2, 5, 9, 26, upright_last_15, penta, [3, 3, 4, 4, 4, 0], [6, 6, 8, 8, 8, 0], &
          reshape([1, 3, 2, 9, 8, 7, 0, 0, 4, 5, 6, 13, 14, 15, 0, 0, 1, 2, 5, 4, 7, 11, 13, 10, 2, 3, 6, 5, 8, 12, 14, 11, &
                   3, 1, 4, 6, 9, 10, 15, 12], [8, 6], pad=no)), &
-      element_kind('CHEXA ', 3, 20, 8, kind_hexa8, 6, 12, 25, upright_last_20, hexa, [4, 4, 4, 4, 4, 4], [8, 8, 8, 8, 8, 8], &
+      element_kind('CHEXA ', 3, 20, 8, kind_hexa8, 8, 6, 12, 25, upright_last_20, hexa, [4, 4, 4, 4, 4, 4], [8, 8, 8, 8, 8, 8], &
          reshape([1, 4, 3, 2, 12, 11, 10, 9, 5, 6, 7, 8, 17, 18, 19, 20, 1, 2, 6, 5, 9, 14, 17, 13, 2, 3, 7, 6, 10, 15, 18, 14, &
                   3, 4, 8, 7, 11, 16, 19, 15, 4, 1, 5, 8, 12, 13, 20, 16], [8, 6]))]
 

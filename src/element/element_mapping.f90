@@ -175,7 +175,6 @@ contains
    pure real(wp) function smallest_jacobian(kind, x) result(smallest)
       integer, intent(in)  :: kind                        !! kind_tria3 ... kind_hexa20
       real(wp), intent(in) :: x(:, :)                     !! nodes (dimension, nodes) [length]
-      real(wp), parameter  :: scale(5) = [1.0_wp, 4.0_wp, 1.0_wp, 2.0_wp, 8.0_wp] ! det J of a cube of edge 1, inverted
       type(integration_rule) :: rule
       real(wp) :: nodes(3, max_nodes), longest, elsewhere
       integer  :: d, k, n
@@ -202,12 +201,12 @@ contains
          call volume_rule(kind, .false., rule)
          if (rule%n > n) elsewhere = min(elsewhere, least_at(kind, nodes, rule%point(:, :rule%n)))
       end if
-      smallest = scale(element_table(kind)%linear)*min(smallest, elsewhere)
-      if (smallest > flat*longest**d) then
+      smallest = element_table(kind)%jacobian_scale*min(smallest, elsewhere)
+      if (smallest > flat*longest**d .and. longest**d >= tiny(longest)) then
          smallest = smallest/longest**d
       else
          smallest = min(smallest, 0.0_wp)
-         if (longest > 0.0_wp) smallest = smallest/longest**d
+         if (longest**d >= tiny(longest)) smallest = smallest/longest**d
       end if
    end function smallest_jacobian
 

@@ -1,14 +1,14 @@
 !> The command line of jointfit: options and data files.
 module fit_command
    use branch_fit, only: fit_choice
-   use command_arguments, only: argument_text, complain, input_argument, input_of, is_option, say, version
+   use command_arguments, only: argument_text, complain, input_argument, is_option, say, set_input, version
    use data_columns, only: branch_number, reading_type
    use data_entries, only: read_number
    use data_units, only: read_system
    use deck_numbers, only: parse_integer
    use fit_help, only: help_text
    use kinds, only: wp
-   use text_tools, only: upper
+   use text_tools, only: integer_text, plural, upper
    implicit none
    private
 
@@ -54,7 +54,7 @@ contains
          i = i + 1
          argument = argument_text(i)
          if (.not. is_option(argument, options)) then
-            command%files = [command%files, input_of(argument)]
+            call add_file(command%files, argument)
             cycle
          end if
          select case (argument)
@@ -91,12 +91,27 @@ contains
          call complain(program, 'no data file given')
       else if (command%as > 0 .and. command%only == 0) then
          call complain(program, '--as needs --branch: which branch of the data is meant?')
+      else if (command%id > huge(1) - (size(command%files) - 1)) then
+         call complain(program, '--id '//integer_text(command%id)//': the laws of '//plural(size(command%files), 'file')// &
+                       ' would have numbers beyond '//integer_text(huge(1)))
       else
          if (command%as == 0) command%as = command%only
          finished = .false.
          status = 0
       end if
    end subroutine read_fit_command
+
+   !> One more of FILES, the one that ARGUMENT means. (An array constructor would leak its names in gfortran 12.)
+   subroutine add_file(files, argument)
+      type(input_argument), allocatable, intent(inout) :: files(:)
+      character(*), intent(in) :: argument
+      type(input_argument), allocatable :: more(:)
+
+      allocate (more(size(files) + 1))
+      more(:size(files)) = files
+      call set_input(more(size(more)), argument)
+      call move_alloc(more, files)
+   end subroutine add_file
 
    !> The VALUE behind an OPTION; empty where the command ends.
    subroutine read_value(option, value, command, ok)

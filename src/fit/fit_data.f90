@@ -186,7 +186,7 @@ contains
             if (branch == 0) fault = ''''//word//''', expected LOAD, UNLOAD or RELOAD'
          else if (column == column_run .or. column == column_branch) then
             call read_number(word, value, ok)
-            ok = ok .and. abs(value) < 1.0e9_wp
+            ok = ok .and. abs(value) <= huge(run)
             if (ok) run = nint(value)
             if (ok) ok = run > 0 .and. abs(value - run) < 1.0e-6_wp
             if (.not. ok) fault = ''''//word//''' is no number of a run, expected 1, 2, 3 and so on'

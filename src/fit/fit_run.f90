@@ -1,13 +1,14 @@
 !> The run of jointfit: what is said on the standard error, and the exit status.
 module fit_run
    use, intrinsic :: iso_fortran_env, only: error_unit
-   use c_library, only: end_run
+   use c_library, only: end_run, tell_failed_writes
    use command_arguments, only: complain_of_input, input_argument
    use data_columns, only: branch_words, data_normal, fit_reload, fit_unload
    use deck_errors, only: deck_error_list
    use deck_text, only: deck_text_type
    use error_report, only: print_errors
    use fit_command, only: fit_command_type
+   use incomplete_results, only: all_complete, watch_ends, what_is_in_the_way
    use output_file, only: output_file_type
    use surface_fit, only: surface_fit_type
    implicit none
@@ -59,6 +60,8 @@ contains
       type(fit_command_type), intent(in)    :: command
       type(output_file_type), intent(inout) :: out, plot
 
+      call tell_failed_writes()
+      call watch_ends()
       call out%start('')
       if (command%plot /= '') call plot%start(command%plot)
    end subroutine begin_output
@@ -71,7 +74,12 @@ contains
 
       if (command%plot /= '') then
          call plot%finish(ok)
-         if (.not. ok) write (error_unit, '(3a)') 'jointfit: ', command%plot, ' cannot be written'
+         if (what_is_in_the_way() /= '') then
+            write (error_unit, '(2a)') 'jointfit: ', what_is_in_the_way()
+         else if (.not. ok) then
+            write (error_unit, '(3a)') 'jointfit: ', command%plot, ' cannot be written'
+         end if
+         call all_complete()
          exit_status = max(exit_status, merge(0, status_unwritten, ok))
       end if
       call out%finish(ok)

@@ -88,13 +88,13 @@ contains
       do first = 1, size(fields), 8
          associate (eight => fields(first:first + 7))
             if (all(eight == '')) then
-               lines = [lines, joined('+', eight(:0), 8)]
+               lines = [character(80) :: lines, joined('+', eight(:0), 8)]
             else if (small) then
-               lines = [lines, joined(head, eight, 8)]
+               lines = [character(80) :: lines, joined(head, eight, 8)]
             else
                if (head == '+') head = ''
-               lines = [lines, joined(trim(head)//'*', eight(:4), 16)]
-               if (any(eight(5:) /= '') .or. first + 8 <= size(fields)) lines = [lines, joined('*', eight(5:), 16)]
+               lines = [character(80) :: lines, joined(trim(head)//'*', eight(:4), 16)]
+               if (any(eight(5:) /= '') .or. first + 8 <= size(fields)) lines = [character(80) :: lines, joined('*', eight(5:), 16)]
             end if
          end associate
          head = '+'

@@ -4,6 +4,7 @@ module normal_fit
    use kinds, only: wp
    use least_squares, only: fit_line, solve_least_squares
    use loop_fit, only: loop_fit_type
+   use normal_curve, only: least_power
    use text_tools, only: real_text
    implicit none
    private
@@ -39,8 +40,9 @@ contains
       if (.not. ok) then
          call errors%add(0, 'the points do not fix c and m: expected two or more different p above 0 with lambda above 0')
          return
-      else if (fit%m <= 0.0_wp) then
-         call errors%add(0, 'lambda does not grow with p: m = '//real_text(fit%m)//', expected above 0 and not above 1')
+      else if (fit%m < least_power) then
+         call errors%add(0, 'lambda does not grow with p: m = '//real_text(fit%m)//', expected at least '// &
+                         real_text(least_power)//' and not above 1')
          return
       else if (fit%m > 1.0_wp) then
          if (fit%m > 1.0_wp + m_rounding) call warnings%add(0, 'the points want m = '//real_text(fit%m)// &

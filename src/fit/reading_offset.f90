@@ -43,7 +43,7 @@ contains
       integer :: i
 
       help = '; --zero takes the first reading off all of a test, --noise takes more than '// &
-             real_text(0.01_wp*nint(1.0e4_wp*share))//' % of the range for noise'
+             real_text(0.01_wp*anint(1.0e4_wp*share))//' % of the range for noise'
       do i = 1, data%n
          associate (p => data%place(:, column_p, i), d => data%place(:, column_d, i))
             word = data%text%line(data%line(i))

@@ -210,7 +210,7 @@ contains
 
       rows = plural(data%n, 'row')
       call data%notes%add(0, rows//' in the order of time, '//plural(counts(2), 'test')//', '// &
-                          plural(counts(1) - counts(2), 'turn')//'; noise band '//real_text(0.01_wp*nint(1.0e4_wp*share))// &
+                          plural(counts(1) - counts(2), 'turn')//'; noise band '//real_text(0.01_wp*anint(1.0e4_wp*share))// &
                           ' % of the range (--noise): '//real_text(band(1))//' of '//trim(column_symbols(columns(1)))//', '// &
                           real_text(band(2))//' of '//trim(column_symbols(columns(2))))
       associate (p => data%value(column_p, :data%n - 1), p_next => data%value(column_p, 2:data%n))

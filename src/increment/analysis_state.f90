@@ -2,19 +2,24 @@
 module analysis_state
    use case_control, only: case_control_type, method_step, pressure_eq10
    use condensed_interface, only: condensed_type
+   use condition_estimate, only: condition_type
    use equation_solver, only: equation_system
    use failures, only: failure_type
    use interface_operator, only: add_global_force, interface_element, joint_movement
    use joint_laws, only: element_state, element_stiffness_of, joint_law
    use kinds, only: wp
+   use measures, only: is_measure
    use model_data, only: model_type, n_bars, n_sections, temperature_type
-   use normal_stiffness, only: at_rest, branch_load, branch_open, is_virgin, normal_secant
+   use normal_curve, only: normal_secant
+   use normal_stiffness, only: at_rest, branch_load, branch_open, is_virgin
    use branch_starts, only: note_turns, turning_point
    implicit none
    private
 
    public :: start_analysis, all_held, interface_stiffness, find_movements, find_unbalanced, subtract_joint_forces, &
-             element_force, tally_work, record_pass, note_largest, free_norm, kind_on_branch
+             element_force, tally_work, record_pass, note_largest, free_norm, force_noise, kind_on_branch
+
+   real(wp), parameter, public :: precise = 1.0e-6_wp !! of the load: what rounding may leave of the forces that joints are to balance
 
    integer, parameter, public :: no_stiffness = 1, secant_stiffness = 2, tangent_stiffness = 3, e_u_stiffness = 4 !! k_n used
 
@@ -44,6 +49,7 @@ module analysis_state
    !! (dimension, retained); recover_bodies completes them.
    type, public :: analysis_type
       integer  :: stage = 0, increment = 0
+      logical  :: goes_on = .false.                 !! the stage has been taken up from a restart file in its midst
       real(wp) :: share = 0.0_wp                    !! of the stage's load change, this increment
       real(wp) :: fraction = 0.0_wp                 !! of it, so far: exactly 1 at the end of the stage
       logical  :: carry = .false.
@@ -93,12 +99,14 @@ module analysis_state
       type(turning_point), allocatable :: turns(:, :) !! (2, n) where the shear branches began
       integer, allocatable  :: kind(:), next_kind(:) !! of the normal stiffness used in this increment, and in the next one
       type(condensed_type)  :: condensed            !! [k_b] on the interface, where OUTPUT asks for it
+      type(condition_type)  :: condition            !! of the stiffness that the increment used
       type(joint_energy), allocatable  :: energy(:) !! of the joints
       type(pass_record), allocatable   :: passes(:) !! of the last increment
       type(slip_record), allocatable   :: slips(:)  !! of the last increment, where OUTPUT asks for them
       integer  :: n_passes  = 0
       real(wp) :: largest_p = 0.0_wp                !! pressure or shear stress so far, anywhere: the measure of noise
       real(wp) :: largest_lambda = 0.0_wp           !! deflection so far, likewise
+      real(wp) :: largest_load = 0.0_wp             !! on the structure or on the joints so far [force]
       integer  :: n_removed = 0                     !! interface elements removed by the last increment
       logical  :: ends_early = .false.              !! NEWTON cannot go on: this is the last state in equilibrium, there is one
       logical  :: is_partial = .false.              !! ... and it is a part of the way into an increment
@@ -237,13 +245,15 @@ contains
       end do
    end subroutine subtract_joint_forces
 
-   !> Euclidean norm of nodal forces F over the components that are not HELD [force].
+   !> Euclidean norm of nodal forces F over the components that are not HELD [force]; the largest number where they leave all measure.
    pure real(wp) function free_norm(f, held) result(norm)
       real(wp), intent(in) :: f(:, :)    !! (dimension, nodes)
       logical, intent(in)  :: held(:, :) !! likewise
       real(wp) :: largest
       integer  :: i
 
+      norm = huge(1.0_wp)
+      if (.not. all(is_measure(f))) return
       largest = maxval(abs(f), mask=.not. held)
       norm = 0.0_wp
       if (largest <= 0.0_wp) return
@@ -252,6 +262,14 @@ contains
       end do
       norm = largest*sqrt(norm)
    end function free_norm
+
+   !> What rounding leaves of the forces in the bodies under the displacements U, at most: they are differences of large numbers [force].
+   pure real(wp) function force_noise(system, u) result(noise)
+      class(equation_system), intent(in) :: system
+      real(wp), intent(in)               :: u(:, :) !! [length]
+
+      noise = 10.0_wp*epsilon(1.0_wp)*system%stiffest*maxval(abs(u))
+   end function force_noise
 
    !> Add the works (by shear, by normal forces) done on one element to those of its joint.
    pure subroutine tally_work(energy, work)
@@ -268,6 +286,8 @@ contains
       integer :: k
 
       if (size(analysis%states) == 0) return
+      analysis%largest_load = max(analysis%largest_load, free_norm(analysis%felt, analysis%held), &
+                                  norm2(analysis%states%normal%sumf))
       analysis%largest_p = max(analysis%largest_p, maxval(abs(analysis%states%normal%pressure)))
       analysis%largest_lambda = max(analysis%largest_lambda, maxval(abs(analysis%states%normal%lambda)))
       do k = 1, 2

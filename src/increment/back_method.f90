@@ -9,7 +9,7 @@
 !!       |                *
 !!     0 *---*----*------------------ lambda
 module back_method
-   use analysis_state, only: analysis_type, find_movements, find_unbalanced, no_stiffness, pass_record, record_pass, &
+   use analysis_state, only: analysis_type, find_movements, force_noise, find_unbalanced, no_stiffness, pass_record, record_pass, &
                              secant_stiffness, tally_work
    use equations, only: equation_system, forces_in_bodies, form_structure_stiffness, solve_equations
    use failures, only: failure_type
@@ -17,7 +17,8 @@ module back_method
    use joint_laws, only: back_stiffness, exceeds_limit, loading_work, rest_margin
    use kinds, only: wp
    use model_data, only: joint_node_id, model_type
-   use normal_stiffness, only: branch_load, branch_open, loading_deflection, loading_pressure, pressure_floor
+   use normal_curve, only: loading_deflection, loading_pressure, pressure_floor
+   use normal_stiffness, only: branch_load, branch_open
    use stage_plan, only: stage_plan_type, where_in_plan
    use text_tools, only: integer_text, real_text
    implicit none
@@ -27,7 +28,8 @@ module back_method
 
    integer, parameter  :: most_averages = 1000 ! iterations that average
    integer, parameter  :: most_shown = 24      ! iterations that do not: as many as the listing shows
-   real(wp), parameter :: rounding = 1.0e-12_wp ! of the largest pressure: TOL asks for no less
+   real(wp), parameter :: rounding = 1.0e-12_wp ! of the largest pressure, over m: TOL asks for no less
+   real(wp), parameter :: touching = 1.0e-10_wp ! of the largest deflection: what stands apart by less does not
 
    !> The interface elements in one iteration, n of them.
    type :: iterate_type
@@ -65,8 +67,7 @@ contains
          call read_off(model, system, analysis, now, largest_p)
          call record_pass(analysis, pass_record(before=largest_p, after=maxval(now%change), &
                                                 step=maxval(now%deflection(3, :)), part=-1))
-         analysis%is_settled = maxval(now%change) <= max(analysis%load_tolerance, rounding)* &
-                               max(largest_p, pressure_floor*maxval(analysis%states%normal%p_av))
+         analysis%is_settled = has_settled(model, system, analysis, now, largest_p)
          if (analysis%is_settled) exit
          now%taken = merge(0.5_wp*(now%taken + now%deflection), now%deflection, analysis%average)
       end do
@@ -139,6 +140,21 @@ contains
       end do
    end subroutine read_off
 
+   !> Whether the secants agree with what they led to: by TOL of the largest pressure, and no better than rounding lets them.
+   pure logical function has_settled(model, system, analysis, now, largest_p)
+      type(model_type), intent(in)       :: model
+      class(equation_system), intent(in) :: system
+      type(analysis_type), intent(in)    :: analysis
+      type(iterate_type), intent(in)     :: now
+      real(wp), intent(in)               :: largest_p !! [pressure]
+      real(wp) :: left(size(model%interface))
+
+      left = max(analysis%load_tolerance, rounding/model%joints(model%interface%joint)%law%normal%m)* &
+             max(largest_p, pressure_floor*maxval(analysis%states%normal%p_av))
+      left = max(left, 0.1_wp*force_noise(system, analysis%u)/model%interface%area)
+      has_settled = all(now%change <= left)
+   end function has_settled
+
    !> The averages have not settled: say which element changes most.
    subroutine give_up(model, plan, analysis, now, failure)
       type(model_type), intent(in)      :: model
@@ -159,12 +175,15 @@ contains
       type(model_type), intent(in)       :: model
       type(iterate_type), intent(in)     :: now
       type(analysis_type), intent(inout) :: analysis
-      integer :: i
+      real(wp) :: apart
+      integer  :: i
 
+      apart = 0.0_wp
+      if (size(model%interface) > 0) apart = touching*maxval(abs(now%deflection(3, :)))
       do i = 1, size(model%interface)
          associate (state => analysis%states(i), element => model%interface(i), deflection => now%deflection(:, i), &
                     law => model%joints(model%interface(i)%joint)%law)
-            state%normal%branch = merge(branch_load, branch_open, deflection(3) > 0.0_wp)
+            state%normal%branch = merge(branch_load, branch_open, deflection(3) >= -apart)
             state%normal%lambda = deflection(3)
             state%normal%k_n = now%k_int(3, 3, i)
             analysis%kind(i) = merge(secant_stiffness, no_stiffness, state%normal%k_n > 0.0_wp)

@@ -11,7 +11,7 @@ module bolt_locking
    implicit none
    private
 
-   public :: lock_bolts, bar_tension, elongation_now, section_tension, overlap_now
+   public :: lock_bolts, lock_again, bar_tension, elongation_now, section_tension, overlap_now
 
 contains
 
@@ -23,6 +23,7 @@ contains
       type(analysis_type), intent(inout)    :: analysis
       integer :: i
 
+      if (analysis%goes_on) return
       do i = 1, n_bars(model)
          associate (bar => model%bars(i))
             if (bar%bolt == 0 .or. bar%stage /= analysis%stage) cycle
@@ -44,6 +45,26 @@ contains
          end associate
       end do
    end subroutine lock_bolts
+
+   !> An analysis has been taken up from a restart file: its bolts that are locked become so in the equations, in the order in which
+   !! they did, so that every digit of these is the same.
+   subroutine lock_again(model, analysis, system)
+      type(model_type), intent(in)          :: model
+      type(analysis_type), intent(in)       :: analysis
+      class(equation_system), intent(inout) :: system
+      integer :: i, stage
+
+      do stage = 1, analysis%stage
+         do i = 1, n_bars(model)
+            if (model%bars(i)%bolt == 0 .or. model%bars(i)%stage /= stage) cycle
+            if (analysis%is_elastic(i)) call add_bar(model, i, system)
+         end do
+         do i = 1, n_sections(model)
+            if (model%sections(i)%stage /= stage) cycle
+            if (analysis%is_locked(i)) call lock_unknown(model%sections(i)%node, 1, system)
+         end do
+      end do
+   end subroutine lock_again
 
    !> How much longer bar I is now [length].
    pure real(wp) function elongation_now(model, analysis, i) result(elongation)

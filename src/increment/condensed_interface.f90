@@ -44,8 +44,8 @@ contains
       if (n > most_unknowns) then
          condensed%problem = integer_text(n)//' unknowns of joints; at most '//integer_text(most_unknowns)//' are shown'
       else if (n + m > most_equations) then
-         condensed%problem = integer_text(n + m)//' equations are left to the increments; at most '// &
-                             integer_text(most_equations)//' are condensed here, SOLVER = TREE leaves fewer'
+         condensed%problem = integer_text(n + m)//' equations are left, more than '//integer_text(most_equations)// &
+                             '; SOLVER = TREE leaves fewer'
       else if (n == 0) then
          condensed%problem = 'no unknown of a joint is free'
       end if

@@ -16,13 +16,17 @@ module load_path
 
 contains
 
-   !> The next stage begins where the last one ended; the joint remembers.
+   !> The next stage begins where the last one ended; the joint remembers. One that is taken up in its midst just goes on.
    subroutine start_stage(model, system, analysis)
       type(model_type), intent(in)       :: model
       class(equation_system), intent(in) :: system
       type(analysis_type), intent(inout) :: analysis
       integer :: i, stage
 
+      if (analysis%goes_on) then
+         analysis%goes_on = .false.
+         return
+      end if
       stage = analysis%stage + 1
       analysis%stage = stage
       analysis%increment = 0

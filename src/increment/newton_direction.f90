@@ -27,6 +27,7 @@ module newton_direction
       logical :: seats = .false.                  !! interference at rest, there is no load
       real(wp) :: seat_force = 0.0_wp             !! then what counts as one: p_av on the elements pressed [force]
       integer :: loose = 0                        !! a joint that is open or slips all over at its end, 0: none
+      integer :: worst(2) = 0                     !! node and direction that are farthest from balance at its end
       logical :: imprecise = .false.              !! rounding in the bodies is no small part of the load
       logical :: converged = .false.
       type(failure_type) :: trouble               !! a matrix that could not be factorised

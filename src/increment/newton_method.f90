@@ -1,7 +1,7 @@
 !> METHOD = NEWTON: every increment iterated to equilibrium with the exact branch laws, consistent tangent and line search; the
 !! states of the joints are committed only at equilibrium. An increment that does not converge is divided.
 module newton_method
-   use analysis_state, only: all_held, analysis_type, free_norm, pass_record, record_pass
+   use analysis_state, only: all_held, analysis_type, force_noise, free_norm, pass_record, precise, record_pass
    use equations, only: equation_system
    use failures, only: failure_type
    use joint_laws, only: is_apart
@@ -11,14 +11,18 @@ module newton_method
    use newton_direction, only: attempt_type, close_gaps, find_direction
    use newton_trial, only: commit, evaluate, search, start_trial, swap, take_whole_step, trial_type
    use node_coupling, only: forces_on_unknowns
-   use normal_stiffness, only: at_rest, branch_name, branch_open, pressure_floor
+   use normal_curve, only: pressure_floor
+   use normal_stiffness, only: at_rest, branch_name, branch_open
    use stage_plan, only: stage_plan_type, where_in_plan
    use text_tools, only: integer_text, real_text
+   use unknown_names, only: unknown_name
    implicit none
    private
 
    public :: newton_increment, cross_gaps, seat_joints
 
+   character(*), parameter, public :: no_balance = &
+      'stiffnesses differ so much, or bodies moved so far, that rounding leaves no balance of forces'
    integer, parameter  :: most_iterations = 40
    integer, parameter  :: most_halvings = 12
    real(wp), parameter :: far_below = 1.0e-3_wp        ! TOL: what is left there is not worth another iteration
@@ -192,11 +196,11 @@ contains
          end if
          ! forces in the bodies are differences of large numbers: what rounding leaves of them is no residual, and where it is no
          ! small part of the load, a body has moved away and nothing is in equilibrium
-         noise = 10.0_wp*epsilon(1.0_wp)*system%stiffest*maxval(abs(now%u))
+         noise = force_noise(system, now%u)
          ! ... unless it only goes with supports that are moved, and nothing bears a force
          rounding = 10.0_wp*epsilon(1.0_wp)*system%stiffest*travel*sqrt(real(size(analysis%applied), wp))
          carried = load_size <= rounding .and. maxval(abs(now%u)) <= 10.0_wp*travel
-         attempt%converged = now%size <= max(analysis%tolerance, 0.1_wp*noise) .and. noise <= 1.0e-5_wp*load_size
+         attempt%converged = now%size <= max(analysis%tolerance, 0.1_wp*noise) .and. noise <= precise*load_size
          attempt%converged = .not. moves .and. (attempt%converged .or. (carried .and. now%size <= rounding))
          if (iteration == most_iterations) attempt%converged = attempt%converged .or. &
             now%size <= idle*max(attempt%seat_force, analysis%loose_force)
@@ -223,8 +227,10 @@ contains
          if (.not. next%size < huge(1.0_wp)) exit
          call swap(now, next)
       end do
-      attempt%imprecise = noise > 1.0e-5_wp*load_size .and. .not. carried
+      attempt%imprecise = noise > precise*load_size .and. .not. carried
       attempt%loose = loose_joint(model, now)
+      attempt%worst = maxloc(abs(now%residual), mask=.not. analysis%held)
+      if (all(attempt%worst > 0)) attempt%worst = [system%retained(attempt%worst(2)), attempt%worst(1)]
       if (attempt%seats) analysis%tolerance = analysis%load_tolerance*load_size
       if (.not. attempt%converged) return
       if (now%size > max(far_below*analysis%tolerance, noise)) call refine(model, system, analysis, attempt, now, next)
@@ -279,9 +285,10 @@ contains
                  integer_text(joint_node_id(model, model%joints(attempt%loose)%first, 1))// &
                  ' on, and does not hold the load in the direction of its movement'
       else if (attempt%imprecise) then
-         words = words//': stiffnesses differ so much, or bodies moved so far, that rounding leaves no balance of forces'
+         words = words//': '//no_balance
       else if (analysis%n_passes > 0) then
          words = words//', '//real_text(analysis%passes(analysis%n_passes)%after)//' of force are left unbalanced'
+         if (all(attempt%worst > 0)) words = words//', most at '//unknown_name(model, attempt%worst(1), attempt%worst(2))
       end if
       if (size(attempt%flips) > 0) then
          worst = maxloc(attempt%flips, dim=1)

@@ -148,7 +148,8 @@ contains
          next%u = now%u + alpha*direction
          next%body = now%body + alpha*body
          call evaluate(model, system, load, analysis, next)
-         g_alpha = work_on(next)
+         g_alpha = -sign(sqrt(huge(1.0_wp)), g_0)          ! far too long
+         if (next%size < huge(1.0_wp)) g_alpha = work_on(next)
       end subroutine try
 
       !> Work of the unbalanced forces of TRIAL on DIRECTION.

@@ -3,8 +3,8 @@
 module joint_laws
    use branch_cubic, only: cubic_secant, cubic_slope, cubic_work
    use kinds, only: wp
-   use normal_stiffness, only: branch_open, closed_share, follow_normal, is_virgin, loading_pressure, norm, normal_law, &
-                               normal_secant, normal_state, pressure_floor, stored_work
+   use normal_curve, only: loading_pressure, normal_law, normal_secant, pressure_floor
+   use normal_stiffness, only: branch_open, closed_share, follow_normal, is_virgin, norm, normal_state, stored_work
    use shear_path, only: follow_shear
    use shear_stiffness, only: shear, shear_law, shear_state
    implicit none

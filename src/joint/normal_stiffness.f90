@@ -15,22 +15,16 @@
 !!       0                             lambda_B  lambda_A   lambda
 module normal_stiffness
    use kinds, only: wp
+   use normal_curve, only: curve_work, loading_deflection, loading_pressure, normal_law, normal_secant, normal_tangent
    implicit none
    private
 
    public :: at_rest, norm, is_virgin, pressure_reached, follow_normal, closed_share, branch_name
-   public :: loading_deflection, loading_pressure, normal_secant, normal_tangent, line_pressure, stored_work
+   public :: line_pressure, stored_work
 
    integer, parameter, public :: branch_load = 1, branch_unload = 2, branch_open = 3, branch_reload = 4
 
-   real(wp), parameter, public :: pressure_floor = 1.0e-6_wp !! of p_av: the least p that a loading element has
    real(wp), parameter :: rounding = 1.0e-10_wp              ! of its force, or of p_av a_i: a change below is none
-
-   type, public :: normal_law
-      real(wp) :: c   = 0.0_wp     !! [length/pressure^m], > 0
-      real(wp) :: m   = 0.0_wp     !! [-], 0 < m <= 1
-      real(wp) :: e_u = 0.0_wp     !! E_u, slope dp/dlambda of unloading [pressure/length], > 0
-   end type normal_law
 
    !> State of one interface element in its normal direction.
    type, public :: normal_state
@@ -233,39 +227,6 @@ contains
       share = min(1.0_wp, max(0.0_wp, share))
    end function closed_share
 
-   !> p of the loading curve at LAMBDA >= 0, Eq. (1) [pressure].
-   elemental real(wp) function loading_pressure(law, lambda) result(p)
-      type(normal_law), intent(in) :: law
-      real(wp), intent(in)         :: lambda
-
-      p = (lambda/law%c)**(1.0_wp/law%m)
-   end function loading_pressure
-
-   !> lambda of the loading curve at P >= 0, Eq. (1) [length].
-   elemental real(wp) function loading_deflection(law, p) result(lambda)
-      type(normal_law), intent(in) :: law
-      real(wp), intent(in)         :: p
-
-      lambda = law%c*p**law%m
-   end function loading_deflection
-
-   !> Secant of the loading curve from 0 to P, Eq. (9), times AREA [force/length].
-   pure real(wp) function normal_secant(law, area, p) result(k_n)
-      type(normal_law), intent(in) :: law
-      real(wp), intent(in)         :: area, p
-
-      k_n = p**(1.0_wp - law%m)*area/law%c
-   end function normal_secant
-
-   !> Tangent of the loading curve at P, Eqs. (11), times AREA [force/length]; it would vanish at p = 0: P counts as no less than
-   !! the floor.
-   pure real(wp) function normal_tangent(law, area, p, p_av) result(k_n)
-      type(normal_law), intent(in) :: law
-      real(wp), intent(in)         :: area, p, p_av
-
-      k_n = max(p, pressure_floor*p_av)**(1.0_wp - law%m)*area/(law%m*law%c)
-   end function normal_tangent
-
    !> p at LAMBDA on the line of slope E_u through the point A = (LAMBDA_A, P_A) [pressure]; below zero it is open.
    pure real(wp) function line_pressure(law, lambda_a, p_a, lambda) result(p)
       type(normal_law), intent(in) :: law
@@ -279,7 +240,7 @@ contains
       type(normal_law), intent(in) :: law
       real(wp), intent(in)         :: lambda_a, p_a, p
 
-      work = p_a*lambda_a*law%m/(1.0_wp + law%m) - 0.5_wp*(p_a**2 - p**2)/law%e_u
+      work = curve_work(law, lambda_a, p_a) - 0.5_wp*(p_a**2 - p**2)/law%e_u
    end function stored_work
 
    !> The word for a branch in listing and CSV.

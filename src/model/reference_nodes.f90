@@ -7,7 +7,7 @@ module reference_nodes
    implicit none
    private
 
-   public :: rotation_at, rotation_component, node_axes, place_of_component
+   public :: rotation_at, rotation_component, node_axes, place_of_component, third_axis
 
    !> A component of a node as unknowns count them: component D of NODE, times SCALE.
    type, public :: component_place
@@ -51,7 +51,18 @@ contains
       rotation = rotation_at(model, point)
       if (rotation == 0 .or. rotation_component(model, digit) == 0) return
       place = component_place(model%rotations(rotation)%node, rotation_component(model, digit), model%rotations(rotation)%arm)
+      if (model%dimension == 2) place%scale = place%scale*sum(third_axis(model, point)) ! z is one way or the other
    end function place_of_component
+
+   !> The third direction of NODE of a plane model, along z or against it.
+   pure function third_axis(model, node) result(axis)
+      type(model_type), intent(in) :: model
+      integer, intent(in)          :: node
+      real(wp) :: axis(3), axes(3, 3)
+
+      axes = node_axes(model, node)
+      axis = [0.0_wp, 0.0_wp, sign(1.0_wp, axes(3, 3))]
+   end function third_axis
 
    !> The directions of the components of NODE in global axes, columns: those of its system CD.
    pure function node_axes(model, node) result(axes)

@@ -6,7 +6,7 @@ module temperatures
    implicit none
    private
 
-   public :: element_rise, bar_rise, temperature_between
+   public :: element_rise, bar_rise, temperature_between, has_temperatures, node_temperatures
 
 contains
 
@@ -32,6 +32,34 @@ contains
       if (bar%axis /= '' .or. .not. allocated(temperature%at)) return
       rise = 0.5_wp*sum(temperature%at(bar%nodes)) - temperature%reference_share*bar%reference
    end function bar_rise
+
+   !> Whether any stage of MODEL has temperatures.
+   pure logical function has_temperatures(model)
+      type(model_type), intent(in) :: model
+      integer :: s
+
+      has_temperatures = any([(allocated(model%stage_loads(s)%temperature%at), s = 1, size(model%stage_loads))])
+   end function has_temperatures
+
+   !> How warm the nodes are [temperature]: where the deck gives no temperatures, TREF, of a node between materials the mean over its
+   !! elements, and on the way from or to a stage that gives none the share of it that is left.
+   pure function node_temperatures(model, temperature) result(t)
+      type(model_type), intent(in)       :: model
+      type(temperature_type), intent(in) :: temperature
+      real(wp) :: t(model%n_nodes)
+      integer  :: i
+
+      t = 0.0_wp
+      if (temperature%reference_share < 1.0_wp) then
+         do i = 1, model%n_nodes
+            associate (elements => model%elements_at(model%first_at(i):model%first_at(i + 1) - 1))
+               if (size(elements) > 0) t(i) = (1.0_wp - temperature%reference_share)* &
+                  sum(model%properties(model%element_property(elements))%reference)/size(elements)
+            end associate
+         end do
+      end if
+      if (allocated(temperature%at)) t = t + temperature%at
+   end function node_temperatures
 
    !> The temperatures at a FRACTION of the way from BEFORE to AFTER.
    pure function temperature_between(before, after, fraction) result(now)

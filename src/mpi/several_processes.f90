@@ -2,7 +2,7 @@
 submodule(distribution) several_processes
    use, intrinsic :: iso_c_binding, only: c_funloc, c_null_ptr
    use c_library, only: end_run
-   use case_control, only: solver_auto, solver_mumps, solver_petsc
+   use case_control, only: offer_petsc, solver_mumps, solver_petsc
    use distributed_matrix, only: check
    use distributed_solution, only: by_gamg, by_mumps, set_library_options
    use engine, only: end_engine, obey, order, order_end
@@ -14,12 +14,9 @@ submodule(distribution) several_processes
 
 contains
 
-   pure module logical function has_distributed()
-      has_distributed = .true.
-   end function has_distributed
-
    module subroutine join_processes()
       call find_ranks()
+      call offer_petsc()
       call set_library_options()
       call check(petsc_initialize())
       call check(petsc_pop_signal_handler())
@@ -41,9 +38,8 @@ contains
       call leave_ranks()
    end subroutine leave
 
-   module subroutine choose_distributed(graph, n, dimension, wanted, system)
-      type(node_graph_type), intent(in) :: graph
-      integer, intent(in)               :: n, dimension, wanted
+   module subroutine choose_distributed(wanted, system)
+      integer, intent(in) :: wanted
       class(equation_system), allocatable, intent(out) :: system
       type(petsc_solver_type), allocatable :: solver
 

@@ -20,20 +20,23 @@ module listing
    use model_warnings, only: tetra_words
    use node_coupling, only: held_forces
    use normal_stiffness, only: branch_open
-   use range_watch, only: range_watch_type, say_ranges, watch_balance, watch_ranges, watch_shear_laws, watch_unloading
+   use range_watch, only: note_condition, range_watch_type, record_watch, say_ranges, watch_balance, watch_ranges, &
+                          watch_shear_laws, watch_unloading
+   use restart_stream, only: restart_stream_type
    use stage_entries, only: output_all, output_joint, output_last
    use stage_plan, only: stage_plan_type
    use text_tools, only: clean, integer_text, plural, upper
    implicit none
    private
 
-   public :: start_listing, list_increment, list_stage, finish_listing
+   public :: start_listing, list_increment, list_stage, finish_listing, record_listing
 
    type, public :: listing_type
       type(page_type) :: page
       integer :: method = 0
       type(listing_table_type) :: increments, distances, resultants, passes, slips, bars, springs, sections ! of the stage so far
       type(farthest_type) :: farthest !! from the laws
+      character(:), allocatable :: poor_condition !! the last warning of it, '': none
       integer :: n_increments = 0, n_removed = 0
       type(range_watch_type) :: watch
    end type listing_type
@@ -51,6 +54,7 @@ contains
 
       call listing%page%file%start(path)
       listing%method = deck%control%method
+      listing%poor_condition = ''
       if (deck%control%length_unit /= '') call set_labels(trim(deck%control%length_unit), trim(deck%control%force_unit), &
                                                           listing%page%labels)
       call write_opening(listing%page, deck, model, plan, system)
@@ -86,6 +90,7 @@ contains
          if (analysis%increment == 1) then
             if (allocated(page%shown)) deallocate (page%shown)
             if (allocated(stage%shown)) page%shown = stage%shown
+            page%along_cd = stage%along_cd
          end if
          page%largest_force = max(page%largest_force, maxval(abs(analysis%applied(:, analysis%loaded))))
          if (analysis%is_moved) page%largest_force = &
@@ -100,6 +105,7 @@ contains
          call note_bars(page, model, analysis, listing%bars)
          call note_springs(page, model, analysis, listing%springs)
          call note_sections(page, model, analysis, listing%sections)
+         if (analysis%condition%is_new) call note_condition(model, plan, analysis, listing%watch, listing%poor_condition)
          call watch_ranges(model, analysis, listing%watch)
          if (listing%method /= method_back) then
             call watch_shear_laws(model, plan, analysis, listing%watch)
@@ -242,5 +248,35 @@ contains
          plural(listing%n_removed, 'interface element'))//' REMOVED, '//upper(plural(listing%watch%n_warnings, 'warning')))
       call listing%page%file%finish(ok)
    end subroutine finish_listing
+
+   !> Write the listing so far, and what it keeps, to a restart file, or read it into one that start_listing has opened for the same
+   !! deck. Its units and the way that the tables are limited come from the deck; its date stands in its head.
+   subroutine record_listing(stream, listing)
+      type(restart_stream_type), intent(inout) :: stream
+      type(listing_type), intent(inout)        :: listing
+
+      call stream%mark('LISTING')
+      call listing%page%file%record(stream)
+      call stream%list(listing%page%stage)
+      call stream%list(listing%page%now)
+      call stream%item(listing%page%largest_force)
+      call stream%list(listing%page%shown)
+      call listing%increments%record(stream)
+      call listing%distances%record(stream)
+      call listing%resultants%record(stream)
+      call listing%passes%record(stream)
+      call listing%slips%record(stream)
+      call listing%bars%record(stream)
+      call listing%springs%record(stream)
+      call listing%sections%record(stream)
+      call stream%item(listing%farthest%share)
+      call stream%item(listing%farthest%node)
+      call stream%list(listing%farthest%stress)
+      call stream%list(listing%farthest%place)
+      call stream%list(listing%poor_condition)
+      call stream%item(listing%n_increments)
+      call stream%item(listing%n_removed)
+      call record_watch(stream, listing%watch)
+   end subroutine record_listing
 
 end module listing

@@ -6,7 +6,8 @@ module listing_bodies
    use elasticity, only: max_stresses, n_stresses
    use interface_operator, only: named_node
    use kinds, only: wp
-   use listing_table, only: axes, column, listing_table_type, noise, page_type
+   use listing_directions, only: add_directed, direction_columns, direction_words
+   use listing_table, only: axes, column, listing_table_type, noise, page_type, page_width
    use listing_rotations, only: list_moments, list_rotations
    use model_data, only: has_ground_springs, has_second_order, model_type, n_bars, n_points, supported
    use node_coupling, only: held_forces
@@ -17,6 +18,9 @@ module listing_bodies
    private
 
    public :: list_bodies
+
+   ! Long tables are written by all threads: blocks of rows that are printed together, of them a piece is the work of one.
+   integer, parameter :: block_rows = 16384, piece = 512, few = 4096
 
 contains
 
@@ -40,22 +44,71 @@ contains
       type(model_type), intent(in)    :: model
       type(analysis_type), intent(in) :: analysis
       type(listing_table_type) :: table
+      integer, allocatable :: list(:)
       real(wp) :: floor
       integer  :: node
 
-      call table%start('DISPLACEMENTS OF NODES'//page%now//in_units(page%labels%length), &
+      call table%start('DISPLACEMENTS OF NODES'//direction_words(page)//page%now//in_units(page%labels%length), &
                        [column('NODE', 'i11'), column(axes(:model%dimension), 'es13.5'), &
-                        column('U'//axes(:model%dimension), 'es13.5')])
+                        direction_columns(page, 'U', model%dimension)])
       call table%print_head(page%file)
       floor = noise*maxval(abs(analysis%all_u(:, :n_points(model))))
+      if (.not. page%along_cd) then
+         list = pack([(node, node = 1, n_points(model))], &
+                     [(model%used(node) .and. shows_node(page, node), node = 1, n_points(model))])
+         call print_rows(page, table, model%node_id(list), clean(model%x(:model%dimension, list)), &
+                         clean(analysis%all_u(:, list), floor))
+         return
+      end if
       do node = 1, n_points(model)
          if (.not. model%used(node) .or. .not. shows_node(page, node)) cycle
          call table%add([model%node_id(node)])
          call table%add(clean(model%x(:model%dimension, node)))
-         call table%add(clean(analysis%all_u(:, node), floor))
+         call add_directed(page, model, node, analysis%all_u(:, node), floor, table)
          call table%print_row(page%file)
       end do
    end subroutine list_displacements
+
+   !> Print the rows of TABLE: ID, the place X, VALUES.
+   subroutine print_rows(page, table, id, x, values)
+      type(page_type), intent(inout)       :: page
+      type(listing_table_type), intent(in) :: table
+      integer, intent(in)                  :: id(:)        !! (rows)
+      real(wp), intent(in)                 :: x(:, :)      !! (dimension, rows)
+      real(wp), intent(in)                 :: values(:, :) !! (n, rows)
+      character(page_width), allocatable :: rows(:)
+      integer :: first, i, last, part
+
+      allocate (rows(min(block_rows, size(id))))
+      do first = 1, size(id), block_rows
+         last = min(size(id), first + block_rows - 1)
+         !$omp parallel do schedule(dynamic, 1) default(shared) if(size(id) > few)
+         do part = first, last, piece
+            call write_piece(part, min(last, part + piece - 1))
+         end do
+         !$omp end parallel do
+         do i = 1, last - first + 1
+            call page%file%put(rows(i))
+         end do
+      end do
+
+   contains
+
+      subroutine write_piece(from, until)
+         integer, intent(in) :: from, until
+         type(listing_table_type) :: mine
+         integer :: k
+
+         mine = table
+         do k = from, until
+            call mine%add([id(k)])
+            call mine%add(x(:, k))
+            call mine%add(values(:, k))
+            call mine%take_row(rows(k - first + 1))
+         end do
+      end subroutine write_piece
+
+   end subroutine print_rows
 
    subroutine list_stresses(page, principal, model, analysis)
       type(page_type), intent(inout)  :: page
@@ -63,28 +116,28 @@ contains
       type(model_type), intent(in)    :: model
       type(analysis_type), intent(in) :: analysis
       type(listing_table_type) :: table
-      real(wp), allocatable :: stress(:, :)
+      real(wp), allocatable :: stress(:, :), centre(:, :)
+      integer, allocatable  :: list(:)
       real(wp) :: floor
       integer  :: e, n
 
       allocate (stress(max_stresses, model%n_elements), source=0.0_wp)
-      n = 0
+      allocate (centre(model%dimension, model%n_elements))
+      n = n_stresses(model%properties(model%element_property(model%n_elements))%state)
+      !$omp parallel do schedule(dynamic, piece) default(shared) if(model%n_elements > few)
       do e = 1, model%n_elements
-         n = n_stresses(model%properties(model%element_property(e))%state)
-         stress(:n, e) = element_stress(model, e, analysis%all_u, analysis%temperature)
+         stress(:n_stresses(model%properties(model%element_property(e))%state), e) = &
+            element_stress(model, e, analysis%all_u, analysis%temperature)
+         centre(:, e) = element_centre(model, e)
       end do
+      !$omp end parallel do
       floor = noise*maxval(abs(stress))
       call table%start('STRESSES AT THE CENTRES OF ELEMENTS'//page%now//in_units(page%labels%pressure), &
                        [column('ELEMENT', 'i11'), column('CENTRE '//axes(:model%dimension), 'es13.5'), &
                         column(stress_names(model), 'es13.5')])
       call table%print_head(page%file)
-      do e = 1, model%n_elements
-         if (.not. shows_element(page, model, e)) cycle
-         call table%add([model%element_id(e)])
-         call table%add(clean(element_centre(model, e)))
-         call table%add(clean(stress(:n, e), floor))
-         call table%print_row(page%file)
-      end do
+      list = pack([(e, e = 1, model%n_elements)], [(shows_element(page, model, e), e = 1, model%n_elements)])
+      call print_rows(page, table, model%element_id(list), clean(centre(:, list)), clean(stress(:n, list), floor))
       if (principal) call list_principal(page, model, analysis, floor)
    end subroutine list_stresses
 
@@ -171,9 +224,9 @@ contains
       real(wp) :: floor, force(3)
       integer  :: first, i, node
 
-      call table%start('REACTIONS AT SUPPORTS'//page%now//in_units(page%labels%force), &
+      call table%start('REACTIONS AT SUPPORTS'//direction_words(page)//page%now//in_units(page%labels%force), &
                        [column('NODE', 'i11'), column(axes(:model%dimension), 'es13.5'), &
-                        column('R'//axes(:model%dimension), 'es13.5')])
+                        direction_columns(page, 'R', model%dimension)])
       call table%print_head(page%file)
       floor = noise*max(page%largest_force, tiny(1.0_wp))
       supports = 0.0_wp
@@ -185,7 +238,7 @@ contains
          if (.not. shows_node(page, node)) cycle
          call table%add([model%node_id(node)])
          call table%add(clean(model%x(:model%dimension, node)))
-         call table%add(clean(reaction, floor))
+         call add_directed(page, model, node, reaction, floor, table)
          call table%print_row(page%file)
       end do
       base = 0.0_wp

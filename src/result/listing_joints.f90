@@ -8,7 +8,8 @@ module listing_joints
    use kinds, only: wp
    use listing_table, only: axes, column, heading, listing_table_type, noise, page_type
    use model_data, only: has_gaps, joint_node_id, model_type
-   use normal_stiffness, only: branch_name, loading_deflection
+   use normal_curve, only: loading_deflection
+   use normal_stiffness, only: branch_name
    use shown_rows, only: shows_interface
    use text_tools, only: clean, integer_text
    implicit none

@@ -9,10 +9,11 @@ module listing_opening
    use kinds, only: long, wp
    use listing_covers, only: write_covers
    use listing_echo, only: write_echo
-   use listing_table, only: axes, column, cut, heading, listing_table_type, page_type, page_width
+   use listing_table, only: axes, column, cut, heading, in_form, listing_table_type, page_type, page_width
    use model_data, only: has_gaps, model_type, n_bars, n_points, n_rotations, n_sections, n_springs, supported
    use model_warnings, only: tetra_words
-   use normal_stiffness, only: branch_load, branch_name, branch_reload, branch_unload, pressure_floor
+   use normal_curve, only: pressure_floor
+   use normal_stiffness, only: branch_load, branch_name, branch_reload, branch_unload
    use output_file, only: output_file_type
    use shear_closure, only: loop_closure, worst_closure
    use shear_stiffness, only: cubic_of
@@ -113,8 +114,11 @@ contains
          character(*), intent(in)  :: words
          integer(long), intent(in) :: number
          character(80) :: line
+         character(20) :: digits
 
-         write (line, '(2x, a, t46, i12)') words, number
+         write (digits, '(i20)') number
+         line = '  '//words
+         line(58 - len_trim(adjustl(digits)):57) = adjustl(digits)
          call file%put(line)
       end subroutine count_line
 
@@ -228,8 +232,8 @@ contains
                call file%put(closure_line(worst_closure(law%shear(k), model%joints(j)%p_av)))
             end do
             if (law%has_friction) then
-               write (line, '(i11, a, f10.6, a, i5)') model%joints(j)%id, '   FRICTION MU =', law%mu, '   RE-ANALYSES', &
-                  model%joints(j)%n_reanalyses
+               write (line, '(i11, 3a, i5)') model%joints(j)%id, '   FRICTION MU =', in_form(law%mu, '(f10.6)', 10), &
+                  '   RE-ANALYSES', model%joints(j)%n_reanalyses
                call file%put(line)
             end if
          end associate
@@ -244,10 +248,11 @@ contains
       if (.not. closure%is_known) then
          line = repeat(' ', 17)//'CLOSURE: UNLOADING DOES NOT COME TO TAU = 0'
       else if (closure%d > 0.0_wp) then
-         write (line, '(17x, a, f9.3, 2(a, es13.5))') 'CLOSURE', 100.0_wp*closure%share, ' PER CENT OF TAU_R, WIDEST AT P =', &
-            closure%p, '   D =', closure%d
+         write (line, '(17x, 3a, es13.5, a, es13.5)') 'CLOSURE', in_form(100.0_wp*closure%share, '(f9.3)', 9), &
+            ' PER CENT OF TAU_R, WIDEST AT P =', closure%p, '   D =', closure%d
       else
-         write (line, '(17x, a, f9.3, a, es13.5)') 'CLOSURE', 100.0_wp*closure%share, ' PER CENT OF TAU_R AT P =', closure%p
+         write (line, '(17x, 3a, es13.5)') 'CLOSURE', in_form(100.0_wp*closure%share, '(f9.3)', 9), &
+            ' PER CENT OF TAU_R AT P =', closure%p
          line = trim(line)//'   OF SMALL LOOPS: THE CARD HAS NO DMAX'
       end if
    end function closure_line

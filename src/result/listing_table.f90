@@ -12,10 +12,12 @@ module listing_table
    use kinds, only: wp
    use number_text, only: integer_width, short_width, write_integer, write_short
    use output_file, only: output_file_type
+   use restart_stream, only: restart_stream_type
+   use text_tools, only: fitted_text
    implicit none
    private
 
-   public :: column, heading, cut
+   public :: column, heading, cut, in_form
 
    integer, parameter, public      :: page_width = 132
    real(wp), parameter, public     :: noise = 1.0e-9_wp !! of the largest number of its kind: below it only rounding is printed
@@ -34,10 +36,12 @@ module listing_table
       character(:), allocatable :: stage, now !! where the run is: 'STAGE 2'; ', STAGE 2, INCREMENT 5' behind a title
       real(wp) :: largest_force = 0.0_wp      !! ever applied, for the noise
       logical, allocatable :: shown(:)        !! nodes that the tables of this stage are limited to; not allocated: all
+      logical :: along_cd = .false.           !! tables of nodes of this stage have the directions of their systems CD
       character(:), allocatable :: date       !! for its head, where it is to have one
    end type page_type
 
-   type :: column_type
+   type, public :: column_type
+      private
       character(48) :: heading = ''
       character(10) :: form = ''
       character(20) :: unit = ''
@@ -62,9 +66,11 @@ module listing_table
       generic   :: add => add_integers, add_reals, add_text
       procedure :: skip
       procedure :: print_row
+      procedure :: take_row
       procedure :: keep_row
       procedure :: keep_line
       procedure :: print_kept
+      procedure :: record
       procedure, private :: add_integers, add_reals, add_text
    end type listing_table_type
 
@@ -145,7 +151,7 @@ contains
       line(last - len(words) + 1:last) = words
    end subroutine place
 
-   !> The next values of the row: stars where one is wider than its column.
+   !> The next values of the row. What its column cannot hold is printed with an exponent and fewer digits, behind a blank.
    pure subroutine add_integers(self, values)
       class(listing_table_type), intent(inout) :: self
       integer, intent(in)                      :: values(:)
@@ -157,7 +163,7 @@ contains
          self%used = self%used + 1
          associate (column => self%columns(self%used))
             if (length > column%width) then
-               call place(self%row, repeat('*', column%width), column%last)
+               call place(self%row, fitted_text(real(values(i), wp), column%width - 1), column%last)
             else
                call place(self%row, digits(:length), column%last)
             end if
@@ -176,11 +182,24 @@ contains
             if (column%is_short) then
                call write_short(values(i), self%row(column%last - short_width + 1:column%last))
             else
-               write (self%row(column%last - column%width + 1:column%last), column%form) values(i)
+               call place(self%row, in_form(values(i), column%form, column%width), column%last)
             end if
          end associate
       end do
    end subroutine add_reals
+
+   !> VALUE as the format FORM has it in WIDTH characters; where they do not hold it, with an exponent and fewer digits, behind a blank.
+   pure function in_form(value, form, width) result(field)
+      real(wp), intent(in)     :: value
+      character(*), intent(in) :: form  !! '(f9.3)'
+      integer, intent(in)      :: width
+      character(width) :: field
+
+      write (field, form) value
+      if (index(field, '*') == 0) return
+      field = fitted_text(value, width - 1)
+      field = adjustr(field)
+   end function in_form
 
    !> WORDS with all their blanks, at the end of their column.
    pure subroutine add_text(self, words)
@@ -214,6 +233,16 @@ contains
       self%row = ''
       self%used = 0
    end subroutine print_row
+
+   !> The ROW is complete, and its place is another one than the file.
+   pure subroutine take_row(self, row)
+      class(listing_table_type), intent(inout) :: self
+      character(page_width), intent(out)       :: row
+
+      row = self%row
+      self%row = ''
+      self%used = 0
+   end subroutine take_row
 
    !> The row is complete: keep it until the table is printed.
    pure subroutine keep_row(self)
@@ -257,6 +286,51 @@ contains
       end do
       self%n_kept = 0
    end subroutine print_kept
+
+   !> Write the table as it is between two rows to a restart file, or read it.
+   subroutine record(self, stream)
+      class(listing_table_type), intent(inout) :: self
+      type(restart_stream_type), intent(inout) :: stream
+      integer :: i, n
+      logical :: is_there
+
+      call stream%list(self%title)
+      is_there = allocated(self%columns)
+      call stream%item(is_there)
+      n = 0
+      if (is_there .and. stream%writes) n = size(self%columns)
+      call stream%count(n, 91)
+      if (is_there .and. .not. stream%writes) then
+         if (allocated(self%columns)) deallocate (self%columns)
+         allocate (self%columns(n))
+      end if
+      do i = 1, n
+         call record_column(stream, self%columns(i))
+      end do
+      call stream%count(self%n_kept, page_width)
+      if (.not. allocated(self%kept)) allocate (self%kept(max(64, self%n_kept)))
+      if (size(self%kept) < self%n_kept) then
+         deallocate (self%kept)
+         allocate (self%kept(self%n_kept))
+      end if
+      do i = 1, self%n_kept
+         call stream%item(self%kept(i))
+      end do
+   end subroutine record
+
+   subroutine record_column(stream, column)
+      type(restart_stream_type), intent(inout) :: stream
+      type(column_type), intent(inout)         :: column
+
+      call stream%item(column%heading)
+      call stream%item(column%form)
+      call stream%item(column%unit)
+      call stream%item(column%width)
+      call stream%item(column%last)
+      call stream%item(column%heading_shift)
+      call stream%item(column%unit_shift)
+      call stream%item(column%is_short)
+   end subroutine record_column
 
    !> A heading of a table, with an empty line before it.
    subroutine heading(file, words)

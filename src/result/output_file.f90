@@ -1,14 +1,16 @@
-!> Result files that appear under their names only when they are complete: written as NAME.part, renamed at the end.
+!> Result files that appear under their names only when they are complete: written as NAME.abcdef.part, renamed at the end.
 !! With no name the lines go to the standard output, at the end too.
 module output_file
-   use c_library, only: close_file, create_file, remove_file, rename_file, write_bytes
-   use incomplete_results, only: note_incomplete, suffix
+   use c_library, only: close_file, remove_file, write_bytes
+   use incomplete_results, only: create_part, name_part
+   use restart_stream, only: restart_stream_type
    implicit none
    private
 
    type, public :: output_file_type
       private
       character(:), allocatable :: path          ! empty: standard output
+      character(:), allocatable :: part          ! its name until it is complete
       character(:), allocatable :: buffer
       integer :: used = 0
       integer :: descriptor = -1
@@ -20,6 +22,7 @@ module output_file
       procedure :: failed
       procedure :: finish
       procedure :: discard
+      procedure :: record
    end type output_file_type
 
    integer, parameter :: room = 1048576          ! bytes that are gathered before they are written
@@ -34,8 +37,8 @@ contains
       self%path = path
       if (allocated(self%buffer)) deallocate (self%buffer)
       allocate (character(room) :: self%buffer)
-      call note_incomplete(path)
-      if (path /= '') call create_file(path//suffix, self%descriptor)
+      self%used = 0
+      if (path /= '') call create_part(path, self%part, self%descriptor)
       self%fault = path /= '' .and. self%descriptor < 0
       self%is_open = .not. self%fault
    end subroutine start
@@ -95,8 +98,11 @@ contains
       if (self%path /= '') then
          call close_file(self%descriptor, closed)
          ok = ok .and. closed
-         if (ok) call rename_file(self%path//suffix, self%path, ok)
-         if (.not. ok) call remove_file(self%path//suffix)
+         if (ok) then
+            call name_part(self%part, self%path, ok)
+         else
+            call remove_file(self%part)
+         end if
       end if
       self%is_open = .false.
       self%fault = .not. ok
@@ -111,7 +117,35 @@ contains
       self%is_open = .false.
       if (self%path == '') return
       call close_file(self%descriptor, closed)
-      call remove_file(self%path//suffix)
+      call remove_file(self%part)
    end subroutine discard
+
+   !> Write all that the file has so far to a restart file; or read it, and it has that and nothing else.
+   subroutine record(self, stream)
+      class(output_file_type), intent(inout)   :: self
+      type(restart_stream_type), intent(inout) :: stream
+      character(:), allocatable :: text
+      logical :: ok
+
+      call stream%mark('OUTPUT')
+      if (self%path == '') then
+         if (stream%writes) text = self%buffer(:self%used)
+         call stream%list(text)
+         if (stream%writes .or. .not. allocated(text)) return
+         self%used = 0
+         call make_room(self, len(text))
+         self%used = len(text)
+         self%buffer(:self%used) = text
+      else if (stream%writes) then
+         if (self%used > 0) call write_bytes(self%descriptor, self%buffer(:self%used), ok)
+         if (self%used > 0) self%fault = self%fault .or. .not. ok
+         self%used = 0
+         call stream%file(self%part, self%descriptor)
+      else
+         call self%discard()
+         call self%start(self%path)
+         if (self%is_open) call stream%file(self%part, self%descriptor)
+      end if
+   end subroutine record
 
 end module output_file

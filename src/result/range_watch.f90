@@ -1,21 +1,24 @@
 !> Warnings: shear laws whose loops do not close or whose branches part (once a law), and used outside their range (one line a
 !! bound, joint and stage, with the number of interface elements and the worst of them); unloading softer than loading (once a
-!! joint), and stages that end far from balance.
+!! joint), stages that end far from balance, and stiffnesses of poor condition.
 module range_watch
    use analysis_state, only: analysis_type, free_norm
    use joint_laws, only: friction_excess, friction_limit
    use kinds, only: wp
    use listing_table, only: axes, listing_table_type, page_width
    use model_data, only: joint_node_id, model_type
-   use normal_stiffness, only: branch_load, branch_open, loading_deflection, normal_tangent
+   use normal_curve, only: loading_deflection, normal_tangent
+   use normal_stiffness, only: branch_load, branch_open
+   use restart_stream, only: restart_stream_type
    use shear_closure, only: loop_closure, worst_closure
    use shear_stiffness, only: shear_law, shear_slope
    use stage_plan, only: stage_plan_type, where_in_plan
    use text_tools, only: integer_text, plural, real_text, upper
+   use unknown_names, only: unknown_name
    implicit none
    private
 
-   public :: watch_shear_laws, watch_ranges, say_ranges, watch_unloading, watch_balance
+   public :: watch_shear_laws, watch_ranges, say_ranges, watch_unloading, watch_balance, note_condition, record_watch
 
    real(wp), parameter :: much = 0.01_wp ! of the largest load, or of the friction limits: what may be left without a warning
    real(wp), parameter :: rounding = 1.0e-9_wp
@@ -271,5 +274,68 @@ contains
          call watch%rows%keep_line(words//'FRICTION LIMITS ARE STILL EXCEEDED BY '//real_text(excess)//' IN ALL: SEE NREAN')
       end if
    end subroutine watch_balance
+
+   !> Warn of the condition of the stiffness, which has not been so poor before; WORDS are the same for the screen. Only powers of
+   !! ten: what is behind them is rounding.
+   subroutine note_condition(model, plan, analysis, watch, words)
+      type(model_type), intent(in)           :: model
+      type(stage_plan_type), intent(in)      :: plan
+      type(analysis_type), intent(in)        :: analysis
+      type(range_watch_type), intent(inout)  :: watch
+      character(:), allocatable, intent(out) :: words
+      character(:), allocatable :: first, second
+      integer :: power
+
+      associate (condition => analysis%condition)
+         power = nint(log10(condition%number))
+         first = where_in_plan(plan, analysis%stage, analysis%increment)//': condition of the stiffness about 1E'// &
+                 integer_text(power)//', of its 16 digits about '//integer_text(max(0, 16 - power))//' are left'
+         second = 'softest at '//unknown_name(model, condition%node, condition%direction)
+      end associate
+      watch%n_warnings = watch%n_warnings + 1
+      call keep_two_parts(watch, '  WARNING: '//upper(first)//': ', upper(second))
+      words = first//': '//second
+   end subroutine note_condition
+
+   !> Write what has been warned of, and what is to be, to a restart file, or read it.
+   subroutine record_watch(stream, watch)
+      type(restart_stream_type), intent(inout) :: stream
+      type(range_watch_type), intent(inout)    :: watch
+      integer :: j, n, which
+      logical :: is_there
+
+      call stream%mark('WARNINGS')
+      call stream%item(watch%n_warnings)
+      call watch%rows%record(stream)
+      call stream%list(watch%stage)
+      call stream%list(watch%soft_line)
+      call stream%list(watch%first_of)
+      call stream%list(watch%parted)
+      is_there = allocated(watch%tallies)
+      call stream%item(is_there)
+      n = 0
+      if (is_there .and. stream%writes) n = size(watch%tallies, 2)
+      call stream%count(n, 48*no_slope)
+      if (is_there .and. .not. stream%writes) allocate (watch%tallies(no_slope, n))
+      do j = 1, n
+         do which = 1, no_slope
+            call record_tally(stream, watch%tallies(which, j))
+         end do
+      end do
+   end subroutine record_watch
+
+   subroutine record_tally(stream, tally)
+      type(restart_stream_type), intent(inout) :: stream
+      type(tally_type), intent(inout)          :: tally
+
+      call stream%item(tally%n)
+      call stream%item(tally%node)
+      call stream%item(tally%increment)
+      call stream%item(tally%worst_node)
+      call stream%item(tally%p)
+      call stream%item(tally%d)
+      call stream%item(tally%excess)
+      call stream%item(tally%bound)
+   end subroutine record_tally
 
 end module range_watch

@@ -3,28 +3,30 @@ module results
    use analysis_state, only: analysis_type
    use answer_block, only: print_answer
    use bolt_answer, only: n_bolts
-   use c_library, only: remove_file
+   use c_library, only: close_file, lock_folder
    use deck_input, only: deck_type
    use equation_solver, only: equation_system
    use failures, only: failure_type
-   use incomplete_results, only: all_complete
+   use incomplete_results, only: all_complete, give_up_parts, remove_old
    use joint_history, only: write_history, write_history_header
    use kinds, only: wp
-   use listing, only: finish_listing, list_increment, list_stage, listing_type, start_listing
+   use listing, only: finish_listing, list_increment, list_stage, listing_type, record_listing, start_listing
    use model_data, only: model_type
    use output_file, only: output_file_type
-   use stage_answer, only: bolt_answer_type, find_answer, find_bolt_answers, stage_answer_type
+   use restart_stream, only: restart_stream_type
+   use stage_answer, only: bolt_answer_type, fault_of_answer, find_answer, find_bolt_answers, stage_answer_type
    use stage_history, only: write_bolt_header, write_bolts, write_stage, write_stage_header
-   use stage_plan, only: stage_plan_type
+   use stage_plan, only: stage_plan_type, where_in_plan
    use text_tools, only: real_text
-   use vtu_results, only: discard_vtu, finish_vtu, is_vtu_ending, remove_old_vtu, start_vtu, vtu_names, vtu_results_type, write_vtu
+   use vtu_results, only: discard_vtu, finish_vtu, is_vtu_ending, record_vtu, remove_old_vtu, start_vtu, vtu_names, &
+                          vtu_results_type, write_vtu
    implicit none
    private
 
-   public :: start_results, print_increment, print_stage, finish_results, discard_results, remove_old_results, show_answers, &
-             is_result_ending
+   public :: start_results, print_increment, print_stage, finish_results, discard_results, record_results, remove_old_results, &
+             show_answers, is_result_ending
 
-   character(*), parameter, public :: listing_ending = '.out', history_ending = '.joint.csv'
+   character(*), parameter, public :: listing_ending = '.out', history_ending = '.joint.csv', restart_ending = '.restart'
 
    ! the tables beside the listing, in the order of their endings
    integer, parameter :: joint_file = 1, stage_file = 2, bolt_file = 3
@@ -53,6 +55,7 @@ contains
       logical, intent(out)              :: ok
       integer :: i
 
+      call all_complete()
       results%base = base
       allocate (results%bolts_before(n_bolts(model)), source=0.0_wp)
       if (base == '') call start_listing(results%listing, '', deck, model, plan, system)
@@ -90,18 +93,22 @@ contains
                        bolts)
    end subroutine print_increment
 
-   !> The stage just completed.
-   subroutine print_stage(model, plan, analysis, results)
+   !> The stage just completed. FAILURE is raised where a figure of its answer is beyond all measure.
+   subroutine print_stage(model, plan, analysis, results, failure)
       type(model_type), intent(in)      :: model
       type(stage_plan_type), intent(in) :: plan
       type(analysis_type), intent(in)   :: analysis
       type(results_type), intent(inout) :: results
+      type(failure_type), intent(inout) :: failure
       type(stage_answer_type) :: answer
-      character(:), allocatable :: title
+      character(:), allocatable :: fault, title
 
       call list_stage(results%listing, model, plan, analysis)
       associate (stage => plan%stages(analysis%stage), page => results%listing%page)
          call find_answer(model, analysis, results%listing%method, page%largest_force, results%bolts_before, answer)
+         fault = fault_of_answer(model, answer)
+         if (fault /= '') call failure%raise(where_in_plan(plan, analysis%stage, analysis%increment)//': '//fault// &
+                                             ' is beyond all measure; are loads, lengths and stiffnesses in consistent units?')
          title = 'ANSWER AT THE END OF '//page%stage//'   '//stage%label
          if (analysis%ends_early) title = 'ANSWER WHERE THE RUN ENDED EARLY, '//page%stage//', LOAD '// &
                                           real_text(analysis%fraction)//'   '//stage%label
@@ -121,20 +128,29 @@ contains
       type(failure_type), intent(in)    :: failure !! raised: the results end before it
       type(results_type), intent(inout) :: results
       logical, intent(out)              :: ok
-      integer :: i
+      integer :: i, hold
+      logical :: closed
 
+      call lock_folder(folder_of(results%base), hold)
+      call remove_all(results%base) ! of two runs of one name the last to come here leaves all of its files, and no others
       ok = .true.
       do i = 1, size(table_endings)
          if (ok .and. results%tables(i)%is_open) call results%tables(i)%finish(ok)
       end do
       if (ok) call finish_vtu(results%vtu, ok)
       if (ok) call finish_listing(results%listing, plan, failure, ok)
-      if (.not. ok) then
-         call discard_results(results)
-         call remove_tables(results%base)
-      end if
-      call all_complete()
+      if (.not. ok) call discard_results(results)
+      if (ok) call all_complete()
+      call close_file(hold, closed)
    end subroutine finish_results
+
+   !> The folder in which files are that begin with BASE.
+   pure function folder_of(base) result(folder)
+      character(*), intent(in)  :: base
+      character(:), allocatable :: folder
+
+      folder = base(:index(base, '/', back=.true.))//'.'
+   end function folder_of
 
    !> Show the answers on the standard output, and behind them the names of the files. OK is false where that fails.
    subroutine show_answers(model, results, ok)
@@ -153,7 +169,7 @@ contains
       call results%screen%finish(ok)
    end subroutine show_answers
 
-   !> Leave nothing behind that could be taken for a result.
+   !> Leave nothing behind that could be taken for a result; of another run nothing is touched.
    subroutine discard_results(results)
       type(results_type), intent(inout) :: results
       integer :: i
@@ -164,35 +180,54 @@ contains
       end do
       call results%screen%discard()
       call discard_vtu(results%vtu)
-      call all_complete()
+      call give_up_parts()
    end subroutine discard_results
+
+   !> Write all results so far to a restart file; or read them into files that start_results has opened for the same deck.
+   subroutine record_results(stream, results)
+      type(restart_stream_type), intent(inout) :: stream
+      type(results_type), intent(inout)        :: results
+      integer :: i
+
+      call record_listing(stream, results%listing)
+      do i = 1, size(table_endings)
+         if (results%tables(i)%is_open) call results%tables(i)%record(stream)
+      end do
+      call results%screen%record(stream)
+      call record_vtu(results%vtu, stream)
+      call stream%item(results%bolts_before)
+   end subroutine record_results
 
    !> Remove what an earlier run of the same deck left: it is not the result of this deck any more, wherever the run ends.
    subroutine remove_old_results(base)
       character(*), intent(in) :: base
+      integer :: hold
+      logical :: closed
 
       if (base == '') return
-      call remove_file(base//listing_ending)
-      call remove_tables(base)
-      call remove_old_vtu(base)
+      call lock_folder(folder_of(base), hold)
+      call remove_all(base)
+      call close_file(hold, closed)
    end subroutine remove_old_results
 
-   !> Remove the tables beside the listing BASE.out, those that are there.
-   subroutine remove_tables(base)
+   !> Remove the results whose names begin with BASE, none where it is empty.
+   subroutine remove_all(base)
       character(*), intent(in) :: base
       integer :: i
 
       if (base == '') return
+      call remove_old(base//listing_ending)
       do i = 1, size(table_endings)
-         call remove_file(base//trim(table_endings(i)))
+         call remove_old(base//trim(table_endings(i)))
       end do
-   end subroutine remove_tables
+      call remove_old_vtu(base)
+   end subroutine remove_all
 
    !> Whether the name of a result may end so, behind its base.
    pure logical function is_result_ending(ending)
       character(*), intent(in) :: ending
 
-      is_result_ending = ending == listing_ending .or. any(ending == table_endings) .or. is_vtu_ending(ending)
+      is_result_ending = any(ending == [character(10) :: listing_ending, restart_ending, table_endings]) .or. is_vtu_ending(ending)
    end function is_result_ending
 
 end module results

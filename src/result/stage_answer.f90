@@ -9,14 +9,15 @@ module stage_answer
    use joint_tangents, only: tangents_now
    use kinds, only: wp
    use listing_table, only: noise
+   use measures, only: is_measure
    use model_data, only: joint_type, model_type, n_points
    use normal_stiffness, only: branch_open, normal_state
    use stress_measures, only: von_mises
-   use text_tools, only: clean
+   use text_tools, only: clean, integer_text
    implicit none
    private
 
-   public :: find_answer, find_bolt_answers, stands_apart
+   public :: find_answer, find_bolt_answers, stands_apart, fault_of_answer
 
    ! Of forces and movements what is left of sums and differences that would be zero but for rounding and for what iterations leave,
    ! and how far values may differ that a symmetric structure would have alike.
@@ -109,15 +110,17 @@ contains
          size_of(node) = von_mises(at_node(:, node))
       end do
       node = first_largest(size_of, model%used(:size(size_of)))
-      answer%at_node = peak_type(.true., maxval(size_of), model%node_id(node), model%x(:, node))
+      answer%at_node = peak_type(.true., largest(size_of), model%node_id(node), model%x(:, node))
       deallocate (size_of)
       allocate (size_of(model%n_elements))
+      !$omp parallel do schedule(dynamic, 512) default(shared) if(model%n_elements > 4096)
       do e = 1, model%n_elements
          size_of(e) = von_mises(whole_stress(model, e, analysis%all_u, analysis%temperature))
       end do
+      !$omp end parallel do
       e = first_largest(size_of, size_of >= 0.0_wp)
       answer%at_centre = peak_type(.true., size_of(e), model%element_id(e))
-      answer%at_centre%value = maxval(size_of)
+      answer%at_centre%value = largest(size_of)
       answer%at_centre%x(:model%dimension) = element_centre(model, e)
    end subroutine find_peaks
 
@@ -128,8 +131,20 @@ contains
       logical, intent(in)  :: counts(:)
 
       at = 0
-      if (any(counts)) at = findloc(counts .and. values >= (1.0_wp - tie)*maxval(values, mask=counts), .true., dim=1)
+      if (any(counts .and. .not. is_measure(values))) then
+         at = findloc(counts .and. .not. is_measure(values), .true., dim=1)
+      else if (any(counts)) then
+         at = findloc(counts .and. values >= (1.0_wp - tie)*maxval(values, mask=counts), .true., dim=1)
+      end if
    end function first_largest
+
+   !> The largest of VALUES, or the first that is none.
+   pure real(wp) function largest(values)
+      real(wp), intent(in) :: values(:)
+
+      largest = maxval(values)
+      if (.not. all(is_measure(values))) largest = values(findloc(is_measure(values), .false., dim=1))
+   end function largest
 
    !> Contact of JOINT.
    pure subroutine describe_joint(model, analysis, joint, answer)
@@ -221,5 +236,37 @@ contains
          end associate
       end do
    end subroutine find_bolt_answers
+
+   !> The first figure of ANSWER that is beyond all measure, in words; '' where all are numbers.
+   pure function fault_of_answer(model, answer) result(words)
+      type(model_type), intent(in)        :: model
+      type(stage_answer_type), intent(in) :: answer
+      character(:), allocatable :: words
+      integer :: i
+
+      words = ''
+      if (.not. is_measure(answer%displacement%value)) then
+         words = 'the displacement of node '//integer_text(answer%displacement%id)
+      else if (.not. is_measure(answer%at_centre%value)) then
+         words = 'the stress of element '//integer_text(answer%at_centre%id)
+      else if (.not. is_measure(answer%at_node%value)) then
+         words = 'the stress at node '//integer_text(answer%at_node%id)
+      end if
+      do i = 1, size(answer%joints)
+         associate (joint => answer%joints(i))
+            if (words /= '') return
+            if (.not. all(is_measure([joint%pressure, joint%gap, joint%normal, joint%shear, joint%moment, joint%safety, &
+                                      joint%force, joint%movement, joint%tangent, joint%secant]))) &
+               words = 'what joint '//integer_text(model%joints(i)%id)//' transmits, or its stiffness,'
+         end associate
+      end do
+      do i = 1, size(answer%bolts)
+         associate (bolt => answer%bolts(i))
+            if (words /= '') return
+            if (.not. all(is_measure([bolt%force, bolt%change, bolt%load_change, bolt%ratio, bolt%moment]))) &
+               words = 'the force of bolt '//integer_text(bolt%bolt%id)
+         end associate
+      end do
+   end function fault_of_answer
 
 end module stage_answer

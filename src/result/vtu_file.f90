@@ -16,7 +16,7 @@
 !!    then                the closing tags
 !!
 !! The header needs the place of every array, so it is written last, into the room that was left for it. As with every result,
-!! the file has the name PATH.part until it is complete.
+!! the file has the name PATH.abcdef.part until it is complete.
 !!
 !! A call that fails, or that contradicts what went before (an array of another size than the points, a node number that
 !! is no point, no points at all, more arrays than the header holds), makes FAILED true; the calls after it do nothing,
@@ -25,9 +25,10 @@
 module vtu_file
    use, intrinsic :: iso_c_binding, only: c_f_pointer, c_loc
    use, intrinsic :: iso_fortran_env, only: int8, int32, int64, real64
-   use c_library, only: remove_file, rename_file
-   use incomplete_results, only: note_incomplete, suffix
+   use c_library, only: close_file, remove_file
+   use incomplete_results, only: create_part, name_part
    use output_file, only: output_file_type
+   use restart_stream, only: restart_stream_type
    use text_tools, only: integer_text
    implicit none
    private
@@ -59,6 +60,7 @@ module vtu_file
    type, public :: vtu_file_type
       private
       character(:), allocatable :: path
+      character(:), allocatable :: part      ! its name until it is complete
       integer :: unit   = 0
       integer :: status = 0                  ! of the first call that failed
       integer :: n_points = -1, n_cells = -1 ! -1: not yet given
@@ -66,6 +68,7 @@ module vtu_file
       type(array_type), allocatable :: arrays(:)
       logical, public :: is_open = .false.
       logical :: waits = .false.             ! complete, for its name
+      logical :: is_named = .false.          ! it has it
    contains
       procedure :: start
       procedure :: points
@@ -75,6 +78,7 @@ module vtu_file
       procedure :: complete
       procedure :: finish
       procedure :: discard
+      procedure :: record
       procedure, private :: add_reals, add_integers
    end type vtu_file_type
 
@@ -84,17 +88,22 @@ contains
    subroutine start(self, path)
       class(vtu_file_type), intent(inout) :: self
       character(*), intent(in)            :: path
+      integer :: descriptor
+      logical :: ok
 
-      call self%discard()
+      if (self%is_open .or. self%waits) call self%discard()
       self%path = path
       self%n_points = -1
       self%n_cells = -1
       self%n_bytes = 0
       if (allocated(self%arrays)) deallocate (self%arrays)
       allocate (self%arrays(0))
-      call note_incomplete(path)
-      open (newunit=self%unit, file=path//suffix, status='replace', action='write', access='stream', &
-            form='unformatted', iostat=self%status)
+      self%is_named = .false.
+      call create_part(path, self%part, descriptor)
+      call close_file(descriptor, ok)
+      self%status = merge(0, wrong_call, ok)
+      if (ok) open (newunit=self%unit, file=self%part, status='old', action='write', access='stream', &
+                    form='unformatted', iostat=self%status)
       self%is_open = self%status == 0
       if (self%is_open) write (self%unit, iostat=self%status) repeat(' ', data_start)
    end subroutine start
@@ -175,11 +184,31 @@ contains
       ! an empty array constructor has an extent of -1 in gfortran 12
       call require(self, self%is_open .and. components > 0 .and. max(0, size(values, rank(values))) == n)
       if (self%status /= 0) return
-      self%arrays = [self%arrays, array_type(name, number, section, components, self%n_bytes)]
+      call add_array(self%arrays, name, number, section, components, self%n_bytes)
       call c_f_pointer(c_loc(values), as_bytes, [n_bytes])
       write (self%unit, iostat=self%status) n_bytes, as_bytes
       self%n_bytes = self%n_bytes + storage_size(n_bytes)/8 + n_bytes
    end subroutine write_array
+
+   !> One more of ARRAYS. (An array constructor would leak the words of its elements in gfortran 12.)
+   pure subroutine add_array(arrays, name, number, section, components, offset)
+      type(array_type), allocatable, intent(inout) :: arrays(:)
+      character(*), intent(in)   :: name, number
+      integer, intent(in)        :: section, components
+      integer(int64), intent(in) :: offset
+      type(array_type), allocatable :: more(:)
+
+      allocate (more(size(arrays) + 1))
+      more(:size(arrays)) = arrays
+      associate (added => more(size(more)))
+         added%name = name
+         added%number = number
+         added%section = section
+         added%components = components
+         added%offset = offset
+      end associate
+      call move_alloc(more, arrays)
+   end subroutine add_array
 
    !> The file has failed unless a call FITS what went before.
    pure subroutine require(self, fits)
@@ -215,11 +244,11 @@ contains
       close (self%unit, iostat=self%status)
       self%is_open = .false.
       if (self%status == 0) then ! that the disk is full may show in nothing but the size
-         inquire (file=self%path//suffix, size=n_written)
+         inquire (file=self%part, size=n_written)
          call require(self, n_written == data_start + self%n_bytes + len(closing))
       end if
       self%waits = self%status == 0
-      if (.not. self%waits) call remove_file(self%path//suffix)
+      if (.not. self%waits) call remove_file(self%part)
    end subroutine complete
 
    !> Complete the file and give it its name. OK is false, and no file is left by us, where that failed.
@@ -231,22 +260,46 @@ contains
       call self%complete()
       if (.not. self%waits) return
       self%waits = .false.
-      call rename_file(self%path//suffix, self%path, ok)
+      call name_part(self%part, self%path, ok)
+      self%is_named = ok
       call require(self, ok)
-      if (.not. ok) call remove_file(self%path//suffix)
    end subroutine finish
 
-   !> Leave nothing behind.
+   !> Leave nothing behind, a file that has got its name included.
    subroutine discard(self)
       class(vtu_file_type), intent(inout) :: self
       integer :: status
 
+      if (self%is_named) call remove_file(self%path)
+      self%is_named = .false.
       if (.not. (self%is_open .or. self%waits)) return
       if (self%is_open) close (self%unit, iostat=status)
       self%is_open = .false.
       self%waits = .false.
-      call remove_file(self%path//suffix)
+      call remove_file(self%part)
    end subroutine discard
+
+   !> Write the complete file to a restart file; or read it, which will be PATH, and wait with it for its name.
+   subroutine record(self, path, stream)
+      class(vtu_file_type), intent(inout)      :: self
+      character(*), intent(in)                 :: path
+      type(restart_stream_type), intent(inout) :: stream
+      integer :: descriptor
+      logical :: ok
+
+      if (stream%writes) then
+         call stream%file(self%part, -1)
+         return
+      end if
+      self%path = path
+      self%is_named = .false.
+      call create_part(path, self%part, descriptor)
+      self%status = merge(0, wrong_call, descriptor >= 0)
+      call stream%file(self%part, descriptor)
+      call close_file(descriptor, ok)
+      call require(self, ok)
+      self%waits = self%status == 0
+   end subroutine record
 
    !> The header, at least data_start bytes long: longer where the arrays are too many.
    pure function header_text(n_points, n_cells, arrays) result(text)

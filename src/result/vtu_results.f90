@@ -4,21 +4,24 @@ module vtu_results
    use, intrinsic :: iso_fortran_env, only: int8
    use analysis_state, only: analysis_type
    use body_elements, only: node_stresses, whole_stress
-   use c_library, only: read_all_bytes, remove_file
+   use c_library, only: is_regular_file, read_all_bytes, remove_file
    use element_kinds, only: element_table
    use elasticity, only: max_stresses
+   use incomplete_results, only: remove_old
    use kinds, only: wp
    use listing_table, only: label_type
    use model_data, only: corners_of, model_type, n_points
+   use restart_stream, only: restart_stream_type
    use stage_plan, only: stage_plan_type
    use stress_measures, only: principal_stresses, von_mises
+   use temperatures, only: has_temperatures, node_temperatures
    use text_tools, only: integer_text
    use vtu_file, only: cell_data, named, point_data, vtu_file_type, write_collection, xml_text
    use vtu_joints, only: write_joints
    implicit none
    private
 
-   public :: start_vtu, write_vtu, finish_vtu, discard_vtu, remove_old_vtu, vtu_names, is_vtu_ending
+   public :: start_vtu, write_vtu, finish_vtu, discard_vtu, record_vtu, remove_old_vtu, vtu_names, is_vtu_ending
 
    !> A file of the run.
    type :: part_type
@@ -35,6 +38,7 @@ module vtu_results
       type(part_type), allocatable :: parts(:)
       integer :: n = 0
       logical :: many = .false.                   ! more than one stage, or every increment of one
+      logical :: is_listed = .false.              ! the list has its name
    end type vtu_results_type
 
 contains
@@ -50,6 +54,7 @@ contains
       results%name = name
       results%labels = labels
       results%n = 0
+      results%is_listed = .false.
       results%many = size(plan%stages) > 1 .or. any(plan%stages%steps)
       most = 0
       do s = 1, size(plan%stages)
@@ -133,6 +138,11 @@ contains
       call file%add(point_data, named('displacement', labels%length), u)
       call file%add(point_data, named('stress', labels%pressure), at_node)
       call file%add(point_data, named('von_mises', labels%pressure), [(von_mises(at_node(:, i)), i = 1, m)])
+      if (has_temperatures(model)) then
+         associate (t => node_temperatures(model, analysis%temperature))
+            call file%add(point_data, 'temperature [deg]', t(:m))
+         end associate
+      end if
       call file%add(cell_data, 'element', model%element_id)
       call file%add(cell_data, 'property', properties)
       call file%add(cell_data, named('stress_at_centre', labels%pressure), at_centre)
@@ -158,6 +168,7 @@ contains
          associate (parts => results%parts(:results%n))
             call write_collection(results%name//'.pvd', parts%time, parts%part, base//parts%ending, ok)
          end associate
+         results%is_listed = ok
       end if
       if (.not. ok) call discard_vtu(results)
    end subroutine finish_vtu
@@ -185,11 +196,32 @@ contains
 
       do i = 1, results%n
          call results%parts(i)%file%discard()
-         call remove_file(results%name//trim(results%parts(i)%ending))
       end do
-      if (results%n > 0) call remove_file(results%name//'.pvd')
+      if (results%is_listed) call remove_file(results%name//'.pvd')
+      results%is_listed = .false.
       results%n = 0
    end subroutine discard_vtu
+
+   !> Write the files so far to a restart file, or read them.
+   subroutine record_vtu(results, stream)
+      type(vtu_results_type), intent(inout)    :: results
+      type(restart_stream_type), intent(inout) :: stream
+      integer :: i, n
+
+      call stream%mark('PARAVIEW')
+      n = results%n
+      call stream%count(n, 68)
+      n = min(n, size(results%parts))
+      do i = 1, n
+         associate (part => results%parts(i))
+            call stream%item(part%ending)
+            call stream%item(part%time)
+            call stream%item(part%part)
+            call part%file%record(results%name//trim(part%ending), stream)
+         end associate
+         results%n = max(results%n, i)
+      end do
+   end subroutine record_vtu
 
    !> Whether a file of a deck may end so, behind the name of the deck: .vtu, .joint.vtu, both with the number of a stage before
    !! them, or of a stage and an increment; .pvd.
@@ -216,8 +248,9 @@ contains
       integer :: at, first
       logical :: ok
 
-      call remove_file(name//'.vtu')
-      call remove_file(name//'.joint.vtu')
+      call remove_old(name//'.vtu')
+      call remove_old(name//'.joint.vtu')
+      if (.not. is_regular_file(name//'.pvd')) return
       call read_all_bytes(name//'.pvd', bytes, ok)
       if (.not. ok) return
       base = mark//xml_text(name(index(name, '/', back=.true.) + 1:))
@@ -227,9 +260,9 @@ contains
          if (at == 0) exit
          first = first + at - 1 + len(base)
          ending = bytes(first:first + index(bytes(first:)//'"', '"') - 2)
-         if (is_vtu_ending(ending)) call remove_file(name//ending)
+         if (is_vtu_ending(ending)) call remove_old(name//ending)
       end do
-      call remove_file(name//'.pvd')
+      call remove_old(name//'.pvd')
    end subroutine remove_old_vtu
 
 end module vtu_results

@@ -2,7 +2,7 @@
 module command_line
    use c_library, only: true_path
    use card_manual, only: manual_entry, manual_names
-   use command_arguments, only: argument_text, complain, input_argument, input_of, is_option, say, standard_input, version
+   use command_arguments, only: argument_text, complain, input_argument, is_option, say, set_input, standard_input, version
    use deck_numbers, only: parse_integer
    use results, only: history_ending, is_result_ending, listing_ending
    use text_tools, only: upper
@@ -24,6 +24,7 @@ module command_line
       logical :: quiet      = .false.       !! -q
       logical :: times      = .false.       !! --times
       logical :: dated      = .false.       !! --date
+      logical :: resume     = .false.       !! --resume
       integer :: threads    = 0             !! --threads, 0: all cores
       character(:), allocatable :: folder   !! -o, with a slash at its end, empty: here
       type(deck_argument), allocatable :: decks(:)
@@ -52,7 +53,7 @@ contains
          i = i + 1
          argument = argument_text(i)
          if (.not. is_option(argument, options)) then
-            command%decks = [command%decks, deck_argument(input_of(argument), base='')]
+            call add_deck(command%decks, argument)
             cycle
          end if
          select case (argument)
@@ -76,6 +77,8 @@ contains
             command%times = .true.
          case ('--date')
             command%dated = .true.
+         case ('--resume')
+            command%resume = .true.
          case ('-o', '--threads')
             if (i == n) then
                call complain(program, argument//' needs a value behind it')
@@ -101,11 +104,31 @@ contains
          call complain(program, 'no deck given')
          return
       end if
+      if (command%resume) then
+         do i = 1, size(command%decks)
+            if (command%decks(i)%path /= standard_input) cycle
+            call complain(program, '--resume: a deck from the standard input has no restart file')
+            return
+         end do
+      end if
       call name_results(command, ok)
       if (.not. ok) return
       finished = .false.
       status = 0
    end subroutine read_command_line
+
+   !> One more of DECKS, the one that ARGUMENT means. (An array constructor would leak its names in gfortran 12.)
+   subroutine add_deck(decks, argument)
+      type(deck_argument), allocatable, intent(inout) :: decks(:)
+      character(*), intent(in) :: argument
+      type(deck_argument), allocatable :: more(:)
+
+      allocate (more(size(decks) + 1))
+      more(:size(decks)) = decks
+      call set_input(more(size(more)), argument)
+      more(size(more))%base = ''
+      call move_alloc(more, decks)
+   end subroutine add_deck
 
    !> beam.bdf gives beam.out and beam.joint.csv. No two decks may write the same files, none may overwrite a deck.
    subroutine name_results(command, ok)
@@ -211,6 +234,8 @@ contains
          '   --check       read and check the decks, solve nothing'//nl// &
          '   -q            no progress on the terminal'//nl// &
          '   --threads N   at most N threads (default: all cores; the results do not depend on it)'//nl// &
+         '   --resume      continue each deck from its restart file, beam.restart, where the run was broken off: the'//nl// &
+         '                 results are those of an unbroken run. A deck without one starts from the beginning.'//nl// &
          '   --date        date and time in the head of the listing'//nl// &
          '   --times       print seconds of each phase, operations and memory, on the standard error'//nl// &
          '   --version     print the version'//nl// &

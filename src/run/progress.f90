@@ -20,7 +20,7 @@ module progress
       private
       logical :: shown = .false., timed = .false.
       integer :: phase = 0
-      integer :: done  = 0, total = 0
+      integer :: done  = 0, total = 0, before = 0 ! increments; those before this run
       integer(long) :: entered = 0, increments_began = 0, last = 0, rate = 1
       integer(long) :: ticks(size(phase_name)) = 0
       character(:), allocatable :: deck
@@ -29,6 +29,7 @@ module progress
       procedure :: start
       procedure :: enter
       procedure :: expect
+      procedure :: skip
       procedure :: advance
       procedure :: clear
       procedure :: finish
@@ -73,10 +74,20 @@ contains
       integer :: s
 
       self%done = 0
+      self%before = 0
       self%total = sum([(size(plan%stages(s)%shares), s = 1, size(plan%stages))])
       call system_clock(self%increments_began)
       self%last = self%increments_began
    end subroutine expect
+
+   !> N increments were done by an earlier run.
+   subroutine skip(self, n)
+      class(progress_type), intent(inout) :: self
+      integer, intent(in)                 :: n
+
+      self%before = n
+      self%done = n
+   end subroutine skip
 
    !> One more increment is done; say so five times a second at most.
    subroutine advance(self, stage, increment, increments)
@@ -90,7 +101,7 @@ contains
       call system_clock(now)
       if (5*(now - self%last) < self%rate) return
       self%last = now
-      left = real(now - self%increments_began, wp)/self%rate*(self%total - self%done)/self%done
+      left = real(now - self%increments_began, wp)/self%rate*(self%total - self%done)/(self%done - self%before)
       call show(self, 'stage '//integer_text(stage)//', increment '//integer_text(increment)//' of '//integer_text(increments)// &
                 ', '//integer_text(nint(left))//' s left')
    end subroutine advance

@@ -1,60 +1,38 @@
 !> The boxes of the flow chart that belong to no method: reading, building, printing, the end. Each says on the terminal where the
-!! run is, and does nothing once one before it has ended the run; whatever ended it is said in one place, finish_run.
+!! run is, and does nothing once one before it has ended the run; whatever ended it is said in one place, finish_run of run_end.
 module run_boxes
    use analysis_state, only: analysis_type, interface_stiffness, note_largest, start_analysis
-   use, intrinsic :: iso_fortran_env, only: error_unit
-   use c_library, only: end_run, tell_failed_writes, write_bytes
+   use c_library, only: tell_failed_writes
    use case_control, only: method_back
-   use command_arguments, only: complain_of_input
    use condensed_interface, only: condense_on_joints
+   use condition_estimate, only: watch_condition
    use command_line, only: command_type, deck_argument, is_result_of, read_command_line
-   use deck_errors, only: deck_error_list
    use deck_input, only: deck_type, read_deck
-   use distribution, only: join_processes, leave_processes
+   use distribution, only: join_processes
    use equation_solver, only: equation_system
    use equations, only: form_body_stiffness, start_equations
-   use error_report, only: print_errors
    use failures, only: failure_type
-   use incomplete_results, only: watch_allocations
+   use finite_state, only: check_precision, check_state
+   use incomplete_results, only: watch_ends
    use law_distance, only: follow_laws
-   use listing_steps, only: distance_words
    use load_path, only: recover_bodies
    use kinds, only: wp
    use machine, only: keep_memory, use_threads
    use memory_need, only: check_model_size
    use model_build, only: build_model
-   use model_data, only: model_type, n_points
-   use model_warnings, only: tetra_words
+   use model_data, only: model_type
    use newton_method, only: seat_joints
-   use progress, only: phase_build, phase_factor, phase_increments, phase_order, phase_recover, phase_write, progress_type
-   use results, only: discard_results, finish_results, history_ending, list_results => print_increment, listing_ending, &
-                      print_stage_results => print_stage, remove_old_results, results_type, show_answers, start_results
+   use progress, only: phase_build, phase_factor, phase_increments, phase_order, phase_recover, phase_write
+   use restart_file, only: open_restart_file
+   use results, only: list_results => print_increment, print_stage_results => print_stage, remove_old_results, start_results
+   use run_end, only: end_program
+   use run_state, only: goes_on, has_errors, is_over, is_unreadable, is_unwritten, run_type, was_checked, would_overwrite
    use stage_plan, only: factorisations_of, shows_bodies, stage_plan_type
-   use text_tools, only: plural
    implicit none
    private
 
    public :: start_program, read_data, build_structure, form_bodies, start_joints, another_stage, another_increment, &
-             print_increment, print_stage, finish_run, end_program
-
-   ! how a run ended that did not come to its last increment, and the exit status that this is
-   integer, parameter :: goes_on = 0, is_unreadable = 1, would_overwrite = 2, has_errors = 3, was_checked = 4, is_unsolved = 5, &
-                         is_unwritten = 6
-   integer, parameter :: status_of(0:6) = [0, 1, 1, 2, 0, 3, 4]
-
-   integer :: exit_status = 0 ! the highest so far
-
-   !> The run of one deck.
-   type, public :: run_type
-      type(failure_type) :: failure            !! the structure cannot be solved
-      type(deck_argument), private   :: argument
-      logical, private               :: check_only = .false., is_dated = .false.
-      type(deck_error_list), private :: errors
-      type(results_type), private    :: results
-      type(progress_type), private   :: progress
-      integer, private               :: ending = goes_on
-      logical, private               :: keeps = .false. !! it ended early, but what there was in equilibrium is a result
-   end type run_type
+             print_increment, print_stage
 
 contains
 
@@ -66,19 +44,12 @@ contains
       integer :: status
 
       call join_processes()
+      call watch_ends()
       call read_command_line(command, finished, status)
       if (finished) call end_program(status)
       call use_threads(command%threads)
-      call watch_allocations()
       call tell_failed_writes()
    end subroutine start_program
-
-   !> Whether nothing more is to be done for this deck.
-   pure logical function is_over(run)
-      type(run_type), intent(in) :: run
-
-      is_over = run%failure%raised .or. run%ending /= goes_on
-   end function is_over
 
    !> Read the deck of ARGUMENT.
    subroutine read_data(command, argument, run, deck)
@@ -101,9 +72,9 @@ contains
       do i = 2, deck%text%n_files
          if (is_result_of(deck%text%files(i)%true_path, argument)) run%ending = would_overwrite
       end do
-      if (.not. (is_over(run) .or. command%check_only)) then
-         call remove_old_results(argument%base)
-      end if
+      if (is_over(run) .or. command%check_only) return
+      if (command%resume) call open_restart_file(deck, run)
+      if (.not. is_over(run)) call remove_old_results(argument%base)
    end subroutine read_data
 
    !> Bodies, joints, supports, loads, stages.
@@ -158,7 +129,8 @@ contains
       words = date(:4)//'-'//date(5:6)//'-'//date(7:)//' '//time(:2)//':'//time(3:4)
    end function date_and_hour
 
-   !> NORM and SHEAR for a structure at rest, its interference in equilibrium (BACK takes all at once).
+   !> NORM and SHEAR for a structure at rest, its interference in equilibrium (BACK takes all at once); a restart file that is to be
+   !! taken up has better.
    subroutine start_joints(run, deck, model, plan, system, analysis)
       type(run_type), intent(inout)      :: run
       type(deck_type), intent(in)        :: deck
@@ -169,20 +141,22 @@ contains
 
       if (is_over(run)) return
       call start_analysis(model, system, deck%control, analysis)
-      if (deck%control%method /= method_back) call seat_joints(model, analysis, system, run%failure)
-      call interface_stiffness(model, system, analysis, run%failure)
+      if (.not. run%resumes) then
+         if (deck%control%method /= method_back) call seat_joints(model, analysis, system, run%failure)
+         call interface_stiffness(model, system, analysis, run%failure)
+      end if
       call run%progress%expect(plan)
       call run%progress%enter(phase_increments)
    end subroutine start_joints
 
-   !> Whether a stage is left.
+   !> Whether a stage is left, or some of one that has been taken up.
    pure logical function another_stage(run, plan, analysis)
       type(run_type), intent(in)        :: run
       type(stage_plan_type), intent(in) :: plan
       type(analysis_type), intent(in)   :: analysis
 
       another_stage = .not. is_over(run)
-      if (another_stage) another_stage = analysis%stage < size(plan%stages)
+      if (another_stage) another_stage = analysis%goes_on .or. analysis%stage < size(plan%stages)
    end function another_stage
 
    !> Whether an increment of the stage is left.
@@ -202,6 +176,7 @@ contains
       type(stage_plan_type), intent(in)  :: plan
       class(equation_system), intent(in) :: system
       type(analysis_type), intent(inout) :: analysis
+      type(failure_type)    :: overflow
       real(wp), allocatable :: u(:, :), unbalanced(:, :)
 
       run%keeps = run%failure%raised .and. run%ending == goes_on .and. analysis%ends_early
@@ -212,6 +187,7 @@ contains
       end if
       call note_largest(analysis)
       call follow_laws(model, analysis)
+      call watch_condition(system, analysis%condition)
       if (plan%stages(analysis%stage)%condensed .and. analysis%increment == 1) &
          call condense_on_joints(model, system, analysis%felt_before, analysis%felt_after, analysis%condensed)
       call run%progress%enter(phase_recover)
@@ -224,120 +200,37 @@ contains
          analysis%u = u
          analysis%unbalanced = unbalanced
       end if
+      call check_state(model, plan, system, analysis, overflow)
+      call check_precision(model, plan, system, analysis, overflow)
+      if (overflow%raised) then
+         run%failure = overflow
+         run%keeps = .false.
+         return
+      end if
       call run%progress%enter(phase_write)
       call list_results(model, plan, analysis, run%results)
       call run%progress%advance(analysis%stage, analysis%increment, size(plan%stages(analysis%stage)%shares))
       call run%progress%enter(phase_increments)
    end subroutine print_increment
 
-   !> Print the stage just completed.
+   !> Print the stage that the increment has completed, or the part of it up to where the run ends.
    subroutine print_stage(run, model, plan, analysis)
       type(run_type), intent(inout)     :: run
       type(model_type), intent(in)      :: model
       type(stage_plan_type), intent(in) :: plan
       type(analysis_type), intent(in)   :: analysis
+      type(failure_type) :: overflow
 
       if (is_over(run) .and. .not. run%keeps) return
       if (analysis%increment == 0) return
+      if (analysis%increment < size(plan%stages(analysis%stage)%shares) .and. .not. run%keeps) return
       call run%progress%enter(phase_write)
-      call print_stage_results(model, plan, analysis, run%results)
+      call print_stage_results(model, plan, analysis, run%results, overflow)
+      if (overflow%raised) then
+         run%failure = overflow
+         run%keeps = .false.
+      end if
       call run%progress%enter(phase_increments)
    end subroutine print_stage
-
-   !> The end of a run, the one there is: the results get their names, or what is wrong is said. Nothing else is left on the line
-   !! of the terminal.
-   subroutine finish_run(run, deck, model, plan)
-      type(run_type), intent(inout)     :: run
-      type(deck_type), intent(in)       :: deck
-      type(model_type), intent(in)      :: model
-      type(stage_plan_type), intent(in) :: plan
-      character(:), allocatable :: words
-      logical :: ok, shown
-
-      if (run%keeps .or. .not. is_over(run)) then
-         call run%progress%enter(phase_write)
-         call finish_results(plan, run%failure, run%results, ok)
-         call run%progress%finish()
-         associate (n => run%results%listing%watch%n_warnings)
-            if (n > 0) write (error_unit, '(4a)') run%argument%name, ': ', plural(n, 'warning'), ' in the listing'
-         end associate
-         words = distance_words(run%results%listing%farthest)
-         if (words /= '') write (error_unit, '(3a)') run%argument%name, ': ', words
-         if (tetra_words(model) /= '') write (error_unit, '(3a)') run%argument%name, ': ', tetra_words(model)
-         call say_of_deck(run, deck)
-         if (ok) then
-            call show_answers(model, run%results, shown)
-            if (.not. shown) exit_status = max(exit_status, status_of(is_unwritten))
-         else
-            run%ending = is_unwritten
-         end if
-      end if
-      if (run%failure%raised) run%ending = is_unsolved
-      call run%progress%clear()
-      call say_how_it_ended(run, deck, model, plan)
-      exit_status = max(exit_status, status_of(run%ending))
-   end subroutine finish_run
-
-   !> What of the deck has no effect, and how NASTRAN would read it otherwise.
-   subroutine say_of_deck(run, deck)
-      type(run_type), intent(in)  :: run
-      type(deck_type), intent(in) :: deck
-
-      if (deck%bulk%idle%n > 0) write (error_unit, '(3a)') run%argument%name, ': ', deck%bulk%idle%words()
-      if (size(deck%control%stages) > 1) write (error_unit, '(4a)') run%argument%name, ': ', &
-         plural(size(deck%control%stages), 'SUBCASE'), ' are stages of one history, each goes on from the end of the one before'
-   end subroutine say_of_deck
-
-   !> What is wrong, or that a deck is in order; no result is left of a run that did not come to its end.
-   subroutine say_how_it_ended(run, deck, model, plan)
-      type(run_type), intent(inout)     :: run
-      type(deck_type), intent(in)       :: deck
-      type(model_type), intent(in)      :: model
-      type(stage_plan_type), intent(in) :: plan
-      logical :: ok
-      integer :: i
-
-      associate (name => run%argument%name, base => run%argument%base)
-         select case (run%ending)
-         case (is_unreadable)
-            call complain_of_input(run%argument, 'a deck')
-         case (would_overwrite)
-            do i = 2, deck%text%n_files
-               if (is_result_of(deck%text%files(i)%true_path, run%argument)) write (error_unit, '(3a)') name, &
-                  ': its results would overwrite the INCLUDE file ', deck%text%files(i)%path
-            end do
-         case (has_errors)
-            call print_errors(error_unit, 'DECK', 'nothing solved', deck%text, run%errors)
-         case (was_checked)
-            call say_of_deck(run, deck)
-            call write_bytes(1, name//': no errors; '//plural(n_points(model), 'node')//', '// &
-                             plural(model%n_elements, 'body element')//', '// &
-                             plural(size(model%interface), 'interface element')//', '//plural(size(plan%stages), 'stage')// &
-                             new_line('a'), ok)
-            if (.not. ok) exit_status = max(exit_status, status_of(is_unwritten))
-         case (is_unsolved)
-            write (error_unit, '(4a)') name, ': ', run%failure%message, &
-               trim(merge('; the results end there', '; no results           ', run%keeps))
-            if (.not. run%keeps) call discard_results(run%results)
-         case (is_unwritten)
-            if (base == '') then
-               write (error_unit, '(2a)') name, ': the listing cannot be written to the standard output'
-            else
-               write (error_unit, '(5a)') name, ': the results ', base//listing_ending, ' and ', base//history_ending, &
-                  ' cannot be written: is the folder there, and is there room on the disk?'
-            end if
-            call discard_results(run%results)
-         end select
-      end associate
-   end subroutine say_how_it_ended
-
-   !> End with STATUS, or the highest of the decks where that is higher.
-   subroutine end_program(status)
-      integer, intent(in), optional :: status !! 0
-
-      if (present(status)) exit_status = max(exit_status, status)
-      call leave_processes()
-      call end_run(exit_status)
-   end subroutine end_program
 
 end module run_boxes

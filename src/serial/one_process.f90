@@ -4,22 +4,17 @@ submodule(distribution) one_process
 
 contains
 
-   pure module logical function has_distributed()
-      has_distributed = .false.
-   end function has_distributed
-
    module subroutine join_processes()
    end subroutine join_processes
 
    module subroutine leave_processes()
    end subroutine leave_processes
 
-   module subroutine choose_distributed(graph, n, dimension, wanted, system)
-      type(node_graph_type), intent(in) :: graph
-      integer, intent(in)               :: n, dimension, wanted
+   module subroutine choose_distributed(wanted, system)
+      integer, intent(in) :: wanted
       class(equation_system), allocatable, intent(out) :: system
 
-      if (graph%n + n + dimension + wanted < 0) deallocate (system)
+      if (wanted < 0) deallocate (system) ! never: there is nothing to choose
    end subroutine choose_distributed
 
 end submodule one_process

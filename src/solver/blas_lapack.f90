@@ -5,7 +5,7 @@ module blas_lapack
    implicit none
    private
 
-   public :: ddot, dgemm, dgemv, dpotrf, dsymv, dtrsm, dtrsv
+   public :: ddot, dgemm, dgemv, dlacn2, dpotrf, dsymv, dtrmv, dtrsm, dtrsv
 
    interface
 
@@ -35,6 +35,15 @@ module blas_lapack
          real(wp), intent(inout) :: y(*)
       end subroutine dgemv
 
+      !> The 1-norm of a matrix from few products with it: begin with KASE = 0; on return KASE = 1 asks for X = A X, 2 for X = A^T X,
+      !! and for the next call, 0: EST is the estimate, of which V = A W, EST = norm(V)/norm(W).
+      pure subroutine dlacn2(n, v, x, isgn, est, kase, isave)
+         import :: wp
+         integer, intent(in)     :: n
+         real(wp), intent(inout) :: v(*), x(*), est
+         integer, intent(inout)  :: isgn(*), kase, isave(3)
+      end subroutine dlacn2
+
       !> A = L L^T in place; INFO > 0: the leading minor of that order is not positive.
       pure subroutine dpotrf(uplo, n, a, lda, info)
          import :: wp
@@ -52,6 +61,15 @@ module blas_lapack
          real(wp), intent(in)    :: alpha, beta, a(lda, *), x(*)
          real(wp), intent(inout) :: y(*)
       end subroutine dsymv
+
+      !> x = op(A) x, A triangular
+      pure subroutine dtrmv(uplo, trans, diag, n, a, lda, x, incx)
+         import :: wp
+         character, intent(in)   :: uplo, trans, diag
+         integer, intent(in)     :: n, lda, incx
+         real(wp), intent(in)    :: a(lda, *)
+         real(wp), intent(inout) :: x(*)
+      end subroutine dtrmv
 
       !> B = alpha op(inv(A)) B or alpha B op(inv(A)), A triangular
       pure subroutine dtrsm(side, uplo, transa, diag, m, n, alpha, a, lda, b, ldb)

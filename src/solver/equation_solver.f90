@@ -9,9 +9,10 @@ module equation_solver
    use failures, only: failure_type
    use interface_operator, only: interface_element
    use kinds, only: long, wp
-   use model_data, only: model_type, n_points, n_rotations
+   use model_data, only: model_type
    use node_graph, only: node_graph_type
    use text_tools, only: integer_text
+   use unknown_names, only: what_is_loose
    implicit none
    private
 
@@ -44,6 +45,8 @@ module equation_solver
                                                      !! [force/length]
       logical :: one_solution = .false.              !! whether with this k_int the increment solves but once
       integer :: factorisations = 20                 !! that are to be expected
+      real(wp) :: weakest = 1.0_wp                   !! least pivot of the factor there is, as a share of its diagonal entry
+                                                     !! before any elimination; 1: there is no factor
       character(:), allocatable :: where             !! stage and increment, for messages
       character(:), allocatable :: complaint         !! why there is no solution
       type(solver_description) :: description        !! of the solver, once it has started
@@ -60,6 +63,10 @@ module equation_solver
       procedure(solve_vector), deferred     :: solve
       procedure(multiply_vector), deferred  :: multiply
       procedure :: recover
+      procedure :: forget_past
+      procedure(diagonal_of_matrix), deferred :: diagonal_of_factor
+      procedure(use_of_factor), deferred      :: solve_by_factor
+      procedure(use_of_factor), deferred      :: multiply_by_factor
    end type equation_system
 
    abstract interface
@@ -111,6 +118,21 @@ module equation_solver
          real(wp), intent(in)               :: x(:)
          real(wp), intent(inout)            :: y(:)
       end subroutine multiply_vector
+
+      !> The diagonal of the matrix [k] that the factor there is is of, over all equations.
+      pure function diagonal_of_matrix(self) result(diagonal)
+         import :: equation_system, wp
+         class(equation_system), intent(in) :: self
+         real(wp) :: diagonal(self%n)
+      end function diagonal_of_matrix
+
+      !> X, over all equations, becomes [k]^-1 X (solve_by_factor) or [k] X (multiply_by_factor) by the factor there is, that of an
+      !! earlier stiffness as well; where LOCKED zero or without meaning. The solver remains as it is.
+      subroutine use_of_factor(self, x)
+         import :: equation_system, wp
+         class(equation_system), intent(in)  :: self
+         real(wp), contiguous, intent(inout) :: x(:)
+      end subroutine use_of_factor
    end interface
 
 contains
@@ -180,6 +202,15 @@ contains
       x(self%equations) = u(self%equations)
    end subroutine recover
 
+   !> What the increments so far have left, a factor or solutions, is of no use from now on: what follows is the same to the last
+   !! digit as in a run that begins here. Here nothing is left.
+   subroutine forget_past(self)
+      class(equation_system), intent(inout) :: self
+
+      self%one_solution = .false.
+      self%weakest = 1.0_wp
+   end subroutine forget_past
+
    !> FAULT, an equation without stiffness or no_memory, in words.
    subroutine report_fault(self, model, fault, where, failure)
       class(equation_system), intent(in) :: self
@@ -198,32 +229,5 @@ contains
             ' (not supported there, or every joint that held it is open)')
       end if
    end subroutine report_fault
-
-   !> What has no stiffness, in words.
-   pure function what_is_loose(model, node, d) result(words)
-      type(model_type), intent(in) :: model
-      integer, intent(in)          :: node, d
-      character(:), allocatable    :: words
-      character(1), parameter :: direction_name(3) = ['X', 'Y', 'Z']
-
-      if (node <= n_points(model)) then
-         words = 'node '//integer_text(model%node_id(node))//' has no stiffness in direction '//direction_name(d)
-         if (.not. allocated(model%node_system)) return
-         if (model%node_system(node) > 0) words = 'node '//integer_text(model%node_id(node))//' has no stiffness in direction '// &
-            integer_text(d)//' of its system '//integer_text(model%systems(model%node_system(node))%id)
-      else if (node <= n_points(model) + n_rotations(model)) then
-         associate (point => model%rotations(node - n_points(model))%point)
-            words = 'node '//integer_text(model%node_id(point))//' has no stiffness against rotation about '// &
-                    direction_name(merge(d, 3, model%dimension == 3))
-            if (.not. allocated(model%node_system)) return
-            if (model%node_system(point) > 0) words = 'node '//integer_text(model%node_id(point))//' has no stiffness against '// &
-               'rotation about direction '//integer_text(d)//' of its system '//integer_text(model%systems(model%node_system( &
-               point))%id)
-         end associate
-      else
-         words = 'nothing holds BOLT '//integer_text(model%sections(node - n_points(model) - n_rotations(model))%bolt)// &
-                 ' together at its section'
-      end if
-   end function what_is_loose
 
 end module equation_solver

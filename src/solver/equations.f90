@@ -8,10 +8,13 @@ module equations
    use failures, only: failure_type
    use interface_operator, only: add_global_force, global_stiffness, relative_movement
    use kinds, only: wp
+   use measures, only: is_measure
    use model_data, only: bar_nodes, model_type, n_bars
    use node_coupling, only: list_on_unknowns, unknown_nodes
    use node_graph, only: build_node_graph, node_graph_type
    use solver_choice, only: choose_solver
+   use text_tools, only: real_text
+   use unknown_names, only: unknown_name
    implicit none
    private
 
@@ -163,6 +166,14 @@ contains
       call system%solve(x, fault)
       call system%report_fault(model, fault, system%where, failure)
       if (failure%raised) return
+      do i = 1, size(system%equations)
+         associate (k => system%equations(i))
+            if (is_measure(x(k))) cycle
+            call failure%raise(system%where//'the displacement of '//unknown_name(model, system%node(k), system%direction(k))// &
+               ' is '//real_text(x(k))//', beyond all measure; are loads and stiffnesses in consistent units?')
+            return
+         end associate
+      end do
       call put(system, x, u)
       if (moves) u = u + moved
    end subroutine solve_equations

@@ -4,16 +4,17 @@ module factor_reuse
    implicit none
    private
 
-   public :: may_reuse, note_factor, note_steps, note_failure, forget_factor
+   public :: may_reuse, note_factor, note_steps, note_failure, forget_factor, forget_steps
 
    real(wp), parameter :: step_operations = 75.0_wp !! that a step costs for every entry of the fronts that move
+   integer, parameter  :: first_wait = 4            !! solutions that are not tried after steps were in vain
    integer, parameter  :: fewest_steps = 8          !! a factorisation that costs less is not worth the trouble
 
    type, public :: factor_reuse_type
       integer :: most_steps = 0                     !! that cost what a factorisation does; 0: it is always cheaper
       integer, private :: spent = 0, solved = 0     ! since the last factorisation, that included
       integer, private :: last = 0                  ! steps of the last solution
-      integer, private :: pause = 0, wait = 4       ! how often not to try after steps were in vain
+      integer, private :: pause = 0, wait = first_wait ! how often not to try after steps were in vain
       logical, private :: is_there = .false.        ! a factor
    contains
       procedure :: set_costs
@@ -57,7 +58,7 @@ contains
       self%spent = self%spent + steps
       self%solved = self%solved + 1
       self%last = steps
-      self%wait = 4
+      self%wait = first_wait
    end subroutine note_steps
 
    !> The steps were in vain: do not try for a while, longer every time.
@@ -74,5 +75,17 @@ contains
 
       self%is_there = .false.
    end subroutine forget_factor
+
+   !> What there was of factors and steps so far is nothing to go by: all begins anew, but for the costs.
+   subroutine forget_steps(self)
+      class(factor_reuse_type), intent(inout) :: self
+
+      self%spent = 0
+      self%solved = 0
+      self%last = 0
+      self%pause = 0
+      self%wait = first_wait
+      self%is_there = .false.
+   end subroutine forget_steps
 
 end module factor_reuse

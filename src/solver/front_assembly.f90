@@ -86,15 +86,18 @@ contains
       place = front%p + low
    end function place_in
 
-   !> Add to FRONT what the elimination of CHILD left.
-   pure subroutine add_update(child, front)
+   !> Add to FRONT what the elimination of CHILD left, of it the columns FROM to UNTIL.
+   pure subroutine add_update(child, front, from, until)
       type(front_type), intent(in)    :: child
       type(front_type), intent(inout) :: front
+      integer, intent(in)             :: from, until
       integer :: column, first, i, j, k, last, row, this
 
       this = 1                                       ! the run that column J is in
-      do j = 1, child%r
-         if (j == child%run(this + 1)) this = this + 1
+      do j = from, until
+         do while (j >= child%run(this + 1))
+            this = this + 1
+         end do
          column = child%in_parent(j)
          front%diagonal(column) = front%diagonal(column) + child%diagonal(child%p + j)
          do k = this, size(child%run) - 1

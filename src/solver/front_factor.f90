@@ -6,7 +6,8 @@ module front_factor
    use front_blocks, only: add_to_block, keep_block, restore_block
    use front_kernel, only: eliminate, top_row
    use front_tree, only: front_of, front_tree_type, front_type
-   use kinds, only: wp
+   use kinds, only: long, wp
+   use machine, only: give_back
    use model_data, only: model_type
    use omp_lib, only: omp_get_wtime
    implicit none
@@ -15,6 +16,8 @@ module front_factor
    public :: factorise_fixed, factorise_moving, add_to_moving
 
    real(wp), parameter :: task_work = 2.0e6_wp         ! operations of a subtree that is worth a task
+   integer(long), parameter :: large = 8388608_long    ! entries of a matrix whose pages are worth to be given back
+   integer, parameter  :: strip = 128                  ! columns that are given back together
 
 contains
 
@@ -24,10 +27,11 @@ contains
       type(model_type), intent(in)         :: model
       type(front_tree_type), intent(inout) :: tree
       integer, intent(out)                 :: fault
+      real(wp) :: no_stiffness(3, 3, 0)
       integer, allocatable :: faults(:)
       integer :: k
 
-      call eliminate_fronts(tree, faults, model=model)
+      call eliminate_fronts(tree, faults, .false., no_stiffness, model)
       fault = first_fault(faults)
       if (fault /= 0) return
       !$omp parallel do schedule(dynamic, 8) default(shared) if(tree%is_parallel)
@@ -50,17 +54,17 @@ contains
       end if
    end function first_fault
 
-   !> Eliminate all fronts that do not move, those of MODEL, or all that do, with the stiffnesses K: one of the two is there.
-   subroutine eliminate_fronts(tree, faults, model, k)
+   !> Eliminate all fronts that do not move, those of MODEL, or all that are MOVING, with the stiffnesses K. (An optional array would be
+   !! shared by the tasks with bounds that are not set where it is absent.)
+   subroutine eliminate_fronts(tree, faults, moving, k, model)
       type(front_tree_type), intent(inout)   :: tree
       integer, allocatable, intent(out)      :: faults(:)  !! (fronts)
+      logical, intent(in)                    :: moving
+      real(wp), intent(in)                   :: k(:, :, :) !! of no element where they do not move
       type(model_type), intent(in), optional :: model
-      real(wp), intent(in), optional         :: k(:, :, :)
       integer :: f
-      logical :: moving
 
       allocate (faults(size(tree%fronts)), source=0)
-      moving = present(k)
       !$omp parallel default(shared) if(tree%is_parallel)
       !$omp single
       do f = 1, size(tree%fronts)
@@ -69,7 +73,7 @@ contains
             if (tree%fronts(tree%fronts(f)%parent)%moves .eqv. moving) cycle
          end if
          !$omp task default(shared) firstprivate(f) if(tree%fronts(f)%work > task_work)
-         call eliminate_subtree(tree, f, faults, model, k)
+         call eliminate_subtree(tree, f, faults, k, model)
          !$omp end task
       end do
       !$omp end single
@@ -77,19 +81,19 @@ contains
    end subroutine eliminate_fronts
 
    !> Eliminate front F after those of its subtree that move as it does, or do not.
-   recursive subroutine eliminate_subtree(tree, f, faults, model, k)
+   recursive subroutine eliminate_subtree(tree, f, faults, k, model)
       type(front_tree_type), intent(inout)   :: tree
       integer, intent(in)                    :: f
       integer, intent(inout)                 :: faults(:)
+      real(wp), intent(in)                   :: k(:, :, :)
       type(model_type), intent(in), optional :: model
-      real(wp), intent(in), optional         :: k(:, :, :)
       integer :: c, i
 
       do i = 1, size(tree%fronts(f)%children)
          c = tree%fronts(f)%children(i)
          if (tree%fronts(c)%moves .neqv. tree%fronts(f)%moves) cycle
          !$omp task default(shared) firstprivate(c) if(tree%fronts(c)%work > task_work)
-         call eliminate_subtree(tree, c, faults, model, k)
+         call eliminate_subtree(tree, c, faults, k, model)
          !$omp end task
       end do
       !$omp taskwait
@@ -102,9 +106,13 @@ contains
             call start_front(model, tree, front, fault)
          end if
          if (fault /= 0) return
-         if (.not. front%moves) front%largest = maxval(front%diagonal(:front%p))
+         tree%diagonal(front%first:front%first + front%p - 1) = front%diagonal(:front%p)
          call eliminate(front%p, front%r, front%panel, front%update, front%diagonal, pivot_tolerance, fault)
-         if (fault > 0) fault = front%first + fault - 1
+         if (fault > 0) then
+            fault = front%first + fault - 1
+         else
+            front%weakest = minval([(front%panel(i, i)**2/front%diagonal(i), i = 1, front%p)])
+         end if
          if (front%parent == 0) deallocate (front%update)
       end associate
    end subroutine eliminate_subtree
@@ -142,22 +150,60 @@ contains
       do k = 1, size(front%children)
          c = front%children(k)
          if (tree%fronts(c)%moves) cycle
-         call add_update(tree%fronts(c), front)
-         deallocate (tree%fronts(c)%update, tree%fronts(c)%diagonal)
+         call take_update(tree%fronts(c), front)
       end do
       fault = 0
    end subroutine start_front
 
-   !> Zero, as far as the kernel touches it.
-   pure subroutine set_to_zero(m, n, a)
+   !> Add to FRONT what the elimination of CHILD left, and nothing of that is left then. That of a large one is given back as it is
+   !! added: together the two never take much more memory than one of them.
+   subroutine take_update(child, front)
+      type(front_type), intent(inout) :: child, front
+      integer(long) :: first, last
+      integer :: j, until
+      logical :: ok
+
+      if (size(child%update, kind=long) < large) then
+         call add_update(child, front, 1, child%r)
+      else
+         do j = 1, child%r, strip
+            until = min(child%r, j + strip - 1)
+            call add_update(child, front, j, until)
+            call give_back(int(child%r, long)*(until - j + 1), child%update(1, j), ok, first, last)
+         end do
+      end if
+      deallocate (child%update, child%diagonal)
+   end subroutine take_update
+
+   !> Zero, as far as the kernel touches it. Of a large one the pages are given back, they are zero when they come again: of these
+   !! the memory is taken when they are written, see take_update.
+   subroutine set_to_zero(m, n, a)
       integer, intent(in)     :: m, n
       real(wp), intent(inout) :: a(m, n)
+      integer(long) :: first, last
       integer :: j
+      logical :: ok
 
+      if (int(m, long)*n >= large) then
+         call give_back(int(m, long)*n, a, ok, first, last)
+         if (ok) then
+            call set_ends_to_zero(int(m, long)*n, first, last, a)
+            return
+         end if
+      end if
       do j = 1, n
          a(top_row(j):, j) = 0.0_wp
       end do
    end subroutine set_to_zero
+
+   !> Zero in a(:FIRST) and a(LAST:).
+   pure subroutine set_ends_to_zero(n, first, last, a)
+      integer(long), intent(in) :: n, first, last
+      real(wp), intent(inout)   :: a(n)
+
+      a(:first) = 0.0_wp
+      a(last:) = 0.0_wp
+   end subroutine set_ends_to_zero
 
    !> Keep what moving FRONT begins with.
    subroutine keep_start(model, tree, front, fault)
@@ -186,7 +232,7 @@ contains
       integer, allocatable :: faults(:)
       integer :: f, i
 
-      call eliminate_fronts(tree, faults, k=k)
+      call eliminate_fronts(tree, faults, .true., k)
       fault = first_fault(faults)
       if (fault == 0) return
       do i = 1, size(tree%moving)
@@ -216,7 +262,7 @@ contains
       do i = 1, size(front%children)
          c = front%children(i)
          if (.not. tree%fronts(c)%moves) cycle
-         call add_update(tree%fronts(c), front)
+         call add_update(tree%fronts(c), front, 1, tree%fronts(c)%r)
          deallocate (tree%fronts(c)%update)
       end do
       call lock(tree%locked(front%first:front%first + front%p - 1), front)

@@ -14,6 +14,7 @@ module front_layout
 
    real(wp), parameter :: entry_operations = 25.0_wp      !! what it costs to move one entry of a front, in operations on it
    integer, parameter  :: part_nodes(3) = [200, 800, 3200] !! sizes of subtrees that are tried
+   integer, parameter  :: many = 20000                    !! nodes whose layouts are worth a thread each
 
    !> Fronts stand in the order of elimination: children before parents, a subtree without gaps.
    type, public :: front_layout_type
@@ -43,32 +44,31 @@ contains
       logical, intent(in)                    :: in_joint(:)
       type(front_layout_type), intent(inout) :: layout
       character(:), allocatable, intent(out) :: way
+      type(front_layout_type) :: last_and_inside(2), in_parts(size(part_nodes))
       integer, allocatable :: postponed(:)
-      integer :: i
+      integer :: best, i
 
+      !$omp parallel do schedule(dynamic, 1) default(shared) if(size(order) > many)
+      do i = 1, 2
+         call lay_out_fronts(graph, order, weight, in_joint, i == 1, last_and_inside(i))
+      end do
+      !$omp end parallel do
       way = 'LAST'
-      call lay_out_fronts(graph, order, weight, in_joint, .true., layout)
-      call compare_with(order, 'INSIDE')
-      if (way == 'LAST') return
+      layout = last_and_inside(1)
+      if (total_work(last_and_inside(2), factorisations) >= total_work(layout, factorisations)) return
+      way = 'INSIDE'
+      layout = last_and_inside(2)
+      !$omp parallel do schedule(dynamic, 1) default(shared) private(postponed) if(size(order) > many)
       do i = 1, size(part_nodes)
          postponed = order
          call postpone_joints(graph, in_joint, part_nodes(i), postponed)
-         call compare_with(postponed, 'LAST IN PARTS')
+         call lay_out_fronts(graph, postponed, weight, in_joint, .false., in_parts(i))
       end do
-
-   contains
-
-      subroutine compare_with(other, its_way)
-         integer, intent(in)      :: other(:)
-         character(*), intent(in) :: its_way
-         type(front_layout_type)  :: candidate
-
-         call lay_out_fronts(graph, other, weight, in_joint, .false., candidate)
-         if (total_work(candidate, factorisations) >= total_work(layout, factorisations)) return
-         layout = candidate
-         way = its_way
-      end subroutine compare_with
-
+      !$omp end parallel do
+      best = minloc([(total_work(in_parts(i), factorisations), i = 1, size(part_nodes))], dim=1)
+      if (total_work(in_parts(best), factorisations) >= total_work(layout, factorisations)) return
+      way = 'LAST IN PARTS'
+      layout = in_parts(best)
    end subroutine choose_layout
 
    !> Operations of the whole run.

@@ -39,7 +39,7 @@ module front_tree
       real(wp), allocatable :: update(:, :)       !! (r, r) what is left for the parent; gone once that has it
       real(wp), allocatable :: diagonal(:)        !! (p + r) of the matrix before any elimination, as far as the subtree knows it;
                                                   !! gone likewise
-      real(wp) :: largest = 0.0_wp                !! of the pivots' diagonal, of a front that does not move
+      real(wp) :: weakest = 1.0_wp                !! least pivot, as a share of its diagonal entry before any elimination
       type(front_start), allocatable :: start     !! of a front that moves
       real(wp) :: work = 0.0_wp                   !! operations of its subtree
    end type front_type
@@ -49,6 +49,7 @@ module front_tree
       integer, allocatable :: number(:, :)        !! (dimension, n_nodes) equation of a component, 0: held
       integer, allocatable :: of_equation(:)      !! (n) front that eliminates it
       type(interface_equations_type) :: joints
+      real(wp), allocatable :: diagonal(:)        !! (n) of the matrix that the factor is of
       logical, allocatable :: locked(:)           !! (n) unknowns that do not change any more; of fronts that move
       type(front_type), allocatable :: fronts(:)  !! children before parents
       integer, allocatable :: moving(:)           !! those that move, ascending
@@ -79,6 +80,7 @@ contains
          tree%n = tree%n + weight(k)
       end do
       allocate (tree%of_equation(tree%n))
+      allocate (tree%diagonal(tree%n), source=0.0_wp)
       allocate (tree%locked(tree%n), source=.false.)
       do f = 1, layout%n
          associate (front => tree%fronts(f), low => layout%first_pivot(f), high => layout%first_pivot(f + 1) - 1, &
@@ -181,21 +183,21 @@ contains
       if (first <= tree%n) f = tree%of_equation(first)
    end function front_of
 
-   !> The largest diagonal entry of the matrix without what moves, when the fronts that do not move have been eliminated.
+   !> The largest diagonal entry of the matrix without what moves, when the fronts that do not move have been eliminated and those
+   !! that do have not.
    pure real(wp) function largest_diagonal(tree) result(largest)
       type(front_tree_type), intent(in) :: tree
       real(wp), allocatable :: diagonal(:)
-      integer :: f
+      integer :: k
 
-      allocate (diagonal(tree%n), source=0.0_wp)
-      do f = 1, size(tree%fronts)
-         associate (front => tree%fronts(f), first => tree%fronts(f)%first, last => tree%fronts(f)%first + tree%fronts(f)%p - 1)
-            if (front%moves) then
+      allocate (diagonal, source=tree%diagonal)
+      diagonal(tree%equations) = 0.0_wp
+      do k = 1, size(tree%moving)
+         associate (front => tree%fronts(tree%moving(k)))
+            associate (first => front%first, last => front%first + front%p - 1)
                diagonal(first:last) = diagonal(first:last) + front%start%diagonal(:front%p)
                diagonal(front%rows) = diagonal(front%rows) + front%start%diagonal(front%p + 1:)
-            else
-               diagonal(first) = front%largest
-            end if
+            end associate
          end associate
       end do
       largest = maxval(diagonal)

@@ -14,7 +14,8 @@ module skyline
    implicit none
    private
 
-   public :: start_skyline, add_to_skyline, skyline_times_vector, factorise_skyline, solve_skyline
+   public :: start_skyline, add_to_skyline, skyline_times_vector, factorise_skyline, solve_skyline, &
+             factor_times_vector
 
    type, public :: skyline_matrix
       integer :: n = 0                              !! order
@@ -130,5 +131,26 @@ contains
          if (first < j) x(first:j - 1) = x(first:j - 1) - x(j)*factor%values(column + first:column + j - 1)
       end do
    end subroutine solve_skyline
+
+   !> X = U^T U X, U from factorise_skyline: the product with the matrix that the factor is of.
+   pure subroutine factor_times_vector(factor, x)
+      type(skyline_matrix), intent(in) :: factor
+      real(wp), intent(inout)          :: x(:) !! (n)
+      integer(long) :: column
+      integer :: j, first
+
+      do j = 1, factor%n          ! U x, column after column: of x only what follows is still needed
+         column = factor%diagonal(j) - j
+         first = int(factor%diagonal(j - 1) + 1 - column)
+         if (first < j) x(first:j - 1) = x(first:j - 1) + x(j)*factor%values(column + first:column + j - 1)
+         x(j) = x(j)*factor%values(column + j)
+      end do
+      do j = factor%n, 1, -1
+         column = factor%diagonal(j) - j
+         first = int(factor%diagonal(j - 1) + 1 - column)
+         x(j) = x(j)*factor%values(column + j)
+         if (first < j) x(j) = x(j) + dot_product(factor%values(column + first:column + j - 1), x(first:j - 1))
+      end do
+   end subroutine factor_times_vector
 
 end module skyline

@@ -14,7 +14,8 @@ module skyline_solver
    use section_coupling, only: coupled_nodes
    use node_graph, only: node_graph_type
    use profile_ordering, only: reverse_cuthill_mckee
-   use skyline, only: add_to_skyline, factorise_skyline, skyline_matrix, skyline_times_vector, solve_skyline, start_skyline
+   use skyline, only: add_to_skyline, factor_times_vector, factorise_skyline, skyline_matrix, skyline_times_vector, solve_skyline, &
+                      start_skyline
    use text_tools, only: integer_text
    implicit none
    private
@@ -26,6 +27,7 @@ module skyline_solver
       type(interface_equations_type) :: joints
       type(skyline_matrix) :: body                  !! [k_b]
       type(skyline_matrix) :: structure             !! [k_s], then its factor
+      real(wp), allocatable :: diagonal(:)          !! (n) of [k_s]
    contains
       procedure :: lay_out
       procedure :: start
@@ -34,6 +36,9 @@ module skyline_solver
       procedure :: form_structure
       procedure :: solve
       procedure :: multiply
+      procedure :: diagonal_of_factor
+      procedure :: solve_by_factor
+      procedure :: multiply_by_factor
    end type skyline_solver_type
 
 contains
@@ -182,7 +187,10 @@ contains
             matrix%values(matrix%diagonal(locked(i) - 1) + 1:matrix%diagonal(locked(i))) = 0.0_wp
             matrix%values(matrix%diagonal(locked(i))) = 1.0_wp
          end do
+         self%diagonal = matrix%values(matrix%diagonal(1:))
          call factorise_skyline(matrix, pivot_tolerance, fault)
+         self%weakest = 1.0_wp
+         if (fault == 0) self%weakest = minval(matrix%values(matrix%diagonal(1:))**2/self%diagonal)
       end associate
    end subroutine form_structure
 
@@ -203,6 +211,29 @@ contains
 
       call skyline_times_vector(self%body, x, y)
    end subroutine multiply
+
+   pure function diagonal_of_factor(self) result(diagonal)
+      class(skyline_solver_type), intent(in) :: self
+      real(wp) :: diagonal(self%n)
+
+      diagonal = self%diagonal
+   end function diagonal_of_factor
+
+   subroutine solve_by_factor(self, x)
+      class(skyline_solver_type), intent(in) :: self
+      real(wp), contiguous, intent(inout)    :: x(:)
+
+      x(self%locked) = 0.0_wp
+      call solve_skyline(self%structure, x)
+   end subroutine solve_by_factor
+
+   subroutine multiply_by_factor(self, x)
+      class(skyline_solver_type), intent(in) :: self
+      real(wp), contiguous, intent(inout)    :: x(:)
+
+      x(self%locked) = 0.0_wp
+      call factor_times_vector(self%structure, x)
+   end subroutine multiply_by_factor
 
    !> Add an element matrix to the upper triangle; row 0 is a held component.
    pure subroutine scatter(matrix, rows, k)

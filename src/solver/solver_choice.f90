@@ -31,7 +31,7 @@ contains
       type(skyline_solver_type), allocatable :: candidate
       logical :: is_skyline
 
-      call choose_distributed(graph, n, model%dimension, wanted, system)
+      call choose_distributed(wanted, system)
       if (allocated(system)) return
       is_skyline = wanted == solver_skyline
       if (wanted == solver_auto .and. n <= most_tried) then

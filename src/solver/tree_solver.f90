@@ -8,10 +8,10 @@ module tree_solver
    use failures, only: failure_type
    use conjugate_gradients, only: iterate_moving
    use earlier_solutions, only: earlier_solutions_type, forget_solutions, guess_solution, note_solution
-   use factor_reuse, only: factor_reuse_type, forget_factor, may_reuse, note_factor, note_failure, note_steps
+   use factor_reuse, only: factor_reuse_type, forget_factor, forget_steps, may_reuse, note_factor, note_failure, note_steps
    use front_factor, only: add_to_moving, factorise_fixed, factorise_moving
    use front_layout, only: bytes_needed, choose_layout, front_layout_type
-   use front_solve, only: eliminate_fixed, moving_times_vector, recover_fixed, solve_moving
+   use front_solve, only: eliminate_fixed, factor_times_vector, moving_times_vector, recover_fixed, solve_moving
    use front_tree, only: front_tree_type, largest_diagonal, start_front_tree
    use kinds, only: long, wp
    use memory_need, only: check_memory
@@ -48,6 +48,10 @@ module tree_solver
       procedure :: solve
       procedure :: multiply
       procedure :: recover
+      procedure :: forget_past
+      procedure :: diagonal_of_factor
+      procedure :: solve_by_factor
+      procedure :: multiply_by_factor
    end type tree_solver_type
 
 contains
@@ -172,6 +176,8 @@ contains
 
       call factorise_moving(self%fronts, self%k_int, fault)
       self%factor%is_own = fault == 0
+      self%weakest = 1.0_wp
+      if (fault == 0) self%weakest = minval(self%fronts%fronts%weakest)
       if (fault == 0) then
          self%factor%k_int = self%k_int
          call note_factor(self%factor%reuse)
@@ -235,6 +241,16 @@ contains
       call forget_solutions(self%factor%earlier)
    end subroutine forget
 
+   !> As at the start, the costs of a factorisation aside.
+   subroutine forget_past(self)
+      class(tree_solver_type), intent(inout) :: self
+
+      call forget(self)
+      call forget_steps(self%factor%reuse)
+      self%factor%is_own = .false.
+      self%factor%is_awaited = .false.
+   end subroutine forget_past
+
    subroutine multiply(self, x, y)
       class(tree_solver_type), intent(in) :: self
       real(wp), intent(in)                :: x(:)
@@ -252,5 +268,29 @@ contains
       x(self%equations) = u(self%equations)
       call recover_fixed(self%fronts, x)
    end subroutine recover
+
+   pure function diagonal_of_factor(self) result(diagonal)
+      class(tree_solver_type), intent(in) :: self
+      real(wp) :: diagonal(self%n)
+
+      diagonal = self%fronts%diagonal
+   end function diagonal_of_factor
+
+   subroutine solve_by_factor(self, x)
+      class(tree_solver_type), intent(in) :: self
+      real(wp), contiguous, intent(inout) :: x(:)
+
+      call eliminate_fixed(self%fronts, x)
+      x(self%locked) = 0.0_wp
+      call solve_moving(self%fronts, x)
+      call recover_fixed(self%fronts, x)
+   end subroutine solve_by_factor
+
+   subroutine multiply_by_factor(self, x)
+      class(tree_solver_type), intent(in) :: self
+      real(wp), contiguous, intent(inout) :: x(:)
+
+      call factor_times_vector(self%fronts, x)
+   end subroutine multiply_by_factor
 
 end module tree_solver

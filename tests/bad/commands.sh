@@ -38,6 +38,9 @@ for option in --help -h; do
 done
 run --help CROD; check '--help of a card' 0
 prints '--help of a card: its entry' '^| CROD   | EID '
+if [ "$(tail -n 1 "$work/stdout")" = "$(awk '/^### CROD$/ { on = 1; next } /^### / { on = 0 } on && NF { last = $0 } END { print last }' "$here/../../input/README.md")" ]; then pass
+else fail '--help of a card: not its last line at the end'
+fi
 run --help output; check '--help of a key' 0
 prints '--help of a key: its entry' '^What the listing holds'
 run --help SPC; prints '--help of a name that key and card have: both' '^The number of a set of SPC'
@@ -260,30 +263,6 @@ for path in pipe /dev/zero .; do
 done
 rm -f pipe included.bdf
 
-# ---- an interrupted run ----
-
-fresh results
-sed -e 's/^GRID.*//; s/^CQUAD4.*/BLOCK2  1       1       100     60      0.0     0.0/
-   s/^CBAR.*/+       150.0   100.0\n+       20/; s/^SPC1.*/SPCM    1       1       20/
-   s/^FORCE.* 3 .*/FORCE   10      61              50.0    0.0     -1.0/; s/^FORCE.* 4 .*//
-   s/^JINCR.*/JINCR   5       10000   ARITH   1.0-4/' good.bdf > long.bdf
-"$program" -o results long.bdf >"$work/stdout" 2>"$work/stderr" &
-runner=$!
-for ((i = 0; i < 200; i++)); do
-   [ -n "$(find results -name '*.part' -size +8k)" ] && break
-   kill -0 $runner 2>/dev/null || break
-   sleep 0.05
-done
-kill -9 $runner 2>/dev/null
-{ wait $runner; status=$?; } 2>/dev/null
-check 'a run that is killed' 137
-if ls -A results | grep -q '\.part$'; then pass; else fail 'a run that is killed: it had not begun to write'; fi
-if ls -A results | grep -q -v '\.part$'; then fail "a run that is killed: it left $(ls -A results | tr '\n' ' ')"; else pass; fi
-sed 's/10000   ARITH   1.0-4/2/' long.bdf > short.bdf
-mv short.bdf long.bdf
-run -o results long.bdf;              check 'the same deck again, with fewer increments' 0
-holds results 'the same deck again' long.joint.csv long.out long.stage.csv
-
 # ---- lines of 100 megabytes, many files ----
 
 # long_line WHAT TEXT: run long.bdf, which must end in 30 seconds with a message that can be read and holds TEXT
@@ -326,3 +305,35 @@ if [ "$(grep -c '^DECK ERROR' "$work/stderr")" = 1 ]; then pass; else fail '3000
 run -o results many.bdf;              check '3000 errors' 2 'DECK ERROR 10 OF 3000' 'and 2990 more errors, not printed, of the kind of ERROR 10'
 if [ -z "$(wrong_numbers)" ]; then pass; else fail "3000 errors: $(wrong_numbers)"; fi
 holds results 'no file after many INCLUDEs'
+
+# ---- standard streams above 1 MiB, the terminal ----
+
+cd "$work/command" || exit 2
+fresh here
+# 20,000 lines of comment, and a listing of 2,000 increments in full
+{ sed '/^BEGIN/q; s/^SUBCASE.*/&\n  OUTPUT = ALL/' good.bdf; yes "\$ $(printf '%070d' 0)" | head -n 20000; sed '1,/^BEGIN/d; s/^JINCR.*/JINCR   5       2000    ARITH   2.0-4/' good.bdf
+} > large.bdf
+run -o here large.bdf;                check 'a deck above 1 MiB' 0
+run - < <(cat large.bdf);              check 'a deck and a listing above 1 MiB through the standard streams' 0
+if [ "$(wc -c < large.bdf)" -gt 1048576 ] && [ "$(wc -c < here/large.out)" -gt 1048576 ] && cmp -s <(without_deck here/large.out) <(without_deck "$work/stdout"); then pass
+else fail 'a listing above 1 MiB on the standard output is not that of the file'
+fi
+run -o here /proc/self/mem;           check 'a file that cannot be read' 1 '/proc/self/mem: cannot be read'
+
+run --times -q -o here large.bdf;     check '--times' 0 'memory' 'operations fixed' 'operations moving' 's of factor'
+if awk '$1 != "large.bdf:" { next } $NF == "s" { n++; if ($3 + 0 < 0 || $3 !~ /^[0-9.]+$/) bad = 1 } $2 == "memory" { m = $3 }
+        END { exit bad || n != 7 || m < 1 }' "$work/stderr"; then pass
+else fail '--times: not the seconds of seven phases and the memory'
+fi
+if command -v script > /dev/null; then
+   # terminal OPTION...: what a terminal shows of a run
+   terminal() { script -qec "$program $* -o here large.bdf" /dev/null < /dev/null > "$work/stdout"; tr '\r' '\n' < "$work/stdout" > "$work/stderr"; }
+   terminal; status=0
+   check 'on a terminal: the phases' 0 'large.bdf: build' 'large.bdf: order' 'large.bdf: factor'
+   if awk '/: stage 1, increment/ { n++; k = $5; if ($7 != "2000," || k <= last || k > 2000 || $9 != "s" || $8 !~ /^[0-9]+$/) bad = 1; last = k }
+           END { exit bad || !n }' "$work/stderr"; then pass; else fail 'on a terminal: increment of how many, seconds left'; fi
+   if tr '\r' '\n' < "$work/stdout" | grep -q '^ \{60,\}$'; then pass; else fail 'on a terminal: the line is not cleared'; fi
+   terminal -q
+   if grep -q ", increment [0-9]* of" "$work/stderr"; then fail '-q on a terminal: progress'; else pass; fi
+fi
+rm -rf here large.bdf

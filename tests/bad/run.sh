@@ -4,7 +4,7 @@
 #
 #     run.sh PROGRAM
 #
-# The decks come out of the tables of this folder (README.md), the commands are those of commands.sh.
+# The decks come out of the tables of this folder (README.md), the commands are those of commands.sh and files.sh.
 # Ends with "N passed, N failed"; exit status 1 if anything failed, 2 wrong usage.
 set -u
 export LC_ALL=C
@@ -120,6 +120,7 @@ for deck in *.bdf; do check_deck "${deck%.bdf}"; done
 # ---- commands ----
 
 . "$here/commands.sh"
+. "$here/files.sh"
 
 echo "$passed passed, $failed failed"
 [ "$failed" -eq 0 ]

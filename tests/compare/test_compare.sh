@@ -167,7 +167,7 @@ damage_history() {
    read -r relative absolute < <(limit_of csv "$3")
    damage_file "$name" "$file" , "$limits" "$relative" "$absolute" "$3"
    for title in "X$3" "${3%?}" "$3 " "$3,$3"; do
-      sed "1s/$3/$title/" "$file" >"$copy";       seen "the column title '$title'" :1:
+      sed -E "1s/(^|,)$3(,|$)/\\1$title\\2/" "$file" >"$copy";       seen "the column title '$title'" :1:
    done
    sed 1d "$file" >"$copy";                       seen 'no header' header
    cut -d, -f2- "$file" >"$copy";                 seen 'a column removed' header
@@ -450,6 +450,19 @@ for file in "$folder"/*.joint.csv; do
    if [ -f "$file" ] && [ -n "$(cell real , "$file" lambda)" ]; then chosen=$file; break; fi
 done
 if [ -n "$chosen" ]; then damage_history "${chosen##*/}" "$chosen" lambda; else echo "no history with numbers in $folder"; fi
+for what in 'stage p_max' 'stage n' 'stage secant_n' 'bolt force' 'bolt change' 'bolt longer'; do
+   set -- $what
+   chosen=
+   for file in "$folder"/*."$1.csv"; do
+      if [ -f "$file" ] && [ -n "$(cell real , "$file" "$2")" ]; then chosen=$file; break; fi
+   done
+   if [ -n "$chosen" ]; then
+      head -n 3 "$chosen" >"$work/part.$1.csv" # a row or two are enough for what is damaged, and quick
+      damage_history "${chosen##*/}, $2" "$work/part.$1.csv" "$2"
+   else
+      : >"$work/said"; fail "no table of $1 with numbers in $2 in $folder"
+   fi
+done
 [ $skipped -gt 0 ] && echo "$skipped damages found nothing to damage in the reference files"
 
 echo "$passed passed, $failed failed"

@@ -4,31 +4,6 @@
 # difference falls as dx**2 as the mesh is refined. What stays is what the theory leaves out, the shear of the beam, some (h/L)**2: it
 # falls when the beam is made half as high with the same E I.
 
-moment='sum(force*x)'
-beam() { # NAME ELEMENTS M C P REFERENCE [HEIGHT]: E I stays the same
-   awk -v n="$2" -v m="$3" -v c="$4" -v p="$5" -v h="${7:-10}" 'BEGIN {
-      print "METHOD = NEWTON\nSPC = 1\nSUBCASE 1\n  LOAD = 1\n  OUTPUT = NONE\nBEGIN BULK"
-      print "BLOCK2,1,1," n ",1,0.0,0.0"
-      printf "+,200.0,%.6f\n+,20,,,21\nPMARK,20\nPMARK,21\nPSHELL,1,1,20.0\nMAT1,1,%.6f,,0.0\n", h, 9500 * (10 / h)^3
-      print "JOINT,1,1,20\nPJOINT,1,1"
-      printf "JNORM,1,%.12E,%s,%.12E\n", c, m, 1 / c
-      print "SPCM,1,1,21"
-      printf "FORCE,1,1,,%.12E,0.0,-1.0\nFORCE,1,2,,%.12E,0.0,-1.0\nENDDATA\n", p / 4, p / 4
-   }' > "$work/$1.bdf"
-   run "$1" || return 1
-   # w at the load and at the end, the moment of the joint about the load, the rest of the first integral of the power law, where it
-   # begins to gape, the largest difference from the reference
-   read -r w0 w_end m0 integral contact <<< "$(value "$1" print 'first(lambda)' print 'last(lambda)' print "$moment" \
-      print "($moment)^2/(2*9500*20*1000/12*20/((1/$3 + 1)*($4)^(1/$3))*(first(lambda)^(1/$3 + 1) - max(last(lambda), 0)^(1/$3 + 1))) - 1" \
-      print 'min(if(before(lambda) > 0 and lambda <= 0, before(x) + (x - before(x))*before(lambda)/(before(lambda) - lambda), 200))')"
-   [ "$6" = none ] && return
-   profile=$("$query" tests/exact/beam_reference.csv rows "case = \"$6\"" with "$work/$1.joint.csv" on "element=int(x*$2/200 + 1.5)" \
-      print 'max(abs(other.lambda - w))/first(w)')
-}
-
-# of CASE COLUMN...: what all rows of the case have there
-of() { "$query" tests/exact/beam_reference.csv rows "case = \"$1\"" "${@:2}"; }
-
 # Each case on four meshes: the largest difference along the beam, the moment under the load and the first integral all fall.
 while read -r case m limit; do
    read -r c p m_reference <<< "$(of $case print c print p print m0)"

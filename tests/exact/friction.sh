@@ -1,18 +1,5 @@
 # The Coulomb limit.
 
-# A block clamped evenly to p = 0.5 and pushed at its interface nodes as their areas are: every node has the same tau.
-pushed_block() { # NAME METHOD NREAN SHARE-OF-THE-LIMIT
-   awk -v method="$2" -v nrean="$3" -v share="$4" 'BEGIN {
-      print "METHOD = " method "\nSUBCASE 1\n  LOAD = 1\n  INCR = 1\n  OUTPUT = NONE\nSUBCASE 2\n  LOAD = 2\n  INCR = 1\nBEGIN BULK"
-      print "BLOCK2,1,1,10,4,0.0,0.0\n+,100.0,40.0\n+,20\nPMARK,20\nPSHELL,1,1,20.0\nMAT1,1,9500.0,,0.0"
-      print "JOINT,1,1,20\nPJOINT,1,1,1,,0.2," nrean "\nJNORM,1,8.0-3,0.5,9500.0\nJSHEAR,1,100.0,300.0"
-      for (i = 0; i <= 10; i++) {
-         w = i % 10 ? 0.1 : 0.05
-         printf "FORCE,1,%d,,%.6f,0.0,-1.0\nFORCE,12,%d,,%.9f,1.0,0.0\n", 5 * i + 5, 1000 * w, 5 * i + 1, 200 * share * w
-      }
-      print "LOAD,2,1.0,1.0,1,1.0,12\nJINCR,1,10,ARITH,0.1\nENDDATA" }' > "$work/$1.bdf"
-}
-
 # all 11 elements at the end: p, tau, delta, slip
 pushed_evenly() { # WORDS NAME TAU DELTA SLIP
    ask "$1" "$2" rows 'stage = 2 and increment = 10' count 11 all "pressure = 0.5 within 5e-10 and slip = $5" \
@@ -67,42 +54,16 @@ for elements in 1 2 5; do
          all 'sum(tau_x*area) = 19.8 within 1e-7 and sum(slip) = 0'
 done
 
-# One element beside a spring of 10000 kgf/mm: k_s = 25000, so a re-analysis removes 10000/35000 of the excess.
-spring() { # NAME METHOD NREAN FORCE
-   cat > "$work/$1.bdf" <<DECK
-METHOD = $2
-SUBCASE 1
-  LOAD = 1
-  OUTPUT = NONE
-SUBCASE 2
-  LOAD = 2
-BEGIN BULK
-GRID,1
-CJOINT,1,1,1,,100.0,0.0,-1.0
-PJOINT,1,1,1,,0.2,$3,0.5
-JNORM,1,8.0-3,0.5,500.0
-JSHEAR,1,100.0,300.0
-\$ the spring: lambda = c p along x
-CJOINT,2,2,1,,100.0,1.0,0.0
-PJOINT,2,2,,,,,0.1
-JNORM,2,1.0-2,1.0,100.0
-FORCE,1,1,,50.0,0.0,-1.0
-FORCE,12,1,,$4,1.0
-LOAD,2,1.0,1.0,1,1.0,12
-ENDDATA
-DECK
-   run "$1"
-}
 sides() { cell "$1" 2 1 1 "$2" 1; }
 
 # which way x of the element and the normal of the spring point is not the matter here: sizes
 size() { number "abs($(sides "$1" "$2"))"; }
-spring spring STEP 5 13.86 && {
+sheared_spring spring STEP 5 13.86 && {
    near 'spring, 0.99: tau' "$(size spring tau_x)" 0.099 1e-12
    near 'spring, 0.99: delta' "$(size spring delta_x)" 3.96e-4 1e-12
    same 'spring, 0.99: sticks' "$(sides spring slip)" 0
 }
-spring spring STEP 5 14.14 && {
+sheared_spring spring STEP 5 14.14 && {
    same 'spring, 1.01: slips' "$(sides spring slip)" 1
    judge 'spring, 1.01: every re-analysis removes 28.57 per cent' '
       BEGIN { e = 0.1 }
@@ -114,15 +75,32 @@ spring spring STEP 5 14.14 && {
    near 'spring, 1.01: tau after five re-analyses' "$(size spring tau_x)" 0.10018593443208187 1e-12
    near 'spring, 1.01: delta after five re-analyses' "$(size spring delta_x)" 4.1214065567918144e-4 1e-12
 }
-spring spring STEP -1 14.14 && near 'spring, 1.01: excess gone' "$(size spring tau_x)" 0.1 2e-8
-spring spring NEWTON 1 14.14 && {
+sheared_spring spring STEP -1 14.14 && near 'spring, 1.01: excess gone' "$(size spring tau_x)" 0.1 2e-8
+sheared_spring spring NEWTON 1 14.14 && {
    near 'spring, 1.01: NEWTON tau' "$(size spring tau_x)" 0.1 1e-9
    near 'spring, 1.01: NEWTON delta' "$(size spring delta_x)" 4.14e-4 1e-9
    same 'spring, 1.01: NEWTON slips' "$(sides spring slip)" 1
 }
-spring spring NEWTON 1 13.86 && {
+sheared_spring spring NEWTON 1 13.86 && {
    near 'spring, 0.99: NEWTON delta' "$(size spring delta_x)" 3.96e-4 1e-9
    same 'spring, 0.99: NEWTON sticks' "$(sides spring slip)" 0
+}
+
+# the points t_1 and t_1' of every pass: of 48 the first eight, and the last after a line of dots
+sed 's/^METHOD = .*/METHOD = STEP/; s/^SUBCASE 2/&\n  OUTPUT = JOINT/; s/^\(PJOINT,1,1,1,,0.2\),.*/\1,-1,0.5/; s/^FORCE,12,1,.*/FORCE,12,1,,14.14,1.0/' "$work/spring.bdf" > "$work/spring_passes.bdf"
+run spring_passes && {
+   table spring_passes 'SLIPPING ELEMENTS BEFORE AND AFTER EACH RE-ANALYSIS' > "$work/passes"
+   judge 'spring: deflection and stress before and after each re-analysis' '
+      function size(a) { return a < 0 ? -a : a }
+      function near(what, is, wanted) { if (size(size(is) - wanted) > 6e-6*wanted) print what " " is ", expected " wanted ": " $0 }
+      $1 == "..." { dots++; if (last != 8) print "dots behind pass " last }
+      $1 == 1 {
+         n++; k = last = $2; f = 5/7
+         near("DELTA", $6, 4.04e-4 + 1e-5*(1 - f^(k - 1))); near("DELTA AFTER", $9, 4.04e-4 + 1e-5*(1 - f^k))
+         near("TAU", $7, 0.1 + 1e-3*f^(k - 1)); near("TAU AFTER", $10, 0.1 + 1e-3*f^k); near("LIMIT", $8, 0.1); near("LIMIT AFTER", $11, 0.1)
+         if (k != n && n < 9) print "pass " k " in line " n
+      }
+      END { if (n != 9 || dots != 1 || last < 20) print n " rows, " dots " lines of dots, last pass " last; print "checked " n }' "$work/passes"
 }
 
 # The block of input/friction_once.bdf, NREAN 0, 1, 2, 5, against an independent computation.

@@ -1,25 +1,5 @@
 # Initial gaps and interference: closed formulas, a rigid block solved by awk on the same nodes, and each other.
 
-# A bar of stiffness 100 and the joint behind a gap share the force: 100 (g + lambda) + a (lambda/c)**(1/m) = F.
-spring() { # NAME METHOD M GAP FORCE INCREMENTS [MORE-FORCES...]: each more force is a stage
-   awk -v method="$2" -v m="$3" -v gap="$4" -v forces="$5 ${*:7}" -v n="$6" 'BEGIN {
-      stages = split(forces, force, " ")
-      print "METHOD = " method "\nTOL = 1.0E-13\nSPC = 1"
-      for (s = 1; s <= stages; s++) print "SUBCASE " s "\n  LOAD = " s "\n  INCR = 1\n  OUTPUT = NONE"
-      print "BEGIN BULK\nGRID,1,,0.0,0.0\nGRID,2,,0.0,100.0\nCROD,1,1,1,2\nPROD,1,1,10.0\nMAT1,1,1000.0,,0.25"
-      printf "CJOINT,5,1,1,,4.0,0.0,-1.0,0.0\nPJOINT,1,1,,,,,%.12f\n", 2/n # about what an increment brings
-      print "JNORM,1,8.0-3," m ",1000.0"
-      if (gap + 0) print "JGAP,1,CONST," gap
-      print "SPC1,1,12,2\nSPC1,1,1,1"
-      for (s = 1; s <= stages; s++) printf "FORCE,%d,1,,%.12f,0.0,-1.0\n", s, force[s]
-      printf "JINCR,1,%d,,%.12f\nENDDATA\n", n, 1/n }' > "$work/$1.bdf"
-   run "$1"
-}
-spring_lambda() { # M GAP FORCE
-   awk -v m="$1" -v g="$2" -v f="$3" 'BEGIN { low = 0; high = 1
-      for (i = 0; i < 200; i++) { x = (low + high)/2; if (100*(g + x) + 4*exp(log(x/8e-3)/m) > f) high = x; else low = x }
-      printf "%.17g", low }'
-}
 # STEP as it goes: nothing behind the gap, then once the secant of Eq. (9), then tangents; from the equilibrium with interference.
 spring_step() { # M GAP FORCE INCREMENTS AT-REST
    awk -v m="$1" -v g="$2" -v f="$3" -v n="$4" -v x="$5" 'BEGIN {
@@ -31,26 +11,26 @@ spring_step() { # M GAP FORCE INCREMENTS AT-REST
 }
 for m in 0.3 0.5 1.0; do
    for gap in 0.05 0.09 -0.04; do
-      lambda=$(spring_lambda $m $gap 10.0)
-      spring one NEWTON $m $gap 10.0 3 && near "a spring and a gap of $gap, m = $m, NEWTON" "$(cell one 1 3 1 lambda)" "$lambda" 1e-11
-      spring one BACK $m $gap 10.0 3 && near "a spring and a gap of $gap, m = $m, BACK" "$(cell one 1 1 1 lambda)" "$lambda" 1e-10
+      lambda=$(gap_spring_lambda $m $gap 10.0)
+      gap_spring one NEWTON $m $gap 10.0 3 && near "a spring and a gap of $gap, m = $m, NEWTON" "$(cell one 1 3 1 lambda)" "$lambda" 1e-11
+      gap_spring one BACK $m $gap 10.0 3 && near "a spring and a gap of $gap, m = $m, BACK" "$(cell one 1 1 1 lambda)" "$lambda" 1e-10
       for n in 7 40; do
-         spring one STEP $m $gap 10.0 $n && near "a spring and a gap of $gap, m = $m, STEP $n" "$(cell one 1 $n 1 lambda)" \
-            "$(spring_step $m $gap 10.0 $n "$(spring_lambda $m $gap 0.0)")" 1e-9
+         gap_spring one STEP $m $gap 10.0 $n && near "a spring and a gap of $gap, m = $m, STEP $n" "$(cell one 1 $n 1 lambda)" \
+            "$(spring_step $m $gap 10.0 $n "$(gap_spring_lambda $m $gap 0.0)")" 1e-9
       done
    done
 done
-spring one NEWTON 0.5 0.05 10.3 10 && ask 'closing is lambda and gap' one count 10 \
+gap_spring one NEWTON 0.5 0.05 10.3 10 && ask 'closing is lambda and gap' one count 10 \
    all 'gap = 0.05 and (lambda < 0 and branch = "OPEN" and pressure = 0 or lambda > 0 and branch = "LOAD") and
       pressure = if(lambda < 0, 0, (lambda/8e-3)^2) within 1e-9' \
    all '100*(lambda + gap) + force = 10.3*load within 1e-8'
 says 'the history of a deck with a gap has a column for it' "$work/one.joint.csv" ',slip,gap$'
-spring one NEWTON 0.5 0 10.0 10 && says 'and one without has not' "$work/one.joint.csv" ',slip$'
+gap_spring one NEWTON 0.5 0 10.0 10 && says 'and one without has not' "$work/one.joint.csv" ',slip$'
 
 # A history about the gap is that without gap under a load that is smaller by what the spring takes to the gap: loaded, relieved until
 # it opens, closed again past A; lambda, p and the work of the joint.
 for method in NEWTON STEP; do
-   spring apart $method 0.5 0.05 10.0 40 1.0 12.0 6.5 11.0 && spring plain $method 0.5 0 5.0 40 -4.0 7.0 1.5 6.0 || continue
+   gap_spring apart $method 0.5 0.05 10.0 40 1.0 12.0 6.5 11.0 && gap_spring plain $method 0.5 0 5.0 40 -4.0 7.0 1.5 6.0 || continue
    [ $method = NEWTON ] && tolerance=1e-9 || tolerance=0.25
    for stage in 1 2 3 4 5; do
       for column in lambda pressure; do
@@ -65,37 +45,6 @@ for method in NEWTON STEP; do
    same 'history about a gap: five stages of work' "$(wc -l < "$work/apart.energy")" 5
 done
 
-# Two bars with interference, 100 each: at rest 50 (i - lambda) = a p on the loading curve, by every method; then pulled apart, along
-# the line of slope E_u from there: lambda = i - 2 P/100 - pull/100.
-bars() { # NAME METHOD PULL INCREMENTS
-   cat > "$work/$1.bdf" <<DECK
-METHOD = $2
-TOL = 1.0E-13
-SPC = 1
-SUBCASE 1
-  LOAD = 1
-  INCR = 1
-BEGIN BULK
-GRID,1,,0.0,0.0
-GRID,2,,0.0,100.0
-GRID,3,,0.0,100.0
-GRID,4,,0.0,200.0
-CROD,1,1,1,2
-CROD,2,1,3,4
-PROD,1,1,10.0
-MAT1,1,1000.0,,0.25
-CJOINT,5,1,2,3,4.0,0.0,1.0,0.0
-PJOINT,1,1,,,,,0.1
-JNORM,1,8.0-3,0.5,1000.0
-JGAP,1,CONST,-0.05
-SPC1,1,12,1,4
-SPC1,1,1,2,3
-FORCE,1,2,,$3,0.0,-1.0
-JINCR,1,$4,,$(awk "BEGIN { printf \"%.12f\", 1/$4 }")
-ENDDATA
-DECK
-   run "$1"
-}
 at_rest=$(awk 'BEGIN { k = 4/8e-3^2; printf "%.17g", (sqrt(50^2 + 4*k*50*0.05) - 50)/(2*k) }')
 p_rest="($at_rest/8e-3)^2"
 for method in NEWTON STEP BACK; do
@@ -113,33 +62,6 @@ bars bars NEWTON 8.0 5 && same 'interference, pulled apart for good' "$(cell bar
    near 'interference, pulled apart for good: closing' "$(cell bars 1 5 2 'lambda + gap')" -0.08 1e-9
 bars bars STEP 1.0 160 && near 'interference, pulled apart, STEP' "$(cell bars 1 160 2 pressure)" "$p_rest - 1000*($at_rest - $pulled)" 3e-3
 
-# A rigid block under a force at E, behind gaps: D and T from the balance of forces and moments on the same nodes, by awk.
-gap_block() { # NAME METHOD NX M E INCREMENTS GUIDED JGAP-LINES
-   awk -v method="$2" -v nx="$3" -v m="$4" -v e="$5" -v n="$6" -v guided="$7" -v card="$8" 'BEGIN {
-      print "METHOD = " method "\nTOL = " (method == "BACK" ? "1.0E-7" : "1.0E-9") "\nSPC = 1\nSUBCASE 1\n  LOAD = 1\n  INCR = 1\n  OUTPUT = NONE\nBEGIN BULK"
-      print "BLOCK2,1,1," nx ",1,-50.0,0.0\n+,50.0,100.0\n+,20\nPMARK,20\nPSHELL,1,1,20.0\nMAT1,1,1.0E10,,0.0"
-      print "JOINT,1,1,20\nPJOINT,1,1\nJNORM,1,8.0-3," m ",9500.0\nSPC1,1,1,1" (guided ? ",2" : "")
-      print card
-      i = int((e + 50)*nx/100 + 1e-9); if (i == nx) i--
-      right = (e - (-50 + 100*i/nx))*nx/100
-      printf "FORCE,1,%d,,%.12f,0.0,-1.0\n", 2*i + 2, 1000*(1 - right)
-      printf "FORCE,1,%d,,%.12f,0.0,-1.0\nJINCR,1,%d,,%.12f\nENDDATA\n", 2*i + 4, 1000*right, n, 1/n }' > "$work/$1.bdf"
-   run "$1"
-}
-by_awk() { # NX M E GUIDED G0 SX CX: D, T and the largest p
-   awk -v nx="$1" -v m="$2" -v e="$3" -v guided="$4" -v g0="$5" -v sx="$6" -v cx="$7" 'BEGIN {
-      d = g0 + 0.02; t = guided ? 0 : sx
-      for (k = 0; k < 200; k++) {
-         f = -1000; q = -1000*e; fd = ft = qt = 0; most = 0
-         for (i = 0; i <= nx; i++) {
-            x = -50 + 100*i/nx; a = 2000/nx*(i == 0 || i == nx ? 0.5 : 1); l = d + t*x - g0 - sx*x - cx*x*x
-            if (l <= 0) continue
-            p = exp(log(l/8e-3)/m); s = a*p/(m*l); f += a*p; q += a*p*x; fd += s; ft += s*x; qt += s*x*x
-            if (p > most) most = p }
-         if (guided) { d -= f/fd; continue }
-         det = fd*qt - ft*ft; dd = (qt*f - ft*q)/det; dt = (fd*q - ft*f)/det; d -= dd; t -= dt }
-      printf "%.15g %.15g %.15g\n", d, t, most }'
-}
 closing='(lambda + gap)'
 for case in '0.5 10.0 0.02 1.0-4 0.0 1e-4 0' '0.5 0.0 0.0 1.0-4 0.0 1e-4 0' '1.0 -10.0 0.1 -1.0-4 4.0-6 -1e-4 4e-6' \
             '0.5 5.0 0.0 0.0 8.0-6 0 8e-6' '0.5 5.0 0.0 0.0 -2.0-6 0 -2e-6'; do
@@ -150,7 +72,7 @@ for case in '0.5 10.0 0.02 1.0-4 0.0 1e-4 0' '0.5 0.0 0.0 1.0-4 0.0 1e-4 0' '1.0
          print "(last($closing) - first($closing))/100" \
          print "max(abs($closing - (first($closing) + last($closing))/2 - (last($closing) - first($closing))/100*x))" \
          print 'max(pressure)')"
-      read -r d_awk t_awk most_awk <<< "$(by_awk 20 $1 $2 '' $3 $6 $7)"
+      read -r d_awk t_awk most_awk <<< "$(gap_block_balance 20 $1 $2 '' $3 $6 $7)"
       near "rigid block behind gaps $*, $method: d" "$d" "$d_awk" 1e-5 1e-7
       near "rigid block behind gaps $*, $method: t" "$t" "$t_awk" 1e-5 1e-9
       near "rigid block behind gaps $*, $method: largest p" "$most" "$most_awk" 3e-5
@@ -210,7 +132,7 @@ gap_block crown NEWTON 4 0.5 0.0 1 '' 'JGAP,1,PLANE,0.0,0.0,0.0,8.0-6'
 gap_block table NEWTON 4 0.5 0.0 1 '' $'JGAP,1,TABLE\n+,0.0,0.0,0.0,0.0,50.0,0.0,0.0,0.02\n+,-25.0,,,0.005,-50.0,,,0.02\n+,25.0,,,0.005' &&
    same_rows 'a crown as a table' crown table 1e-9
 gap_block nodes NEWTON 4 0.5 0.0 1 '' $'JGAP,1,NODES\n+,1,0.02,3,0.005,7,0.005,9,0.02' && same_rows 'a crown by nodes' crown nodes 1e-9
-read -r d t most <<< "$(by_awk 20 0.5 0.0 1 0.0 0 8e-6)"
+read -r d t most <<< "$(gap_block_balance 20 0.5 0.0 1 0.0 0 8e-6)"
 before=
 for n in 40 160 640; do
    gap_block guided STEP 20 0.5 0.0 $n 1 'JGAP,1,PLANE,0.0,0.0,0.0,8.0-6' || continue

@@ -59,7 +59,11 @@ METHOD = NEWTON
 LINE = 60
 SET 3 = 1,2,
   5 THRU 9
-DISPLACEMENT(SORT1,REAL)=ALL
+DISPLACEMENT(SORT1,
+  REAL)=ALL
+VELOCITY = 1,2,
+  5 THRU 9,
+  12
 SPC = 9
 SUBCASE 1
   SUBTITLE=Pressing
@@ -112,7 +116,7 @@ END
 run habits_own
 if run habits_nastran; then
    same_rows 'turned in its own system' habits_nastran habits_own 1e-10 $resultant
-   names='14 entries without effect: NASTRAN, ID, TIME, LINE, DISPLACEMENT, SUBTITLE, STRESS, OUTPUT, SET, PLOTEL, PBARL, text behind'
+   names='15 entries without effect: NASTRAN, ID, TIME, LINE, DISPLACEMENT, VELOCITY, SUBTITLE, STRESS, OUTPUT, SET, PLOTEL, PBARL, text behind'
    for way in 'STEP TREE' 'STEP SKYLINE' 'NEWTON TREE' 'NEWTON SKYLINE'; do
       for deck in own nastran; do
          sed -e "s/^METHOD = NEWTON/METHOD = ${way% *}/" -e "s/^SPC = /SOLVER = ${way#* }\n&/" "$work/habits_$deck.bdf" > "$work/habits_way_$deck.bdf"

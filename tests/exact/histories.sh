@@ -25,42 +25,6 @@ for n in 5 10 15 20 25 40 50; do
    same "shear loop in $n increments: branch there" "$(cell loop 4 $((n / 5)) 1 branch_x)" UNLOAD
 done
 
-# An element opens and closes again beside an elastic body (k_b at each node), by STEP and by NEWTON; the recurrence and the law are written out.
-reopen() { # NAME METHOD
-   cat > "$work/$1.bdf" <<DECK
-METHOD = $2
-SPC = 1
-SUBCASE 1
-  LOAD = 1
-  INCR = 1
-SUBCASE 2
-  LOAD = 2
-  INCR = 1
-SUBCASE 3
-  LOAD = 3
-  INCR = 1
-BEGIN BULK
-BLOCK2,1,1,1,1,0.0,0.0
-+,10.0,50.0
-+,20,,21
-PMARK,20
-PMARK,21
-PSHELL,1,1,20.0
-MAT1,1,1000.0,,0.0
-JOINT,1,1,20
-PJOINT,1,1,,,,,0.05
-JNORM,1,8.0-3,0.5,500.0
-SPCM,1,12,21
-SPCM,1,1,20
-FORCE,1,1,,100.0,0.0,-1.0
-FORCE,1,3,,100.0,0.0,-1.0
-LOAD,2,-0.4,1.0,1
-LOAD,3,1.5,1.0,1
-JINCR,1,8,ARITH,0.125
-ENDDATA
-DECK
-   run "$1"
-}
 # k_b = E a/h = 1000 x 100/50 a node; a = 100
 reopen reopen STEP && judge 'opens and closes again, STEP' -F, '
    FNR == 1 { for (k = 1; k <= NF; k++) at[$k] = k; next }

@@ -1,4 +1,5 @@
-# For run.sh: run a deck, ask its results, compare. Every comparison counts one test; a value that is not a number fails.
+# For run.sh, other test scripts and the verification manual: run a deck, ask its results, compare. Every comparison counts one test; a
+# value that is not a number fails.
 
 export LC_ALL=C
 passed=0 failed=0
@@ -43,6 +44,14 @@ says() { if grep -q -- "$3" "$2"; then passed=$((passed + 1)); else fail "$1: no
 
 # table NAME TITLE: the lines of the tables of the listing that are titled so
 table() { awk -v title=" $2" 'index($0, title) == 1 { on = 1; next } /^ [A-Z]/ { on = 0 } on' "$work/$1.out"; }
+
+# total NAME LINE [C]: component C, or the last one, of a line of the last balance of forces
+total() {
+   table "$1" 'BALANCE OF FORCES' | awk -v line="  $2 " -v c="${3:-}" \
+      'index($0, line) == 1 { $0 = substr($0, length(line)); v = c ? $c : $NF } END { print v }'
+}
+# moved NAME NODE C: component C of the last displacements of a node
+moved() { table "$1" 'DISPLACEMENTS OF NODES' | awk -v node="$2" -v c="$3" '$1 == node { v = $(1 + (NF - 1) / 2 + c) } END { print v }'; }
 
 # judge WORDS AWK-ARGUMENTS...: an awk script that prints a line for every fault and 'checked N' at its end
 judge() {

@@ -22,8 +22,7 @@ run_input meshed_apart && {
 }
 
 # The other side first: the forces are the same, the even pressure too; the shear has the other sense.
-sed 's/^JOINT .*/JOINT,1,1,20,30/' input/meshed_apart.bdf > "$work/coarse_first.bdf"
-run coarse_first && {
+blocks_apart coarse_first && {
    ask 'coarser side first: p and lambda' coarse_first rows 'stage = 1' all \
       'pressure = 0.2*load within 1e-10 and lambda = 0.008*sqrt(0.2*load) within 1e-12'
    carries coarse_first 2 '-20*load' 100
@@ -45,9 +44,7 @@ run apart_back && {
 }
 
 # SIDE1 hangs over on both sides: it is told, and what stands over SIDE2 carries all.
-sed 's/^BLOCK2  2 .*/BLOCK2,2,1,9,2,-5.0,20.0/; s/^+       50.0    40.0 .*/+,60.0,40.0,,,,,101,101/; s/^PLOADM.*/FORCEM,11,100.0,0.0,-1.0,0.0,31/' \
-   input/meshed_apart.bdf > "$work/overhang.bdf"
-run overhang && {
+blocks_apart overhang && {
    carries overhang 1 0 '100*load'
    carries overhang 2 '20*load' 100
    says 'overhang: the share of SIDE1' "$work/overhang.out" '0.769231'
@@ -56,9 +53,7 @@ run overhang && {
 }
 
 # Meshes that match, with the fit forced: the pairs, through unloading and slip.
-sed 's/^JOINT .*/JOINT,1,1,30,20/; s/^BLOCK2  1       1       5/BLOCK2  1       1       7/' input/meshed_apart.bdf > "$work/pairs.bdf"
-sed 's/^JOINT .*/JOINT,1,1,30,20,,YES/' "$work/pairs.bdf" > "$work/forced.bdf"
-run pairs && run forced && same_rows 'fit forced on matching meshes' pairs forced 1e-10 $along
+blocks_apart pairs && blocks_apart forced && same_rows 'fit forced on matching meshes' pairs forced 1e-10 $along
 
 # The bolted cantilever with a finer end plate, each bolt in a node of it: the bolts clamp what the joint carries.
 sed 's/^BLOCK3  2       1       1       6       2/BLOCK3  2       1       1       6       4/; s/^BLOCK3  3       1       5       2       2/BLOCK3  3       1       5       2       4/

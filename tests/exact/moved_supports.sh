@@ -1,33 +1,5 @@
 # A block on its joint, moved by SPCD at its top alone, by NEWTON: no force anywhere.
 
-# moved_block NAME NX NY P0 STAGE...: 10 x 5 x 2, nu = 0; a STAGE is UX:UY of the top at its end
-moved_block() {
-   local name=$1 nx=$2 ny=$3 p0=$4 stage s=0
-   shift 4
-   { echo 'METHOD = NEWTON
-SPC = 1'
-     for stage; do s=$((s + 1)); printf 'SUBCASE %d\n  LOAD = %d\n' $s $s; done
-     echo "BEGIN BULK
-BLOCK2,1,1,$nx,$ny,0.0,0.0
-+,10.0,5.0
-+,20,,21
-PSHELL,1,1,2.0
-MAT1,1,9500.0,,0.0
-PMARK,20
-PMARK,21
-JOINT,1,1,20
-PJOINT,1,1,,,,,$p0
-JNORM,1,8.0-3,0.5
-SPCM,1,12,21"
-     s=0
-     for stage; do
-        s=$((s + 1))
-        for ((i = 1; i <= nx + 1; i++)); do printf 'SPCD,%d,%d,1,%s,,,2,%s\n' $s $((i*(ny + 1))) "${stage%:*}" "${stage#*:}"; done
-     done | awk -F, '{ print $1 "," $2 "," $3 "," $4 "," $5; print $1 "," $2 "," $3 "," $8 "," $9 }'
-     echo ENDDATA; } > "$work/$name.bdf"
-   run "$name"
-}
-
 # the joint and the bar above it in series: c sqrt(p) + p H/E = D, so sqrt(p) = 2 D/(c + sqrt(c^2 + 4 D H/E))
 in_series() { number "(2*$1/(8e-3 + sqrt(8e-3^2 + 4*$1*5/9500)))^2"; }
 
@@ -58,3 +30,54 @@ for mesh in '1 1' '6 4' '60 20'; do
       near "pressed after that, mesh $mesh" "$(cell carried 5 1 1 pressure)" "$(in_series 5.0E-3)" 1e-9
    }
 done
+
+# D of SPC: reached in the first stage, kept with and without a LOAD; an SPCD, of a LOAD card too, takes its place in its stage
+for way in spc spcd; do
+   { echo 'METHOD = NEWTON
+SPC = 9
+INCR = 5
+SUBCASE 1'
+     [ $way = spcd ] && echo '  LOAD = 1'
+     echo 'SUBCASE 2'
+     [ $way = spcd ] && echo '  LOAD = 1' || echo '  LOAD = 7'
+     echo 'SUBCASE 3
+  LOAD = 3
+SUBCASE 4'
+     [ $way = spcd ] && echo '  LOAD = 1'
+     echo 'BEGIN BULK
+BLOCK2,1,1,4,2,0.0,0.0
++,10.0,5.0
++,20
+PSHELL,1,1,2.0
+MAT1,1,9500.0,,0.0
+PMARK,20
+JOINT,1,1,20
+PJOINT,1,1,2,,.2,,.1
+JNORM,1,8.0-3,0.5,500.
+JSHEAR,2,60.
+JINCR,5,3
+SPC1,2,12,3,6,9,12,15
+SPC1,1,2,9
+SPCADD,9,1,2
+LOAD,3,2.,.5,4,1.,5
+FORCE,7,1,,1.-9,1.'
+     for node in 3 6 9 12 15; do
+        [ $way = spc ] && echo "SPC,1,$node,2,-.005" || echo "SPCD,1,$node,2,-.005"
+        echo "SPCD,4,$node,2,-.007"
+        [ $node = 9 ] && continue
+        [ $way = spc ] && echo "SPC,1,$node,1,.001" || echo "SPCD,1,$node,1,.001"
+     done
+     [ $way = spc ] && echo 'SPC,1,9,1,.001,9,2,-.005' || echo 'SPCD,1,9,1,.001'
+     # the stage that has SPCD along y has D along x still
+     [ $way = spcd ] && for node in 3 6 9 12 15; do echo "SPCD,5,$node,1,.0005"; done
+     echo 'FORCE,5,1,,1.-9,1.
+ENDDATA'; } > "$work/held_at_$way.bdf"
+   run held_at_$way
+done
+same_rows 'D of SPC as SPCD of the same' held_at_spc held_at_spcd 1e-8 $along
+moved_block pushed_by_spc 6 4 0.1 0.0:-5.0E-3 && {
+   sed -E -i -e '/^SPCD,.*,1,/d; s/^SPCD,/SPC,/; /LOAD = 1/d; s/^SPCM,1,12,21/SPCM,1,1,21/' "$work/pushed_by_spc.bdf"
+   run pushed_by_spc
+   near 'pressed by D of SPC without LOAD: p' "$(cell pushed_by_spc 1 1 1 pressure)" "$(in_series 5.0E-3)" 1e-9
+   same 'that deck has no SPCD' "$(grep -c '^SPCD' "$work/pushed_by_spc.bdf")$(grep -c '^SPC,1,.*-5' "$work/pushed_by_spc.bdf")" 07
+}

@@ -1,25 +1,5 @@
 # One interface element: NEWTON gives lambda = c (F/a)**m, STEP a closed recurrence.
 
-one_element() { # NAME METHOD M INCREMENTS
-   cat > "$work/$1.bdf" <<DECK
-METHOD = $2
-TOL = 1.0E-14
-SUBCASE 1
-  LOAD = 1
-  INCR = 1
-  OUTPUT = NONE
-BEGIN BULK
-GRID,1,,0.0,0.0,,,1
-CJOINT,1,1,1,,100.0,0.0,1.0
-PJOINT,1,1
-JNORM,1,8.0-3,$3,500.0
-FORCE,1,1,,100.0,0.0,-1.3
-JINCR,1,$4,GEOM,0.07
-ENDDATA
-DECK
-   run "$1"
-}
-
 p='1.3*load' before='1.3*before(load)'
 for m in 0.3 0.5 0.77 1.0; do
    one_element newton NEWTON $m 6 && ask "one element, m = $m, NEWTON" newton count 6 \

@@ -1,21 +1,6 @@
 # A block 1e6 times stiffer than the joint under an eccentric load: lambda = d + t x.
 # Against the numbers of a rigid block on the same nodes (to 3E-6: the block is 1e6 times stiffer, no more), and, as the nodes become dense, against the continuous formulas.
 
-middle='(first(lambda) + last(lambda))/2' slope='(last(lambda) - first(lambda))/(last(x) - first(x))'
-rigid_block() { # NAME NX M E: the load is shared by the two nodes on top next to its place
-   awk -v nx="$2" -v m="$3" -v e="$4" 'BEGIN {
-      print "METHOD = NEWTON\nTOL = 1.0E-9\nSPC = 1\nSUBCASE 1\n  LOAD = 1\n  OUTPUT = NONE\nBEGIN BULK"
-      print "BLOCK2,1,1," nx ",1,-50.0,0.0\n+,50.0,100.0\n+,20\nPMARK,20\nPSHELL,1,1,20.0\nMAT1,1,1.0E10,,0.0"
-      print "JOINT,1,1,20\nPJOINT,1,1\nJNORM,1,8.0-3," m ",9500.0\nSPC1,1,1,1"
-      i = int((e + 50) * nx / 100 + 1e-9); if (i == nx) i--
-      right = (e - (-50 + 100 * i / nx)) * nx / 100
-      printf "FORCE,1,%d,,%.12f,0.0,-1.0\n", 2 * i + 2, 1000 * (1 - right)
-      printf "FORCE,1,%d,,%.12f,0.0,-1.0\nENDDATA\n", 2 * i + 4, 1000 * right
-   }' > "$work/$1.bdf"
-   run "$1" || return 1
-   read -r d t worst open <<< "$(value "$1" print "$middle" print "$slope" \
-      print "max(abs(lambda - ($middle) - ($slope)*x))/abs($middle)" print 'sum(branch = "OPEN")')"
-}
 
 for m in 0.5 1.0; do
    for e in 10.0 20.0 24.0 26.0 30.0; do
@@ -54,28 +39,5 @@ rigid_block block 80 1.0 16.2 && same 'rigid block, m = 1, e below L/6: open nod
 rigid_block block 80 1.0 17.2 && holds 'rigid block, m = 1, e above L/6: open nodes' "$open > 0"
 
 # Pressed evenly: every node p = F/A_int, lambda = c p**m, also where the body is soft.
-cat > "$work/patch.bdf" <<'DECK'
-METHOD = NEWTON
-SPC = 1
-SUBCASE 1
-  LOAD = 1
-  OUTPUT = NONE
-BEGIN BULK
-BLOCK2,1,1,3,2,0.0,0.0
-+,100.0,50.0,,,0.4,1.0
-+,20
-PMARK,20
-PSHELL,1,1,20.0
-MAT1,1,100.0,,0.3
-JOINT,1,1,20
-PJOINT,1,1
-JNORM,1,8.0-3,0.4,9500.0
-SPC1,1,1,1
-DECK
-# forces on top as the areas of influence below: three divisions 1 : sqrt(0.4) : 0.4
-awk 'BEGIN { CONVFMT = "%.17g"; r = sqrt(0.4); h = 100 / (1 + r + r * r)
-   split(h / 2 " " h * (1 + r) / 2 " " h * r * (1 + r) / 2 " " h * r * r / 2, share, " ")
-   for (i = 1; i <= 4; i++) printf "FORCE,1,%d,,%.13f,0.0,-1.0\n", 3 * i, 4 * share[i]
-   print "ENDDATA" }' >> "$work/patch.bdf"
-run patch && ask 'pressed evenly' patch count 4 \
+even_block patch && ask 'pressed evenly' patch count 4 \
    all 'pressure = 0.2 within 1e-8*0.2 and lambda = 8e-3*0.2^0.4 within 1e-8*lambda'

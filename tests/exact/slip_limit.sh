@@ -45,3 +45,10 @@ rm -f "$work/limit_pushed".*.csv "$work/limit_pushed.out"
 run limit_pushed 3
 same 'nothing in equilibrium: no results' "$(ls "$work"/limit_pushed.out "$work"/limit_pushed.*.csv 2> /dev/null)" ''
 says 'nothing in equilibrium: said' "$work/limit_pushed.log" 'no results'
+# without friction shear drops at once where the last nodes open: so the message
+limit limit_pulled 50. 4000.
+sed -i 's/^PJOINT,1,1,1,,0.2/PJOINT,1,1,1/' "$work/limit_pulled.bdf"
+rm -f "$work/limit_pulled".*.csv "$work/limit_pulled.out"
+run limit_pulled 3
+says 'shear without friction: the message' "$work/limit_pulled.log" \
+   'no equilibrium.*; an element with shear and without friction drops its shear at once when it opens: give MU on PJOINT'

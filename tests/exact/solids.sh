@@ -3,14 +3,6 @@
 
 # ---- tools ----
 
-# total NAME LINE [C]: component C, or the last one, of a line of the last balance of forces
-total() {
-   table "$1" 'BALANCE OF FORCES' | awk -v line="  $2 " -v c="${3:-}" \
-      'index($0, line) == 1 { $0 = substr($0, length(line)); v = c ? $c : $NF } END { print v }'
-}
-# moved NAME NODE C: component C of the last displacements of a node
-moved() { table "$1" 'DISPLACEMENTS OF NODES' | awk -v node="$2" -v c="$3" '$1 == node { v = $(1 + (NF - 1) / 2 + c) } END { print v }'; }
-
 # pressed_evenly WORDS NAME P A_INT: every pressure of the last increment is P, the areas add up to A_INT
 pressed_evenly() {
    ask "$1" "$2" rows 'stage = max(stage)' rows 'increment = max(increment)' all "pressure = $3 within 1e-10*$3" all "sum(area) = $4 within 1e-12*$4"
@@ -292,30 +284,7 @@ done
 
 # ---- Lame's thick cylinder ----
 
-# inner radius 20, outer 40, pressure 525 inside (so that six digits tell most), ends free: u(r) = p a**2/(b**2 - a**2)/E ((1 - nu) r + (1 + nu) b**2/r)
 lame=$(number "525*400/1200/21000*(0.7*20 + 1.3*1600/20)")
-cylinder() { # NAME N: bodies of revolution, N elements through the wall
-   printf 'SPC = 1\nSUBCASE 1\n  LOAD = 1\nBEGIN BULK\nBLOCK2,1,1,%d,1,20.0,0.0\n+,40.0,5.0\n+,20,,,23\nPMARK,20\nPMARK,23\nPAXIS,1,1\nMAT1,1,21000.0,,0.3\nSPCM,1,2,20\nPLOADM,1,525.0,23\nENDDATA\n' \
-      "$2" > "$work/$1.bdf"
-   run "$1"
-}
-quarter() { # NAME N: a quarter of it of hexahedra, N through the wall, 2 N round it
-   awk -v n="$2" 'BEGIN {
-      print "SPC = 1\nSUBCASE 1\n  LOAD = 1\nBEGIN BULK\nPSOLID,1,1\nMAT1,1,21000.0,,0.3\nPMARK,23\nPLOADM,1,525.0,23"
-      pi = atan2(0, -1); m = 2 * n
-      for (k = 0; k <= 1; k++) for (j = 0; j <= m; j++) for (i = 0; i <= n; i++) {
-         g = 1 + i + (n + 1) * (j + (m + 1) * k); r = 20 + 20 * i / n; f = pi / 2 * j / m
-         printf "GRID,%d,,%.12f,%.12f,%.12f,,%s\n", g, j == m ? 0 : r * cos(f), j == 0 ? 0 : r * sin(f), 5 * k, (j == m ? "1" : j == 0 ? "2" : "") (k ? "" : "3")
-      }
-      layer = (n + 1) * (m + 1)
-      for (j = 0; j < m; j++) for (i = 0; i < n; i++) {
-         a = 1 + i + (n + 1) * j; d = a + n + 1
-         print "CHEXA," ++e ",1," a "," a + 1 "," d + 1 "," d "," a + layer "," a + 1 + layer "\n+," d + 1 + layer "," d + layer
-         if (i == 0) print "CQUAD4," 100000 + ++f4 ",23," a "," d "," d + layer "," a + layer
-      }
-      print "SPC1,1,3,1\nENDDATA" }' > "$work/$1.bdf"
-   run "$1"
-}
 declare -A first=([lame]=16 [lame_solid]=8)
 for k in 1 2 4; do cylinder lame$((16 * k)) $((16 * k)); quarter lame_solid$((8 * k)) $((8 * k)); done
 for name in lame lame_solid; do
@@ -326,17 +295,6 @@ done
 
 # ---- the slender beam of MacNeal and Harder (1985): 6 x 0.2 x 0.1, six elements, E = 1E7, nu = 0.3, unit load across the free end ----
 
-beam2() { # NAME MODES
-   printf 'SPC = 1\nSUBCASE 1\n  LOAD = 1\nBEGIN BULK\nBLOCK2,1,1,6,1,0.0,0.0\n+,6.0,0.2\nPSHELL,1,1,0.1\n+,%s\nMAT1,1,1.0+7,,0.3\nSPC1,1,1,1,2\nSPC1,1,2,1\nFORCE,1,13,,0.5,0.0,1.0\nFORCE,1,14,,0.5,0.0,1.0\nENDDATA\n' \
-      "$2" > "$work/$1.bdf"
-   run "$1"
-}
-beam3() { # NAME MODES DIRECTION: in y (depth 0.2) or z (depth 0.1)
-   { printf 'SPC = 1\nSUBCASE 1\n  LOAD = 1\nBEGIN BULK\nBLOCK3,1,1,6,1,1,0.0,0.0,0.0\n+,6.0,0.2,0.1\n+,20\nPMARK,20\nPSOLID,1,1,,,,%s\nMAT1,1,1.0+7,,0.3\nSPCM,1,1,20\nSPC1,1,23,1\nSPC1,1,%d,%d\n' \
-      "$2" "$([ "$3" = y ] && echo 3 || echo 2)" "$([ "$3" = y ] && echo 3 || echo 2)"
-     for g in 25 26 27 28; do printf 'FORCE,1,%d,,0.25,0.0,%s\n' $g "$([ "$3" = y ] && echo 1.0,0.0 || echo 0.0,1.0)"; done; echo ENDDATA; } > "$work/$1.bdf"
-   run "$1"
-}
 beam2 beam_modes YES && near 'slender beam, CQUAD4 with modes' "$(moved beam_modes 13 2)" 0.1081 0.02
 beam2 beam_plain NO && holds 'slender beam, plain CQUAD4: an order too stiff' "$(moved beam_plain 13 2)/0.1081 = 0.1 within 0.05"
 for direction in y z; do

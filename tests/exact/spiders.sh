@@ -18,3 +18,72 @@ run_input bracket_spiders && {
    sed 's/^SPC = 1/SPC = 1\nSOLVER = SKYLINE/' input/bracket_spiders.bdf > "$work/bracket_skyline.bdf"
    run bracket_skyline && same_rows 'bracket by SKYLINE' bracket_spiders bracket_skyline 1e-9 $both
 }
+
+# C as pre-processors write it: the rotations that nodes of bodies do not have change nothing, and are named once
+sed -E 's/^(RBE3 .*[0-9]\.0     )123   /\1123456/; s/^(\+       )123   ( .*)/\1123456\2/; s/(1\.0     )123   /\1123456/' "$work/bracket_spiders.bdf" > "$work/spiders_456.bdf"
+same '123456 in C' "$(grep -c 123456 "$work/spiders_456.bdf")" 16
+run spiders_456
+same_rows '123456 in C of RBE3' spiders_456 bracket_spiders 1e-12 $resultant
+says '123456 in C: on the screen' "$work/spiders_456.log" '8 entries without effect: 456 in C of RBE3'
+# UM: the same equations, solved for components of the nodes
+awk '/^RBE3/ { um = substr($0, 57, 8) + 0 } { print } um && /^[+]/ && ++n == 2 { printf "+       UM      %-8d123\n", um; um = 0; n = 0 }' \
+   "$work/bracket_spiders.bdf" > "$work/spiders_um.bdf"
+same 'UM in the deck' "$(grep -c 'UM  ' "$work/spiders_um.bdf")" 8
+run spiders_um
+same_rows 'UM of RBE3' spiders_um bracket_spiders 1e-8 $resultant
+
+# a reference node that is held and moved, components of its nodes dependent by UM, against the forces that this needs on a free one
+cat > "$work/um_held.inc" <<'END_OF_DECK'
+BLOCK3,1,1,3,2,2,0.,0.,0.
++,30.,20.,20.
++,,,,,20
+PMARK,20
+PSOLID,1,1
+MAT1,1,9500.,,.25
+JOINT,1,1,20
+PJOINT,1,1,2,2,,,.1
+JNORM,1,8.-3,.5,500.
+JSHEAR,2,60.
+GRID,901,,16.,9.,30.
+JINCR,5,4
+END_OF_DECK
+{ printf 'METHOD = NEWTON\nSPC = 1\nINCR = 5\nBEGIN BULK\nINCLUDE um_held.inc\n'
+  echo 'RBE3,951,,901,123456,1.,123,3,6
+,9,12,15,18,21,24,27,30
+,2.,123,33,36
+,UM,3,123,9,13,33,3'
+  echo 'SPC,1,901,3,-.02,901,1,.004
+SPC,1,901,4,-3.-4
+SPC1,1,256,901
+ENDDATA'; } > "$work/um_held.bdf"
+run um_held && {
+   table um_held 'REACTIONS AT SUPPORTS' > "$work/um.rows"; table um_held 'MOMENTS AT SUPPORTS' >> "$work/um.rows"
+   { printf 'METHOD = NEWTON\nLOAD = 10\nINCR = 5\nBEGIN BULK\nINCLUDE um_held.inc\n'
+     echo 'RBE3,951,,901,123456,1.,123,3,6
+,9,12,15,18,21,24,27,30
+,2.,123,33,36'
+     awk '$1 == 901 && NF == 7 { printf "FORCE,10,901,,1.,%s,%s,%s\n", $5, $6, $7 }
+          $1 == 901 && NF == 4 { printf "MOMENT,10,901,,1.,%s,%s,%s\n", $2, $3, $4 }' "$work/um.rows"
+     echo ENDDATA; } > "$work/um_free.bdf"
+   same 'forces from the reactions' "$(grep -c '^FORCE\|^MOMENT' "$work/um_free.bdf")" 2
+   run um_free && {
+      ask 'a held reference node by UM: the same joint' um_held rows 'increment = 4' count 12 all 'max(pressure) > 0.1' with "$work/um_free.joint.csv" \
+          on node1 on increment=4 all 'pressure = other.pressure within 5e-5*max(pressure)' all 'lambda = other.lambda within 5e-5*max(lambda)'
+      for deck in um_held um_free; do
+         near "$deck: u_x of its reference node" "$(table $deck 'DISPLACEMENTS OF NODES' | awk '$1 == 901 { print $5 }')" .004 1e-4
+         near "$deck: u_z" "$(table $deck 'DISPLACEMENTS OF NODES' | awk '$1 == 901 { print $7 }')" -.02 1e-4
+         near "$deck: rotation about x" "$(table $deck 'ROTATIONS OF REFERENCE' | awk '$1 == 901 { print $2 }')" -3e-4 1e-4
+         near "$deck: rotation about y" "$(table $deck 'ROTATIONS OF REFERENCE' | awk '$1 == 901 { print $3 }')" 0 0 1e-8
+      done
+   }
+}
+# MPCADD: the equations of both sets
+for sets in 'MPC,5' 'MPCADD,9,5,6\nMPC,6'; do
+   { printf 'METHOD = NEWTON\nMPC = %s\nSPC = 1\nLOAD = 10\nBEGIN BULK\nINCLUDE um_held.inc\n' "$(case $sets in MPCADD*) echo 9 ;; *) echo 5 ;; esac)"
+     echo 'SPC1,1,12,1,2,3
+FORCE,10,36,,100.,.1,0.,-1.
+MPC,5,9,3,1.,18,3,-1.'
+     printf "$sets,36,3,1.,27,3,-1.\nENDDATA\n"; } > "$work/mpc_${sets:3:1}.bdf"
+   run "mpc_${sets:3:1}"
+done
+same_rows 'MPCADD' mpc_A mpc_, 1e-12 $resultant

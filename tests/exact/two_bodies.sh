@@ -136,3 +136,37 @@ sed 's/^JNORM.*/&,80.0/' "$work/up.bdf" > "$work/negative.bdf"
 run negative && says 'E_u below the secant' "$work/negative.out" 'E_U = 80 OF JOINT 1 IS BELOW THE LOADING SLOPE 176.7767 AT P = 0.5: NEGATIVE SET$'
 sed 's/^JNORM.*/&,180.0/' "$work/up.bdf" > "$work/steep.bdf"
 run steep && same 'E_u above the slope: no warning' "$(grep -c 'WARNING:' "$work/steep.out")" 0
+
+# ---- a pin in a bore, all round: pressed from inside, the joint has the same pressure everywhere and no normal of its own ----
+
+# 48 sectors; the inner ring from 30 to 50, the outer one from 50 to 80, plane strain; nodes at 50 twice
+awk 'function ring(first, element, n, from, to,   i, j, a, b) {
+        for (i = 0; i < 48; i++) for (j = 0; j <= n; j++) {
+           r = from + (to - from)*j/n
+           printf "GRID,%d,,%.12f,%.12f\n", first + i*(n + 1) + j, r*cos(pi*i/24), r*sin(pi*i/24)
+        }
+        for (i = 0; i < 48; i++) for (j = 0; j < n; j++) {
+           a = first + i*(n + 1) + j; b = first + ((i + 1)%48)*(n + 1) + j
+           printf "CQUAD4,%d,1,%d,%d,%d,%d\n", element + i*n + j, a, a + 1, b + 1, b
+        }
+     }
+     function edges(first, element, n, j, mark,   i) {
+        for (i = 0; i < 48; i++) printf "CBAR,%d,%d,%d,%d\n", element + i, mark, first + i*(n + 1) + j, first + ((i + 1)%48)*(n + 1) + j
+     }
+     BEGIN {
+        pi = atan2(0, -1)
+        print "METHOD = NEWTON\nSPC = 1\nSUBCASE 1\n  LOAD = 1\n  INCR = 5\nBEGIN BULK\nPSHELL,1,1,1.0,-1\nMAT1,1,9500.0,,0.25"
+        print "JOINT,1,1,20,21\nPJOINT,1,1,,,,,0.1\nJNORM,1,8.0-3,0.5\nPMARK,20\nPMARK,21\nPMARK,22\nPLOADM,1,1.0,22\nJINCR,5,4"
+        ring(1, 1, 8, 30, 50); ring(1001, 1001, 12, 50, 80)
+        edges(1, 2001, 8, 8, 20); edges(1001, 2101, 12, 0, 21); edges(1, 2201, 8, 0, 22)
+        # nothing turns or slides: the nodes on the axes stay on them
+        print "SPC1,1,2,1,217\nSPC1,1,1,109,325\nSPC1,1,2,1013,1325\nSPC1,1,1,1169,1481\nENDDATA"
+     }' > "$work/all_round.bdf"
+run all_round && {
+   ask 'all round: one pressure' all_round rows 'increment = 4' count 48 all 'pressure = max(pressure) within 1e-8' \
+      all 'lambda = 8e-3*pressure^0.5 within 1e-12'
+   # two rings of Lame with a joint between them: method of the Verification, p = 0.125133 at the radius of 50
+   near 'all round: the pressure of the continuum' "$(value all_round rows 'increment = 4 and node1 = 9' print pressure)" 0.125133 1e-2
+   says 'all round: no normal' "$work/all_round.out" '1.00000E-01  *1.00000E-07  *CLOSED'
+   same 'all round: no force along a normal' "$(table all_round 'INCREMENTS OF STAGE' | awk '$1 == 4 { print NF }')" 10
+}

@@ -2,48 +2,6 @@
 
 # ---- a bolted joint of aluminium on steel, warmed and cooled ----
 
-# Two columns of nu = 0 with a joint between them, tied together by two bolts of steel to N0 = 10: the lengths of the bolts and of
-# the columns with the joint stay equal, (N - N0)/k_b + 20 alpha_s T = -(N - N0)/k_c - lambda(N) + lambda(N0) + (8 alpha_s + 12 alpha_a) T,
-# on the curve where N grows, along E_u = 30 where it falls.
-warm_columns() { # NAME T SOLVER
-   cat > "$work/$1.bdf" <<DECK
-METHOD = NEWTON
-SOLVER = $3
-SPC = 1
-SUBCASE 1
-  TEMPERATURE(LOAD) = 6
-SUBCASE 2
-  TEMPERATURE(LOAD) = 7
-  INCR = 5
-BEGIN BULK
-MAT1,1,200.,,.0,,1.2-5,20.
-MAT1,2,70.,,.0,,2.3-5,20.
-PSHELL,1,1,2.
-PSHELL,2,2,2.
-BLOCK2,1,1,1,2,0.,0.
-+,10.,8.
-+,20,,21
-BLOCK2,2,2,1,2,0.,8.
-+,10.,20.,,,,,101,101
-+,,,,,1
-PMARK,20
-PMARK,21
-SPCM,1,2,20
-SPC1,1,1,1,2,3,102,103
-JOINT,1,1,21
-PJOINT,1,1
-JNORM,1,.02,.5,30.
-CROD,301,3,1,103
-CROD,302,3,4,106
-PROD,3,1,1.
-BOLT,1,301,5.
-BOLT,2,302,5.
-JINCR,5,4,ARITH,.25
-TEMPD,6,20.,7,$2
-ENDDATA
-DECK
-   run "$1"
-}
 for solver in SKYLINE TREE; do
    for warmth in 2000 -2000; do
       warm_columns columns "$((warmth + 20))." $solver || continue
@@ -83,24 +41,7 @@ fi
 
 # ---- springs to the ground: they stand in the balance ----
 
-cat > "$work/springs.bdf" <<'DECK'
-SPC = 1
-SUBCASE 1
-  LOAD = 10
-BEGIN BULK
-MAT1,1,100.,,.0
-PSHELL,1,1,2.
-BLOCK2,1,1,1,1,0.,0.
-+,4.,3.
-SPC1,1,2,1
-CELAS1,51,7,1,1
-CELAS2,52,20.,,,2,1
-PELAS,7,20.
-FORCE,10,3,,6.,1.
-FORCE,10,4,,6.,1.
-ENDDATA
-DECK
-if run springs; then
+if two_springs springs; then
    same 'springs: the ground' "$(table springs 'BALANCE OF FORCES' | awk '/GROUND/ { print $(NF - 1), $NF } /UNBALANCED/ { print $(NF - 1), $NF }' | tr '\n' ' ')" \
       '-1.20000E+01 0.00000E+00 0.00000E+00 0.00000E+00 '
    same 'springs: forces' "$(table springs 'FORCES OF SPRINGS' | awk '$1 == 1 { print $2, $3, $4, $5, $6, $7 }' | tr '\n' ';')" \

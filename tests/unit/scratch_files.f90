@@ -3,7 +3,7 @@ module scratch_files
    implicit none
    private
 
-   public :: scratch, put, there
+   public :: scratch, put, there, n_parts
 
 contains
 
@@ -42,5 +42,13 @@ contains
 
       inquire (file=path, exist=there)
    end function there
+
+
+   !> How many files there are that are to be PATH once they are complete.
+   integer function n_parts(path)
+      character(*), intent(in) :: path
+
+      call execute_command_line('exit $(ls "'//path//'".??????.part 2>/dev/null | wc -l)', exitstat=n_parts)
+   end function n_parts
 
 end module scratch_files

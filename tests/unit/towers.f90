@@ -6,7 +6,7 @@ module towers
    use joint_laws, only: joint_law
    use kinds, only: wp
    use model_data, only: model_type
-   use normal_stiffness, only: normal_law
+   use normal_curve, only: normal_law
    use shear_curves, only: one_cubic
    use stage_plan, only: stage_plan_type
    implicit none

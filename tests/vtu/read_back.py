@@ -134,6 +134,17 @@ def consistent(grid, where):
             check(numpy.isfinite(values).all(), where + ": " + name + " is finite")
 
 
+def temperatures(point_data, time, history, where):
+    """All nodes are as warm as HISTORY says, T0:T1:..., at the times 0, 1, ... and on straight lines between; empty: no field."""
+    name = "temperature [deg]"
+    if not history:
+        check(name not in point_data, where + ": no temperatures")
+    elif check(name in point_data, where + ": no " + name):
+        values = [float(t) for t in history.split(":")]
+        expected = numpy.interp(time, range(len(values)), values)
+        check(abs(point_data[name] - expected).max() < 1e-7 * abs(expected), where + ": temperature is %r" % expected)
+
+
 def read_list(path):
     """The rows of a .pvd: (time, part, file)."""
     root = ElementTree.parse(path).getroot()
@@ -178,15 +189,18 @@ def main():
                 check(len(grid["points"]) == 0 and len(grid["cells"]) == 0, where + ": empty")
 
     for path in lists:
+        path, _, history = path.partition("@")
         rows = read_list(path)
         check(len(rows) > 0, path + ": has rows")
-        for _, _, file in rows:
+        for time, part, file in rows:
             file = os.path.join(os.path.dirname(path), file)
             check(os.path.isfile(file), file + " is there")
             for name, read in readers.items():
                 grid, where = attempt(read, file, name)
                 if grid is not None:
                     consistent(grid, where)
+                    if part == 0:
+                        temperatures(grid["point_data"], time, history, where)
 
     print("%d passed, %d failed" % (counts["passed"], counts["failed"]))
     sys.exit(counts["failed"] > 0)

@@ -1,10 +1,11 @@
 #!/usr/bin/env bash
 # The .vtu and .pvd files: sample files are written, and read back by meshio and vtk; a disk that is full leaves none.
 #
-#    run.sh WORK_FOLDER [X.pvd ...]
+#    run.sh WORK_FOLDER [X.pvd[@T0:T1:...] ...]
 #
 # Compiles write_sample.f90 with the modules that it needs, from the root of the project (FC, default gfortran). Further
-# collections are opened and checked for sizes and finite values. PYTHON names a python3 that has meshio or vtk; without
+# collections are opened and checked for sizes and finite values, and for temperatures: all nodes are at T0, T1, ... at the times 0,
+# 1, ... and between on straight lines; without @ there are none. PYTHON names a python3 that has meshio or vtk; without
 # it meshio is installed in WORK_FOLDER/venv where pip can, and the reading is skipped where not.
 # Ends with `N passed, N failed`.
 set -u

@@ -1,35 +1,8 @@
-# Damaged copies of decks, none of which is a valid deck any more.
+# Damage after which a deck is surely none any more: the program must refuse it.
 #
-#     awk -v copies=500 -v folder=OUT -f damage.awk DECK...
-#
-# Writes OUT/damaged_1.bdf, OUT/damaged_2.bdf, ... and prints a line for each: its number, the deck, what was done.
-# The same decks always give the same copies, whatever awk this is: the random numbers are made here. Run with LC_ALL=C.
-
-# A whole number from 0 to n - 1 (Park and Miller's generator).
-function random(n) {
-   seed = (16807 * seed) % 2147483647
-   return int(seed / 2147483647 * n)
-}
-
-function chance(list,   words, n) {
-   n = split(list, words, " ")
-   return words[1 + random(n)]
-}
-
-FNR == 1 { decks++; name[decks] = FILENAME; sub(/.*\//, "", name[decks]) }
-{
-   sub(/\r$/, "")
-   lines[decks] = FNR
-   text[decks, FNR] = $0
-   card = toupper($0)
-   if (card ~ /^ *BEGIN +BULK/) begin[decks] = FNR
-   else if (card ~ /^ *ENDDATA/) end[decks] = FNR
-   else if (!begin[decks] && card ~ /^ *SUBCASE/) subcase[decks] = FNR
-   else if (!begin[decks] && card ~ /^ *[A-Z]+ *[= ]/) keys[decks] = keys[decks] " " FNR
-   else if (begin[decks] && !end[decks] && card ~ /^[A-Z]/) cards[decks] = cards[decks] " " FNR
-}
-
-# ---- one damage each: they change the copy in line[1..n] and say what they did; an empty answer means not possible ----
+# Each function changes the copy in line[1 .. n] and returns what it did; an empty answer means that it is not possible here.
+# `first`, `last` and `stage` are the lines of BEGIN BULK, ENDDATA and the first SUBCASE, `my_cards` and `my_keys` those on
+# which cards and entries of case control begin.
 
 function cut_lines(   k) {
    k = random(last)
@@ -72,26 +45,18 @@ function double_card(   k, i) {
    return ""
 }
 
-function insert(k, new,   i) {
-   for (i = n; i > k; i--) line[i + 1] = line[i]
-   line[k + 1] = new
-   n++
-}
-
-function remove(k,   i) {
-   for (i = k; i < n; i++) line[i] = line[i + 1]
-   n--
-}
-
 function swap_lines(a, b, what,   kept) {
    kept = line[a]; line[a] = line[b]; line[b] = kept
    return what " (line " a ") and line " b " swapped"
 }
 
+function first_of(list,   words) { split(list, words, " "); return words[1] }
+
+# ENDDATA with the first card: what is lost farther down may not be needed
 function swap_structure(   kind) {
    kind = random(4)
    if (kind == 0) return swap_lines(first, chance(my_cards), "BEGIN BULK")
-   if (kind == 1) return swap_lines(last, chance(my_cards), "ENDDATA")
+   if (kind == 1) return swap_lines(last, first_of(my_cards), "ENDDATA")
    if (kind == 2) return swap_lines(stage, chance(my_cards), "SUBCASE")
    return swap_lines(stage, first, "SUBCASE")
 }
@@ -183,6 +148,30 @@ function add_nonsense(   k, i, word) {
    return "nonsense behind line " k
 }
 
+# A field that names another card gets a number that none has.
+function lose_reference(   k, f) {
+   if (!(k = some_card("^(C(QUAD[48]|TRIA[36]|HEXA|PENTA|TETRA|BAR|ROD|BUSH|ELAS1|JOINT)|P(SHELL|AXIS|SOLID|JOINT)|JOINT|JGAP|FORCE|PLOADM|SPC[M1]?)[ ,*]"))) return ""
+   if (card_name ~ /^(JGAP|FORCE)$/) f = card_name == "JGAP" ? 1 : 2
+   else if (card_name ~ /^(PLOADM|SPCM)$/) f = 3
+   else if (card_name == "SPC1") f = 3
+   else if (card_name ~ /^(CQUAD4|CTRIA3|CTETRA|CBAR|CROD|JOINT)$/) f = 2 + random(3)
+   else f = 2
+   if (field[f] == "") return ""
+   field[f] = 87654321
+   write_card(k, any_form())
+   return card_name " field " f + 1 " names nothing that there is"
+}
+
+function lose_set(   k, i) {
+   for (i = 1; i <= 20; i++) {
+      k = chance(my_keys)
+      if (toupper(line[k]) ~ /^ *(SPC|LOAD|INCR|MPC) *=/) break
+   }
+   if (i > 20) return ""
+   sub(/=.*/, "= 87654321", line[k])
+   return "line " k " names nothing that there is"
+}
+
 function damage(kind) {
    if (kind == 0) return cut_lines()
    if (kind == 1) return cut_inside()
@@ -197,24 +186,8 @@ function damage(kind) {
    if (kind == 10) return spoil_anywhere()
    if (kind == 11) return blank_number()
    if (kind == 12) return add_nonsense()
+   if (kind < 17) return lose_reference()
+   if (kind == 17) return lose_set()
    return spoil_number()
 }
 
-END {
-   seed = 19840311
-   for (d = 1; d <= decks; d++) if (begin[d] && end[d] && subcase[d] && cards[d] != "") whole[++n_whole] = d
-   for (copy = 1; copy <= copies && n_whole > 0; copy++) {
-      d = whole[(copy - 1) % n_whole + 1]
-      first = begin[d]; last = end[d]; stage = subcase[d]; my_cards = cards[d]; my_keys = keys[d]
-      do {
-         n = lines[d]
-         for (i = 1; i <= n; i++) line[i] = text[d, i]
-         what = damage(random(18))
-      } while (what == "")
-      file = folder "/damaged_" copy ".bdf"
-      printf "" > file
-      for (i = 1; i <= n; i++) print line[i] > file
-      close(file)
-      print copy, name[d] ":", what
-   }
-}

@@ -1,0 +1,116 @@
+!> The one place where the state that an increment has reached is tested: what leaves all measure never gets into a result, and is
+!! said with where it happened first.
+module finite_state
+   use analysis_state, only: analysis_type, force_noise, precise
+   use equations, only: equation_system
+   use failures, only: failure_type
+   use kinds, only: wp
+   use measures, only: is_measure
+   use model_data, only: joint_node_id, model_type, n_bars
+   use newton_method, only: no_balance
+   use stage_plan, only: stage_plan_type, where_in_plan
+   use text_tools, only: integer_text, real_text
+   use unknown_names, only: unknown_name
+   implicit none
+   private
+
+   public :: check_state, check_precision
+
+contains
+
+   !> FAILURE names the first load, displacement, interface element, bolt, joint or force out of balance of the increment just completed
+   !! that is no finite number, or beyond all measure. The displacements of all nodes are those recovered last.
+   subroutine check_state(model, plan, system, analysis, failure)
+      type(model_type), intent(in)       :: model
+      type(stage_plan_type), intent(in)  :: plan
+      class(equation_system), intent(in) :: system
+      type(analysis_type), intent(in)    :: analysis
+      type(failure_type), intent(inout)  :: failure
+      integer :: i
+
+      call check_nodes('the load', analysis%applied, [(i, i = 1, model%n_nodes)])
+      call check_nodes('the displacement', analysis%u, system%retained)
+      call check_joints()
+      do i = 1, n_bars(model)
+         call check('the pull of element '//integer_text(model%bars(i)%id), [analysis%pull(i)])
+      end do
+      call check_nodes('the force out of balance', analysis%unbalanced, system%retained)
+      call check_nodes('the displacement', analysis%all_u, [(i, i = 1, model%n_nodes)])
+      call check_nodes('the force out of balance or of support', analysis%all_unbalanced, [(i, i = 1, model%n_nodes)])
+
+   contains
+
+      !> An ARRAY over NODES.
+      subroutine check_nodes(noun, array, nodes)
+         character(*), intent(in) :: noun
+         real(wp), intent(in)     :: array(:, :) !! (dimension, nodes)
+         integer, intent(in)      :: nodes(:)
+         integer :: d, k
+
+         if (all(is_measure(array))) return
+         do k = 1, size(nodes)
+            do d = 1, size(array, 1)
+               if (.not. is_measure(array(d, k))) call check(noun//' of '//unknown_name(model, nodes(k), d), [array(d, k)])
+            end do
+         end do
+      end subroutine check_nodes
+
+      !> The interface elements, and the energies of the joints.
+      subroutine check_joints()
+         integer :: j, k
+
+         do k = 1, size(model%interface)
+            associate (state => analysis%states(k), normal => analysis%states(k)%normal)
+               if (all(is_measure([normal%lambda, normal%pressure, normal%sumf, normal%k_n, normal%p_a, normal%lambda_a, &
+                                   normal%lambda_b, state%shear%delta, state%shear%tau, state%shear%k_s, analysis%k(:, k)]))) cycle
+               associate (words => ' of interface element '//integer_text(model%interface(k)%id)//' at node '// &
+                          integer_text(joint_node_id(model, k, 1)))
+                  call check('the deflection lambda'//words, [normal%lambda, normal%lambda_a, normal%lambda_b])
+                  call check('the pressure'//words, [normal%pressure, normal%p_a])
+                  call check('the normal force'//words, [normal%sumf])
+                  call check('the shear deflection'//words, state%shear%delta)
+                  call check('the shear stress'//words, state%shear%tau)
+                  call check('the stiffness'//words, [normal%k_n, state%shear%k_s, analysis%k(:, k)])
+               end associate
+            end associate
+         end do
+         do j = 1, size(model%joints)
+            call check('the work done on joint '//integer_text(model%joints(j)%id), [analysis%energy(j)%put_in, &
+                                                                                    analysis%energy(j)%given_back])
+         end do
+      end subroutine check_joints
+
+      !> WHAT has these VALUES.
+      subroutine check(what, values)
+         character(*), intent(in) :: what
+         real(wp), intent(in)     :: values(:)
+         integer :: k
+
+         do k = 1, size(values)
+            if (.not. is_measure(values(k))) call failure%raise(where_in_plan(plan, analysis%stage, analysis%increment)// &
+               ': '//what//' is '//real_text(values(k))//', beyond all measure; are loads, lengths and stiffnesses in '// &
+               'consistent units?')
+         end do
+      end subroutine check
+
+   end subroutine check_state
+
+   !> FAILURE says that rounding alone leaves no small part of the forces that the joints bear: soft joints under stiff bodies, or
+   !! bodies that have moved far. What moved supports take along and what interference has pushed away bears nothing.
+   subroutine check_precision(model, plan, system, analysis, failure)
+      type(model_type), intent(in)       :: model
+      type(stage_plan_type), intent(in)  :: plan
+      class(equation_system), intent(in) :: system
+      type(analysis_type), intent(in)    :: analysis
+      type(failure_type), intent(inout)  :: failure
+      real(wp) :: noise
+
+      if (size(model%interface) == 0) return
+      noise = force_noise(system, analysis%u)
+      if (noise <= precise*analysis%largest_load) return
+      if (noise >= analysis%largest_load .and. (analysis%is_moved .or. any(model%interface%gap < 0.0_wp))) return
+      call failure%raise(where_in_plan(plan, analysis%stage, analysis%increment)//': '//no_balance//', '//real_text(noise)// &
+                         ' of force where '//real_text(analysis%largest_load)//' act: see CONDITION OF THE STIFFNESS in the manual')
+   end subroutine check_precision
+
+end module finite_state

@@ -1,0 +1,65 @@
+!> The loading curve of the joint in its normal direction, Eq. (1): lambda = c p**m. NORM, the exact path and the secants of BACK
+!! know of it what stands here; the line of unloading belongs to normal_stiffness.
+module normal_curve
+   use kinds, only: wp
+   implicit none
+   private
+
+   public :: loading_deflection, loading_pressure, normal_secant, normal_tangent, curve_work
+
+   real(wp), parameter, public :: pressure_floor = 1.0e-6_wp !! of p_av: the least p that a loading element has
+   !> The least m. The pressure (lambda/c)^(1/m) has 1/m times the relative error of lambda, of 16 digits three less at 1/1000; and it
+   !! overflows where lambda exceeds c by the factor 10^(308 m), twice at 1/1000: further down no iteration would stand its way.
+   real(wp), parameter, public :: least_power = 1.0e-3_wp
+   real(wp), parameter :: largest_pressure = 1.0e110_wp      ! of a trial far off: its square is still a number
+
+   type, public :: normal_law
+      real(wp) :: c   = 0.0_wp     !! [length/pressure^m], > 0
+      real(wp) :: m   = 0.0_wp     !! [-], least_power <= m <= 1
+      real(wp) :: e_u = 0.0_wp     !! E_u, slope dp/dlambda of unloading [pressure/length], > 0
+   end type normal_law
+
+contains
+
+   !> p of the loading curve at LAMBDA >= 0, Eq. (1) [pressure].
+   elemental real(wp) function loading_pressure(law, lambda) result(p)
+      type(normal_law), intent(in) :: law
+      real(wp), intent(in)         :: lambda
+
+      p = min((lambda/law%c)**(1.0_wp/law%m), largest_pressure)
+   end function loading_pressure
+
+   !> lambda of the loading curve at P >= 0, Eq. (1) [length].
+   elemental real(wp) function loading_deflection(law, p) result(lambda)
+      type(normal_law), intent(in) :: law
+      real(wp), intent(in)         :: p
+
+      lambda = law%c*p**law%m
+   end function loading_deflection
+
+   !> Secant of the loading curve from 0 to P, Eq. (9), times AREA [force/length].
+   pure real(wp) function normal_secant(law, area, p) result(k_n)
+      type(normal_law), intent(in) :: law
+      real(wp), intent(in)         :: area, p
+
+      k_n = p**(1.0_wp - law%m)*area/law%c
+   end function normal_secant
+
+   !> Tangent of the loading curve at P, Eqs. (11), times AREA [force/length]; it would vanish at p = 0: P counts as no less than
+   !! the floor.
+   pure real(wp) function normal_tangent(law, area, p, p_av) result(k_n)
+      type(normal_law), intent(in) :: law
+      real(wp), intent(in)         :: area, p, p_av
+
+      k_n = max(p, pressure_floor*p_av)**(1.0_wp - law%m)*area/(law%m*law%c)
+   end function normal_tangent
+
+   !> Integral of p d lambda along the loading curve from rest to (LAMBDA, P), a point of it [pressure x length].
+   pure real(wp) function curve_work(law, lambda, p) result(work)
+      type(normal_law), intent(in) :: law
+      real(wp), intent(in)         :: lambda, p
+
+      work = p*lambda*law%m/(1.0_wp + law%m)
+   end function curve_work
+
+end module normal_curve

@@ -1,0 +1,170 @@
+!> The restart file of a run, NAME.restart: all that the next increments need, and the results so far. It is written where RESTART
+!! asks for it, and with --resume another run goes on from it.
+!!
+!! What an increment needs and no file could hold, the factors of the equations and earlier solutions, is made anew, and the run
+!! that wrote the file forgets it too: from the same point on both do the same, to the last digit. The model is built from the deck.
+module restart_file
+   use, intrinsic :: iso_fortran_env, only: error_unit
+   use analysis_record, only: record_analysis
+   use analysis_state, only: analysis_type
+   use bolt_locking, only: lock_again
+   use c_library, only: close_file, is_regular_file, read_all_bytes, remove_file
+   use case_control, only: no_restart, restart_stages
+   use command_arguments, only: version
+   use deck_input, only: deck_type
+   use deck_text, only: checksum_of
+   use equation_solver, only: equation_system
+   use incomplete_results, only: create_part, name_part
+   use model_data, only: model_type
+   use restart_stream, only: open_restart, restart_stream_type
+   use results, only: record_results, restart_ending, results_type
+   use run_state, only: goes_on, is_over, is_refused, run_type
+   use stage_plan, only: stage_plan_type
+   use text_tools, only: integer_text
+   implicit none
+   private
+
+   public :: open_restart_file, take_up, write_restart, restart_name
+
+contains
+
+   !> The restart file of a run whose results begin with BASE.
+   pure function restart_name(base) result(name)
+      character(*), intent(in)  :: base
+      character(:), allocatable :: name
+
+      name = base//restart_ending
+   end function restart_name
+
+   !> Look whether DECK has a restart file that can be taken up. Without one the run begins at the beginning; one that is damaged,
+   !! of another deck or of another version of the program ends it.
+   subroutine open_restart_file(deck, run)
+      type(deck_type), intent(in)   :: deck
+      type(run_type), intent(inout) :: run
+      character(:), allocatable :: bytes, name
+      logical :: there, readable
+
+      name = restart_name(run%argument%base)
+      inquire (file=name, exist=there)
+      if (.not. there) then
+         write (error_unit, '(4a)') run%argument%name, ': there is no ', name, ', the run starts from the beginning'
+         return
+      end if
+      run%ending = is_refused
+      run%problem = 'it is no file that can be read'
+      readable = is_regular_file(name)
+      if (readable) call read_all_bytes(name, bytes, readable)
+      if (.not. readable) return
+      call open_restart(bytes, version, checksum_of(deck%text), run%restart, run%problem)
+      if (run%problem /= '') return
+      run%resumes = .true.
+      run%ending = goes_on
+   end subroutine open_restart_file
+
+   !> TAKE UP FROM THE RESTART FILE: the state of ANALYSIS, of the bolts in the equations of SYSTEM, and the results so far.
+   subroutine take_up(run, model, plan, system, analysis)
+      type(run_type), intent(inout)         :: run
+      type(model_type), intent(in)          :: model
+      type(stage_plan_type), intent(in)     :: plan
+      class(equation_system), intent(inout), allocatable :: system
+      type(analysis_type), intent(inout)    :: analysis
+      character(:), allocatable :: words
+      integer :: s
+
+      if (is_over(run) .or. .not. run%resumes) return
+      call record_state(run%restart, analysis, run%results)
+      if (.not. run%restart%is_at_end()) then
+         run%ending = is_refused
+         run%problem = 'there is more in it than the state of this deck'
+         if (allocated(run%restart%fault)) run%problem = run%restart%fault
+      else if (.not. is_in_plan(plan, analysis)) then
+         run%ending = is_refused
+         run%problem = 'the deck has no such stage and increment'
+      end if
+      if (is_over(run)) return
+      run%restart = restart_stream_type() ! its bytes
+      call lock_again(model, analysis, system)
+      call system%forget_past()
+      analysis%goes_on = analysis%increment < size(plan%stages(analysis%stage)%shares)
+      call run%progress%skip(sum([(size(plan%stages(s)%shares), s = 1, analysis%stage - 1)]) + analysis%increment)
+      words = ': taken up from '//restart_name(run%argument%base)//' behind stage '// &
+              integer_text(plan%stages(analysis%stage)%id)//', increment '//integer_text(analysis%increment)
+      if (analysis%stage == size(plan%stages) .and. .not. analysis%goes_on) &
+         words = ': taken up from '//restart_name(run%argument%base)//', where the run is complete; its results are written again'
+      write (error_unit, '(2a)') run%argument%name, words
+   end subroutine take_up
+
+   !> Whether PLAN has the stage and the increment that ANALYSIS is at.
+   pure logical function is_in_plan(plan, analysis)
+      type(stage_plan_type), intent(in) :: plan
+      type(analysis_type), intent(in)   :: analysis
+
+      is_in_plan = analysis%stage >= 1 .and. analysis%stage <= size(plan%stages)
+      if (is_in_plan) is_in_plan = analysis%increment >= 1 .and. analysis%increment <= size(plan%stages(analysis%stage)%shares)
+   end function is_in_plan
+
+   !> WRITE THE RESTART FILE, at the end of a stage, and of every so many increments where RESTART says how many; nothing else. Where
+   !! it cannot be written the run goes on, an older file stays.
+   subroutine write_restart(run, deck, plan, system, analysis)
+      type(run_type), intent(inout)         :: run
+      type(deck_type), intent(in)           :: deck
+      type(stage_plan_type), intent(in)     :: plan
+      class(equation_system), intent(inout), allocatable :: system
+      type(analysis_type), intent(inout)    :: analysis
+      logical :: ok
+
+      if (is_over(run) .or. run%argument%base == '') return
+      if (.not. is_due(deck%control%restart, analysis%increment, size(plan%stages(analysis%stage)%shares))) return
+      if (run%deck_sum == 0) run%deck_sum = checksum_of(deck%text)
+      call write_state(run, analysis, ok)
+      if (.not. (ok .or. run%misses_restart)) write (error_unit, '(4a)') run%argument%name, ': the restart file ', &
+         restart_name(run%argument%base), ' cannot be written; the run goes on'
+      run%misses_restart = run%misses_restart .or. .not. ok
+      call system%forget_past()
+   end subroutine write_restart
+
+   !> Whether a file is due behind INCREMENT, the last of a stage being number LAST, where RESTART is as in case control.
+   pure logical function is_due(restart, increment, last)
+      integer, intent(in) :: restart, increment, last
+
+      is_due = restart /= no_restart .and. increment == last
+      if (restart > restart_stages) is_due = is_due .or. modulo(increment, restart) == 0
+   end function is_due
+
+   !> Write a file beside the older one, and put it in its place once it is whole.
+   subroutine write_state(run, analysis, ok)
+      type(run_type), intent(inout)      :: run
+      type(analysis_type), intent(inout) :: analysis
+      logical, intent(out)               :: ok
+      type(restart_stream_type) :: stream
+      character(:), allocatable :: part
+      integer :: descriptor
+      logical :: closed
+
+      call create_part(restart_name(run%argument%base), part, descriptor)
+      ok = descriptor >= 0
+      if (.not. ok) return
+      call stream%start(descriptor, version, run%deck_sum)
+      call record_state(stream, analysis, run%results)
+      call stream%complete(ok)
+      call close_file(descriptor, closed)
+      if (ok .and. closed) then
+         call name_part(part, restart_name(run%argument%base), ok, stays=.true.)
+      else
+         call remove_file(part)
+         ok = .false.
+      end if
+   end subroutine write_state
+
+   !> All of the state, written or read.
+   subroutine record_state(stream, analysis, results)
+      type(restart_stream_type), intent(inout) :: stream
+      type(analysis_type), intent(inout)       :: analysis
+      type(results_type), intent(inout)        :: results
+
+      call record_analysis(stream, analysis)
+      call record_results(stream, results)
+      call stream%mark('END')
+   end subroutine record_state
+
+end module restart_file

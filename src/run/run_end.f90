@@ -1,0 +1,136 @@
+!> The end of a run: the results get their names, or what is wrong is said; and the end of the program with the highest status of
+!! all runs.
+module run_end
+   use, intrinsic :: iso_fortran_env, only: error_unit
+   use c_library, only: end_run, write_bytes
+   use command_arguments, only: complain_of_input
+   use command_line, only: is_result_of
+   use deck_input, only: deck_type
+   use distribution, only: leave_processes
+   use error_report, only: print_errors
+   use incomplete_results, only: what_is_in_the_way
+   use listing_steps, only: distance_words
+   use model_data, only: model_type, n_points
+   use model_warnings, only: tetra_words
+   use progress, only: phase_write
+   use restart_file, only: restart_name
+   use results, only: discard_results, finish_results, history_ending, listing_ending, show_answers
+   use run_state, only: has_errors, is_over, is_refused, is_unreadable, is_unsolved, is_unwritten, run_type, status_of, &
+                        was_checked, would_overwrite
+   use stage_plan, only: stage_plan_type
+   use text_tools, only: plural
+   implicit none
+   private
+
+   public :: finish_run, end_program
+
+   integer :: exit_status = 0 ! the highest so far
+
+contains
+
+   !> The end of a run, the one there is: the results get their names, or what is wrong is said. Nothing else is left on the line
+   !! of the terminal.
+   subroutine finish_run(run, deck, model, plan)
+      type(run_type), intent(inout)     :: run
+      type(deck_type), intent(in)       :: deck
+      type(model_type), intent(in)      :: model
+      type(stage_plan_type), intent(in) :: plan
+      character(:), allocatable :: words
+      logical :: ok, shown
+
+      if (run%keeps .or. .not. is_over(run)) then
+         call run%progress%enter(phase_write)
+         call finish_results(plan, run%failure, run%results, ok)
+         call run%progress%finish()
+         associate (n => run%results%listing%watch%n_warnings)
+            if (n > 0) write (error_unit, '(4a)') run%argument%name, ': ', plural(n, 'warning'), ' in the listing'
+         end associate
+         words = run%results%listing%poor_condition
+         if (words /= '') write (error_unit, '(3a)') run%argument%name, ': ', words
+         words = distance_words(run%results%listing%farthest)
+         if (words /= '') write (error_unit, '(3a)') run%argument%name, ': ', words
+         if (tetra_words(model) /= '') write (error_unit, '(3a)') run%argument%name, ': ', tetra_words(model)
+         call say_of_deck(run, deck)
+         if (ok) then
+            call show_answers(model, run%results, shown)
+            if (.not. shown) exit_status = max(exit_status, status_of(is_unwritten))
+         else
+            run%ending = is_unwritten
+         end if
+      end if
+      if (run%failure%raised) run%ending = is_unsolved
+      if (run%misses_restart) exit_status = max(exit_status, status_of(is_unwritten))
+      call run%progress%clear()
+      call say_how_it_ended(run, deck, model, plan)
+      exit_status = max(exit_status, status_of(run%ending))
+   end subroutine finish_run
+
+   !> What of the deck has no effect, and how NASTRAN would read it otherwise.
+   subroutine say_of_deck(run, deck)
+      type(run_type), intent(in)  :: run
+      type(deck_type), intent(in) :: deck
+
+      if (deck%bulk%idle%n > 0) write (error_unit, '(3a)') run%argument%name, ': ', deck%bulk%idle%words()
+      if (size(deck%control%stages) > 1) write (error_unit, '(4a)') run%argument%name, ': ', &
+         plural(size(deck%control%stages), 'SUBCASE'), ' are stages of one history, each goes on from the end of the one before'
+   end subroutine say_of_deck
+
+   !> What is wrong, or that a deck is in order; no result is left of a run that did not come to its end.
+   subroutine say_how_it_ended(run, deck, model, plan)
+      type(run_type), intent(inout)     :: run
+      type(deck_type), intent(in)       :: deck
+      type(model_type), intent(in)      :: model
+      type(stage_plan_type), intent(in) :: plan
+      logical :: ok
+      integer :: i
+
+      associate (name => run%argument%name, base => run%argument%base)
+         select case (run%ending)
+         case (is_unreadable)
+            call complain_of_input(run%argument, 'a deck')
+         case (is_refused)
+            write (error_unit, '(5a)') name, ': ', restart_name(base), ' cannot be taken up: ', run%problem
+            call discard_results(run%results)
+         case (would_overwrite)
+            do i = 2, deck%text%n_files
+               if (is_result_of(deck%text%files(i)%true_path, run%argument)) write (error_unit, '(3a)') name, &
+                  ': its results would overwrite the INCLUDE file ', deck%text%files(i)%path
+            end do
+         case (has_errors)
+            call print_errors(error_unit, 'DECK', 'nothing solved', deck%text, run%errors)
+         case (was_checked)
+            call say_of_deck(run, deck)
+            call write_bytes(1, name//': no errors; '//plural(n_points(model), 'node')//', '// &
+                             plural(model%n_elements, 'body element')//', '// &
+                             plural(size(model%interface), 'interface element')//', '//plural(size(plan%stages), 'stage')// &
+                             new_line('a'), ok)
+            if (.not. ok) exit_status = max(exit_status, status_of(is_unwritten))
+         case (is_unsolved)
+            write (error_unit, '(4a)') name, ': ', run%failure%message, &
+               trim(merge('; the results end there', '; no results           ', run%keeps))
+            if (.not. run%keeps) call discard_results(run%results)
+         case (is_unwritten)
+            if (base == '') then
+               write (error_unit, '(2a)') name, ': the listing cannot be written to the standard output'
+            else if (what_is_in_the_way() /= '') then
+               write (error_unit, '(4a)') name, ': the results cannot be written: ', what_is_in_the_way(), &
+                  '; remove it, or take another folder by -o'
+            else
+               write (error_unit, '(5a)') name, ': the results ', base//listing_ending, ' and ', base//history_ending, &
+                  ' cannot be written: is the folder there, and is there room on the disk?'
+            end if
+            call discard_results(run%results)
+         end select
+      end associate
+   end subroutine say_how_it_ended
+
+   !> End with STATUS, or the highest of the decks where that is higher.
+   subroutine end_program(status)
+      integer, intent(in), optional :: status !! 0
+
+      if (present(status)) exit_status = max(exit_status, status)
+      call leave_processes()
+      call end_run(exit_status)
+   end subroutine end_program
+
+end module run_end

@@ -1,0 +1,84 @@
+# Files in the way of results, runs that meet in one folder, runs that are killed: a part of run.sh, like commands.sh and after it.
+
+# ---- what has the name of a result ----
+
+for target in target nothing; do
+   fresh results
+   [ $target = target ] && echo old > results/target
+   for ending in out joint.csv stage.csv out.part joint.csv.part; do ln -s $target results/good.$ending; done
+   run -o results good.bdf;              check "links to a $target of the names of results" 0
+   holds results 'links are replaced, not followed' good.joint.csv good.joint.csv.part good.out good.out.part good.stage.csv \
+      $([ $target = target ] && echo target)
+   if [ -L results/good.out ] || [ -L results/good.joint.csv ]; then fail 'a link is no result'; else pass; fi
+   if [ $target = nothing ] || [ "$(cat results/target)" = old ]; then pass; else fail 'what a link leads to is written to'; fi
+done
+for ending in out joint.csv stage.csv; do
+   fresh results
+   mkfifo results/good.$ending
+   run -o results good.bdf;              check "a pipe good.$ending" 4 "results/good.$ending is a pipe and no file"
+   holds results 'a pipe stays, and no other file' good.$ending
+   rm results/good.$ending
+   ln -s /dev/null results/good.$ending
+   run -o results good.bdf;              check "a link to a device good.$ending" 4 "results/good.$ending is a device and no file"
+   holds results 'a link to a device stays, and no other file' good.$ending
+done
+sed 's/^SUBCASE.*/&\n  OUTPUT = VTU, STEPS/' good.bdf > steps.bdf
+grep -q STEPS steps.bdf || sed 's/^BEGIN BULK/OUTPUT = VTU, STEPS\n&/' good.bdf > steps.bdf
+for ending in 1.7.vtu 1.20.joint.vtu pvd; do
+   fresh results
+   mkfifo results/steps.$ending
+   run -o results steps.bdf;             check "a pipe steps.$ending" 4 "results/steps.$ending is a pipe and no file"
+   holds results 'a pipe of the name of a VTU file stays, and no other file' steps.$ending
+done
+
+# ---- two runs in one folder ----
+
+# Two decks of one name: what is there in the end is all of the one or all of the other.
+fresh one; fresh two; fresh of_one; fresh of_two
+cp steps.bdf one/beam.bdf
+sed 's/^JINCR.*/JINCR   5       18      ARITH   0.02/' steps.bdf > two/beam.bdf
+run -q -o of_one one/beam.bdf
+run -q -o of_two two/beam.bdf
+if diff -rq of_one of_two >/dev/null; then fail 'two decks that differ: they do not'; fi
+for ((i = 1; i <= 20; i++)); do
+   fresh results
+   "$program" -q --threads 1 -o results one/beam.bdf >/dev/null 2>"$work/stderr" &
+   sleep "0.0$((i % 4))"
+   "$program" -q --threads 1 -o results two/beam.bdf >/dev/null 2>"$work/stderr.two"; other=$?
+   wait $!; status=$?
+   if [ $status$other != 00 ]; then fail "two runs in one folder: exit statuses $status and $other"
+   elif diff -rq results of_one >/dev/null || diff -rq results of_two >/dev/null; then pass
+   else fail "two runs in one folder: $(diff -rq results of_one | head -n 3; diff -rq results of_two | head -n 3)"
+   fi
+done
+
+# ---- a run that is killed, interrupted, ended ----
+
+fresh results
+sed -e 's/^GRID.*//; s/^CQUAD4.*/BLOCK2  1       1       100     60      0.0     0.0/
+   s/^CBAR.*/+       150.0   100.0\n+       20/; s/^SPC1.*/SPCM    1       1       20/
+   s/^FORCE.* 3 .*/FORCE   10      61              50.0    0.0     -1.0/; s/^FORCE.* 4 .*//
+   s/^JINCR.*/JINCR   5       10000   ARITH   1.0-4/' good.bdf > long.bdf
+"$program" -o results long.bdf >"$work/stdout" 2>"$work/stderr" &
+runner=$!
+for ((i = 0; i < 200; i++)); do
+   [ -n "$(find results -name '*.part' -size +8k)" ] && break
+   kill -0 $runner 2>/dev/null || break
+   sleep 0.05
+done
+kill -9 $runner 2>/dev/null
+{ wait $runner; status=$?; } 2>/dev/null
+check 'a run that is killed' 137
+if ls -A results | grep -q '\.part$'; then pass; else fail 'a run that is killed: it had not begun to write'; fi
+killed=$(ls -A results)
+if ls -A results | grep -q -v '^long\.[a-z.]*\.[A-Za-z0-9]\{6\}\.part$'; then fail "a run that is killed: it left $(ls -A results | tr '\n' ' ')"; else pass; fi
+sed 's/10000   ARITH   1.0-4/2/' long.bdf > short.bdf
+for signal in INT TERM HUP; do
+   timeout --preserve-status -s $signal 0.6 "$program" -o results long.bdf >"$work/stdout" 2>"$work/stderr"; status=$?
+   check "a run that has got SIG$signal" $((128 + $(kill -l $signal)))
+done
+holds results 'a run that is interrupted leaves no file, and those of a killed one alone' $killed
+rm -f results/*.part
+mv short.bdf long.bdf
+run -o results long.bdf;              check 'the same deck again, with fewer increments' 0
+holds results 'the same deck again' long.joint.csv long.out long.stage.csv

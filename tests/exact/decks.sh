@@ -1,0 +1,427 @@
+# Decks with an exact answer, for the parts of exact/ and for the verification manual (../manual): each function writes $work/NAME.bdf
+# and runs it (run, lib.sh), but where its comment says that it only writes.
+
+# ---- one interface element ----
+
+# One element, a = 100, c = 8E-3, E_u = 500, pressed by 130 in increments that grow from 0.07 of it.
+one_element() { # NAME METHOD M INCREMENTS
+   cat > "$work/$1.bdf" <<DECK
+METHOD = $2
+TOL = 1.0E-14
+SUBCASE 1
+  LOAD = 1
+  INCR = 1
+  OUTPUT = NONE
+BEGIN BULK
+GRID,1,,0.0,0.0,,,1
+CJOINT,1,1,1,,100.0,0.0,1.0
+PJOINT,1,1
+JNORM,1,8.0-3,$3,500.0
+FORCE,1,1,,100.0,0.0,-1.3
+JINCR,1,$4,GEOM,0.07
+ENDDATA
+DECK
+   run "$1"
+}
+
+# An element opens and closes again beside an elastic body (k_b at each node), by STEP and by NEWTON; the recurrence and the law are written out.
+reopen() { # NAME METHOD
+   cat > "$work/$1.bdf" <<DECK
+METHOD = $2
+SPC = 1
+SUBCASE 1
+  LOAD = 1
+  INCR = 1
+SUBCASE 2
+  LOAD = 2
+  INCR = 1
+SUBCASE 3
+  LOAD = 3
+  INCR = 1
+BEGIN BULK
+BLOCK2,1,1,1,1,0.0,0.0
++,10.0,50.0
++,20,,21
+PMARK,20
+PMARK,21
+PSHELL,1,1,20.0
+MAT1,1,1000.0,,0.0
+JOINT,1,1,20
+PJOINT,1,1,,,,,0.05
+JNORM,1,8.0-3,0.5,500.0
+SPCM,1,12,21
+SPCM,1,1,20
+FORCE,1,1,,100.0,0.0,-1.0
+FORCE,1,3,,100.0,0.0,-1.0
+LOAD,2,-0.4,1.0,1
+LOAD,3,1.5,1.0,1
+JINCR,1,8,ARITH,0.125
+ENDDATA
+DECK
+   run "$1"
+}
+
+# One element beside a spring of 10000 kgf/mm: k_s = 25000, so a re-analysis removes 10000/35000 of the excess.
+sheared_spring() { # NAME METHOD NREAN FORCE
+   cat > "$work/$1.bdf" <<DECK
+METHOD = $2
+SUBCASE 1
+  LOAD = 1
+  OUTPUT = NONE
+SUBCASE 2
+  LOAD = 2
+BEGIN BULK
+GRID,1
+CJOINT,1,1,1,,100.0,0.0,-1.0
+PJOINT,1,1,1,,0.2,$3,0.5
+JNORM,1,8.0-3,0.5,500.0
+JSHEAR,1,100.0,300.0
+\$ the spring: lambda = c p along x
+CJOINT,2,2,1,,100.0,1.0,0.0
+PJOINT,2,2,,,,,0.1
+JNORM,2,1.0-2,1.0,100.0
+FORCE,1,1,,50.0,0.0,-1.0
+FORCE,12,1,,$4,1.0
+LOAD,2,1.0,1.0,1,1.0,12
+ENDDATA
+DECK
+   run "$1"
+}
+
+# A bar of stiffness 100 and the joint behind a gap share the force: 100 (g + lambda) + a (lambda/c)**(1/m) = F.
+gap_spring() { # NAME METHOD M GAP FORCE INCREMENTS [MORE-FORCES...]: each more force is a stage
+   awk -v method="$2" -v m="$3" -v gap="$4" -v forces="$5 ${*:7}" -v n="$6" 'BEGIN {
+      stages = split(forces, force, " ")
+      print "METHOD = " method "\nTOL = 1.0E-13\nSPC = 1"
+      for (s = 1; s <= stages; s++) print "SUBCASE " s "\n  LOAD = " s "\n  INCR = 1\n  OUTPUT = NONE"
+      print "BEGIN BULK\nGRID,1,,0.0,0.0\nGRID,2,,0.0,100.0\nCROD,1,1,1,2\nPROD,1,1,10.0\nMAT1,1,1000.0,,0.25"
+      printf "CJOINT,5,1,1,,4.0,0.0,-1.0,0.0\nPJOINT,1,1,,,,,%.12f\n", 2/n # about what an increment brings
+      print "JNORM,1,8.0-3," m ",1000.0"
+      if (gap + 0) print "JGAP,1,CONST," gap
+      print "SPC1,1,12,2\nSPC1,1,1,1"
+      for (s = 1; s <= stages; s++) printf "FORCE,%d,1,,%.12f,0.0,-1.0\n", s, force[s]
+      printf "JINCR,1,%d,,%.12f\nENDDATA\n", n, 1/n }' > "$work/$1.bdf"
+   run "$1"
+}
+
+gap_spring_lambda() { # M GAP FORCE
+   awk -v m="$1" -v g="$2" -v f="$3" 'BEGIN { low = 0; high = 1
+      for (i = 0; i < 200; i++) { x = (low + high)/2; if (100*(g + x) + 4*exp(log(x/8e-3)/m) > f) high = x; else low = x }
+      printf "%.17g", low }'
+}
+
+# Two bars with interference, 100 each: at rest 50 (i - lambda) = a p on the loading curve, by every method; then pulled apart, along
+# the line of slope E_u from there: lambda = i - 2 P/100 - pull/100.
+bars() { # NAME METHOD PULL INCREMENTS
+   cat > "$work/$1.bdf" <<DECK
+METHOD = $2
+TOL = 1.0E-13
+SPC = 1
+SUBCASE 1
+  LOAD = 1
+  INCR = 1
+BEGIN BULK
+GRID,1,,0.0,0.0
+GRID,2,,0.0,100.0
+GRID,3,,0.0,100.0
+GRID,4,,0.0,200.0
+CROD,1,1,1,2
+CROD,2,1,3,4
+PROD,1,1,10.0
+MAT1,1,1000.0,,0.25
+CJOINT,5,1,2,3,4.0,0.0,1.0,0.0
+PJOINT,1,1,,,,,0.1
+JNORM,1,8.0-3,0.5,1000.0
+JGAP,1,CONST,-0.05
+SPC1,1,12,1,4
+SPC1,1,1,2,3
+FORCE,1,2,,$3,0.0,-1.0
+JINCR,1,$4,,$(awk "BEGIN { printf \"%.12f\", 1/$4 }")
+ENDDATA
+DECK
+   run "$1"
+}
+
+# ---- blocks on a rigid base ----
+
+# A plate 100 x 50 x 20 of E 100 pressed evenly by 0.2 on a joint of M 0.4: forces on top as the areas of influence below, three divisions
+# 1 : sqrt(0.4) : 0.4.
+even_block() { # NAME
+   cat > "$work/$1.bdf" <<'DECK'
+METHOD = NEWTON
+SPC = 1
+SUBCASE 1
+  LOAD = 1
+  OUTPUT = NONE
+BEGIN BULK
+BLOCK2,1,1,3,2,0.0,0.0
++,100.0,50.0,,,0.4,1.0
++,20
+PMARK,20
+PSHELL,1,1,20.0
+MAT1,1,100.0,,0.3
+JOINT,1,1,20
+PJOINT,1,1
+JNORM,1,8.0-3,0.4,9500.0
+SPC1,1,1,1
+DECK
+   awk 'BEGIN { CONVFMT = "%.17g"; r = sqrt(0.4); h = 100 / (1 + r + r * r)
+      split(h / 2 " " h * (1 + r) / 2 " " h * r * (1 + r) / 2 " " h * r * r / 2, share, " ")
+      for (i = 1; i <= 4; i++) printf "FORCE,1,%d,,%.13f,0.0,-1.0\n", 3 * i, 4 * share[i]
+      print "ENDDATA" }' >> "$work/$1.bdf"
+   run "$1"
+}
+
+# A block 100 x 100 x 20, 1E6 times stiffer than the joint, under a force of 1000 at the distance E from its middle: lambda = d + t x.
+# Reads d, t, how far from straight it is (of d), how many elements are open.
+middle='(first(lambda) + last(lambda))/2' slope='(last(lambda) - first(lambda))/(last(x) - first(x))'
+rigid_block() { # NAME NX M E: the load is shared by the two nodes on top next to its place
+   awk -v nx="$2" -v m="$3" -v e="$4" 'BEGIN {
+      print "METHOD = NEWTON\nTOL = 1.0E-9\nSPC = 1\nSUBCASE 1\n  LOAD = 1\n  OUTPUT = NONE\nBEGIN BULK"
+      print "BLOCK2,1,1," nx ",1,-50.0,0.0\n+,50.0,100.0\n+,20\nPMARK,20\nPSHELL,1,1,20.0\nMAT1,1,2.0E9,,0.0"
+      print "JOINT,1,1,20\nPJOINT,1,1\nJNORM,1,8.0-3," m ",9500.0\nSPC1,1,1,1"
+      i = int((e + 50) * nx / 100 + 1e-9); if (i == nx) i--
+      right = (e - (-50 + 100 * i / nx)) * nx / 100
+      printf "FORCE,1,%d,,%.12f,0.0,-1.0\n", 2 * i + 2, 1000 * (1 - right)
+      printf "FORCE,1,%d,,%.12f,0.0,-1.0\nENDDATA\n", 2 * i + 4, 1000 * right
+   }' > "$work/$1.bdf"
+   run "$1" || return 1
+   read -r d t worst open <<< "$(value "$1" print "$middle" print "$slope" \
+      print "max(abs(lambda - ($middle) - ($slope)*x))/abs($middle)" print 'sum(branch = "OPEN")')"
+}
+
+# A block clamped evenly to p = 0.5 and pushed at its interface nodes as their areas are: every node has the same tau. Only writes.
+pushed_block() { # NAME METHOD NREAN SHARE-OF-THE-LIMIT
+   awk -v method="$2" -v nrean="$3" -v share="$4" 'BEGIN {
+      print "METHOD = " method "\nSUBCASE 1\n  LOAD = 1\n  INCR = 1\n  OUTPUT = NONE\nSUBCASE 2\n  LOAD = 2\n  INCR = 1\nBEGIN BULK"
+      print "BLOCK2,1,1,10,4,0.0,0.0\n+,100.0,40.0\n+,20\nPMARK,20\nPSHELL,1,1,20.0\nMAT1,1,9500.0,,0.0"
+      print "JOINT,1,1,20\nPJOINT,1,1,1,,0.2," nrean "\nJNORM,1,8.0-3,0.5,9500.0\nJSHEAR,1,100.0,300.0"
+      for (i = 0; i <= 10; i++) {
+         w = i % 10 ? 0.1 : 0.05
+         printf "FORCE,1,%d,,%.6f,0.0,-1.0\nFORCE,12,%d,,%.9f,1.0,0.0\n", 5 * i + 5, 1000 * w, 5 * i + 1, 200 * share * w
+      }
+      print "LOAD,2,1.0,1.0,1,1.0,12\nJINCR,1,10,ARITH,0.1\nENDDATA" }' > "$work/$1.bdf"
+}
+
+# A rigid block under a force at E, behind gaps: D and T from the balance of forces and moments on the same nodes, by awk.
+gap_block() { # NAME METHOD NX M E INCREMENTS GUIDED JGAP-LINES
+   awk -v method="$2" -v nx="$3" -v m="$4" -v e="$5" -v n="$6" -v guided="$7" -v card="$8" 'BEGIN {
+      print "METHOD = " method "\nTOL = " (method == "BACK" ? "1.0E-7" : "1.0E-9") "\nSPC = 1\nSUBCASE 1\n  LOAD = 1\n  INCR = 1\n  OUTPUT = NONE\nBEGIN BULK"
+      print "BLOCK2,1,1," nx ",1,-50.0,0.0\n+,50.0,100.0\n+,20\nPMARK,20\nPSHELL,1,1,20.0\nMAT1,1,2.0E9,,0.0"
+      print "JOINT,1,1,20\nPJOINT,1,1\nJNORM,1,8.0-3," m ",9500.0\nSPC1,1,1,1" (guided ? ",2" : "")
+      print card
+      i = int((e + 50)*nx/100 + 1e-9); if (i == nx) i--
+      right = (e - (-50 + 100*i/nx))*nx/100
+      printf "FORCE,1,%d,,%.12f,0.0,-1.0\n", 2*i + 2, 1000*(1 - right)
+      printf "FORCE,1,%d,,%.12f,0.0,-1.0\nJINCR,1,%d,,%.12f\nENDDATA\n", 2*i + 4, 1000*right, n, 1/n }' > "$work/$1.bdf"
+   run "$1"
+}
+
+# The same by the balance of forces and moments on the same nodes.
+gap_block_balance() { # NX M E GUIDED G0 SX CX: D, T and the largest p
+   awk -v nx="$1" -v m="$2" -v e="$3" -v guided="$4" -v g0="$5" -v sx="$6" -v cx="$7" 'BEGIN {
+      d = g0 + 0.02; t = guided ? 0 : sx
+      for (k = 0; k < 200; k++) {
+         f = -1000; q = -1000*e; fd = ft = qt = 0; most = 0
+         for (i = 0; i <= nx; i++) {
+            x = -50 + 100*i/nx; a = 2000/nx*(i == 0 || i == nx ? 0.5 : 1); l = d + t*x - g0 - sx*x - cx*x*x
+            if (l <= 0) continue
+            p = exp(log(l/8e-3)/m); s = a*p/(m*l); f += a*p; q += a*p*x; fd += s; ft += s*x; qt += s*x*x
+            if (p > most) most = p }
+         if (guided) { d -= f/fd; continue }
+         det = fd*qt - ft*ft; dd = (qt*f - ft*q)/det; dt = (fd*q - ft*f)/det; d -= dd; t -= dt }
+      printf "%.15g %.15g %.15g\n", d, t, most }'
+}
+
+# moved_block NAME NX NY P0 STAGE...: 10 x 5 x 2, nu = 0; a STAGE is UX:UY of the top at its end
+moved_block() {
+   local name=$1 nx=$2 ny=$3 p0=$4 stage s=0
+   shift 4
+   { echo 'METHOD = NEWTON
+SPC = 1'
+     for stage; do s=$((s + 1)); printf 'SUBCASE %d\n  LOAD = %d\n' $s $s; done
+     echo "BEGIN BULK
+BLOCK2,1,1,$nx,$ny,0.0,0.0
++,10.0,5.0
++,20,,21
+PSHELL,1,1,2.0
+MAT1,1,9500.0,,0.0
+PMARK,20
+PMARK,21
+JOINT,1,1,20
+PJOINT,1,1,,,,,$p0
+JNORM,1,8.0-3,0.5
+SPCM,1,12,21"
+     s=0
+     for stage; do
+        s=$((s + 1))
+        for ((i = 1; i <= nx + 1; i++)); do printf 'SPCD,%d,%d,1,%s,,,2,%s\n' $s $((i*(ny + 1))) "${stage%:*}" "${stage#*:}"; done
+     done | awk -F, '{ print $1 "," $2 "," $3 "," $4 "," $5; print $1 "," $2 "," $3 "," $8 "," $9 }'
+     echo ENDDATA; } > "$work/$name.bdf"
+   run "$name"
+}
+
+# ---- blocks meshed apart ----
+
+# input/meshed_apart.bdf, 7 elements over 5, with the coarser side first; with a SIDE1 that hangs over on both sides; 7 over 7 as pairs;
+# 7 over 7 with the fit forced.
+blocks_apart() { # KIND, the name of the deck too: coarse_first, overhang, pairs, forced
+   local change match='s/^BLOCK2  1       1       5/BLOCK2  1       1       7/'
+   case $1 in
+      coarse_first) change='s/^JOINT .*/JOINT,1,1,20,30/' ;;
+      overhang) change='s/^BLOCK2  2 .*/BLOCK2,2,1,9,2,-5.0,20.0/; s/^+       50.0    40.0 .*/+,60.0,40.0,,,,,101,101/; s/^PLOADM.*/FORCEM,11,100.0,0.0,-1.0,0.0,31/' ;;
+      pairs) change=$match ;;
+      forced) change="$match; s/^JOINT .*/JOINT,1,1,30,20,,YES/" ;;
+   esac
+   sed "$change" input/meshed_apart.bdf > "$work/$1.bdf"
+   run "$1"
+}
+
+# ---- beams ----
+
+# A slender beam on a joint, one half, 200 x 10 mm, the load's half at the plane of symmetry.
+beam_moment='sum(force*x)'
+beam() { # NAME ELEMENTS M C P REFERENCE [HEIGHT]: E I stays the same
+   awk -v n="$2" -v m="$3" -v c="$4" -v p="$5" -v h="${7:-10}" 'BEGIN {
+      print "METHOD = NEWTON\nSPC = 1\nSUBCASE 1\n  LOAD = 1\n  OUTPUT = NONE\nBEGIN BULK"
+      print "BLOCK2,1,1," n ",1,0.0,0.0"
+      printf "+,200.0,%.6f\n+,20,,,21\nPMARK,20\nPMARK,21\nPSHELL,1,1,20.0\nMAT1,1,%.6f,,0.0\n", h, 9500 * (10 / h)^3
+      print "JOINT,1,1,20\nPJOINT,1,1"
+      printf "JNORM,1,%.12E,%s,%.12E\n", c, m, 1 / c
+      print "SPCM,1,1,21"
+      printf "FORCE,1,1,,%.12E,0.0,-1.0\nFORCE,1,2,,%.12E,0.0,-1.0\nENDDATA\n", p / 4, p / 4
+   }' > "$work/$1.bdf"
+   run "$1" || return 1
+   # w at the load and at the end, the moment of the joint about the load, the rest of the first integral of the power law, where it
+   # begins to gape, the largest difference from the reference
+   read -r w0 w_end m0 integral contact <<< "$(value "$1" print 'first(lambda)' print 'last(lambda)' print "$beam_moment" \
+      print "($beam_moment)^2/(2*9500*20*1000/12*20/((1/$3 + 1)*($4)^(1/$3))*(first(lambda)^(1/$3 + 1) - max(last(lambda), 0)^(1/$3 + 1))) - 1" \
+      print 'min(if(before(lambda) > 0 and lambda <= 0, before(x) + (x - before(x))*before(lambda)/(before(lambda) - lambda), 200))')"
+   [ "$6" = none ] && return
+   profile=$("$query" tests/exact/beam_reference.csv rows "case = \"$6\"" with "$work/$1.joint.csv" on "element=int(x*$2/200 + 1.5)" \
+      print 'max(abs(other.lambda - w))/first(w)')
+}
+
+# of CASE COLUMN...: what all rows of the case have there
+of() { "$query" tests/exact/beam_reference.csv rows "case = \"$1\"" "${@:2}"; }
+
+# ---- warm columns ----
+
+# Two columns of nu = 0 with a joint between them, tied together by two bolts of steel to N0 = 10: the lengths of the bolts and of
+# the columns with the joint stay equal, (N - N0)/k_b + 20 alpha_s T = -(N - N0)/k_c - lambda(N) + lambda(N0) + (8 alpha_s + 12 alpha_a) T,
+# on the curve where N grows, along E_u = 30 where it falls.
+warm_columns() { # NAME T SOLVER
+   cat > "$work/$1.bdf" <<DECK
+METHOD = NEWTON
+SOLVER = $3
+SPC = 1
+SUBCASE 1
+  TEMPERATURE(LOAD) = 6
+SUBCASE 2
+  TEMPERATURE(LOAD) = 7
+  INCR = 5
+BEGIN BULK
+MAT1,1,200.,,.0,,1.2-5,20.
+MAT1,2,70.,,.0,,2.3-5,20.
+PSHELL,1,1,2.
+PSHELL,2,2,2.
+BLOCK2,1,1,1,2,0.,0.
++,10.,8.
++,20,,21
+BLOCK2,2,2,1,2,0.,8.
++,10.,20.,,,,,101,101
++,,,,,1
+PMARK,20
+PMARK,21
+SPCM,1,2,20
+SPC1,1,1,1,2,3,102,103
+JOINT,1,1,21
+PJOINT,1,1
+JNORM,1,.02,.5,30.
+CROD,301,3,1,103
+CROD,302,3,4,106
+PROD,3,1,1.
+BOLT,1,301,5.
+BOLT,2,302,5.
+JINCR,5,4,ARITH,.25
+TEMPD,6,20.,7,$2
+ENDDATA
+DECK
+   run "$1"
+}
+
+# ---- bodies without a joint: springs, Lame's cylinder, the slender beam of MacNeal and Harder ----
+
+# A plate on two springs of 20 to the ground, pulled by 12.
+two_springs() { # NAME
+   cat > "$work/$1.bdf" <<'DECK'
+SPC = 1
+SUBCASE 1
+  LOAD = 10
+BEGIN BULK
+MAT1,1,100.,,.0
+PSHELL,1,1,2.
+BLOCK2,1,1,1,1,0.,0.
++,4.,3.
+SPC1,1,2,1
+CELAS1,51,7,1,1
+CELAS2,52,20.,,,2,1
+PELAS,7,20.
+FORCE,10,3,,6.,1.
+FORCE,10,4,,6.,1.
+ENDDATA
+DECK
+   run "$1"
+}
+
+# inner radius 20, outer 40, pressure 525 inside (so that six digits tell most), ends free: u(r) = p a**2/(b**2 - a**2)/E ((1 - nu) r + (1 + nu) b**2/r)
+cylinder() { # NAME N: bodies of revolution, N elements through the wall
+   printf 'SPC = 1\nSUBCASE 1\n  LOAD = 1\nBEGIN BULK\nBLOCK2,1,1,%d,1,20.0,0.0\n+,40.0,5.0\n+,20,,,23\nPMARK,20\nPMARK,23\nPAXIS,1,1\nMAT1,1,21000.0,,0.3\nSPCM,1,2,20\nPLOADM,1,525.0,23\nENDDATA\n' \
+      "$2" > "$work/$1.bdf"
+   run "$1"
+}
+quarter() { # NAME N: a quarter of it of hexahedra, N through the wall, 2 N round it
+   awk -v n="$2" 'BEGIN {
+      print "SPC = 1\nSUBCASE 1\n  LOAD = 1\nBEGIN BULK\nPSOLID,1,1\nMAT1,1,21000.0,,0.3\nPMARK,23\nPLOADM,1,525.0,23"
+      pi = atan2(0, -1); m = 2 * n
+      for (k = 0; k <= 1; k++) for (j = 0; j <= m; j++) for (i = 0; i <= n; i++) {
+         g = 1 + i + (n + 1) * (j + (m + 1) * k); r = 20 + 20 * i / n; f = pi / 2 * j / m
+         printf "GRID,%d,,%.12f,%.12f,%.12f,,%s\n", g, j == m ? 0 : r * cos(f), j == 0 ? 0 : r * sin(f), 5 * k, (j == m ? "1" : j == 0 ? "2" : "") (k ? "" : "3")
+      }
+      layer = (n + 1) * (m + 1)
+      for (j = 0; j < m; j++) for (i = 0; i < n; i++) {
+         a = 1 + i + (n + 1) * j; d = a + n + 1
+         print "CHEXA," ++e ",1," a "," a + 1 "," d + 1 "," d "," a + layer "," a + 1 + layer "\n+," d + 1 + layer "," d + layer
+         if (i == 0) print "CQUAD4," 100000 + ++f4 ",23," a "," d "," d + layer "," a + layer
+      }
+      print "SPC1,1,3,1\nENDDATA" }' > "$work/$1.bdf"
+   run "$1"
+}
+
+# 6 x 0.2 x 0.1, six elements, E = 1E7, nu = 0.3, unit load across the free end
+beam2() { # NAME MODES
+   printf 'SPC = 1\nSUBCASE 1\n  LOAD = 1\nBEGIN BULK\nBLOCK2,1,1,6,1,0.0,0.0\n+,6.0,0.2\nPSHELL,1,1,0.1\n+,%s\nMAT1,1,1.0+7,,0.3\nSPC1,1,1,1,2\nSPC1,1,2,1\nFORCE,1,13,,0.5,0.0,1.0\nFORCE,1,14,,0.5,0.0,1.0\nENDDATA\n' \
+      "$2" > "$work/$1.bdf"
+   run "$1"
+}
+beam3() { # NAME MODES DIRECTION: in y (depth 0.2) or z (depth 0.1)
+   { printf 'SPC = 1\nSUBCASE 1\n  LOAD = 1\nBEGIN BULK\nBLOCK3,1,1,6,1,1,0.0,0.0,0.0\n+,6.0,0.2,0.1\n+,20\nPMARK,20\nPSOLID,1,1,,,,%s\nMAT1,1,1.0+7,,0.3\nSPCM,1,1,20\nSPC1,1,23,1\nSPC1,1,%d,%d\n' \
+      "$2" "$([ "$3" = y ] && echo 3 || echo 2)" "$([ "$3" = y ] && echo 3 || echo 2)"
+     for g in 25 26 27 28; do printf 'FORCE,1,%d,,0.25,0.0,%s\n' $g "$([ "$3" = y ] && echo 1.0,0.0 || echo 0.0,1.0)"; done; echo ENDDATA; } > "$work/$1.bdf"
+   run "$1"
+}
+
+# ---- decks of input/ in more increments ----
+
+# input/DECK.bdf as $work/DECK.METHOD.N.bdf, with N equal increments in every stage
+variant() { # DECK METHOD N
+   awk -v method="$2" -v n="$3" '
+      BEGIN { share = sprintf("%.7f", 1 / n) }
+      /^METHOD/ { next }
+      /^TITLE/ { print; print "METHOD = " method; next }
+      /^ *OUTPUT/ { next }
+      /^SUBCASE/ { print; print "  OUTPUT = NONE"; next }
+      /^JINCR/ { gsub(",", " "); printf "JINCR,%d,%d,ARITH,%s\n", $2, n, share; next }
+      { print }' "input/$1.bdf" > "$work/$1.$2.$3.bdf"
+   run "$1.$2.$3"
+}

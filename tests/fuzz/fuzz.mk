@@ -1,0 +1,19 @@
+# Fuzzing, and the programs with sanitizers that it runs too.
+
+# those of `make sanitize`
+ADDRESS   = $(BUILD)/sanitize/address
+SANITIZED = -O1 -g -fopenmp -std=f2018 -fsanitize=address,undefined -fno-omit-frame-pointer
+
+MINUTES = 5
+SEED    = $(shell date +%s)
+FROM    = 1
+
+.PHONY: sanitized
+sanitized:
+	@$(MAKE) --no-print-directory -s BUILD=$(ADDRESS) BIN=$(ADDRESS) FFLAGS='$(SANITIZED)' $(ADDRESS)/jointfem $(ADDRESS)/jointfit
+
+# make fuzz MINUTES=60 SEED=7; DECKS=100 in place of minutes, FROM=401: from that deck on
+.PHONY: fuzz
+fuzz: bin/jointfem bin/jointfit $(BUILD)/checked/jointfem $(BUILD)/checked/jointfit sanitized
+	@tests/fuzz/run.sh -s $(SEED) -f $(FROM) $(if $(DECKS),-n $(DECKS),-m $(MINUTES)) -a 4 $(BUILD)/fuzz \
+	   release=bin/jointfem checked=$(BUILD)/checked/jointfem asan=$(ADDRESS)/jointfem

@@ -1,0 +1,13 @@
+# What would not be read as it is meant in a page of Markdown: rows with more or fewer cells than their head, a line of text that begins
+# as an item of a list or underlines the one above, links to headings that are not there.
+#    awk -f numbers.awk -f lint.awk PAGE       prints what is wrong
+/^#+ / { title = $0; sub(/^#+ /, "", title); there[anchor(title)] = 1 }
+/^\|/ { n = gsub(/\|/, "|"); if (!width) width = n; else if (n != width) print NR ": " (n - 1) " cells, not " (width - 1) }
+!/^\|/ { width = 0 }
+/^([-+*]|[0-9]+[.)]) / && before != "" && before !~ /^ *- |^  / { print NR ": begins as an item of a list: " $0 }
+/^(=+|-+) *$/ && before != "" { print NR ": underlines the line above" }
+{
+   before = $0
+   while (match($0, /\]\(#[^)]*\)/)) { link[substr($0, RSTART + 3, RLENGTH - 4)] = NR; $0 = substr($0, RSTART + RLENGTH) }
+}
+END { for (l in link) if (!(l in there)) print link[l] ": no heading #" l }

@@ -1,0 +1,207 @@
+#!/usr/bin/env bash
+# Runs that are killed and go on from their restart files, compared byte for byte with runs that were left in peace; restart files
+# that are damaged, cut, or not those of the deck.
+#
+#    run.sh PROGRAM WORK_FOLDER [SEED]
+#
+# A run is killed by SIGKILL before the n-th of its calls that take memory or write, name or remove files (kill_at.c, where there is
+# a C compiler), n at random: that is exact, and the same for the same SEED. Where there is none, after a random time.
+set -u
+export LC_ALL=C
+program=$(realpath "$1") work=$2 seed=${3:-20260114}
+here=$(cd "$(dirname "$0")" && pwd)
+input=$(realpath "$here/../../input") make_deck=$(realpath "$here/../bench/make_deck.sh")
+wanted=100 # kills
+passed=0 failed=0
+rm -rf "$work"
+mkdir -p "$work/decks"
+cd "$work" || exit 2
+RANDOM=$seed
+
+pass() { passed=$((passed + 1)); }
+fail() { failed=$((failed + 1)); echo "FAILED: $1"; }
+draw() { drawn=$(((RANDOM*32768 + RANDOM) % $1 + 1)); } # 1 to $1; in a subshell it would be the same again and again
+
+killer=
+if command -v "${CC:-cc}" >/dev/null && "${CC:-cc}" -O2 -shared -fPIC -o kill_at.so "$here/kill_at.c" -ldl 2>/dev/null; then
+   killer=$PWD/kill_at.so
+else
+   echo 'no C compiler: runs are killed after a random time'
+fi
+
+# ------------------------------------------------------------------ decks
+
+# deck NAME AS ENTRIES: input/NAME.bdf as AS, with ENTRIES (and RESTART) above the first SUBCASE in place of its own of these names
+deck() {
+   local name=$1 as=$2 entries=$3 keys
+   keys=$(echo "$entries" | sed 's/ *=[^;]*;\{0,1\}/|/g; s/|$//; s/ //g')
+   awk -v entries="$entries" -v keys="^ *($keys) *=" '
+      !bulk && $0 ~ keys { next }
+      !done && /^(SUBCASE|BEGIN)/ { gsub(/; */, "\n", entries); print entries; done = 1 }
+      /^BEGIN/ { bulk = 1 }
+      { print }' "$input/$name.bdf" > "decks/$as.bdf"
+}
+
+cp "$input"/*.inc decks 2>/dev/null
+for deck in $(sed -n "s/^INCLUDE *'\([^']*\)'.*/\1/p" "$input"/*.bdf); do
+   mkdir -p "decks/$(dirname "$deck")"; cp "$input/$deck" "decks/$deck"
+done
+deck prism_history step        'RESTART = 2; SOLVER = TREE'
+deck prism_history skyline     'RESTART = 1; SOLVER = SKYLINE; CARRY = YES'
+deck prism10       steps       'RESTART = 1; OUTPUT = ALL, VTU, STEPS, STATE'
+deck prism_cycle   newton      'RESTART = 3; SOLVER = SKYLINE'
+deck prism_back    back        'RESTART = 0'
+deck friction_once friction    'RESTART = 1; OUTPUT = JOINT'
+deck shear_cycles  cycles      'RESTART = 4'
+deck gib           gaps        'RESTART = 1; SOLVER = TREE'
+deck flange_warm   warm        'RESTART = 1; SOLVER = TREE'
+deck bolted_cantilever bolts   'RESTART = 2; SOLVER = SKYLINE'
+deck bracket_spiders spiders   'RESTART = 1'
+deck solid_bolt    solid       'RESTART = 1'
+deck column_tetra10 bodies     'RESTART = 1'
+deck by_hand       hand        'RESTART = 1'
+deck meshed_apart  apart       'RESTART = 0; SOLVER = SKYLINE'
+# the factor of an increment serves others: 1,300 unknowns of joints
+"$make_deck" hex8_18x18x6 TREE NONE | sed 's/^SPC = .*/&\nRESTART = 3/' > decks/factors.bdf
+decks='step skyline steps newton back friction cycles gaps warm bolts spiders solid bodies hand apart factors'
+
+# whole NAME: the run in peace, in NAME.whole, what it says in NAME.said, and how many calls it makes
+whole() {
+   mkdir "$1.whole"
+   timeout 60 env KILL_COUNT=calls LD_PRELOAD="$killer" "$program" -q --threads 1 -o "$1.whole" "decks/$1.bdf" > "$1.said" 2> "$1.error"
+   status=$?
+   calls=5000
+   [ -n "$killer" ] && read -r calls < calls
+   rm -f calls
+   echo "$calls" > "$1.calls"
+   if [ $status -eq 0 ] && [ -s "$1.whole/$1.restart" ]; then pass; else fail "$1: status $status, $(head -n 2 "$1.error")"; fi
+}
+for name in $decks; do whole "$name"; done
+
+# ------------------------------------------------------------------ killed and resumed, again and again
+
+# resume NAME AT: go on with NAME in NAME.now, to be killed at AT (0: not)
+resume() {
+   local name=$1 at=$2
+   if [ "$at" -gt 0 ] && [ -n "$killer" ]; then
+      timeout 60 env KILL_AT="$at" LD_PRELOAD="$killer" "$program" -q --threads $((1 + RANDOM % 2)) --resume -o "$name.now" \
+         "decks/$name.bdf" > now.said 2> now.error
+   elif [ "$at" -gt 0 ]; then
+      timeout -s KILL "$(awk -v at="$at" 'BEGIN { printf "%.4f", at*2e-5 }')" "$program" -q --resume -o "$name.now" \
+         "decks/$name.bdf" > now.said 2> now.error
+   else
+      timeout 60 "$program" -q --threads $((1 + RANDOM % 2)) --resume -o "$name.now" "decks/$name.bdf" > now.said 2> now.error
+   fi
+   status=$?
+   grep -q ': taken up from' now.error && taken=$((taken + 1))
+} 2>/dev/null
+
+# same NAME: the results in NAME.now are those of the run in peace, the restart file too, and what is said
+same() {
+   local name=$1
+   if [ $status -ne 0 ]; then fail "$name: status $status, $(head -n 1 now.error)"
+   elif ! diff -rq "$name.whole" "$name.now"; then fail "$name: resumed, it has other results"
+   elif ! diff <(sed "s#$name.whole#FOLDER#g" "$name.said") <(sed "s#$name.now#FOLDER#g" now.said); then fail "$name: other answers"
+   elif ! diff "$name.error" <(grep -v ': taken up from\|: there is no .*, the run starts' now.error); then fail "$name: other words"
+   else pass
+   fi
+}
+
+kills=0 taken=0
+while [ $kills -lt $wanted ]; do
+   for name in $decks; do
+      rm -rf "$name.now"; mkdir "$name.now"
+      for ((k = 0; k < 4; k++)); do
+         draw "$(cat "$name.calls")"
+         resume "$name" "$drawn"
+         if [ $status -eq 137 ]; then
+            kills=$((kills + 1))
+            # what has its name is complete: of the results those that the end of the run had named already
+            for file in "$name.now"/*; do
+               case $file in
+                  *.part|*.restart|*\*) ;;
+                  *) cmp -s "$file" "$name.whole/${file##*/}" || fail "$name: killed, it left $file";;
+               esac
+            done
+            rm -f "$name.now"/*.part
+         elif [ $status -eq 0 ]; then break
+         else fail "$name: killed at random, it ended with status $status, $(head -n 1 now.error)"; break
+         fi
+      done
+      resume "$name" 0
+      same "$name"
+      rm -rf "$name.now"
+   done
+done
+echo "$kills kills (seed $seed), $taken times a run was taken up"
+if [ $taken -ge $((wanted/2)) ]; then pass; else fail "too few runs were taken up: $taken"; fi
+
+# ------------------------------------------------------------------ what is said
+
+# check WHAT STATUS WORDS: of the last run
+check() {
+   if [ "$status" -ne "$2" ]; then fail "$1: status $status, expected $2: $(head -n 1 now.error)"
+   elif ! grep -q "$3" now.error; then fail "$1: no '$3' in '$(head -n 1 now.error)'"
+   else pass
+   fi
+}
+mkdir hand.now
+resume hand 0;                            check 'no restart file' 0 'there is no hand.now/hand.restart, the run starts from the beginning'
+same hand
+resume hand 0;                            check 'a complete run' 0 'where the run is complete; its results are written again'
+same hand
+"$program" -q --resume - < decks/hand.bdf > now.said 2> now.error; status=$?
+check 'a deck from the standard input' 1 'a deck from the standard input has no restart file'
+rm -rf hand.now; mkdir hand.now; mkdir hand.now/hand.restart
+"$program" -q -o hand.now decks/hand.bdf > now.said 2> now.error; status=$?
+check 'a restart file that cannot be written' 4 'the restart file hand.now/hand.restart cannot be written; the run goes on'
+rmdir hand.now/hand.restart
+diff -rq -x '*.restart' hand.whole hand.now && pass || fail 'a restart file that cannot be written: other results'
+mkfifo hand.now/hand.restart
+resume hand 0;                            check 'a pipe as restart file' 1 'it is no file that can be read'
+rm -rf hand.now; mkdir hand.now
+
+# ------------------------------------------------------------------ damaged, cut, of others: refused, and nothing is changed
+
+echo 'an older listing' > hand.now/hand.out
+cp hand.whole/hand.restart sound
+size=$(stat -c %s sound)
+
+# refused WHAT WORDS: with the file that is there
+refused() {
+   resume hand 0
+   if [ $status -ne 1 ] || ! grep -q "hand.now/hand.restart cannot be taken up: .*$2" now.error; then
+      fail "$1: status $status, '$(head -n 1 now.error)'"
+   elif [ "$(ls hand.now)" != $'hand.out\nhand.restart' ] || [ "$(cat hand.now/hand.out)" != 'an older listing' ]; then
+      fail "$1: refused, but files have changed"
+   else pass
+   fi
+}
+# flip BYTE: invert some bits of it
+flip() {
+   local old
+   cp sound hand.now/hand.restart
+   old=$(od -An -tu1 -j "$1" -N 1 sound)
+   draw 255
+   printf "\\x$(printf %x $((old ^ drawn)))" | dd of=hand.now/hand.restart bs=1 seek="$1" conv=notrunc status=none
+}
+for ((k = 0; k < 48; k += 1)); do flip $k; refused "byte $k of the head damaged" ''; done
+for ((k = size - 16; k < size; k += 3)); do flip $k; refused "byte $k of the end damaged" 'it is damaged'; done
+for ((k = 0; k < 60; k++)); do
+   draw $((size - 64))
+   at=$((47 + drawn))
+   flip $at; refused "byte $at damaged" 'its checksum is not'
+done
+draw "$size"
+for n in 0 1 15 16 17 47 48 49 63 64 65 $((size/2)) $((size - 17)) $((size - 16)) $((size - 8)) $((size - 1)) $((drawn - 1)); do
+   head -c "$n" sound > hand.now/hand.restart; refused "cut to $n bytes" ''
+done
+{ cat sound; printf '\0'; } > hand.now/hand.restart;           refused 'a byte too many' 'not as long as it says'
+{ head -c $((size/2)) sound; cat sound; } > hand.now/hand.restart; refused 'a half and a whole' 'not as long as it says'
+cp decks/hand.bdf hand.now/hand.restart;                       refused 'a deck' 'it is no restart file'
+cp step.whole/step.restart hand.now/hand.restart;              refused 'the file of another deck' 'it belongs to another deck'
+cp sound hand.now/hand.restart
+echo '$ a remark' >> decks/hand.bdf;                            refused 'a deck that has been changed' 'it belongs to another deck'
+
+echo "$passed passed, $failed failed"
+[ $failed -eq 0 ]

@@ -1,0 +1,102 @@
+#!/usr/bin/env bash
+# The program under the sanitizers of gcc: every address that is used is one of its own, no memory is lost, no number is undefined
+# behaviour, and no two tasks of TREE use the same number without an order between them.
+#
+#    run.sh WORK_FOLDER [PART...]      parts: address threads memcheck; all of them. Some minutes; not a part of `make test`
+#
+# address   -fsanitize=address,undefined with its look for leaks: every deck of input, decks with errors, jointfit on test data
+# threads   -fsanitize=thread. libgomp is not instrumented, every task would be a race: OpenMP is threads_in_view.c here, BLAS
+#           plain_blas.f90; that the sanitizer sees what it should is shown by a taskwait left out
+# memcheck  valgrind, where it is installed: uninitialised numbers too, on small decks, of the program as it is built for use
+#
+# What cannot be built or is not installed is skipped, and said. The last line is `N passed, N failed`.
+set -u
+work=$1
+shift
+[ $# -gt 0 ] || set -- address threads memcheck
+make=${MAKE:-make} fc=${FC:-gfortran}
+passed=0 failed=0
+mkdir -p "$work/results"
+
+# verdict WHAT LOG PATTERN: LOG has nothing of PATTERN, and no crash was the end
+verdict() {
+   if grep -qE "$3|Segmentation|SIGSEGV" "$2"; then
+      failed=$((failed + 1))
+      echo "FAILED $1"
+      grep -E -A 12 "$3|Segmentation|SIGSEGV" "$2" | head -n 40
+   else
+      passed=$((passed + 1))
+   fi
+}
+
+# built FOLDER FLAGS LIBRARIES: the programs of this project with other FLAGS
+built() {
+   "$make" --no-print-directory BUILD="$work/$1" BIN="$work/$1" FC="$fc" FFLAGS="-O1 -g -fopenmp -std=f2018 $2" \
+      LIBRARIES="$3 -lmetis -lopenblas" "$work/$1/jointfem" "$work/$1/jointfit" > "$work/$1.log" 2>&1 && return 0
+   echo "$1: skipped, it cannot be built: $(tail -n 1 "$work/$1.log")"
+   return 1
+}
+
+address() {
+   local deck log="$work/address-run.log"
+   built address '-fsanitize=address,undefined -fno-omit-frame-pointer' '' || return
+   export ASAN_OPTIONS=detect_leaks=1 UBSAN_OPTIONS=print_stacktrace=1
+   for deck in input/*.bdf; do
+      "$work/address/jointfem" -q -o "$work/results" "$deck" > "$log" 2>&1
+      verdict "address: $deck" "$log" 'ERROR: .*Sanitizer|runtime error'
+      awk 'NR % 7 == 3 { sub(/,[^,]*/, ",X") } { print }' "$deck" > "$work/bad.bdf"
+      "$work/address/jointfem" -q -o "$work/results" "$work/bad.bdf" > "$log" 2>&1
+      verdict "address: $deck, damaged" "$log" 'ERROR: .*Sanitizer|runtime error'
+   done
+   for deck in tests/fit/*.dat; do
+      "$work/address/jointfit" "$deck" > "$log" 2>&1
+      verdict "address: jointfit $deck" "$log" 'ERROR: .*Sanitizer|runtime error'
+   done
+}
+
+threads() {
+   local model name seed log="$work/threads-run.log"
+   command -v gcc > /dev/null || { echo 'threads: skipped, there is no gcc'; return; }
+   mkdir -p "$work/threads"
+   gcc -O1 -g -c tests/sanitize/threads_in_view.c -o "$work/threads/view.o" &&
+      "$fc" -O1 -g -fsanitize=thread -c tests/sanitize/plain_blas.f90 -o "$work/threads/blas.o" || return
+   built threads '-fsanitize=thread' "$work/threads/view.o $work/threads/blas.o" || return
+   export TSAN_OPTIONS=detect_deadlocks=0 # libgfortran locks its units in either order
+   for model in 'hex8_10x10x10 NONE' 'q4_160x40 ALL' 'q4_1200x8 LAST' 'over_10x8x4 NONE 2'; do
+      set -- $model
+      tests/bench/make_deck.sh "$1" TREE "$2" ${3:-} | sed 's/^JINCR,5,20,.*/JINCR,5,3,ARITH,0.1/' > "$work/$1.bdf"
+      for seed in 1 2; do
+         OMP_NUM_THREADS=4 TASKS_SEED=$seed "$work/threads/jointfem" -q -o "$work/results" "$work/$1.bdf" > "$log" 2>&1
+         verdict "threads: $1, seed $seed" "$log" 'ThreadSanitizer'
+      done
+   done
+   # a factorisation that does not wait for the tasks of a front
+   mkdir -p "$work/broken"
+   cp "$work"/threads/release/*.mod "$work/broken"
+   awk '/omp taskwait/ && ++n == 1 { next } { print }' src/solver/front_kernel.f90 > "$work/broken/front_kernel.f90"
+   "$fc" -O1 -g -fopenmp -fsanitize=thread -std=f2018 -J"$work/broken" -c "$work/broken/front_kernel.f90" -o "$work/broken/kernel.o"
+   "$fc" -O1 -g -fopenmp -fsanitize=thread -I"$work/threads/release" -o "$work/broken/jointfem" src/jointfem.f90 \
+      $(ls "$work"/threads/release/*.o | grep -v '/front_kernel.o') "$work/broken/kernel.o" "$work/threads/view.o" \
+      "$work/threads/blas.o" -lmetis -lopenblas
+   OMP_NUM_THREADS=4 "$work/broken/jointfem" -q -o "$work/results" "$work/hex8_10x10x10.bdf" > "$log" 2>&1
+   if grep -q 'ThreadSanitizer: data race' "$log"; then
+      passed=$((passed + 1))
+   else
+      failed=$((failed + 1)); echo 'FAILED threads: a taskwait is left out, and nothing is seen'
+   fi
+}
+
+memcheck() {
+   local deck log="$work/memcheck-run.log"
+   command -v valgrind > /dev/null || { echo 'memcheck: skipped, valgrind is not installed'; return; }
+   for deck in prism05 flange_pair bracket_spiders solid_bolt meshed_apart friction_full; do
+      # valgrind has no AVX-512: OpenBLAS takes kernels that it can follow
+      OPENBLAS_CORETYPE=Haswell OPENBLAS_NUM_THREADS=1 valgrind --leak-check=full --errors-for-leak-kinds=definite \
+         bin/jointfem -q --threads 1 -o "$work/results" "input/$deck.bdf" > "$log" 2>&1
+      verdict "memcheck: $deck" "$log" 'Invalid (read|write)|uninitialised|definitely lost: [1-9]'
+   done
+}
+
+for part; do "$part"; done
+echo "$passed passed, $failed failed"
+[ $failed -eq 0 ]
