@@ -42,8 +42,8 @@ contains
       integer :: last
 
       if (.not. ieee_is_finite(value)) then
-         write (buffer, '(f0.1)') value ! NaN, Infinity
-         text = trim(buffer)
+         write (buffer, '(f24.1)') value ! NaN, Infinity
+         text = trim(adjustl(buffer))
          return
       else if (abs(value) < tiny(1.0_wp)) then
          text = '0'
