@@ -100,6 +100,7 @@ contains
       call record_slips(stream, analysis%slips)
       call stream%item(analysis%largest_p)
       call stream%item(analysis%largest_lambda)
+      call stream%item(analysis%largest_load)
       call stream%item(analysis%n_removed)
       call stream%item(analysis%ends_early)
       call stream%item(analysis%is_partial)

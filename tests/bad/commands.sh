@@ -38,6 +38,9 @@ for option in --help -h; do
 done
 run --help CROD; check '--help of a card' 0
 prints '--help of a card: its entry' '^| CROD   | EID '
+if [ "$(tail -n 1 "$work/stdout")" = "$(awk '/^### CROD$/ { on = 1; next } /^### / { on = 0 } on && NF { last = $0 } END { print last }' "$here/../../input/README.md")" ]; then pass
+else fail '--help of a card: not its last line at the end'
+fi
 run --help output; check '--help of a key' 0
 prints '--help of a key: its entry' '^What the listing holds'
 run --help SPC; prints '--help of a name that key and card have: both' '^The number of a set of SPC'
@@ -311,7 +314,7 @@ fresh here
 { sed '/^BEGIN/q; s/^SUBCASE.*/&\n  OUTPUT = ALL/' good.bdf; yes "\$ $(printf '%070d' 0)" | head -n 20000; sed '1,/^BEGIN/d; s/^JINCR.*/JINCR   5       2000    ARITH   2.0-4/' good.bdf
 } > large.bdf
 run -o here large.bdf;                check 'a deck above 1 MiB' 0
-run - < large.bdf;                    check 'a deck and a listing above 1 MiB through the standard streams' 0
+run - < <(cat large.bdf);              check 'a deck and a listing above 1 MiB through the standard streams' 0
 if [ "$(wc -c < large.bdf)" -gt 1048576 ] && [ "$(wc -c < here/large.out)" -gt 1048576 ] && cmp -s <(without_deck here/large.out) <(without_deck "$work/stdout"); then pass
 else fail 'a listing above 1 MiB on the standard output is not that of the file'
 fi

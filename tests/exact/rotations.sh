@@ -83,3 +83,8 @@ holds 'and the reference node moves' "abs($(table mean_126 'DISPLACEMENTS OF NOD
 # What is too large to be condensed as a full matrix is said, and by how much
 sed -e 's/\b900\b/9000/g; s/^SPC = 1/SOLVER = SKYLINE\n&/; s/^BLOCK2,1,1,1,1,/BLOCK2,1,1,3,400,/; s/^RBE2.*/RBE2,5000,9000,126,1,402,803,1204/; s/^SPC1,1,12,2,4/SPC1,1,12,401,802,1203,1604/' "$work/condensed.bdf" > "$work/many.bdf"
 run many && says 'too much to condense' "$work/many.out" 'NOT PRINTED, 3195 EQUATIONS ARE LEFT, MORE THAN 3000; SOLVER = TREE LEAVES FEWER$'
+
+# One unknown alone is condensed: a node between two springs in a row adds 1/(1/300 + 1/700) along y
+sed 's/^GRID,900.*/&\nGRID,901,,4.0,-9.0\nCELAS2,91,300.0,900,2,901,2\nCELAS2,92,700.0,901,2\nSPC1,1,1,901/' "$work/condensed.bdf" > "$work/condensed_chain.bdf"
+run condensed_chain &&
+   near 'condensed: one unknown' "$(table condensed_chain '[K_B] CONDENSED' | awk '$1 == "900Y" { print $3 }')" "$e*$t*$w/$h + 210" 1e-5

@@ -75,3 +75,9 @@ drawn stepped STEP -3 &&
       all 'tau_y = -0.12*load within 1e-9' \
       all 'tau_x - before(tau_x) = (delta_x - before(delta_x))*(120 - 16000*before(delta_x) + 6e5*before(delta_x)^2) within 1e-9' \
       all 'tau_y - before(tau_y) = (delta_y - before(delta_y))*(80 + 12000*before(delta_y) + 3.9e5*before(delta_y)^2) within 1e-9'
+
+# a law whose unloading does not come to zero says so: from A of the tested range B falls by 1.0 d alone
+drawn drawn NEWTON -3 && {
+   sed 's/^+,20.,200.,500.,3000.$/+,1.0\n+\n+,1.0,2.0-3/' "$work/drawn.bdf" > "$work/unclosed.bdf"
+   says 'a law whose unloading stays above zero' <(run unclosed; cat "$work/unclosed.out") 'CLOSURE: UNLOADING DOES NOT COME TO TAU = 0'
+}
