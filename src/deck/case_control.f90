@@ -42,13 +42,13 @@ module case_control
       type(stage_type), allocatable :: stages(:)
    end type case_control_type
 
-   character(32) :: solver_words = '|AUTO|SKYLINE|TREE|' ! that SOLVER may be, in the order of solver_*
+   logical :: has_petsc = .false.
 
 contains
 
    !> The program has the solvers PETSC and MUMPS.
    subroutine offer_petsc()
-      solver_words = '|AUTO|SKYLINE|TREE|PETSC|MUMPS|'
+      has_petsc = .true.
    end subroutine offer_petsc
 
    !> Read from line CURSOR of TEXT up to BEGIN BULK; CURSOR is left on the line behind it, FOUND_BULK tells whether
@@ -185,7 +185,12 @@ contains
          call choose(entry, '|YES|NO|', choice, errors)
          control%average = choice /= 2
       case ('SOLVER')
-         call choose(entry, trim(solver_words), control%solver, errors)
+         call choose(entry, '|AUTO|SKYLINE|TREE|PETSC|MUMPS|', control%solver, errors)
+         if (any(control%solver == [solver_petsc, solver_mumps]) .and. .not. has_petsc) then
+            control%solver = solver_auto
+            call value_error(entry, 'AUTO, SKYLINE or TREE; PETSC and MUMPS are solvers of the program that make mpi builds', &
+                             errors)
+         end if
       case ('RESTART')
          call parse_integer(entry%value, n, ok)
          if (.not. ok .or. n < 0) then

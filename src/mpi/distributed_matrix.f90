@@ -13,8 +13,8 @@ module distributed_matrix
    implicit none
    private
 
-   public :: start_matrix, reserve_touched, add_blocks, finish_matrix, read_touched, write_touched, matrix_times_vector, &
-             free_matrix, put_vector, take_vector, check
+   public :: start_matrix, reserve_touched, add_blocks, finish_matrix, read_touched, read_diagonal, write_touched, &
+             matrix_times_vector, free_matrix, put_vector, take_vector, check
 
    type, public :: distributed_matrix_type
       type(c_ptr) :: matrix = c_null_ptr
@@ -179,6 +179,15 @@ contains
       end do
       call gather(reshape(own, [size(own)]), stiffness%touched_counts, blocks)
    end subroutine read_touched
+
+   !> VALUES of rank 0: the diagonal, row after row.
+   subroutine read_diagonal(stiffness, values)
+      type(distributed_matrix_type), intent(in) :: stiffness
+      real(wp), intent(inout)                   :: values(:) !! [force/length]
+
+      call check(mat_get_diagonal(stiffness%matrix, stiffness%r))
+      call take_vector(stiffness%r, stiffness, values)
+   end subroutine read_diagonal
 
    !> Write BLOCKS, of rank 0, into the touched blocks.
    subroutine write_touched(d, blocks, stiffness)

@@ -1,8 +1,8 @@
 !> The engine that all processes drive together: the share of this process, its rows of the matrix, its part of the solution. Rank 0
 !! gives an order and does its part of it; the others take orders until the run ends. One structure at a time.
 module engine
-   use distributed_matrix, only: check, distributed_matrix_type, finish_matrix, free_matrix, matrix_times_vector, read_touched, &
-                                 reserve_touched, start_matrix, write_touched
+   use distributed_matrix, only: distributed_matrix_type, finish_matrix, free_matrix, matrix_times_vector, read_diagonal, &
+                                 read_touched, reserve_touched, start_matrix, write_touched
    use distributed_solution, only: distributed_solution_type, free_solution, renew_preconditioner, solve_distributed, start_solution
    use kinds, only: wp
    use ranks, only: rank, tell
@@ -13,7 +13,8 @@ module engine
    public :: order, obey, end_engine
 
    integer, parameter, public :: order_end = 0, order_take = 1, order_start = 2, order_touched = 3, order_finish = 4, &
-                                 order_read = 5, order_write = 6, order_renew = 7, order_solve = 8, order_multiply = 9
+                                 order_read = 5, order_write = 6, order_renew = 7, order_solve = 8, order_multiply = 9, &
+                                 order_diagonal = 10, order_forget = 11
 
    type(share_type), public                :: share
    type(distributed_matrix_type), public   :: stiffness
@@ -85,6 +86,10 @@ contains
          call renew_preconditioner(stiffness, solution)
       case (order_solve)
          call solve_distributed(stiffness, solution, values)
+      case (order_diagonal)
+         call read_diagonal(stiffness, values)
+      case (order_forget)
+         solution%has_guess = .false.
       case (order_multiply)
          call multiply(values)
       end select

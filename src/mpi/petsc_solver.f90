@@ -5,8 +5,8 @@ module petsc_solver
    use distributed_matrix, only: add_blocks
    use distributed_solution, only: by_gamg, by_mumps
    use element_kinds, only: max_coupled_dofs
-   use engine, only: order, order_finish, order_multiply, order_read, order_renew, order_solve, order_start, order_take, &
-                     order_touched, order_write, share, solution, stiffness, stiffest_of_all => stiffest
+   use engine, only: order, order_diagonal, order_finish, order_forget, order_multiply, order_read, order_renew, order_solve, &
+                     order_start, order_take, order_touched, order_write, share, solution, stiffness, stiffest_of_all => stiffest
    use equation_solver, only: equation_system, no_solution
    use factor_reuse, only: factor_reuse_type, forget_factor, may_reuse, note_factor, note_failure, note_steps
    use failures, only: failure_type
@@ -36,6 +36,7 @@ module petsc_solver
       integer, allocatable  :: row(:)             !! (n) of the matrix, from 1 on
       logical :: is_own = .false.                 !! whether the preconditioner is that of the stiffness now
       real(wp), allocatable :: structure(:)       !! touched blocks with the joints
+      real(wp), allocatable :: diagonal(:)        !! (n) of the stiffness with the joints [force/length]
    contains
       procedure :: start
       procedure :: form_bodies
@@ -43,6 +44,10 @@ module petsc_solver
       procedure :: form_structure
       procedure :: solve
       procedure :: multiply
+      procedure :: forget_past
+      procedure :: diagonal_of_factor
+      procedure :: solve_by_factor
+      procedure :: multiply_by_factor
    end type petsc_solver_type
 
 contains
@@ -140,7 +145,7 @@ contains
    subroutine form_structure(self, fault)
       class(petsc_solver_type), intent(inout) :: self
       integer, intent(out)                    :: fault
-      real(wp), allocatable :: values(:, :, :)
+      real(wp), allocatable :: values(:, :, :), rows(:)
       integer :: i
       logical :: reuse
 
@@ -150,6 +155,9 @@ contains
                                       i = 1, size(self%locked))], [2, size(self%locked)]), stiffness%unit, values)
       self%structure = reshape(values, [size(values)])
       call order(order_write, values=self%structure)
+      allocate (rows(size(self%deal%order)*size(self%number, 1)), source=0.0_wp)
+      call order(order_diagonal, values=rows)
+      self%diagonal = rows(self%row)
       self%is_own = .false.
       call may_reuse(self%reuse, reuse)
       if (.not. reuse) call renew(self)
@@ -215,5 +223,49 @@ contains
          call order(order_write, values=blocks)
       end if
    end subroutine multiply
+
+   subroutine forget_past(self)
+      class(petsc_solver_type), intent(inout) :: self
+
+      call order(order_forget)
+      call forget_factor(self%reuse)
+      self%one_solution = .false.
+      self%weakest = 1.0_wp
+   end subroutine forget_past
+
+   pure function diagonal_of_factor(self) result(diagonal)
+      class(petsc_solver_type), intent(in) :: self
+      real(wp) :: diagonal(self%n)
+
+      diagonal = self%diagonal
+   end function diagonal_of_factor
+
+   subroutine solve_by_factor(self, x)
+      class(petsc_solver_type), intent(in) :: self
+      real(wp), contiguous, intent(inout)  :: x(:)
+
+      x(self%locked) = 0.0_wp
+      call act_on(self, order_solve, x)
+   end subroutine solve_by_factor
+
+   subroutine multiply_by_factor(self, x)
+      class(petsc_solver_type), intent(in) :: self
+      real(wp), contiguous, intent(inout)  :: x(:)
+
+      call act_on(self, order_multiply, x)
+   end subroutine multiply_by_factor
+
+   !> X, by equation, is what all processes do with it.
+   subroutine act_on(self, what, x)
+      class(petsc_solver_type), intent(in) :: self
+      integer, intent(in)                  :: what !! order_solve, order_multiply
+      real(wp), intent(inout)              :: x(:)
+      real(wp), allocatable :: values(:)
+
+      allocate (values(size(self%deal%order)*size(self%number, 1)), source=0.0_wp)
+      values(self%row) = x(self%equations)
+      call order(what, values=values)
+      x(self%equations) = values(self%row)
+   end subroutine act_on
 
 end module petsc_solver
