@@ -187,7 +187,7 @@ contains
 
    !> Called by the kernel where an address is used at which nothing is. After an allocation that failed, the last that the C library
    !! tells this thread, that is why; otherwise the program ends as it would have done, at the same place.
-   subroutine end_at_no_address(signal) bind(c)
+   recursive subroutine end_at_no_address(signal) bind(c)
       integer(c_int), value   :: signal
       integer(c_int), pointer :: error
       integer(c_intptr_t)     :: before

@@ -77,7 +77,7 @@ contains
       self%before = 0
       self%total = sum([(size(plan%stages(s)%shares), s = 1, size(plan%stages))])
       call system_clock(self%increments_began)
-      self%last = self%increments_began
+      self%last = self%increments_began - self%rate ! the first one is shown
    end subroutine expect
 
    !> N increments were done by an earlier run.

@@ -112,7 +112,9 @@ while [ $kills -lt $wanted ]; do
    for name in $decks; do
       rm -rf "$name.now"; mkdir "$name.now"
       for ((k = 0; k < 4; k++)); do
-         draw "$(cat "$name.calls")"
+         read -r calls < "$name.calls"
+         draw "$calls"
+         [ $((RANDOM % 2)) -eq 0 ] && drawn=$((calls - drawn/3)) # half of them late: much of a short run is reading the deck
          resume "$name" "$drawn"
          if [ $status -eq 137 ]; then
             kills=$((kills + 1))
@@ -134,7 +136,7 @@ while [ $kills -lt $wanted ]; do
    done
 done
 echo "$kills kills (seed $seed), $taken times a run was taken up"
-if [ $taken -ge $((wanted/2)) ]; then pass; else fail "too few runs were taken up: $taken"; fi
+if [ $taken -ge $((wanted/4)) ]; then pass; else fail "too few runs were taken up: $taken"; fi
 
 # ------------------------------------------------------------------ what is said
 
