@@ -44,7 +44,7 @@ contains
       end if
 
       ! ------------------------------------------------------------------ WHICH BRANCH IS WHICH?
-      call find_branches(data, command, errors)
+      if (.not. errors%any()) call find_branches(data, command, errors)
 
       ! ------------------------------------------------------------------ LEAST SQUARES
       if (.not. errors%any()) call fit_surface(data, command, fit, errors)
@@ -57,7 +57,7 @@ contains
       call check_slopes(fit)
 
       ! ------------------------------------------------------------------ CARDS
-      call write_cards(command%files(i)%name, data, command, command%id + i - 1, fit, out)
+      call write_cards(command%files(i)%name, data, command, command%id + (i - 1), fit, out)
       if (command%plot /= '') call write_plot(command, i, data, fit, plot)
       call report_fit(command%files(i), fit)
    end subroutine fit_file

@@ -122,7 +122,7 @@ contains
       high = 1.0_wp
       g_high = g
       do attempt = 1, 12
-         if (g_low*g_high > 0.0_wp) then                   ! the work does not change sign: only shorter steps help
+         if (g_low > 0.0_wp .eqv. g_high > 0.0_wp) then    ! the work does not change sign: only shorter steps help
             step = 0.5_wp*step
          else
             step = (low*g_high - high*g_low)/(g_high - g_low)

@@ -232,7 +232,7 @@ contains
                call watch%rows%keep_line('  WARNING: NODE '//integer_text(joint_node_id(model, i, 1))//', '// &
                   upper(where_in_plan(plan, analysis%stage, analysis%increment))//': E_U = '//real_text(law%e_u)//' OF JOINT '// &
                   integer_text(model%joints(j)%id)//' IS BELOW THE LOADING SLOPE '//real_text(slope)//' AT P = '//real_text(p)// &
-                  trim(merge(': NEGATIVE SET', '              ', p/law%e_u > loading_deflection(law, p))))
+                  trim(merge(': NEGATIVE SET', '              ', p/law%e_u > loading_deflection(law, max(p, 0.0_wp)))))
             end associate
          end associate
       end do
