@@ -44,7 +44,7 @@ contains
       end if
 
       ! ------------------------------------------------------------------ WHICH BRANCH IS WHICH?
-      if (.not. errors%any()) call find_branches(data, command, errors)
+      call find_branches(data, command, errors)
 
       ! ------------------------------------------------------------------ LEAST SQUARES
       if (.not. errors%any()) call fit_surface(data, command, fit, errors)

@@ -196,6 +196,7 @@ contains
                fault = ''''//word//''' is not a number'
             else if (abs(value) > 1.0e30_wp) then
                fault = ''''//word//''' is beyond 1E30'
+               value = 0.0_wp ! what follows can go on, and find its faults
             end if
             value = value*factor
          end if

@@ -281,6 +281,7 @@ bad 'branch' "BRANCH: 'LOADING', expected LOAD, UNLOAD or RELOAD" <<< $'d tau p 
 bad 'negative pressure' "P: '-1' is negative" <<< $'lambda p\n1 -1\n1 1'
 bad 'negative d of loading' 'line 3' 'LOAD branch is negative' '^^' <<< $'p d tau branch\n1 1 1 LOAD\n1 -1 -1 LOAD'
 bad 'huge' 'beyond 1E30' <<< $'lambda p\n1 1E200\n1 1'
+bad 'huge, both senses' 'beyond 1E30' <<< $'lambda p\n0 0\n1 1\n1E308 2\n-1E308 1\n0.5 0\n1 1'
 bad 'one pressure' 'line 2' 'LOAD: all data at one pressure, p = 5' <<< $'d tau p branch\n1 1 5 LOAD\n2 2 5 LOAD\n3 3 5 LOAD\n4 4 5 LOAD'
 bad 'one cubic' 'UNLOAD: all data at one pressure' 'line 4' <<< $'c1 c2 c3 p branch\n1 1 1 5 LOAD\n1 1 1 6 LOAD\n1 1 1 5 UNLOAD'
 bad 'few points' 'line 5' 'LOAD, p = 6: 2 points that fix no cubic, expected three different d' \
