@@ -87,10 +87,10 @@ contains
       associate (stage => plan%stages(analysis%stage), page => listing%page)
          page%stage = 'STAGE '//integer_text(stage%id)
          page%now = ', '//page%stage//', INCREMENT '//integer_text(analysis%increment)//stage%shown_words
+         page%along_cd = stage%along_cd
          if (analysis%increment == 1) then
             if (allocated(page%shown)) deallocate (page%shown)
             if (allocated(stage%shown)) page%shown = stage%shown
-            page%along_cd = stage%along_cd
          end if
          page%largest_force = max(page%largest_force, maxval(abs(analysis%applied(:, analysis%loaded))))
          if (analysis%is_moved) page%largest_force = &
