@@ -36,7 +36,6 @@ module petsc_solver
       integer, allocatable  :: row(:)             !! (n) of the matrix, from 1 on
       logical :: is_own = .false.                 !! whether the preconditioner is that of the stiffness now
       real(wp), allocatable :: structure(:)       !! touched blocks with the joints
-      real(wp), allocatable :: diagonal(:)        !! (n) of the stiffness with the joints [force/length]
    contains
       procedure :: start
       procedure :: form_bodies
@@ -145,7 +144,7 @@ contains
    subroutine form_structure(self, fault)
       class(petsc_solver_type), intent(inout) :: self
       integer, intent(out)                    :: fault
-      real(wp), allocatable :: values(:, :, :), rows(:)
+      real(wp), allocatable :: values(:, :, :)
       integer :: i
       logical :: reuse
 
@@ -155,9 +154,6 @@ contains
                                       i = 1, size(self%locked))], [2, size(self%locked)]), stiffness%unit, values)
       self%structure = reshape(values, [size(values)])
       call order(order_write, values=self%structure)
-      allocate (rows(size(self%deal%order)*size(self%number, 1)), source=0.0_wp)
-      call order(order_diagonal, values=rows)
-      self%diagonal = rows(self%row)
       self%is_own = .false.
       call may_reuse(self%reuse, reuse)
       if (.not. reuse) call renew(self)
@@ -176,13 +172,12 @@ contains
       class(petsc_solver_type), intent(inout) :: self
       real(wp), intent(inout)                 :: x(:)
       integer, intent(out)                    :: fault
-      real(wp), allocatable :: values(:)
+      real(wp) :: load(size(self%equations))
 
       fault = 0
       x(self%locked) = 0.0_wp
-      allocate (values(size(self%deal%order)*size(self%number, 1)), source=0.0_wp)
-      values(self%row) = x(self%equations)
-      call order(order_solve, values=values)
+      load = x(self%equations)
+      call act_on(self, order_solve, x)
       if (solution%converged .and. self%is_own) then
          self%fresh_steps = solution%steps
       else if (solution%converged) then
@@ -190,9 +185,8 @@ contains
       else if (.not. self%is_own) then
          call note_failure(self%reuse)
          call renew(self)
-         values = 0.0_wp
-         values(self%row) = x(self%equations)
-         call order(order_solve, values=values)
+         x(self%equations) = load
+         call act_on(self, order_solve, x)
          self%fresh_steps = solution%steps
       end if
       if (.not. solution%converged) then
@@ -202,7 +196,6 @@ contains
                           integer_text(solution%steps)//' steps the residual is '//real_text(solution%residual)// &
                           ' of the load; the structure may be a mechanism, which SOLVER = TREE would name'
       end if
-      x(self%equations) = values(self%row)
    end subroutine solve
 
    !> Y = [k_b] X, with the joints out of the matrix for the moment.
@@ -210,14 +203,12 @@ contains
       class(petsc_solver_type), intent(in) :: self
       real(wp), intent(in)                 :: x(:)
       real(wp), intent(inout)              :: y(:)
-      real(wp), allocatable :: values(:), blocks(:)
+      real(wp), allocatable :: blocks(:)
 
       blocks = reshape(self%touched%bodies, [size(self%touched%bodies)])
       call order(order_write, values=blocks)
-      allocate (values(size(self%deal%order)*size(self%number, 1)), source=0.0_wp)
-      values(self%row) = x(self%equations)
-      call order(order_multiply, values=values)
-      y(self%equations) = values(self%row)
+      y(self%equations) = x(self%equations)
+      call act_on(self, order_multiply, y)
       if (allocated(self%structure)) then
          blocks = self%structure
          call order(order_write, values=blocks)
@@ -233,11 +224,12 @@ contains
       self%weakest = 1.0_wp
    end subroutine forget_past
 
-   pure function diagonal_of_factor(self) result(diagonal)
+   function diagonal_of_factor(self) result(diagonal)
       class(petsc_solver_type), intent(in) :: self
       real(wp) :: diagonal(self%n)
 
-      diagonal = self%diagonal
+      diagonal = 0.0_wp
+      call act_on(self, order_diagonal, diagonal)
    end function diagonal_of_factor
 
    subroutine solve_by_factor(self, x)
@@ -258,7 +250,7 @@ contains
    !> X, by equation, is what all processes do with it.
    subroutine act_on(self, what, x)
       class(petsc_solver_type), intent(in) :: self
-      integer, intent(in)                  :: what !! order_solve, order_multiply
+      integer, intent(in)                  :: what !! order_solve, order_multiply, order_diagonal
       real(wp), intent(inout)              :: x(:)
       real(wp), allocatable :: values(:)
 

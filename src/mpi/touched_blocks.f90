@@ -6,6 +6,7 @@
 !!
 !! and the processes that have them put them in their places.
 module touched_blocks
+   use id_table, only: sorted_order
    use interface_equations, only: interface_equations_type
    use interface_operator, only: interface_element
    use kinds, only: wp
@@ -83,15 +84,17 @@ contains
 
    end subroutine list_touched
 
-   !> The PAIRS, each once, in their order: sorted by counting, by column and then by row.
+   !> The PAIRS, each once, in their order: sorted by column and then by row.
    subroutine sort_once(n_blocks, pairs, touched)
       integer, intent(in)               :: n_blocks
       integer, intent(in)               :: pairs(:, :)
       type(touched_type), intent(inout) :: touched
-      integer :: by_column(size(pairs, 2)), by_row(size(pairs, 2)), i, k
+      integer, allocatable :: by_column(:), by_row(:)
+      integer :: i, k
 
-      by_column = counted(n_blocks, pairs(2, :))
-      by_row = by_column(counted(n_blocks, pairs(1, by_column)))
+      call sorted_order(pairs(2, :), by_column)
+      call sorted_order(pairs(1, by_column), by_row)
+      by_row = by_column(by_row)
       allocate (touched%row(size(by_row)), touched%column(size(by_row)))
       do i = 1, size(by_row)
          k = touched%n
@@ -113,24 +116,6 @@ contains
          touched%first(i) = touched%first(i + 1) - touched%first(i)
       end do
    end subroutine sort_once
-
-   !> The order in which KEYS, 0 to N - 1, ascend; equal ones as they stand.
-   pure function counted(n, keys) result(order)
-      integer, intent(in) :: n, keys(:)
-      integer :: order(size(keys)), next(0:n), i
-
-      next = 0
-      do i = 1, size(keys)
-         next(keys(i) + 1) = next(keys(i) + 1) + 1
-      end do
-      do i = 1, n
-         next(i) = next(i) + next(i - 1)
-      end do
-      do i = 1, size(keys)
-         next(keys(i)) = next(keys(i)) + 1
-         order(next(keys(i))) = i
-      end do
-   end function counted
 
    !> Where the pairs of nodes of interface elements stand in the list; 0: a node without unknowns.
    subroutine place_joints(deal, elements, touched)

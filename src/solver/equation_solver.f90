@@ -120,7 +120,7 @@ module equation_solver
       end subroutine multiply_vector
 
       !> The diagonal of the matrix [k] that the factor there is is of, over all equations.
-      pure function diagonal_of_matrix(self) result(diagonal)
+      function diagonal_of_matrix(self) result(diagonal)
          import :: equation_system, wp
          class(equation_system), intent(in) :: self
          real(wp) :: diagonal(self%n)
