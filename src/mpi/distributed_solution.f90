@@ -20,6 +20,7 @@ module distributed_solution
       integer  :: steps = 0                    !! of the last solution
       real(wp) :: residual = 0.0_wp            !! of that, as a share of the load
       logical  :: converged = .true.
+      logical  :: has_memory = .true.          !! for the factor, MUMPS
    end type distributed_solution_type
 
    real(wp), parameter :: tolerance = 1.0e-12_wp !! of the residual, as a share of the load
@@ -35,6 +36,7 @@ contains
       call set('-jointfem_mg_levels_ksp_type', 'chebyshev')
       call set('-jointfem_mg_levels_pc_type', 'jacobi')
       call set('-jointfem_mg_levels_ksp_chebyshev_esteig', '0,0.05,0,1.1')
+      call set('-jointfem_pc_gamg_use_sa_esteig', '0') ! those bounds are of the stiffness that the aggregates are of, not of this one
       call set('-jointfem_pc_gamg_agg_nsmooths', '1')
 
    contains
@@ -74,15 +76,22 @@ contains
       end associate
    end subroutine start_solution
 
-   !> Make the preconditioner anew, of the stiffness as it is now.
-   subroutine renew_preconditioner(stiffness, solution)
+   !> Make the preconditioner anew, of the stiffness as it is now; GAMG keeps the aggregates that it has, or begins WHOLLY anew.
+   subroutine renew_preconditioner(stiffness, wholly, solution)
       type(distributed_matrix_type), intent(in)      :: stiffness
+      logical, intent(in)                            :: wholly
       type(distributed_solution_type), intent(inout) :: solution
+      type(c_ptr)    :: preconditioner
+      integer(c_int) :: reason
 
+      call check(ksp_get_pc(solution%solver, preconditioner))
+      call check(pc_gamg_set_reuse_interpolation(preconditioner, merge(petsc_false, petsc_true, wholly)))
       call check(ksp_set_reuse_preconditioner(solution%solver, petsc_false))
       call check(ksp_set_operators(solution%solver, stiffness%matrix, stiffness%matrix))
       call check(ksp_set_up(solution%solver))
       call check(ksp_set_reuse_preconditioner(solution%solver, petsc_true))
+      call check(pc_get_failed_reason(preconditioner, reason))
+      solution%has_memory = reason /= no_memory_for_factor
    end subroutine renew_preconditioner
 
    !> X, of rank 0, the load row after row, becomes the solution; STEPS, RESIDUAL and whether it has CONVERGED tell how.

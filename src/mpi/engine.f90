@@ -82,8 +82,8 @@ contains
          call read_touched(share%dimension, stiffness, values)
       case (order_write)
          call write_touched(share%dimension, values, stiffness)
-      case (order_renew)
-         call renew_preconditioner(stiffness, solution)
+      case (order_renew)                                     ! words: whether wholly
+         call renew_preconditioner(stiffness, words(1) == 1, solution)
       case (order_solve)
          call solve_distributed(stiffness, solution, values)
       case (order_diagonal)
