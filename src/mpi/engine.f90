@@ -5,6 +5,7 @@ module engine
                                  read_touched, reserve_touched, start_matrix, write_touched
    use distributed_solution, only: distributed_solution_type, free_solution, renew_preconditioner, solve_distributed, start_solution
    use kinds, only: wp
+   use process_memory, only: check_rows, reserve_blas
    use ranks, only: rank, tell
    use shares, only: receive_share, share_type
    implicit none
@@ -69,8 +70,10 @@ contains
       select case (what)
       case (order_take)
          call end_engine()
+         call reserve_blas()
          if (rank /= 0) call receive_share(share)
       case (order_start)                                     ! words: blocks of each rank
+         call check_rows(share)
          call start_matrix(share, words, stiffness)
          is_running = .true.
       case (order_finish)                                    ! words: the preconditioner

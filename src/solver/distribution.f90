@@ -2,10 +2,11 @@
 !! process and no such solver, or src/mpi, PETSc on the processes that mpirun has started.
 module distribution
    use equation_solver, only: equation_system
+   use solver_weighing, only: solver_work_type
    implicit none
    private
 
-   public :: join_processes, leave_processes, choose_distributed
+   public :: join_processes, leave_processes, choose_distributed, weigh_distributed
 
    interface
       !> At the start of the program: of several processes the first goes on, the others come back from here only at the end of
@@ -22,6 +23,13 @@ module distribution
          integer, intent(in) :: wanted !! solver_* of case_control
          class(equation_system), allocatable, intent(out) :: system
       end subroutine choose_distributed
+
+      !> For AUTO: the one of these that does the WORK in less time than TREE, or has the memory that TREE would not have; else it is
+      !! left unallocated.
+      module subroutine weigh_distributed(work, system)
+         type(solver_work_type), intent(inout) :: work !! how many processes and threads there are is set here
+         class(equation_system), allocatable, intent(out) :: system
+      end subroutine weigh_distributed
    end interface
 
 end module distribution

@@ -23,6 +23,7 @@ module equation_solver
    !> A solver in numbers, for the listing and --times.
    type, public :: solver_description
       character(:), allocatable :: name              !! and its way, as the listing has it
+      character(:), allocatable :: reason            !! why AUTO has taken it, where that is no matter of course
       character(40) :: words(3) = ''                 !! what NUMBERS count; '' behind the last
       integer(long) :: numbers(3) = 0
       real(wp) :: fixed_operations  = 0.0_wp         !! multiplications and additions of what is factorised once

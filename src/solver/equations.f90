@@ -31,7 +31,7 @@ contains
       integer, intent(in), optional     :: solver         !! AUTO
       integer, intent(in), optional     :: factorisations !! 20
       type(node_graph_type) :: graph
-      integer :: i, n, wanted
+      integer :: expected, i, n, wanted
 
       wanted = solver_auto
       if (present(solver)) wanted = solver
@@ -44,8 +44,9 @@ contains
          return
       end if
       call build_node_graph(model, graph)
-      call choose_solver(model, graph, n, wanted, system)
-      if (present(factorisations)) system%factorisations = factorisations
+      expected = 20
+      if (present(factorisations)) expected = factorisations
+      call choose_solver(model, graph, n, wanted, expected, system)
       allocate (system%locked(0))
       call system%start(model, graph, failure)
       if (.not. failure%raised) call place_retained(model, system)

@@ -38,7 +38,11 @@ module tree_solver
       type(front_tree_type) :: fronts
       type(moving_factor_type) :: factor          !! of the stiffness with the joints, and what is known of it
       character(:), allocatable :: way            !! in which the joints are laid out
+      real(wp) :: bytes = 0.0_wp                  !! that are needed
+      logical  :: is_laid_out = .false.
+      type(front_layout_type), private :: layout  !! until start
    contains
+      procedure :: lay_out
       procedure :: start
       procedure :: form_bodies
       procedure :: add_to_bodies
@@ -56,43 +60,57 @@ module tree_solver
 
 contains
 
-   !> Order, number the unknowns, lay out the fronts for as many factorisations with new stiffnesses of the joints as are expected.
-   !! The equations of the fronts that move are left to the increments.
-   subroutine start(self, model, graph, failure)
+   !> Order, and lay out the fronts for as many factorisations with new stiffnesses of the joints as are expected; IS_LAID_OUT stays
+   !! false where there is no memory to order.
+   subroutine lay_out(self, model, graph)
       class(tree_solver_type), intent(inout) :: self
       type(model_type), intent(in)           :: model
       type(node_graph_type), intent(in)      :: graph
-      type(failure_type), intent(inout)      :: failure
-      type(front_layout_type) :: layout
-      integer, allocatable    :: order(:), weight(:)
-      logical, allocatable    :: in_joint(:)
+      integer, allocatable :: order(:), weight(:)
+      logical, allocatable :: in_joint(:)
       integer :: i
-      logical :: ok
 
       allocate (weight(model%n_nodes))
       do i = 1, model%n_nodes
          weight(i) = merge(count(.not. model%held(:, i)), 0, model%used(i))
       end do
-      call dissect(graph, weight > 0, order, ok)
-      if (.not. ok) then
-         call failure%raise('no memory to order '//integer_text(count(weight > 0))//' nodes')
+      call dissect(graph, weight > 0, order, self%is_laid_out)
+      if (.not. self%is_laid_out) return
+      call mark_joints(model, in_joint)
+      call choose_layout(graph, order, weight, in_joint, self%factorisations, self%layout, self%way)
+      self%bytes = bytes_needed(self%layout, sum(weight), model%dimension)
+      self%description%fixed_operations = self%layout%fixed_operations
+      self%description%moving_operations = self%layout%moving_operations
+   end subroutine lay_out
+
+   !> Number the unknowns. The equations of the fronts that move are left to the increments.
+   subroutine start(self, model, graph, failure)
+      class(tree_solver_type), intent(inout) :: self
+      type(model_type), intent(in)           :: model
+      type(node_graph_type), intent(in)      :: graph
+      type(failure_type), intent(inout)      :: failure
+      type(front_layout_type) :: none
+      logical, allocatable    :: in_joint(:)
+      integer :: i
+
+      if (.not. self%is_laid_out) call self%lay_out(model, graph)
+      if (.not. self%is_laid_out) then
+         call failure%raise('no memory to order '//integer_text(count(model%used))//' nodes')
          return
       end if
-      call mark_joints(model, in_joint)
-      call choose_layout(graph, order, weight, in_joint, self%factorisations, layout, self%way)
-      call check_memory(sum(weight), model%dimension, bytes_needed(layout, sum(weight), model%dimension), failure)
-      if (failure%raised) return
-      call self%number_unknowns(model, layout%order)
-      call start_front_tree(model, self%number, layout, self%fronts)
-      call self%factor%reuse%set_costs(layout%moving_operations, layout%moving_entries)
-      self%equations = self%fronts%equations
-      associate (description => self%description)
+      associate (layout => self%layout, description => self%description)
+         call self%number_unknowns(model, layout%order)
+         call check_memory(self%n, model%dimension, self%bytes, failure)
+         if (failure%raised) return
+         call start_front_tree(model, self%number, layout, self%fronts)
+         call self%factor%reuse%set_costs(layout%moving_operations, layout%moving_entries)
+         self%equations = self%fronts%equations
          description%name = 'TREE, JOINTS '//self%way
          description%words = [character(40) :: 'FRONTS', 'ENTRIES OF THE FACTOR', 'UNKNOWNS LEFT AFTER CONDENSATION']
          description%numbers = [int(layout%n, long), int(layout%factor_entries, long), size(self%equations, kind=long)]
-         description%fixed_operations = layout%fixed_operations
-         description%moving_operations = layout%moving_operations
       end associate
+      self%layout = none
+      call mark_joints(model, in_joint)
       in_joint(self%node(self%equations)) = .true.
       self%retained = pack([(i, i = 1, model%n_nodes)], in_joint)
    end subroutine start
