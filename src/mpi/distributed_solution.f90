@@ -26,6 +26,7 @@ module distributed_solution
    real(wp), parameter :: tolerance = 1.0e-12_wp !! of the residual, as a share of the load
    real(wp), parameter :: loosest = 1.0e-9_wp    !! that is still a solution where rounding allows no more
    integer, parameter  :: most_steps = 500
+   integer, parameter, public :: no_limit = huge(1) !! of the steps of a solution, but that
    integer, parameter  :: most_solutions = 3     !! one after another, each from where the one before has come
 
 contains
@@ -94,16 +95,20 @@ contains
       solution%has_memory = reason /= no_memory_for_factor
    end subroutine renew_preconditioner
 
-   !> X, of rank 0, the load row after row, becomes the solution; STEPS, RESIDUAL and whether it has CONVERGED tell how.
-   subroutine solve_distributed(stiffness, solution, x)
+   !> X, of rank 0, the load row after row, becomes the solution, in AT_MOST so many steps at a time; STEPS, RESIDUAL and whether
+   !! it has CONVERGED tell how. The next solution begins with what has been reached.
+   subroutine solve_distributed(stiffness, at_most, solution, x)
       type(distributed_matrix_type), intent(in)      :: stiffness
+      integer, intent(in)                            :: at_most
       type(distributed_solution_type), intent(inout) :: solution
       real(wp), intent(inout)                        :: x(:)
-      integer(c_int) :: reason, steps
+      integer(c_int) :: reason, steps, usual
       integer  :: again
-      real(wp) :: load, left
+      real(wp) :: load, left, relative, absolute, divergence ! usual limits: those here, or the user's (PETSC_OPTIONS)
 
       call put_vector(x, stiffness, stiffness%b)
+      call check(ksp_get_tolerances(solution%solver, relative, absolute, divergence, usual))
+      call check(ksp_set_tolerances(solution%solver, relative, absolute, divergence, min(usual, at_most)))
       call check(vec_norm(stiffness%b, norm_2, load))
       solution%steps = 0
       solution%residual = 0.0_wp
@@ -125,8 +130,9 @@ contains
             if (reason <= 0 .or. solution%residual <= 10.0_wp*tolerance) exit
          end do
          solution%converged = solution%residual <= loosest
-         solution%has_guess = solution%converged
+         solution%has_guess = solution%residual < 1.0_wp
       end if
+      call check(ksp_set_tolerances(solution%solver, relative, absolute, divergence, usual))
       call take_vector(stiffness%x, stiffness, x)
    end subroutine solve_distributed
 

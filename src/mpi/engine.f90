@@ -87,8 +87,8 @@ contains
          call write_touched(share%dimension, values, stiffness)
       case (order_renew)                                     ! words: whether wholly
          call renew_preconditioner(stiffness, words(1) == 1, solution)
-      case (order_solve)
-         call solve_distributed(stiffness, solution, values)
+      case (order_solve)                                     ! words: steps at most
+         call solve_distributed(stiffness, words(1), solution, values)
       case (order_diagonal)
          call read_diagonal(stiffness, values)
       case (order_forget)

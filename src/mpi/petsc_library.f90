@@ -254,6 +254,14 @@ module petsc_library
          integer(c_int), value :: most_steps
       end function ksp_set_tolerances
 
+      integer(c_int) function ksp_get_tolerances(solver, relative, absolute, divergence, most_steps) &
+         bind(c, name='KSPGetTolerances')
+         import :: c_double, c_int, c_ptr
+         type(c_ptr), value          :: solver
+         real(c_double), intent(out) :: relative, absolute, divergence
+         integer(c_int), intent(out) :: most_steps
+      end function ksp_get_tolerances
+
       integer(c_int) function ksp_set_initial_guess_nonzero(solver, yes) bind(c, name='KSPSetInitialGuessNonzero')
          import :: c_int, c_ptr
          type(c_ptr), value    :: solver

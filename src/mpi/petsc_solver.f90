@@ -3,7 +3,7 @@
 module petsc_solver
    use body_elements, only: coupled_stiffness
    use distributed_matrix, only: add_blocks
-   use distributed_solution, only: by_gamg, by_mumps
+   use distributed_solution, only: by_gamg, by_mumps, no_limit
    use element_kinds, only: max_coupled_dofs
    use engine, only: order, order_diagonal, order_finish, order_forget, order_multiply, order_read, order_renew, order_solve, &
                      order_start, order_take, order_touched, order_write, share, solution, stiffness, stiffest_of_all => stiffest
@@ -201,18 +201,26 @@ contains
       real(wp), intent(inout)                 :: x(:)
       integer, intent(out)                    :: fault
       real(wp) :: load(size(self%equations))
+      integer  :: steps, tries
 
       fault = 0
       x(self%locked) = 0.0_wp
       load = x(self%equations)
-      call act_on(self, order_solve, x)
-      if (.not. (solution%converged .or. self%is_whole .and. self%is_own)) then
+      call act_on(self, order_solve, x, merge(no_limit, 2*self%fresh_steps + few_steps, self%is_own))
+      steps = solution%steps
+      do tries = 1, 2
+         if (solution%converged .or. self%is_whole .and. self%is_own) exit
          if (.not. self%is_own) call note_failure(self%reuse)
-         call renew(self, wholly=.true.)
-         call order(order_forget)
+         call renew(self, wholly=tries == 2 .or. self%is_own)
          x(self%equations) = load
          call act_on(self, order_solve, x)
-      end if
+         steps = steps + solution%steps
+      end do
+      associate (done => self%description)
+         done%solutions = done%solutions + 1
+         done%steps = done%steps + steps
+         done%most_steps = max(done%most_steps, steps)
+      end associate
       if (.not. solution%converged) then
          call say_why(self, x, fault)
       else if (self%is_own) then
@@ -343,16 +351,20 @@ contains
       call act_on(self, order_multiply, x)
    end subroutine multiply_by_factor
 
-   !> X, by equation, is what all processes do with it.
-   subroutine act_on(self, what, x)
+   !> X, by equation, is what all processes do with it; a solution takes steps AT_MOST so often.
+   subroutine act_on(self, what, x, at_most)
       class(petsc_solver_type), intent(in) :: self
       integer, intent(in)                  :: what !! order_solve, order_multiply, order_diagonal
       real(wp), intent(inout)              :: x(:)
+      integer, intent(in), optional        :: at_most !! no_limit
       real(wp), allocatable :: values(:)
+      integer :: limit
 
       allocate (values(size(self%deal%order)*size(self%number, 1)), source=0.0_wp)
       values(self%row) = x(self%equations)
-      call order(what, values=values)
+      limit = no_limit
+      if (present(at_most)) limit = at_most
+      call order(what, [limit], values)
       x(self%equations) = values(self%row)
    end subroutine act_on
 

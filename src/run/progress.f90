@@ -103,8 +103,17 @@ contains
       self%last = now
       left = real(now - self%increments_began, wp)/self%rate*(self%total - self%done)/(self%done - self%before)
       call show(self, 'stage '//integer_text(stage)//', increment '//integer_text(increment)//' of '//integer_text(increments)// &
-                ', '//integer_text(nint(left))//' s left')
+                ', '//integer_text(nint(left))//' s left'//steps_so_far(self))
    end subroutine advance
+
+   !> Of a solver that iterates the mean of its steps.
+   pure function steps_so_far(self) result(words)
+      class(progress_type), intent(in) :: self
+      character(:), allocatable :: words
+
+      words = ''
+      if (self%solver%solutions > 0) words = ', '//integer_text(int(self%solver%steps/self%solver%solutions))//' steps a solution'
+   end function steps_so_far
 
    !> WORDS behind the name of the deck, over what stood there.
    subroutine show(self, words)
@@ -138,6 +147,8 @@ contains
       write (error_unit, '(3a, f12.4, a)') self%deck, ': ', 'elements  ', self%solver%assembly_time, ' s of factor'
       write (error_unit, '(3a, es12.4)') self%deck, ': ', 'operations fixed  ', self%solver%fixed_operations, &
          self%deck, ': ', 'operations moving ', self%solver%moving_operations
+      if (self%solver%solutions > 0) write (error_unit, '(2a, 3(a, i0))') self%deck, ': ', 'solutions ', self%solver%solutions, &
+         ', steps ', self%solver%steps, ', at most ', self%solver%most_steps
       write (error_unit, '(3a, i12, a)') self%deck, ': ', 'memory    ', nint(peak_memory()/1048576.0_wp), ' MiB'
    end subroutine finish
 

@@ -208,6 +208,7 @@ contains
          return
       end if
       call run%progress%enter(phase_write)
+      run%progress%solver = system%description
       call list_results(model, plan, analysis, run%results)
       call run%progress%advance(analysis%stage, analysis%increment, size(plan%stages(analysis%stage)%shares))
       call run%progress%enter(phase_increments)

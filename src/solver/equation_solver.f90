@@ -29,6 +29,9 @@ module equation_solver
       real(wp) :: fixed_operations  = 0.0_wp         !! multiplications and additions of what is factorised once
       real(wp) :: moving_operations = 0.0_wp         !! of what is factorised in every increment
       real(wp) :: assembly_time     = 0.0_wp         !! of the elements, all threads together [s]
+      integer(long) :: solutions = 0                 !! so far, by steps of an iteration on several processes
+      integer(long) :: steps = 0                     !! of all of them
+      integer  :: most_steps = 0                     !! of one
    end type solver_description
 
    type, abstract, public :: equation_system
