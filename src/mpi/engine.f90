@@ -15,7 +15,7 @@ module engine
 
    integer, parameter, public :: order_end = 0, order_take = 1, order_start = 2, order_touched = 3, order_finish = 4, &
                                  order_read = 5, order_write = 6, order_renew = 7, order_solve = 8, order_multiply = 9, &
-                                 order_diagonal = 10, order_forget = 11
+                                 order_diagonal = 10, order_forget = 11, order_way = 12
 
    type(share_type), public                :: share
    type(distributed_matrix_type), public   :: stiffness
@@ -91,6 +91,9 @@ contains
          call solve_distributed(stiffness, words(1), solution, values)
       case (order_diagonal)
          call read_diagonal(stiffness, values)
+      case (order_way)                                       ! words: the preconditioner
+         call free_solution(solution)
+         call start_solution(stiffness, words(1), solution)
       case (order_forget)
          solution%has_guess = .false.
       case (order_multiply)

@@ -6,7 +6,8 @@ module petsc_solver
    use distributed_solution, only: by_gamg, by_mumps, no_limit
    use element_kinds, only: max_coupled_dofs
    use engine, only: order, order_diagonal, order_finish, order_forget, order_multiply, order_read, order_renew, order_solve, &
-                     order_start, order_take, order_touched, order_write, share, solution, stiffness, stiffest_of_all => stiffest
+                     order_start, order_take, order_touched, order_way, order_write, share, solution, stiffness, &
+                     stiffest_of_all => stiffest
    use equation_solver, only: equation_system, no_memory, no_solution, pivot_tolerance
    use factor_reuse, only: factor_reuse_type, forget_factor, may_reuse, note_factor, note_failure, note_steps
    use failures, only: failure_type
@@ -27,9 +28,12 @@ module petsc_solver
    integer, parameter  :: steps_of_set_up = 30  ! that cost what a new preconditioner does, GAMG
    real(wp), parameter :: slower = 1.5_wp       ! steps, against those with its own aggregates, at which GAMG gets new ones
    integer, parameter  :: few_steps = 10        ! that are no reason for it
+   integer, parameter  :: many_steps = 150      ! with which GAMG is given up for the factor of MUMPS
+   integer, parameter  :: small = 100000        ! unknowns, for whose factor there is memory and time
 
    type, extends(equation_system), public :: petsc_solver_type
-      integer :: way = by_gamg                    !! or by_mumps
+      integer :: wanted = by_gamg                 !! or by_mumps
+      integer :: way = by_gamg                    !! of the preconditioner now: MUMPS too where GAMG does not get there
       type(deal_type) :: deal
       type(touched_type) :: touched
       type(interface_equations_type) :: joints
@@ -88,7 +92,7 @@ contains
       self%reuse%most_steps = steps_of_set_up
       associate (description => self%description)
          description%name = trim(merge('PETSC, CONJUGATE GRADIENTS WITH GAMG', 'PETSC, FACTOR BY MUMPS              ', &
-                                       self%way == by_gamg))
+                                       self%wanted == by_gamg))
          description%words(1) = 'ENTRIES OF THE STIFFNESS MATRIX'
          description%numbers(1) = int(model%dimension, long)**2*(size(graph%neighbours) + int(model%n_nodes, long))
       end associate
@@ -113,6 +117,7 @@ contains
             call add_blocks(self%deal%block(nodes), model%held(:, nodes), k(:n, :n), stiffness)
          end associate
       end do
+      self%way = self%wanted
       call order(order_finish, [self%way])
       self%stiffest = stiffest_of_all
       call read_bodies(self)
@@ -195,27 +200,15 @@ contains
       call note_factor(self%reuse)
    end subroutine renew
 
-   !> Where the preconditioner is of an earlier stiffness, or its aggregates are, and does not get there, by a new one.
    subroutine solve(self, x, fault)
       class(petsc_solver_type), intent(inout) :: self
       real(wp), intent(inout)                 :: x(:)
       integer, intent(out)                    :: fault
-      real(wp) :: load(size(self%equations))
-      integer  :: steps, tries
+      integer :: steps
 
       fault = 0
       x(self%locked) = 0.0_wp
-      load = x(self%equations)
-      call act_on(self, order_solve, x, merge(no_limit, 2*self%fresh_steps + few_steps, self%is_own))
-      steps = solution%steps
-      do tries = 1, 2
-         if (solution%converged .or. self%is_whole .and. self%is_own) exit
-         if (.not. self%is_own) call note_failure(self%reuse)
-         call renew(self, wholly=tries == 2 .or. self%is_own)
-         x(self%equations) = load
-         call act_on(self, order_solve, x)
-         steps = steps + solution%steps
-      end do
+      call solve_somehow(self, x, steps)
       associate (done => self%description)
          done%solutions = done%solutions + 1
          done%steps = done%steps + steps
@@ -227,10 +220,53 @@ contains
          self%fresh_steps = solution%steps
          if (self%is_whole) self%whole_steps = max(self%whole_steps, solution%steps)
          if (solution%steps > max(few_steps, int(slower*self%whole_steps))) self%whole_steps = -1
+         if (solution%steps > many_steps .and. self%n <= small) call take_way(self, by_mumps)
       else
          call note_steps(self%reuse, max(0, solution%steps - self%fresh_steps))
       end if
    end subroutine solve
+
+   !> X, the load, becomes the solution, in so many STEPS. Where the preconditioner is of an earlier stiffness and does not get there
+   !! it is by a new one, then by one with new aggregates, and at last by the factor of MUMPS.
+   subroutine solve_somehow(self, x, steps)
+      class(petsc_solver_type), intent(inout) :: self
+      real(wp), intent(inout)                 :: x(:)
+      integer, intent(out)                    :: steps
+      real(wp) :: load(size(self%equations))
+
+      load = x(self%equations)
+      call act_on(self, order_solve, x, merge(no_limit, 2*self%fresh_steps + few_steps, self%is_own))
+      steps = solution%steps
+      do while (.not. solution%converged)
+         if (.not. self%is_own) then
+            call note_failure(self%reuse)
+            call renew(self, wholly=self%whole_steps < 0)
+         else if (.not. self%is_whole) then
+            call renew(self, wholly=.true.)
+         else if (self%way == by_gamg) then
+            call take_way(self, by_mumps)
+            call renew(self, wholly=.true.)
+         else
+            exit
+         end if
+         x(self%equations) = load
+         call act_on(self, order_solve, x)
+         steps = steps + solution%steps
+      end do
+   end subroutine solve_somehow
+
+   !> From now on preconditioners are made in this WAY.
+   subroutine take_way(self, way)
+      class(petsc_solver_type), intent(inout) :: self
+      integer, intent(in)                     :: way !! by_gamg, by_mumps
+
+      if (self%way == way) return
+      self%way = way
+      self%is_own = .false.
+      self%whole_steps = -1
+      call forget_factor(self%reuse)
+      call order(order_way, [way])
+   end subroutine take_way
 
    !> Under a load that excites every motion it is seen what holds the structure hardly or not at all, which loads that do not
    !! move it that way would hide: FAULT is an equation of such a motion. The load of an equation is of the size of sqrt(k_ii), so
@@ -241,12 +277,13 @@ contains
       integer, intent(inout)                  :: fault
       real(wp), parameter :: golden = 0.6180339887498949_wp
       real(wp) :: size_of(self%n), x(self%n)
+      integer  :: steps
 
       size_of = sqrt(self%diagonal_of_factor())
       x = size_of*(2.0_wp*modulo(golden*(size(self%number, 1)*self%node + self%direction), 1.0_wp) - 1.0_wp)
       x(self%locked) = 0.0_wp
       call order(order_forget)
-      call act_on(self, order_solve, x)
+      call solve_somehow(self, x, steps)
       self%is_probed = .true.
       if (solution%converged) then
          self%weakest = 1.0_wp/max(1.0_wp, maxval(size_of*abs(x)))
@@ -326,6 +363,7 @@ contains
       self%weakest = 1.0_wp
       self%whole_steps = -1
       self%is_probed = .false.
+      call take_way(self, self%wanted)
    end subroutine forget_past
 
    function diagonal_of_factor(self) result(diagonal)

@@ -50,7 +50,7 @@ contains
 
       if (wanted /= solver_petsc .and. wanted /= solver_mumps) return
       allocate (solver)
-      solver%way = merge(by_mumps, by_gamg, wanted == solver_mumps)
+      solver%wanted = merge(by_mumps, by_gamg, wanted == solver_mumps)
       call move_alloc(solver, system)
    end subroutine choose_distributed
 

@@ -9,6 +9,7 @@ module shares
    use node_graph, only: node_graph_type
    use ranks, only: n_ranks, receive, send
    use section_coupling, only: section_node
+   use unknown_motions, only: is_ordinary, motions_of, n_motions
    implicit none
    private
 
@@ -34,6 +35,8 @@ module shares
       logical, allocatable  :: held_own(:, :) !! (dimension, own blocks)
       integer, allocatable  :: inside(:), outside(:) !! (own blocks) neighbours that this process has, itself counted, and others
       real(wp), allocatable :: x(:, :)        !! (dimension, own blocks) where they are [length]
+      integer, allocatable  :: odd(:)         !! own blocks whose unknowns are no displacements in global axes
+      real(wp), allocatable :: odd_motions(:, :, :) !! (dimension, motions, of these) as unknown_motions has them
    end type share_type
 
 contains
@@ -71,6 +74,7 @@ contains
       integer, intent(in)               :: r
       type(share_type), intent(out)     :: share
       integer :: b, i, k, node
+      logical, allocatable :: is_odd(:)
 
       share%dimension = model%dimension
       share%n_blocks = size(deal%order)
@@ -91,6 +95,15 @@ contains
                share%outside(b) = share%outside(b) + 1
             end if
          end do
+      end do
+      allocate (is_odd(share%n_own))
+      do b = 1, share%n_own
+         is_odd(b) = .not. is_ordinary(model, deal%order(share%first + b))
+      end do
+      share%odd = pack([(b, b = 1, share%n_own)], is_odd)
+      allocate (share%odd_motions(model%dimension, n_motions(model%dimension), size(share%odd)))
+      do b = 1, size(share%odd)
+         share%odd_motions(:, :, b) = motions_of(model, deal%order(share%first + share%odd(b)))
       end do
       call take_elements(model, deal, r, share)
    end subroutine share_of
@@ -176,6 +189,8 @@ contains
       call send(r, share%inside)
       call send(r, share%outside)
       call send(r, reshape(share%x, [size(share%x)]))
+      call send(r, share%odd)
+      call send(r, reshape(share%odd_motions, [size(share%odd_motions)]))
    end subroutine send_share
 
    !> The SHARE that rank 0 has sent.
@@ -219,6 +234,9 @@ contains
          call receive(share%outside)
          call receive(values)
          share%x = reshape(values, [d, share%n_own])
+         call receive(share%odd)
+         call receive(values)
+         share%odd_motions = reshape(values, [d, n_motions(d), size(share%odd)])
       end associate
    end subroutine receive_share
 
