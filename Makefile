@@ -155,7 +155,8 @@ $(BUILD)/compare/%.o: tests/compare/%.f90
 
 .PHONY: test
 test: bin/jointfem $(BUILD)/checked/jointfem $(BUILD)/checked/jointfit $(COMPARE) $(QUERY) $(UNIT_PROGRAM)
-	@MAKE='$(MAKE)' tests/run_all.sh bin/jointfem $(BUILD)/checked/jointfem $(COMPARE) $(QUERY) $(BUILD)
+	@if pkg-config --exists petsc 2> /dev/null && command -v mpirun > /dev/null; then $(MAKE) --no-print-directory mpi; fi
+	@MAKE='$(MAKE)' tests/run_all.sh bin/jointfem $(BUILD)/checked/jointfem $(COMPARE) $(QUERY) $(BUILD) bin/jointfem_mpi
 
 .PHONY: check
 check: bin/jointfem $(COMPARE)

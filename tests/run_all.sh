@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Everything that `make test` runs, part after part, and one sum at the end.
 #
-#    run_all.sh PROGRAM CHECKED_PROGRAM COMPARE QUERY BUILD_FOLDER
+#    run_all.sh PROGRAM CHECKED_PROGRAM COMPARE QUERY BUILD_FOLDER [PROGRAM_MPI]
 #
 # CHECKED_PROGRAM is the program with run-time checks; bad decks and those made at random go through it, so that a bound exceeded or a
 # floating-point exception is seen. Every part ends with a line `N passed, N failed`; a part without one has failed. As many parts
@@ -104,6 +104,16 @@ part 'meshes from Gmsh' tests/gmsh.sh "$program" "$query" "$build/gmsh"
 part 'decks to and from pyNastran' tests/pynastran/run.sh "$program" "$build/pynastran"
 part 'pictures of a deck, flow charts' tests/figures.sh "$program" "$build/test/figures"
 part 'the benchmark, without measuring' tests/bench/test_bench.sh "$program" "$build/test/bench"
+everything_so_far
+# on several processes, one after another: they use all cores themselves
+distributed=${6:-none}
+together=1
+part 'on several processes: decks against TREE' tests/mpi/run.sh "$program" "$distributed" "$query" "$build/mpi-test" \
+   input/{prism_history,friction_once,gib,flange_warm,bolted_cantilever,bracket_spiders,flange_sector,solid_bolt,pin_in_bore}.bdf \
+   input/{meshed_apart,column_tetra10,one_element,normal_loop}.bdf tests/solver/{boxes,moved_newton}.bdf
+part 'on several processes: their number' tests/mpi/ranks.sh "$program" "$distributed" "$query" "$build/mpi-ranks"
+part 'on several processes: runs that fail' tests/mpi/failures.sh "$distributed" "$build/mpi-failures"
+part 'on several processes: steps' tests/mpi/iterations.sh "$distributed" "$build/mpi-steps"
 everything_so_far
 echo '----'
 echo "$passed passed, $failed failed"

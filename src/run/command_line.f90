@@ -242,6 +242,9 @@ contains
          '   --help        print this'//nl// &
          '   --help CARD   print what the manual says of a card, or of a key of case control'//nl// &
          ''//nl// &
+         'The program of `make mpi`, jointfem_mpi, has the solvers PETSC and MUMPS besides (--help SOLVER), and solves with'//nl// &
+         'them on several processes: mpirun -n 4 jointfem_mpi DECK...'//nl// &
+         ''//nl// &
          'exit status: 0 all decks ran, 1 wrong usage or unreadable file, 2 errors in a deck, 3 a structure that'//nl// &
          'cannot be solved, 4 output that cannot be written; of several decks the highest. The cards are explained'//nl// &
          'in input/README.md, each by --help CARD.', status)

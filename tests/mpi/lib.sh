@@ -15,5 +15,5 @@ export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMP_NUM_THREADS
 on_processes() {
    local n=$1 folder=$2
    shift 2
-   timeout 300 mpirun -q --oversubscribe -n "$n" "$distributed" -q -o "$folder" "$@" < /dev/null
+   timeout 900 mpirun -q --oversubscribe -n "$n" "$distributed" -q -o "$folder" "$@" < /dev/null
 }

@@ -5,17 +5,13 @@
 #    run.sh PROGRAM PROGRAM_MPI QUERY WORK_FOLDER [DECK...]
 set -u
 export LC_ALL=C
-program=$1 distributed=$2 query=$3 work=$4
-shift 4
+program=$1 query=$3 work=$4
+. tests/mpi/lib.sh
 . tests/solver/lib.sh
+has_processes "$2"
+shift 4
 compare_within 1e-8
 passed=0 failed=0
-if ! [ -x "$distributed" ] || ! command -v mpirun > /dev/null; then
-   echo 'skipped: there is no program built by make mpi'
-   echo '0 passed, 0 failed'
-   exit 0
-fi
-export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMP_NUM_THREADS=1 OMPI_MCA_mpi_yield_when_idle=1
 rm -rf "$work"
 mkdir -p "$work"/{decks,tree,petsc1,petsc2,mumps2}
 for included in input/*/ tests/solver/*.inc; do ln -s "$PWD/${included%/}" "$work/decks/"; done # INCLUDE looks beside the deck
@@ -32,7 +28,7 @@ for deck; do
       read -r solver n <<< "$way"
       folder=$work/${solver,,}$n
       with_solver "$deck" $solver > "$work/decks/$name.bdf"
-      if words=$(mpirun -q --oversubscribe -n $n "$distributed" -q -o "$folder" "$work/decks/$name.bdf" 2>&1) &&
+      if words=$(on_processes $n "$folder" "$work/decks/$name.bdf" 2>&1) &&
          words=$(same_history "$work/tree/$name" "$folder/$name"); then
          passed=$((passed + 1))
       else
