@@ -6,6 +6,7 @@ module stage_plan
    use kinds, only: wp
    use stage_entries, only: output_all, output_last
    use text_tools, only: integer_text
+   use vibration_plan, only: vibration_plan_type
    implicit none
    private
 
@@ -20,6 +21,7 @@ module stage_plan
       logical, allocatable :: shown(:)      !! nodes that its tables are limited to; not allocated: all
       character(:), allocatable :: shown_words !! of that, behind a title
       real(wp), allocatable :: shares(:)    !! of the stage's load change, one an increment, sum 1
+      type(vibration_plan_type), allocatable :: vibration !! at its end; not allocated: none is asked
    end type planned_stage
 
    type, public :: stage_plan_type
