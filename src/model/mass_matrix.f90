@@ -5,12 +5,15 @@ module mass_matrix
    use element_kinds, only: max_nodes
    use kinds, only: wp
    use mass_elements, only: bar_mass, inertia_at_rotation, n_masses, rotation_of, scalar_mass
-   use model_data, only: bar_nodes, corners_of, model_type, n_bars, n_points
+   use model_data, only: corners_of, model_type, n_bars, n_points
+   use reverse_lists, only: list_owners
    use section_coupling, only: add_section_share, corner_displacements, section_node
    implicit none
    private
 
    public :: form_mass, mass_times, total_mass
+
+   integer, parameter :: worth_threads = 10000 ! nodes
 
    !> Rows of nodes: between node i and column(first(i):first(i + 1) - 1).
    type, public :: mass_matrix_type
@@ -24,7 +27,7 @@ module mass_matrix
 contains
 
    !> The mass of MODEL.
-   pure subroutine form_mass(model, mass)
+   subroutine form_mass(model, mass)
       type(model_type), intent(in)        :: model
       type(mass_matrix_type), intent(out) :: mass
       real(wp) :: m(max_nodes, max_nodes)
@@ -52,7 +55,7 @@ contains
 
    contains
 
-      pure subroutine add(nodes, values)
+      subroutine add(nodes, values)
          integer, intent(in)  :: nodes(:)
          real(wp), intent(in) :: values(:, :)
          integer :: a, b, at
@@ -70,12 +73,17 @@ contains
    end subroutine form_mass
 
    !> Which nodes share an element, or a bar with mass; every node is its own neighbour.
-   pure subroutine lay_out(model, mass)
+   subroutine lay_out(model, mass)
       type(model_type), intent(in)          :: model
       type(mass_matrix_type), intent(inout) :: mass
-      integer, allocatable :: seen_by(:), partners(:)
+      integer, allocatable :: ends(:, :), first_bar(:), bars_at(:), seen_by(:)
       integer :: e, i, k, n, node, pass
 
+      allocate (ends(2, n_bars(model)), source=0)
+      do i = 1, n_bars(model)
+         if (model%bars(i)%mass > 0.0_wp) ends(:, i) = model%bars(i)%nodes
+      end do
+      call list_owners(model%n_nodes, ends, first_bar, bars_at)
       allocate (mass%first(model%n_nodes + 1), seen_by(model%n_nodes))
       do pass = 1, 2 ! count, then fill
          seen_by = 0
@@ -90,10 +98,9 @@ contains
                   if (model%element_nodes(k, e) > 0) call visit(model%element_nodes(k, e))
                end do
             end do
-            if (node > n_points(model)) cycle
-            partners = bar_partners(node)
-            do i = 1, size(partners)
-               call visit(partners(i))
+            do i = first_bar(node), first_bar(node + 1) - 1
+               call visit(ends(1, bars_at(i)))
+               call visit(ends(2, bars_at(i)))
             end do
          end do
          mass%first(model%n_nodes + 1) = n + 1
@@ -103,7 +110,7 @@ contains
 
    contains
 
-      pure subroutine visit(other)
+      subroutine visit(other)
          integer, intent(in) :: other
 
          if (seen_by(other) == node) return
@@ -112,23 +119,10 @@ contains
          if (pass == 2) mass%column(n) = other
       end subroutine visit
 
-      !> The other ends of the bars with mass at THIS node.
-      pure function bar_partners(this) result(others)
-         integer, intent(in) :: this
-         integer, allocatable :: others(:)
-         integer :: b
-
-         others = [integer ::]
-         do b = 1, n_bars(model)
-            if (.not. model%bars(b)%mass > 0.0_wp) cycle
-            if (any(model%bars(b)%nodes == this)) others = [others, bar_nodes(model%bars(b))]
-         end do
-      end function bar_partners
-
    end subroutine lay_out
 
-   !> F = [m] {A}.
-   pure subroutine mass_times(model, mass, a, f)
+   !> F = [m] {A}. Every node is the work of one thread.
+   subroutine mass_times(model, mass, a, f)
       type(model_type), intent(in)       :: model
       type(mass_matrix_type), intent(in) :: mass
       real(wp), intent(in)               :: a(:, :) !! (dimension, n_nodes) of nodes, those of rotations and sections included
@@ -136,12 +130,14 @@ contains
       real(wp) :: m(max_nodes, max_nodes), moved(model%dimension, max_nodes)
       integer  :: i, k
 
+      !$omp parallel do default(shared) private(k) if(model%n_nodes > worth_threads)
       do i = 1, model%n_nodes
          f(:, i) = 0.0_wp
          do k = mass%first(i), mass%first(i + 1) - 1
             f(:, i) = f(:, i) + mass%value(k)*a(:, mass%column(k))
          end do
       end do
+      !$omp end parallel do
       do i = 1, size(mass%behind)
          associate (corners => corners_of(model, mass%behind(i)))
             associate (n => size(corners))
@@ -164,7 +160,7 @@ contains
    !> The mass of the structure, where its centre is, and its moments and products of inertia about the axes through the centre,
    !! (I_xx, I_yy, I_zz, I_xy, I_yz, I_zx), products as the integral of x y dm; all from [m] alone. In the plane I_zz is what its
    !! bodies have as bodies of the plane. Of a ring the moments are not those of a body in space: zero.
-   pure subroutine total_mass(model, mass, total, centre, inertia)
+   subroutine total_mass(model, mass, total, centre, inertia)
       type(model_type), intent(in)       :: model
       type(mass_matrix_type), intent(in) :: mass
       real(wp), intent(out)              :: total      !! [force time^2/length]

@@ -85,7 +85,7 @@ contains
          integer, intent(in)  :: first, last
          integer, intent(out) :: fault
          integer :: column, i, info, m, n_before
-         real(wp), allocatable :: as_it_was(:, :)
+         real(wp) :: as_it_was(first:last, first:last)
 
          n_before = 0
          if (present(negative)) then

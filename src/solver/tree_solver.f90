@@ -14,6 +14,7 @@ module tree_solver
    use front_solve, only: eliminate_fixed, factor_times_vector, moving_times_vector, recover_fixed, solve_moving
    use front_tree, only: front_tree_type, largest_diagonal, start_front_tree
    use kinds, only: long, wp
+   use mass_elements, only: mass_nodes, n_masses
    use memory_need, only: check_memory
    use model_data, only: bar_nodes, model_type, n_bars, n_sections
    use node_coupling, only: unknown_nodes
@@ -78,7 +79,7 @@ contains
          call failure%raise('no memory to order '//integer_text(count(weight > 0))//' nodes')
          return
       end if
-      call mark_joints(model, in_joint)
+      call mark_joints(model, self%has_masses, in_joint)
       call choose_layout(graph, order, weight, in_joint, self%factorisations, layout, self%way)
       call check_memory(sum(weight), model%dimension, bytes_needed(layout, sum(weight), model%dimension), failure)
       if (failure%raised) return
@@ -97,9 +98,11 @@ contains
       self%retained = pack([(i, i = 1, model%n_nodes)], in_joint)
    end subroutine start
 
-   !> The nodes whose stiffness changes in the run: those of interface elements, and of bolts.
-   subroutine mark_joints(model, in_joint)
+   !> The nodes whose stiffness changes in the run, or is added to the bodies: those of interface elements, of bars, and WITH_MASSES
+   !! those of masses at nodes.
+   subroutine mark_joints(model, with_masses, in_joint)
       type(model_type), intent(in)      :: model
+      logical, intent(in)               :: with_masses
       logical, allocatable, intent(out) :: in_joint(:) !! (n_nodes)
       integer :: i
 
@@ -113,6 +116,10 @@ contains
       do i = 1, n_sections(model)
          in_joint(model%sections(i)%node) = .true.
       end do
+      if (.not. with_masses) return
+      do i = 1, n_masses(model)
+         in_joint(unknown_nodes(model, mass_nodes(model, model%masses(i)))) = .true.
+      end do
    end subroutine mark_joints
 
    !> [k_b]; the fronts that do not move are eliminated.
@@ -121,6 +128,7 @@ contains
       type(model_type), intent(in)           :: model
       integer, intent(out)                   :: fault
 
+      self%fronts%shift = self%shift
       call factorise_fixed(model, self%fronts, fault)
       self%description%assembly_time = self%fronts%assembly_time
       if (fault == 0) self%stiffest = largest_diagonal(self%fronts)
@@ -173,11 +181,14 @@ contains
    subroutine factorise(self, fault)
       class(tree_solver_type), intent(inout) :: self
       integer, intent(out)                   :: fault
+      integer :: f
 
       call factorise_moving(self%fronts, self%k_int, fault)
       self%factor%is_own = fault == 0
       self%weakest = 1.0_wp
       if (fault == 0) self%weakest = minval(self%fronts%fronts%weakest)
+      if (fault == 0 .and. self%shift > 0.0_wp) self%n_negative = &
+         sum([(size(self%fronts%fronts(f)%negative), f = 1, size(self%fronts%fronts))])
       if (fault == 0) then
          self%factor%k_int = self%k_int
          call note_factor(self%factor%reuse)
