@@ -11,7 +11,7 @@ module vibration_plan
 
    !> TABDMP1: damping over frequency, two points or more in ascending order. Where a frequency stands twice the value jumps.
    type, public :: damping_table
-      character(4) :: kind = 'G'              !! G: structural damping g; CRIT: share of critical damping; Q: dynamic amplification
+      character(8) :: kind = 'G'              !! G: structural damping g; CRIT: share of critical damping; Q: dynamic amplification
       real(wp), allocatable :: frequency(:)   !! [1/time]
       real(wp), allocatable :: value(:)       !! likewise, of the KIND [-]
    end type damping_table
