@@ -10,7 +10,7 @@ module stage_plan
    implicit none
    private
 
-   public :: plan_stages, where_in_plan, factorisations_of, shows_bodies
+   public :: any_modes, plan_stages, where_in_plan, factorisations_of, shows_bodies
 
    type, public :: planned_stage
       integer :: id = 0
@@ -62,6 +62,14 @@ contains
          end associate
       end do
    end subroutine plan_stages
+
+   !> Whether natural modes are asked for after any stage.
+   pure logical function any_modes(plan)
+      type(stage_plan_type), intent(in) :: plan
+      integer :: s
+
+      any_modes = any([(allocated(plan%stages(s)%vibration), s = 1, size(plan%stages))])
+   end function any_modes
 
    !> 'stage 2, increment 7', for messages.
    pure function where_in_plan(plan, stage, increment) result(words)

@@ -22,8 +22,8 @@ module arpack
       end subroutine dsaupd
 
       !> The eigenvalues D and, where RVEC, eigenvectors Z that dsaupd has come to; what follows SIGMA is as dsaupd left it.
-      subroutine dseupd(rvec, howmny, select, d, z, ldz, sigma, bmat, n, which, nev, tol, resid, ncv, v, ldv, iparam, ipntr, workd, &
-                        workl, lworkl, info)
+      subroutine dseupd(rvec, howmny, select, d, z, ldz, sigma, bmat, n, which, nev, tol, resid, ncv, v, ldv, iparam, ipntr, &
+                        workd, workl, lworkl, info)
          import :: wp
          logical, intent(in)         :: rvec
          character, intent(in)       :: howmny, bmat

@@ -139,8 +139,8 @@ contains
             work(to:to + system%n - 1) = x(:, 1)
          end associate
       end do
-      if (info == 0) call dseupd(.true., 'A', chosen, lambda, x, system%n, system%shift, 'G', system%n, 'LA', n, tolerance, residual, &
-                                 columns, v, system%n, parameters, places, work, small_work, size(small_work), info)
+      if (info == 0) call dseupd(.true., 'A', chosen, lambda, x, system%n, system%shift, 'G', system%n, 'LA', n, tolerance, &
+                                 residual, columns, v, system%n, parameters, places, work, small_work, size(small_work), info)
       if (info /= 0) call failure%raise('MODES: of '//integer_text(n)//' modes '//integer_text(parameters(5))// &
                                         ' were found in '//integer_text(parameters(3))//' restarts (ARPACK says '// &
                                         integer_text(info)//'); are there so many below infinity?')

@@ -15,7 +15,7 @@ module equal_modes
 contains
 
    !> Turn the shapes of every group of equal LAMBDA among themselves.
-   pure subroutine settle_equal_modes(lambda, mass, participation, u)
+   subroutine settle_equal_modes(lambda, mass, participation, u)
       real(wp), intent(in)    :: lambda(:)           !! ascending
       real(wp), intent(in)    :: mass                !! of the structure
       real(wp), intent(inout) :: participation(:, :) !! (directions, modes)
@@ -35,7 +35,7 @@ contains
    end subroutine settle_equal_modes
 
    !> Turn the modes of one group: row after row of PARTICIPATION above LEAST, then of U, what is not yet settled goes to one mode.
-   pure subroutine settle_group(least, participation, u)
+   subroutine settle_group(least, participation, u)
       real(wp), intent(in)    :: least
       real(wp), intent(inout) :: participation(:, :), u(:, :, :)
       integer :: at(2), d, next
@@ -43,17 +43,17 @@ contains
       next = 1
       do d = 1, size(participation, 1)
          if (next == size(u, 3)) return
-         if (norm2(participation(d, next:)) > least) call give_to_one(participation(d, next:))
+         if (norm2(participation(d, next:)) > least) call give_to_one((participation(d, next:)))
       end do
       do while (next < size(u, 3))
          at = first_large(u(:, :, next:))
-         call give_to_one(u(at(1), at(2), next:))
+         call give_to_one((u(at(1), at(2), next:)))
       end do
 
    contains
 
       !> Reflect the modes from NEXT on (Householder) so that the first of them has all of ROW, and go on behind it.
-      pure subroutine give_to_one(row)
+      subroutine give_to_one(row)
          real(wp), intent(in) :: row(:)
          real(wp) :: v(size(row)), along
          integer  :: c, n
@@ -82,6 +82,7 @@ contains
       integer  :: at(2), d, i
       real(wp) :: much
 
+      at = 1
       much = near*sqrt(maxval(sum(u**2, dim=3)))
       do i = 1, size(u, 2)
          do d = 1, size(u, 1)

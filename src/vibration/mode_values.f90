@@ -14,7 +14,7 @@ module mode_values
    use interface_operator, only: joint_movement
    use joint_laws, only: friction_limit
    use kinds, only: wp
-   use masing_loop, only: loop_loss
+   use masing_loop, only: loop_loss, no_limit
    use mass_matrix, only: mass_times, total_mass
    use modal_energy, only: energy_type, strain_energies
    use model_data, only: model_type, n_points
@@ -192,7 +192,7 @@ contains
       type(analysis_type), intent(in)       :: analysis
       type(vibration_plan_type), intent(in) :: plan
       type(mode_type), intent(in)           :: mode
-      real(wp) :: movement(3), lost, factor
+      real(wp) :: movement(3), lost, factor, limit
       integer  :: d, i
 
       factor = plan%amplitude/sqrt(maxval(sum(mode%u(:, :n_points(model))**2, dim=1)))
@@ -200,15 +200,12 @@ contains
       do i = 1, size(model%interface)
          associate (state => analysis%states(i), law => model%joints(model%interface(i)%joint)%law)
             if (.not. is_pressed(state)) cycle
+            limit = no_limit
+            if (law%has_friction) limit = friction_limit(law, state%normal%pressure)
             movement = factor*joint_movement(model%interface(i), mode%u)
             do d = 1, 2
                if (.not. law%shear(d)%given) cycle
-               if (law%has_friction) then
-                  lost = lost + model%interface(i)%area*loop_loss(law%shear(d), state%normal%pressure, &
-                                friction_limit(law, state%normal%pressure), abs(movement(d)))
-               else
-                  lost = lost + model%interface(i)%area*loop_loss(law%shear(d), state%normal%pressure, huge(1.0_wp), abs(movement(d)))
-               end if
+               lost = lost + model%interface(i)%area*loop_loss(law%shear(d)%load, state%normal%pressure, limit, movement(d))
             end do
          end associate
       end do

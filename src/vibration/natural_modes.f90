@@ -155,7 +155,8 @@ contains
          end associate
       end do
       call failure%raise('MODES: '//integer_text(spectrum%n_counted)//' modes have been counted, and '// &
-                         integer_text(spectrum%n_before + size(spectrum%lambda))//' found in '//integer_text(most_trials)//' trials')
+                         integer_text(spectrum%n_before + size(spectrum%lambda))//' found in '// &
+                         integer_text(most_trials)//' trials')
    end subroutine find_and_count
 
    !> The first of the ascending LAMBDA from number FROM on that is clearly below the next one; 0: there is none.
