@@ -47,7 +47,7 @@ contains
       integer :: choice, key
       logical :: ok
 
-      key = findloc(keys, entry%key, dim=1)
+      key = findloc(keys == entry%key, .true., dim=1)
       asked%line(key) = entry%line
       select case (key)
       case (modes)
@@ -127,10 +127,10 @@ contains
 
       if (asked%line(frequency) == 0 .or. asked%line(modes) == 0) return
       lacking = ''
-      if (asked%line(dload) == 0) lacking = ', DLOAD, the set of the load that oscillates'
-      if (asked%line(response) == 0) lacking = lacking//', RESPONSE, the nodes to be written'
+      if (asked%line(dload) == 0) lacking = ', DLOAD (the set of the load that oscillates)'
+      if (asked%line(response) == 0) lacking = lacking//', RESPONSE (the nodes to be written)'
       if (asked%line(sdamping) == 0 .and. asked%line(amplitude) == 0) lacking = lacking// &
-         ', SDAMPING, or AMPLITUDE for the loss factors of the joints'
+         ', SDAMPING (or AMPLITUDE, for the loss factors of the joints)'
       if (lacking == '' .or. asked%line(frequency) == said) return
       said = asked%line(frequency)
       call errors%add(said, 'FREQUENCY: expected beside it '//lacking(3:))
