@@ -1,7 +1,7 @@
 !> The tables of the natural modes about the state at the end of a stage.
 module listing_modes
    use kinds, only: wp
-   use listing_table, only: axes, column, listing_table_type, page_type
+   use listing_table, only: axes, column, column_type, listing_table_type, page_type
    use mode_values, only: mode_type, modes_type
    use model_data, only: model_type
    use text_tools, only: clean, integer_text, real_text
@@ -59,21 +59,39 @@ contains
       type(page_type), intent(inout) :: page
       type(model_type), intent(in)   :: model
       type(modes_type), intent(in)   :: modes
+      character(4), parameter :: moments(6) = ['I XX', 'I YY', 'I ZZ', 'I XY', 'I YZ', 'I ZX']
+      type(column_type), allocatable :: columns(:)
       type(listing_table_type) :: table
+      integer, allocatable :: shown(:)
       real(wp) :: size_of_it
-      integer  :: d
+      integer  :: c, d
 
       d = model%dimension
+      allocate (shown, source=pack([(c, c = 1, 6)], [(d == 3 .or. (c == 3 .and. .not. model%axisymmetric), c = 1, 6)]))
       size_of_it = maxval(abs(model%x))
-      call table%start('MASS OF THE STRUCTURE', [column('MASS', 'es15.5'), &
-                       column('CENTRE '//axes(:d), 'es14.5', page%labels%length), &
-                       column([character(5) :: 'I XX', 'I YY', 'I ZZ', 'I XY', 'I YZ', 'I ZX'], 'es14.5')])
+      columns = [column('MASS', 'es13.5'), along('CENTRE', d, 'es13.5', page%labels%length)]
+      columns = [columns, column(moments(shown), 'es13.5')]
+      call table%start('MASS OF THE STRUCTURE', columns)
       call table%print_head(page%file)
       call table%add([modes%mass])
       call table%add(clean(modes%centre(:d), no_part*size_of_it))
-      if (.not. model%axisymmetric) call table%add(clean(modes%inertia, no_part*modes%mass*size_of_it**2))
+      call table%add(clean(modes%inertia(shown), no_part*modes%mass*size_of_it**2))
       call table%print_row(page%file)
    end subroutine list_mass
+
+   !> A column for each of the first D axes.
+   pure function along(heading, d, form, unit) result(columns)
+      character(*), intent(in)           :: heading, form
+      integer, intent(in)                :: d
+      character(*), intent(in), optional :: unit
+      type(column_type), allocatable :: columns(:)
+      integer :: c
+
+      allocate (columns(d))
+      do c = 1, d
+         columns(c) = column(heading//' '//axes(c), form, unit)
+      end do
+   end function along
 
    subroutine list_frequencies(page, plan, modes)
       type(page_type), intent(inout)        :: page
@@ -108,8 +126,8 @@ contains
       integer  :: d, m
 
       d = model%dimension
-      call table%start('PARTICIPATION AND EFFECTIVE MASS', [column('MODE', 'i6'), column('PARTICIPATION '//axes(:d), 'es18.5'), &
-                       column('MASS ALONG '//axes(:d), 'es15.5')])
+      call table%start('PARTICIPATION AND EFFECTIVE MASS', [column('MODE', 'i6'), along('PARTICIPATION', d, 'es18.5'), &
+                       along('MASS ALONG', d, 'es15.5')])
       call table%print_head(page%file)
       sums = 0.0_wp
       do m = 1, size(modes%modes)

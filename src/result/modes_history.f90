@@ -6,9 +6,12 @@ module modes_history
    use mode_values, only: modes_type
    use model_data, only: model_type
    use output_file, only: output_file_type
+   use text_tools, only: clean
    use vibration_plan, only: vibration_plan_type
    implicit none
    private
+
+   real(wp), parameter :: no_mass = 1.0e-12_wp ! of the structure's: rounding
 
    public :: write_modes_header, write_modes, write_energies_header, write_energies
 
@@ -33,7 +36,8 @@ contains
          associate (mode => modes%modes(m))
             line%length = 0
             call line%add([stage, modes%n_before + m])
-            call line%add([mode%frequency, mode%omega, mode%residual, mode%effective])
+            call line%add([mode%frequency, mode%omega, mode%residual])
+            call line%add(clean(mode%effective, no_mass*modes%mass))
             if (plan%amplitude > 0.0_wp .and. .not. mode%is_rigid) then
                call line%add([mode%loss])
             else

@@ -41,7 +41,6 @@ contains
       real(wp), allocatable, intent(out) :: lambda(:) !! [1/time^2]
       real(wp), allocatable, intent(out) :: x(:, :)   !! (equations, n)
       type(failure_type), intent(inout)  :: failure
-      real(wp), allocatable :: swapped(:)
       integer :: i, k
 
       if (is_small(system)) then
@@ -54,9 +53,7 @@ contains
          do k = i, 2, -1
             if (lambda(k) >= lambda(k - 1)) exit
             lambda([k - 1, k]) = lambda([k, k - 1])
-            swapped = x(:, k)
-            x(:, k) = x(:, k - 1)
-            x(:, k - 1) = swapped
+            x(:, [k - 1, k]) = x(:, [k, k - 1])
          end do
       end do
    end subroutine find_eigenpairs
