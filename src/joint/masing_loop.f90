@@ -10,7 +10,8 @@
 !!    tau = -+ tau(d) +- 2 tau((d +- x)/2)
 !!
 !! Between them lies 8 W(d) - 4 tau(d) d, W the integral of the skeleton from 0 to d: what one cycle loses. For the cubic alone that is
-!! -(4/3) a_2 d**3 - 2 a_3 d**4, nothing for a law that is a line.
+!! -(4/3) a_2 d**3 - 2 a_3 d**4, nothing for a law that is a line; where the skeleton is constant from d_e on, that of d_e and
+!! 4 tau(d_e) (d - d_e).
 !!
 !! A curve that hardens (a_2 > 0) has its doubled branches on the wrong side of each other, the one of loading below the one of
 !! relief: the rule gives a loss below zero, work that the joint would do for ever. No joint does; the rule does not hold for such a
@@ -18,7 +19,7 @@
 !! outweighs.
 !! Source: G. Masing, Proc. 2nd Int. Congress of Applied Mechanics, Zurich 1926, p. 332.
 module masing_loop
-   use branch_cubic, only: cubic, cubic_slope, cubic_value, cubic_work, slope_on_way, value_on_way
+   use branch_cubic, only: cubic, cubic_loop, cubic_slope, cubic_value, slope_on_way, value_on_way
    use kinds, only: wp
    use polynomial_zeros, only: find_zeros, zero_list
    implicit none
@@ -36,13 +37,11 @@ contains
       real(wp), intent(in)    :: p         !! present pressure, >= 0 [pressure]
       real(wp), intent(in)    :: limit     !! Coulomb limit mu p, >= 0, or no_limit [pressure]
       real(wp), intent(in)    :: amplitude !! d of the shear deflection, its sign does not matter [length]
-      real(wp) :: d, reach, tau, work
+      real(wp) :: d, reach
 
       d = abs(amplitude)
       reach = skeleton_end(loading, p, limit, d)
-      tau = cubic_value(loading, reach, p)
-      work = cubic_work(loading, reach, p) + tau*(d - reach)
-      loss = max(0.0_wp, 8.0_wp*work - 4.0_wp*tau*d)
+      loss = max(0.0_wp, cubic_loop(loading, reach, p) + 4.0_wp*cubic_value(loading, reach, p)*(d - reach))
    end function loop_loss
 
    !> d_e up to which the skeleton curve is the loading curve, no more than FAR [length].
