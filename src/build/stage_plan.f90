@@ -10,7 +10,7 @@ module stage_plan
    implicit none
    private
 
-   public :: any_modes, plan_stages, where_in_plan, factorisations_of, shows_bodies
+   public :: any_modes, any_response, plan_stages, where_in_plan, factorisations_of, shows_bodies
 
    type, public :: planned_stage
       integer :: id = 0
@@ -70,6 +70,17 @@ contains
 
       any_modes = any([(allocated(plan%stages(s)%vibration), s = 1, size(plan%stages))])
    end function any_modes
+
+   !> Whether the response to an oscillating load is asked for after any stage.
+   pure logical function any_response(plan)
+      type(stage_plan_type), intent(in) :: plan
+      integer :: s
+
+      any_response = .false.
+      do s = 1, size(plan%stages)
+         if (allocated(plan%stages(s)%vibration)) any_response = any_response .or. allocated(plan%stages(s)%vibration%response)
+      end do
+   end function any_response
 
    !> 'stage 2, increment 7', for messages.
    pure function where_in_plan(plan, stage, increment) result(words)

@@ -2,14 +2,15 @@
 module listing_modes
    use kinds, only: wp
    use listing_table, only: axes, column, column_type, listing_table_type, page_type
-   use mode_values, only: mode_type, modes_type
+   use modal_response, only: response_type
+   use mode_values, only: modes_type
    use model_data, only: model_type
    use text_tools, only: clean, integer_text, real_text
    use vibration_plan, only: vibration_plan_type
    implicit none
    private
 
-   public :: list_modes
+   public :: list_modes, list_response
 
    real(wp), parameter :: percent = 100.0_wp
    real(wp), parameter :: least_share = 1.0e-4_wp  ! of the strain energy: what has less has no row
@@ -145,6 +146,31 @@ contains
       call table%add(clean(sums(:d), no_part*modes%mass))
       call table%print_row(page%file)
    end subroutine list_participation
+
+   !> Where and at which frequency every component asked for has its largest amplitude.
+   subroutine list_response(page, response)
+      type(page_type), intent(inout)  :: page
+      type(response_type), intent(in) :: response
+      type(listing_table_type) :: table
+      integer :: at, c, i
+
+      call table%start('RESPONSE TO THE OSCILLATING LOAD, LARGEST AMPLITUDES OF '//integer_text(size(response%frequency))// &
+                       ' FREQUENCIES', [column('NODE', 'i11'), column('ALONG', 'a7'), &
+                       column('AMPLITUDE', 'es15.5', page%labels%length), column('AT FREQUENCY', 'es15.5', '1/TIME'), &
+                       column('PHASE', 'f10.2', 'DEGREES')])
+      call table%print_head(page%file)
+      do i = 1, size(response%node)
+         do c = 1, size(response%amplitude, 1)
+            at = maxloc(response%amplitude(c, i, :), dim=1)
+            call table%add([response%node(i)])
+            call table%add(axes(c))
+            call table%add([response%amplitude(c, i, at), response%frequency(at), response%phase(c, i, at)])
+            call table%print_row(page%file)
+         end do
+      end do
+      if (.not. response%is_complete) call page%file%put( &
+         '  BY THESE MODES ALONE: THE STRUCTURE IS NOT HELD, AND HAS NO STATIC ANSWER')
+   end subroutine list_response
 
    !> A row a mode for every body, joint and bar that has some of its strain energy.
    subroutine list_energies(page, model, modes)

@@ -1,7 +1,7 @@
 !> NAME.response.csv: amplitude and phase of the nodes asked, over the frequency of a load that oscillates, in full precision.
 module response_file
    use csv_line, only: csv_line_type
-   use kinds, only: wp
+   use modal_response, only: response_type
    use output_file, only: output_file_type
    use text_tools, only: clean
    implicit none
@@ -11,15 +11,6 @@ module response_file
 
    character(1), parameter :: component_names(3) = ['x', 'y', 'z']
 
-   !> The response of one stage.
-   type, public :: response_answer
-      integer :: stage = 0                         !! number of the SUBCASE
-      integer, allocatable  :: node(:)             !! (nodes) their numbers
-      real(wp), allocatable :: frequency(:)        !! (frequencies) [1/time]
-      real(wp), allocatable :: amplitude(:, :, :)  !! (2 or 3 components, nodes, frequencies), >= 0 [length]
-      real(wp), allocatable :: phase(:, :, :)      !! likewise, of the displacement against the force [degrees]
-   end type response_answer
-
 contains
 
    subroutine write_response_header(file)
@@ -28,10 +19,11 @@ contains
       call file%put('stage,frequency,node,component,amplitude,phase')
    end subroutine write_response_header
 
-   !> The rows of ANSWER: frequency by frequency, at each node by node, of each its components.
-   subroutine write_response(file, answer)
+   !> The rows of the ANSWER of STAGE: frequency by frequency, at each node by node, of each its components.
+   subroutine write_response(file, stage, answer)
       type(output_file_type), intent(inout) :: file
-      type(response_answer), intent(in)     :: answer
+      integer, intent(in)                   :: stage !! number of the SUBCASE
+      type(response_type), intent(in)       :: answer
       type(csv_line_type) :: line
       integer :: d, f, k
 
@@ -39,7 +31,7 @@ contains
          do k = 1, size(answer%node)
             do d = 1, size(answer%amplitude, 1)
                line%length = 0
-               call line%add([answer%stage])
+               call line%add([stage])
                call line%add(clean([answer%frequency(f)]))
                call line%add([answer%node(k)])
                call line%add(component_names(d))

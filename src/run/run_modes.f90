@@ -2,12 +2,13 @@
 module run_modes
    use analysis_state, only: analysis_type
    use equation_solver, only: equation_system
+   use modal_response, only: find_response, response_type
    use mode_values, only: evaluate_modes, modes_type
    use model_data, only: model_type, supported
    use natural_modes, only: find_natural_modes, spectrum_type
    use oscillating_structure, only: oscillating_type, start_oscillation
    use progress, only: phase_increments, phase_modes
-   use results, only: print_modes
+   use results, only: print_modes, print_response
    use run_state, only: is_over, run_type
    use stage_plan, only: stage_plan_type, where_in_plan
    use vibration_plan, only: vibration_plan_type
@@ -55,6 +56,7 @@ contains
       type(oscillating_type) :: structure
       type(spectrum_type)    :: spectrum
       type(modes_type)       :: modes
+      type(response_type)    :: response
       class(equation_system), allocatable :: shifted
 
       call start_oscillation(model, analysis, system, wanted%on_loading, structure, run%failure)
@@ -65,6 +67,9 @@ contains
       end if
       call evaluate_modes(model, analysis, structure, wanted, spectrum, shifted, modes)
       call print_modes(model, plan, analysis%stage, modes, run%results)
+      if (.not. allocated(wanted%response)) return
+      call find_response(model, structure, wanted%response, modes, shifted, response, run%failure)
+      if (.not. run%failure%raised) call print_response(plan, analysis%stage, response, run%results)
    end subroutine oscillate
 
 end module run_modes
