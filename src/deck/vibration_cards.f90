@@ -101,7 +101,8 @@ contains
          end do
          do k = list_from, last - 1, 2
             associate (first => card%fields(k), second => card%fields(k + 1))
-               if (first%length + second%length == 0 .or. first%text == 'SKIP' .or. second%text == 'SKIP') cycle
+               if (first%length == 0 .and. (second%length == 0 .or. second%text == 'ENDT')) cycle
+               if (first%text == 'SKIP' .or. second%text == 'SKIP') cycle
             end associate
             call read_entry(cards, k, 'F', 'a frequency of 0 or more', 0.0_wp, frequency)
             if (table%kind == 'Q') then
