@@ -125,17 +125,20 @@ contains
    subroutine mass_times(model, mass, a, f)
       type(model_type), intent(in)       :: model
       type(mass_matrix_type), intent(in) :: mass
-      real(wp), intent(in)               :: a(:, :) !! (dimension, n_nodes) of nodes, those of rotations and sections included
-      real(wp), intent(out)              :: f(:, :) !! likewise
-      real(wp) :: m(max_nodes, max_nodes), moved(model%dimension, max_nodes)
+      real(wp), contiguous, intent(in)   :: a(:, :) !! (dimension, n_nodes) of nodes, those of rotations and sections included
+      real(wp), contiguous, intent(out)  :: f(:, :) !! likewise
+      real(wp) :: m(max_nodes, max_nodes), moved(model%dimension, max_nodes), s(3)
       integer  :: i, k
 
-      !$omp parallel do default(shared) private(k) if(model%n_nodes > worth_threads)
+      !$omp parallel do default(shared) private(k, s) if(model%n_nodes > worth_threads)
       do i = 1, model%n_nodes
-         f(:, i) = 0.0_wp
+         s = 0.0_wp
          do k = mass%first(i), mass%first(i + 1) - 1
-            f(:, i) = f(:, i) + mass%value(k)*a(:, mass%column(k))
+            s(1) = s(1) + mass%value(k)*a(1, mass%column(k))
+            s(2) = s(2) + mass%value(k)*a(2, mass%column(k))
+            if (size(a, 1) == 3) s(3) = s(3) + mass%value(k)*a(3, mass%column(k))
          end do
+         f(:, i) = s(:size(a, 1))
       end do
       !$omp end parallel do
       do i = 1, size(mass%behind)

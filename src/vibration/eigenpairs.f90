@@ -167,7 +167,7 @@ contains
       x(system%locked) = 0.0_wp
       allocate (f(model%dimension, model%n_nodes))
       call mass_times(model, mass, all_displacements(model, system, x), f)
-      f = forces_on_unknowns(model, f)
+      if (allocated(model%coupling%of_node)) f = forces_on_unknowns(model, f)
       do i = 1, system%n
          x(i) = f(system%direction(i), system%node(i))
       end do
@@ -186,7 +186,7 @@ contains
       do i = 1, system%n
          u(system%direction(i), system%node(i)) = x(i)
       end do
-      u = displacements(model, u)
+      if (allocated(model%coupling%of_node)) u = displacements(model, u)
    end function all_displacements
 
 end module eigenpairs
