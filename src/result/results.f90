@@ -24,7 +24,7 @@ module results
    use stage_plan, only: any_modes, any_response, stage_plan_type, where_in_plan
    use text_tools, only: real_text
    use vtu_results, only: discard_vtu, finish_vtu, is_vtu_ending, record_vtu, remove_old_vtu, start_vtu, vtu_names, &
-                          vtu_results_type, write_shapes, write_vtu
+                          vtu_results_type, write_modes_vtu => write_modes, write_vtu
    implicit none
    private
 
@@ -150,7 +150,7 @@ contains
          if (results%base == '') return
          call write_modes(results%tables(modes_file), planned%id, planned%vibration, modes)
          call write_energies(results%tables(energy_file), planned%id, model, modes)
-         if (planned%vtu) call write_shapes(results%vtu, model, planned%id, modes)
+         if (planned%vtu) call write_modes_vtu(results%vtu, model, planned%id, modes)
       end associate
    end subroutine print_modes
 

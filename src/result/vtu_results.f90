@@ -1,28 +1,23 @@
 !> Results for ParaView: for a stage with OUTPUT = VTU the bodies in one file and the joints in another, with STEPS after every
 !! increment, the shapes of natural modes in a third; where there may be more than one of each their list NAME.pvd. All stay unnamed until the whole run is complete.
 module vtu_results
-   use, intrinsic :: iso_fortran_env, only: int8
    use analysis_state, only: analysis_type
-   use body_elements, only: node_stresses, whole_stress
    use c_library, only: is_regular_file, read_all_bytes, remove_file
-   use element_kinds, only: element_table
-   use elasticity, only: max_stresses
    use incomplete_results, only: remove_old
    use kinds, only: wp
    use listing_table, only: label_type
    use mode_values, only: modes_type
-   use model_data, only: corners_of, model_type, n_points
+   use model_data, only: model_type
    use restart_stream, only: restart_stream_type
    use stage_plan, only: stage_plan_type
-   use stress_measures, only: principal_stresses, von_mises
-   use temperatures, only: has_temperatures, node_temperatures
-   use text_tools, only: integer_text, real_text
-   use vtu_file, only: cell_data, named, point_data, vtu_file_type, write_collection, xml_text
+   use text_tools, only: integer_text
+   use vtu_bodies, only: write_bodies, write_shapes
+   use vtu_file, only: vtu_file_type, write_collection, xml_text
    use vtu_joints, only: write_joints
    implicit none
    private
 
-   public :: start_vtu, write_vtu, write_shapes, finish_vtu, discard_vtu, record_vtu, remove_old_vtu, vtu_names, is_vtu_ending
+   public :: start_vtu, write_vtu, write_modes, finish_vtu, discard_vtu, record_vtu, remove_old_vtu, vtu_names, is_vtu_ending
 
    !> A file of the run.
    type :: part_type
@@ -103,18 +98,14 @@ contains
 
    end subroutine write_vtu
 
-   !> Write the shapes of the natural MODES about the end of the stage with this number: vectors at the nodes, one a mode.
-   subroutine write_shapes(results, model, stage, modes)
+   !> Write the file of the natural MODES about the end of the stage with this number.
+   subroutine write_modes(results, model, stage, modes)
       type(vtu_results_type), intent(inout) :: results
       type(model_type), intent(in)          :: model
       integer, intent(in)                   :: stage
       type(modes_type), intent(in)          :: modes
-      real(wp), allocatable :: u(:, :)
-      integer :: k, m
 
       if (results%name == '' .or. model%n_elements == 0) return
-      m = n_points(model)
-      allocate (u(3, m), source=0.0_wp)
       results%n = results%n + 1
       associate (part => results%parts(results%n))
          part%time = real(stage, wp)
@@ -122,77 +113,10 @@ contains
          part%ending = '.modes.vtu'
          if (results%many) part%ending = '.'//integer_text(stage)//part%ending
          call part%file%start(results%name//trim(part%ending))
-         call write_mesh(part%file, model)
-         do k = 1, size(modes%modes)
-            u(:model%dimension, :) = modes%modes(k)%u(:, :m)
-            call part%file%add(point_data, 'mode '//integer_text(modes%n_before + k)//', frequency '// &
-                               real_text(modes%modes(k)%frequency), u)
-         end do
+         call write_shapes(part%file, model, modes)
          call part%file%complete()
       end associate
-   end subroutine write_shapes
-
-   !> The points and cells of the bodies, and the numbers of the nodes.
-   subroutine write_mesh(file, model)
-      type(vtu_file_type), intent(inout) :: file
-      type(model_type), intent(in)       :: model
-      integer, allocatable       :: connected(:), ends(:)
-      integer(int8), allocatable :: types(:)
-      integer :: e, m, n
-
-      m = n_points(model)
-      allocate (connected(count(model%element_nodes > 0)), ends(model%n_elements), types(model%n_elements))
-      n = 0
-      do e = 1, model%n_elements
-         associate (nodes => corners_of(model, e))
-            connected(n + 1:n + size(nodes)) = nodes(element_table(model%element_kind(e))%vtk_nodes(:size(nodes)))
-            n = n + size(nodes)
-            ends(e) = n
-            types(e) = int(element_table(model%element_kind(e))%vtk_type, int8)
-         end associate
-      end do
-      call file%points(model%x(:, :m))
-      call file%cells(connected, ends, types)
-      call file%add(point_data, 'node', model%node_id(:m))
-   end subroutine write_mesh
-
-   !> Elements with stresses at their centres, nodes with displacements and the mean of the stresses of its elements there.
-   subroutine write_bodies(file, labels, model, analysis)
-      type(vtu_file_type), intent(inout) :: file
-      type(label_type), intent(in)       :: labels
-      type(model_type), intent(in)       :: model
-      type(analysis_type), intent(in)    :: analysis
-      real(wp), allocatable :: u(:, :), at_node(:, :), at_centre(:, :), principal(:, :)
-      integer, allocatable  :: properties(:)
-      integer :: e, i, m
-
-      m = n_points(model)
-      allocate (u(3, m), source=0.0_wp)
-      allocate (at_node(max_stresses, m), at_centre(max_stresses, model%n_elements), principal(3, model%n_elements))
-      allocate (properties(model%n_elements))
-      u(:model%dimension, :) = analysis%all_u(:, :m)
-      do e = 1, model%n_elements
-         properties(e) = model%properties(model%element_property(e))%id
-         at_centre(:, e) = whole_stress(model, e, analysis%all_u, analysis%temperature)
-         principal(:, e) = principal_stresses(at_centre(:, e))
-      end do
-      call node_stresses(model, analysis%all_u, analysis%temperature, at_node)
-      call write_mesh(file, model)
-      call file%add(point_data, named('displacement', labels%length), u)
-      call file%add(point_data, named('stress', labels%pressure), at_node)
-      call file%add(point_data, named('von_mises', labels%pressure), [(von_mises(at_node(:, i)), i = 1, m)])
-      if (has_temperatures(model)) then
-         associate (t => node_temperatures(model, analysis%temperature))
-            call file%add(point_data, 'temperature [deg]', t(:m))
-         end associate
-      end if
-      call file%add(cell_data, 'element', model%element_id)
-      call file%add(cell_data, 'property', properties)
-      call file%add(cell_data, named('stress_at_centre', labels%pressure), at_centre)
-      call file%add(cell_data, named('principal_stress', labels%pressure), principal)
-      call file%add(cell_data, named('von_mises_at_centre', labels%pressure), &
-                    [(von_mises(at_centre(:, e)), e = 1, model%n_elements)])
-   end subroutine write_bodies
+   end subroutine write_modes
 
    !> Give all files their names. All or none: OK is false where one could not be written.
    subroutine finish_vtu(results, ok)
