@@ -14,6 +14,7 @@ module tree_solver
    use front_solve, only: eliminate_fixed, factor_times_vector, moving_times_vector, recover_fixed, solve_moving
    use front_tree, only: front_tree_type, largest_diagonal, start_front_tree
    use kinds, only: long, wp
+   use mass_elements, only: mass_nodes, n_masses
    use memory_need, only: check_memory
    use model_data, only: bar_nodes, model_type, n_bars, n_sections
    use node_coupling, only: unknown_nodes
@@ -76,7 +77,7 @@ contains
       end do
       call dissect(graph, weight > 0, order, self%is_laid_out)
       if (.not. self%is_laid_out) return
-      call mark_joints(model, in_joint)
+      call mark_joints(model, graph%with_masses, in_joint)
       call choose_layout(graph, order, weight, in_joint, self%factorisations, self%layout, self%way)
       self%bytes = bytes_needed(self%layout, sum(weight), model%dimension)
       self%description%fixed_operations = self%layout%fixed_operations
@@ -110,14 +111,16 @@ contains
          description%numbers = [int(layout%n, long), int(layout%factor_entries, long), size(self%equations, kind=long)]
       end associate
       self%layout = none
-      call mark_joints(model, in_joint)
+      call mark_joints(model, graph%with_masses, in_joint)
       in_joint(self%node(self%equations)) = .true.
       self%retained = pack([(i, i = 1, model%n_nodes)], in_joint)
    end subroutine start
 
-   !> The nodes whose stiffness changes in the run: those of interface elements, and of bolts.
-   subroutine mark_joints(model, in_joint)
+   !> The nodes whose stiffness changes in the run, or is added to the bodies: those of interface elements, of bars, and WITH_MASSES
+   !! those of masses at nodes.
+   subroutine mark_joints(model, with_masses, in_joint)
       type(model_type), intent(in)      :: model
+      logical, intent(in)               :: with_masses
       logical, allocatable, intent(out) :: in_joint(:) !! (n_nodes)
       integer :: i
 
@@ -131,6 +134,10 @@ contains
       do i = 1, n_sections(model)
          in_joint(model%sections(i)%node) = .true.
       end do
+      if (.not. with_masses) return
+      do i = 1, n_masses(model)
+         in_joint(unknown_nodes(model, mass_nodes(model, model%masses(i)))) = .true.
+      end do
    end subroutine mark_joints
 
    !> [k_b]; the fronts that do not move are eliminated.
@@ -139,6 +146,7 @@ contains
       type(model_type), intent(in)           :: model
       integer, intent(out)                   :: fault
 
+      self%fronts%shift = self%shift
       call factorise_fixed(model, self%fronts, fault)
       self%description%assembly_time = self%fronts%assembly_time
       if (fault == 0) self%stiffest = largest_diagonal(self%fronts)
@@ -191,11 +199,14 @@ contains
    subroutine factorise(self, fault)
       class(tree_solver_type), intent(inout) :: self
       integer, intent(out)                   :: fault
+      integer :: f
 
       call factorise_moving(self%fronts, self%k_int, fault)
       self%factor%is_own = fault == 0
       self%weakest = 1.0_wp
       if (fault == 0) self%weakest = minval(self%fronts%fronts%weakest)
+      if (fault == 0 .and. self%shift > 0.0_wp) self%n_negative = &
+         sum([(size(self%fronts%fronts(f)%negative), f = 1, size(self%fronts%fronts))])
       if (fault == 0) then
          self%factor%k_int = self%k_int
          call note_factor(self%factor%reuse)
