@@ -20,6 +20,7 @@ module eigenpairs
    integer, parameter  :: small = 150                !! unknowns of a structure that is solved as a whole
    integer, parameter  :: most_restarts = 500
    integer, parameter  :: zero_vector = -9, exhausted = -9999 ! as ARPACK says it: there are no more vectors with mass
+   integer, parameter  :: tired = 1                           ! likewise: not so many in so many restarts, perhaps there are no more
    real(wp), parameter :: tolerance = 1.0e-13_wp     ! of nu, of what Lanczos estimates its error
    real(wp), parameter :: finite = 1.0e-12_wp        ! of the largest nu: what is below has no mass to speak of
 
@@ -107,7 +108,8 @@ contains
       type(failure_type), intent(inout)  :: failure
       real(wp), allocatable :: v(:, :), residual(:), work(:), small_work(:)
       logical, allocatable  :: chosen(:)
-      integer :: columns, ido, info, parameters(11), places(11), status
+      integer, allocatable  :: above(:)
+      integer :: columns, i, ido, info, parameters(11), places(11), status
 
       columns = min(system%n, max(2*n + 1, n + 20))
       allocate (lambda(n), x(system%n, n), v(system%n, columns), residual(system%n), work(3*system%n), &
@@ -142,16 +144,24 @@ contains
             work(to:to + system%n - 1) = x(:, 1)
          end associate
       end do
-      if (info == 0) call dseupd(.true., 'A', chosen, lambda, x, system%n, system%shift, 'G', system%n, 'LA', n, tolerance, &
-                                 residual, columns, v, system%n, parameters, places, work, small_work, size(small_work), info)
       if (info == zero_vector) parameters(5) = 0
       if (info == zero_vector .or. info == exhausted) then
          call solve_in_subspace(model, mass, system, v(:, :parameters(5)), lambda, x, failure)
          return
       end if
-      if (info /= 0) call failure%raise('MODES: of '//integer_text(n)//' modes '//integer_text(parameters(5))// &
-                                        ' were found in '//integer_text(parameters(3))//' restarts (ARPACK says '// &
-                                        integer_text(info)//')')
+      if (info == tired .and. parameters(5) == 0 .and. system%shift > 0.0_wp) info = 0 ! all may be below
+      if (parameters(5) > 0 .and. (info == 0 .or. info == tired)) &
+         call dseupd(.true., 'A', chosen, lambda, x, system%n, system%shift, 'G', system%n, 'LA', n, tolerance, residual, columns, &
+                     v, system%n, parameters, places, work, small_work, size(small_work), info)
+      if (info /= 0) then
+         call failure%raise('MODES: of '//integer_text(n)//' modes '//integer_text(parameters(5))//' were found in '// &
+                            integer_text(parameters(3))//' restarts (ARPACK says '//integer_text(info)//')')
+         return
+      end if
+      above = pack([(i, i = 1, parameters(5))], lambda(:parameters(5)) > system%shift)
+      if (size(above) == n) return
+      lambda = lambda(above)
+      x = x(:, above)
    end subroutine iterate
 
    !> All finite eigenvalues above the shift where the vectors V are a basis of all that have mass, v_i^T [m] v_j = 1 or 0: of the small

@@ -143,23 +143,27 @@ contains
          associate (lambda => spectrum%lambda)
             last = clear_gap(lambda, spectrum%n_wanted)
             if (spectrum%n_wanted == below_end - spectrum%n_before) then ! the whole range, which has been counted
-               if (count(lambda < spectrum%counted_at) == spectrum%n_wanted) return
+               if (count(lambda < (1.0_wp - clear)*spectrum%counted_at) <= spectrum%n_wanted .and. &
+                   count(lambda < (1.0_wp + clear)*spectrum%counted_at) >= spectrum%n_wanted) return ! one may lie at the end itself
                n = n + beyond
             else if (last > 0 .or. size(lambda) < n) then
-               if (size(lambda) == 0) then
-                  spectrum%n_wanted = 0
-                  return
-               else if (last > 0) then
+               if (last > 0) then
                   spectrum%counted_at = 0.5_wp*(lambda(last) + lambda(last + 1))
                else ! there are no more
                   last = size(lambda)
-                  spectrum%n_wanted = min(spectrum%n_wanted, last)
-                  spectrum%counted_at = max(2.0_wp*lambda(last), abs(spectrum%shift))
+                  spectrum%counted_at = 2.0_wp*maxval([lambda, abs(spectrum%shift)])
+                  if (.not. spectrum%counted_at > 0.0_wp) then ! nothing that can move has a mass
+                     spectrum%n_wanted = 0
+                     return
+                  end if
                end if
                call count_below(model, structure, spectrum%counted_at, under, failure)
                if (failure%raised) return
                spectrum%n_counted = under
-               if (under - spectrum%n_before == last) return
+               if (under - spectrum%n_before == last) then
+                  spectrum%n_wanted = min(spectrum%n_wanted, last)
+                  return
+               end if
                n = max(n, under - spectrum%n_before) + beyond
             else
                n = 2*n
