@@ -4,13 +4,14 @@ module mass_elements
    use element_kinds, only: max_coupled_dofs, max_nodes
    use element_mass, only: lump, shape_products
    use kinds, only: wp
-   use model_data, only: bar_nodes, corners_of, model_type, n_rotations, point_mass_type
+   use model_data, only: bar_nodes, corners_of, model_type, point_mass_type
    use node_coupling, only: onto_unknowns, unknown_nodes
+   use reference_nodes, only: rotation_at
    use section_coupling, only: extend_stiffness, felt_nodes
    implicit none
    private
 
-   public :: scalar_mass, bar_mass, inertia_at_rotation, rotation_of
+   public :: scalar_mass, bar_mass, inertia_at_rotation
    public :: coupled_dynamic_stiffness, coupled_bar_mass, coupled_point_mass, mass_nodes, n_masses
 
 contains
@@ -98,18 +99,6 @@ contains
       end associate
    end function coupled_bar_mass
 
-   !> Which of the rotations is that of NODE, 0: it has none.
-   pure integer function rotation_of(model, node) result(r)
-      type(model_type), intent(in) :: model
-      integer, intent(in)          :: node
-      integer :: i
-
-      r = 0
-      do i = 1, n_rotations(model)
-         if (model%rotations(i)%point == node) r = i
-      end do
-   end function rotation_of
-
    !> The nodes that MASS moves with: its own, and that of its rotations where there is one.
    pure function mass_nodes(model, mass) result(nodes)
       type(model_type), intent(in)      :: model
@@ -117,7 +106,7 @@ contains
       integer, allocatable :: nodes(:)
 
       nodes = [mass%node]
-      if (rotation_of(model, mass%node) > 0) nodes = [nodes, model%rotations(rotation_of(model, mass%node))%node]
+      if (rotation_at(model, mass%node) > 0) nodes = [nodes, model%rotations(rotation_at(model, mass%node))%node]
    end function mass_nodes
 
    !> The inertia of MASS as the node of its rotations feels it, whose components are rotations times an arm: in space about x, y
@@ -127,7 +116,7 @@ contains
       type(point_mass_type), intent(in) :: mass
       real(wp) :: m(model%dimension, model%dimension)
 
-      associate (arm => model%rotations(rotation_of(model, mass%node))%arm)
+      associate (arm => model%rotations(rotation_at(model, mass%node))%arm)
          if (model%dimension == 3) then
             m = mass%inertia/arm**2
          else

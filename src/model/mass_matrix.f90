@@ -4,8 +4,9 @@
 module mass_matrix
    use element_kinds, only: max_nodes
    use kinds, only: wp
-   use mass_elements, only: bar_mass, inertia_at_rotation, n_masses, rotation_of, scalar_mass
+   use mass_elements, only: bar_mass, inertia_at_rotation, n_masses, scalar_mass
    use model_data, only: corners_of, model_type, n_bars, n_points
+   use reference_nodes, only: rotation_at
    use reverse_lists, only: list_owners
    use section_coupling, only: add_section_share, corner_displacements, section_node
    implicit none
@@ -49,7 +50,7 @@ contains
       do i = 1, n_masses(model)
          associate (node => model%masses(i)%node)
             call add([node], reshape([model%masses(i)%mass], [1, 1]))
-            if (rotation_of(model, node) > 0) mass%turning = [mass%turning, i]
+            if (rotation_at(model, node) > 0) mass%turning = [mass%turning, i]
          end associate
       end do
 
@@ -153,7 +154,7 @@ contains
       end do
       do i = 1, size(mass%turning)
          associate (point => model%masses(mass%turning(i)))
-            associate (node => model%rotations(rotation_of(model, point%node))%node)
+            associate (node => model%rotations(rotation_at(model, point%node))%node)
                f(:, node) = f(:, node) + matmul(inertia_at_rotation(model, point), a(:, node))
             end associate
          end associate

@@ -115,7 +115,7 @@ contains
          if (fault > 0) then
             fault = front%first + fault - 1
          else
-            front%weakest = minval([(front%panel(i, i)**2/abs(front%diagonal(i)), i = 1, front%p)])
+            front%weakest = minval([(front%panel(i, i)**2/max(abs(front%diagonal(i)), tiny(1.0_wp)), i = 1, front%p)])
          end if
          if (front%parent == 0) deallocate (front%update)
       end associate

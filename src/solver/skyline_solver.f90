@@ -195,7 +195,7 @@ contains
          call factorise_skyline(matrix, pivot_tolerance, fault, with_signs=self%shift > 0.0_wp)
          self%weakest = 1.0_wp
          if (fault /= 0) return
-         self%weakest = minval(matrix%values(matrix%diagonal(1:))**2/abs(self%diagonal))
+         self%weakest = minval(matrix%values(matrix%diagonal(1:))**2/max(abs(self%diagonal), tiny(1.0_wp)))
          self%n_negative = size(matrix%negative)
       end associate
    end subroutine form_structure

@@ -1,6 +1,6 @@
 !> Eigenpairs of [k] {x} = lambda [m] {x} above a shift sigma, from the factor of [k] - sigma [m] that a solver has. Spectral
 !! transformation: ([k] - sigma [m])^-1 [m] {x} = nu {x}, nu = 1/(lambda - sigma); the eigenvalues next above sigma are the largest nu,
-!! which the Lanczos method finds first. Small structures are solved as a whole.
+!! which the Lanczos method finds first. Small structures, and those of which most modes are wanted, are solved as a whole.
 !! Source: Ericsson, Ruhe, Math. Comp. 35 (1980) 1251-1268; Lehoucq, Sorensen, Yang, ARPACK Users' Guide, SIAM 1998, section 3.2.
 module eigenpairs
    use arpack, only: dsaupd, dseupd
@@ -15,24 +15,27 @@ module eigenpairs
    implicit none
    private
 
-   public :: find_eigenpairs, is_small, all_displacements
+   public :: find_eigenpairs, needs_all, all_displacements
 
    integer, parameter  :: small = 150                !! unknowns of a structure that is solved as a whole
    integer, parameter  :: most_restarts = 500
+   integer, parameter  :: zero_vector = -9, exhausted = -9999 ! as ARPACK says it: there are no more vectors with mass
+   integer, parameter  :: tired = 1                           ! likewise: not so many in so many restarts, perhaps there are no more
    real(wp), parameter :: tolerance = 1.0e-13_wp     ! of nu, of what Lanczos estimates its error
    real(wp), parameter :: finite = 1.0e-12_wp        ! of the largest nu: what is below has no mass to speak of
 
 contains
 
-   !> Whether all eigenvalues of SYSTEM are found at once, whatever the shift below them.
-   pure logical function is_small(system)
+   !> Whether to find all eigenvalues of SYSTEM at once where N are wanted.
+   pure logical function needs_all(system, n)
       class(equation_system), intent(in) :: system
+      integer, intent(in)                :: n
 
-      is_small = system%n <= small
-   end function is_small
+      needs_all = system%n <= small .or. n > system%n/2
+   end function needs_all
 
    !> The N eigenvalues LAMBDA next above the shift of SYSTEM, ascending, and their vectors X, x^T [m] x = 1; fewer where there are not
-   !! so many. Of a small structure all that there are above the shift, which has to be below all of them.
+   !! so many. Where N is all unknowns, the shift has to be below all of them.
    subroutine find_eigenpairs(model, mass, system, n, lambda, x, failure)
       type(model_type), intent(in)       :: model
       type(mass_matrix_type), intent(in) :: mass
@@ -43,10 +46,10 @@ contains
       type(failure_type), intent(inout)  :: failure
       integer :: i, k
 
-      if (is_small(system)) then
+      if (n >= system%n) then
          call solve_whole(model, mass, system, lambda, x, failure)
       else
-         call iterate(model, mass, system, min(n, system%n - 1), lambda, x, failure)
+         call iterate(model, mass, system, n, lambda, x, failure)
       end if
       if (failure%raised) return
       do i = 2, size(lambda) ! few, and nearly in order
@@ -65,11 +68,15 @@ contains
       class(equation_system), intent(in) :: system
       real(wp), allocatable, intent(out) :: lambda(:), x(:, :)
       type(failure_type), intent(inout)  :: failure
-      real(wp) :: m(system%n, system%n), k(system%n, system%n), nu(system%n), work(34*system%n)
-      integer  :: first, i, info
+      real(wp), allocatable :: m(:, :), k(:, :)
+      real(wp) :: nu(system%n), work(34*system%n)
+      integer  :: first, i, info, status
 
-      m = 0.0_wp
-      k = 0.0_wp
+      allocate (m(system%n, system%n), k(system%n, system%n), source=0.0_wp, stat=status)
+      if (status /= 0) then
+         call failure%raise('MODES: no memory for all modes of '//integer_text(system%n)//' unknowns')
+         return
+      end if
       do i = 1, system%n
          m(i, i) = 1.0_wp
          k(:, i) = m(:, i)
@@ -91,7 +98,7 @@ contains
       end do
    end subroutine solve_whole
 
-   !> The N next above the shift by ARPACK.
+   !> The N next above the shift by ARPACK; where fewer vectors have mass it says so, and has found a basis of all of these.
    subroutine iterate(model, mass, system, n, lambda, x, failure)
       type(model_type), intent(in)       :: model
       type(mass_matrix_type), intent(in) :: mass
@@ -101,7 +108,8 @@ contains
       type(failure_type), intent(inout)  :: failure
       real(wp), allocatable :: v(:, :), residual(:), work(:), small_work(:)
       logical, allocatable  :: chosen(:)
-      integer :: columns, ido, info, parameters(11), places(11), status
+      integer, allocatable  :: above(:)
+      integer :: columns, i, ido, info, parameters(11), places(11), status
 
       columns = min(system%n, max(2*n + 1, n + 20))
       allocate (lambda(n), x(system%n, n), v(system%n, columns), residual(system%n), work(3*system%n), &
@@ -136,12 +144,61 @@ contains
             work(to:to + system%n - 1) = x(:, 1)
          end associate
       end do
-      if (info == 0) call dseupd(.true., 'A', chosen, lambda, x, system%n, system%shift, 'G', system%n, 'LA', n, tolerance, &
-                                 residual, columns, v, system%n, parameters, places, work, small_work, size(small_work), info)
-      if (info /= 0) call failure%raise('MODES: of '//integer_text(n)//' modes '//integer_text(parameters(5))// &
-                                        ' were found in '//integer_text(parameters(3))//' restarts (ARPACK says '// &
-                                        integer_text(info)//'); are there so many below infinity?')
+      if (info == zero_vector) parameters(5) = 0
+      if (info == zero_vector .or. info == exhausted) then
+         call solve_in_subspace(model, mass, system, v(:, :parameters(5)), lambda, x, failure)
+         return
+      end if
+      if (info == tired .and. parameters(5) == 0 .and. system%shift > 0.0_wp) info = 0 ! all may be below
+      if (parameters(5) > 0 .and. (info == 0 .or. info == tired)) &
+         call dseupd(.true., 'A', chosen, lambda, x, system%n, system%shift, 'G', system%n, 'LA', n, tolerance, residual, columns, &
+                     v, system%n, parameters, places, work, small_work, size(small_work), info)
+      if (info /= 0) then
+         call failure%raise('MODES: of '//integer_text(n)//' modes '//integer_text(parameters(5))//' were found in '// &
+                            integer_text(parameters(3))//' restarts (ARPACK says '//integer_text(info)//')')
+         return
+      end if
+      above = pack([(i, i = 1, parameters(5))], lambda(:parameters(5)) > system%shift)
+      if (size(above) == n) return
+      lambda = lambda(above)
+      x = x(:, above)
    end subroutine iterate
+
+   !> All finite eigenvalues above the shift where the vectors V are a basis of all that have mass, v_i^T [m] v_j = 1 or 0: of the small
+   !! symmetric matrix V^T [m] ([k] - sigma [m])^-1 [m] V.
+   subroutine solve_in_subspace(model, mass, system, v, lambda, x, failure)
+      type(model_type), intent(in)       :: model
+      type(mass_matrix_type), intent(in) :: mass
+      class(equation_system), intent(in) :: system
+      real(wp), intent(in)               :: v(:, :)
+      real(wp), allocatable, intent(out) :: lambda(:), x(:, :)
+      type(failure_type), intent(inout)  :: failure
+      real(wp) :: t(size(v, 2), size(v, 2)), unit(size(v, 2), size(v, 2)), nu(size(v, 2)), work(34*size(v, 2) + 1), y(system%n)
+      integer  :: i, info, n
+
+      n = size(v, 2)
+      unit = 0.0_wp
+      do i = 1, n
+         unit(i, i) = 1.0_wp
+         y = v(:, i)
+         call times_mass(model, mass, system, y)
+         call system%solve_by_factor(y)
+         y(system%locked) = 0.0_wp
+         call times_mass(model, mass, system, y)
+         t(:, i) = matmul(y, v)
+      end do
+      t = 0.5_wp*(t + transpose(t))
+      info = 0
+      if (n > 0) call dsygv(1, 'V', 'L', n, t, n, unit, n, nu, work, size(work), info)
+      if (info /= 0) then
+         call failure%raise('MODES: no eigenvalues of '//integer_text(n)//' modes')
+         return
+      end if
+      i = 0
+      if (n > 0) i = count(nu > finite*nu(n) .and. nu > 0.0_wp)
+      lambda = system%shift + 1.0_wp/nu(n:n - i + 1:-1)
+      x = matmul(v, t(:, n:n - i + 1:-1))
+   end subroutine solve_in_subspace
 
    !> A vector without any symmetry, the same for every numbering of the equations.
    pure function start_vector(system) result(x)

@@ -215,15 +215,15 @@ contains
    !> The energies become shares of all.
    pure subroutine share_energy(mode)
       type(mode_type), intent(inout) :: mode
-      real(wp) :: whole
+      real(wp) :: share
 
-      whole = mode%energy%total()
-      if (mode%is_rigid) whole = huge(1.0_wp)
+      share = 0.0_wp
+      if (.not. mode%is_rigid) share = 1.0_wp/mode%energy%total()
       associate (energy => mode%energy)
-         energy%body = energy%body/whole
-         energy%bar = energy%bar/whole
-         energy%normal = energy%normal/whole
-         energy%shear = energy%shear/whole
+         energy%body = abs(share*energy%body) ! below zero it is but rounding
+         energy%bar = share*energy%bar
+         energy%normal = share*energy%normal
+         energy%shear = share*energy%shear
       end associate
    end subroutine share_energy
 

@@ -5,7 +5,7 @@
 !! of frequencies is counted at both ends before anything is searched in it; the lowest modes are counted behind the last one.
 !! Source: Parlett, The Symmetric Eigenvalue Problem, SIAM 1998, sections 3.3 and 15.
 module natural_modes
-   use eigenpairs, only: find_eigenpairs, is_small
+   use eigenpairs, only: find_eigenpairs, needs_all
    use equation_solver, only: equation_system
    use failures, only: failure_type
    use kinds, only: wp
@@ -52,7 +52,7 @@ contains
 
       if (failure%raised) return
       spectrum%n_wanted = merge(plan%most, huge(1), plan%most > 0)
-      if (is_small(structure%started)) then
+      if (needs_all(structure%started, plan%most)) then
          call find_all(model, structure, plan, spectrum, system, failure)
          return
       end if
@@ -69,8 +69,10 @@ contains
          spectrum%n_before = system%n_negative
       end if
       if (failure%raised) return
-      spectrum%n_wanted = min(spectrum%n_wanted, below_end - spectrum%n_before, structure%started%n - 1 - spectrum%n_before)
-      if (spectrum%n_wanted <= 0) then
+      spectrum%n_wanted = min(spectrum%n_wanted, below_end - spectrum%n_before)
+      if (needs_all(structure%started, spectrum%n_wanted)) then
+         call find_all(model, structure, plan, spectrum, system, failure)
+      else if (spectrum%n_wanted <= 0) then
          spectrum%n_wanted = 0
          allocate (spectrum%lambda(0), spectrum%x(structure%started%n, 0))
       else if (plan%has_lowest) then
@@ -120,7 +122,7 @@ contains
    end subroutine find_lowest
 
    !> The modes from the shift of SYSTEM on, more of them until the count agrees: that at the end of the range, BELOW_END, or where
-   !! there is none that in the first clear gap behind the last wanted one.
+   !! there is none that in the first clear gap behind the last wanted one; behind all where fewer nodes have mass.
    subroutine find_and_count(model, structure, below_end, spectrum, system, failure)
       type(model_type), intent(in)       :: model
       type(oscillating_type), intent(in) :: structure
@@ -133,6 +135,7 @@ contains
       n = spectrum%n_wanted + beyond
       do trial = 1, most_trials
          if (failure%raised) return
+         n = min(n, structure%started%n - 1)
          if (trial > 1 .or. .not. allocated(spectrum%lambda)) &
             call find_eigenpairs(model, structure%mass, system, n, spectrum%lambda, spectrum%x, failure)
          if (failure%raised) return
@@ -140,14 +143,27 @@ contains
          associate (lambda => spectrum%lambda)
             last = clear_gap(lambda, spectrum%n_wanted)
             if (spectrum%n_wanted == below_end - spectrum%n_before) then ! the whole range, which has been counted
-               if (count(lambda < spectrum%counted_at) == spectrum%n_wanted) return
+               if (count(lambda < (1.0_wp - clear)*spectrum%counted_at) <= spectrum%n_wanted .and. &
+                   count(lambda < (1.0_wp + clear)*spectrum%counted_at) >= spectrum%n_wanted) return ! one may lie at the end itself
                n = n + beyond
-            else if (last > 0) then
-               spectrum%counted_at = 0.5_wp*(lambda(last) + lambda(last + 1))
+            else if (last > 0 .or. size(lambda) < n) then
+               if (last > 0) then
+                  spectrum%counted_at = 0.5_wp*(lambda(last) + lambda(last + 1))
+               else ! there are no more
+                  last = size(lambda)
+                  spectrum%counted_at = 2.0_wp*maxval([lambda, abs(spectrum%shift)])
+                  if (.not. spectrum%counted_at > 0.0_wp) then ! nothing that can move has a mass
+                     spectrum%n_wanted = 0
+                     return
+                  end if
+               end if
                call count_below(model, structure, spectrum%counted_at, under, failure)
                if (failure%raised) return
                spectrum%n_counted = under
-               if (under - spectrum%n_before == last) return
+               if (under - spectrum%n_before == last) then
+                  spectrum%n_wanted = min(spectrum%n_wanted, last)
+                  return
+               end if
                n = max(n, under - spectrum%n_before) + beyond
             else
                n = 2*n

@@ -1,14 +1,15 @@
-!> The stiffness of a whole structure as one dense matrix, solved and condensed by LAPACK: what the solvers are compared with.
+!> The stiffness and the mass of a whole structure as dense matrices, solved and condensed by LAPACK: what the solvers are compared with.
 !! Row (node - 1) dimension + direction, held components and all.
 module dense_structure
-   use body_elements, only: coupled_stiffness
-   use element_kinds, only: max_dofs
+   use body_elements, only: coupled_stiffness, law_of
+   use element_kinds, only: max_dofs, max_nodes
+   use element_mass, only: lump, shape_products
    use kinds, only: wp
    use model_data, only: corners_of, model_type, n_bars
    implicit none
    private
 
-   public :: dense_bodies, dense_joints, free_rows, solve_dense, condense_dense
+   public :: dense_bodies, dense_joints, dense_mass, free_rows, solve_dense, condense_dense
 
    interface
       subroutine dposv(uplo, n, nrhs, a, lda, b, ldb, info)
@@ -57,6 +58,52 @@ contains
       end subroutine add
 
    end function dense_bodies
+
+
+   !> Elements, bars, and masses at nodes; no inertia of rotations, no sections.
+   function dense_mass(model) result(m)
+      type(model_type), intent(in) :: model
+      real(wp), allocatable :: m(:, :)
+      real(wp) :: m_e(max_nodes, max_nodes)
+      integer  :: c, e, i
+
+      allocate (m(model%dimension*model%n_nodes, model%dimension*model%n_nodes), source=0.0_wp)
+      do e = 1, model%n_elements
+         associate (corners => corners_of(model, e))
+            call shape_products(law_of(model, e), model%x(:model%dimension, corners), m_e)
+            m_e = model%properties(model%element_property(e))%rho*m_e
+            if (model%lumped) call lump(m_e(:size(corners), :size(corners)))
+            call add(corners, m_e)
+         end associate
+      end do
+      do i = 1, n_bars(model)
+         m_e(:2, :2) = reshape([2.0_wp, 1.0_wp, 1.0_wp, 2.0_wp], [2, 2])*model%bars(i)%mass/6.0_wp
+         if (model%lumped) m_e(:2, :2) = reshape([3.0_wp, 0.0_wp, 0.0_wp, 3.0_wp], [2, 2])*model%bars(i)%mass/6.0_wp
+         if (model%bars(i)%mass > 0.0_wp) call add(model%bars(i)%nodes, m_e)
+      end do
+      do i = 1, size(model%masses)
+         m_e(1, 1) = model%masses(i)%mass
+         call add([model%masses(i)%node], m_e)
+      end do
+
+   contains
+
+      !> PART between NODES, the same for every component.
+      subroutine add(nodes, part)
+         integer, intent(in)  :: nodes(:)
+         real(wp), intent(in) :: part(:, :)
+         integer :: j
+
+         do j = 1, size(nodes)
+            do c = 1, model%dimension
+               associate (d => model%dimension)
+                  m(d*(nodes - 1) + c, d*(nodes(j) - 1) + c) = m(d*(nodes - 1) + c, d*(nodes(j) - 1) + c) + part(:size(nodes), j)
+               end associate
+            end do
+         end do
+      end subroutine add
+
+   end function dense_mass
 
 
    !> Interface elements with the stiffnesses K_INT in their axes.
