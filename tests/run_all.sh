@@ -90,6 +90,7 @@ part 'the verification manual as it stands' tests/manual/check.sh "$program" "$q
 part 'TREE and SKYLINE, one thread and several' tests/solver/run.sh "$program" "$query" "$build/solver"
 part 'models that do not fit into the memory' tests/memory.sh "$program" "$build/memory"
 part 'linear decks against CalculiX' tests/calculix/run.sh "$program" "$build/calculix"
+part 'natural frequencies against CalculiX' tests/calculix/frequencies.sh "$program" "$build/calculix-frequencies"
 part 'block, law and load over all decades' tests/sweep/run.sh "$program" "$build/sweep"
 part 'the same problems in 13 systems of units' tests/sweep/units.sh "$program" "$build/units"
 part 'the largest numbers, and what overflows' tests/sweep/widths.sh "$program" "$build/widths"
