@@ -64,7 +64,7 @@ contains
       self%ticks(self%phase) = self%ticks(self%phase) + now - self%entered
       self%entered = now
       self%phase = phase
-      if (self%shown .and. phase < phase_increments) call show(self, trim(phase_name(phase)))
+      if (self%shown .and. (phase < phase_increments .or. phase == phase_modes)) call show(self, trim(phase_name(phase)))
    end subroutine enter
 
    !> From now on increments are counted, those of PLAN.

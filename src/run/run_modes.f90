@@ -4,9 +4,9 @@ module run_modes
    use equation_solver, only: equation_system
    use modal_response, only: find_response, response_type
    use mode_values, only: evaluate_modes, modes_type
-   use model_data, only: model_type, supported
+   use model_data, only: model_type
    use natural_modes, only: find_natural_modes, spectrum_type
-   use oscillating_structure, only: oscillating_type, start_oscillation
+   use oscillating_structure, only: let_go, oscillating_type, start_oscillation
    use progress, only: phase_increments, phase_modes
    use results, only: print_modes, print_response
    use run_state, only: is_over, run_type
@@ -27,7 +27,6 @@ contains
       class(equation_system), intent(in) :: system
       type(analysis_type), intent(in)    :: analysis
       type(model_type), allocatable :: loose
-      integer :: i
 
       if (is_over(run)) return
       associate (stage => plan%stages(analysis%stage))
@@ -35,9 +34,7 @@ contains
          call run%progress%enter(phase_modes)
          if (stage%vibration%free) then
             allocate (loose, source=model)
-            do i = 1, model%n_nodes
-               loose%held(:, i) = loose%held(:, i) .and. .not. supported(model, i)
-            end do
+            call let_go(loose)
             call oscillate(run, loose, plan, stage%vibration, system, analysis)
          else
             call oscillate(run, model, plan, stage%vibration, system, analysis)

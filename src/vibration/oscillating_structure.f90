@@ -8,12 +8,12 @@ module oscillating_structure
    use failures, only: failure_type
    use kinds, only: wp
    use mass_matrix, only: form_mass, mass_matrix_type
-   use model_data, only: model_type, n_bars, n_sections
+   use model_data, only: model_type, n_bars, n_sections, supported
    use small_oscillation, only: oscillation_stiffness
    implicit none
    private
 
-   public :: start_oscillation, factorise_at
+   public :: let_go, start_oscillation, factorise_at
 
    type, public :: oscillating_type
       real(wp), allocatable :: k(:, :)       !! (3, n) k_sx, k_sy, k_n of interface elements [force/length]
@@ -24,6 +24,19 @@ module oscillating_structure
    end type oscillating_type
 
 contains
+
+   !> MODEL without its supports; what holds the axis of a ring is none.
+   pure subroutine let_go(model)
+      type(model_type), intent(inout) :: model
+      logical :: free(model%dimension)
+      integer :: i
+
+      do i = 1, model%n_nodes - n_sections(model)
+         free = supported(model, i)
+         if (model%axisymmetric) free(1) = free(1) .and. abs(model%x(1, i)) > 0.0_wp
+         model%held(:, i) = model%held(:, i) .and. .not. free
+      end do
+   end subroutine let_go
 
    !> Stiffness and mass about the state of ANALYSIS, and the order of the equations: of the solver that SYSTEM is where it is one of
    !! the two that have factors.
