@@ -65,7 +65,7 @@ files_for_paraview() {
    "$program" -q -o "$build/vtu-deck" "$build/vtu-deck/history.bdf" 2> /dev/null
    sed -e '/^ *TEMPERATURE(LOAD) = 20/d' -e 's/^OUTPUT = .*/OUTPUT = LAST, STEPS/' input/flange_warm.bdf > "$build/vtu-deck/warm.bdf"
    "$program" -q -o "$build/vtu-deck" "$build/vtu-deck/warm.bdf" > /dev/null 2>&1
-   cp input/lap_beams.inc "$build/vtu-deck"
+   mkdir -p "$build/vtu-deck/vibration" && cp input/vibration/beams.inc "$build/vtu-deck/vibration"
    sed 's/^OUTPUT = NONE/OUTPUT = VTU/' input/lap_beams.bdf > "$build/vtu-deck/lap_beams.bdf"
    "$program" -q -o "$build/vtu-deck" "$build/vtu-deck/lap_beams.bdf" > /dev/null 2>&1
    tests/vtu/run.sh "$build/vtu" "$build/vtu-deck/history.pvd" "$build/vtu-deck/lap_beams.pvd" "$build/vtu-deck/warm.pvd@20:20:50:20" "$build/check/post_on_plate.pvd" \

@@ -52,14 +52,15 @@ done
 
 # the column on its bed: frequencies against the preload of its bolts; the same foot welded to the bed; its response
 echo 'preload,unload1,unload2,load1,load2' > "$work/vibration.csv"
-cp input/column_modes.inc "$work"
+mkdir -p "$work/vibration"
+cp input/vibration/column.inc "$work/vibration"
 column() { # PRELOAD: the row of the four frequencies
    sed -E "s/^(BOLT +[0-9]+ +[0-9]+ +).*/\1$1.0     1/" input/column_modes_02.bdf > "$work/column.bdf"
    "$program" -q -o "$work" "$work/column.bdf" > /dev/null 2>&1
    awk -F, -v p="$1" 'NR > 1 && $2 < 3 { row = row "," $3 } END { print p row }' "$work/column.modes.csv"
 }
 for preload in 1000 2000 4000 8000 16000 32000 64000; do column $preload >> "$work/vibration.csv"; done
-sed -i -E 's/^\+ +20$/+,,,,,20,,1/; /^P?JOINT/d; /^JNORM/d; /^JSHEAR/d; /^\+ +75.0/d' "$work/column_modes.inc"
+sed -i -E 's/^\+ +20$/+,,,,,20,,1/; /^P?JOINT/d; /^JNORM/d; /^JSHEAR/d; /^\+ +75.0/d' "$work/vibration/column.inc"
 column 8000 > "$work/welded.csv"
 "$program" -q -o "$work" input/column_modes_08.bdf > /dev/null 2>&1
 
