@@ -167,8 +167,8 @@ check: bin/jointfem $(COMPARE)
 sanitize: bin/jointfem
 	@MAKE='$(MAKE)' FC='$(FC)' tests/sanitize/run.sh $(BUILD)/sanitize $(PART)
 
-# The results of one deck become its reference: make accept CASE=prism05; its tables of stages and bolts where there are references of them,
-# or where TABLES='stage bolt' asks for them
+# The results of one deck become its reference: make accept CASE=prism05; its tables of stages, bolts, modes, their energy, response where
+# there are references of them, or where TABLES='stage bolt modes modes.energy response' asks for them
 .PHONY: accept
 accept: bin/jointfem
 	@test -n '$(CASE)' || { echo 'usage: make accept CASE=name, for input/name.bdf'; exit 1; }
@@ -176,7 +176,7 @@ accept: bin/jointfem
 	@mkdir -p $(BUILD)/accept
 	bin/jointfem -q -o $(BUILD)/accept 'input/$(CASE).bdf'
 	cp '$(BUILD)/accept/$(CASE).out' '$(BUILD)/accept/$(CASE).joint.csv' reference_output
-	for table in stage bolt; do test ! -f 'reference_output/$(CASE)'.$$table.csv || \
+	for table in stage bolt modes modes.energy response; do test ! -f 'reference_output/$(CASE)'.$$table.csv || \
 	   cp '$(BUILD)/accept/$(CASE)'.$$table.csv reference_output; done
 	for table in $(TABLES); do cp '$(BUILD)/accept/$(CASE)'.$$table.csv reference_output || exit 1; done
 	@echo 'say in the commit message why the reference changed'

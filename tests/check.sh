@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Every deck of input/ against its listing and history in reference_output/, and against its tables of stages and bolts where a
-# reference of these is there: first diff, then, where the text differs,
+# Every deck of input/ against its listing and history in reference_output/, and against its other tables (stages, bolts, modes, their
+# energy, response) where a reference of these is there: first diff, then, where the text differs,
 # a comparison with a tolerance per quantity (tests/compare/tolerances.txt).
 #
 #    check.sh PROGRAM COMPARE WORK_FOLDER [NAME...]     all decks, or those named
@@ -24,10 +24,10 @@ check_deck() {
       fail "$name: exit status $status"
       return
    fi
-   for suffix in out joint.csv stage.csv bolt.csv; do
+   for suffix in out joint.csv stage.csv bolt.csv modes.csv modes.energy.csv response.csv; do
       local reference=reference_output/$name.$suffix actual=$work/$name.$suffix
       if [ ! -f "$reference" ]; then
-         case $suffix in stage.csv|bolt.csv) continue ;; esac
+         case $suffix in out|joint.csv) ;; *) continue ;; esac
          fail "$name.$suffix: no reference; make accept CASE=$name takes the present result as one"
       elif cmp -s "$reference" "$actual"; then
          passed=$((passed + 1))
@@ -44,7 +44,8 @@ if [ $# -gt 0 ]; then
 else
    names=$(for deck in input/*.bdf; do basename "$deck" .bdf; done)
    for reference in reference_output/*.out reference_output/*.csv; do
-      name=$(basename "$reference"); name=${name%.out}; name=${name%.csv}; name=${name%.joint}; name=${name%.stage}; name=${name%.bolt}
+      name=$(basename "$reference"); name=${name%.out}; name=${name%.csv}
+      for table in joint stage bolt energy modes response; do name=${name%.$table}; done
       [ -f "input/$name.bdf" ] || fail "$reference: there is no deck input/$name.bdf"
    done
 fi

@@ -65,7 +65,10 @@ files_for_paraview() {
    "$program" -q -o "$build/vtu-deck" "$build/vtu-deck/history.bdf" 2> /dev/null
    sed -e '/^ *TEMPERATURE(LOAD) = 20/d' -e 's/^OUTPUT = .*/OUTPUT = LAST, STEPS/' input/flange_warm.bdf > "$build/vtu-deck/warm.bdf"
    "$program" -q -o "$build/vtu-deck" "$build/vtu-deck/warm.bdf" > /dev/null 2>&1
-   tests/vtu/run.sh "$build/vtu" "$build/vtu-deck/history.pvd" "$build/vtu-deck/warm.pvd@20:20:50:20" "$build/check/post_on_plate.pvd" \
+   mkdir -p "$build/vtu-deck/vibration" && cp input/vibration/beams.inc "$build/vtu-deck/vibration"
+   sed 's/^OUTPUT = NONE/OUTPUT = VTU/' input/lap_beams.bdf > "$build/vtu-deck/lap_beams.bdf"
+   "$program" -q -o "$build/vtu-deck" "$build/vtu-deck/lap_beams.bdf" > /dev/null 2>&1
+   tests/vtu/run.sh "$build/vtu" "$build/vtu-deck/history.pvd" "$build/vtu-deck/lap_beams.pvd" "$build/vtu-deck/warm.pvd@20:20:50:20" "$build/check/post_on_plate.pvd" \
       "$build/check/column_tetra10.pvd"
 }
 
@@ -90,6 +93,7 @@ part 'the verification manual as it stands' tests/manual/check.sh "$program" "$q
 part 'TREE and SKYLINE, one thread and several' tests/solver/run.sh "$program" "$query" "$build/solver"
 part 'models that do not fit into the memory' tests/memory.sh "$program" "$build/memory"
 part 'linear decks against CalculiX' tests/calculix/run.sh "$program" "$build/calculix"
+part 'natural frequencies against CalculiX' tests/calculix/frequencies.sh "$program" "$build/calculix-frequencies"
 part 'block, law and load over all decades' tests/sweep/run.sh "$program" "$build/sweep"
 part 'the same problems in 13 systems of units' tests/sweep/units.sh "$program" "$build/units"
 part 'the largest numbers, and what overflows' tests/sweep/widths.sh "$program" "$build/widths"

@@ -50,6 +50,20 @@ for t in 2 3 4 5 6 7 8 9 10 11 12; do
    done | awk -v t=$t '{ reach[NR] = $2 - 40 } END { print t "," reach[1] "," reach[2] }' >> "$work/flange.csv"
 done
 
+# the column on its bed: frequencies against the preload of its bolts; the same foot welded to the bed; its response
+echo 'preload,unload1,unload2,load1,load2' > "$work/vibration.csv"
+mkdir -p "$work/vibration"
+cp input/vibration/column.inc "$work/vibration"
+column() { # PRELOAD: the row of the four frequencies
+   sed -E "s/^(BOLT +[0-9]+ +[0-9]+ +).*/\1$1.0     1/" input/column_modes_02.bdf > "$work/column.bdf"
+   "$program" -q -o "$work" "$work/column.bdf" > /dev/null 2>&1
+   awk -F, -v p="$1" 'NR > 1 && $2 < 3 { row = row "," $3 } END { print p row }' "$work/column.modes.csv"
+}
+for preload in 1000 2000 4000 8000 16000 32000 64000; do column $preload >> "$work/vibration.csv"; done
+sed -i -E 's/^\+ +20$/+,,,,,20,,1/; /^P?JOINT/d; /^JNORM/d; /^JSHEAR/d; /^\+ +75.0/d' "$work/vibration/column.inc"
+column 8000 > "$work/welded.csv"
+"$program" -q -o "$work" input/column_modes_08.bdf > /dev/null 2>&1
+
 for chart in a b; do
    awk -v title="Fig. 6($chart)" -f "$here/chart.awk" "$here/README.md" > "$here/fig6$chart.svg"
    echo "$here/fig6$chart.svg"

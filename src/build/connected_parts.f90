@@ -1,4 +1,4 @@
-!> The parts of a model: bodies and nodes that elements, bars and bolts connect. Joints connect nothing here.
+!> The bodies of a model, and its parts: bodies and nodes that bars and bolts connect. Joints connect nothing here.
 module connected_parts
    use disjoint_sets, only: join, root_of
    use model_data, only: model_type, n_bars, n_rotations, n_sections
@@ -6,26 +6,45 @@ module connected_parts
    implicit none
    private
 
-   public :: find_parts
+   public :: find_bodies, find_parts
 
 contains
 
-   !> Number the connected bodies (a node without a body is a part of its own). What depends on others is one with them. Behind the section of a solid bolt the node of the
-   !! section stands for those that it cuts.
+   !> Which BODY each element belongs to, in the order of their first elements: elements are of one body that nodes connect, and the
+   !! halves of a solid bolt.
+   pure subroutine find_bodies(model, body, n_bodies)
+      type(model_type), intent(in) :: model
+      integer, intent(out)         :: body(:) !! (n_elements)
+      integer, intent(out)         :: n_bodies
+      integer :: parent(model%n_nodes), number(model%n_nodes), e, k, root
+
+      parent = [(k, k = 1, model%n_nodes)]
+      call join_elements(model, parent)
+      do k = 1, n_sections(model)
+         call join(parent, model%sections(k)%node, model%sections(k)%point)
+      end do
+      number = 0
+      n_bodies = 0
+      do e = 1, model%n_elements
+         root = root_of(parent, uncut(model, e, 1))
+         if (number(root) == 0) then
+            n_bodies = n_bodies + 1
+            number(root) = n_bodies
+         end if
+         body(e) = number(root)
+      end do
+   end subroutine find_bodies
+
+   !> Number the connected bodies (a node without a body is a part of its own). What depends on others is one with them.
    pure subroutine find_parts(model, with_bolts)
       type(model_type), intent(inout) :: model
       logical, intent(in)             :: with_bolts !! whether bolts connect bodies as other bars do
       integer, allocatable :: parent(:)
-      integer :: e, first, k, node, root
+      integer :: k, node, root
 
       allocate (parent(model%n_nodes))
       parent = [(node, node = 1, model%n_nodes)]
-      do e = 1, model%n_elements
-         first = uncut(e, 1)
-         do k = 2, size(model%element_nodes, 1)
-            call join(parent, first, uncut(e, k))
-         end do
-      end do
+      call join_elements(model, parent)
       do k = 1, n_bars(model)
          if (model%bars(k)%nodes(2) == 0) cycle ! the ground
          if (with_bolts .or. model%bars(k)%bolt == 0) call join(parent, model%bars(k)%nodes(1), model%bars(k)%nodes(2))
@@ -54,19 +73,31 @@ contains
          end if
          model%part(node) = model%part(root)
       end do
-
-   contains
-
-      !> Corner I of element J, or what stands for it behind a section.
-      pure integer function uncut(j, i) result(corner)
-         integer, intent(in) :: j, i
-
-         corner = model%element_nodes(i, j)
-         if (corner == 0 .or. section_node(model, j) == 0) return
-         if (model%node_section(corner) == model%element_section(j)) corner = section_node(model, j)
-      end function uncut
-
    end subroutine find_parts
+
+   !> The nodes of every element are one part. Behind the section of a solid bolt the node of the section stands for those that it cuts.
+   pure subroutine join_elements(model, parent)
+      type(model_type), intent(in) :: model
+      integer, intent(inout)       :: parent(:)
+      integer :: e, first, k
+
+      do e = 1, model%n_elements
+         first = uncut(model, e, 1)
+         do k = 2, size(model%element_nodes, 1)
+            call join(parent, first, uncut(model, e, k))
+         end do
+      end do
+   end subroutine join_elements
+
+   !> Corner I of element E, or what stands for it behind a section.
+   pure integer function uncut(model, e, i) result(corner)
+      type(model_type), intent(in) :: model
+      integer, intent(in)          :: e, i
+
+      corner = model%element_nodes(i, e)
+      if (corner == 0 .or. section_node(model, e) == 0) return
+      if (model%node_section(corner) == model%element_section(e)) corner = section_node(model, e)
+   end function uncut
 
    !> NODE and all those whose unknowns it moves with are one part.
    pure subroutine join_coupled(model, node, parent)

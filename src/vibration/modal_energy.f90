@@ -3,6 +3,7 @@
 module modal_energy
    use bar_elements, only: add_pull, bar_elongation
    use body_elements, only: felt_stiffness
+   use connected_parts, only: find_bodies
    use element_kinds, only: max_coupled_dofs
    use interface_operator, only: add_force, joint_movement
    use kinds, only: wp
@@ -16,7 +17,7 @@ module modal_energy
 
    !> Of one mode [force x length].
    type, public :: energy_type
-      real(wp), allocatable :: body(:)             !! (parts)
+      real(wp), allocatable :: body(:)             !! (bodies)
       real(wp), allocatable :: bar(:)              !! (bars)
       real(wp), allocatable :: normal(:), shear(:) !! (joints)
    contains
@@ -40,14 +41,15 @@ contains
       type(energy_type), intent(out)     :: energies(:) !! (modes)
       real(wp), intent(out)              :: f(:, :, :)  !! as U [force]
       real(wp) :: movement(3), tension
-      integer  :: i, j, m
+      integer  :: body(model%n_elements), i, j, m, n_bodies
 
       f = 0.0_wp
+      call find_bodies(model, body, n_bodies)
       do m = 1, size(energies)
-         allocate (energies(m)%body(model%n_parts), energies(m)%bar(n_bars(model)), energies(m)%normal(size(model%joints)), &
+         allocate (energies(m)%body(n_bodies), energies(m)%bar(n_bars(model)), energies(m)%normal(size(model%joints)), &
                    energies(m)%shear(size(model%joints)), source=0.0_wp)
       end do
-      call strain_bodies(model, u, energies, f)
+      call strain_bodies(model, body, u, energies, f)
       do m = 1, size(energies)
          do i = 1, n_bars(model)
             if (.not. structure%is_elastic(i)) cycle
@@ -70,8 +72,9 @@ contains
    end subroutine strain_energies
 
    !> Those of the bodies: of every element once, for all shapes.
-   pure subroutine strain_bodies(model, u, energies, f)
+   pure subroutine strain_bodies(model, body, u, energies, f)
       type(model_type), intent(in)     :: model
+      integer, intent(in)              :: body(:) !! (n_elements)
       real(wp), intent(in)             :: u(:, :, :)
       type(energy_type), intent(inout) :: energies(:)
       real(wp), intent(inout)          :: f(:, :, :)
@@ -91,8 +94,8 @@ contains
                f(:, nodes(i), :) = f(:, nodes(i), :) + p(d*(i - 1) + 1:d*i, :)
             end do
             do m = 1, size(energies)
-               associate (body => energies(m)%body(model%part(nodes(1))))
-                  body = body + 0.5_wp*dot_product(q(:n, m), p(:n, m))
+               associate (energy => energies(m)%body(body(e)))
+                  energy = energy + 0.5_wp*dot_product(q(:n, m), p(:n, m))
                end associate
             end do
          end associate

@@ -5,7 +5,8 @@
 #    bench.sh PROGRAM FOLDER [WHAT...]
 #
 # FOLDER  where the programs of the benchmark are and its files go; FOLDER/measured holds every figure, FOLDER/tables the tables
-# WHAT    all (if nothing is said), small, or any of: shapes as make_deck.sh has them, friction, threads, crossing, gmsh, lists
+# WHAT    all (if nothing is said), small, or any of: shapes as make_deck.sh has them, friction, threads, crossing, gmsh, lists,
+#         modes
 #
 # Programs run one after another, on one thread unless said otherwise, ours and CHOLMOD in turn; of several runs the fastest
 # counts, long ones are not repeated. Status 1 where a run fails or CHOLMOD finds another answer.
@@ -25,10 +26,10 @@ wide='q4_4000x20 hex8_58x58x3 hex8_58x58x10'
 wanted=
 for word; do
    case $word in
-   all)   wanted="$wanted $small $large $wide gmsh friction threads crossing lists" ;;
+   all)   wanted="$wanted $small $large $wide gmsh friction threads crossing lists modes" ;;
    small) wanted="$wanted $small friction crossing" ;;
-   q4_*|hex8_*|over_*|friction|threads|crossing|gmsh|lists) wanted="$wanted $word" ;;
-   *) echo "bench: '$word' is neither all, small, friction, threads, crossing, gmsh, lists nor a shape like q4_100x20, hex8_20x20x20" >&2
+   q4_*|hex8_*|over_*|friction|threads|crossing|gmsh|lists|modes) wanted="$wanted $word" ;;
+   *) echo "bench: '$word' is neither all, small, friction, threads, crossing, gmsh, lists, modes nor a shape like q4_100x20, hex8_20x20x20" >&2
       exit 1 ;;
    esac
 done
@@ -70,7 +71,7 @@ figures() {
          line[++lines] = name " " w[i]
          if (w[n] != "s") next
          all += w[i]
-         if (name ~ /^(order|factor|increments|recover)$/) solution += w[i]
+         if (name ~ /^(order|factor|increments|recover|modes)$/) solution += w[i]
       }
       END { print "solution", solution; print "all", all; for (i = 1; i <= lines; i++) print line[i] }' "$work/said"
 }
@@ -224,6 +225,25 @@ measure_lists() {
    done
 }
 
+# ------------------------------------------------------------------ twenty natural modes beside the factorisation of the same run
+measure_modes() {
+   local shape turn
+   for shape in "$@"; do
+      echo "bench: 20 modes, $shape" >&2
+      rm -f "$work/ours"
+      "$here/make_deck.sh" "$shape" TREE NONE '' 20 > "$work/$shape.bdf" || exit 1
+      for turn in 1 2; do
+         run_program 1 "$work/$shape.bdf"
+         { figures "$work/$shape.bdf"; of_listing "$work/$shape.out"; } > "$work/one"
+         keep_faster "$work/one" "$work/ours"
+         enough 60 "$work/ours" && break
+      done
+      record modes "$shape" "$work/ours"
+      remove_results "$shape"
+      rm -f "$work/$shape".*.csv
+   done
+}
+
 # ------------------------------------------------------------------ meshes from Gmsh: two blocks of linear tetrahedra, a column of second order
 measure_gmsh() {
    command -v gmsh > /dev/null || { echo 'bench: gmsh is not installed, its meshes are left out' >&2; return; }
@@ -272,6 +292,7 @@ for what in $wanted; do
    crossing) measure_crossing ;;
    gmsh)     measure_gmsh ;;
    lists)    measure_lists over_20x20x8 over_24x17x8 over_24x24x8 ;;
+   modes)    measure_modes q4_1000x200 hex8_40x40x40 ;;
    *)        measure_model "$what" ;;
    esac
 done

@@ -1,21 +1,26 @@
 #!/usr/bin/env bash
 # A deck of the benchmark on the standard output.
 #
-#    make_deck.sh SHAPE SOLVER OUTPUT [NREAN]
+#    make_deck.sh SHAPE SOLVER OUTPUT [NREAN [MODES]]
 #
 # SHAPE  q4_100x20: a plate of 100 x 20 CQUAD4, the second number its height; hex8_20x20x10: a block of 20 x 20 x 10 CHEXA, the
 #        last number its height. The whole bottom stands on a rigid base by a joint. 20 increments press on the whole top, and out
 #        of centre on one node: the pressure is uneven, and the joint stays closed. over_24x17x8: a block of 24 x 24 x 8 CHEXA on one of
 #        17 x 17 x 8, the joint between them: lists of nodes, and pairs where both numbers are the same.
 # SOLVER, OUTPUT  as in case control
+# MODES  so many natural modes behind one increment
 # NREAN  given: the joint has shear laws and a friction limit that it exceeds in every increment, and so many re-analyses
 set -eu
-shape=$1 solver=$2 output=$3 nrean=${4-}
+shape=$1 solver=$2 output=$3 nrean=${4-} modes=${5-}
 IFS='x' read -r nx n2 n3 <<< "${shape#*_}"
 
 laws='PJOINT,1,1'
 [ -z "$nrean" ] || laws="PJOINT,1,1,1,1,1.0-3,$nrean
 JSHEAR,1,100.0,300.0"
+
+steps='  INCR = 5' density=
+[ -z "$modes" ] || steps='  MODES = 4' density=",8.0E-10
+EIGRL,4,,,$modes"
 
 case $shape in
 q4_*)
@@ -61,11 +66,11 @@ SPC = 1
 SOLVER = $solver
 SUBCASE 1
   LOAD = 10
-  INCR = 5
+$steps
   OUTPUT = $output
 BEGIN BULK
 $mesh
-MAT1,1,9500.0,,0.25
+MAT1,1,9500.0,,0.25$density
 PMARK,20
 PMARK,21
 PMARK,23

@@ -25,6 +25,7 @@ END {
    threads()
    crossing()
    lists()
+   modes()
 }
 
 # The seconds of the element matrices, which are a part of the phase factor, become a phase of their own. On one thread only:
@@ -171,6 +172,19 @@ function lists(    i, m) {
       cells(label(m) ";" v["lists", m, "unknowns"] ";" either(v["lists", m, "left"]) ";" seconds(v["lists", m, "build"]) ";" \
          seconds(v["lists", m, "order"]) ";" milliseconds(v["lists", m, "increments"]/increments) ";" \
          sprintf("%.2f", v["lists", m, "operations_moving"]/1e9))
+   }
+   put()
+}
+
+function modes(    i, m, once) {
+   if (!rows["modes"]) return
+   title("Twenty natural modes, seconds, beside order and factor of the same run")
+   head("model;unknowns;order;factor;modes;modes/once")
+   for (i = 1; i <= rows["modes"]; i++) {
+      m = row["modes", i]
+      once = v["modes", m, "order"] + v["modes", m, "factor"]
+      cells(label(m) ";" v["modes", m, "unknowns"] ";" seconds(v["modes", m, "order"]) ";" seconds(v["modes", m, "factor"]) ";" \
+         seconds(v["modes", m, "modes"]) ";" ratio(v["modes", m, "modes"], once))
    }
    put()
 }

@@ -29,6 +29,9 @@ deck q4_6x3 '' 52 0           # 7 x 4 nodes, x held on 4 of them
 deck q4_6x3 3 52 60
 deck hex8_3x2x4 '' 145 0      # 4 x 3 x 5 nodes, x held on 3 x 5 of them, z on 4 x 5 of them: 180 - 15 - 20 = 145
 deck hex8_3x2x4 3 145 60
+"$here/make_deck.sh" q4_6x3 AUTO NONE '' 7 > "$work/modes.bdf" && "$program" -q -o "$work" "$work/modes.bdf" > "$work/said" 2>&1 &&
+   [ "$(wc -l < "$work/modes.modes.csv")" -eq 8 ]
+count 'a deck with seven modes' $?
 deck over_4x3x2 '' 318 0      # 5 x 5 x 3 nodes over 4 x 4 x 3, 4 x 4 held, 3 components of the upper block
 deck over_3x3x2 '' 237 0
 
@@ -85,6 +88,10 @@ lists over_4x3x2 build 0.3
 lists over_4x3x2 increments 2.0
 lists over_4x3x2 operations_moving 3e9
 lists over_4x3x2 unknowns 318
+modes q4_20x4 order 0.5
+modes q4_20x4 factor 1.5
+modes q4_20x4 modes 7
+modes q4_20x4 unknowns 400
 crossing_SKYLINE q4_20x4 solution 0.03
 crossing_SKYLINE q4_20x4 entries 900
 crossing_TREE q4_20x4 solution 0.02
@@ -97,6 +104,7 @@ row() {
    tr -s ' -' < "$work/tables" | grep -qE "$1"
    count "no row in $work/tables is like $1" $?
 }
+row '^\| Q4 20 x 4 \| 400 \| 0.50 \| 1.50 \| 7.00 \| 3.50 \|$'
 row '^\| Q4 20 x 4 \| 400 \| - \| - \| - \| 0.20 \| 0.20 \| 0.80 \| 1.60 \| - \| - \| 4.00 \| \|$' # the factor without assembly
 row '^\| Q4 10 x 2 \| 100 \| - \| - \| - \| 0.10 \| 0.0500 \| 0.10 \| 0.40 \| - \| 12.0 \|' # three digits
 row '^\| Q4 10 x 2 \| Q4 20 x 4 \| - \| 0.50 \| 1.00 \| 1.50 \| 1.00 \| - '      # order x 2, factor x 8, unknowns x 4

@@ -3,7 +3,8 @@
 #    PLOAD4 (even), PLOADE
 # CHEXA of a PSOLID with MODES become C3D8I, others C3D8, C3D20 where they have twenty nodes, and so on. On a PAXIS plane elements
 # become CAX. Others become CPE, plane strain: CalculiX expands CPS in its own way, so a plane-stress deck gets the constants with
-# which plane strain is the same, E (1+2 nu)/(1+nu)**2 and nu/(1+nu). With -v stress=CPS it gets CPS after all.
+# which plane strain is the same, E (1+2 nu)/(1+nu)**2 and nu/(1+nu). With -v stress=CPS it gets CPS after all. With -v modes_wanted=8 the one
+# step is that of the eight lowest natural frequencies.
 function real(text) { sub(/^ */, "", text); if (text !~ /[Ee]/) { m = match(substr(text, 2), /[-+]/); if (m) text = substr(text, 1, m) "E" substr(text, m + 1) } return text == "" ? 0 : text + 0 }
 # element(KIND, ORDER): its nodes in the order of CalculiX, their places on the card in ORDER
 function element(kind, order,   k, count, place, line) {
@@ -84,6 +85,7 @@ END {
    if (converted) { young *= (1 + 2 * nu) / (1 + nu)^2; nu /= 1 + nu }
    printf "*MATERIAL, NAME=BODY\n*ELASTIC\n%.15g, %.15g\n*DENSITY\n%.15g\n", young, nu, rho
    printf "*SOLID SECTION, ELSET=ALL, MATERIAL=BODY\n%s*BOUNDARY\n%s", t == "" ? "" : t "\n", fixed
+   if (modes_wanted) { printf "*STEP\n*FREQUENCY\n%d\n*END STEP\n", modes_wanted; exit }
    for (s = 1; s <= stages; s++)
       printf "*STEP\n*STATIC\n*CLOAD, OP=NEW\n*DLOAD, OP=NEW\n%s*NODE PRINT, NSET=NODES\nU\n*END STEP\n", load[stage_load[s]]
 }

@@ -425,3 +425,168 @@ variant() { # DECK METHOD N
       { print }' "input/$1.bdf" > "$work/$1.$2.$3.bdf"
    run "$1.$2.$3"
 }
+
+# ---- vibration ----
+
+# A bar of N elements, fixed at one end, moves along itself alone. The equations of its nodes have exact solutions:
+# omega^2 = (6 E/(rho h^2)) (1 - cos t)/(2 + cos t), lumped (2 E/(rho h^2)) (1 - cos t), t = (2 j - 1) pi/(2 n), or j pi/n free at both ends.
+oscillating_bar() { # NAME N MASS MODES
+   local nodes=$((2*($2 + 1)))
+   cat > "$work/$1.bdf" <<DECK
+SPC = 1
+MASS = $3
+SUBCASE 1
+  LOAD = 10
+  $4 = 5
+BEGIN BULK
+BLOCK2,1,1,$2,1,0.0,0.0
++,500.0,10.0,,,,,1,1
++,,,,40
+PMARK,40
+PSHELL,1,1,2.0
+MAT1,1,2.1E5,,0.0,7.85E-9
+SPC1,1,2,1,THRU,$nodes
+SPCM,1,1,40
+FORCE,10,$nodes,,1.0,1.0
+EIGRL,5,,,3
+ENDDATA
+DECK
+   run "$1"
+}
+
+# A cantilever, n elements with incompatible modes along it, L/h = 100, plane stress.
+oscillating_cantilever() { # NAME N
+   cat > "$work/$1.bdf" <<DECK
+SPC = 1
+SUBCASE 1
+  LOAD = 10
+  MODES = 5
+BEGIN BULK
+BLOCK2,1,1,$2,1,0.0,0.0
++,1000.0,10.0,,,,,1,1
++,,,,40
+PMARK,40
+PSHELL,1,1,2.0
++,YES
+MAT1,1,2.1E5,,0.0,7.85E-9
+SPCM,1,12,40
+FORCE,10,1,,1.0,0.0,1.0
+EIGRL,5,,,2
+ENDDATA
+DECK
+   run "$1"
+}
+
+# Two bars end to end, elements of second order, with a joint between them that is a spring K = E_u A for oscillation.
+two_bars() { # NAME
+   cat > "$work/$1.bdf" <<'DECK'
+METHOD = NEWTON
+SPC = 1
+SUBCASE 1
+  LOAD = 10
+  MODES = 5
+BEGIN BULK
+BLOCK2,1,1,60,1,0.0,0.0
++,300.0,10.0,,,,,1,1
++,11,20,12,40,,2
+BLOCK2,2,1,40,1,300.0,0.0
++,500.0,10.0,,,,,1001,1001
++,13,22,14,21,,2
+PMARK,11
+PMARK,12
+PMARK,13
+PMARK,14
+PMARK,20
+PMARK,21
+PMARK,22
+PMARK,40
+PSHELL,1,1,2.0
+MAT1,1,2.1E5,,0.0,7.85E-9
+JOINT,1,1,20,21
+PJOINT,1,1
+JNORM,1,1.0-3,0.5,2.0E3
+SPCM,1,2,11
+SPCM,1,2,12
+SPCM,1,2,13
+SPCM,1,2,14
+SPCM,1,1,40
+PLOADM,10,5.0,22
+EIGRL,5,,,4
+ENDDATA
+DECK
+   run "$1"
+}
+
+# Their four lowest frequencies: K cos(k (l_1 + l_2)) = E A k cos(k l_1) sin(k l_2), omega = k sqrt(E/rho), by bisection.
+two_bar_frequencies() {
+   awk 'function g(k) { return 2e3*cos(k*500) - 2.1e5*k*cos(k*300)*sin(k*200) }
+      BEGIN { step = 1e-5
+         for (a = step/3; n < 4; a += step) {
+            if (g(a)*g(a + step) > 0) continue
+            lo = a; hi = a + step
+            for (i = 0; i < 80; i++) { mid = (lo + hi)/2; if (g(lo)*g(mid) > 0) lo = mid; else hi = mid }
+            printf "%.15g ", lo*sqrt(2.1e5/7.85e-9)/(2*atan2(0, -1)); n++ } }'
+}
+
+# A rigid block on its joint, pressed evenly: lambda_n = E_u A/M; sliding and rocking about z are coupled, of the block on its
+# springs below the centre: [k_x, k_x c; k_x c, k_x c^2 + k_t] = lambda [M, I]. Stiffness of the block taken away by a second run.
+block_on_joint() { # NAME E SOLVER MODES
+   cat > "$work/$1.bdf" <<DECK
+METHOD = NEWTON
+SOLVER = $3
+SUBCASE 1
+  LOAD = 10
+  $4 = 5
+BEGIN BULK
+BLOCK3,1,1,4,4,4,0.0,0.0,0.0
++,100.0,60.0,80.0,,,,1,1
++,,,20,21
+PMARK,20
+PMARK,21
+PSOLID,1,1
+MAT1,1,$2,,0.3,7.85E-9
+JOINT,1,1,20
+PJOINT,1,1,2,2
+JNORM,1,1.0-3,0.5,5.0E4
+JSHEAR,2,1.0E4,0.0
+EIGRL,5,,,6
+PLOADM,10,2.0,21
+ENDDATA
+DECK
+   run "$1"
+}
+
+# Its frequencies of rocking and sliding, about z with sides 100 and 60, about x with 80 and 60; areas of influence stand at five nodes:
+# sum a x^2 = A L^2/12 (1 + 2/4^2)
+rocking() { # SIDE SIGN: of the two coupled modes
+   local mass='(7.85e-9*100*60*80)' k='(1e4*8000)'
+   local t="(5e4*8000*$1^2/12*(1 + 2/16))" i="($mass*($1^2 + 60^2)/12)"
+   local b="($k/$mass + ($k*900 + $t)/$i)" c="($k*$t/($mass*$i))"
+   echo "sqrt(($b $2 sqrt($b^2 - 4*$c))/2)/(2*$pi)"
+}
+
+# A mass on one interface element: across it omega^2 = E_u a/M, along it B'(d; p) a/M with the shear deflection d that a force has
+# made, on loading p^(1 - m) a/(m c M) and A'(d; p) a/M. Loss factor of the motion along it: that of the Masing loop of the cubic A(d; p),
+# (4/3 |a_2| x^3 + 2 |a_3| x^4)/(pi B' x^2); of that across it none.
+mass_on_joint() { # NAME ENTRIES
+   cat > "$work/$1.bdf" <<DECK
+METHOD = NEWTON
+SUBCASE 1
+  LOAD = 10
+  MODES = 5
+  AMPLITUDE = 1.0E-3
+  $2
+BEGIN BULK
+GRID,1
+CJOINT,1,1,1,,100.0,0.0,1.0
+PJOINT,1,1,2
+JNORM,1,8.0-3,0.5,500.0
+JSHEAR,2,100.0,50.0,-2.0E3,-300.0,-1.0E4,-7.0E3
++,400.0,150.0
+FORCE,10,1,,1.0,10.0,-130.0
+CONM2,4,1,,0.02
+EIGRL,5,,,2
+ENDDATA
+DECK
+   run "$1"
+}

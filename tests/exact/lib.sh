@@ -80,3 +80,9 @@ along='delta_x tau_x'
 against='delta_x=-other.delta_x tau_x=-other.tau_x'
 both='delta_x delta_y tau_x tau_y'
 resultant='sqrt(delta_x^2+delta_y^2)=sqrt(other.delta_x^2+other.delta_y^2) sqrt(tau_x^2+tau_y^2)=sqrt(other.tau_x^2+other.tau_y^2)'
+
+# mode NAME MODE COLUMN [STAGE]: a cell of NAME.modes.csv; mode_energy NAME MODE KIND ID COLUMN: of NAME.modes.energy.csv
+mode() { "$query" "$work/$1.modes.csv" rows "mode = $2 and stage = ${4:-1}" print "$3"; }
+mode_energy() { awk -F, -v m="$2" -v kind="$3" -v id="$4" -v c="$5" 'NR == 1 { for (k = 1; k <= NF; k++) at[$k] = k }
+   $2 == m && $3 == kind && $4 == id { print $at[c] }' "$work/$1.modes.energy.csv"; }
+pi=3.14159265358979324

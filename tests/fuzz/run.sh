@@ -36,7 +36,7 @@ seeds=()
 for deck in "$root"/input/*.bdf "$root"/tests/fuzz/decks/*.bdf "$root"/tests/bad/base/*.bdf "$root"/tests/exact/*.bdf \
             "$root"/tests/solver/*.bdf "$root"/tests/gmsh/*_{free,large,small}.bdf; do
    case $deck in
-   */hexa_on_tetra.bdf | */pin_in_bore.bdf | */input/two_blocks.bdf | */bracket*.bdf | */flange*_*.bdf | */flanged_column.bdf | */solid_bolt.bdf | */slideway_crown.bdf | */post_on_plate.bdf | */boxes.bdf | */strips.bdf | */tetra10_large.bdf) ;;
+   */hexa_on_tetra.bdf | */pin_in_bore.bdf | */input/two_blocks.bdf | */bracket*.bdf | */flange*_*.bdf | */flanged_column.bdf | */solid_bolt.bdf | */slideway_crown.bdf | */column_modes_*.bdf | */post_on_plate.bdf | */boxes.bdf | */strips.bdf | */tetra10_large.bdf) ;;
    *) seeds+=("$deck") ;;
    esac
 done
@@ -45,6 +45,7 @@ done
 link_includes() {
    ln -sfn "$root/input/gmsh" "$1/gmsh"
    ln -sfn "$root/input/surfaces" "$1/surfaces"
+   ln -sfn "$root/input/vibration" "$1/vibration"
    cp "$root"/tests/exact/*.inc "$root"/tests/solver/*.inc "$1"
 }
 link_includes "$folder/failed"

@@ -2,12 +2,14 @@
 """Read .vtu and .pvd files back with readers that are not ours.
 
    read_back.py FOLDER             the files of write_sample, value by value
-   read_back.py FOLDER X.pvd ...   and any other collections: every file opens, sizes agree, all values are finite
+   read_back.py FOLDER X.pvd ...   and any other collections: every file opens, sizes agree, all values are finite,
+                                   files of natural modes (part 2) hold shapes
 
 The .pvd is read with xml.etree. The .vtu are read with meshio and with vtk, each where it can be imported; what cannot
 be done is said and counts nothing. Ends with `N passed, N failed`; status 1 where anything failed.
 """
 import os
+import re
 import sys
 import xml.etree.ElementTree as ElementTree
 
@@ -145,6 +147,21 @@ def temperatures(point_data, time, history, where):
         check(abs(point_data[name] - expected).max() < 1e-7 * abs(expected), where + ": temperature is %r" % expected)
 
 
+def shapes(grid, where):
+    """Natural modes: nothing but the numbers of the nodes and a vector a mode, in the order of frequencies; none is zero."""
+    names = [name for name in grid["point_data"] if name != "node"]
+    words = [re.fullmatch(r"mode (\d+), frequency (\S+)", name) for name in names]
+    if not check(names and all(words), where + ": its fields are modes: %r" % names):
+        return
+    of_mode = sorted((int(word[1]), float(word[2]), name) for word, name in zip(words, names))
+    check([mode[0] for mode in of_mode] == list(range(of_mode[0][0], of_mode[0][0] + len(names))), where + ": numbers of the modes")
+    check(all(a[1] <= b[1] for a, b in zip(of_mode, of_mode[1:])), where + ": frequencies ascend")
+    for name in names:
+        values = grid["point_data"][name]
+        check(values.shape == (len(grid["points"]), 3) and abs(values).max() > 0, where + ": shape of " + name)
+    check(not grid["cell_data"], where + ": no fields of elements")
+
+
 def read_list(path):
     """The rows of a .pvd: (time, part, file)."""
     root = ElementTree.parse(path).getroot()
@@ -201,6 +218,8 @@ def main():
                     consistent(grid, where)
                     if part == 0:
                         temperatures(grid["point_data"], time, history, where)
+                    if part == 2:
+                        shapes(grid, where)
 
     print("%d passed, %d failed" % (counts["passed"], counts["failed"]))
     sys.exit(counts["failed"] > 0)
