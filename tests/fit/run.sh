@@ -314,6 +314,13 @@ usage '--id of no number' '--id x: expected a number' --id x all.dat
 usage '--id without a value' '--id : expected a number' all.dat --id
 usage '--dmax zero' 'expected a number above 0' --dmax 0 all.dat
 usage '--p-tolerance negative' '--p-tolerance -1: expected' --p-tolerance -1 all.dat
+usage '--id: the last of two beyond all' 'the laws of 2 files would have numbers beyond 2147483647' --id 2147483647 all.dat all.dat
+usage '--id: nine digits in eight columns' 'they end at 99999999' --id 100000000 --small all.dat
+usage '--id: the second of nine digits' 'the numbers of 2 files' --small --id 99999999 all.dat all.dat
+fit --small --id 99999999 all.dat
+says '--id of eight digits' cards 'JSHEAR  99999999'
+fit --id 2147483647 all.dat
+says '--id, the largest' cards 'JSHEAR* 2147483647  '
 fit --branch UNLOAD two_headers.dat
 holds '--branch without data: status 2' [ $status -eq 2 ]
 says '--branch without data' stderr 'no UNLOAD data'
