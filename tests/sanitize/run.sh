@@ -2,9 +2,10 @@
 # The program under the sanitizers of gcc: every address that is used is one of its own, no memory is lost, no number is undefined
 # behaviour, and no two tasks of TREE use the same number without an order between them.
 #
-#    run.sh WORK_FOLDER [PART...]      parts: address threads memcheck; all of them. Some minutes; not a part of `make test`
+#    run.sh WORK_FOLDER [PART...]      parts: address bad threads memcheck; all of them. Some minutes; not a part of `make test`
 #
 # address   -fsanitize=address,undefined with its look for leaks: every deck of input, decks with errors, jointfit on test data
+# bad       the bad decks and command lines of tests/bad with the same program
 # threads   -fsanitize=thread. libgomp is not instrumented, every task would be a race: OpenMP is threads_in_view.c here, BLAS
 #           plain_blas.f90; that the sanitizer sees what it should is shown by programs broken in each of the parallel parts
 # memcheck  valgrind, where it is installed: uninitialised numbers too, on small decks, of the program as it is built for use
@@ -13,7 +14,7 @@
 set -u
 work=$1
 shift
-[ $# -gt 0 ] || set -- address threads memcheck
+[ $# -gt 0 ] || set -- address bad threads memcheck
 make=${MAKE:-make} fc=${FC:-gfortran}
 passed=0 failed=0
 mkdir -p "$work/results"
@@ -52,6 +53,15 @@ address() {
       "$work/address/jointfit" "$deck" > "$log" 2>&1
       verdict "address: jointfit $deck" $? "$log" 'ERROR: .*Sanitizer|runtime error'
    done
+}
+
+bad() {
+   local log="$work/bad-run.log"
+   built address '-fsanitize=address,undefined -fno-omit-frame-pointer' '' || return
+   ASAN_OPTIONS=detect_leaks=1:exitcode=99 UBSAN_OPTIONS=halt_on_error=1:exitcode=99 tests/bad/run.sh "$work/address/jointfem" > "$log" 2>&1
+   grep FAILED -A 6 "$log"
+   set -- $(grep -E '^[0-9]+ passed, [0-9]+ failed$' "$log" | tail -n 1 || echo 0 passed, 1 failed)
+   passed=$((passed + ${1:-0})) failed=$((failed + ${3:-1}))
 }
 
 threads() {
