@@ -58,7 +58,7 @@ address() {
 bad() {
    local log="$work/bad-run.log"
    built address '-fsanitize=address,undefined -fno-omit-frame-pointer' '' || return
-   ASAN_OPTIONS=detect_leaks=1:exitcode=99 UBSAN_OPTIONS=halt_on_error=1:exitcode=99 tests/bad/run.sh "$work/address/jointfem" > "$log" 2>&1
+   LIMIT=600 ASAN_OPTIONS=detect_leaks=1:exitcode=99 UBSAN_OPTIONS=halt_on_error=1:exitcode=99 tests/bad/run.sh "$work/address/jointfem" > "$log" 2>&1
    grep FAILED -A 6 "$log"
    set -- $(grep -E '^[0-9]+ passed, [0-9]+ failed$' "$log" | tail -n 1 || echo 0 passed, 1 failed)
    passed=$((passed + ${1:-0})) failed=$((failed + ${3:-1}))
