@@ -86,8 +86,7 @@ threads() {
    done
    mkdir -p "$work/broken"
    cp "$work"/threads/release/*.mod "$work/broken"
-   broken 'a factorisation that does not wait for the tasks of a front' solver/front_kernel hex8_10x10x10 \
-      '/omp taskwait/ && ++n == 1 { next }'
+   broken 'times that the fronts of a factorisation add up in no order' solver/front_factor hex8_10x10x10 '/omp atomic/ { next }'
    broken 'a recovery whose tasks all share their work' solver/front_solve hex8_10x10x10 \
       '/real\(wp\), allocatable :: work/ { sub(/allocatable/, "save, allocatable") }
        /allocate \(work\(/ { sub(/allocate/, "if (.not. allocated(work)) allocate"); sub(/work\(.*/, "work(tree%most_rows))") } /deallocate \(work/ { next }'
@@ -99,7 +98,7 @@ threads() {
 
 # broken WHAT SOURCE DECK AWK: what the sanitizer must see, else nothing said above were worth much
 broken() {
-   local what=$1 source=$2 deck=$3 name=${2##*/} log="$work/threads-run.log"
+   local what=$1 source=$2 deck=$3 name=${2##*/} seed log="$work/threads-run.log"
    awk "$4 { print }" "src/$source.f90" > "$work/broken/$name.f90"
    if cmp -s "src/$source.f90" "$work/broken/$name.f90"; then
       failed=$((failed + 1)); echo "FAILED threads: $source.f90 has no longer what is to be broken: $what"
@@ -109,7 +108,10 @@ broken() {
    "$fc" -O1 -g -fopenmp -fsanitize=thread -I"$work/threads/release" -o "$work/broken/jointfem" src/jointfem.f90 \
       $(ls "$work"/threads/release/*.o | grep -v "/$name.o") "$work/broken/$name.o" "$work/threads/view.o" \
       "$work/threads/blas.o" -lmetis -lopenblas
-   OMP_NUM_THREADS=4 "$work/broken/jointfem" -q -o "$work/results" "$work/$deck.bdf" > "$log" 2>&1
+   for seed in 1 2 3 4 5 6; do # on a busy machine one thread may happen to do all
+      OMP_NUM_THREADS=4 TASKS_SEED=$seed "$work/broken/jointfem" -q -o "$work/results" "$work/$deck.bdf" > "$log" 2>&1
+      grep -q 'ThreadSanitizer: data race' "$log" && break
+   done
    if grep -q 'ThreadSanitizer: data race' "$log"; then
       passed=$((passed + 1))
    else
