@@ -188,6 +188,7 @@ contains
                if (any(given(others)) .and. .not. all(given(others))) call cards%error('X2', &
                   'corners 2 and 4 must both be given (X2, Y2, X4, Y4), or all four left blank for a rectangle')
                call check_block(cards, 4, integers)
+               integers(15:16) = min(integers(15:16), most_first) ! no number of the block passes what an integer holds
                block%divisions(:2) = max(1, integers(3:4))
                block%corner(:2, :) = reshape(x(5:12), [2, 4])
                if (.not. any(given(others))) block%corner(:2, 2::2) = reshape(x([9, 6, 5, 10]), [2, 2])

@@ -15,6 +15,7 @@ module fit_command
    public :: read_fit_command
 
    character(*), parameter :: program = 'jointfit'
+   integer, parameter :: largest_in_small_field = 99999999
 
    type, public :: fit_command_type
       integer  :: id        = 1          !! --id: of the first file's card
@@ -94,6 +95,9 @@ contains
       else if (command%id > huge(1) - (size(command%files) - 1)) then
          call complain(program, '--id '//integer_text(command%id)//': the laws of '//plural(size(command%files), 'file')// &
                        ' would have numbers beyond '//integer_text(huge(1)))
+      else if (command%small .and. command%id > largest_in_small_field - (size(command%files) - 1)) then
+         call complain(program, '--id '//integer_text(command%id)//': --small has eight columns for the numbers of '// &
+                       plural(size(command%files), 'file')//', they end at '//integer_text(largest_in_small_field))
       else
          if (command%as == 0) command%as = command%only
          finished = .false.

@@ -2,7 +2,7 @@
 module surface_fit
    use branch_fit, only: branch_fit_type, fault_dependent, fault_few_points, fault_none, fault_one_pressure, fit_lines_only, &
                          fit_points
-   use card_fields, only: largest_size
+   use card_fields, only: largest_size, smallest_size
    use data_columns, only: branch_words, column_c, column_d, column_lambda, column_p, column_tau, data_normal, data_shear, &
                            fit_load, fit_reload
    use deck_errors, only: deck_error_list
@@ -38,7 +38,7 @@ contains
       type(surface_fit_type), intent(out)  :: fit
       type(deck_error_list), intent(inout) :: errors
 
-      real(wp) :: largest
+      real(wp) :: largest, smallest, positive(4)
 
       fit%kind = data%kind
       fit%warnings = data%warnings
@@ -57,8 +57,10 @@ contains
       largest = max(fit%normal%c, fit%normal%loops%e_u, maxval(abs(fit%card)), fit%p_max, fit%d_max)
       if (.not. largest <= largest_size) call errors%add(0, 'the law that fits these data has a number of '//real_text(largest)// &
          ', and a deck takes no more than '//real_text(largest_size)//': are the units right, and --dmax?')
-      if (data%kind == data_normal .and. fit%normal%c < 1.0_wp/largest_size) call errors%add(0, 'the points want c = '// &
-         real_text(fit%normal%c)//', and a deck takes no less than '//real_text(1.0_wp/largest_size)//': are the units right?')
+      positive = [fit%normal%c, fit%normal%loops%e_u, fit%p_max, fit%d_max] ! zero: none, its field is blank
+      smallest = minval(positive, mask=positive > 0.0_wp)
+      if (smallest < smallest_size) call errors%add(0, 'the law that fits these data has a number of '//real_text(smallest)// &
+         ', and a deck takes none below '//real_text(smallest_size)//': are the units right?')
    end subroutine fit_surface
 
    !> The branches of the shear law.

@@ -9,10 +9,11 @@ module newton_direction
    use kinds, only: wp
    use model_data, only: model_type
    use newton_trial, only: trial_type
+   use normal_stiffness, only: branch_open
    implicit none
    private
 
-   public :: find_direction, close_gaps
+   public :: find_direction, close_gaps, loose_joint
 
    real(wp), parameter :: little = 1.0e-7_wp          ! of the elastic stiffness: what the matrix has where an element has none
 
@@ -27,8 +28,10 @@ module newton_direction
       logical :: seats = .false.                  !! interference at rest, there is no load
       real(wp) :: seat_force = 0.0_wp             !! then what counts as one: p_av on the elements pressed [force]
       integer :: loose = 0                        !! a joint that is open or slips all over at its end, 0: none
+      logical :: slides = .false.                 !! it is, and somewhere the friction limit is reached
       integer :: worst(2) = 0                     !! node and direction that are farthest from balance at its end
       logical :: imprecise = .false.              !! rounding in the bodies is no small part of the load
+      logical :: holds = .false.                  !! joints that slip at all nodes are held by their elastic shear stiffness
       logical :: converged = .false.
       type(failure_type) :: trouble               !! a matrix that could not be factorised
    end type attempt_type
@@ -36,7 +39,8 @@ module newton_direction
 contains
 
    !> The Newton direction from NOW. The factorised matrix has the symmetric, positive part of the tangent, with a little where
-   !! an element has no stiffness, and at the very first the secant of Eq. (9); what it lacks is brought in by solve_coupled.
+   !! an element has no stiffness, and at the very first the secant of Eq. (9); what it lacks is brought in by solve_coupled. Where ATTEMPT
+   !! holds a joint that slips at all nodes the elastic stiffness stays: nodes that turn back are found so, when no tangent tells of them.
    subroutine find_direction(model, now, analysis, first, system, attempt, direction)
       type(model_type), intent(in)          :: model
       type(trial_type), intent(in)          :: now
@@ -48,10 +52,12 @@ contains
       real(wp), allocatable :: matrix(:, :, :), rest(:, :, :)
       real(wp) :: elastic(3)
       integer  :: i, k
-      logical  :: virgin, coupled
+      logical  :: virgin, coupled, held
 
       allocate (matrix(3, 3, size(model%interface)), rest(3, 3, size(model%interface)), source=0.0_wp)
       coupled = .false.
+      held = .false.
+      if (attempt%holds) held = loose_joint(model, now) > 0
       do i = 1, size(model%interface)
          associate (element => model%interface(i))
             virgin = first .and. abs(analysis%states(i)%normal%lambda_a) <= 0.0_wp .and. abs(element%gap) <= 0.0_wp
@@ -61,10 +67,11 @@ contains
             matrix(:2, :2, i) = 0.5_wp*(now%tangent(:2, :2, i) + transpose(now%tangent(:2, :2, i)))
             do k = 1, 2
                matrix(k, k, i) = max(0.0_wp, matrix(k, k, i)) + little*elastic(k)
-               if (virgin) matrix(k, k, i) = max(matrix(k, k, i), elastic(k))
+               if (virgin .or. (held .and. now%states(i)%slips)) matrix(k, k, i) = max(matrix(k, k, i), elastic(k))
             end do
             analysis%k(:, i) = [now%tangent(1, 1, i), now%tangent(2, 2, i), now%tangent(3, 3, i)]
             rest(:2, :, i) = now%tangent(:2, :, i) - matrix(:2, :, i)
+            if (held) rest(:2, :2, i) = 0.0_wp
             if (any(abs(now%tangent(:2, 3, i)) > 0.0_wp)) coupled = .true.
          end associate
       end do
@@ -124,5 +131,18 @@ contains
          call element_stiffness_of(model%joints(element%joint)%law, element%area, .false., [0.0_wp, 0.0_wp, 0.0_wp], at_rest, k)
       end associate
    end function first_stiffness_of
+
+   !> The first joint whose elements all are open or slip in TRIAL, 0 for none.
+   pure integer function loose_joint(model, trial) result(joint)
+      type(model_type), intent(in) :: model
+      type(trial_type), intent(in) :: trial
+
+      do joint = 1, size(model%joints)
+         associate (states => trial%states(model%joints(joint)%first:model%joints(joint)%last))
+            if (size(states) > 0 .and. all(states%slips .or. states%normal%branch == branch_open)) return
+         end associate
+      end do
+      joint = 0
+   end function loose_joint
 
 end module newton_direction

@@ -2,13 +2,13 @@
 !! states of the joints are committed only at equilibrium. An increment that does not converge is divided.
 module newton_method
    use analysis_state, only: all_held, analysis_type, force_noise, free_norm, pass_record, precise, record_pass
-   use equations, only: equation_system
+   use equations, only: equation_system, forces_in_bodies
    use failures, only: failure_type
    use joint_laws, only: is_apart
    use kinds, only: wp
    use load_path, only: go_back, support_force
    use model_data, only: joint_node_id, model_type
-   use newton_direction, only: attempt_type, close_gaps, find_direction
+   use newton_direction, only: attempt_type, close_gaps, find_direction, loose_joint
    use newton_trial, only: commit, evaluate, search, start_trial, swap, take_whole_step, trial_type
    use node_coupling, only: forces_on_unknowns
    use normal_curve, only: pressure_floor
@@ -114,7 +114,7 @@ contains
       type(failure_type), intent(inout)    :: failure
       real(wp), allocatable :: u_start(:, :)
       real(wp) :: done, part
-      integer  :: before_open
+      integer  :: before_open, i
 
       allocate (u_start, source=analysis%u)
       before_open = count(analysis%states%normal%branch == branch_open)
@@ -123,8 +123,12 @@ contains
       analysis%n_parts = 0
       do while (done < 1.0_wp)
          part = min(part, 1.0_wp - done)
-         call start_attempt(model, system, analysis, merge(1.0_wp - done - part, 0.0_wp, done + part < 1.0_wp), attempt)
-         call iterate(model, system, analysis, attempt)
+         do i = 1, 2 ! once more with the joints held where one has slipped all over
+            attempt%holds = i == 2
+            call start_attempt(model, system, analysis, merge(1.0_wp - done - part, 0.0_wp, done + part < 1.0_wp), attempt)
+            call iterate(model, system, analysis, attempt)
+            if (attempt%converged .or. .not. attempt%slides) exit
+         end do
          if (attempt%converged) then
             done = done + part
             part = 2.0_wp*part
@@ -176,7 +180,7 @@ contains
       type(trial_type)      :: now, next
       real(wp), allocatable :: direction(:, :)
       logical  :: flips(size(analysis%states))
-      real(wp) :: load_size, noise, pressed, rounding, step, travel
+      real(wp) :: load_size, noise, pressed, rounding, spoilt, step, travel
       integer  :: iteration
       logical  :: moves, carried
 
@@ -187,6 +191,7 @@ contains
       call start_trial(system, analysis, next)
       call evaluate(model, system, attempt%load, analysis, now)
       load_size = analysis%tolerance/analysis%load_tolerance ! the largest so far
+      spoilt = 0.0_wp
       do iteration = 0, most_iterations
          if (attempt%seats) then ! what the joints press into the bodies is the load
             pressed = free_norm(now%body, analysis%held)
@@ -197,6 +202,7 @@ contains
          ! forces in the bodies are differences of large numbers: what rounding leaves of them is no residual, and where it is no
          ! small part of the load, a body has moved away and nothing is in equilibrium
          noise = force_noise(system, now%u)
+         call renew_forces(model, system, analysis, attempt, noise, spoilt, now)
          ! ... unless it only goes with supports that are moved, and nothing bears a force
          rounding = 10.0_wp*epsilon(1.0_wp)*system%stiffest*travel*sqrt(real(size(analysis%applied), wp))
          carried = load_size <= rounding .and. maxval(abs(now%u)) <= 10.0_wp*travel
@@ -229,6 +235,7 @@ contains
       end do
       attempt%imprecise = noise > precise*load_size .and. .not. carried
       attempt%loose = loose_joint(model, now)
+      attempt%slides = attempt%loose > 0 .and. any(now%states%slips)
       attempt%worst = maxloc(abs(now%residual), mask=.not. analysis%held)
       if (all(attempt%worst > 0)) attempt%worst = [system%retained(attempt%worst(2)), attempt%worst(1)]
       if (attempt%seats) analysis%tolerance = analysis%load_tolerance*load_size
@@ -236,6 +243,24 @@ contains
       if (now%size > max(far_below*analysis%tolerance, noise)) call refine(model, system, analysis, attempt, now, next)
       call commit(model, system, now, analysis)
    end subroutine iterate
+
+   !> Forces in the bodies are summed up from step to step. Where a trial has been far away, what rounding left of them there is no longer
+   !! small beside the NOISE here: they are computed anew.
+   subroutine renew_forces(model, system, analysis, attempt, noise, spoilt, now)
+      type(model_type), intent(in)       :: model
+      class(equation_system), intent(in) :: system
+      type(analysis_type), intent(in)    :: analysis
+      type(attempt_type), intent(in)     :: attempt
+      real(wp), intent(in)               :: noise  !! what rounding leaves of them at NOW [force]
+      real(wp), intent(inout)            :: spoilt !! the largest since they were computed
+      type(trial_type), intent(inout)    :: now
+
+      spoilt = max(spoilt, noise)
+      if (spoilt <= max(10.0_wp*noise, 0.1_wp*analysis%tolerance)) return
+      call forces_in_bodies(system, now%u, now%body)
+      call evaluate(model, system, attempt%load, analysis, now)
+      spoilt = noise
+   end subroutine renew_forces
 
    !> One iteration more from NOW, which has converged: it squares what TOL has left, so that the state does not depend on the way
    !! to it, which rounding rules. It counts where it leaves less.
@@ -255,19 +280,6 @@ contains
       call record_pass(analysis, pass_record(before=now%size, after=next%size, step=1.0_wp, changes=0, part=analysis%n_parts + 1))
       call swap(now, next)
    end subroutine refine
-
-   !> The first joint whose elements all are open or slip in TRIAL, 0 for none.
-   pure integer function loose_joint(model, trial) result(joint)
-      type(model_type), intent(in) :: model
-      type(trial_type), intent(in) :: trial
-
-      do joint = 1, size(model%joints)
-         associate (states => trial%states(model%joints(joint)%first:model%joints(joint)%last))
-            if (size(states) > 0 .and. all(states%slips .or. states%normal%branch == branch_open)) return
-         end associate
-      end do
-      joint = 0
-   end function loose_joint
 
    !> No part of the increment is small enough: say why, as far as it can be told, and which element changed its branch most
    !! often.

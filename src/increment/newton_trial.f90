@@ -12,6 +12,7 @@ module newton_trial
 
    public :: start_trial, evaluate, swap, take_whole_step, search, commit
 
+   real(wp), parameter :: longest = 10.0_wp           ! line search: a step is lengthened by no more at once
    real(wp), parameter :: enough = 0.8_wp             ! line search: the unbalanced work falls to this share or is searched
 
    !> A trial: displacements, the joints that follow from them, and what is out of balance. Arrays over nodes are those of the
@@ -97,7 +98,9 @@ contains
       call evaluate(model, system, load, analysis, next)
    end subroutine take_whole_step
 
-   !> Line search: the step along DIRECTION at which the unbalanced forces do (next to) no work on it any more.
+   !> Line search: the step along DIRECTION at which the unbalanced forces do (next to) no work on it any more. While that work falls, but
+   !! hardly, the step is lengthened: secants of a first pressure far above the real one are too stiff. Where it does not change its
+   !! sign and does not fall either, there is a kink on the way: the step is halved until the forces fall.
    subroutine search(model, system, load, analysis, now, direction, next, step)
       type(model_type), intent(in)      :: model
       class(equation_system), intent(in) :: system
@@ -108,8 +111,9 @@ contains
       type(trial_type), intent(inout)   :: next
       real(wp), intent(out)             :: step
       real(wp), allocatable :: body(:, :)
-      real(wp) :: g_0, g, low, high, g_low, g_high
+      real(wp) :: g_0, g, low, high, g_low, g_high, least
       integer  :: attempt
+      logical  :: lengthens, halves
 
       allocate (body, mold=direction)
       call forces_in_bodies(system, direction, body)
@@ -121,15 +125,29 @@ contains
       g_low = g_0
       high = 1.0_wp
       g_high = g
+      lengthens = hardly_falls(g)
       do attempt = 1, 12
-         if (g_low > 0.0_wp .eqv. g_high > 0.0_wp) then    ! the work does not change sign: only shorter steps help
+         halves = .not. lengthens .and. (g_low > 0.0_wp .eqv. g_high > 0.0_wp)
+         least = next%size
+         if (lengthens) then
+            low = high
+            g_low = g_high
+            step = min(longest*high, high*g_0/(g_0 - g_high))
+         else if (halves) then
             step = 0.5_wp*step
          else
             step = (low*g_high - high*g_low)/(g_high - g_low)
             step = min(max(step, low + 0.05_wp*(high - low)), high - 0.05_wp*(high - low))
          end if
          call try(step, g)
+         if (lengthens .and. .not. next%size < least) then
+            step = low
+            call try(step, g)
+            return
+         end if
          if (abs(g) <= 0.5_wp*abs(g_0) .or. next%size <= 0.5_wp*now%size) return
+         if (halves .and. next%size <= (1.0_wp - 0.1_wp*step)*now%size) return
+         lengthens = lengthens .and. hardly_falls(g)
          if (g_low*g > 0.0_wp .and. g_low*g_high <= 0.0_wp) then
             low = step
             g_low = g
@@ -140,6 +158,13 @@ contains
       end do
 
    contains
+
+      !> Whether the work G is still most of the first.
+      pure logical function hardly_falls(g)
+         real(wp), intent(in) :: g
+
+         hardly_falls = g*sign(1.0_wp, g_0) > 0.0_wp .and. abs(g) < 0.999_wp*abs(g_0)
+      end function hardly_falls
 
       subroutine try(alpha, g_alpha)
          real(wp), intent(in)  :: alpha

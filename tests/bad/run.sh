@@ -28,9 +28,9 @@ fail() {
    if [ -s "$work/stderr" ]; then head -n 6 "$work/stderr" | cut -c 1-160; fi
 }
 
-# run ARGUMENTS: the program, at most 60 seconds; sets STATUS, leaves $work/stdout and $work/stderr
+# run ARGUMENTS: the program, at most 60 seconds (LIMIT); sets STATUS, leaves $work/stdout and $work/stderr
 run() {
-   timeout 60 "$program" "$@" >"$work/stdout" 2>"$work/stderr"
+   timeout "${LIMIT:-60}" "$program" "$@" >"$work/stdout" 2>"$work/stderr"
    status=$?
 }
 

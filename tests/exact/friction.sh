@@ -170,3 +170,44 @@ run eq10 && {
       table == "LIMIT" && $1 == 1 && NF > 7 { n++; if (($8 / (0.2 * p) - 1)^2 > 1e-10) print "P " p ", LIMIT " $8; table = "" }
       END { if (n != 2) print n + 0 " lines"; print "checked " n }' "$work/eq10.out"
 }
+
+# Coarse plates, clamped on few nodes or evenly, pushed below the limit, released and pushed again: where the body expands nearly all nodes
+# slip, some one way and some the other, and branches change many at once. There is an equilibrium, and NEWTON finds it.
+coarse_plate() { # NAME SOLVER nx=.. ny=.. l=.. h=.. t=.. e=.. mu=.. law=.. shear=.. p0=.. press=node:force,.. push=node:force,.. stages=increments:push,..
+   local name=$1 solver=$2 settings=()
+   shift 2
+   for setting; do settings+=(-v "$setting"); done
+   awk -v solver="$solver" "${settings[@]}" 'BEGIN {
+      print "METHOD = NEWTON\nSOLVER = " solver
+      n = split(stages, stage, ",")
+      for (i = 1; i <= n; i++) printf "SUBCASE %d\n  LOAD = %d\n  INCR = %d\n", i, 100 + i, 200 + i
+      printf "BEGIN BULK\nBLOCK2,1,1,%d,%d,0.,0.\n,%.1f,%.1f\n,20\nPMARK,20\nPSHELL,1,1,%.1f\nMAT1,1,%.1f,,0.25\n", nx, ny, l, h, t, e
+      printf "JOINT,1,1,20\nPJOINT,1,1,1,,%s,-1,%s\nJNORM,1,%s\nJSHEAR,1,%s\n", mu, p0, law, shear
+      for (i = split(press, at, ","); i >= 1; i--) { split(at[i], part, ":"); printf "FORCE,1,%d,,%.9f,0.,-1.\n", part[1], part[2] }
+      for (i = split(push, at, ","); i >= 1; i--) { split(at[i], part, ":"); printf "FORCE,2,%d,,%.9f,1.,0.\n", part[1], part[2] }
+      for (i = 1; i <= n; i++) {
+         split(stage[i], part, ":")
+         printf "LOAD,%d,1.,1.,1,%.4f,2\nJINCR,%d,%d,ARITH,%.15f\n", 100 + i, part[2], 200 + i, part[1], 1 / part[1]
+      }
+      print "ENDDATA" }' > "$work/$name.bdf"
+   run "$name" || return
+   ask "$name, $solver: the joint bears what presses and pushes" "$name" rows "stage = $n_stages" rows 'increment = max(increment)' \
+      all "sum(pressure*area) = $pressed within 1e-6*$pressed and sum(tau_x*area) = $pushed within 1e-6*$pressed"
+}
+for solver in SKYLINE TREE; do
+   n_stages=2 pressed=1 pushed=0.045
+   coarse_plate evenly $solver nx=8 ny=4 l=100 h=20 t=1 e=21000 mu=0.05 law=.01,.3,20000. shear=30.,0. p0=1. stages=3:0,1:1 \
+      press=5:.0625,10:.125,15:.125,20:.125,25:.125,30:.125,35:.125,40:.125,45:.0625 push=5:.0225,45:.0225
+   n_stages=4 pressed=20 pushed=0.6
+   coarse_plate corner $solver nx=10 ny=1 l=100 h=100 t=20 e=1000 mu=0.15 law=.008,.33,1000. shear=1000.,300. p0= stages=2:0,5:1,5:-1,3:1 \
+      press=12:6.666667,14:6.666667,20:6.666666 push=2:.6
+   n_stages=4 pressed=100 pushed=19.6
+   coarse_plate three $solver nx=6 ny=2 l=100 h=100 t=1 e=1000 mu=0.2 law=.001,.5,20000. shear=1000.,0. p0= stages=5:0,10:1,1:0,2:1 \
+      press=9:33.333333,12:33.333333,15:33.333334 push=21:19.6
+   n_stages=4 pressed=30000 pushed=23520
+   coarse_plate lifted $solver nx=6 ny=3 l=300 h=100 t=20 e=9500 mu=0.8 law=.05,.5,9500. shear=1000.,300. p0= stages=1:0,10:1,10:0,1:1 \
+      press=4:2500,8:5000,12:5000,16:5000,20:5000,24:5000,28:2500 push=4:23520
+   n_stages=5 pressed=1 pushed=-0.025
+   coarse_plate ends $solver nx=12 ny=1 l=100 h=20 t=1 e=1000 mu=0.05 law=.008,.33,9500. shear=1000.,0. p0= stages=1:0,2:1,1:-1,2:1,1:-1 \
+      press=2:.5,26:.5 push=26:.025
+done

@@ -20,6 +20,9 @@ for form in record run words stretches turned; do
    fit --joint-fit $form.dat
    near "Fig. 1(b), $form: in one step" 1e-9 fig1b
 done
+fit stretches.dat
+holds 'stretches of one branch are runs, from 1 on' \
+   [ "$(awk '$2 ~ /^[0-9]+$/ && NF == 7 { printf "%d ", $2 }' cards)" = '2 5 8 10 13 16 18 21 24 3 6 11 14 19 22 ' ]
 fit record.dat
 says 'a record: its turns and its noise band are said' cards '195 rows in the order of time, 3 tests, 15 turns; noise band 1 % of the range' \
    '3E-4 of d, 0.03015 of tau'

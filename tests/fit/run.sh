@@ -290,7 +290,7 @@ bad 'few points of unloading' 'UNLOAD, p = 5: 3 points' 'expected four different
    <<< $'d tau p branch\n1 1 5 LOAD\n2 2 5 LOAD\n3 3 5 LOAD\n1 1 6 LOAD\n2 3 6 LOAD\n3 4 6 LOAD\n1 1 5 UNLOAD\n2 2 5 UNLOAD\n3 3 5 UNLOAD'
 bad 'one point of normal tests' 'two or more different p' <<< $'lambda p\n0 0\n1 1\n2 1'
 bad 'falling deflection' 'lambda does not grow with p: m = -1' <<< $'lambda p\n4 1\n2 2\n1 4'
-bad 'too stiff a law' 'the points want c = ' 'no less than 1E-75' <<< $'lambda p\n1E-90 1\n1.4E-90 2\n1.7E-90 3'
+bad 'too stiff a law' 'has a number of 1.00079E-90' 'none below 1E-75' <<< $'lambda p\n1E-90 1\n1.4E-90 2\n1.7E-90 3'
 bad 'units of two kinds' 'line 3' "UNITS: 'MM, N', but above it was 'MM, KGF'" <<< $'UNITS = MM, KGF\nlambda p\nUNITS = MM, N\n1 1\n2 4'
 bad 'binary' 'no text' < <(printf 'lambda p\n1 2\0 3\n')
 bad 'all faults at once' 'DATA ERROR 1 OF 5' 'DATA ERROR 5 OF 5' 'line 2' 'line 3' 'line 5' 'bad.dat: 5 errors, no card written' \
@@ -314,6 +314,13 @@ usage '--id of no number' '--id x: expected a number' --id x all.dat
 usage '--id without a value' '--id : expected a number' all.dat --id
 usage '--dmax zero' 'expected a number above 0' --dmax 0 all.dat
 usage '--p-tolerance negative' '--p-tolerance -1: expected' --p-tolerance -1 all.dat
+usage '--id: the last of two beyond all' 'the laws of 2 files would have numbers beyond 2147483647' --id 2147483647 all.dat all.dat
+usage '--id: nine digits in eight columns' 'they end at 99999999' --id 100000000 --small all.dat
+usage '--id: the second of nine digits' 'the numbers of 2 files' --small --id 99999999 all.dat all.dat
+fit --small --id 99999999 all.dat
+says '--id of eight digits' cards 'JSHEAR  99999999'
+fit --id 2147483647 all.dat
+says '--id, the largest' cards 'JSHEAR* 2147483647  '
 fit --branch UNLOAD two_headers.dat
 holds '--branch without data: status 2' [ $status -eq 2 ]
 says '--branch without data' stderr 'no UNLOAD data'
@@ -323,6 +330,12 @@ says '--branch without --as stays that branch' cards 'The UNLOAD continuation'
 fit --branch RELOAD --as LOAD --dmax 1E300 "$here/sanad.dat"
 holds '--dmax beyond all measure: status 2' [ $status -eq 2 ]
 says '--dmax beyond all measure' stderr 'has a number of 1E300, and a deck takes no more than 1E75'
+fit --branch RELOAD --as LOAD --dmax 1E-80 "$here/sanad.dat"
+holds '--dmax below all measure: status 2' [ $status -eq 2 ]
+says '--dmax below all measure' stderr 'has a number of 1E-80, and a deck takes none below 1E-75'
+awk '/^[0-9]/ { for (i = 1; i <= 4; i++) $i = $i "E-90" } { print }' "$here/sanad.dat" > tiny.dat
+fit --branch RELOAD --as LOAD tiny.dat
+says 'pressures and stresses below all measure' stderr 'has a number of 1.28E-88, and a deck takes none below 1E-75'
 fit --branch LOAD power.dat
 says '--branch of normal tests' stderr 'have no branch'
 fit --help

@@ -129,11 +129,11 @@ function spoil_anywhere(   k, at) {
    return "a control byte in column " at " of line " k
 }
 
-# every card has its number or set in field 2
+# every card has its number or set in field 2, but those of defaults
 function blank_number(   k, i) {
    for (i = 1; i <= 50; i++) {
       k = chance(my_cards)
-      if (line[k] ~ /[*,\t]/) continue
+      if (line[k] ~ /[*,\t]/ || line[k] ~ /^ *GRDSET/) continue
       line[k] = substr(line[k], 1, 8) "        " substr(line[k], 17)
       return "field 2 of line " k " blank"
    }

@@ -24,11 +24,16 @@ wrong_fit() {
    fi
 }
 
+# The number of the card in FILE: field 1, by its columns; one that fills a small field touches the next.
+id_of_card() {
+   awk '/^J(NORM|SHEAR)/ { print substr($0, 9, /\*/ ? 16 : 8) + 0; exit }' "$1"
+}
+
 # A deck with the cards of FILE
 deck_of_cards() {
    local name id
    name=$(grep -aoE -m 1 '^J(NORM|SHEAR)' "$1")
-   id=$(sed -nE 's/^J(NORM|SHEAR)[* ,]+([0-9]+).*/\2/p' "$1" | head -n 1)
+   id=$(id_of_card "$1")
    printf 'SPC = 1\nSUBCASE 1\nLOAD = 10\nINCR = 5\nBEGIN BULK\nBLOCK2,1,1,1,1,0.,0.\n,10.,10.\n,20\nPSHELL,1,1,1.\nMAT1,1,9500.,,.25\nPMARK,20\n'
    printf 'JOINT,1,1,20\nSPC1,1,1,1\nFORCE,10,2,,1.,0.,-1.\nFORCE,10,4,,1.,0.,-1.\nJINCR,5,2\n'
    if [ "$name" = JNORM ]; then echo "PJOINT,1,$id"; else printf '%s\n' "JNORM,$((id % 7 + 1)),.01,.5" "PJOINT,1,$((id % 7 + 1)),$id,$id"; fi
@@ -38,7 +43,7 @@ deck_of_cards() {
 
 # Data FIRST to LAST through jointfit of all builds (beside jointfem)
 batch_of_data() {
-   local first=$1 last=$2 where=$3 build name program fit number entry what status
+   local first=$1 last=$2 where=$3 build name program fit number entry id what status
    mkdir -p "$where/seeds"
    [ -e "$where/seeds/sanad.dat" ] || data_seeds "$where/seeds"
    rm -rf "$where/data"
@@ -54,6 +59,10 @@ batch_of_data() {
          (limits "$name" "$program" 10; exec "$fit" ${entry%%:*} "data_${number%:}.dat") > cards 2> stderr < /dev/null
          status=$?
          what=$(wrong_fit $status cards stderr)
+         if [ -z "$what" ] && [ $status -eq 0 ]; then
+            id=$(grep -oE -e '--id [^ ]+' <<< "${entry%%:*}" | tail -n 1)
+            [ "$(id_of_card cards)" = "$((10#0${id#--id }))" ] || [ -z "$id" ] || what="its card has the number $(id_of_card cards)"
+         fi
          if [ -z "$what" ] && [ $status -eq 0 ]; then
             deck_of_cards cards > cards.bdf
             "$program" --check cards.bdf > stdout 2> stderr < /dev/null || what="its cards are refused: $(grep -a -m 1 ':' stderr)"

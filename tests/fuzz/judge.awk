@@ -30,6 +30,23 @@ function read_table(deck, file,   entry) {
    close(file)
 }
 
+# A file for ParaView: its header, a fixed length of text, names the arrays that lie behind it as they were in memory.
+function read_vtu(deck, file,   entry, many, arrays, command, bad) {
+   while ((getline entry < file) > 0 && entry !~ /<\/UnstructuredGrid>/) {
+      if (entry ~ /<Piece /) { many["Points"] = many["PointData"] = attribute(entry, "NumberOfPoints"); many["Cells"] = many["CellData"] = attribute(entry, "NumberOfCells") }
+      if (entry ~ /^ *<(Points|Cells|PointData|CellData)>/) { section = entry; gsub(/[ <>]/, "", section) }
+      if (entry !~ /type="Float64"/) continue
+      arrays++
+      command = command "od -A n -v -t f8 -j " 16384 + 8 + attribute(entry, "offset") " -N " \
+         8*many[section]*(entry ~ /NumberOfComponents/ ? attribute(entry, "NumberOfComponents") : 1) " '" file "'; "
+   }
+   close(file)
+   if (!arrays) { fault(deck, substr(file, length(results) + 2) " holds no arrays"); return }
+   while ((command | getline entry) > 0) if (!bad && entry ~ /nan|inf/) { bad = 1; fault(deck, substr(file, length(results) + 2) " holds '" entry "'") }
+   close(command)
+}
+function attribute(entry, what) { return match(entry, what "=\"[0-9]+") ? substr(entry, RSTART + length(what) + 2, RLENGTH - length(what) - 2) + 0 : 0 }
+
 BEGIN {
    command = "ls -A '" results "'"
    while ((command | getline entry) > 0) {
@@ -68,7 +85,10 @@ END {
       if (has_listing) read_listing(deck, results "/" deck ".out")
       names = split(files[deck], file, " ")
       for (k = 1; k <= names; k++) if (file[k] ~ /\.part/) fault(deck, "left behind: " file[k])
-      for (k = 1; k <= names; k++) if (file[k] ~ /\.(csv|vtu)$/) read_table(deck, results "/" file[k])
+      for (k = 1; k <= names; k++) {
+         if (file[k] ~ /\.csv$/) read_table(deck, results "/" file[k])
+         if (file[k] ~ /\.vtu$/) read_vtu(deck, results "/" file[k])
+      }
       if (said[deck] > highest) highest = said[deck]
       if (statuses != "") print deck, said[deck] > statuses
    }

@@ -28,9 +28,25 @@ run() {
    echo "fuzz_1 $2" > list
    printf '%s\n' "$3" > stderr
    shift 3
-   while [ $# -gt 1 ]; do printf '%s\n' "$2" > "results/$1"; shift 2; done
+   while [ $# -gt 1 ]; do if [ -e "$2" ]; then cp "$2" "results/$1"; else printf '%s\n' "$2" > "results/$1"; fi; shift 2; done
    awk -v status="$status" -v results=results -v statuses=statuses -f "$here/judge.awk" list stderr > verdict
 }
+# vtu BYTES: the name of a file for ParaView whose values, 1 and 2 of a point, 3 of a cell, end in four BYTES of 3
+vtu() {
+   printf '%-16383s_' '<VTKFile>
+   <Piece NumberOfPoints="2" NumberOfCells="1">
+   <PointData>
+   <DataArray type="Int32" Name="node" format="appended" offset="0"/>
+   <DataArray type="Float64" Name="u" format="appended" offset="16"/>
+   </PointData>
+   <CellData>
+   <DataArray type="Float64" Name="s" format="appended" NumberOfComponents="1" offset="40"/>
+   </CellData>
+</UnstructuredGrid>' > sample.vtu
+   printf "\\x08$zero7\\xff\\xff\\xff\\xff\\xff\\xff\\xff\\x7f\\x10$zero7$zero7\\x40$zero7\\x40\\x08${zero7}NaN $1" >> sample.vtu
+   echo sample.vtu
+}
+zero7='\x00\x00\x00\x00\x00\x00\x00'
 good() { [ ! -s verdict ]; }
 finds() { grep -q "$1" verdict; }
 
@@ -53,7 +69,9 @@ run 0 mild '' fuzz_1.out '  1.0  NaN'; holds 'NaN in a listing' finds NaN
 run 0 mild '' fuzz_1.out '  1.0 -Infinity  2.0'; holds 'Infinity in a listing' finds Infinity
 run 0 mild '' fuzz_1.out '  1.0 ******** 2'; holds 'asterisks in a listing' finds 'listing holds'
 run 0 mild '' fuzz_1.out ' A' fuzz_1.joint.csv '1,NaN,2'; holds 'NaN in a history' finds 'joint.csv holds'
-run 0 mild '' fuzz_1.out ' A' fuzz_1.1.vtu '0.0 Infinity'; holds 'Infinity in a file for ParaView' finds 'vtu holds'
+run 0 mild '' fuzz_1.out ' A' fuzz_1.1.vtu "$(vtu 'NaN\x40')"; holds 'a file for ParaView whose bytes spell NaN' good
+run 0 mild '' fuzz_1.out ' A' fuzz_1.1.vtu "$(vtu '\x00\x00\xf8\x7f')"; holds 'NaN in a file for ParaView' finds 'vtu holds'
+run 0 mild '' fuzz_1.out ' A' fuzz_1.1.vtu '0.0'; holds 'no file for ParaView' finds 'vtu holds no arrays'
 run 0 mild '' fuzz_1.out ' A' fuzz_1.joint.csv.part '1'; holds 'a part file' finds 'left behind'
 run 3 wild 'fuzz_1.bdf: the residual is NaN; no results'; holds 'NaN in a message' finds 'it says'
 run 139 mild 'Program received signal SIGSEGV: Segmentation fault' fuzz_1.out ' A'; holds 'a crash' finds SIGSEGV

@@ -38,7 +38,6 @@ static int lock_word;
 static unsigned seed;
 static __thread task *now;
 static __thread int singles_met, loops_met;
-static __thread task outermost;
 
 static void lock(void) { while (__atomic_exchange_n(&lock_word, 1, __ATOMIC_ACQUIRE)) sched_yield(); }
 static void unlock(void) { __atomic_store_n(&lock_word, 0, __ATOMIC_RELEASE); }
@@ -196,18 +195,17 @@ static void *work(void *argument)
    return NULL;
 }
 
-void GOMP_parallel(void (*routine)(void *), void *data, unsigned threads, unsigned flags)
+/* MINE: what its routine is, and its loop where it begins with one */
+static void parallel(team_type mine, unsigned threads)
 {
-   team_type mine = {0}, *before = team;
+   team_type *before = team;
    task *task_before = now;
    pthread_t handles[64];
    member members[64];
    int i;
-   (void)flags;
    if (!seed) seed = getenv("TASKS_SEED") ? atoi(getenv("TASKS_SEED")) : 1;
    mine.threads = threads ? threads : (unsigned)omp_get_max_threads_();
    if (mine.threads > 64) mine.threads = 64;
-   mine.routine = routine, mine.data = data;
    team = &mine;
    for (i = 0; i < mine.threads; i++) members[i] = (member){&mine, i};
    for (i = 1; i < mine.threads; i++) pthread_create(&handles[i], NULL, work, &members[i]);
@@ -215,4 +213,23 @@ void GOMP_parallel(void (*routine)(void *), void *data, unsigned threads, unsign
    for (i = 1; i < mine.threads; i++) pthread_join(handles[i], NULL);
    team = before;
    now = task_before;
+}
+
+void GOMP_parallel(void (*routine)(void *), void *data, unsigned threads, unsigned flags)
+{
+   (void)flags;
+   parallel((team_type){.routine = routine, .data = data}, threads);
+}
+
+void GOMP_parallel_loop_nonmonotonic_dynamic(void (*routine)(void *), void *data, unsigned threads, long start, long end, long step,
+                                             long chunk, unsigned flags)
+{
+   (void)flags;
+   parallel((team_type){.routine = routine, .data = data, .next_index = start, .end = end, .step = step, .chunk = chunk}, threads);
+}
+
+void GOMP_parallel_loop_dynamic(void (*routine)(void *), void *data, unsigned threads, long start, long end, long step, long chunk,
+                                unsigned flags)
+{
+   GOMP_parallel_loop_nonmonotonic_dynamic(routine, data, threads, start, end, step, chunk, flags);
 }
