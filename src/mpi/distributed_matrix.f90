@@ -13,11 +13,13 @@ module distributed_matrix
    implicit none
    private
 
-   public :: start_matrix, reserve_touched, add_blocks, finish_matrix, read_touched, read_diagonal, write_touched, &
-             matrix_times_vector, free_matrix, put_vector, take_vector, check
+   public :: start_matrix, reserve_touched, add_blocks, finish_matrix, keep_for_products, read_touched, read_diagonal, &
+             write_touched, matrix_times_vector, free_matrix, put_vector, take_vector, check
 
    type, public :: distributed_matrix_type
-      type(c_ptr) :: matrix = c_null_ptr
+      type(c_ptr) :: matrix = c_null_ptr      !! row by row: what preconditioners are made of
+      type(c_ptr) :: products = c_null_ptr    !! the same where it multiplies: its upper blocks, or itself
+      logical :: has_copy = .false.           !! whether these are two
       type(c_ptr) :: x = c_null_ptr, b = c_null_ptr, r = c_null_ptr !! vectors to it
       real(wp) :: unit = 1.0_wp               !! on the diagonal of held components [force/length]
       integer, allocatable :: counts(:)       !! (ranks) rows of each
@@ -44,6 +46,7 @@ contains
          call check(mat_set_block_size(a, d))
          call check(mat_set_preallocation(a, d, share%inside, share%outside, c_null_ptr, c_null_ptr))
          call check(mat_set_option(a, mat_spd, petsc_true))
+         call check(mat_set_option(a, mat_spd_eternal, petsc_true))
       end associate
       do e = 1, share%model%n_elements
          call coupled_stiffness(share%model, e, k)
@@ -102,7 +105,7 @@ contains
       type(c_ptr) :: values
       integer :: b, c
 
-      call assemble(stiffness)
+      call assemble(stiffness%matrix)
       call check(mat_create_vecs(stiffness%matrix, stiffness%x, stiffness%b))
       call check(vec_duplicate(stiffness%b, stiffness%r))
       call check(mat_get_diagonal(stiffness%matrix, stiffness%r))
@@ -121,15 +124,27 @@ contains
          end do
          call check(mat_set_values_blocked(stiffness%matrix, 1, [share%first + b - 1], 1, [share%first + b - 1], block, add_values))
       end do
-      call assemble(stiffness)
+      call assemble(stiffness%matrix)
       call give_near_null_space(share, stiffness)
+      stiffness%products = stiffness%matrix
    end subroutine finish_matrix
 
-   subroutine assemble(stiffness)
-      type(distributed_matrix_type), intent(in) :: stiffness
+   !> From now on the blocks above the diagonal, and on it, are kept beside the matrix: they take half the memory that it takes,
+   !! and multiply a vector in a quarter of the time.
+   subroutine keep_for_products(stiffness)
+      type(distributed_matrix_type), intent(inout) :: stiffness
 
-      call check(mat_assembly_begin(stiffness%matrix, final_assembly))
-      call check(mat_assembly_end(stiffness%matrix, final_assembly))
+      stiffness%products = c_null_ptr
+      call check(mat_convert(stiffness%matrix, 'sbaij'//char(0), new_matrix, stiffness%products))
+      call check(mat_set_option(stiffness%products, mat_ignore_lower, petsc_true))
+      stiffness%has_copy = .true.
+   end subroutine keep_for_products
+
+   subroutine assemble(matrix)
+      type(c_ptr), intent(in) :: matrix
+
+      call check(mat_assembly_begin(matrix, final_assembly))
+      call check(mat_assembly_end(matrix, final_assembly))
    end subroutine assemble
 
    !> The motions of a rigid body, which the coarse levels of the preconditioner have to represent.
@@ -195,15 +210,25 @@ contains
       real(wp), intent(in)                      :: blocks(:) !! (d, d, touched blocks of all) [force/length]
       type(distributed_matrix_type), intent(in) :: stiffness
       real(wp) :: own(d*d*size(stiffness%touched, 2))
-      integer  :: i
 
       call scatter(blocks, stiffness%touched_counts, own)
-      do i = 1, size(stiffness%touched, 2)
-         associate (touched => stiffness%touched(:, i), block => reshape(own(d*d*(i - 1) + 1:d*d*i), [d, d]))
-            call check(mat_set_values_blocked(stiffness%matrix, 1, touched(1:1), 1, touched(2:2), transpose(block), insert_values))
-         end associate
-      end do
-      call assemble(stiffness)
+      call insert(stiffness%matrix)
+      if (stiffness%has_copy) call insert(stiffness%products)
+
+   contains
+
+      subroutine insert(matrix)
+         type(c_ptr), intent(in) :: matrix
+         integer :: i
+
+         do i = 1, size(stiffness%touched, 2)
+            associate (touched => stiffness%touched(:, i), block => reshape(own(d*d*(i - 1) + 1:d*d*i), [d, d]))
+               call check(mat_set_values_blocked(matrix, 1, touched(1:1), 1, touched(2:2), transpose(block), insert_values))
+            end associate
+         end do
+         call assemble(matrix)
+      end subroutine insert
+
    end subroutine write_touched
 
    !> Y = matrix times X, both of rank 0, row after row.
@@ -213,7 +238,7 @@ contains
       real(wp), intent(inout)                   :: y(:)
 
       call put_vector(x, stiffness, stiffness%r)
-      call check(mat_mult(stiffness%matrix, stiffness%r, stiffness%b))
+      call check(mat_mult(stiffness%products, stiffness%r, stiffness%b))
       call take_vector(stiffness%b, stiffness, y)
    end subroutine matrix_times_vector
 
@@ -257,6 +282,7 @@ contains
    subroutine free_matrix(stiffness)
       type(distributed_matrix_type), intent(inout) :: stiffness
 
+      if (stiffness%has_copy) call check(mat_destroy(stiffness%products))
       call check(mat_destroy(stiffness%matrix))
       call check(vec_destroy(stiffness%x))
       call check(vec_destroy(stiffness%b))

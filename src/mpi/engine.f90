@@ -1,9 +1,10 @@
 !> The engine that all processes drive together: the share of this process, its rows of the matrix, its part of the solution. Rank 0
 !! gives an order and does its part of it; the others take orders until the run ends. One structure at a time.
 module engine
-   use distributed_matrix, only: distributed_matrix_type, finish_matrix, free_matrix, matrix_times_vector, read_diagonal, &
-                                 read_touched, reserve_touched, start_matrix, write_touched
-   use distributed_solution, only: distributed_solution_type, free_solution, renew_preconditioner, solve_distributed, start_solution
+   use distributed_matrix, only: distributed_matrix_type, finish_matrix, free_matrix, keep_for_products, matrix_times_vector, &
+                                 read_diagonal, read_touched, reserve_touched, start_matrix, write_touched
+   use distributed_solution, only: by_gamg, distributed_solution_type, free_solution, renew_preconditioner, solve_distributed, &
+                                   start_solution
    use kinds, only: wp
    use ranks, only: rank, tell
    use shares, only: receive_share, share_type
@@ -75,6 +76,7 @@ contains
          is_running = .true.
       case (order_finish)                                    ! words: the preconditioner
          call finish_matrix(share, stiffness, stiffest)
+         if (words(1) == by_gamg) call keep_for_products(stiffness)
          call start_solution(stiffness, words(1), solution)
       case (order_touched)
          call take_touched(words)

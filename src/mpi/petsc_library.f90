@@ -12,7 +12,8 @@ module petsc_library
    integer(c_int), parameter :: final_assembly = 0                           ! MatAssemblyType
    integer(c_int), parameter :: petsc_false = 0, petsc_true = 1              ! PetscBool
    integer(c_int), parameter :: norm_2 = 1                                   ! NormType
-   integer(c_int), parameter :: mat_symmetric = 1, mat_spd = 15              ! MatOption
+   integer(c_int), parameter :: mat_ignore_lower = 12, mat_spd = 15, mat_spd_eternal = 26 ! MatOption
+   integer(c_int), parameter :: new_matrix = 0                               ! MatReuse
    integer(c_int), parameter :: unpreconditioned = 2                         ! KSPNormType
    integer(c_int), parameter :: petsc_decide = -1, petsc_default = -2
    integer(c_int), parameter :: out_of_memory = 55                           ! PETSC_ERR_MEM
@@ -185,6 +186,15 @@ module petsc_library
          type(c_ptr), value    :: matrix
          integer(c_int), value :: type
       end function mat_assembly_end
+
+      !> OTHER: the same in another TYPE.
+      integer(c_int) function mat_convert(matrix, type, reuse, other) bind(c, name='MatConvert')
+         import :: c_char, c_int, c_ptr
+         type(c_ptr), value                 :: matrix
+         character(kind=c_char), intent(in) :: type(*)
+         integer(c_int), value              :: reuse
+         type(c_ptr), intent(inout)         :: other
+      end function mat_convert
 
       integer(c_int) function mat_mult(matrix, x, y) bind(c, name='MatMult')
          import :: c_int, c_ptr
