@@ -3,10 +3,12 @@
 !! processes call every routine in step.
 !! Source: Adams, Bayraktar, Keaveny, Papadopoulos, Proc. SC2004; Amestoy et al., SIAM J. Matrix Anal. Appl. 23 (2001) 15-41.
 module distributed_solution
-   use, intrinsic :: iso_c_binding, only: c_int, c_null_ptr, c_ptr
-   use distributed_matrix, only: check, distributed_matrix_type, put_vector, take_vector
+   use, intrinsic :: iso_c_binding, only: c_int, c_null_funptr, c_null_ptr, c_ptr
+   use distributed_matrix, only: check, distributed_matrix_type, drop_copy, keep_copy, put_vector, take_vector
+   use earlier_vectors, only: earlier_vectors_type, forget_vectors, guess_vector, note_vector
    use kinds, only: wp
    use petsc_library
+   use shares, only: share_type
    implicit none
    private
 
@@ -16,14 +18,15 @@ module distributed_solution
 
    type, public :: distributed_solution_type
       type(c_ptr) :: solver = c_null_ptr
-      logical  :: has_guess = .false.          !! x holds an earlier solution
+      integer  :: way = by_gamg                !! or by_mumps
+      type(earlier_vectors_type) :: earlier    !! solutions to begin with
       integer  :: steps = 0                    !! of the last solution
       real(wp) :: residual = 0.0_wp            !! of that, as a share of the load
+      real(wp) :: gained = 0.0_wp              !! digits of the residual that the steps took away
       logical  :: converged = .true.
    end type distributed_solution_type
 
-   real(wp), parameter :: tolerance = 1.0e-12_wp !! of the residual, as a share of the load
-   real(wp), parameter :: loosest = 1.0e-9_wp    !! that is still a solution where rounding allows no more
+   real(wp), parameter :: loosest = 1.0e-9_wp    !! of the load that may be left and still be a solution, where rounding allows no less
    integer, parameter  :: most_steps = 500
    integer, parameter  :: most_solutions = 3     !! one after another, each from where the one before has come
 
@@ -36,7 +39,6 @@ contains
       call set('-jointfem_mg_levels_pc_type', 'jacobi')
       call set('-jointfem_mg_levels_ksp_chebyshev_esteig', '0,0.05,0,1.1')
       call set('-jointfem_pc_gamg_agg_nsmooths', '1')
-      call set('-jointfem_pc_use_amat', '1') ! the finest level multiplies as the steps do
 
    contains
 
@@ -56,11 +58,11 @@ contains
       type(c_ptr) :: preconditioner
 
       associate (ksp => solution%solver)
+         solution%way = way
          call check(ksp_create(petsc_comm_world, ksp))
          call check(ksp_set_options_prefix(ksp, 'jointfem_'//char(0)))
          call check(ksp_set_type(ksp, 'cg'//char(0)))
          call check(ksp_set_norm_type(ksp, unpreconditioned))
-         call check(ksp_set_tolerances(ksp, tolerance, 1.0e-300_wp, 1.0e5_wp, most_steps))
          call check(ksp_set_initial_guess_nonzero(ksp, petsc_true))
          call check(ksp_set_operators(ksp, stiffness%products, stiffness%matrix))
          call check(ksp_get_pc(ksp, preconditioner))
@@ -75,72 +77,98 @@ contains
       end associate
    end subroutine start_solution
 
-   !> Make the preconditioner anew, of the stiffness as it is now.
-   subroutine renew_preconditioner(stiffness, solution)
-      type(distributed_matrix_type), intent(in)      :: stiffness
+   !> Make the preconditioner anew, of the stiffness as it is now. The one there is, and the copy for products, make room first.
+   subroutine renew_preconditioner(share, stiffness, solution)
+      type(share_type), intent(in)                   :: share
+      type(distributed_matrix_type), intent(inout)   :: stiffness
       type(distributed_solution_type), intent(inout) :: solution
+      type(c_ptr) :: preconditioner
 
-      call check(ksp_set_reuse_preconditioner(solution%solver, petsc_false))
-      call check(ksp_set_operators(solution%solver, stiffness%products, stiffness%matrix))
-      call check(ksp_set_up(solution%solver))
-      call check(ksp_set_reuse_preconditioner(solution%solver, petsc_true))
+      associate (ksp => solution%solver)
+         call check(ksp_get_pc(ksp, preconditioner))
+         call check(pc_reset(preconditioner))
+         call drop_copy(stiffness)
+         call check(ksp_set_reuse_preconditioner(ksp, petsc_false))
+         call check(ksp_set_operators(ksp, stiffness%matrix, stiffness%matrix))
+         call check(ksp_set_up(ksp))
+         call check(ksp_set_reuse_preconditioner(ksp, petsc_true))
+         if (solution%way == by_gamg) call multiply_by_copy(preconditioner)
+      end associate
+
+   contains
+
+      !> The steps and the finest level multiply by a copy from now on.
+      subroutine multiply_by_copy(preconditioner)
+         type(c_ptr), intent(in) :: preconditioner
+         type(c_ptr)    :: smoother
+         integer(c_int) :: levels
+
+         call check(pc_mg_get_levels(preconditioner, levels))
+         if (levels < 2) return                 ! the finest level is the coarsest, a factor
+         call keep_copy(share, stiffness)
+         call check(pc_mg_get_smoother(preconditioner, levels - 1, smoother))
+         call check(ksp_set_operators(smoother, stiffness%products, stiffness%matrix))
+         call check(pc_mg_set_residual(preconditioner, levels - 1, c_null_funptr, stiffness%products))
+         call check(ksp_set_operators(solution%solver, stiffness%products, stiffness%matrix))
+      end subroutine multiply_by_copy
+
    end subroutine renew_preconditioner
 
-   !> X, of rank 0, the load row after row, becomes the solution; STEPS, RESIDUAL and whether it has CONVERGED tell how.
-   subroutine solve_distributed(stiffness, solution, x)
+   !> X, of rank 0, the load row after row, becomes the solution to so many DIGITS; STEPS, RESIDUAL and whether it has CONVERGED
+   !! tell how. Where it IS_NOTED later ones begin with it.
+   subroutine solve_distributed(digits, is_noted, stiffness, solution, x)
+      integer, intent(in)                            :: digits
+      logical, intent(in)                            :: is_noted
       type(distributed_matrix_type), intent(in)      :: stiffness
       type(distributed_solution_type), intent(inout) :: solution
       real(wp), intent(inout)                        :: x(:)
       integer(c_int) :: reason, steps
       integer  :: again
-      real(wp) :: load, left
+      real(wp) :: first, load, left, tolerance
 
+      tolerance = 10.0_wp**(-digits)
+      call check(ksp_set_tolerances(solution%solver, tolerance, 1.0e-300_wp, 1.0e5_wp, most_steps))
       call put_vector(x, stiffness, stiffness%b)
       call check(vec_norm(stiffness%b, norm_2, load))
       solution%steps = 0
       solution%residual = 0.0_wp
+      solution%gained = 0.0_wp
       solution%converged = .true.
       if (.not. load > 0.0_wp) then
          call check(vec_scale(stiffness%x, 0.0_wp))
-         solution%has_guess = .false.
       else
-         call scale_guess(stiffness, solution)
+         call guess_vector(stiffness, solution%earlier)
+         call find_residual(stiffness, first)
          do again = 1, most_solutions            ! the steps keep a residual of their own, which parts from the true one
             call check(ksp_solve(solution%solver, stiffness%b, stiffness%x))
             call check(ksp_get_iteration_number(solution%solver, steps))
             call check(ksp_get_converged_reason(solution%solver, reason))
             solution%steps = solution%steps + steps
-            call check(mat_mult(stiffness%products, stiffness%x, stiffness%r))
-            call check(vec_aypx(stiffness%r, -1.0_wp, stiffness%b))
-            call check(vec_norm(stiffness%r, norm_2, left))
+            call find_residual(stiffness, left)
             solution%residual = left/load
             if (reason <= 0 .or. solution%residual <= 10.0_wp*tolerance) exit
          end do
-         solution%converged = solution%residual <= loosest
-         solution%has_guess = solution%converged
+         if (left > 0.0_wp .and. first > left) solution%gained = log10(first/left)
+         solution%converged = solution%residual <= max(loosest, 10.0_wp*tolerance)
+         if (solution%converged .and. is_noted) call note_vector(stiffness%x, solution%earlier)
       end if
       call take_vector(stiffness%x, stiffness, x)
    end subroutine solve_distributed
 
-   !> The first guess: the solution before, by that factor with which its energy comes nearest; zero where there is none.
-   subroutine scale_guess(stiffness, solution)
-      type(distributed_matrix_type), intent(in)   :: stiffness
-      type(distributed_solution_type), intent(in) :: solution
-      real(wp) :: energy, work, factor
+   !> LEFT: the norm of b - [k] x.
+   subroutine find_residual(stiffness, left)
+      type(distributed_matrix_type), intent(in) :: stiffness
+      real(wp), intent(out)                     :: left !! [force]
 
-      factor = 0.0_wp
-      if (solution%has_guess) then
-         call check(mat_mult(stiffness%products, stiffness%x, stiffness%r))
-         call check(vec_dot(stiffness%r, stiffness%x, energy))
-         call check(vec_dot(stiffness%b, stiffness%x, work))
-         if (energy > 0.0_wp) factor = work/energy
-      end if
-      call check(vec_scale(stiffness%x, factor))
-   end subroutine scale_guess
+      call check(mat_mult(stiffness%products, stiffness%x, stiffness%r))
+      call check(vec_aypx(stiffness%r, -1.0_wp, stiffness%b))
+      call check(vec_norm(stiffness%r, norm_2, left))
+   end subroutine find_residual
 
    subroutine free_solution(solution)
       type(distributed_solution_type), intent(inout) :: solution
 
+      call forget_vectors(solution%earlier)
       call check(ksp_destroy(solution%solver))
    end subroutine free_solution
 

@@ -1,13 +1,14 @@
 !> The engine that all processes drive together: the share of this process, its rows of the matrix, its part of the solution. Rank 0
 !! gives an order and does its part of it; the others take orders until the run ends. One structure at a time.
 module engine
-   use distributed_matrix, only: distributed_matrix_type, finish_matrix, free_matrix, keep_for_products, matrix_times_vector, &
+   use distributed_matrix, only: distributed_matrix_type, finish_matrix, free_matrix, matrix_times_vector, &
                                  read_diagonal, read_touched, reserve_touched, start_matrix, write_touched
-   use distributed_solution, only: by_gamg, distributed_solution_type, free_solution, renew_preconditioner, solve_distributed, &
+   use distributed_solution, only: distributed_solution_type, free_solution, renew_preconditioner, solve_distributed, &
                                    start_solution
+   use earlier_vectors, only: forget_vectors
    use kinds, only: wp
    use ranks, only: rank, tell
-   use shares, only: receive_share, share_type
+   use shares, only: forget_elements, receive_share, share_type
    implicit none
    private
 
@@ -76,8 +77,8 @@ contains
          is_running = .true.
       case (order_finish)                                    ! words: the preconditioner
          call finish_matrix(share, stiffness, stiffest)
-         if (words(1) == by_gamg) call keep_for_products(stiffness)
          call start_solution(stiffness, words(1), solution)
+         call forget_elements(share)
       case (order_touched)
          call take_touched(words)
       case (order_read)
@@ -85,13 +86,13 @@ contains
       case (order_write)
          call write_touched(share%dimension, values, stiffness)
       case (order_renew)
-         call renew_preconditioner(stiffness, solution)
-      case (order_solve)
-         call solve_distributed(stiffness, solution, values)
+         call renew_preconditioner(share, stiffness, solution)
+      case (order_solve)                                     ! words: digits; 1, that it is noted, or 0
+         call solve_distributed(words(1), words(2) == 1, stiffness, solution, values)
       case (order_diagonal)
          call read_diagonal(stiffness, values)
       case (order_forget)
-         solution%has_guess = .false.
+         call forget_vectors(solution%earlier)
       case (order_multiply)
          call multiply(values)
       end select

@@ -24,7 +24,8 @@ module petsc_solver
    implicit none
    private
 
-   integer, parameter :: steps_of_set_up = 30 !! that cost what a new preconditioner does, GAMG
+   integer, parameter :: steps_of_set_up = 30   !! that cost what a new preconditioner does, GAMG
+   integer, parameter :: digits_of_estimate = 6 !! for the condition, of which one would do
 
    type, extends(equation_system), public :: petsc_solver_type
       integer :: way = by_gamg                    !! or by_mumps
@@ -32,7 +33,7 @@ module petsc_solver
       type(touched_type) :: touched
       type(interface_equations_type) :: joints
       type(factor_reuse_type) :: reuse            !! when to use an earlier preconditioner
-      integer :: fresh_steps = 0                  !! that a solution took with one of its own stiffness
+      real(wp) :: pace = 0.0_wp                   !! steps that a digit takes with the preconditioner of the own stiffness
       integer, allocatable  :: row(:)             !! (n) of the matrix, from 1 on
       logical :: is_own = .false.                 !! whether the preconditioner is that of the stiffness now
       real(wp), allocatable :: structure(:)       !! touched blocks with the joints
@@ -177,17 +178,17 @@ contains
       fault = 0
       x(self%locked) = 0.0_wp
       load = x(self%equations)
-      call act_on(self, order_solve, x)
+      call act_on(self, order_solve, x, [self%digits, 1])
       if (solution%converged .and. self%is_own) then
-         self%fresh_steps = solution%steps
+         call note_pace(self)
       else if (solution%converged) then
-         call note_steps(self%reuse, max(0, solution%steps - self%fresh_steps))
+         call note_steps(self%reuse, max(0, solution%steps - nint(self%pace*solution%gained)))
       else if (.not. self%is_own) then
          call note_failure(self%reuse)
          call renew(self)
          x(self%equations) = load
-         call act_on(self, order_solve, x)
-         self%fresh_steps = solution%steps
+         call act_on(self, order_solve, x, [self%digits, 1])
+         call note_pace(self)
       end if
       if (.not. solution%converged) then
          call forget_factor(self%reuse)
@@ -197,6 +198,14 @@ contains
                           ' of the load; the structure may be a mechanism, which SOLVER = TREE would name'
       end if
    end subroutine solve
+
+   !> Few digits, where the first guess was good, say little.
+   subroutine note_pace(self)
+      class(petsc_solver_type), intent(inout) :: self
+      real(wp), parameter :: enough = 3.0_wp
+
+      if (solution%gained >= enough .or. self%pace <= 0.0_wp) self%pace = solution%steps/max(1.0_wp, solution%gained)
+   end subroutine note_pace
 
    !> Y = [k_b] X, with the joints out of the matrix for the moment.
    subroutine multiply(self, x, y)
@@ -237,7 +246,7 @@ contains
       real(wp), contiguous, intent(inout)  :: x(:)
 
       x(self%locked) = 0.0_wp
-      call act_on(self, order_solve, x)
+      call act_on(self, order_solve, x, [digits_of_estimate, 0])
    end subroutine solve_by_factor
 
    subroutine multiply_by_factor(self, x)
@@ -248,15 +257,16 @@ contains
    end subroutine multiply_by_factor
 
    !> X, by equation, is what all processes do with it.
-   subroutine act_on(self, what, x)
+   subroutine act_on(self, what, x, words)
       class(petsc_solver_type), intent(in) :: self
       integer, intent(in)                  :: what !! order_solve, order_multiply, order_diagonal
       real(wp), intent(inout)              :: x(:)
+      integer, intent(in), optional        :: words(:)
       real(wp), allocatable :: values(:)
 
       allocate (values(size(self%deal%order)*size(self%number, 1)), source=0.0_wp)
       values(self%row) = x(self%equations)
-      call order(what, values=values)
+      call order(what, words, values)
       x(self%equations) = values(self%row)
    end subroutine act_on
 
