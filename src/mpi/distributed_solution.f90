@@ -8,6 +8,7 @@ module distributed_solution
    use earlier_vectors, only: earlier_vectors_type, forget_vectors, guess_vector, note_vector
    use kinds, only: wp
    use petsc_library
+   use ranks, only: n_ranks
    use shares, only: share_type
    implicit none
    private
@@ -26,29 +27,28 @@ module distributed_solution
       logical  :: converged = .true.
    end type distributed_solution_type
 
-   real(wp), parameter :: loosest = 1.0e-9_wp    !! of the load that may be left and still be a solution, where rounding allows no less
+   real(wp), parameter :: loosest = 1.0e-9_wp    !! of the load may be left, and it is still a solution: rounding allows no less
    integer, parameter  :: most_steps = 500
+   integer, parameter  :: lean_from = 250000     !! rows of a process, from which on the set-up of several takes a third less
+                                                 !! memory, and several times longer
    integer, parameter  :: most_solutions = 3     !! one after another, each from where the one before has come
 
 contains
 
    !> Options that have no function; before the library is started, so that the user's (PETSC_OPTIONS) come after them.
    subroutine set_library_options()
-      call set('-jointfem_pc_gamg_threshold', '0.01')
-      call set('-jointfem_mg_levels_ksp_type', 'chebyshev')
-      call set('-jointfem_mg_levels_pc_type', 'jacobi')
-      call set('-jointfem_mg_levels_ksp_chebyshev_esteig', '0,0.05,0,1.1')
-      call set('-jointfem_pc_gamg_agg_nsmooths', '1')
-
-   contains
-
-      subroutine set(name, value)
-         character(*), intent(in) :: name, value
-
-         call check(petsc_options_set_value(c_null_ptr, name//char(0), value//char(0)))
-      end subroutine set
-
+      call set_option('-jointfem_pc_gamg_threshold', '0.01')
+      call set_option('-jointfem_mg_levels_ksp_type', 'chebyshev')
+      call set_option('-jointfem_mg_levels_pc_type', 'jacobi')
+      call set_option('-jointfem_mg_levels_ksp_chebyshev_esteig', '0,0.05,0,1.1')
+      call set_option('-jointfem_pc_gamg_agg_nsmooths', '1')
    end subroutine set_library_options
+
+   subroutine set_option(name, value)
+      character(*), intent(in) :: name, value
+
+      call check(petsc_options_set_value(c_null_ptr, name//char(0), value//char(0)))
+   end subroutine set_option
 
    !> A solver of the equations with STIFFNESS, WAY is by_gamg or by_mumps.
    subroutine start_solution(stiffness, way, solution)
@@ -90,6 +90,7 @@ contains
          call drop_copy(stiffness)
          call check(ksp_set_reuse_preconditioner(ksp, petsc_false))
          call check(ksp_set_operators(ksp, stiffness%matrix, stiffness%matrix))
+         if (n_ranks > 1 .and. sum(stiffness%counts) > n_ranks*lean_from) call set_option('-matptap_via', 'allatonce')
          call check(ksp_set_up(ksp))
          call check(ksp_set_reuse_preconditioner(ksp, petsc_true))
          if (solution%way == by_gamg) call multiply_by_copy(preconditioner)

@@ -7,7 +7,8 @@ module engine
                                    start_solution
    use earlier_vectors, only: forget_vectors
    use kinds, only: wp
-   use ranks, only: rank, tell
+   use machine, only: peak_memory
+   use ranks, only: rank, sum_of_all, tell
    use shares, only: forget_elements, receive_share, share_type
    implicit none
    private
@@ -16,7 +17,7 @@ module engine
 
    integer, parameter, public :: order_end = 0, order_take = 1, order_start = 2, order_touched = 3, order_finish = 4, &
                                  order_read = 5, order_write = 6, order_renew = 7, order_solve = 8, order_multiply = 9, &
-                                 order_diagonal = 10, order_forget = 11
+                                 order_diagonal = 10, order_forget = 11, order_memory = 12
 
    type(share_type), public                :: share
    type(distributed_matrix_type), public   :: stiffness
@@ -67,6 +68,7 @@ contains
    subroutine act(what, words, values)
       integer, intent(in)     :: what, words(:)
       real(wp), intent(inout) :: values(:)
+      real(wp) :: bytes
 
       select case (what)
       case (order_take)
@@ -93,6 +95,9 @@ contains
          call read_diagonal(stiffness, values)
       case (order_forget)
          call forget_vectors(solution%earlier)
+      case (order_memory)
+         bytes = sum_of_all(real(peak_memory(), wp))
+         if (rank == 0) values = bytes
       case (order_multiply)
          call multiply(values)
       end select

@@ -5,7 +5,7 @@ submodule(distribution) several_processes
    use case_control, only: offer_petsc, solver_mumps, solver_petsc
    use distributed_matrix, only: check
    use distributed_solution, only: by_gamg, by_mumps, set_library_options
-   use engine, only: end_engine, obey, order, order_end
+   use engine, only: end_engine, obey, order, order_end, order_memory
    use petsc_library, only: petsc_finalize, petsc_initialize, petsc_pop_signal_handler, petsc_push_error_handler, &
                             petsc_return_error_handler
    use petsc_solver, only: petsc_solver_type
@@ -48,5 +48,14 @@ contains
       solver%way = merge(by_mumps, by_gamg, wanted == solver_mumps)
       call move_alloc(solver, system)
    end subroutine choose_distributed
+
+   module subroutine memory_of_all(bytes)
+      real(wp), intent(out) :: bytes
+      real(wp) :: values(1)
+
+      values = 0.0_wp
+      call order(order_memory, values=values)
+      bytes = values(1)
+   end subroutine memory_of_all
 
 end submodule several_processes

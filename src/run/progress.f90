@@ -3,9 +3,9 @@
 module progress
    use, intrinsic :: iso_fortran_env, only: error_unit
    use c_library, only: is_terminal
+   use distribution, only: memory_of_all
    use equation_solver, only: solver_description
    use kinds, only: long, wp
-   use machine, only: peak_memory
    use stage_plan, only: stage_plan_type
    use text_tools, only: integer_text
    implicit none
@@ -127,7 +127,8 @@ contains
    !> The run is over: clear the line, print the times.
    subroutine finish(self)
       class(progress_type), intent(inout) :: self
-      integer :: i
+      real(wp) :: bytes
+      integer  :: i
 
       call self%enter(phase_write)
       call self%clear()
@@ -138,7 +139,8 @@ contains
       write (error_unit, '(3a, f12.4, a)') self%deck, ': ', 'elements  ', self%solver%assembly_time, ' s of factor'
       write (error_unit, '(3a, es12.4)') self%deck, ': ', 'operations fixed  ', self%solver%fixed_operations, &
          self%deck, ': ', 'operations moving ', self%solver%moving_operations
-      write (error_unit, '(3a, i12, a)') self%deck, ': ', 'memory    ', nint(peak_memory()/1048576.0_wp), ' MiB'
+      call memory_of_all(bytes)
+      write (error_unit, '(3a, i12, a)') self%deck, ': ', 'memory    ', nint(bytes/1048576.0_wp), ' MiB'
    end subroutine finish
 
 end module progress

@@ -2,10 +2,11 @@
 !! process and no such solver, or src/mpi, PETSc on the processes that mpirun has started.
 module distribution
    use equation_solver, only: equation_system
+   use kinds, only: wp
    implicit none
    private
 
-   public :: join_processes, leave_processes, choose_distributed
+   public :: join_processes, leave_processes, choose_distributed, memory_of_all
 
    interface
       !> At the start of the program: of several processes the first goes on, the others come back from here only at the end of
@@ -22,6 +23,11 @@ module distribution
          integer, intent(in) :: wanted !! solver_* of case_control
          class(equation_system), allocatable, intent(out) :: system
       end subroutine choose_distributed
+
+      !> The most memory that each process has had, added up; the others wait for orders.
+      module subroutine memory_of_all(bytes)
+         real(wp), intent(out) :: bytes
+      end subroutine memory_of_all
    end interface
 
 end module distribution
