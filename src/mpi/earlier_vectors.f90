@@ -11,7 +11,7 @@ module earlier_vectors
 
    public :: note_vector, guess_vector, forget_vectors, least_energy
 
-   integer, parameter  :: most = 8                    !! that are kept
+   integer, parameter  :: most = 6                    !! that are kept
    real(wp), parameter :: dependent = 1.0e-12_wp      !! energy, as a share, below which nothing new is left of one
 
    type, public :: earlier_vectors_type

@@ -7,7 +7,7 @@ module engine
                                    start_solution
    use earlier_vectors, only: forget_vectors
    use kinds, only: wp
-   use machine, only: peak_memory
+   use machine, only: peak_memory, return_memory
    use ranks, only: rank, sum_of_all, tell
    use shares, only: forget_elements, receive_share, share_type
    implicit none
@@ -73,6 +73,7 @@ contains
       select case (what)
       case (order_take)
          call end_engine()
+         call return_memory()
          if (rank /= 0) call receive_share(share)
       case (order_start)                                     ! words: blocks of each rank
          call start_matrix(share, words, stiffness)
