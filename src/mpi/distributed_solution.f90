@@ -19,6 +19,7 @@ module distributed_solution
 
    type, public :: distributed_solution_type
       type(c_ptr) :: solver = c_null_ptr
+      logical  :: has_solver = .false.
       integer  :: way = by_gamg                !! or by_mumps
       type(earlier_vectors_type) :: earlier    !! solutions to begin with
       integer  :: steps = 0                    !! of the last solution
@@ -50,46 +51,39 @@ contains
       call check(petsc_options_set_value(c_null_ptr, name//char(0), value//char(0)))
    end subroutine set_option
 
-   !> A solver of the equations with STIFFNESS, WAY is by_gamg or by_mumps.
-   subroutine start_solution(stiffness, way, solution)
-      type(distributed_matrix_type), intent(in)    :: stiffness
+   !> The equations are to be solved in this WAY: by_gamg or by_mumps. There is no solver yet, see renew_preconditioner.
+   subroutine start_solution(way, solution)
       integer, intent(in)                          :: way
       type(distributed_solution_type), intent(out) :: solution
-      type(c_ptr) :: preconditioner
 
-      associate (ksp => solution%solver)
-         solution%way = way
-         call check(ksp_create(petsc_comm_world, ksp))
-         call check(ksp_set_options_prefix(ksp, 'jointfem_'//char(0)))
-         call check(ksp_set_type(ksp, 'cg'//char(0)))
-         call check(ksp_set_norm_type(ksp, unpreconditioned))
-         call check(ksp_set_initial_guess_nonzero(ksp, petsc_true))
-         call check(ksp_set_operators(ksp, stiffness%products, stiffness%matrix))
-         call check(ksp_get_pc(ksp, preconditioner))
-         if (way == by_gamg) then
-            call check(pc_set_type(preconditioner, 'gamg'//char(0)))
-         else
-            call check(pc_set_type(preconditioner, 'cholesky'//char(0)))
-            call check(pc_factor_set_solver(preconditioner, 'mumps'//char(0)))
-         end if
-         call check(ksp_set_from_options(ksp))
-         call check(ksp_set_reuse_preconditioner(ksp, petsc_false))
-      end associate
+      solution%way = way
    end subroutine start_solution
 
-   !> Make the preconditioner anew, of the stiffness as it is now. The one there is, and the copy for products, make room first.
+   !> A solver with a preconditioner of the stiffness as it is now. The one there is, and the copy for products, make room first.
    subroutine renew_preconditioner(share, stiffness, solution)
       type(share_type), intent(in)                   :: share
       type(distributed_matrix_type), intent(inout)   :: stiffness
       type(distributed_solution_type), intent(inout) :: solution
       type(c_ptr) :: preconditioner
 
+      call drop_solver(solution)
+      call drop_copy(stiffness)
       associate (ksp => solution%solver)
-         call check(ksp_get_pc(ksp, preconditioner))
-         call check(pc_reset(preconditioner))
-         call drop_copy(stiffness)
-         call check(ksp_set_reuse_preconditioner(ksp, petsc_false))
+         call check(ksp_create(petsc_comm_world, ksp))
+         solution%has_solver = .true.
+         call check(ksp_set_options_prefix(ksp, 'jointfem_'//char(0)))
+         call check(ksp_set_type(ksp, 'cg'//char(0)))
+         call check(ksp_set_norm_type(ksp, unpreconditioned))
+         call check(ksp_set_initial_guess_nonzero(ksp, petsc_true))
          call check(ksp_set_operators(ksp, stiffness%matrix, stiffness%matrix))
+         call check(ksp_get_pc(ksp, preconditioner))
+         if (solution%way == by_gamg) then
+            call check(pc_set_type(preconditioner, 'gamg'//char(0)))
+         else
+            call check(pc_set_type(preconditioner, 'cholesky'//char(0)))
+            call check(pc_factor_set_solver(preconditioner, 'mumps'//char(0)))
+         end if
+         call check(ksp_set_from_options(ksp))
          if (n_ranks > 1 .and. sum(stiffness%counts) > n_ranks*lean_from) call set_option('-matptap_via', 'allatonce')
          call check(ksp_set_up(ksp))
          call check(ksp_set_reuse_preconditioner(ksp, petsc_true))
@@ -170,7 +164,14 @@ contains
       type(distributed_solution_type), intent(inout) :: solution
 
       call forget_vectors(solution%earlier)
-      call check(ksp_destroy(solution%solver))
+      call drop_solver(solution)
    end subroutine free_solution
+
+   subroutine drop_solver(solution)
+      type(distributed_solution_type), intent(inout) :: solution
+
+      if (solution%has_solver) call check(ksp_destroy(solution%solver))
+      solution%has_solver = .false.
+   end subroutine drop_solver
 
 end module distributed_solution

@@ -80,7 +80,7 @@ contains
          is_running = .true.
       case (order_finish)                                    ! words: the preconditioner
          call finish_matrix(share, stiffness, stiffest)
-         call start_solution(stiffness, words(1), solution)
+         call start_solution(words(1), solution)
          call forget_elements(share)
       case (order_touched)
          call take_touched(words)

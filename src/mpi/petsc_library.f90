@@ -355,11 +355,6 @@ module petsc_library
          character(kind=c_char), intent(in) :: type(*)
       end function pc_set_type
 
-      integer(c_int) function pc_reset(preconditioner) bind(c, name='PCReset')
-         import :: c_int, c_ptr
-         type(c_ptr), value :: preconditioner
-      end function pc_reset
-
       !> Levels of a multigrid preconditioner that is set up.
       integer(c_int) function pc_mg_get_levels(preconditioner, levels) bind(c, name='PCMGGetLevels')
          import :: c_int, c_ptr
