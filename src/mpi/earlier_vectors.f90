@@ -5,14 +5,14 @@ module earlier_vectors
    use, intrinsic :: iso_c_binding, only: c_null_ptr, c_ptr
    use distributed_matrix, only: check, distributed_matrix_type
    use kinds, only: wp
+   use least_energy, only: find_least_energy
    use petsc_library, only: mat_mult, vec_copy, vec_destroy, vec_duplicate, vec_many_axpy, vec_many_dot, vec_scale
    implicit none
    private
 
-   public :: note_vector, guess_vector, forget_vectors, least_energy
+   public :: note_vector, guess_vector, forget_vectors
 
-   integer, parameter  :: most = 6                    !! that are kept
-   real(wp), parameter :: dependent = 1.0e-12_wp      !! energy, as a share, below which nothing new is left of one
+   integer, parameter :: most = 6                    !! that are kept
 
    type, public :: earlier_vectors_type
       private
@@ -53,39 +53,9 @@ contains
          call check(vec_many_dot(stiffness%r, earlier%n, earlier%u, energy(:, i)))
       end do
       call check(vec_many_dot(stiffness%b, earlier%n, earlier%u, work))
-      call least_energy(energy, work, share)
+      call find_least_energy(energy, work, share)
       call check(vec_many_axpy(stiffness%x, earlier%n, share, earlier%u))
    end subroutine guess_vector
-
-   !> SHARE c that makes c'ENERGY c/2 - WORK'c least: directions orthogonal in energy are made one after another, the first one
-   !! first, and one of which nothing new is left is left out.
-   pure subroutine least_energy(energy, work, share)
-      real(wp), intent(in)  :: energy(:, :) !! (n, n) symmetric, no eigenvalue below zero [force*length]
-      real(wp), intent(in)  :: work(:)      !! (n) [force*length]
-      real(wp), intent(out) :: share(:)     !! (n) [-]
-      real(wp) :: direction(size(work), size(work)), left
-      integer  :: i, j, n, pass
-
-      share = 0.0_wp
-      n = 0
-      do j = 1, size(work)
-         n = n + 1
-         direction(:, n) = 0.0_wp
-         direction(j, n) = 1.0_wp
-         do pass = 1, 2                               ! the second one takes away what rounding has left
-            do i = 1, n - 1
-               direction(:, n) = direction(:, n) - dot_product(direction(:, i), matmul(energy, direction(:, n)))*direction(:, i)
-            end do
-         end do
-         left = dot_product(direction(:, n), matmul(energy, direction(:, n)))
-         if (.not. left > dependent*energy(j, j)) then
-            n = n - 1
-            cycle
-         end if
-         direction(:, n) = direction(:, n)/sqrt(left)
-         share = share + dot_product(direction(:, n), work)*direction(:, n)
-      end do
-   end subroutine least_energy
 
    subroutine forget_vectors(earlier)
       type(earlier_vectors_type), intent(inout) :: earlier
