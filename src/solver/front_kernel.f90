@@ -8,11 +8,13 @@
 !! of threads, and each is the work of one: so are the digits.
 module front_kernel
    use blas_lapack, only: dgemm, dpotrf, dtrsm
-   use kinds, only: wp
+   use kinds, only: long, wp
    implicit none
    private
 
    public :: eliminate, top_row, touched_entries
+
+   integer(long), parameter, public :: large = 8388608_long !! entries of a matrix whose pages are worth to be given back
 
    integer, parameter :: narrow = 96       ! columns that are eliminated together
    integer, parameter :: wide   = 4*narrow ! columns of the update matrix that are one task
