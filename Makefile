@@ -11,7 +11,7 @@ WARNINGS   = -std=f2018 -Wall -Wextra
 FFLAGS     = -O2 -fopenmp -fcheck=mem -fno-backtrace $(WARNINGS)
 # the check of recursion would take another thread in the same routine for one
 FFLAGS_CHECKED = -O1 -g -fopenmp $(WARNINGS) -fcheck=all,no-array-temps,no-recursion -ffpe-trap=invalid,zero
-LIBRARIES  = -lmetis -lopenblas
+LIBRARIES  = -larpack -lmetis -lopenblas
 
 MANUAL     = $(BUILD)/manual/card_manual.f90
 # one process, or those of mpirun with PETSc: `make mpi`

@@ -16,6 +16,7 @@ program jointfem
    use run_boxes, only: another_increment, another_stage, build_structure, form_bodies, print_increment, print_stage, read_data, &
                         start_joints, start_program
    use run_end, only: end_program, finish_run
+   use run_modes, only: find_modes
    use run_state, only: run_type
    use stage_plan, only: stage_plan_type
    use step_method, only: accumulate, limit_friction, solve_increment, structure_stiffness
@@ -98,6 +99,9 @@ contains
             ! ------------------------------------------------------------ PRINT
             call print_increment(run, model, plan, system, analysis)
             call print_stage(run, model, plan, analysis)
+
+            ! ------------------------------------------------------------ NATURAL MODES AT THE END OF THE STAGE
+            call find_modes(run, model, plan, system, analysis)
 
             ! ------------------------------------------------------------ WRITE THE RESTART FILE
             call write_restart(run, deck, plan, system, analysis)

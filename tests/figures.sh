@@ -30,6 +30,15 @@ awk -v joint=1 -f $figures/joint_loops.awk "$work/chosen" reference_output/shear
 same 'the loops of an element: its name, rest, every increment' "$(wc -l < "$work/loops")" 83
 same 'they begin at rest' "$(head -n 2 "$work/loops" | tail -n 1)" '0,0,0,0,0,0'
 
+# the response of a stage: a block for every component that moves
+mkdir -p "$work/response"
+printf '%s\n' stage,frequency,node,component,amplitude,phase 2,5,7,x,0.5,0 2,5,7,y,0,0 2,5,9,x,0.25,-90 2,10,7,x,0.75,-180 2,10,7,y,0,0 \
+   2,10,9,x,0,0 4,5,7,x,1E-3,0 > "$work/response.csv"
+awk -v folder="$work/response" -f $figures/response_tables.awk "$work/response.csv"
+same 'stages with a response' "$(tr '\n' ' ' < "$work/response/responses")" '2 4 '
+same 'its curves, zero left out' "$(tr '\n' ' ' < "$work/response/response.2")" '"node 7 x" 5,0.5 10,0.75   "node 9 x" 5,0.25 '
+same 'one curve' "$(tr '\n' ' ' < "$work/response/response.4")" '"node 7 x" 5,0.001 '
+
 # refused DECK WORDS: ends with a status and says so
 refused() {
    if $figures/deck.sh "$program" "$1" "$work" > "$work/said" 2>&1; then fail "$1: drawn"; else says "$1" "$work/said" "$2"; fi

@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# Pictures of the joints of any deck, from its joint history: pressure and deflection along the joint, loops. Needs gnuplot.
+# Pictures of any deck: of its joints from their history, pressure and deflection along the joint, loops; of its response to loads
+# that oscillate, amplitude over frequency. Needs gnuplot.
 #
 #    deck.sh PROGRAM DECK WORK_FOLDER
 set -u
@@ -19,19 +20,23 @@ tables="$work/$name.tables"
 rm -rf "$tables"
 mkdir "$tables"
 awk -v folder="$tables" -f "$here/joint_tables.awk" "$work/$name.joint.csv" || exit 1
-[ -s "$tables/joints" ] || { echo "$deck has no joint: nothing is drawn"; exit 1; }
+if [ -s "$work/$name.response.csv" ]; then
+   awk -v folder="$tables" -f "$here/response_tables.awk" "$work/$name.response.csv" || exit 1
+fi
+[ -s "$tables/joints" ] || [ -s "$tables/responses" ] ||
+   { echo "$deck has no joint, nor a response: nothing is drawn"; exit 1; }
+touch "$tables/joints" "$tables/responses"
 # in the listing: UNITS, LABELS ONLY: LENGTH MM, FORCE KGF
 read -r length force <<< "$(sed -n 's/^ *UNITS, LABELS ONLY: LENGTH \([^,]*\), FORCE \(.*\)/\1 \2/p' "$work/$name.out" |
    tr 'A-Z' 'a-z' | sed -E 's/ ([km]?)n *$/ \1N/; q')"
 
 quoted() { printf "'%s'" "${1//\'/\'\'}"; }
-draw() { # JOINT SHAPE QUANTITY
-   local picture="$work/$name.$1.$3.png"
-   gnuplot -e "set terminal pngcairo size 1000,700 font 'Helvetica,14'; set output $(quoted "$picture")" \
-      -e "folder = $(quoted "$tables/"); joint = '$1'; shape = '$2'; quantity = '$3'; deck = $(quoted "$name")" \
+draw() { # PICTURE SETTINGS SCRIPT
+   gnuplot -e "set terminal pngcairo size 1000,700 font 'Helvetica,14'; set output $(quoted "$1")" \
+      -e "folder = $(quoted "$tables/"); deck = $(quoted "$name"); $2" \
       -e "length_unit = '${length:-}'; force_unit = '${force:-}'" \
-      "$here/style.inc" "$here/joint.inc" || exit 1
-   echo "$picture"
+      "$here/style.inc" "$here/$3" || exit 1
+   echo "$1"
 }
 while read -r joint shape quantities; do
    # the largest pressure that an element ever had: the first, the last and three between
@@ -40,5 +45,10 @@ while read -r joint shape quantities; do
          END { for (k = 0; k < 5 && NR; k++) { i = 1 + int(k*(NR - 1)/4 + 0.5); if (!seen[i]++) print element[i] } }' \
       > "$tables/$joint.chosen"
    awk -v joint="$joint" -f "$here/joint_loops.awk" "$tables/$joint.chosen" "$work/$name.joint.csv" > "$tables/$joint.loops"
-   for quantity in $quantities; do draw "$joint" "$shape" "$quantity"; done
+   for quantity in $quantities; do
+      draw "$work/$name.$joint.$quantity.png" "joint = '$joint'; shape = '$shape'; quantity = '$quantity'" joint.inc
+   done
 done < "$tables/joints"
+while read -r stage; do
+   draw "$work/$name.response.$stage.png" "stage = '$stage'" response.inc
+done < "$tables/responses"

@@ -44,7 +44,8 @@ contains
             n = n + 1
             model%bars(n)%id = rod%id
             call find_nodes(deck, rod%line, rod%nodes, model, model%bars(n)%nodes, first=2)
-            call build_bar(deck, rod%line, prod_card(line=rod%line, material=rod%material, area=rod%area), model, model%bars(n))
+            call build_bar(deck, rod%line, prod_card(line=rod%line, material=rod%material, area=rod%area, &
+                           extra_mass=rod%extra_mass), model, model%bars(n))
          end associate
       end do
       model%bars = model%bars(:n)
@@ -53,7 +54,7 @@ contains
       end do
    end subroutine build_bars
 
-   !> The stiffness of BAR, whose card is on LINE and whose nodes are known, with the section of PROD.
+   !> The stiffness and mass of BAR, whose card is on LINE and whose nodes are known, with the section of PROD.
    subroutine build_bar(deck, line, prod, model, bar)
       type(checked_deck), intent(in) :: deck
       integer, intent(in)            :: line
@@ -77,6 +78,7 @@ contains
       end if
       bar%direction = spread(along/length, 2, 2)
       bar%stiffness = deck%bulk%mat1(material)%e*prod%area/length
+      bar%mass = deck%bulk%mass_factor*(deck%bulk%mat1(material)%rho*prod%area + prod%extra_mass)*length
       bar%expansion = deck%bulk%mat1(material)%alpha*length
       bar%reference = deck%bulk%mat1(material)%reference
       if (model%axisymmetric .and. abs(bar%direction(1, 1)) > 1.0e-9_wp) call deck%errors%add(line, 'bar '// &

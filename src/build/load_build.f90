@@ -1,6 +1,7 @@
 !> Loads: which forces act, and which displacements are prescribed, at the end of every stage.
 module load_build
    use body_elements, only: element_weight
+   use case_entries, only: set_reference
    use deck_check, only: checked_deck
    use element_kinds, only: max_nodes, max_side_nodes
    use kinds, only: wp
@@ -20,39 +21,55 @@ module load_build
 
 contains
 
-   !> The total load at the end of each stage.
-   subroutine build_loads(deck, model)
+   !> The total load at the end of each stage, and the amplitude of the load that oscillates about it.
+   subroutine build_loads(deck, model, oscillating)
       type(checked_deck), intent(in)  :: deck
       type(model_type), intent(inout) :: model
+      type(stage_load_type), allocatable, intent(out) :: oscillating(:) !! (stages) DLOAD, nothing where none is given
       type(pressed_side), allocatable :: pressed(:)
       integer, allocatable  :: node(:)     ! of the cards of nodal forces
       real(wp), allocatable :: force(:, :) ! likewise
-      integer :: i, k, s
+      integer :: s
 
       call find_nodal_forces(deck, model, node, force)
       call check_load_cards(deck, model)
       call check_kept(deck, model)
       call find_pressed_sides(deck, model, pressed)
-      allocate (model%stage_loads(size(deck%control%stages)))
+      allocate (model%stage_loads(size(deck%control%stages)), oscillating(size(deck%control%stages)))
       do s = 1, size(deck%control%stages)
-         associate (loads => model%stage_loads(s), reference => deck%control%stages(s)%load)
+         associate (loads => model%stage_loads(s), stage => deck%control%stages(s))
             allocate (loads%node(size(deck%bulk%force)), loads%force(3, size(deck%bulk%force)))
-            call keep_moved(deck, model, reference%id, loads)
-            if (reference%id == 0) cycle
-            i = findloc(deck%bulk%load%set, reference%id, dim=1)
-            if (i > 0) then
-               associate (load => deck%bulk%load(i))
-                  do k = 1, size(load%sets)
-                     call add_set(deck, model, node, force, pressed, load%sets(k), load%scale*load%factors(k), loads)
-                  end do
-               end associate
-            else
-               call add_set(deck, model, node, force, pressed, reference%id, 1.0_wp, loads)
-               if (.not. has_set(deck%bulk, reference%id)) call deck%errors%add(reference%line, &
-                  'LOAD: there is no FORCE or LOAD with set '//integer_text(reference%id)//nor_others)
-            end if
+            call keep_moved(deck, model, stage%load%id, loads)
+            call add_case(stage%load, 'LOAD', loads)
+            allocate (oscillating(s)%node(0), oscillating(s)%force(3, 0))
+            call add_case(stage%vibration%load, 'DLOAD', oscillating(s))
          end associate
       end do
+
+   contains
+
+      !> Add to LOADS the load set, or the sum of sets, that the entry KEY of case control asks for.
+      subroutine add_case(reference, key, loads)
+         type(set_reference), intent(in)      :: reference
+         character(*), intent(in)             :: key
+         type(stage_load_type), intent(inout) :: loads
+         integer :: i, k
+
+         if (reference%id == 0) return
+         i = findloc(deck%bulk%load%set, reference%id, dim=1)
+         if (i > 0) then
+            associate (load => deck%bulk%load(i))
+               do k = 1, size(load%sets)
+                  call add_set(deck, model, node, force, pressed, load%sets(k), load%scale*load%factors(k), loads)
+               end do
+            end associate
+         else
+            call add_set(deck, model, node, force, pressed, reference%id, 1.0_wp, loads)
+            if (.not. has_set(deck%bulk, reference%id)) call deck%errors%add(reference%line, &
+               key//': there is no FORCE or LOAD with set '//integer_text(reference%id)//nor_others)
+         end if
+      end subroutine add_case
+
    end subroutine build_loads
 
    !> Add FACTOR times everything of SET to LOADS: nodal forces one by one, distributed loads summed up at every node.
@@ -96,7 +113,7 @@ contains
             acceleration = factor*bulk%gravity(i)%acceleration
             if (s > 0) acceleration = matmul(model%systems(s)%axes, acceleration)
             call add_gravity(model, acceleration, spread_out)
-            call add_mass_weights(deck, model, acceleration, spread_out)
+            call add_mass_weights(model, acceleration, spread_out)
          end do
       end associate
       do node = 1, model%n_nodes
@@ -190,16 +207,16 @@ contains
    end subroutine add_gravity
 
    !> The weight of masses at nodes.
-   subroutine add_mass_weights(deck, model, acceleration, force)
-      type(checked_deck), intent(in) :: deck
-      type(model_type), intent(in)   :: model
-      real(wp), intent(in)           :: acceleration(3)
-      real(wp), intent(inout)        :: force(:, :) !! (3, n_nodes)
-      integer :: i, node
+   pure subroutine add_mass_weights(model, acceleration, force)
+      type(model_type), intent(in) :: model
+      real(wp), intent(in)         :: acceleration(3)
+      real(wp), intent(inout)      :: force(:, :) !! (3, n_nodes)
+      integer :: i
 
-      do i = 1, size(deck%bulk%mass)
-         node = model%node_table%find(deck%bulk%mass(i)%node)
-         if (node > 0) force(:, node) = force(:, node) + deck%bulk%mass_factor*deck%bulk%mass(i)%mass*acceleration
+      do i = 1, size(model%masses)
+         associate (node => model%masses(i)%node)
+            force(:, node) = force(:, node) + model%masses(i)%mass*acceleration
+         end associate
       end do
    end subroutine add_mass_weights
 

@@ -27,7 +27,6 @@ contains
 
       call check_surface_loads(deck, model)
       call check_gravity(deck, model)
-      call check_masses(deck, model)
       call check_displacements(deck, model)
       call check_combinations(deck)
    end subroutine check_load_cards
@@ -115,22 +114,6 @@ contains
          end associate
       end do
    end subroutine check_gravity
-
-   !> CONM2 stands at nodes that some element holds.
-   subroutine check_masses(deck, model)
-      type(checked_deck), intent(in) :: deck
-      type(model_type), intent(in)   :: model
-      integer :: i, node
-
-      do i = 1, size(deck%bulk%mass)
-         associate (card => deck%bulk%mass(i))
-            node = model%node_table%find(card%node)
-            if (node == 0) cycle
-            if (.not. model%used(node)) &
-               call deck%field_error(card%line, 'G', 'node '//integer_text(card%node)//' belongs to no element')
-         end associate
-      end do
-   end subroutine check_masses
 
    !> SPCD moves components that are held.
    subroutine check_displacements(deck, model)

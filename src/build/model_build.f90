@@ -13,8 +13,9 @@ module model_build
    use joint_build, only: build_joints
    use joint_split, only: split_shared_surfaces
    use load_build, only: build_loads
+   use mass_build, only: build_masses, check_mass
    use mesh_build, only: build_mesh, marked_sides
-   use model_data, only: model_type, n_sections
+   use model_data, only: model_type, n_sections, stage_load_type
    use named_nodes, only: check_named_nodes
    use rigid_build, only: build_dependents
    use rotation_build, only: build_rotations
@@ -25,6 +26,7 @@ module model_build
    use support_build, only: build_supports
    use surface_build, only: build_surfaces
    use temperature_build, only: build_temperatures
+   use vibration_build, only: plan_vibrations
    implicit none
    private
 
@@ -42,6 +44,7 @@ contains
       type(deck_error_list), intent(inout), target :: errors
       type(checked_deck) :: checked
       type(marked_sides) :: sides
+      type(stage_load_type), allocatable :: oscillating(:)
 
       if (.not. deck%is_whole) return
       call checked%start(deck, errors)
@@ -64,18 +67,22 @@ contains
       call build_frames(checked, model)
       call build_springs(checked, model)
       call build_dependents(checked, model)
-      call build_loads(checked, model)
+      call build_masses(checked, model)
+      call build_loads(checked, model, oscillating)
       call build_temperatures(checked, model)
       call find_shown_nodes(deck, model, plan, errors)
+      call plan_vibrations(checked, model, oscillating, plan)
       if (.not. any(model%used)) call errors%add(0, 'nothing to solve: expected body elements or interface elements')
       if (errors%any()) return
       ! what all of it together does
       call find_parts(model, .false.)          ! bolts that are being tightened connect nothing yet
       call find_determinate_joints(model)
       call find_first_pressures(plan%stages(1)%shares(1), deck%control%method /= method_step, model, errors)
-      if (all(model%bars%bolt == 0) .and. n_sections(model) == 0) return
-      call find_parts(model, .true.)
-      call find_determinate_joints(model)
+      if (any(model%bars%bolt > 0) .or. n_sections(model) > 0) then
+         call find_parts(model, .true.)
+         call find_determinate_joints(model)
+      end if
+      call check_mass(checked, model)
    end subroutine build_model
 
 end module model_build

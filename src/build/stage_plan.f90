@@ -6,10 +6,11 @@ module stage_plan
    use kinds, only: wp
    use stage_entries, only: output_all, output_last
    use text_tools, only: integer_text
+   use vibration_plan, only: vibration_plan_type
    implicit none
    private
 
-   public :: plan_stages, where_in_plan, factorisations_of, shows_bodies
+   public :: any_modes, any_response, plan_stages, where_in_plan, factorisations_of, shows_bodies
 
    type, public :: planned_stage
       integer :: id = 0
@@ -20,6 +21,7 @@ module stage_plan
       logical, allocatable :: shown(:)      !! nodes that its tables are limited to; not allocated: all
       character(:), allocatable :: shown_words !! of that, behind a title
       real(wp), allocatable :: shares(:)    !! of the stage's load change, one an increment, sum 1
+      type(vibration_plan_type), allocatable :: vibration !! at its end; not allocated: none is asked
    end type planned_stage
 
    type, public :: stage_plan_type
@@ -60,6 +62,25 @@ contains
          end associate
       end do
    end subroutine plan_stages
+
+   !> Whether natural modes are asked for after any stage.
+   pure logical function any_modes(plan)
+      type(stage_plan_type), intent(in) :: plan
+      integer :: s
+
+      any_modes = any([(allocated(plan%stages(s)%vibration), s = 1, size(plan%stages))])
+   end function any_modes
+
+   !> Whether the response to an oscillating load is asked for after any stage.
+   pure logical function any_response(plan)
+      type(stage_plan_type), intent(in) :: plan
+      integer :: s
+
+      any_response = .false.
+      do s = 1, size(plan%stages)
+         if (allocated(plan%stages(s)%vibration)) any_response = any_response .or. allocated(plan%stages(s)%vibration%response)
+      end do
+   end function any_response
 
    !> 'stage 2, increment 7', for messages.
    pure function where_in_plan(plan, stage, increment) result(words)

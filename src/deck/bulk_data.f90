@@ -54,12 +54,14 @@ module bulk_data
    type, public :: prod_card
       integer  :: line = 0, id = 0, material = 0
       real(wp) :: area = 0.0_wp
+      real(wp) :: extra_mass = 0.0_wp                   ! NSM, by length
    end type prod_card
 
    !> CONROD: a bar with its own section.
    type, public :: conrod_card
       integer  :: line = 0, id = 0, nodes(2) = 0, material = 0
       real(wp) :: area = 0.0_wp
+      real(wp) :: extra_mass = 0.0_wp                   ! NSM, by length
    end type conrod_card
 
    !> CELAS1, CELAS2 (between component COMPONENTS(1) of node 1 and COMPONENTS(2) of node 2) and CBUSH (along three axes).
@@ -84,6 +86,7 @@ module bulk_data
    type, public :: mass_card
       integer  :: line = 0, id = 0, node = 0
       real(wp) :: mass = 0.0_wp
+      integer  :: system = 0                            ! CID of the inertia, 0: global axes
       real(wp) :: inertia(6) = 0.0_wp                   ! I11, I21, I22, I31, I32, I33, about the node
    end type mass_card
 
@@ -263,6 +266,28 @@ module bulk_data
       real(wp), allocatable :: shares(:)                ! of the stage's load change, add up to 1
    end type jincr_card
 
+   !> EIGRL: which natural frequencies, how their shapes are scaled.
+   type, public :: eigrl_card
+      integer  :: line = 0, id = 0
+      logical  :: has_lowest = .false., has_highest = .false.
+      real(wp) :: lowest = 0.0_wp, highest = 0.0_wp     ! V1, V2
+      integer  :: most = 0                              ! ND, 0: blank
+      logical  :: unit_mass = .true.                    ! NORM = MASS
+   end type eigrl_card
+
+   !> FREQ1: frequencies FIRST + k STEP, k = 0 to N.
+   type, public :: freq1_card
+      integer  :: line = 0, set = 0, n = 0
+      real(wp) :: first = 0.0_wp, step = 0.0_wp
+   end type freq1_card
+
+   !> TABDMP1: damping over frequency, in ascending order.
+   type, public :: tabdmp1_card
+      integer      :: line = 0, id = 0
+      character(8) :: kind = 'G'                        ! G, CRIT, Q
+      real(wp), allocatable :: frequency(:), value(:)
+   end type tabdmp1_card
+
    !> All of them.
    type, public :: bulk_data_type
       integer :: n_cards = 0                               !! of all kinds
@@ -301,6 +326,9 @@ module bulk_data
       type(jshear_card), allocatable       :: jshear(:)
       type(jgap_card), allocatable         :: jgap(:)
       type(jincr_card), allocatable        :: jincr(:)
+      type(eigrl_card), allocatable        :: eigrl(:)
+      type(freq1_card), allocatable        :: freq1(:)
+      type(tabdmp1_card), allocatable      :: tabdmp1(:)
    end type bulk_data_type
 
 contains

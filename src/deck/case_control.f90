@@ -1,7 +1,7 @@
 !> Case control: everything before BEGIN BULK. What to do, stage by stage; the bulk data says with what.
 module case_control
    use case_entries, only: check_repeated, choose, cut_entry, entry_type, global_keys, is_own_key, read_number, set_reference, &
-                           value_error
+                           stage_keys, value_error
    use case_sets, only: number_set, read_set
    use deck_errors, only: deck_error_list
    use deck_numbers, only: parse_integer, parse_real
@@ -11,6 +11,7 @@ module case_control
    use kinds, only: wp
    use stage_entries, only: read_stage_entry, stage_type
    use text_tools, only: integer_text, upper
+   use vibration_entries, only: check_vibration
    implicit none
    private
 
@@ -36,6 +37,7 @@ module case_control
       integer :: restart = no_restart                    !! increments of a stage from restart file to restart file
       logical :: echo  = .true.
       logical :: echo_asked = .false.                    !! by ECHO: however many cards there are
+      logical :: lumped = .false.                        !! MASS = LUMPED: the mass of elements stands at their nodes
       type(number_set), allocatable :: sets(:)
       real(wp) :: mass_factor = 1.0_wp                   !! PARAM WTMASS: densities are multiplied by it
       type(entry_tally_type) :: idle                     !! entries without effect
@@ -114,7 +116,7 @@ contains
       call note_idle_sets(control)
    end subroutine read_case_control
 
-   !> Sets that no OUTPUT names have no effect.
+   !> Sets that no OUTPUT and no RESPONSE names have no effect.
    pure subroutine note_idle_sets(control)
       type(case_control_type), intent(inout) :: control
       integer :: i, s
@@ -124,9 +126,12 @@ contains
       do i = 1, size(control%sets)
          used = .false.
          do s = 1, size(control%stages)
-            if (.not. allocated(control%stages(s)%only)) cycle
-            associate (only => control%stages(s)%only)
-               used = used .or. any(only%id == control%sets(i)%id .and. .not. only%is_mark)
+            associate (stage => control%stages(s))
+               if (allocated(stage%only)) used = used .or. any(stage%only%id == control%sets(i)%id .and. .not. stage%only%is_mark)
+               if (.not. allocated(stage%vibration%response)) cycle
+               associate (only => stage%vibration%response)
+                  used = used .or. any(only%id == control%sets(i)%id .and. .not. only%is_mark)
+               end associate
             end associate
          end do
          if (.not. used) call control%idle%add('SET')
@@ -149,18 +154,20 @@ contains
       end if
       if (n > 0 .and. any(global_keys == entry%key)) &
          call errors%add(entry%line, entry%key//': holds for all stages, expected above the first SUBCASE')
-      if (entry%describers /= '' .and. entry%key /= 'ECHO' .and. entry%key /= 'TEMPERATURE') &
+      if (entry%describers /= '' .and. all(entry%key /= ['ECHO       ', 'TEMPERATURE', 'MODES      '])) &
          call errors%add(entry%line, entry%key//'('//entry%describers//'): expected no parentheses behind '//entry%key)
       choice = 0
-      select case (entry%key)
-      case ('SUBCASE')
-         call start_stage(entry, control, common, errors)
-      case ('LABEL', 'LOAD', 'INCR', 'SPC', 'MPC', 'OUTPUT', 'TEMPERATURE')
+      if (any(stage_keys == entry%key)) then
          if (n == 0) then
             call read_stage_entry(entry, common, errors)
          else
             call read_stage_entry(entry, control%stages(n), errors)
          end if
+         return
+      end if
+      select case (entry%key)
+      case ('SUBCASE')
+         call start_stage(entry, control, common, errors)
       case ('SOL') ! linear and nonlinear statics by their numbers and names; old decks write 1,0
          choice = scan(entry%value//',', ', ')
          if (index('|1|24|101|106|SESTATIC|SESTATICS|STATIC|STATICS|NLSTATIC|', &
@@ -184,6 +191,9 @@ contains
       case ('AVERAGE')
          call choose(entry, '|YES|NO|', choice, errors)
          control%average = choice /= 2
+      case ('MASS')
+         call choose(entry, '|CONSISTENT|LUMPED|', choice, errors)
+         control%lumped = choice == 2
       case ('SOLVER')
          call choose(entry, '|AUTO|SKYLINE|TREE|PETSC|MUMPS|', control%solver, errors)
          if (any(control%solver == [solver_petsc, solver_mumps]) .and. .not. has_petsc) then
@@ -265,6 +275,7 @@ contains
                'MPC: all stages must have the same equations; give MPC above the first SUBCASE')
          end associate
       end do
+      call check_vibration(control%stages%vibration, control%stages%line, errors)
    end subroutine check_stages
 
 end module case_control

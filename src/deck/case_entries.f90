@@ -10,9 +10,11 @@ module case_entries
    public :: cut_entry, check_repeated, choose, is_own_key, read_number, value_error
 
    !> Keys that hold for all stages, and those of a stage.
-   character(8), parameter, public :: global_keys(11) = [character(8) :: 'SOL', 'TITLE', 'UNITS', 'METHOD', 'TOL', 'PRESSURE', &
-      'CARRY', 'AVERAGE', 'SOLVER', 'ECHO', 'RESTART']
-   character(11), parameter :: stage_keys(7) = [character(11) :: 'SPC', 'MPC', 'LABEL', 'LOAD', 'INCR', 'OUTPUT', 'TEMPERATURE']
+   character(8), parameter, public :: global_keys(12) = [character(8) :: 'SOL', 'TITLE', 'UNITS', 'METHOD', 'TOL', 'PRESSURE', &
+      'CARRY', 'AVERAGE', 'SOLVER', 'ECHO', 'RESTART', 'MASS']
+   character(11), parameter, public :: stage_keys(14) = [character(11) :: 'SPC', 'MPC', 'LABEL', 'LOAD', 'INCR', 'OUTPUT', &
+      'TEMPERATURE', 'MODES', 'STIFFNESS', 'AMPLITUDE', 'FREQUENCY', 'DLOAD', 'SDAMPING', 'RESPONSE']
+   character(11), parameter :: short_keys(3) = [character(11) :: 'TEMPERATURE', 'FREQUENCY', 'SDAMPING'] ! four letters will do
 
    !> A key with a number, and the line it stands on (0: not given).
    type, public :: set_reference
@@ -35,7 +37,7 @@ contains
       character(*), intent(in)      :: line
       integer, intent(in)           :: at
       type(entry_type), intent(out) :: entry
-      integer :: first, last, closing
+      integer :: first, last, closing, k
 
       entry%line = at
       entry%describers = ''
@@ -43,7 +45,9 @@ contains
       last = scan(line(first:), ' =,(')
       last = merge(len(line), first + last - 2, last == 0)
       entry%key = upper(line(first:last))
-      if (len(entry%key) >= 4 .and. index('TEMPERATURE', entry%key) == 1) entry%key = 'TEMPERATURE'
+      do k = 1, size(short_keys)
+         if (len(entry%key) >= 4 .and. index(short_keys(k), entry%key) == 1) entry%key = trim(short_keys(k))
+      end do
       first = last + max(1, verify(line(last + 1:), ' '))
       if (line(first:min(first, len(line))) == '(') then
          closing = index(line(first:), ')')

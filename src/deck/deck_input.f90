@@ -22,6 +22,7 @@ module deck_input
    use system_cards, only: fill_grid_defaults, read_grid_defaults, read_system, system_names
    use temperature_cards, only: read_temperature
    use unused_cards, only: count_unused
+   use vibration_cards, only: read_eigrl, read_freq1, read_tabdmp1
    implicit none
    private
 
@@ -80,6 +81,9 @@ contains
       call cards%add_kinds(['JSHEAR'], read_jshear)
       call cards%add_kinds(['JGAP'], read_jgap)
       call cards%add_kinds(['JINCR'], read_jincr)
+      call cards%add_kinds(['EIGRL'], read_eigrl)
+      call cards%add_kinds(['FREQ1'], read_freq1)
+      call cards%add_kinds(['TABDMP1'], read_tabdmp1)
       call cards%add_kinds(['PARAM'], read_parameter)
    end subroutine list_cards
 

@@ -34,8 +34,9 @@ contains
             call idle%add(control_habit(entry%key))
          else
             call errors%add(entry%line, ''''//entry%key(:min(40, len(entry%key)))//''' is no key of case control; '// &
-                            'expected TITLE, UNITS, METHOD, TOL, PRESSURE, CARRY, AVERAGE, SOLVER, ECHO, SPC, MPC, SUBCASE, '// &
-                            'LABEL, LOAD, TEMPERATURE(LOAD), INCR, OUTPUT or BEGIN BULK')
+                            'expected TITLE, UNITS, METHOD, TOL, PRESSURE, CARRY, AVERAGE, SOLVER, MASS, RESTART, ECHO, SPC, '// &
+                            'MPC, SUBCASE, LABEL, LOAD, TEMPERATURE(LOAD), INCR, OUTPUT, MODES, STIFFNESS, AMPLITUDE, '// &
+                            'FREQUENCY, DLOAD, SDAMPING, RESPONSE or BEGIN BULK')
          end if
       end select
    end subroutine read_habit

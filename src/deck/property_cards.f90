@@ -76,12 +76,12 @@ contains
       integer :: i
 
       call cards%set_table([integer_field(['PID', 'MID']), real_field('A', above=0.0_wp), any_field(['J', 'C']), &
-         blank_field('NSM')])
+         real_field('NSM', default=0.0_wp, least=0.0_wp)])
       allocate (bulk%prod(cards%n))
       do i = 1, cards%n
          call cards%next(values)
          bulk%prod(i) = prod_card(line=cards%line, id=values%integers(1), material=values%integers(2), &
-                                  area=values%reals(3))
+                                  area=values%reals(3), extra_mass=values%reals(6))
       end do
    end subroutine read_prod
 
@@ -93,12 +93,12 @@ contains
       integer :: i
 
       call cards%set_table([integer_field(['EID', 'G1 ', 'G2 ', 'MID']), real_field('A', above=0.0_wp), any_field(['J', 'C']), &
-         blank_field('NSM')])
+         real_field('NSM', default=0.0_wp, least=0.0_wp)])
       allocate (bulk%conrod(cards%n))
       do i = 1, cards%n
          call cards%next(values)
          bulk%conrod(i) = conrod_card(line=cards%line, id=values%integers(1), nodes=values%integers(2:3), &
-                                      material=values%integers(4), area=values%reals(5))
+                                      material=values%integers(4), area=values%reals(5), extra_mass=values%reals(8))
       end do
    end subroutine read_conrod
 

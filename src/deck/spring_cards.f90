@@ -140,7 +140,7 @@ contains
       do i = 1, cards%n
          call cards%next(values)
          bulk%mass(i) = mass_card(line=cards%line, id=values%integers(1), node=values%integers(2), mass=values%reals(4), &
-                                  inertia=values%reals(9:14))
+                                  system=values%integers(3), inertia=values%reals(9:14))
       end do
    end subroutine read_mass
 

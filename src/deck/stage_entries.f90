@@ -2,20 +2,15 @@
 module stage_entries
    use case_entries, only: choose, entry_type, read_number, set_reference, value_error
    use deck_errors, only: deck_error_list
-   use deck_numbers, only: parse_integer
+   use node_limits, only: limit_type, read_limit
    use text_tools, only: upper
+   use vibration_entries, only: is_vibration_key, read_vibration_entry, vibration_entries_type
    implicit none
    private
 
    public :: read_stage_entry
 
    integer, parameter, public :: output_none = 0, output_last = 1, output_joint = 2, output_all = 3 !! OUTPUT =
-
-   !> What the tables of a stage are limited to: a SET of node numbers, or the nodes of a marked surface.
-   type, public :: limit_type
-      logical :: is_mark = .false.
-      integer :: id = 0, line = 0
-   end type limit_type
 
    !> One SUBCASE: a stage of the load history.
    type, public :: stage_type
@@ -35,16 +30,18 @@ module stage_entries
       logical :: condensed = .false. !! [k_b] condensed on the interface
       logical :: along_cd = .false. !! vectors at nodes along their systems CD
       type(limit_type), allocatable :: only(:) !! not allocated: the tables have all nodes and elements
+      type(vibration_entries_type) :: vibration !! MODES and what goes with it
    end type stage_type
 
 contains
 
-   !> One of LABEL, LOAD, INCR, SPC, TEMPERATURE, MPC and OUTPUT of STAGE.
+   !> One of LABEL, LOAD, INCR, SPC, TEMPERATURE, MPC, OUTPUT and the keys of vibration of STAGE.
    subroutine read_stage_entry(entry, stage, errors)
       type(entry_type), intent(in)         :: entry
       type(stage_type), intent(inout)      :: stage
       type(deck_error_list), intent(inout) :: errors
 
+      if (is_vibration_key(entry%key)) call read_vibration_entry(entry, stage%vibration, errors)
       select case (entry%key)
       case ('LABEL')
          stage%label = entry%value
@@ -86,6 +83,7 @@ contains
       stage%along_cd = .false.
       levels = 0
       twice = .false.
+      word = ''
       rest = upper(entry%value)
       if (rest == '') call value_error(entry, 'ALL or JOINT or LAST or NONE or '//beside, errors)
       do while (rest /= '')
@@ -105,7 +103,8 @@ contains
          case ('CONDENSED'); call switch_on(stage%condensed)
          case ('CD');     call switch_on(stage%along_cd)
          case default
-            call read_limit(ok)
+            call read_limit(word, entry%line, stage%only, ok)
+            levels = levels - 1
             if (.not. ok) then
                call value_error(entry, 'ALL, JOINT, LAST or NONE, and with a comma '//beside, errors)
                return
@@ -116,22 +115,6 @@ contains
       if (levels > 1 .or. twice) call value_error(entry, 'one of ALL, JOINT, LAST, NONE, and with commas '//beside, errors)
 
    contains
-
-      !> WORD as 'SET 5' or 'PMARK 20'.
-      subroutine read_limit(ok)
-         logical, intent(out) :: ok
-         type(limit_type) :: limit
-
-         ok = index(word, 'SET ') == 1 .or. index(word, 'PMARK ') == 1
-         if (.not. ok) return
-         limit%is_mark = word(1:1) == 'P'
-         limit%line = entry%line
-         call parse_integer(trim(adjustl(word(index(word, ' '):))), limit%id, ok)
-         if (.not. ok) return
-         if (.not. allocated(stage%only)) allocate (stage%only(0))
-         stage%only = [stage%only, limit]
-         levels = levels - 1
-      end subroutine read_limit
 
       !> A word that stands beside a level, not in place of one.
       subroutine switch_on(switch)

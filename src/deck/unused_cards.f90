@@ -31,7 +31,7 @@ contains
       call count_spring_properties(.true., 'PBUSH')
       if (size(bulk%system) == 0) return
       call find_named(bulk%system%id, [bulk%system%reference, bulk%force%system, bulk%pressure%system, bulk%gravity%system, &
-                                       bulk%spring%system, without_repeats(bulk%grid%cp), &
+                                       bulk%spring%system, bulk%mass%system, without_repeats(bulk%grid%cp), &
                                        without_repeats(bulk%grid%cd)], named)
       do i = 1, size(named)
          associate (card => bulk%system(i))

@@ -3,12 +3,12 @@
 !! Source: Zienkiewicz, Taylor, Zhu, The Finite Element Method, 6th ed., section 5.11; of the fifth degree in triangles and
 !! tetrahedra: Stroud, Approximate calculation of multiple integrals, 1971, T2:5-1 and T3:5-1.
 module quadrature
-   use element_kinds, only: kind_penta15, kind_tetra10, kind_tria3, kind_tria6, n_kinds, n_shapes
+   use element_kinds, only: kind_penta15, kind_tetra10, kind_tria3, kind_tria6, n_kinds, n_linear_kinds, n_shapes
    use kinds, only: wp
    implicit none
    private
 
-   public :: body_rule, side_rule, stress_rule, volume_rule
+   public :: body_rule, mass_rule, side_rule, stress_rule, volume_rule
 
    integer, parameter, public :: max_points = 27
 
@@ -126,6 +126,15 @@ contains
          call body_rule(kind, axisymmetric, rule)
       end select
    end subroutine volume_rule
+
+   !> The rule for products of two shape functions over the body of an element: that of the kind of second order with the same
+   !! corners. Of linear elements the mass is exact, and its first and second moments are, however these are distorted.
+   pure subroutine mass_rule(kind, rule)
+      integer, intent(in) :: kind            !! kind_tria3 ... kind_hexa20
+      type(integration_rule), intent(out) :: rule
+
+      call volume_rule(merge(kind + n_linear_kinds, kind, kind <= n_linear_kinds), .false., rule)
+   end subroutine mass_rule
 
    !> The points where stresses are taken to be continued to the nodes, as many as corners or one: where strains of second order
    !! are at their best. Source: Barlow, Optimal stress locations in finite element models, Int. J. Numer. Meth. Engng 10 (1976)

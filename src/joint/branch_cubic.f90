@@ -5,7 +5,7 @@ module branch_cubic
    implicit none
    private
 
-   public :: cubic_value, cubic_slope, cubic_slope_derivatives, cubic_secant, cubic_work
+   public :: cubic_value, cubic_slope, cubic_slope_derivatives, cubic_secant, cubic_work, cubic_loop
    public :: cubic_by_pressure, value_on_way, slope_on_way
 
    !> P(d) = a_1 d + a_2 d**2 + a_3 d**3, a_k = a_k1 + a_k2 p.
@@ -132,5 +132,16 @@ contains
       a = at_pressure(curve, p)
       work = d**2*(a(1)/2.0_wp + d*(a(2)/3.0_wp + d*a(3)/4.0_wp))
    end function cubic_work
+
+   !> 8 times that integral less 4 P(D) D: the area of the loop from -D to D by Masing's rule, of which the linear term is no part
+   !! [pressure x length]. Below zero where the curve hardens.
+   elemental real(wp) function cubic_loop(curve, d, p) result(loss)
+      type(cubic), intent(in) :: curve
+      real(wp), intent(in)    :: d, p
+      real(wp) :: a(3)
+
+      a = at_pressure(curve, p)
+      loss = -d**3*(4.0_wp/3.0_wp*a(2) + 2.0_wp*d*a(3))
+   end function cubic_loop
 
 end module branch_cubic

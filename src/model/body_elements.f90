@@ -18,7 +18,7 @@ module body_elements
    private
 
    public :: coupled_stiffness, element_centre, element_stress, element_nodal_stress, node_stresses, whole_stress, element_weight
-   public :: internal_forces, element_thermal_forces, add_thermal_forces, law_of
+   public :: felt_stiffness, internal_forces, element_thermal_forces, add_thermal_forces, law_of
 
 contains
 

@@ -97,9 +97,17 @@ module model_data
       integer  :: bolt = 0                   !! BOLT id, 0: none
       real(wp) :: preload = 0.0_wp           !! of a bolt [force]
       integer  :: stage = 0                  !! position of the stage that tightens it; a bolt is elastic from its end on
+      real(wp) :: mass = 0.0_wp              !! (rho A + NSM) L of a bar [force x time^2/length]
       real(wp) :: expansion = 0.0_wp         !! alpha L [length/temperature]
       real(wp) :: reference = 0.0_wp         !! TREF [temperature]
    end type bar_type
+
+   !> CONM2: a mass at a node.
+   type, public :: point_mass_type
+      integer  :: node = 0
+      real(wp) :: mass = 0.0_wp              !! [force x time^2/length]
+      real(wp) :: inertia(3, 3) = 0.0_wp     !! about the node, in global axes, which rotations feel [force x time^2 x length]
+   end type point_mass_type
 
    !> The section at which a solid bolt is cut. Its nodes move with the marked side; for the elements behind it they are where
    !! they would be with the overlap g along DIRECTION on top: u + g direction. g is component 1 of a node of its own.
@@ -162,6 +170,8 @@ module model_data
       type(joint_type), allocatable    :: joints(:)
       type(interface_element), allocatable :: interface(:)
       type(bar_type), allocatable          :: bars(:)
+      type(point_mass_type), allocatable   :: masses(:)
+      logical :: lumped = .false.            !! MASS = LUMPED: the mass of elements stands at their nodes
       type(section_type), allocatable      :: sections(:)
       type(rotation_type), allocatable     :: rotations(:)
       integer, allocatable  :: node_section(:)       !! (n_nodes) the section that a node lies in, 0: none; where there are any

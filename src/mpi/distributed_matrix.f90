@@ -106,7 +106,8 @@ contains
       call check(mat_set_values_blocked(stiffness%matrix, size(blocks), blocks, size(blocks), blocks, values, add_values))
    end subroutine add_blocks
 
-   !> Assemble the matrix; held components get the identity, times the largest entry of the diagonal: STIFFEST, of all.
+   !> Assemble the matrix; held components get the identity, times the largest entry of the diagonal: STIFFEST, of all. Without an
+   !! element that is zero, and any number will do.
    subroutine finish_matrix(share, stiffness, stiffest)
       type(share_type), intent(in)                 :: share
       type(distributed_matrix_type), intent(inout) :: stiffness
@@ -126,7 +127,7 @@ contains
       if (size(diagonal) > 0) own = maxval(diagonal)
       call check(vec_restore_array(stiffness%r, values))
       stiffest = largest_of_all(own)
-      stiffness%unit = stiffest
+      stiffness%unit = merge(stiffest, 1.0_wp, stiffest > 0.0_wp)
       do b = 1, share%n_own
          if (.not. any(share%held_own(:, b))) cycle
          block = 0.0_wp

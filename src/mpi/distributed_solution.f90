@@ -26,6 +26,7 @@ module distributed_solution
       real(wp) :: residual = 0.0_wp            !! of that, as a share of the load
       real(wp) :: gained = 0.0_wp              !! digits of the residual that the steps took away
       logical  :: converged = .true.
+      logical  :: has_memory = .true.          !! for the factor, MUMPS
    end type distributed_solution_type
 
    real(wp), parameter :: loosest = 1.0e-9_wp    !! of the load may be left, and it is still a solution: rounding allows no less
@@ -42,6 +43,7 @@ contains
       call set_option('-jointfem_mg_levels_ksp_type', 'chebyshev')
       call set_option('-jointfem_mg_levels_pc_type', 'jacobi')
       call set_option('-jointfem_mg_levels_ksp_chebyshev_esteig', '0,0.05,0,1.1')
+      call set_option('-jointfem_pc_gamg_use_sa_esteig', '0') ! those bounds are of the stiffness that the aggregates are of
       call set_option('-jointfem_pc_gamg_agg_nsmooths', '1')
    end subroutine set_library_options
 
@@ -64,7 +66,8 @@ contains
       type(share_type), intent(in)                   :: share
       type(distributed_matrix_type), intent(inout)   :: stiffness
       type(distributed_solution_type), intent(inout) :: solution
-      type(c_ptr) :: preconditioner
+      type(c_ptr)    :: preconditioner
+      integer(c_int) :: reason
 
       call drop_solver(solution)
       call drop_copy(stiffness)
@@ -87,6 +90,8 @@ contains
          if (n_ranks > 1 .and. sum(stiffness%counts) > n_ranks*lean_from) call set_option('-matptap_via', 'allatonce')
          call check(ksp_set_up(ksp))
          call check(ksp_set_reuse_preconditioner(ksp, petsc_true))
+         call check(pc_get_failed_reason(preconditioner, reason))
+         solution%has_memory = reason /= no_memory_for_factor
          if (solution%way == by_gamg) call multiply_by_copy(preconditioner)
       end associate
 

@@ -8,6 +8,7 @@ module engine
    use earlier_vectors, only: forget_vectors
    use kinds, only: wp
    use machine, only: peak_memory, return_memory
+   use process_memory, only: check_rows, reserve_blas
    use ranks, only: rank, sum_of_all, tell
    use shares, only: forget_elements, receive_share, share_type
    implicit none
@@ -74,8 +75,10 @@ contains
       case (order_take)
          call end_engine()
          call return_memory()
+         call reserve_blas()
          if (rank /= 0) call receive_share(share)
       case (order_start)                                     ! words: blocks of each rank
+         call check_rows(share)
          call start_matrix(share, words, stiffness)
          is_running = .true.
       case (order_finish)                                    ! words: the preconditioner

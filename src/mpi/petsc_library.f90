@@ -16,6 +16,7 @@ module petsc_library
    integer(c_int), parameter :: unpreconditioned = 2                         ! KSPNormType
    integer(c_int), parameter :: petsc_decide = -1, petsc_default = -2
    integer(c_int), parameter :: out_of_memory = 55                           ! PETSC_ERR_MEM
+   integer(c_int), parameter :: no_memory_for_factor = 3                     ! PC_FACTOR_OUTMEMORY of PCFailedReason
 
    type(c_ptr), bind(c, name='PETSC_COMM_WORLD') :: petsc_comm_world
 
@@ -376,6 +377,13 @@ module petsc_library
          integer(c_int), value :: level
          type(c_funptr), value :: residual
       end function pc_mg_set_residual
+
+      !> Why a set-up has failed, 0: it has not.
+      integer(c_int) function pc_get_failed_reason(preconditioner, reason) bind(c, name='PCGetFailedReason')
+         import :: c_int, c_ptr
+         type(c_ptr), value          :: preconditioner
+         integer(c_int), intent(out) :: reason
+      end function pc_get_failed_reason
 
       integer(c_int) function pc_factor_set_solver(preconditioner, name) bind(c, name='PCFactorSetMatSolverType')
          import :: c_char, c_int, c_ptr

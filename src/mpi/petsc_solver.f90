@@ -7,7 +7,7 @@ module petsc_solver
    use element_kinds, only: max_coupled_dofs
    use engine, only: order, order_diagonal, order_finish, order_forget, order_multiply, order_read, order_renew, order_solve, &
                      order_start, order_take, order_touched, order_write, share, solution, stiffness, stiffest_of_all => stiffest
-   use equation_solver, only: equation_system, no_solution
+   use equation_solver, only: equation_system, no_memory, no_solution, pivot_tolerance
    use factor_reuse, only: factor_reuse_type, forget_factor, may_reuse, note_factor, note_failure, note_steps
    use failures, only: failure_type
    use interface_equations, only: interface_equations_type, list_interface_equations
@@ -36,6 +36,7 @@ module petsc_solver
       real(wp) :: pace = 0.0_wp                   !! steps that a digit takes with the preconditioner of the own stiffness
       integer, allocatable  :: row(:)             !! (n) of the matrix, from 1 on
       logical :: is_own = .false.                 !! whether the preconditioner is that of the stiffness now
+      logical :: is_probed = .false.              !! whether a stiffness has been looked at since the run, or its past, began
       real(wp), allocatable :: structure(:)       !! touched blocks with the joints
    contains
       procedure :: start
@@ -153,12 +154,32 @@ contains
       call structure_values(self%touched, self%joints, self%k_int, &
                             reshape([(self%direction(self%locked(i)), self%deal%block(self%node(self%locked(i))), &
                                       i = 1, size(self%locked))], [2, size(self%locked)]), stiffness%unit, values)
+      call find_loose(self, values, fault)
+      if (fault > 0) return
       self%structure = reshape(values, [size(values)])
       call order(order_write, values=self%structure)
       self%is_own = .false.
       call may_reuse(self%reuse, reuse)
       if (.not. reuse) call renew(self)
+      if (.not. self%is_probed) call probe(self, fault)
    end subroutine form_structure
+
+   !> FAULT is the first equation that has nothing on the diagonal of the touched blocks, VALUES.
+   subroutine find_loose(self, values, fault)
+      class(petsc_solver_type), intent(in) :: self
+      real(wp), intent(in)                 :: values(:, :, :) !! (dimension, dimension, touched%n) [force/length]
+      integer, intent(inout)               :: fault
+      integer :: c, k
+
+      do k = 1, self%touched%n
+         if (self%touched%row(k) /= self%touched%column(k)) cycle
+         do c = 1, size(values, 1)
+            fault = self%number(c, self%deal%order(self%touched%row(k) + 1))
+            if (fault > 0 .and. .not. values(c, c, k) > 0.0_wp) return
+         end do
+      end do
+      fault = 0
+   end subroutine find_loose
 
    subroutine renew(self)
       class(petsc_solver_type), intent(inout) :: self
@@ -168,7 +189,7 @@ contains
       call note_factor(self%reuse)
    end subroutine renew
 
-   !> Where the preconditioner is of an earlier stiffness and does not get there, by a new one.
+   !> Where the preconditioner is of an earlier stiffness, or its aggregates are, and does not get there, by a new one.
    subroutine solve(self, x, fault)
       class(petsc_solver_type), intent(inout) :: self
       real(wp), intent(inout)                 :: x(:)
@@ -179,23 +200,19 @@ contains
       x(self%locked) = 0.0_wp
       load = x(self%equations)
       call act_on(self, order_solve, x, [self%digits, 1])
-      if (solution%converged .and. self%is_own) then
-         call note_pace(self)
-      else if (solution%converged) then
-         call note_steps(self%reuse, max(0, solution%steps - nint(self%pace*solution%gained)))
-      else if (.not. self%is_own) then
+      if (.not. (solution%converged .or. self%is_own)) then
          call note_failure(self%reuse)
          call renew(self)
+         call order(order_forget)
          x(self%equations) = load
          call act_on(self, order_solve, x, [self%digits, 1])
-         call note_pace(self)
       end if
       if (.not. solution%converged) then
-         call forget_factor(self%reuse)
-         fault = no_solution
-         self%complaint = 'PETSc does not solve the '//integer_text(self%n)//' equations: after '// &
-                          integer_text(solution%steps)//' steps the residual is '//real_text(solution%residual)// &
-                          ' of the load; the structure may be a mechanism, which SOLVER = TREE would name'
+         call say_why(self, x, fault)
+      else if (self%is_own) then
+         call note_pace(self)
+      else
+         call note_steps(self%reuse, max(0, solution%steps - nint(self%pace*solution%gained)))
       end if
    end subroutine solve
 
@@ -206,6 +223,73 @@ contains
 
       if (solution%gained >= enough .or. self%pace <= 0.0_wp) self%pace = solution%steps/max(1.0_wp, solution%gained)
    end subroutine note_pace
+
+   !> Under a load that excites every motion it is seen what holds the structure hardly or not at all, which loads that do not
+   !! move it that way would hide: FAULT is an equation of such a motion. The load of an equation is of the size of sqrt(k_ii), so
+   !! that units are of no account, and irregular. The inverse of the largest displacement, as a share of 1/sqrt(k_ii), stands for
+   !! the weakest pivot.
+   subroutine probe(self, fault)
+      class(petsc_solver_type), intent(inout) :: self
+      integer, intent(inout)                  :: fault
+      real(wp), parameter :: golden = 0.6180339887498949_wp
+      real(wp) :: size_of(self%n), x(self%n)
+
+      size_of = sqrt(self%diagonal_of_factor())
+      x = size_of*(2.0_wp*modulo(golden*(size(self%number, 1)*self%node + self%direction), 1.0_wp) - 1.0_wp)
+      x(self%locked) = 0.0_wp
+      call order(order_forget)
+      call act_on(self, order_solve, x, [self%digits, 0])
+      self%is_probed = .true.
+      if (solution%converged) then
+         self%weakest = 1.0_wp/max(1.0_wp, maxval(size_of*abs(x)))
+      else
+         call say_why(self, x, fault)
+      end if
+      call order(order_forget)
+   end subroutine probe
+
+   !> There is no solution, X is what the steps have come to: FAULT is an equation of a motion without stiffness, where X is one,
+   !! x'[k]x <= pivot_tolerance x'[d]x, [d] the diagonal; else no_memory, or no_solution with a COMPLAINT.
+   subroutine say_why(self, x, fault)
+      class(petsc_solver_type), intent(inout) :: self
+      real(wp), intent(in)                    :: x(:)
+      integer, intent(out)                    :: fault
+      real(wp), parameter :: near = 0.9_wp ! of the largest: of a body that moves as a whole it is not rounding that chooses
+      real(wp) :: force(size(x)), moved(size(x)), size_of(size(x))
+      character(:), allocatable :: words
+
+      call forget_factor(self%reuse)
+      fault = no_solution
+      words = 'PETSc does not solve the '//integer_text(self%n)//' equations: '
+      if (.not. solution%has_memory) then
+         fault = no_memory
+      else if (.not. solution%residual <= huge(1.0_wp)) then
+         words = words//'there is no factor of their matrix'
+      else
+         words = words//'after '//integer_text(solution%steps)//' steps the residual is '//real_text(solution%residual)// &
+                 ' of the load'
+         size_of = sqrt(self%diagonal_of_factor())
+         moved = x/max(maxval(size_of*abs(x)), tiny(1.0_wp))
+         force = moved
+         call self%multiply_by_factor(force)
+         if (sum(moved*force) <= pivot_tolerance*sum((size_of*moved)**2)) fault = first_large(self, size_of*abs(moved), near)
+      end if
+      self%complaint = words//'; the structure may be a mechanism, which SOLVER = TREE would name'
+   end subroutine say_why
+
+   !> The equation of the first node, in the order of the model, where V is NEAR its largest value.
+   pure integer function first_large(self, v, near)
+      class(petsc_solver_type), intent(in) :: self
+      real(wp), intent(in)                 :: v(:) !! (n) >= 0
+      real(wp), intent(in)                 :: near !! [-]
+      integer :: i
+
+      first_large = maxloc(v, dim=1)
+      do i = 1, size(v)
+         if (v(i) < near*maxval(v)) cycle
+         if (self%node(i) < self%node(first_large)) first_large = i
+      end do
+   end function first_large
 
    !> Y = [k_b] X, with the joints out of the matrix for the moment.
    subroutine multiply(self, x, y)
@@ -231,6 +315,7 @@ contains
       call forget_factor(self%reuse)
       self%one_solution = .false.
       self%weakest = 1.0_wp
+      self%is_probed = .false.
    end subroutine forget_past
 
    function diagonal_of_factor(self) result(diagonal)

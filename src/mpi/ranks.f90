@@ -13,10 +13,6 @@ module ranks
 
    integer, public, protected :: rank = 0, n_ranks = 1
 
-   interface tell
-      module procedure :: tell_integers
-   end interface tell
-
    interface send
       module procedure :: send_integers, send_reals
    end interface send
@@ -39,11 +35,11 @@ contains
    end subroutine leave_ranks
 
    !> WORDS of rank 0 become those of all.
-   subroutine tell_integers(words)
+   subroutine tell(words)
       integer, intent(inout) :: words(:)
 
       call mpi_bcast(words, size(words), mpi_integer, 0, mpi_comm_world)
-   end subroutine tell_integers
+   end subroutine tell
 
    subroutine send_integers(to, values)
       integer, intent(in) :: to, values(:)

@@ -6,10 +6,14 @@ submodule(distribution) several_processes
    use distributed_matrix, only: check
    use distributed_solution, only: by_gamg, by_mumps, set_library_options
    use engine, only: end_engine, obey, order, order_end, order_memory
+   use incomplete_results, only: watch_ends
    use petsc_library, only: petsc_finalize, petsc_initialize, petsc_pop_signal_handler, petsc_push_error_handler, &
                             petsc_return_error_handler
    use petsc_solver, only: petsc_solver_type
-   use ranks, only: find_ranks, leave_ranks, rank
+   use omp_lib, only: omp_get_max_threads
+   use kinds, only: wp
+   use ranks, only: find_ranks, leave_ranks, n_ranks, rank
+   use solver_weighing, only: solver_work_type, weigh_solvers, weighed, weighing_words
    implicit none
 
 contains
@@ -22,6 +26,7 @@ contains
       call check(petsc_pop_signal_handler())
       call check(petsc_push_error_handler(c_funloc(petsc_return_error_handler), c_null_ptr))
       if (rank == 0) return
+      call watch_ends() ! rank 0 has its own watch, and files
       call obey()
       call leave()
       call end_run(0)
@@ -48,6 +53,19 @@ contains
       solver%way = merge(by_mumps, by_gamg, wanted == solver_mumps)
       call move_alloc(solver, system)
    end subroutine choose_distributed
+
+   module subroutine weigh_distributed(work, system)
+      type(solver_work_type), intent(inout) :: work
+      class(equation_system), allocatable, intent(out) :: system
+      real(wp) :: seconds(size(weighed))
+      integer  :: best
+
+      work%processes = n_ranks
+      work%threads = omp_get_max_threads()
+      call weigh_solvers(work, seconds, best)
+      call choose_distributed(best, system)
+      if (allocated(system)) system%description%reason = weighing_words(work)
+   end subroutine weigh_distributed
 
    module subroutine memory_of_all(bytes)
       real(wp), intent(out) :: bytes

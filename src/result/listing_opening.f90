@@ -102,6 +102,7 @@ contains
             call file%put('  METHOD BACK   AVERAGE '//trim(merge('YES', 'NO ', control%average))//'   TOL '// &
                           real_text(control%tolerance)//'   SOLVER '//solver%name)
          end select
+         if (allocated(solver%reason)) call file%put('  '//solver%reason)
       end associate
       if (deck%control%length_unit /= '') call file%put('  UNITS, LABELS ONLY: LENGTH '// &
          trim(deck%control%length_unit)//', FORCE '//trim(deck%control%force_unit))

@@ -11,30 +11,38 @@ module results
    use joint_history, only: write_history, write_history_header
    use kinds, only: wp
    use listing, only: finish_listing, list_increment, list_stage, listing_type, record_listing, start_listing
+   use listing_modes, only: list_modes, list_response
+   use modal_response, only: response_type
+   use mode_values, only: modes_type
    use model_data, only: model_type
+   use modes_history, only: write_energies, write_energies_header, write_modes, write_modes_header
    use output_file, only: output_file_type
+   use response_file, only: write_response, write_response_header
    use restart_stream, only: restart_stream_type
    use stage_answer, only: bolt_answer_type, fault_of_answer, find_answer, find_bolt_answers, stage_answer_type
    use stage_history, only: write_bolt_header, write_bolts, write_stage, write_stage_header
-   use stage_plan, only: stage_plan_type, where_in_plan
+   use stage_plan, only: any_modes, any_response, stage_plan_type, where_in_plan
    use text_tools, only: real_text
    use vtu_results, only: discard_vtu, finish_vtu, is_vtu_ending, record_vtu, remove_old_vtu, start_vtu, vtu_names, &
-                          vtu_results_type, write_vtu
+                          vtu_results_type, write_modes_vtu => write_modes, write_vtu
    implicit none
    private
 
-   public :: start_results, print_increment, print_stage, finish_results, discard_results, record_results, remove_old_results, &
-             show_answers, is_result_ending
+   public :: start_results, print_increment, print_stage, print_modes, print_response, finish_results, &
+             discard_results, record_results, remove_old_results, show_answers, is_result_ending
 
    character(*), parameter, public :: listing_ending = '.out', history_ending = '.joint.csv', restart_ending = '.restart'
 
    ! the tables beside the listing, in the order of their endings
-   integer, parameter :: joint_file = 1, stage_file = 2, bolt_file = 3
-   character(10), parameter :: table_endings(3) = [character(10) :: history_ending, '.stage.csv', '.bolt.csv']
+   integer, parameter :: joint_file = 1, stage_file = 2, bolt_file = 3, modes_file = 4, energy_file = 5, &
+                         response_csv = 6
+   character(17), parameter :: table_endings(6) = [character(17) :: history_ending, '.stage.csv', '.bolt.csv', '.modes.csv', &
+                                                   '.modes.energy.csv', '.response.csv']
 
    type, public :: results_type
       type(listing_type)     :: listing
       type(output_file_type) :: tables(size(table_endings))
+      logical, private       :: has_table(size(table_endings)) = .false.
       type(output_file_type) :: screen        !! the answers, for the standard output at the end
       type(vtu_results_type) :: vtu
       real(wp), allocatable, private :: bolts_before(:) ! their forces at the end of the stage before
@@ -66,13 +74,20 @@ contains
       call results%screen%start('')
       do i = 1, size(table_endings)
          if (i == bolt_file .and. n_bolts(model) == 0) cycle
+         if (any(i == [modes_file, energy_file]) .and. .not. any_modes(plan)) cycle
+         if (i == response_csv .and. .not. any_response(plan)) cycle
          call results%tables(i)%start(base//trim(table_endings(i)))
+         results%has_table(i) = .true.
          ok = ok .and. .not. results%tables(i)%failed()
       end do
       if (.not. ok) return
       call write_history_header(results%tables(joint_file), model)
       call write_stage_header(results%tables(stage_file))
       if (n_bolts(model) > 0) call write_bolt_header(results%tables(bolt_file))
+      if (.not. any_modes(plan)) return
+      call write_modes_header(results%tables(modes_file))
+      call write_energies_header(results%tables(energy_file))
+      if (any_response(plan)) call write_response_header(results%tables(response_csv))
    end subroutine start_results
 
    !> The increment just completed.
@@ -122,6 +137,34 @@ contains
       if (.not. plan%stages(analysis%stage)%steps) call write_vtu(results%vtu, model, plan, analysis)
    end subroutine print_stage
 
+   !> The natural modes about the state at the end of the stage just completed.
+   subroutine print_modes(model, plan, stage, modes, results)
+      type(model_type), intent(in)      :: model
+      type(stage_plan_type), intent(in) :: plan
+      integer, intent(in)               :: stage !! its position
+      type(modes_type), intent(in)      :: modes
+      type(results_type), intent(inout) :: results
+
+      associate (planned => plan%stages(stage))
+         call list_modes(results%listing%page, model, planned%vibration, modes)
+         if (results%base == '') return
+         call write_modes(results%tables(modes_file), planned%id, planned%vibration, modes)
+         call write_energies(results%tables(energy_file), planned%id, model, modes)
+         if (planned%vtu) call write_modes_vtu(results%vtu, model, planned%id, modes)
+      end associate
+   end subroutine print_modes
+
+   !> The response to an oscillating load about that state.
+   subroutine print_response(plan, stage, response, results)
+      type(stage_plan_type), intent(in) :: plan
+      integer, intent(in)               :: stage !! its position
+      type(response_type), intent(in)   :: response
+      type(results_type), intent(inout) :: results
+
+      call list_response(results%listing%page, response)
+      if (results%base /= '') call write_response(results%tables(response_csv), plan%stages(stage)%id, response)
+   end subroutine print_response
+
    !> Give the files their names. All or none: OK is false where one could not be written.
    subroutine finish_results(plan, failure, results, ok)
       type(stage_plan_type), intent(in) :: plan
@@ -153,17 +196,19 @@ contains
    end function folder_of
 
    !> Show the answers on the standard output, and behind them the names of the files. OK is false where that fails.
-   subroutine show_answers(model, results, ok)
-      type(model_type), intent(in)      :: model
+   subroutine show_answers(results, ok)
       type(results_type), intent(inout) :: results
       logical, intent(out)              :: ok
       character(:), allocatable :: names
+      integer :: i
 
       ok = .true.
       if (results%base == '') return ! the listing went there
       names = results%base//listing_ending//' (listing)'
-      names = names//', '//results%base//trim(table_endings(joint_file))//', '//trim(table_endings(stage_file))
-      if (n_bolts(model) > 0) names = names//', '//trim(table_endings(bolt_file))
+      names = names//', '//results%base//trim(table_endings(joint_file))
+      do i = joint_file + 1, size(table_endings)
+         if (results%has_table(i)) names = names//', '//trim(table_endings(i))
+      end do
       call results%screen%put('')
       call results%screen%put(' RESULTS: '//names//vtu_names(results%vtu))
       call results%screen%finish(ok)
@@ -227,7 +272,7 @@ contains
    pure logical function is_result_ending(ending)
       character(*), intent(in) :: ending
 
-      is_result_ending = any(ending == [character(10) :: listing_ending, restart_ending, table_endings]) .or. is_vtu_ending(ending)
+      is_result_ending = any(ending == [character(17) :: listing_ending, restart_ending, table_endings]) .or. is_vtu_ending(ending)
    end function is_result_ending
 
 end module results

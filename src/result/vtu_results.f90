@@ -1,34 +1,30 @@
 !> Results for ParaView: for a stage with OUTPUT = VTU the bodies in one file and the joints in another, with STEPS after every
-!! increment, and where there may be more than one of each their list NAME.pvd. All stay unnamed until the whole run is complete.
+!! increment, the shapes of natural modes in a third; where there may be more than one of each their list NAME.pvd. All stay unnamed until the whole run is complete.
 module vtu_results
-   use, intrinsic :: iso_fortran_env, only: int8
    use analysis_state, only: analysis_type
-   use body_elements, only: node_stresses, whole_stress
    use c_library, only: is_regular_file, read_all_bytes, remove_file
-   use element_kinds, only: element_table
-   use elasticity, only: max_stresses
    use incomplete_results, only: remove_old
    use kinds, only: wp
    use listing_table, only: label_type
-   use model_data, only: corners_of, model_type, n_points
+   use mode_values, only: modes_type
+   use model_data, only: model_type
    use restart_stream, only: restart_stream_type
    use stage_plan, only: stage_plan_type
-   use stress_measures, only: principal_stresses, von_mises
-   use temperatures, only: has_temperatures, node_temperatures
    use text_tools, only: integer_text
-   use vtu_file, only: cell_data, named, point_data, vtu_file_type, write_collection, xml_text
+   use vtu_bodies, only: write_bodies, write_shapes
+   use vtu_file, only: vtu_file_type, write_collection, xml_text
    use vtu_joints, only: write_joints
    implicit none
    private
 
-   public :: start_vtu, write_vtu, finish_vtu, discard_vtu, record_vtu, remove_old_vtu, vtu_names, is_vtu_ending
+   public :: start_vtu, write_vtu, write_modes, finish_vtu, discard_vtu, record_vtu, remove_old_vtu, vtu_names, is_vtu_ending
 
    !> A file of the run.
    type :: part_type
       type(vtu_file_type) :: file
       character(48) :: ending = ''                ! of its name
       real(wp) :: time = 0.0_wp                   ! of its stage the number less one, and how much of its load is on
-      integer  :: part = 0                        ! 0 the bodies, 1 the joints
+      integer  :: part = 0                        ! 0 the bodies, 1 the joints, 2 the natural modes
    end type part_type
 
    type, public :: vtu_results_type
@@ -61,7 +57,7 @@ contains
          most = most + merge(size(plan%stages(s)%shares), 1, plan%stages(s)%steps)
       end do
       if (allocated(results%parts)) deallocate (results%parts)
-      allocate (results%parts(2*most))
+      allocate (results%parts(2*most + size(plan%stages)))
    end subroutine start_vtu
 
    !> Write the files of the increment just completed, where the stage asks for any.
@@ -102,54 +98,25 @@ contains
 
    end subroutine write_vtu
 
-   !> Elements with stresses at their centres, nodes with displacements and the mean of the stresses of its elements there.
-   subroutine write_bodies(file, labels, model, analysis)
-      type(vtu_file_type), intent(inout) :: file
-      type(label_type), intent(in)       :: labels
-      type(model_type), intent(in)       :: model
-      type(analysis_type), intent(in)    :: analysis
-      real(wp), allocatable :: u(:, :), at_node(:, :), at_centre(:, :), principal(:, :)
-      integer, allocatable       :: connected(:), ends(:), properties(:)
-      integer(int8), allocatable :: types(:)
-      integer :: e, i, m, n
+   !> Write the file of the natural MODES about the end of the stage with this number.
+   subroutine write_modes(results, model, stage, modes)
+      type(vtu_results_type), intent(inout) :: results
+      type(model_type), intent(in)          :: model
+      integer, intent(in)                   :: stage
+      type(modes_type), intent(in)          :: modes
 
-      m = n_points(model)
-      allocate (u(3, m), source=0.0_wp)
-      allocate (at_node(max_stresses, m), at_centre(max_stresses, model%n_elements), principal(3, model%n_elements))
-      allocate (connected(count(model%element_nodes > 0)))
-      allocate (ends(model%n_elements), types(model%n_elements), properties(model%n_elements))
-      u(:model%dimension, :) = analysis%all_u(:, :m)
-      n = 0
-      do e = 1, model%n_elements
-         associate (nodes => corners_of(model, e))
-            connected(n + 1:n + size(nodes)) = nodes(element_table(model%element_kind(e))%vtk_nodes(:size(nodes)))
-            n = n + size(nodes)
-            ends(e) = n
-            types(e) = int(element_table(model%element_kind(e))%vtk_type, int8)
-            properties(e) = model%properties(model%element_property(e))%id
-            at_centre(:, e) = whole_stress(model, e, analysis%all_u, analysis%temperature)
-            principal(:, e) = principal_stresses(at_centre(:, e))
-         end associate
-      end do
-      call node_stresses(model, analysis%all_u, analysis%temperature, at_node)
-      call file%points(model%x(:, :m))
-      call file%cells(connected, ends, types)
-      call file%add(point_data, 'node', model%node_id(:m))
-      call file%add(point_data, named('displacement', labels%length), u)
-      call file%add(point_data, named('stress', labels%pressure), at_node)
-      call file%add(point_data, named('von_mises', labels%pressure), [(von_mises(at_node(:, i)), i = 1, m)])
-      if (has_temperatures(model)) then
-         associate (t => node_temperatures(model, analysis%temperature))
-            call file%add(point_data, 'temperature [deg]', t(:m))
-         end associate
-      end if
-      call file%add(cell_data, 'element', model%element_id)
-      call file%add(cell_data, 'property', properties)
-      call file%add(cell_data, named('stress_at_centre', labels%pressure), at_centre)
-      call file%add(cell_data, named('principal_stress', labels%pressure), principal)
-      call file%add(cell_data, named('von_mises_at_centre', labels%pressure), &
-                    [(von_mises(at_centre(:, e)), e = 1, model%n_elements)])
-   end subroutine write_bodies
+      if (results%name == '' .or. model%n_elements == 0) return
+      results%n = results%n + 1
+      associate (part => results%parts(results%n))
+         part%time = real(stage, wp)
+         part%part = 2
+         part%ending = '.modes.vtu'
+         if (results%many) part%ending = '.'//integer_text(stage)//part%ending
+         call part%file%start(results%name//trim(part%ending))
+         call write_shapes(part%file, model, modes)
+         call part%file%complete()
+      end associate
+   end subroutine write_modes
 
    !> Give all files their names. All or none: OK is false where one could not be written.
    subroutine finish_vtu(results, ok)
@@ -232,7 +199,7 @@ contains
       is_vtu_ending = ending == '.pvd'
       first = 1
       do k = 0, 2
-         is_vtu_ending = is_vtu_ending .or. ending(first:) == '.vtu' .or. ending(first:) == '.joint.vtu'
+         is_vtu_ending = is_vtu_ending .or. any(ending(first:) == [character(10) :: '.vtu', '.joint.vtu', '.modes.vtu'])
          if (is_vtu_ending .or. len(ending) < first + 2) return
          length = verify(ending(first + 1:), '0123456789') - 1
          if (ending(first:first) /= '.' .or. length < 1) return
@@ -250,6 +217,7 @@ contains
 
       call remove_old(name//'.vtu')
       call remove_old(name//'.joint.vtu')
+      call remove_old(name//'.modes.vtu')
       if (.not. is_regular_file(name//'.pvd')) return
       call read_all_bytes(name//'.pvd', bytes, ok)
       if (.not. ok) return

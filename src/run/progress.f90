@@ -12,9 +12,9 @@ module progress
    private
 
    integer, parameter, public :: phase_read = 1, phase_build = 2, phase_order = 3, phase_factor = 4, phase_increments = 5, &
-                                 phase_recover = 6, phase_write = 7
-   character(10), parameter :: phase_name(7) = [character(10) :: 'read', 'build', 'order', 'factor', 'increments', 'recover', &
-                                                'write']
+                                 phase_recover = 6, phase_write = 7, phase_modes = 8
+   character(10), parameter :: phase_name(8) = [character(10) :: 'read', 'build', 'order', 'factor', 'increments', 'recover', &
+                                                'write', 'modes']
 
    type, public :: progress_type
       private
@@ -64,7 +64,7 @@ contains
       self%ticks(self%phase) = self%ticks(self%phase) + now - self%entered
       self%entered = now
       self%phase = phase
-      if (self%shown .and. phase < phase_increments) call show(self, trim(phase_name(phase)))
+      if (self%shown .and. (phase < phase_increments .or. phase == phase_modes)) call show(self, trim(phase_name(phase)))
    end subroutine enter
 
    !> From now on increments are counted, those of PLAN.

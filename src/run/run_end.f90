@@ -52,7 +52,7 @@ contains
          if (tetra_words(model) /= '') write (error_unit, '(3a)') run%argument%name, ': ', tetra_words(model)
          call say_of_deck(run, deck)
          if (ok) then
-            call show_answers(model, run%results, shown)
+            call show_answers(run%results, shown)
             if (.not. shown) exit_status = max(exit_status, status_of(is_unwritten))
          else
             run%ending = is_unwritten

@@ -18,6 +18,14 @@ contains
       if (wanted < 0) deallocate (system) ! never: there is nothing to choose
    end subroutine choose_distributed
 
+   module subroutine weigh_distributed(work, system)
+      type(solver_work_type), intent(inout) :: work
+      class(equation_system), allocatable, intent(out) :: system
+
+      work%processes = 1
+      if (work%processes < 1) deallocate (system) ! never, likewise
+   end subroutine weigh_distributed
+
    module subroutine memory_of_all(bytes)
       real(wp), intent(out) :: bytes
 

@@ -5,7 +5,7 @@ module blas_lapack
    implicit none
    private
 
-   public :: ddot, dgemm, dgemv, dlacn2, dpotrf, dsymv, dtrmv, dtrsm, dtrsv
+   public :: ddot, dgemm, dgemv, dlacn2, dpotrf, dsygv, dsymv, dtrmv, dtrsm, dtrsv
 
    interface
 
@@ -52,6 +52,15 @@ module blas_lapack
          real(wp), intent(inout) :: a(lda, *)
          integer, intent(out)    :: info
       end subroutine dpotrf
+
+      !> All eigenvalues W, ascending, and eigenvectors, in A then, of A x = w B x (ITYPE = 1); B positive definite, x^T B x = 1.
+      subroutine dsygv(itype, jobz, uplo, n, a, lda, b, ldb, w, work, lwork, info)
+         import :: wp
+         integer, intent(in)     :: itype, n, lda, ldb, lwork
+         character, intent(in)   :: jobz, uplo
+         real(wp), intent(inout) :: a(lda, *), b(ldb, *), w(*), work(*)
+         integer, intent(out)    :: info
+      end subroutine dsygv
 
       !> y = alpha A x + beta y, A symmetric
       pure subroutine dsymv(uplo, n, alpha, a, lda, x, incx, beta, y, incy)

@@ -3,10 +3,11 @@
 module distribution
    use equation_solver, only: equation_system
    use kinds, only: wp
+   use solver_weighing, only: solver_work_type
    implicit none
    private
 
-   public :: join_processes, leave_processes, choose_distributed, memory_of_all
+   public :: join_processes, leave_processes, choose_distributed, weigh_distributed, memory_of_all
 
    interface
       !> At the start of the program: of several processes the first goes on, the others come back from here only at the end of
@@ -23,6 +24,13 @@ module distribution
          integer, intent(in) :: wanted !! solver_* of case_control
          class(equation_system), allocatable, intent(out) :: system
       end subroutine choose_distributed
+
+      !> For AUTO: the one of these that does the WORK in less time than TREE, or has the memory that TREE would not have; else it is
+      !! left unallocated.
+      module subroutine weigh_distributed(work, system)
+         type(solver_work_type), intent(inout) :: work !! how many processes and threads there are is set here
+         class(equation_system), allocatable, intent(out) :: system
+      end subroutine weigh_distributed
 
       !> The most memory that each process has had, added up; the others wait for orders.
       module subroutine memory_of_all(bytes)

@@ -25,6 +25,7 @@ module equation_solver
    !> A solver in numbers, for the listing and --times.
    type, public :: solver_description
       character(:), allocatable :: name              !! and its way, as the listing has it
+      character(:), allocatable :: reason            !! why AUTO has taken it, where that is no matter of course
       character(40) :: words(3) = ''                 !! what NUMBERS count; '' behind the last
       integer(long) :: numbers(3) = 0
       real(wp) :: fixed_operations  = 0.0_wp         !! multiplications and additions of what is factorised once
@@ -48,6 +49,10 @@ module equation_solver
       logical :: one_solution = .false.              !! whether with this k_int the increment solves but once
       integer :: factorisations = 20                 !! that are to be expected
       integer :: digits = exact_digits               !! that the next solution needs, where a solver iterates
+      real(wp) :: shift = 0.0_wp                     !! sigma: in place of [k_b] there is [k_b] - sigma [m], set before it is formed
+                                                     !! [1/time^2]; above zero the factor is one with signs, [l] [s] [l]^T
+      integer :: n_negative = 0                      !! pivots below zero of the factor there is: so many eigenvalues of
+                                                     !! [k] {x} = lambda [m] {x} are below sigma (Sylvester)
       real(wp) :: weakest = 1.0_wp                   !! least pivot of the factor there is, as a share of its diagonal entry
                                                      !! before any elimination; 1: there is no factor
       character(:), allocatable :: where             !! stage and increment, for messages

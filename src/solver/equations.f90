@@ -8,6 +8,7 @@ module equations
    use failures, only: failure_type
    use interface_operator, only: add_global_force, global_stiffness, relative_movement
    use kinds, only: wp
+   use mass_elements, only: coupled_bar_mass, coupled_point_mass, mass_nodes, n_masses
    use measures, only: is_measure
    use model_data, only: bar_nodes, model_type, n_bars
    use node_coupling, only: list_on_unknowns, unknown_nodes
@@ -23,15 +24,17 @@ module equations
 
 contains
 
-   !> Choose the solver, order and number the unknowns. SOLVER as in case control; so many FACTORISATIONS are to be expected.
-   subroutine start_equations(model, system, failure, solver, factorisations)
+   !> Choose the solver, order and number the unknowns. SOLVER as in case control; so many FACTORISATIONS are to be expected. With a
+   !! SHIFT the bodies are [k_b] - sigma [m].
+   subroutine start_equations(model, system, failure, solver, factorisations, shift)
       type(model_type), intent(in)      :: model
       class(equation_system), allocatable, intent(out) :: system
       type(failure_type), intent(inout) :: failure
       integer, intent(in), optional     :: solver         !! AUTO
       integer, intent(in), optional     :: factorisations !! 20
+      real(wp), intent(in), optional    :: shift          !! sigma, 0 [1/time^2]
       type(node_graph_type) :: graph
-      integer :: i, n, wanted
+      integer :: expected, i, n, wanted
 
       wanted = solver_auto
       if (present(solver)) wanted = solver
@@ -43,9 +46,11 @@ contains
          call failure%raise('nothing to solve: all components of all nodes are supported')
          return
       end if
-      call build_node_graph(model, graph)
-      call choose_solver(model, graph, n, wanted, system)
-      if (present(factorisations)) system%factorisations = factorisations
+      call build_node_graph(model, graph, with_masses=present(shift))
+      expected = 20
+      if (present(factorisations)) expected = factorisations
+      call choose_solver(model, graph, n, wanted, expected, system)
+      if (present(shift)) system%shift = shift
       allocate (system%locked(0))
       call system%start(model, graph, failure)
       if (.not. failure%raised) call place_retained(model, system)
@@ -79,7 +84,27 @@ contains
       do i = 1, n_bars(model)
          if (model%bars(i)%bolt == 0) call add_bar(model, i, system)
       end do
+      if (abs(system%shift) > 0.0_wp) call subtract_masses(model, system)
    end subroutine form_body_stiffness
+
+   !> - sigma [m] of bars, and of masses at nodes.
+   subroutine subtract_masses(model, system)
+      type(model_type), intent(in)          :: model
+      class(equation_system), intent(inout) :: system
+      integer :: i
+
+      do i = 1, n_bars(model)
+         if (.not. model%bars(i)%mass > 0.0_wp) cycle
+         associate (nodes => unknown_nodes(model, bar_nodes(model%bars(i))))
+            call system%add_to_bodies([system%number(:, nodes)], -system%shift*coupled_bar_mass(model, i))
+         end associate
+      end do
+      do i = 1, n_masses(model)
+         associate (nodes => unknown_nodes(model, mass_nodes(model, model%masses(i))))
+            call system%add_to_bodies([system%number(:, nodes)], -system%shift*coupled_point_mass(model, model%masses(i)))
+         end associate
+      end do
+   end subroutine subtract_masses
 
    !> Add bar I to the stiffness of the bodies.
    subroutine add_bar(model, i, system)

@@ -1,10 +1,10 @@
 !> How matrices come into a front: those of elements, of interface elements, and what the elimination of its children leaves.
 !! Source: Duff, Reid, ACM Trans. Math. Softw. 9 (1983) 302-325.
 module front_assembly
-   use body_elements, only: coupled_stiffness
    use element_kinds, only: max_coupled_dofs
    use front_tree, only: front_tree_type, front_type
    use kinds, only: wp
+   use mass_elements, only: coupled_dynamic_stiffness
    use model_data, only: model_type
    use section_coupling, only: coupled_nodes
    implicit none
@@ -25,7 +25,7 @@ contains
       d = model%dimension
       do j = 1, size(front%elements)
          e = front%elements(j)
-         call coupled_stiffness(model, e, k)
+         call coupled_dynamic_stiffness(model, e, tree%shift, k)
          associate (nodes => coupled_nodes(model, e))
             n = d*size(nodes)
             rows(:n) = [tree%number(:, nodes)]

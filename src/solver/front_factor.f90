@@ -106,11 +106,15 @@ contains
          end if
          if (fault /= 0) return
          tree%diagonal(front%first:front%first + front%p - 1) = front%diagonal(:front%p)
-         call eliminate(front%p, front%r, front%panel, front%update, front%diagonal, pivot_tolerance, fault)
+         if (tree%shift > 0.0_wp) then
+            call eliminate(front%p, front%r, front%panel, front%update, abs(front%diagonal), pivot_tolerance, fault, front%negative)
+         else
+            call eliminate(front%p, front%r, front%panel, front%update, front%diagonal, pivot_tolerance, fault)
+         end if
          if (fault > 0) then
             fault = front%first + fault - 1
          else
-            front%weakest = minval([(front%panel(i, i)**2/front%diagonal(i), i = 1, front%p)])
+            front%weakest = minval([(front%panel(i, i)**2/abs(front%diagonal(i)), i = 1, front%p)])
          end if
          if (front%parent == 0) deallocate (front%update)
       end associate

@@ -6,6 +6,9 @@
 !! panel = (A11 over A21), (P + R, P); update = A22, (R, R); lower triangles throughout, with squares on the diagonal: what lies
 !! above them is neither read nor written, so that of large fronts it takes no memory. The blocks are the same for any number
 !! of threads, and each is the work of one: so are the digits.
+!!
+!! A front that is not positive definite has a factor with signs, A = L S L^T, S diagonal of +1 and -1: L21 = A21 L11^-T S, and
+!! of what is subtracted, L S L^T = L L^T - 2 L_- L_-^T with the columns L_- whose sign is -1; in a structure these are few.
 module front_kernel
    use blas_lapack, only: dgemm, dpotrf, dtrsm
    use kinds, only: long, wp
@@ -25,16 +28,20 @@ contains
 
    !> Eliminate in place. FAULT is 0, or the first unknown whose pivot is not above TOLERANCE times its entry in DIAGONAL:
    !! it has no stiffness left, and the front is not complete.
-   subroutine eliminate(p, r, panel, update, diagonal, tolerance, fault)
+   !! Where NEGATIVE is there a pivot may be below zero: the factor has signs then, and these are the columns of -1.
+   subroutine eliminate(p, r, panel, update, diagonal, tolerance, fault, negative)
       integer, intent(in)     :: p, r
       real(wp), intent(inout) :: panel(p + r, p)
       real(wp), intent(inout) :: update(r, r)
       real(wp), intent(in)    :: diagonal(p)     !! of the matrix before any elimination
       real(wp), intent(in)    :: tolerance
       integer, intent(out)    :: fault
+      integer, allocatable, intent(inout), optional :: negative(:)
+      real(wp), allocatable :: of_negative(:, :) ! the columns whose sign is -1, all rows
       integer :: j, k, n
 
       n = p + r
+      if (present(negative)) negative = [integer ::]
       do k = 1, p, narrow
          call subtract_products(k, min(p, k + narrow - 1))
          call eliminate_block(k, min(p, k + narrow - 1), fault)
@@ -64,15 +71,35 @@ contains
             !$omp end task
          end do
          !$omp taskwait
+         if (has_signs()) call dgemm('N', 'T', n - first + 1, last - first + 1, size(negative), 2.0_wp, of_negative(first, 1), n, &
+                                     of_negative(first, 1), n, 1.0_wp, panel(first, first), n)
       end subroutine subtract_products
+
+      !> Whether any pivot so far was below zero.
+      pure logical function has_signs()
+
+         has_signs = present(negative)
+         if (has_signs) has_signs = size(negative) > 0
+      end function has_signs
 
       !> L in the columns FIRST to LAST.
       subroutine eliminate_block(first, last, fault)
          integer, intent(in)  :: first, last
          integer, intent(out) :: fault
-         integer :: column, i, info, m
+         integer :: column, i, info, m, n_before
+         real(wp) :: as_it_was(first:last, first:last)
 
+         n_before = 0
+         if (present(negative)) then
+            n_before = size(negative)
+            as_it_was = panel(first:last, first:last)
+         end if
          call dpotrf('L', last - first + 1, panel(first, first), n, info)
+         if (info > 0 .and. present(negative)) then
+            panel(first:last, first:last) = as_it_was
+            call factorise_with_signs(first, last, panel(first:last, first:last), negative)
+            info = 0
+         end if
          do column = first, merge(first + info - 1, last, info > 0)
             fault = column
             if (.not. panel(column, column)**2 > tolerance*diagonal(column) .or. column == first + info - 1) return
@@ -85,6 +112,11 @@ contains
             !$omp end task
          end do
          !$omp taskwait
+         if (.not. has_signs()) return
+         do i = n_before + 1, size(negative)
+            panel(last + 1:, negative(i)) = -panel(last + 1:, negative(i))
+         end do
+         of_negative = panel(:, negative)
       end subroutine eliminate_block
 
       !> A22 - L21 L21^T in columns FIRST to LAST: what lies below the square on the diagonal as one block, the square in narrow
@@ -99,10 +131,33 @@ contains
             width = min(narrow, last - column + 1)
             call dgemm('N', 'T', last - column + 1, width, p, -1.0_wp, panel(p + column, 1), n, panel(p + column, 1), n, &
                        1.0_wp, update(column, column), r)
+            if (has_signs()) call dgemm('N', 'T', r - column + 1, width, size(negative), 2.0_wp, of_negative(p + column, 1), n, &
+                                        of_negative(p + column, 1), n, 1.0_wp, update(column, column), r)
          end do
       end subroutine update_columns
 
    end subroutine eliminate
+
+   !> A = L S L^T in place, of the columns FIRST to LAST of a front: those whose sign is -1 are put behind NEGATIVE. A pivot that is
+   !! zero leaves zero on the diagonal and its column as it is.
+   pure subroutine factorise_with_signs(first, last, a, negative)
+      integer, intent(in)                 :: first, last
+      real(wp), intent(inout)             :: a(first:last, first:last) !! lower triangle
+      integer, allocatable, intent(inout) :: negative(:)
+      real(wp) :: s
+      integer  :: i, j
+
+      do j = first, last
+         s = sign(1.0_wp, a(j, j))
+         if (s < 0.0_wp) negative = [negative, j]
+         a(j, j) = sqrt(abs(a(j, j)))
+         if (.not. a(j, j) > 0.0_wp) return
+         a(j + 1:, j) = s*a(j + 1:, j)/a(j, j)
+         do i = j + 1, last
+            a(i:, i) = a(i:, i) - s*a(i, j)*a(i:, j)
+         end do
+      end do
+   end subroutine factorise_with_signs
 
    !> The first row that is touched in column J of a panel or an update matrix; from there on it has to be set.
    elemental integer function top_row(j)

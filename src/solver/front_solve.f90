@@ -1,9 +1,9 @@
 !> Right-hand sides and solutions in a tree of fronts, factorised by front_factor: L y = b, L^T x = y, in the two parts that the
-!! increments need, the fronts that do not move and those that do.
+!! increments need, the fronts that do not move and those that do. A factor with signs, L S L^T, has S L^T x = y.
 module front_solve
    use blas_lapack, only: dgemv, dtrmv, dtrsv
    use front_blocks, only: block_times_vector
-   use front_tree, only: front_tree_type
+   use front_tree, only: front_tree_type, front_type
    use kinds, only: wp
    implicit none
    private
@@ -111,11 +111,23 @@ contains
       real(wp), intent(out)             :: work(:)
 
       associate (front => tree%fronts(f), p => tree%fronts(f)%p, r => tree%fronts(f)%r, first => tree%fronts(f)%first)
+         call apply_signs(front, x)
          work(:r) = x(front%rows)
          if (r > 0) call dgemv('T', r, p, -1.0_wp, front%panel(p + 1, 1), p + r, work, 1, 1.0_wp, x(first), 1)
          call dtrsv('L', 'T', 'N', p, front%panel, p + r, x(first), 1)
       end associate
    end subroutine backward
+
+   !> S of FRONT times X at its pivots.
+   pure subroutine apply_signs(front, x)
+      type(front_type), intent(in) :: front
+      real(wp), intent(inout)      :: x(:)
+
+      if (.not. allocated(front%negative)) return
+      associate (places => front%first - 1 + front%negative)
+         x(places) = -x(places)
+      end associate
+   end subroutine apply_signs
 
    !> Y = [k_b] X on the equations that move, the others condensed into it, interface elements left out; Y is not touched on them.
    subroutine moving_times_vector(tree, x, y)
@@ -147,7 +159,7 @@ contains
       end do
    end subroutine moving_times_vector
 
-   !> X = L L^T X on all equations, zero where they are locked: the product with the matrix that the factor is of.
+   !> X = L S L^T X on all equations, zero where they are locked: the product with the matrix that the factor is of.
    subroutine factor_times_vector(tree, x)
       type(front_tree_type), intent(in) :: tree
       real(wp), intent(inout)           :: x(tree%n)
@@ -160,6 +172,7 @@ contains
             call dtrmv('L', 'T', 'N', p, front%panel, p + r, x(first), 1)
             work(:r) = x(front%rows)
             if (r > 0) call dgemv('T', r, p, 1.0_wp, front%panel(p + 1, 1), p + r, work, 1, 1.0_wp, x(first), 1)
+            call apply_signs(front, x)
          end associate
       end do
       do f = size(tree%fronts), 1, -1

@@ -39,6 +39,7 @@ module front_tree
       real(wp), allocatable :: update(:, :)       !! (r, r) what is left for the parent; gone once that has it
       real(wp), allocatable :: diagonal(:)        !! (p + r) of the matrix before any elimination, as far as the subtree knows it;
                                                   !! gone likewise
+      integer, allocatable :: negative(:)         !! of a factor with signs: the pivots of this front whose sign is -1
       real(wp) :: weakest = 1.0_wp                !! least pivot, as a share of its diagonal entry before any elimination
       type(front_start), allocatable :: start     !! of a front that moves
       real(wp) :: work = 0.0_wp                   !! operations of its subtree
@@ -46,6 +47,7 @@ module front_tree
 
    type, public :: front_tree_type
       integer :: n = 0                            !! equations
+      real(wp) :: shift = 0.0_wp                  !! sigma, as equation_system has it
       integer, allocatable :: number(:, :)        !! (dimension, n_nodes) equation of a component, 0: held
       integer, allocatable :: of_equation(:)      !! (n) front that eliminates it
       type(interface_equations_type) :: joints

@@ -1,5 +1,6 @@
 !> Which nodes share an element: the graph that orderings work on.
 module node_graph
+   use mass_elements, only: mass_nodes, n_masses
    use model_data, only: bar_nodes, model_type, n_bars
    use node_coupling, only: unknown_nodes
    use reverse_lists, only: list_owners
@@ -14,19 +15,22 @@ module node_graph
       integer :: n = 0
       integer, allocatable :: first(:)      !! (n + 1)
       integer, allocatable :: neighbours(:)
+      logical :: with_masses = .false.      !! masses at nodes couple what these move with: a shift may come
    end type node_graph_type
 
 contains
 
-   !> The graph of all nodes of MODEL; time and memory linear in its size.
-   subroutine build_node_graph(model, graph)
+   !> The graph of all nodes of MODEL; time and memory linear in its size. WITH_MASSES, those at nodes couple what these move with.
+   subroutine build_node_graph(model, graph, with_masses)
       type(model_type), intent(in)  :: model
       type(node_graph_type), intent(out) :: graph
+      logical, intent(in), optional :: with_masses !! false
       integer, allocatable :: mark(:), joined(:, :), first_list(:), lists_at(:)
       integer :: e, i, k, node, other, pass, n
 
       graph%n = model%n_nodes
-      call list_joined(model, joined)
+      if (present(with_masses)) graph%with_masses = with_masses
+      call list_joined(model, graph%with_masses, joined)
       call list_owners(graph%n, joined, first_list, lists_at)
       allocate (graph%first(graph%n + 1), mark(graph%n))
       do pass = 1, 2 ! count, then fill
@@ -69,8 +73,9 @@ contains
 
    !> JOINED(:, n): the nodes whose unknowns interface elements and bars couple, and body elements with nodes that move with the
    !! unknowns of others; 0 behind the last.
-   subroutine list_joined(model, joined)
+   subroutine list_joined(model, with_masses, joined)
       type(model_type), intent(in)      :: model
+      logical, intent(in)               :: with_masses
       integer, allocatable, intent(out) :: joined(:, :)
       integer, allocatable :: wider(:, :)
       integer :: e, i, n
@@ -82,6 +87,9 @@ contains
       end do
       do i = 1, n_bars(model)
          call join(unknown_nodes(model, bar_nodes(model%bars(i))))
+      end do
+      do i = 1, merge(n_masses(model), 0, with_masses)
+         call join(unknown_nodes(model, mass_nodes(model, model%masses(i))))
       end do
       if (.not. allocated(model%coupling%of_node)) return
       do e = 1, model%n_elements

@@ -1,4 +1,5 @@
-!> Symmetric positive definite matrices in a skyline, and their active-column Cholesky factor.
+!> Symmetric matrices in a skyline, and their active-column Cholesky factor. One that is not positive definite has a factor with
+!! signs, A = U^T S U, S diagonal of +1 and -1.
 !!
 !! Column j of the upper triangle is stored from its first nonzero row m_j down to the diagonal, column after column:
 !!
@@ -21,6 +22,7 @@ module skyline
       integer :: n = 0                              !! order
       integer(long), allocatable :: diagonal(:)     !! (0:n) place of a_jj in values; diagonal(0) = 0
       real(wp), allocatable      :: values(:)       !! (diagonal(n))
+      integer, allocatable       :: negative(:)     !! of a factor with signs: the columns whose sign is -1, ascending
    end type skyline_matrix
 
 contains
@@ -76,17 +78,22 @@ contains
       end do
    end subroutine skyline_times_vector
 
-   !> A = U^T U in place, column by column: u_ij = (a_ij - sum_k u_ki u_kj)/u_ii, u_jj = sqrt(a_jj - sum_k u_kj^2).
-   !! FAULT is 0, or the number of the first column whose pivot is not above PIVOT_TOLERANCE times its diagonal
-   !! entry: the equation has no stiffness left, and the factor is not complete.
-   subroutine factorise_skyline(matrix, pivot_tolerance, fault)
+   !> A = U^T S U in place, column by column: u_ij = (a_ij - sum_k s_k u_ki u_kj)/(s_i u_ii), s_j u_jj^2 = a_jj - sum_k s_k u_kj^2.
+   !! FAULT is 0, or the number of the first column whose pivot is not above PIVOT_TOLERANCE times its diagonal entry: the equation
+   !! has no stiffness left, and the factor is not complete. Only WITH_SIGNS may a pivot be below zero.
+   subroutine factorise_skyline(matrix, pivot_tolerance, fault, with_signs)
       type(skyline_matrix), intent(inout) :: matrix
       real(wp), intent(in)                :: pivot_tolerance
       integer, intent(out)                :: fault
+      logical, intent(in), optional       :: with_signs !! false
       integer(long) :: column, above  ! places of (row 0) of columns j and i: entry k stands at column + k
       real(wp) :: pivot, diagonal_entry
-      integer  :: i, j, first_i, first_j, first
+      integer  :: i, j, first_i, first_j, first, negative(matrix%n), n_negative
+      logical  :: any_sign
 
+      any_sign = .false.
+      if (present(with_signs)) any_sign = with_signs
+      n_negative = 0
       do j = 1, matrix%n
          column = matrix%diagonal(j) - j
          first_j = int(matrix%diagonal(j - 1) + 1 - column)
@@ -94,24 +101,48 @@ contains
             above = matrix%diagonal(i) - i
             first_i = int(matrix%diagonal(i - 1) + 1 - above)
             first = max(first_i, first_j)
-            if (first < i) matrix%values(column + i) = matrix%values(column + i) &
-               - ddot(i - first, matrix%values(above + first), 1, matrix%values(column + first), 1)
+            if (first < i) matrix%values(column + i) = matrix%values(column + i) - product_of(above, column, first, i - 1)
             matrix%values(column + i) = matrix%values(column + i)/matrix%values(above + i)
+            if (n_negative == 0) cycle
+            if (any(negative(:n_negative) == i)) matrix%values(column + i) = -matrix%values(column + i)
          end do
          diagonal_entry = matrix%values(column + j)
          pivot = diagonal_entry
-         if (first_j < j) pivot = pivot &
-            - ddot(j - first_j, matrix%values(column + first_j), 1, matrix%values(column + first_j), 1)
+         if (first_j < j) pivot = pivot - product_of(column, column, first_j, j - 1)
+         if (any_sign .and. pivot < 0.0_wp) then
+            n_negative = n_negative + 1
+            negative(n_negative) = j
+            pivot = -pivot
+            diagonal_entry = abs(diagonal_entry)
+         end if
          if (.not. pivot > pivot_tolerance*diagonal_entry) then
             fault = j
             return
          end if
          matrix%values(column + j) = sqrt(pivot)
       end do
+      matrix%negative = negative(:n_negative)
       fault = 0
+
+   contains
+
+      !> Sum of s_k a_k b_k over the rows FROM to UNTIL of the columns A and B.
+      real(wp) function product_of(a, b, from, until) result(product)
+         integer(long), intent(in) :: a, b
+         integer, intent(in)       :: from, until
+         integer :: k
+
+         product = ddot(until - from + 1, matrix%values(a + from), 1, matrix%values(b + from), 1)
+         do k = n_negative, 1, -1
+            if (negative(k) > until) cycle
+            if (negative(k) < from) exit
+            product = product - 2.0_wp*matrix%values(a + negative(k))*matrix%values(b + negative(k))
+         end do
+      end function product_of
+
    end subroutine factorise_skyline
 
-   !> Solve U^T U X = X in place, U from factorise_skyline.
+   !> Solve U^T S U X = X in place, U and S from factorise_skyline.
    subroutine solve_skyline(factor, x)
       type(skyline_matrix), intent(in)    :: factor
       real(wp), contiguous, intent(inout) :: x(:) !! (n) right-hand side on entry, solution on return
@@ -124,6 +155,7 @@ contains
          if (first < j) x(j) = x(j) - ddot(j - first, factor%values(column + first), 1, x(first:j - 1), 1)
          x(j) = x(j)/factor%values(column + j)
       end do
+      x(factor%negative) = -x(factor%negative) ! S is its own inverse
       do j = factor%n, 1, -1      ! U x = y
          column = factor%diagonal(j) - j
          first = int(factor%diagonal(j - 1) + 1 - column)
@@ -132,7 +164,7 @@ contains
       end do
    end subroutine solve_skyline
 
-   !> X = U^T U X, U from factorise_skyline: the product with the matrix that the factor is of.
+   !> X = U^T S U X, U and S from factorise_skyline: the product with the matrix that the factor is of.
    pure subroutine factor_times_vector(factor, x)
       type(skyline_matrix), intent(in) :: factor
       real(wp), intent(inout)          :: x(:) !! (n)
@@ -145,6 +177,7 @@ contains
          if (first < j) x(first:j - 1) = x(first:j - 1) + x(j)*factor%values(column + first:column + j - 1)
          x(j) = x(j)*factor%values(column + j)
       end do
+      x(factor%negative) = -x(factor%negative)
       do j = factor%n, 1, -1
          column = factor%diagonal(j) - j
          first = int(factor%diagonal(j - 1) + 1 - column)

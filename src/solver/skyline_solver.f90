@@ -1,13 +1,13 @@
 !> The solver SKYLINE, the method of the period: [k_b] of the bodies formed once in a profile; in every increment
 !! [k_s] = [k_b] + sum of [k_int] formed and factorised, all of it.
 module skyline_solver
-   use body_elements, only: coupled_stiffness
    use element_kinds, only: max_coupled_dofs
    use equation_solver, only: equation_system, pivot_tolerance
    use failures, only: failure_type
    use interface_equations, only: interface_equations_type, list_interface_equations
    use interface_operator, only: interface_element
    use kinds, only: long, wp
+   use mass_elements, only: coupled_dynamic_stiffness, mass_nodes, n_masses
    use memory_need, only: shortage
    use model_data, only: bar_nodes, model_type, n_bars
    use node_coupling, only: list_on_unknowns, unknown_nodes
@@ -53,9 +53,9 @@ contains
 
       call reverse_cuthill_mckee(graph, order)
       call self%number_unknowns(model, [(i, i = 1, model%n_nodes)])
-      call lay_out_profile(model, self, first_row_as_numbered, self%profile_as_numbered)
+      call lay_out_profile(model, graph%with_masses, self, first_row_as_numbered, self%profile_as_numbered)
       call self%number_unknowns(model, order)
-      call lay_out_profile(model, self, self%first_row, self%profile)
+      call lay_out_profile(model, graph%with_masses, self, self%first_row, self%profile)
       if (self%profile < self%profile_as_numbered) return
       call self%number_unknowns(model, [(i, i = 1, model%n_nodes)])
       call move_alloc(first_row_as_numbered, self%first_row)
@@ -93,8 +93,9 @@ contains
    end subroutine start
 
    !> First row of every column: the lowest equation that shares an element or interface element.
-   subroutine lay_out_profile(model, numbers, first_row, profile)
+   subroutine lay_out_profile(model, with_masses, numbers, first_row, profile)
       type(model_type), intent(in)        :: model
+      logical, intent(in)                 :: with_masses
       class(equation_system), intent(in)  :: numbers
       integer, allocatable, intent(out)   :: first_row(:)
       integer(long), intent(out)          :: profile
@@ -109,6 +110,9 @@ contains
       end do
       do i = 1, n_bars(model)
          call couple(unknown_nodes(model, bar_nodes(model%bars(i))))
+      end do
+      do i = 1, merge(n_masses(model), 0, with_masses)
+         call couple(unknown_nodes(model, mass_nodes(model, model%masses(i))))
       end do
       profile = 0
       do i = 1, numbers%n
@@ -149,7 +153,7 @@ contains
       fault = 0
       d = model%dimension
       do e = 1, model%n_elements
-         call coupled_stiffness(model, e, k)
+         call coupled_dynamic_stiffness(model, e, self%shift, k)
          associate (nodes => coupled_nodes(model, e))
             n = d*size(nodes)
             rows(:n) = [self%number(:, nodes)]
@@ -188,9 +192,11 @@ contains
             matrix%values(matrix%diagonal(locked(i))) = 1.0_wp
          end do
          self%diagonal = matrix%values(matrix%diagonal(1:))
-         call factorise_skyline(matrix, pivot_tolerance, fault)
+         call factorise_skyline(matrix, pivot_tolerance, fault, with_signs=self%shift > 0.0_wp)
          self%weakest = 1.0_wp
-         if (fault == 0) self%weakest = minval(matrix%values(matrix%diagonal(1:))**2/self%diagonal)
+         if (fault /= 0) return
+         self%weakest = minval(matrix%values(matrix%diagonal(1:))**2/abs(self%diagonal))
+         self%n_negative = size(matrix%negative)
       end associate
    end subroutine form_structure
 

@@ -1,12 +1,14 @@
 !> Which solver a structure gets. A new one is a line here, and a word of case control.
 module solver_choice
    use case_control, only: solver_auto, solver_skyline
-   use distribution, only: choose_distributed
+   use distribution, only: choose_distributed, weigh_distributed
    use equation_solver, only: equation_system
-   use kinds, only: long
+   use kinds, only: long, wp
+   use machine, only: memory_for
    use model_data, only: model_type
    use node_graph, only: node_graph_type
    use skyline_solver, only: skyline_solver_type
+   use solver_weighing, only: solver_work_type
    use tree_solver, only: tree_solver_type
    implicit none
    private
@@ -21,12 +23,13 @@ module solver_choice
 
 contains
 
-   !> The solver that case control WANTED, for N unknowns.
-   subroutine choose_solver(model, graph, n, wanted, system)
+   !> The solver that case control WANTED, for N unknowns and so many FACTORISATIONS.
+   subroutine choose_solver(model, graph, n, wanted, factorisations, system)
       type(model_type), intent(in)      :: model
       type(node_graph_type), intent(in) :: graph
       integer, intent(in)               :: n
       integer, intent(in)               :: wanted !! solver_* of case_control
+      integer, intent(in)               :: factorisations
       class(equation_system), allocatable, intent(out) :: system
       type(skyline_solver_type), allocatable :: candidate
       logical :: is_skyline
@@ -44,8 +47,34 @@ contains
       else if (is_skyline) then
          allocate (skyline_solver_type :: system)
       else
-         allocate (tree_solver_type :: system)
+         call weigh_tree(model, graph, wanted == solver_auto, factorisations, system)
       end if
+      system%factorisations = factorisations
    end subroutine choose_solver
+
+   !> TREE, its fronts laid out; or where it IS_WEIGHED one that its operations and its memory speak for.
+   subroutine weigh_tree(model, graph, is_weighed, factorisations, system)
+      type(model_type), intent(in)      :: model
+      type(node_graph_type), intent(in) :: graph
+      logical, intent(in)               :: is_weighed
+      integer, intent(in)               :: factorisations
+      class(equation_system), allocatable, intent(out) :: system
+      type(tree_solver_type), allocatable :: tree
+      type(solver_work_type) :: work
+
+      allocate (tree)
+      tree%factorisations = factorisations
+      call tree%lay_out(model, graph)
+      if (is_weighed .and. tree%is_laid_out) then
+         work%fixed_operations = tree%description%fixed_operations
+         work%moving_operations = tree%description%moving_operations
+         work%bytes = tree%bytes
+         work%there = real(memory_for(work%bytes), wp)
+         work%entries = real(model%dimension, wp)**2*(size(graph%neighbours) + real(model%n_nodes, wp))
+         work%solutions = factorisations
+         call weigh_distributed(work, system)
+      end if
+      if (.not. allocated(system)) call move_alloc(tree, system)
+   end subroutine weigh_tree
 
 end module solver_choice

@@ -14,6 +14,7 @@ module tree_solver
    use front_solve, only: eliminate_fixed, factor_times_vector, moving_times_vector, recover_fixed, solve_moving
    use front_tree, only: front_tree_type, largest_diagonal, start_front_tree
    use kinds, only: long, wp
+   use mass_elements, only: mass_nodes, n_masses
    use memory_need, only: check_memory
    use model_data, only: bar_nodes, model_type, n_bars, n_sections
    use node_coupling, only: unknown_nodes
@@ -38,7 +39,11 @@ module tree_solver
       type(front_tree_type) :: fronts
       type(moving_factor_type) :: factor          !! of the stiffness with the joints, and what is known of it
       character(:), allocatable :: way            !! in which the joints are laid out
+      real(wp) :: bytes = 0.0_wp                  !! that are needed
+      logical  :: is_laid_out = .false.
+      type(front_layout_type), private :: layout  !! until start
    contains
+      procedure :: lay_out
       procedure :: start
       procedure :: form_bodies
       procedure :: add_to_bodies
@@ -56,50 +61,66 @@ module tree_solver
 
 contains
 
-   !> Order, number the unknowns, lay out the fronts for as many factorisations with new stiffnesses of the joints as are expected.
-   !! The equations of the fronts that move are left to the increments.
-   subroutine start(self, model, graph, failure)
+   !> Order, and lay out the fronts for as many factorisations with new stiffnesses of the joints as are expected; IS_LAID_OUT stays
+   !! false where there is no memory to order.
+   subroutine lay_out(self, model, graph)
       class(tree_solver_type), intent(inout) :: self
       type(model_type), intent(in)           :: model
       type(node_graph_type), intent(in)      :: graph
-      type(failure_type), intent(inout)      :: failure
-      type(front_layout_type) :: layout
-      integer, allocatable    :: order(:), weight(:)
-      logical, allocatable    :: in_joint(:)
+      integer, allocatable :: order(:), weight(:)
+      logical, allocatable :: in_joint(:)
       integer :: i
-      logical :: ok
 
       allocate (weight(model%n_nodes))
       do i = 1, model%n_nodes
          weight(i) = merge(count(.not. model%held(:, i)), 0, model%used(i))
       end do
-      call dissect(graph, weight > 0, order, ok)
-      if (.not. ok) then
-         call failure%raise('no memory to order '//integer_text(count(weight > 0))//' nodes')
+      call dissect(graph, weight > 0, order, self%is_laid_out)
+      if (.not. self%is_laid_out) return
+      call mark_joints(model, graph%with_masses, in_joint)
+      call choose_layout(graph, order, weight, in_joint, self%factorisations, self%layout, self%way)
+      self%bytes = bytes_needed(self%layout, sum(weight), model%dimension)
+      self%description%fixed_operations = self%layout%fixed_operations
+      self%description%moving_operations = self%layout%moving_operations
+   end subroutine lay_out
+
+   !> Number the unknowns. The equations of the fronts that move are left to the increments.
+   subroutine start(self, model, graph, failure)
+      class(tree_solver_type), intent(inout) :: self
+      type(model_type), intent(in)           :: model
+      type(node_graph_type), intent(in)      :: graph
+      type(failure_type), intent(inout)      :: failure
+      type(front_layout_type) :: none
+      logical, allocatable    :: in_joint(:)
+      integer :: i
+
+      if (.not. self%is_laid_out) call self%lay_out(model, graph)
+      if (.not. self%is_laid_out) then
+         call failure%raise('no memory to order '//integer_text(count(model%used))//' nodes')
          return
       end if
-      call mark_joints(model, in_joint)
-      call choose_layout(graph, order, weight, in_joint, self%factorisations, layout, self%way)
-      call check_memory(sum(weight), model%dimension, bytes_needed(layout, sum(weight), model%dimension), failure)
-      if (failure%raised) return
-      call self%number_unknowns(model, layout%order)
-      call start_front_tree(model, self%number, layout, self%fronts)
-      call self%factor%reuse%set_costs(layout%moving_operations, layout%moving_entries)
-      self%equations = self%fronts%equations
-      associate (description => self%description)
+      associate (layout => self%layout, description => self%description)
+         call self%number_unknowns(model, layout%order)
+         call check_memory(self%n, model%dimension, self%bytes, failure)
+         if (failure%raised) return
+         call start_front_tree(model, self%number, layout, self%fronts)
+         call self%factor%reuse%set_costs(layout%moving_operations, layout%moving_entries)
+         self%equations = self%fronts%equations
          description%name = 'TREE, JOINTS '//self%way
          description%words = [character(40) :: 'FRONTS', 'ENTRIES OF THE FACTOR', 'UNKNOWNS LEFT AFTER CONDENSATION']
          description%numbers = [int(layout%n, long), int(layout%factor_entries, long), size(self%equations, kind=long)]
-         description%fixed_operations = layout%fixed_operations
-         description%moving_operations = layout%moving_operations
       end associate
+      self%layout = none
+      call mark_joints(model, graph%with_masses, in_joint)
       in_joint(self%node(self%equations)) = .true.
       self%retained = pack([(i, i = 1, model%n_nodes)], in_joint)
    end subroutine start
 
-   !> The nodes whose stiffness changes in the run: those of interface elements, and of bolts.
-   subroutine mark_joints(model, in_joint)
+   !> The nodes whose stiffness changes in the run, or is added to the bodies: those of interface elements, of bars, and WITH_MASSES
+   !! those of masses at nodes.
+   subroutine mark_joints(model, with_masses, in_joint)
       type(model_type), intent(in)      :: model
+      logical, intent(in)               :: with_masses
       logical, allocatable, intent(out) :: in_joint(:) !! (n_nodes)
       integer :: i
 
@@ -113,6 +134,10 @@ contains
       do i = 1, n_sections(model)
          in_joint(model%sections(i)%node) = .true.
       end do
+      if (.not. with_masses) return
+      do i = 1, n_masses(model)
+         in_joint(unknown_nodes(model, mass_nodes(model, model%masses(i)))) = .true.
+      end do
    end subroutine mark_joints
 
    !> [k_b]; the fronts that do not move are eliminated.
@@ -121,6 +146,7 @@ contains
       type(model_type), intent(in)           :: model
       integer, intent(out)                   :: fault
 
+      self%fronts%shift = self%shift
       call factorise_fixed(model, self%fronts, fault)
       self%description%assembly_time = self%fronts%assembly_time
       if (fault == 0) self%stiffest = largest_diagonal(self%fronts)
@@ -173,11 +199,14 @@ contains
    subroutine factorise(self, fault)
       class(tree_solver_type), intent(inout) :: self
       integer, intent(out)                   :: fault
+      integer :: f
 
       call factorise_moving(self%fronts, self%k_int, fault)
       self%factor%is_own = fault == 0
       self%weakest = 1.0_wp
       if (fault == 0) self%weakest = minval(self%fronts%fronts%weakest)
+      if (fault == 0 .and. self%shift > 0.0_wp) self%n_negative = &
+         sum([(size(self%fronts%fronts(f)%negative), f = 1, size(self%fronts%fronts))])
       if (fault == 0) then
          self%factor%k_int = self%k_int
          call note_factor(self%factor%reuse)

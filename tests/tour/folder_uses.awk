@@ -11,7 +11,7 @@ FNR == 1 {
 }
 $1 == "use" { used = $2; sub(/,.*/, "", used); users[++n] = folder; modules[n] = used }
 END {
-   count = split("base element joint deck model build solver serial mpi increment result run fit", order, " ")
+   count = split("base element joint deck model build solver serial mpi increment vibration result run fit", order, " ")
    for (i = 1; i <= n; i++) if (modules[i] in home) edge[users[i], home[modules[i]]]
    line = sprintf("%-12s", "")
    for (k = 1; k <= count - 2; k++) line = line "  " order[k]

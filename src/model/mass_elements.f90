@@ -1,0 +1,161 @@
+!> The masses of the structure, each as a matrix: of body elements, of bars, and at nodes. Consistent, or lumped where the deck says so.
+module mass_elements
+   use body_elements, only: coupled_stiffness, law_of
+   use element_kinds, only: max_coupled_dofs, max_nodes
+   use element_mass, only: lump, shape_products
+   use kinds, only: wp
+   use model_data, only: bar_nodes, corners_of, model_type, n_rotations, point_mass_type
+   use node_coupling, only: onto_unknowns, unknown_nodes
+   use section_coupling, only: extend_stiffness, felt_nodes
+   implicit none
+   private
+
+   public :: scalar_mass, bar_mass, inertia_at_rotation, rotation_of
+   public :: coupled_dynamic_stiffness, coupled_bar_mass, coupled_point_mass, mass_nodes, n_masses
+
+contains
+
+   !> How many masses there are at nodes.
+   pure integer function n_masses(model)
+      type(model_type), intent(in) :: model
+
+      n_masses = 0
+      if (allocated(model%masses)) n_masses = size(model%masses)
+   end function n_masses
+
+   !> Mass between the corners of element E, the same for every component of their displacements [force time^2/length].
+   pure subroutine scalar_mass(model, e, m)
+      type(model_type), intent(in) :: model
+      integer, intent(in)          :: e
+      real(wp), intent(inout)      :: m(:, :) !! (nodes, nodes), set here
+
+      associate (corners => corners_of(model, e))
+         call shape_products(law_of(model, e), model%x(:model%dimension, corners), m)
+         associate (n => size(corners))
+            m(:n, :n) = model%properties(model%element_property(e))%rho*m(:n, :n)
+            if (model%lumped) call lump(m(:n, :n))
+         end associate
+      end associate
+   end subroutine scalar_mass
+
+   !> K = [k] - SHIFT [m] between the unknowns of the coupled_nodes of element E, components of node 1 first [force/length].
+   pure subroutine coupled_dynamic_stiffness(model, e, shift, k)
+      type(model_type), intent(in) :: model
+      integer, intent(in)          :: e
+      real(wp), intent(in)         :: shift   !! [1/time^2]
+      real(wp), intent(inout)      :: k(:, :) !! dimension x coupled nodes rows and columns are set
+      real(wp) :: m(max_nodes, max_nodes), full(max_coupled_dofs, max_coupled_dofs)
+      integer  :: c, d, i, j, n
+
+      call coupled_stiffness(model, e, k)
+      if (.not. abs(shift) > 0.0_wp) return
+      d = model%dimension
+      n = size(corners_of(model, e))
+      call scalar_mass(model, e, m)
+      full(:d*n, :d*n) = 0.0_wp
+      do j = 1, n
+         do i = 1, n
+            do c = 1, d
+               full(d*(i - 1) + c, d*(j - 1) + c) = m(i, j)
+            end do
+         end do
+      end do
+      call extend_stiffness(model, e, full)
+      if (allocated(model%coupling%of_node)) call onto_unknowns(model, felt_nodes(model, e), full)
+      n = d*size(unknown_nodes(model, felt_nodes(model, e)))
+      k(:n, :n) = k(:n, :n) - shift*full(:n, :n)
+   end subroutine coupled_dynamic_stiffness
+
+   !> Mass between the two nodes of bar I, the same for every component [force time^2/length].
+   pure function bar_mass(model, i) result(m)
+      type(model_type), intent(in) :: model
+      integer, intent(in)          :: i
+      real(wp) :: m(2, 2)
+
+      m = model%bars(i)%mass/6.0_wp*reshape([2.0_wp, 1.0_wp, 1.0_wp, 2.0_wp], [2, 2])
+      if (model%lumped) call lump(m)
+   end function bar_mass
+
+   !> [m] of bar I between the unknowns of the unknown_nodes of its nodes, as coupled_bar_stiffness.
+   pure function coupled_bar_mass(model, i) result(m)
+      type(model_type), intent(in) :: model
+      integer, intent(in)          :: i
+      real(wp), allocatable :: m(:, :)
+      real(wp) :: of_nodes(2, 2)
+      integer  :: c, d, n, rows
+
+      d = model%dimension
+      associate (nodes => bar_nodes(model%bars(i)))
+         n = size(nodes)
+         rows = d*size(unknown_nodes(model, nodes))
+         allocate (m(max(d*n, rows), max(d*n, rows)), source=0.0_wp)
+         of_nodes = bar_mass(model, i)
+         do c = 1, d
+            m(c:d*n:d, c:d*n:d) = of_nodes(:n, :n)
+         end do
+         call onto_unknowns(model, nodes, m)
+         m = m(:rows, :rows)
+      end associate
+   end function coupled_bar_mass
+
+   !> Which of the rotations is that of NODE, 0: it has none.
+   pure integer function rotation_of(model, node) result(r)
+      type(model_type), intent(in) :: model
+      integer, intent(in)          :: node
+      integer :: i
+
+      r = 0
+      do i = 1, n_rotations(model)
+         if (model%rotations(i)%point == node) r = i
+      end do
+   end function rotation_of
+
+   !> The nodes that MASS moves with: its own, and that of its rotations where there is one.
+   pure function mass_nodes(model, mass) result(nodes)
+      type(model_type), intent(in)      :: model
+      type(point_mass_type), intent(in) :: mass
+      integer, allocatable :: nodes(:)
+
+      nodes = [mass%node]
+      if (rotation_of(model, mass%node) > 0) nodes = [nodes, model%rotations(rotation_of(model, mass%node))%node]
+   end function mass_nodes
+
+   !> The inertia of MASS as the node of its rotations feels it, whose components are rotations times an arm: in space about x, y
+   !! and z, in the plane about z alone [force time^2/length].
+   pure function inertia_at_rotation(model, mass) result(m)
+      type(model_type), intent(in)      :: model
+      type(point_mass_type), intent(in) :: mass
+      real(wp) :: m(model%dimension, model%dimension)
+
+      associate (arm => model%rotations(rotation_of(model, mass%node))%arm)
+         if (model%dimension == 3) then
+            m = mass%inertia/arm**2
+         else
+            m = 0.0_wp
+            m(1, 1) = mass%inertia(3, 3)/arm**2
+         end if
+      end associate
+   end function inertia_at_rotation
+
+   !> [m] of MASS between the unknowns of the unknown_nodes of its mass_nodes, components of the first of these first.
+   pure function coupled_point_mass(model, mass) result(m)
+      type(model_type), intent(in)      :: model
+      type(point_mass_type), intent(in) :: mass
+      real(wp), allocatable :: m(:, :)
+      integer :: c, d, n, rows
+
+      d = model%dimension
+      associate (nodes => mass_nodes(model, mass))
+         n = d*size(nodes)
+         rows = d*size(unknown_nodes(model, nodes))
+         allocate (m(max(n, rows), max(n, rows)), source=0.0_wp)
+         do c = 1, d
+            m(c, c) = mass%mass
+         end do
+         if (n > d) m(d + 1:n, d + 1:n) = inertia_at_rotation(model, mass)
+         call onto_unknowns(model, nodes, m)
+         m = m(:rows, :rows)
+      end associate
+   end function coupled_point_mass
+
+end module mass_elements

@@ -1,0 +1,102 @@
+!> Where the strain energy of a mode is: in each body, each bar, each joint, of these in its normal and its shear stiffness apart; and
+!! the forces [k] {u}, element by element, which owe nothing to the factor that the mode was found with.
+module modal_energy
+   use bar_elements, only: add_pull, bar_elongation
+   use body_elements, only: felt_stiffness
+   use element_kinds, only: max_coupled_dofs
+   use interface_operator, only: add_force, joint_movement
+   use kinds, only: wp
+   use model_data, only: bar_nodes, model_type, n_bars
+   use oscillating_structure, only: oscillating_type
+   use section_coupling, only: felt_nodes
+   implicit none
+   private
+
+   public :: strain_energies
+
+   !> Of one mode [force x length].
+   type, public :: energy_type
+      real(wp), allocatable :: body(:)             !! (parts)
+      real(wp), allocatable :: bar(:)              !! (bars)
+      real(wp), allocatable :: normal(:), shear(:) !! (joints)
+   contains
+      procedure :: total
+   end type energy_type
+
+contains
+
+   !> All of it.
+   pure real(wp) function total(self)
+      class(energy_type), intent(in) :: self
+
+      total = sum(self%body) + sum(self%bar) + sum(self%normal) + sum(self%shear)
+   end function total
+
+   !> The strain energies of the shapes U, half of u^T [k] u part by part, and the forces F = [k] U that hold them.
+   pure subroutine strain_energies(model, structure, u, energies, f)
+      type(model_type), intent(in)       :: model
+      type(oscillating_type), intent(in) :: structure
+      real(wp), intent(in)               :: u(:, :, :)  !! (dimension, n_nodes, modes) [length]
+      type(energy_type), intent(out)     :: energies(:) !! (modes)
+      real(wp), intent(out)              :: f(:, :, :)  !! as U [force]
+      real(wp) :: movement(3), tension
+      integer  :: i, j, m
+
+      f = 0.0_wp
+      do m = 1, size(energies)
+         allocate (energies(m)%body(model%n_parts), energies(m)%bar(n_bars(model)), energies(m)%normal(size(model%joints)), &
+                   energies(m)%shear(size(model%joints)), source=0.0_wp)
+      end do
+      call strain_bodies(model, u, energies, f)
+      do m = 1, size(energies)
+         do i = 1, n_bars(model)
+            if (.not. structure%is_elastic(i)) cycle
+            associate (bar => model%bars(i))
+               tension = bar%stiffness*bar_elongation(bar, u(:, bar_nodes(bar), m))
+               energies(m)%bar(i) = 0.5_wp*tension**2/bar%stiffness
+               call add_pull(model, i, -tension, f(:, :, m))
+            end associate
+         end do
+         do i = 1, size(model%interface)
+            movement = joint_movement(model%interface(i), u(:, :, m))
+            associate (k => structure%k(:, i))
+               j = model%interface(i)%joint
+               energies(m)%shear(j) = energies(m)%shear(j) + 0.5_wp*sum(k(:2)*movement(:2)**2)
+               energies(m)%normal(j) = energies(m)%normal(j) + 0.5_wp*k(3)*movement(3)**2
+               call add_force(model%interface(i), k*movement, f(:, :, m))
+            end associate
+         end do
+      end do
+   end subroutine strain_energies
+
+   !> Those of the bodies: of every element once, for all shapes.
+   pure subroutine strain_bodies(model, u, energies, f)
+      type(model_type), intent(in)     :: model
+      real(wp), intent(in)             :: u(:, :, :)
+      type(energy_type), intent(inout) :: energies(:)
+      real(wp), intent(inout)          :: f(:, :, :)
+      real(wp) :: k(max_coupled_dofs, max_coupled_dofs), q(max_coupled_dofs, size(energies)), p(max_coupled_dofs, size(energies))
+      integer  :: d, e, i, m, n
+
+      d = model%dimension
+      do e = 1, model%n_elements
+         call felt_stiffness(model, e, k)
+         associate (nodes => felt_nodes(model, e))
+            n = d*size(nodes)
+            do i = 1, size(nodes)
+               q(d*(i - 1) + 1:d*i, :) = u(:, nodes(i), :)
+            end do
+            p(:n, :) = matmul(k(:n, :n), q(:n, :))
+            do i = 1, size(nodes)
+               f(:, nodes(i), :) = f(:, nodes(i), :) + p(d*(i - 1) + 1:d*i, :)
+            end do
+            do m = 1, size(energies)
+               associate (body => energies(m)%body(model%part(nodes(1))))
+                  body = body + 0.5_wp*dot_product(q(:n, m), p(:n, m))
+               end associate
+            end do
+         end associate
+      end do
+   end subroutine strain_bodies
+
+end module modal_energy

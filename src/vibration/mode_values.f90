@@ -1,0 +1,230 @@
+!> What a natural mode is worth: its frequency, shape, mass, how much of the structure's mass it moves along every axis, where its
+!! strain energy is, and how much of that the joints keep in a cycle.
+!!
+!!      generalised mass     m_r = u^T [m] u            participation  g_d = u^T [m] e_d/m_r, e_d all nodes by 1 along d
+!!      effective mass       g_d^2 m_r; of all modes together the mass that is not held at supports
+!!      residual             |[k] u - lambda [m] u|/|[k] u| on what is not held, of a motion without strain beside |sigma [m] u|
+!!      loss factor          sum of a_i W/(2 pi U): W the loss of the Masing loops of the joints at the amplitude asked for, U the
+!!                           strain energy of the mode there
+module mode_values
+   use analysis_state, only: analysis_type
+   use eigenpairs, only: all_displacements
+   use equal_modes, only: settle_equal_modes, settle_sign
+   use equation_solver, only: equation_system
+   use interface_operator, only: joint_movement
+   use joint_laws, only: friction_limit
+   use kinds, only: wp
+   use masing_loop, only: loop_loss, no_limit
+   use mass_matrix, only: mass_times, total_mass
+   use modal_energy, only: energy_type, strain_energies
+   use model_data, only: model_type, n_points
+   use natural_modes, only: spectrum_type
+   use node_coupling, only: forces_on_unknowns
+   use oscillating_structure, only: oscillating_type
+   use small_oscillation, only: is_pressed
+   use vibration_plan, only: vibration_plan_type
+   implicit none
+   private
+
+   public :: evaluate_modes
+
+   real(wp), parameter :: two_pi = 2.0_wp*acos(-1.0_wp)
+
+   type, public :: mode_type
+      real(wp) :: lambda = 0.0_wp                   !! omega^2 [1/time^2]
+      real(wp) :: omega = 0.0_wp, frequency = 0.0_wp !! [1/time]
+      logical  :: is_rigid = .false.                !! a motion without strain
+      real(wp) :: mass = 0.0_wp                     !! generalised [force time^2/length]
+      real(wp) :: participation(3) = 0.0_wp         !! along x, y, z; of a ring along y alone [-]
+      real(wp) :: effective(3) = 0.0_wp             !! mass [force time^2/length]
+      real(wp) :: residual = 0.0_wp                 !! [-]
+      real(wp) :: loss = 0.0_wp                     !! loss factor, where an amplitude is given [-]
+      real(wp), allocatable :: u(:, :)              !! (dimension, n_nodes) shape [length]
+      type(energy_type) :: energy                   !! shares of the strain energy, their sum 1; of a motion without strain 0
+   end type mode_type
+
+   !> The modes of a stage.
+   type, public :: modes_type
+      type(mode_type), allocatable :: modes(:)
+      integer  :: n_before = 0                      !! modes below the range that was asked for
+      integer  :: n_counted = 0                     !! modes below COUNTED_AT, of which none is missing
+      real(wp) :: counted_at = 0.0_wp               !! frequency [1/time]; beyond all: huge
+      real(wp) :: shift = 0.0_wp                    !! sigma that they were found from [1/time^2]
+      real(wp) :: mass = 0.0_wp                     !! of the structure [force time^2/length]
+      real(wp) :: centre(3) = 0.0_wp                !! of that [length]
+      real(wp) :: inertia(6) = 0.0_wp               !! about axes through it: I_xx, I_yy, I_zz, I_xy, I_yz, I_zx [force time^2 length]
+      integer  :: n_pressed = 0                     !! interface elements that carry pressure, and so take part
+   end type modes_type
+
+contains
+
+   !> The modes that PLAN wants, of SPECTRUM.
+   subroutine evaluate_modes(model, analysis, structure, plan, spectrum, system, modes)
+      type(model_type), intent(in)          :: model
+      type(analysis_type), intent(in)       :: analysis
+      type(oscillating_type), intent(in)    :: structure
+      type(vibration_plan_type), intent(in) :: plan
+      type(spectrum_type), intent(in)       :: spectrum
+      class(equation_system), intent(in)    :: system
+      type(modes_type), intent(out)         :: modes
+      real(wp), allocatable :: u(:, :, :), of_mass(:, :, :), f(:, :, :), g(:, :)
+      type(energy_type), allocatable :: energies(:)
+      integer :: m, n
+
+      modes%n_before = spectrum%n_before
+      modes%n_counted = spectrum%n_counted
+      modes%counted_at = merge(sqrt(spectrum%counted_at)/two_pi, huge(1.0_wp), spectrum%counted_at < huge(1.0_wp))
+      modes%shift = spectrum%shift
+      modes%n_pressed = count(is_pressed(analysis%states))
+      call total_mass(model, structure%mass, modes%mass, modes%centre, modes%inertia)
+      n = size(spectrum%lambda)
+      allocate (u(model%dimension, model%n_nodes, n), g(model%dimension, n))
+      do m = 1, n
+         u(:, :, m) = all_displacements(model, system, spectrum%x(:, m))
+      end do
+      call find_participation(model, structure, u, g)
+      call settle_equal_modes(spectrum%lambda, modes%mass, g, u)
+      n = spectrum%n_wanted
+      do m = 1, n
+         call settle_sign(g(:, m), u(:, :, m))
+      end do
+      allocate (energies(n), f(model%dimension, model%n_nodes, n), of_mass(model%dimension, model%n_nodes, n), modes%modes(n))
+      call strain_energies(model, structure, u(:, :, :n), energies, f)
+      do m = 1, n
+         call mass_times(model, structure%mass, u(:, :, m), of_mass(:, :, m))
+      end do
+      do m = 1, n
+         associate (mode => modes%modes(m))
+            mode%lambda = spectrum%lambda(m)
+            mode%omega = sqrt(max(0.0_wp, mode%lambda))
+            mode%frequency = mode%omega/two_pi
+            mode%is_rigid = m <= spectrum%n_rigid
+            mode%residual = residual_of(model, system, mode%lambda, mode%is_rigid, f(:, :, m), of_mass(:, :, m))
+            mode%mass = sum(u(:, :, m)*of_mass(:, :, m))
+            mode%participation(:model%dimension) = g(:, m)/mode%mass
+            mode%effective(:model%dimension) = g(:, m)**2/mode%mass
+            allocate (mode%u, source=u(:, :, m))
+            mode%energy = energies(m)
+            call normalise(model, plan, mode)
+            if (plan%amplitude > 0.0_wp .and. .not. mode%is_rigid) mode%loss = loss_factor(model, analysis, plan, mode)
+            call share_energy(mode)
+         end associate
+      end do
+   end subroutine evaluate_modes
+
+   !> G(d, m) = u^T [m] e_d. Of a ring only the axis is a direction that it can move along as a whole.
+   subroutine find_participation(model, structure, u, g)
+      type(model_type), intent(in)       :: model
+      type(oscillating_type), intent(in) :: structure
+      real(wp), intent(in)               :: u(:, :, :)
+      real(wp), intent(out)              :: g(:, :)
+      real(wp) :: e(size(u, 1), size(u, 2)), f(size(u, 1), size(u, 2))
+      integer  :: d, m
+
+      do d = 1, size(g, 1)
+         e = 0.0_wp
+         e(d, :n_points(model)) = 1.0_wp
+         call mass_times(model, structure%mass, e, f)
+         do m = 1, size(g, 2)
+            g(d, m) = sum(u(:, :, m)*f)
+         end do
+      end do
+      if (model%axisymmetric) g(1, :) = 0.0_wp
+   end subroutine find_participation
+
+   !> How far the mode with the forces F = [k] u and OF_MASS = [m] u is from equilibrium.
+   pure real(wp) function residual_of(model, system, lambda, is_rigid, f, of_mass) result(residual)
+      type(model_type), intent(in)       :: model
+      class(equation_system), intent(in) :: system
+      real(wp), intent(in)               :: lambda
+      logical, intent(in)                :: is_rigid
+      real(wp), intent(in)               :: f(:, :), of_mass(:, :)
+      real(wp) :: felt(system%n), inertia(system%n)
+
+      felt = on_equations(f)
+      inertia = on_equations(of_mass)
+      if (is_rigid) then
+         residual = norm2(felt)/norm2(system%shift*inertia)
+      else
+         residual = norm2(felt - lambda*inertia)/norm2(felt)
+      end if
+
+   contains
+
+      pure function on_equations(forces) result(x)
+         real(wp), intent(in) :: forces(:, :)
+         real(wp) :: x(system%n), all(size(forces, 1), size(forces, 2))
+         integer  :: i
+
+         all = forces_on_unknowns(model, forces)
+         do i = 1, system%n
+            x(i) = all(system%direction(i), system%node(i))
+         end do
+         x(system%locked) = 0.0_wp
+      end function on_equations
+
+   end function residual_of
+
+   !> NORM = MAX: the largest component of the shape, at a point of the structure, becomes 1; its sign remains.
+   pure subroutine normalise(model, plan, mode)
+      type(model_type), intent(in)          :: model
+      type(vibration_plan_type), intent(in) :: plan
+      type(mode_type), intent(inout)        :: mode
+      real(wp) :: factor
+
+      if (plan%unit_mass) then
+         factor = 1.0_wp/sqrt(mode%mass)
+      else
+         factor = 1.0_wp/maxval(abs(mode%u(:, :n_points(model))))
+      end if
+      mode%u = factor*mode%u
+      mode%mass = factor**2*mode%mass
+      mode%participation = mode%participation/factor
+      mode%energy%body = factor**2*mode%energy%body
+      mode%energy%bar = factor**2*mode%energy%bar
+      mode%energy%normal = factor**2*mode%energy%normal
+      mode%energy%shear = factor**2*mode%energy%shear
+   end subroutine normalise
+
+   !> The loss factor of MODE where its largest displacement is the amplitude that PLAN gives.
+   pure real(wp) function loss_factor(model, analysis, plan, mode) result(loss)
+      type(model_type), intent(in)          :: model
+      type(analysis_type), intent(in)       :: analysis
+      type(vibration_plan_type), intent(in) :: plan
+      type(mode_type), intent(in)           :: mode
+      real(wp) :: movement(3), lost, factor, limit
+      integer  :: d, i
+
+      factor = plan%amplitude/sqrt(maxval(sum(mode%u(:, :n_points(model))**2, dim=1)))
+      lost = 0.0_wp
+      do i = 1, size(model%interface)
+         associate (state => analysis%states(i), law => model%joints(model%interface(i)%joint)%law)
+            if (.not. is_pressed(state)) cycle
+            limit = no_limit
+            if (law%has_friction) limit = friction_limit(law, state%normal%pressure)
+            movement = factor*joint_movement(model%interface(i), mode%u)
+            do d = 1, 2
+               if (.not. law%shear(d)%given) cycle
+               lost = lost + model%interface(i)%area*loop_loss(law%shear(d)%load, state%normal%pressure, limit, movement(d))
+            end do
+         end associate
+      end do
+      loss = lost/(two_pi*factor**2*mode%energy%total())
+   end function loss_factor
+
+   !> The energies become shares of all.
+   pure subroutine share_energy(mode)
+      type(mode_type), intent(inout) :: mode
+      real(wp) :: whole
+
+      whole = mode%energy%total()
+      if (mode%is_rigid) whole = huge(1.0_wp)
+      associate (energy => mode%energy)
+         energy%body = energy%body/whole
+         energy%bar = energy%bar/whole
+         energy%normal = energy%normal/whole
+         energy%shear = energy%shear/whole
+      end associate
+   end subroutine share_energy
+
+end module mode_values

@@ -1,0 +1,294 @@
+!> Natural modes of an oscillating structure: which eigenvalues are asked for, the shift that they are found from, and the count that
+!! shows that none is missing.
+!!
+!! The factor of [k] - sigma [m] has as many pivots below zero as there are eigenvalues below sigma (Sylvester's law of inertia). A range
+!! of frequencies is counted at both ends before anything is searched in it; the lowest modes are counted behind the last one.
+!! Source: Parlett, The Symmetric Eigenvalue Problem, SIAM 1998, sections 3.3 and 15.
+module natural_modes
+   use eigenpairs, only: find_eigenpairs, is_small
+   use equation_solver, only: equation_system
+   use failures, only: failure_type
+   use kinds, only: wp
+   use model_data, only: model_type, n_points
+   use oscillating_structure, only: factorise_at, oscillating_type
+   use text_tools, only: integer_text
+   use vibration_plan, only: vibration_plan_type
+   implicit none
+   private
+
+   public :: find_natural_modes
+
+   real(wp), parameter :: two_pi = 2.0_wp*acos(-1.0_wp)
+   real(wp), parameter :: clear = 1.0e-6_wp       ! of an eigenvalue: a wider gap to the next one is safe to count in
+   real(wp), parameter :: near_pole = 1.0e-7_wp   ! by which a shift moves away from an eigenvalue that it has hit
+   real(wp), parameter :: noise = 2.0e-13_wp      ! of the largest eigenvalue: what is below it is rounding
+   real(wp), parameter :: no_mode = 1.0e-4_wp     ! of the next eigenvalue, at most
+   real(wp), parameter :: barely_held = 1.0e-8_wp ! weakest pivot, as a share of its diagonal entry
+   integer, parameter  :: beyond = 3              ! modes more than are wanted: the last wanted one may have equals
+   integer, parameter  :: most_trials = 4
+
+   type, public :: spectrum_type
+      real(wp), allocatable :: lambda(:)          !! ascending, 0 of a motion without strain [1/time^2]
+      real(wp), allocatable :: x(:, :)            !! (equations, modes) x^T [m] x = 1
+      integer  :: n_rigid = 0                     !! motions without strain among them
+      integer  :: n_before = 0                    !! modes below the range
+      integer  :: n_wanted = 0                    !! of them, from the first on; the others complete the last wanted one
+      real(wp) :: shift = 0.0_wp                  !! they were found from
+      integer  :: n_counted = 0                   !! eigenvalues below COUNTED_AT, all of them known
+      real(wp) :: counted_at = 0.0_wp             !! [1/time^2]
+   end type spectrum_type
+
+contains
+
+   !> The modes of STRUCTURE that PLAN asks for, and the factor that they were found with, in SYSTEM.
+   subroutine find_natural_modes(model, structure, plan, spectrum, system, failure)
+      type(model_type), intent(in)          :: model
+      type(oscillating_type), intent(in)    :: structure
+      type(vibration_plan_type), intent(in) :: plan
+      type(spectrum_type), intent(out)      :: spectrum
+      class(equation_system), allocatable, intent(out) :: system
+      type(failure_type), intent(inout)     :: failure
+      integer :: below_end
+
+      if (failure%raised) return
+      spectrum%n_wanted = merge(plan%most, huge(1), plan%most > 0)
+      if (is_small(structure%started)) then
+         call find_all(model, structure, plan, spectrum, system, failure)
+         return
+      end if
+      below_end = huge(1)
+      if (plan%has_highest) then
+         spectrum%counted_at = (two_pi*plan%highest)**2
+         call count_below(model, structure, spectrum%counted_at, below_end, failure)
+         spectrum%n_counted = below_end
+      end if
+      if (plan%has_lowest) then
+         spectrum%shift = (two_pi*plan%lowest)**2
+         call factorise_beside(model, structure, spectrum%shift, system, failure)
+         if (failure%raised) return
+         spectrum%n_before = system%n_negative
+      end if
+      if (failure%raised) return
+      spectrum%n_wanted = min(spectrum%n_wanted, below_end - spectrum%n_before, structure%started%n - 1 - spectrum%n_before)
+      if (spectrum%n_wanted <= 0) then
+         spectrum%n_wanted = 0
+         allocate (spectrum%lambda(0), spectrum%x(structure%started%n, 0))
+      else if (plan%has_lowest) then
+         call find_and_count(model, structure, below_end, spectrum, system, failure)
+      else
+         call find_lowest(model, structure, below_end, spectrum, system, failure)
+      end if
+   end subroutine find_natural_modes
+
+   !> All modes of a small structure; of these the range.
+   subroutine find_all(model, structure, plan, spectrum, system, failure)
+      type(model_type), intent(in)          :: model
+      type(oscillating_type), intent(in)    :: structure
+      type(vibration_plan_type), intent(in) :: plan
+      type(spectrum_type), intent(inout)    :: spectrum
+      class(equation_system), allocatable, intent(out) :: system
+      type(failure_type), intent(inout)     :: failure
+      integer :: n
+
+      call search_from_below(model, structure, structure%started%n, spectrum, system, failure)
+      if (failure%raised) return
+      spectrum%lambda(:spectrum%n_rigid) = 0.0_wp
+      associate (lambda => spectrum%lambda)
+         n = size(lambda)
+         if (plan%has_lowest) spectrum%n_before = count(lambda < (two_pi*plan%lowest)**2)
+         if (plan%has_highest) n = count(lambda <= (two_pi*plan%highest)**2)
+         spectrum%n_wanted = min(spectrum%n_wanted, max(0, n - spectrum%n_before))
+         spectrum%n_counted = size(lambda)
+         spectrum%counted_at = huge(1.0_wp)
+      end associate
+      spectrum%n_rigid = max(0, spectrum%n_rigid - spectrum%n_before)
+      spectrum%lambda = spectrum%lambda(spectrum%n_before + 1:)
+      spectrum%x = spectrum%x(:, spectrum%n_before + 1:)
+   end subroutine find_all
+
+   !> The lowest modes, and the count behind them.
+   subroutine find_lowest(model, structure, below_end, spectrum, system, failure)
+      type(model_type), intent(in)       :: model
+      type(oscillating_type), intent(in) :: structure
+      integer, intent(in)                :: below_end
+      type(spectrum_type), intent(inout) :: spectrum
+      class(equation_system), allocatable, intent(out) :: system
+      type(failure_type), intent(inout)  :: failure
+
+      call search_from_below(model, structure, spectrum%n_wanted + beyond, spectrum, system, failure)
+      call find_and_count(model, structure, below_end, spectrum, system, failure)
+   end subroutine find_lowest
+
+   !> The modes from the shift of SYSTEM on, more of them until the count agrees: that at the end of the range, BELOW_END, or where
+   !! there is none that in the first clear gap behind the last wanted one.
+   subroutine find_and_count(model, structure, below_end, spectrum, system, failure)
+      type(model_type), intent(in)       :: model
+      type(oscillating_type), intent(in) :: structure
+      integer, intent(in)                :: below_end
+      type(spectrum_type), intent(inout) :: spectrum
+      class(equation_system), intent(in) :: system
+      type(failure_type), intent(inout)  :: failure
+      integer :: last, n, trial, under
+
+      n = spectrum%n_wanted + beyond
+      do trial = 1, most_trials
+         if (failure%raised) return
+         if (trial > 1 .or. .not. allocated(spectrum%lambda)) &
+            call find_eigenpairs(model, structure%mass, system, n, spectrum%lambda, spectrum%x, failure)
+         if (failure%raised) return
+         spectrum%lambda(:spectrum%n_rigid) = 0.0_wp
+         associate (lambda => spectrum%lambda)
+            last = clear_gap(lambda, spectrum%n_wanted)
+            if (spectrum%n_wanted == below_end - spectrum%n_before) then ! the whole range, which has been counted
+               if (count(lambda < spectrum%counted_at) == spectrum%n_wanted) return
+               n = n + beyond
+            else if (last > 0) then
+               spectrum%counted_at = 0.5_wp*(lambda(last) + lambda(last + 1))
+               call count_below(model, structure, spectrum%counted_at, under, failure)
+               if (failure%raised) return
+               spectrum%n_counted = under
+               if (under - spectrum%n_before == last) return
+               n = max(n, under - spectrum%n_before) + beyond
+            else
+               n = 2*n
+            end if
+         end associate
+      end do
+      call failure%raise('MODES: '//integer_text(spectrum%n_counted)//' modes have been counted, and '// &
+                         integer_text(spectrum%n_before + size(spectrum%lambda))//' found in '// &
+                         integer_text(most_trials)//' trials')
+   end subroutine find_and_count
+
+   !> The first of the ascending LAMBDA from number FROM on that is clearly below the next one; 0: there is none.
+   pure integer function clear_gap(lambda, from) result(last)
+      real(wp), intent(in) :: lambda(:)
+      integer, intent(in)  :: from
+
+      do last = from, size(lambda) - 1
+         if (lambda(last + 1) - lambda(last) > clear*abs(lambda(last + 1))) return
+      end do
+      last = 0
+   end function clear_gap
+
+   !> How many eigenvalues there are BELOW a shift above zero.
+   subroutine count_below(model, structure, shift, below, failure)
+      type(model_type), intent(in)       :: model
+      type(oscillating_type), intent(in) :: structure
+      real(wp), intent(in)               :: shift
+      integer, intent(out)               :: below
+      type(failure_type), intent(inout)  :: failure
+      class(equation_system), allocatable :: system
+      real(wp) :: at
+
+      at = shift
+      below = 0
+      call factorise_beside(model, structure, at, system, failure)
+      if (.not. failure%raised) below = system%n_negative
+   end subroutine count_below
+
+   !> Factorise at a SHIFT above zero; where that is an eigenvalue, a little below it.
+   subroutine factorise_beside(model, structure, shift, system, failure)
+      type(model_type), intent(in)       :: model
+      type(oscillating_type), intent(in) :: structure
+      real(wp), intent(inout)            :: shift
+      class(equation_system), allocatable, intent(out) :: system
+      type(failure_type), intent(inout)  :: failure
+      type(failure_type) :: own
+      integer :: trial
+
+      if (failure%raised) return
+      do trial = 1, most_trials
+         own = failure
+         call factorise_at(model, structure, shift, system, own)
+         if (.not. own%raised) return
+         shift = shift*(1.0_wp - near_pole*10.0_wp**trial)
+      end do
+      failure = own
+   end subroutine factorise_beside
+
+   !> N modes from below all of them: without a shift, or where the structure is not held from a shift below zero, as far below it as
+   !! the first mode with strain is above.
+   subroutine search_from_below(model, structure, n, spectrum, system, failure)
+      type(model_type), intent(in)       :: model
+      type(oscillating_type), intent(in) :: structure
+      integer, intent(in)                :: n
+      type(spectrum_type), intent(inout) :: spectrum
+      class(equation_system), allocatable, intent(out) :: system
+      type(failure_type), intent(inout)  :: failure
+      type(failure_type) :: loose
+      real(wp) :: first, least
+      integer  :: trial
+
+      spectrum%shift = 0.0_wp
+      call factorise_at(model, structure, spectrum%shift, system, loose)
+      if (.not. loose%raised) loose%raised = system%weakest < barely_held
+      if (.not. loose%raised) then
+         call find_eigenpairs(model, structure%mass, system, n, spectrum%lambda, spectrum%x, failure)
+         return
+      end if
+      spectrum%shift = -wave_scale(model)
+      do trial = 1, most_trials
+         call factorise_at(model, structure, spectrum%shift, system, failure)
+         if (failure%raised) return
+         call find_eigenpairs(model, structure%mass, system, n, spectrum%lambda, spectrum%x, failure)
+         if (failure%raised) return
+         least = noise*stiffest(model, structure, system)
+         call count_rigid(spectrum%lambda, max(least, 1.0e-9_wp*abs(spectrum%shift)), spectrum%n_rigid)
+         if (spectrum%n_rigid == size(spectrum%lambda)) exit
+         first = spectrum%lambda(spectrum%n_rigid + 1)
+         if (first > 1.0e-2_wp*abs(spectrum%shift) .and. first < 1.0e3_wp*abs(spectrum%shift)) exit
+         spectrum%shift = -first
+      end do
+   end subroutine search_from_below
+
+   !> How many of the ascending LAMBDA are zero but for rounding: below LEAST, and far below the next one.
+   pure subroutine count_rigid(lambda, least, n_rigid)
+      real(wp), intent(in) :: lambda(:), least
+      integer, intent(out) :: n_rigid
+
+      do n_rigid = count(lambda < least), 1, -1
+         if (n_rigid == size(lambda)) return
+         if (lambda(n_rigid) < no_mode*lambda(n_rigid + 1)) return
+      end do
+   end subroutine count_rigid
+
+   !> The square of the frequency at which a wave runs through the whole structure and back once a radian: E/rho over its size^2.
+   pure real(wp) function wave_scale(model) result(scale)
+      type(model_type), intent(in) :: model
+      real(wp) :: size_of_it
+      integer  :: i
+
+      associate (x => model%x(:, :n_points(model)))
+         size_of_it = norm2(maxval(x, dim=2) - minval(x, dim=2))
+      end associate
+      scale = 0.0_wp
+      do i = 1, size(model%properties)
+         if (model%properties(i)%rho > 0.0_wp) &
+            scale = max(scale, model%properties(i)%e/(model%properties(i)%rho*size_of_it**2))
+      end do
+      if (scale > 0.0_wp) return
+      scale = 1.0_wp ! masses at nodes alone: the search finds its own
+   end function wave_scale
+
+   !> About the largest eigenvalue: the largest k_ii/m_ii.
+   real(wp) function stiffest(model, structure, system) result(largest)
+      type(model_type), intent(in)       :: model
+      type(oscillating_type), intent(in) :: structure
+      class(equation_system), intent(in) :: system
+      real(wp) :: diagonal(system%n)
+      integer  :: i, k
+
+      diagonal = system%diagonal_of_factor()
+      largest = 0.0_wp
+      do i = 1, system%n
+         associate (node => system%node(i))
+            if (node > n_points(model)) cycle
+            do k = structure%mass%first(node), structure%mass%first(node + 1) - 1
+               if (structure%mass%column(k) /= node .or. .not. structure%mass%value(k) > 0.0_wp) cycle
+               largest = max(largest, diagonal(i)/structure%mass%value(k))
+            end do
+         end associate
+      end do
+   end function stiffest
+
+end module natural_modes

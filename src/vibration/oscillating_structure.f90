@@ -1,0 +1,100 @@
+!> The structure as it oscillates about the state at the end of a stage: bodies, bars, bolts that have been tightened, joints with
+!! the stiffness that they have for that; and its equations [k] - sigma [m], ordered once and factorised at any shift.
+module oscillating_structure
+   use analysis_state, only: analysis_type
+   use case_control, only: solver_skyline, solver_tree
+   use equation_solver, only: equation_system
+   use equations, only: add_bar, form_body_stiffness, form_structure_stiffness, lock_unknown, start_equations
+   use failures, only: failure_type
+   use kinds, only: wp
+   use mass_matrix, only: form_mass, mass_matrix_type
+   use model_data, only: model_type, n_bars, n_sections, supported
+   use small_oscillation, only: oscillation_stiffness
+   implicit none
+   private
+
+   public :: let_go, start_oscillation, factorise_at
+
+   type, public :: oscillating_type
+      real(wp), allocatable :: k(:, :)       !! (3, n) k_sx, k_sy, k_n of interface elements [force/length]
+      logical, allocatable  :: is_elastic(:) !! bars: no bolts, or tightened ones
+      logical, allocatable  :: is_locked(:)  !! sections of solid bolts that have been tightened
+      type(mass_matrix_type) :: mass
+      class(equation_system), allocatable :: started !! ordered, without a matrix
+   end type oscillating_type
+
+contains
+
+   !> MODEL without its supports; what holds the axis of a ring is none.
+   pure subroutine let_go(model)
+      type(model_type), intent(inout) :: model
+      logical :: free(model%dimension)
+      integer :: i
+
+      do i = 1, model%n_nodes - n_sections(model)
+         free = supported(model, i)
+         if (model%axisymmetric) free(1) = free(1) .and. abs(model%x(1, i)) > 0.0_wp
+         model%held(:, i) = model%held(:, i) .and. .not. free
+      end do
+   end subroutine let_go
+
+   !> Stiffness and mass about the state of ANALYSIS, and the order of the equations: of the solver that SYSTEM is where it is one of
+   !! the two that have factors.
+   subroutine start_oscillation(model, analysis, system, on_loading, structure, failure)
+      type(model_type), intent(in)        :: model
+      type(analysis_type), intent(in)     :: analysis
+      class(equation_system), intent(in)  :: system
+      logical, intent(in)                 :: on_loading !! STIFFNESS = LOAD
+      type(oscillating_type), intent(out) :: structure
+      type(failure_type), intent(inout)   :: failure
+      integer :: i
+
+      allocate (structure%k(3, size(model%interface)))
+      do i = 1, size(model%interface)
+         structure%k(:, i) = oscillation_stiffness(model%joints(model%interface(i)%joint)%law, model%interface(i)%area, &
+                                                   analysis%states(i), on_loading)
+      end do
+      allocate (structure%is_elastic(n_bars(model)), structure%is_locked(n_sections(model)))
+      do i = 1, n_bars(model)
+         structure%is_elastic(i) = model%bars(i)%bolt == 0 .or. model%bars(i)%stage <= analysis%stage
+      end do
+      do i = 1, n_sections(model)
+         structure%is_locked(i) = model%sections(i)%stage <= analysis%stage
+      end do
+      call form_mass(model, structure%mass)
+      call start_equations(model, structure%started, failure, &
+                           merge(solver_skyline, solver_tree, system%description%name == 'SKYLINE'), factorisations=1, shift=0.0_wp)
+   end subroutine start_oscillation
+
+   !> [k] - SHIFT [m] of STRUCTURE, factorised, in SYSTEM. FAILURE where it is singular, which without shift a structure is that is
+   !! not held, or where the memory is not there.
+   subroutine factorise_at(model, structure, shift, system, failure)
+      type(model_type), intent(in)       :: model
+      type(oscillating_type), intent(in) :: structure
+      real(wp), intent(in)               :: shift !! sigma [1/time^2]
+      class(equation_system), allocatable, intent(out) :: system
+      type(failure_type), intent(inout)  :: failure
+      real(wp) :: k(3, 3, size(structure%k, 2))
+      integer  :: c, i
+
+      if (failure%raised) return
+      allocate (system, source=structure%started)
+      system%shift = shift
+      call form_body_stiffness(model, system, failure)
+      if (failure%raised) return
+      do i = 1, n_bars(model)
+         if (model%bars(i)%bolt > 0 .and. structure%is_elastic(i)) call add_bar(model, i, system)
+      end do
+      do i = 1, n_sections(model)
+         if (structure%is_locked(i)) call lock_unknown(model%sections(i)%node, 1, system)
+      end do
+      k = 0.0_wp
+      do i = 1, size(k, 3)
+         do c = 1, 3
+            k(c, c, i) = structure%k(c, i)
+         end do
+      end do
+      call form_structure_stiffness(model, k, 'natural modes', system, failure)
+   end subroutine factorise_at
+
+end module oscillating_structure

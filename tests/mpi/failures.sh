@@ -1,0 +1,96 @@
+#!/usr/bin/env bash
+# Runs on several processes that do not come to their end: one of the processes is killed, or gets no memory, or the equations are
+# not solved. All processes end then, mpirun's status is not 0, and no result is left, complete or not.
+#
+#    failures.sh PROGRAM_MPI WORK_FOLDER
+set -u
+export LC_ALL=C
+work=$2
+. tests/mpi/lib.sh
+has_processes "$1"
+rm -rf "$work"
+mkdir -p "$work"
+passed=0 failed=0
+tests/bench/make_deck.sh hex8_16x16x16 PETSC NONE > "$work/gamg.bdf"
+sed 's/^SOLVER = .*/SOLVER = MUMPS/' "$work/gamg.bdf" > "$work/mumps.bdf"
+
+# check WHAT STATUS WORDS: a run has ended with STATUS, a pattern, says WORDS, and has left nothing; none of its processes goes on
+check() {
+   local what=$1 wanted=$2 words=$3 left rank i
+   left=$(find "$work" -type f ! -name '*.bdf' ! -name said ! -name 'pid?' | wc -l)
+   for rank in 0 1; do
+      [ -e "$work/pid$rank" ] || continue
+      for ((i = 0; i < 50; i++)); do # mpirun may be gone a little earlier than its processes
+         kill -0 "$(cat "$work/pid$rank")" 2> /dev/null || break
+         sleep 0.1
+      done
+      [ $i -lt 50 ] || { what="$what, and process $rank goes on"; wanted=none; }
+   done
+   if [[ $status =~ ^($wanted)$ ]] && [ "$left" -eq 0 ] && { [ -z "$words" ] || grep -qE "$words" "$work/said"; } &&
+      ! grep -qi 'backtrace' "$work/said"; then
+      passed=$((passed + 1))
+   else
+      failed=$((failed + 1))
+      echo "FAILED $what: status $status for $wanted, $left files left; it says:"
+      head -n 8 "$work/said"
+   fi
+   find "$work" -type f ! -name '*.bdf' -delete
+}
+
+# start DECK FIRST: a run on two processes in the background, the numbers of the processes in pid0 and pid1; rank 1 begins with the
+# command FIRST of the shell
+start() {
+   timeout 60 mpirun -q --oversubscribe -n 1 sh -c "echo \$\$ > $work/pid0; exec $distributed -q -o $work $1" : \
+      -n 1 sh -c "echo \$\$ > $work/pid1; $2; exec $distributed" > "$work/said" 2>&1 &
+   job=$!
+}
+
+ended() {
+   wait $job
+   status=$?
+}
+
+# ------------------------------------------------------------------ killed in the midst of the increments
+for way in gamg mumps; do
+   start "$work/$way.bdf" :
+   for ((i = 0; i < 600; i++)); do
+      ls "$work/$way".*.part > /dev/null 2>&1 && break
+      sleep 0.05
+   done
+   [ $i -lt 600 ] || echo "$way: no part of a result is there before the kill"
+   kill -KILL "$(cat "$work/pid1")"
+   ended
+   check "$way: rank 1 is killed" '[1-9][0-9]*' ''
+done
+
+# ------------------------------------------------------------------ no memory for one of them
+# How much of the address space rank 1 has when it waits for orders: rank 0 waits for a deck that does not come
+{ sleep 60 & echo $! > "$work/pid2"; wait; } | timeout 60 mpirun -q --oversubscribe -n 1 "$distributed" -q - : \
+   -n 1 sh -c "echo \$\$ > $work/pid1; exec $distributed" > "$work/said" 2>&1 &
+size=0 before=-1
+for ((i = 0; i < 20; i++)); do
+   sleep 0.5
+   before=$size
+   size=$(awk '$1 == "VmSize:" { print $2 }' "/proc/$(cat "$work/pid1" 2> /dev/null || echo none)/status" 2> /dev/null)
+   size=${size:-0}
+   [ "$size" -gt 200000 ] && [ "$size" -eq "$before" ] && break
+done
+kill "$(cat "$work/pid2")"
+wait
+find "$work" -type f ! -name '*.bdf' -delete
+for way in gamg mumps; do
+   for more in 20 150; do # MiB: less than BLAS takes, and not enough for the equations besides
+      start "$work/$way.bdf" "ulimit -v $((size + 1024*more))"
+      ended
+      check "$way: rank 1 has $more MiB" 3 'memory that is allowed|process 1 need about [0-9]+ MiB, and the machine has'
+   done
+done
+
+# ------------------------------------------------------------------ no convergence
+for n in 1 2; do
+   PETSC_OPTIONS='-jointfem_ksp_max_it 3' on_processes $n "$work" "$work/gamg.bdf" > "$work/said" 2>&1
+   status=$?
+   check "three steps on $n" 3 'PETSc does not solve the [0-9]+ equations: after [0-9]+ steps the residual is [0-9.E-]+ of the load'
+done
+echo "$passed passed, $failed failed"
+[ $failed -eq 0 ] && [ $passed -gt 0 ]
