@@ -7,9 +7,9 @@ module machine
    implicit none
    private
 
-   public :: available_memory, memory_for, peak_memory, keep_memory, give_back, use_threads
+   public :: available_memory, memory_for, peak_memory, keep_memory, return_memory, give_back, use_threads
 
-   integer(c_int), parameter :: trim_threshold = -1, top_pad = -2, mmap_max = -4, arena_max = -8 ! parameters of mallopt,
+   integer(c_int), parameter :: trim_threshold = -1, top_pad = -2, mmap_threshold = -3, mmap_max = -4, arena_max = -8 ! parameters of mallopt,
                                                                                              ! malloc.h of glibc
    integer(c_int), parameter :: dont_need = 4       ! advice of madvise, sys/mman.h of Linux
    integer(c_intptr_t), parameter :: page = 4096    ! of memory [bytes]; where pages are larger madvise refuses
@@ -65,6 +65,19 @@ contains
       first(1) = 0
       deallocate (first)
    end subroutine keep_memory
+
+   !> From now on what is large comes from the machine and goes back to it, for a run whose largest arrays are few and stay, but whose
+   !! preparation takes as much again.
+   subroutine return_memory()
+      integer(c_int), parameter :: large = 4_c_int*1048576_c_int
+      integer(c_int) :: status
+
+      status = mallopt(mmap_max, 65536_c_int)
+      status = mallopt(mmap_threshold, large)
+      status = mallopt(trim_threshold, 2_c_int*large)
+      status = mallopt(top_pad, large)
+      status = malloc_trim(0_c_size_t)
+   end subroutine return_memory
 
    !> Give the pages of A back to the machine, those that lie in it whole: a(first + 1) to a(last - 1). They are zero when they are
    !! read again, and take memory again when they are written. OK is false where that is not done. A is from the heap.

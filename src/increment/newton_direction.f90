@@ -15,6 +15,7 @@ module newton_direction
 
    public :: find_direction, close_gaps, loose_joint
 
+   integer, parameter  :: digits = 6                  ! of a direction: the next one corrects it
    real(wp), parameter :: little = 1.0e-7_wp          ! of the elastic stiffness: what the matrix has where an element has none
 
    !> One attempt at a part of the increment: what it has to reach, and how it ended.
@@ -80,7 +81,7 @@ contains
          if (coupled .and. all(abs(attempt%move) <= 0.0_wp)) then
             call solve_coupled(model, system, rest, now%residual, 1.0e-4_wp, 25, direction, failure)
          else
-            call solve_equations(model, system, now%residual, direction, failure, moved=attempt%move)
+            call solve_equations(model, system, now%residual, direction, failure, moved=attempt%move, digits=digits)
          end if
       end associate
    end subroutine find_direction
@@ -115,7 +116,7 @@ contains
          end associate
       end do
       call form_structure_stiffness(model, matrix, attempt%where, system, attempt%trouble, one_solution=.true.)
-      call solve_equations(model, system, load, direction, attempt%trouble)
+      call solve_equations(model, system, load, direction, attempt%trouble, digits=digits)
    end subroutine close_gaps
 
    !> (k_sx, k_sy, k_n) of interface element I in its first increment [force/length].

@@ -3,10 +3,13 @@
 !! processes call every routine in step.
 !! Source: Adams, Bayraktar, Keaveny, Papadopoulos, Proc. SC2004; Amestoy et al., SIAM J. Matrix Anal. Appl. 23 (2001) 15-41.
 module distributed_solution
-   use, intrinsic :: iso_c_binding, only: c_int, c_null_ptr, c_ptr
-   use distributed_matrix, only: check, distributed_matrix_type, put_vector, take_vector
+   use, intrinsic :: iso_c_binding, only: c_int, c_null_funptr, c_null_ptr, c_ptr
+   use distributed_matrix, only: check, distributed_matrix_type, drop_copy, keep_copy, put_vector, take_vector
+   use earlier_vectors, only: earlier_vectors_type, forget_vectors, guess_vector, note_vector
    use kinds, only: wp
    use petsc_library
+   use ranks, only: n_ranks
+   use shares, only: share_type
    implicit none
    private
 
@@ -16,146 +19,168 @@ module distributed_solution
 
    type, public :: distributed_solution_type
       type(c_ptr) :: solver = c_null_ptr
-      logical  :: has_guess = .false.          !! x holds an earlier solution
+      logical  :: has_solver = .false.
+      integer  :: way = by_gamg                !! or by_mumps
+      type(earlier_vectors_type) :: earlier    !! solutions to begin with
       integer  :: steps = 0                    !! of the last solution
       real(wp) :: residual = 0.0_wp            !! of that, as a share of the load
+      real(wp) :: gained = 0.0_wp              !! digits of the residual that the steps took away
       logical  :: converged = .true.
       logical  :: has_memory = .true.          !! for the factor, MUMPS
    end type distributed_solution_type
 
-   real(wp), parameter :: tolerance = 1.0e-12_wp !! of the residual, as a share of the load
-   real(wp), parameter :: loosest = 1.0e-9_wp    !! that is still a solution where rounding allows no more
+   real(wp), parameter :: loosest = 1.0e-9_wp    !! of the load may be left, and it is still a solution: rounding allows no less
    integer, parameter  :: most_steps = 500
    integer, parameter, public :: no_limit = huge(1) !! of the steps of a solution, but that
+   integer, parameter  :: lean_from = 250000     !! rows of a process, from which on the set-up of several takes a third less
+                                                 !! memory, and several times longer
    integer, parameter  :: most_solutions = 3     !! one after another, each from where the one before has come
 
 contains
 
    !> Options that have no function; before the library is started, so that the user's (PETSC_OPTIONS) come after them.
    subroutine set_library_options()
-      call set('-jointfem_pc_gamg_threshold', '0.01')
-      call set('-jointfem_mg_levels_ksp_type', 'chebyshev')
-      call set('-jointfem_mg_levels_pc_type', 'jacobi')
-      call set('-jointfem_mg_levels_ksp_chebyshev_esteig', '0,0.05,0,1.1')
-      call set('-jointfem_pc_gamg_use_sa_esteig', '0') ! those bounds are of the stiffness that the aggregates are of, not of this one
-      call set('-jointfem_pc_gamg_agg_nsmooths', '1')
-
-   contains
-
-      subroutine set(name, value)
-         character(*), intent(in) :: name, value
-
-         call check(petsc_options_set_value(c_null_ptr, name//char(0), value//char(0)))
-      end subroutine set
-
+      call set_option('-jointfem_pc_gamg_threshold', '0.01')
+      call set_option('-jointfem_mg_levels_ksp_type', 'chebyshev')
+      call set_option('-jointfem_mg_levels_pc_type', 'jacobi')
+      call set_option('-jointfem_mg_levels_ksp_chebyshev_esteig', '0,0.05,0,1.1')
+      call set_option('-jointfem_pc_gamg_use_sa_esteig', '0') ! those bounds are of the stiffness that the aggregates are of
+      call set_option('-jointfem_pc_gamg_agg_nsmooths', '1')
    end subroutine set_library_options
 
-   !> A solver of the equations with STIFFNESS, WAY is by_gamg or by_mumps.
-   subroutine start_solution(stiffness, way, solution)
-      type(distributed_matrix_type), intent(in)    :: stiffness
+   subroutine set_option(name, value)
+      character(*), intent(in) :: name, value
+
+      call check(petsc_options_set_value(c_null_ptr, name//char(0), value//char(0)))
+   end subroutine set_option
+
+   !> The equations are to be solved in this WAY: by_gamg or by_mumps. There is no solver yet, see renew_preconditioner.
+   subroutine start_solution(way, solution)
       integer, intent(in)                          :: way
       type(distributed_solution_type), intent(out) :: solution
-      type(c_ptr) :: preconditioner
 
+      solution%way = way
+   end subroutine start_solution
+
+   !> A solver with a preconditioner of the stiffness as it is now. The one there is, and the copy for products, make room first.
+   subroutine renew_preconditioner(share, stiffness, solution)
+      type(share_type), intent(in)                   :: share
+      type(distributed_matrix_type), intent(inout)   :: stiffness
+      type(distributed_solution_type), intent(inout) :: solution
+      type(c_ptr)    :: preconditioner
+      integer(c_int) :: reason
+
+      call drop_solver(solution)
+      call drop_copy(stiffness)
       associate (ksp => solution%solver)
          call check(ksp_create(petsc_comm_world, ksp))
+         solution%has_solver = .true.
          call check(ksp_set_options_prefix(ksp, 'jointfem_'//char(0)))
          call check(ksp_set_type(ksp, 'cg'//char(0)))
          call check(ksp_set_norm_type(ksp, unpreconditioned))
-         call check(ksp_set_tolerances(ksp, tolerance, 1.0e-300_wp, 1.0e5_wp, most_steps))
          call check(ksp_set_initial_guess_nonzero(ksp, petsc_true))
          call check(ksp_set_operators(ksp, stiffness%matrix, stiffness%matrix))
          call check(ksp_get_pc(ksp, preconditioner))
-         if (way == by_gamg) then
+         if (solution%way == by_gamg) then
             call check(pc_set_type(preconditioner, 'gamg'//char(0)))
          else
             call check(pc_set_type(preconditioner, 'cholesky'//char(0)))
             call check(pc_factor_set_solver(preconditioner, 'mumps'//char(0)))
          end if
+         call check(ksp_set_tolerances(ksp, 1.0e-12_wp, 1.0e-300_wp, 1.0e5_wp, most_steps))
          call check(ksp_set_from_options(ksp))
-         call check(ksp_set_reuse_preconditioner(ksp, petsc_false))
+         if (n_ranks > 1 .and. sum(stiffness%counts) > n_ranks*lean_from) call set_option('-matptap_via', 'allatonce')
+         call check(ksp_set_up(ksp))
+         call check(ksp_set_reuse_preconditioner(ksp, petsc_true))
+         call check(pc_get_failed_reason(preconditioner, reason))
+         solution%has_memory = reason /= no_memory_for_factor
+         if (solution%way == by_gamg) call multiply_by_copy(preconditioner)
       end associate
-   end subroutine start_solution
 
-   !> Make the preconditioner anew, of the stiffness as it is now; GAMG keeps the aggregates that it has, or begins WHOLLY anew.
-   subroutine renew_preconditioner(stiffness, wholly, solution)
-      type(distributed_matrix_type), intent(in)      :: stiffness
-      logical, intent(in)                            :: wholly
-      type(distributed_solution_type), intent(inout) :: solution
-      type(c_ptr)    :: preconditioner
-      integer(c_int) :: reason
+   contains
 
-      call check(ksp_get_pc(solution%solver, preconditioner))
-      call check(pc_gamg_set_reuse_interpolation(preconditioner, merge(petsc_false, petsc_true, wholly)))
-      call check(ksp_set_reuse_preconditioner(solution%solver, petsc_false))
-      call check(ksp_set_operators(solution%solver, stiffness%matrix, stiffness%matrix))
-      call check(ksp_set_up(solution%solver))
-      call check(ksp_set_reuse_preconditioner(solution%solver, petsc_true))
-      call check(pc_get_failed_reason(preconditioner, reason))
-      solution%has_memory = reason /= no_memory_for_factor
+      !> The steps and the finest level multiply by a copy from now on.
+      subroutine multiply_by_copy(preconditioner)
+         type(c_ptr), intent(in) :: preconditioner
+         type(c_ptr)    :: smoother
+         integer(c_int) :: levels
+
+         call check(pc_mg_get_levels(preconditioner, levels))
+         if (levels < 2) return                 ! the finest level is the coarsest, a factor
+         call keep_copy(share, stiffness)
+         call check(pc_mg_get_smoother(preconditioner, levels - 1, smoother))
+         call check(ksp_set_operators(smoother, stiffness%products, stiffness%matrix))
+         call check(pc_mg_set_residual(preconditioner, levels - 1, c_null_funptr, stiffness%products))
+         call check(ksp_set_operators(solution%solver, stiffness%products, stiffness%matrix))
+      end subroutine multiply_by_copy
+
    end subroutine renew_preconditioner
 
-   !> X, of rank 0, the load row after row, becomes the solution, in AT_MOST so many steps at a time; STEPS, RESIDUAL and whether
-   !! it has CONVERGED tell how. The next solution begins with what has been reached.
-   subroutine solve_distributed(stiffness, at_most, solution, x)
+   !> X, of rank 0, the load row after row, becomes the solution. HOW: to so many digits, in at most so many steps at a time, and 1
+   !! where later solutions begin with it. STEPS, RESIDUAL and whether it has CONVERGED tell how it went.
+   subroutine solve_distributed(how, stiffness, solution, x)
+      integer, intent(in)                            :: how(3)
       type(distributed_matrix_type), intent(in)      :: stiffness
-      integer, intent(in)                            :: at_most
       type(distributed_solution_type), intent(inout) :: solution
       real(wp), intent(inout)                        :: x(:)
       integer(c_int) :: reason, steps, usual
       integer  :: again
-      real(wp) :: load, left, relative, absolute, divergence ! usual limits: those here, or the user's (PETSC_OPTIONS)
+      real(wp) :: first, load, left, tolerance
+      real(wp) :: relative, absolute, divergence ! usual limits: those here, or the user's (PETSC_OPTIONS)
 
+      tolerance = 10.0_wp**(-how(1))
       call put_vector(x, stiffness, stiffness%b)
       call check(ksp_get_tolerances(solution%solver, relative, absolute, divergence, usual))
-      call check(ksp_set_tolerances(solution%solver, relative, absolute, divergence, min(usual, at_most)))
+      call check(ksp_set_tolerances(solution%solver, tolerance, absolute, divergence, min(usual, how(2))))
       call check(vec_norm(stiffness%b, norm_2, load))
       solution%steps = 0
       solution%residual = 0.0_wp
+      solution%gained = 0.0_wp
       solution%converged = .true.
       if (.not. load > 0.0_wp) then
          call check(vec_scale(stiffness%x, 0.0_wp))
-         solution%has_guess = .false.
       else
-         call scale_guess(stiffness, solution)
+         call guess_vector(stiffness, solution%earlier)
+         call find_residual(stiffness, first)
          do again = 1, most_solutions            ! the steps keep a residual of their own, which parts from the true one
             call check(ksp_solve(solution%solver, stiffness%b, stiffness%x))
             call check(ksp_get_iteration_number(solution%solver, steps))
             call check(ksp_get_converged_reason(solution%solver, reason))
             solution%steps = solution%steps + steps
-            call check(mat_mult(stiffness%matrix, stiffness%x, stiffness%r))
-            call check(vec_aypx(stiffness%r, -1.0_wp, stiffness%b))
-            call check(vec_norm(stiffness%r, norm_2, left))
+            call find_residual(stiffness, left)
             solution%residual = left/load
             if (reason <= 0 .or. solution%residual <= 10.0_wp*tolerance) exit
          end do
-         solution%converged = solution%residual <= loosest
-         solution%has_guess = solution%residual < 1.0_wp
+         if (left > 0.0_wp .and. first > left) solution%gained = log10(first/left)
+         solution%converged = solution%residual <= max(loosest, 10.0_wp*tolerance)
+         if (solution%converged .and. how(3) == 1) call note_vector(stiffness%x, solution%earlier)
       end if
       call check(ksp_set_tolerances(solution%solver, relative, absolute, divergence, usual))
       call take_vector(stiffness%x, stiffness, x)
    end subroutine solve_distributed
 
-   !> The first guess: the solution before, by that factor with which its energy comes nearest; zero where there is none.
-   subroutine scale_guess(stiffness, solution)
-      type(distributed_matrix_type), intent(in)   :: stiffness
-      type(distributed_solution_type), intent(in) :: solution
-      real(wp) :: energy, work, factor
+   !> LEFT: the norm of b - [k] x.
+   subroutine find_residual(stiffness, left)
+      type(distributed_matrix_type), intent(in) :: stiffness
+      real(wp), intent(out)                     :: left !! [force]
 
-      factor = 0.0_wp
-      if (solution%has_guess) then
-         call check(mat_mult(stiffness%matrix, stiffness%x, stiffness%r))
-         call check(vec_dot(stiffness%r, stiffness%x, energy))
-         call check(vec_dot(stiffness%b, stiffness%x, work))
-         if (energy > 0.0_wp) factor = work/energy
-      end if
-      call check(vec_scale(stiffness%x, factor))
-   end subroutine scale_guess
+      call check(mat_mult(stiffness%products, stiffness%x, stiffness%r))
+      call check(vec_aypx(stiffness%r, -1.0_wp, stiffness%b))
+      call check(vec_norm(stiffness%r, norm_2, left))
+   end subroutine find_residual
 
    subroutine free_solution(solution)
       type(distributed_solution_type), intent(inout) :: solution
 
-      call check(ksp_destroy(solution%solver))
+      call forget_vectors(solution%earlier)
+      call drop_solver(solution)
    end subroutine free_solution
+
+   subroutine drop_solver(solution)
+      type(distributed_solution_type), intent(inout) :: solution
+
+      if (solution%has_solver) call check(ksp_destroy(solution%solver))
+      solution%has_solver = .false.
+   end subroutine drop_solver
 
 end module distributed_solution

@@ -1,13 +1,16 @@
 !> The engine that all processes drive together: the share of this process, its rows of the matrix, its part of the solution. Rank 0
 !! gives an order and does its part of it; the others take orders until the run ends. One structure at a time.
 module engine
-   use distributed_matrix, only: distributed_matrix_type, finish_matrix, free_matrix, matrix_times_vector, read_diagonal, &
-                                 read_touched, reserve_touched, start_matrix, write_touched
-   use distributed_solution, only: distributed_solution_type, free_solution, renew_preconditioner, solve_distributed, start_solution
+   use distributed_matrix, only: distributed_matrix_type, finish_matrix, free_matrix, matrix_times_vector, &
+                                 read_diagonal, read_touched, reserve_touched, start_matrix, write_touched
+   use distributed_solution, only: distributed_solution_type, free_solution, renew_preconditioner, solve_distributed, &
+                                   start_solution
+   use earlier_vectors, only: forget_vectors
    use kinds, only: wp
+   use machine, only: peak_memory, return_memory
    use process_memory, only: check_rows, reserve_blas
-   use ranks, only: rank, tell
-   use shares, only: receive_share, share_type
+   use ranks, only: rank, sum_of_all, tell
+   use shares, only: forget_elements, receive_share, share_type
    implicit none
    private
 
@@ -15,7 +18,7 @@ module engine
 
    integer, parameter, public :: order_end = 0, order_take = 1, order_start = 2, order_touched = 3, order_finish = 4, &
                                  order_read = 5, order_write = 6, order_renew = 7, order_solve = 8, order_multiply = 9, &
-                                 order_diagonal = 10, order_forget = 11, order_way = 12
+                                 order_diagonal = 10, order_forget = 11, order_way = 12, order_memory = 13
 
    type(share_type), public                :: share
    type(distributed_matrix_type), public   :: stiffness
@@ -66,10 +69,12 @@ contains
    subroutine act(what, words, values)
       integer, intent(in)     :: what, words(:)
       real(wp), intent(inout) :: values(:)
+      real(wp) :: bytes
 
       select case (what)
       case (order_take)
          call end_engine()
+         call return_memory()
          call reserve_blas()
          if (rank /= 0) call receive_share(share)
       case (order_start)                                     ! words: blocks of each rank
@@ -78,24 +83,28 @@ contains
          is_running = .true.
       case (order_finish)                                    ! words: the preconditioner
          call finish_matrix(share, stiffness, stiffest)
-         call start_solution(stiffness, words(1), solution)
+         call start_solution(words(1), solution)
+         call forget_elements(share)
       case (order_touched)
          call take_touched(words)
       case (order_read)
          call read_touched(share%dimension, stiffness, values)
       case (order_write)
          call write_touched(share%dimension, values, stiffness)
-      case (order_renew)                                     ! words: whether wholly
-         call renew_preconditioner(stiffness, words(1) == 1, solution)
-      case (order_solve)                                     ! words: steps at most
-         call solve_distributed(stiffness, words(1), solution, values)
+      case (order_renew)
+         call renew_preconditioner(share, stiffness, solution)
+      case (order_solve)                                     ! words: digits; steps at most; 1, that it is noted, or 0
+         call solve_distributed(words, stiffness, solution, values)
       case (order_diagonal)
          call read_diagonal(stiffness, values)
       case (order_way)                                       ! words: the preconditioner
          call free_solution(solution)
-         call start_solution(stiffness, words(1), solution)
+         call start_solution(words(1), solution)
       case (order_forget)
-         solution%has_guess = .false.
+         call forget_vectors(solution%earlier)
+      case (order_memory)
+         bytes = sum_of_all(real(peak_memory(), wp))
+         if (rank == 0) values = bytes
       case (order_multiply)
          call multiply(values)
       end select

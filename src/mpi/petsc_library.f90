@@ -12,7 +12,7 @@ module petsc_library
    integer(c_int), parameter :: final_assembly = 0                           ! MatAssemblyType
    integer(c_int), parameter :: petsc_false = 0, petsc_true = 1              ! PetscBool
    integer(c_int), parameter :: norm_2 = 1                                   ! NormType
-   integer(c_int), parameter :: mat_symmetric = 1, mat_spd = 15              ! MatOption
+   integer(c_int), parameter :: mat_ignore_lower = 12, mat_spd = 15, mat_spd_eternal = 26 ! MatOption
    integer(c_int), parameter :: unpreconditioned = 2                         ! KSPNormType
    integer(c_int), parameter :: petsc_decide = -1, petsc_default = -2
    integer(c_int), parameter :: out_of_memory = 55                           ! PETSC_ERR_MEM
@@ -95,6 +95,30 @@ module petsc_library
          real(c_double), intent(out) :: product
       end function vec_dot
 
+      !> y = x
+      integer(c_int) function vec_copy(x, y) bind(c, name='VecCopy')
+         import :: c_int, c_ptr
+         type(c_ptr), value :: x, y
+      end function vec_copy
+
+      !> PRODUCTS of X and N other vectors.
+      integer(c_int) function vec_many_dot(x, n, y, products) bind(c, name='VecMDot')
+         import :: c_double, c_int, c_ptr
+         type(c_ptr), value          :: x
+         integer(c_int), value       :: n
+         type(c_ptr), intent(in)     :: y(*)
+         real(c_double), intent(out) :: products(*)
+      end function vec_many_dot
+
+      !> y = y + sum of a x
+      integer(c_int) function vec_many_axpy(y, n, a, x) bind(c, name='VecMAXPY')
+         import :: c_double, c_int, c_ptr
+         type(c_ptr), value         :: y
+         integer(c_int), value      :: n
+         real(c_double), intent(in) :: a(*)
+         type(c_ptr), intent(in)    :: x(*)
+      end function vec_many_axpy
+
       !> y = y + a x
       integer(c_int) function vec_axpy(y, a, x) bind(c, name='VecAXPY')
          import :: c_double, c_int, c_ptr
@@ -141,14 +165,14 @@ module petsc_library
          integer(c_int), value :: size
       end function mat_set_block_size
 
-      !> Room for so many blocks in every row of blocks of this process: in its own columns, and in those of others.
+      !> Room for so many blocks in every row of blocks of this process: in its own columns, and in those of others; the second
+      !! pair counts for types that keep the upper blocks alone.
       integer(c_int) function mat_set_preallocation(matrix, block_size, own, others, own_upper, others_upper) &
          bind(c, name='MatXAIJSetPreallocation')
          import :: c_int, c_ptr
          type(c_ptr), value         :: matrix
          integer(c_int), value      :: block_size
-         integer(c_int), intent(in) :: own(*), others(*)
-         type(c_ptr), value         :: own_upper, others_upper
+         integer(c_int), intent(in) :: own(*), others(*), own_upper(*), others_upper(*)
       end function mat_set_preallocation
 
       integer(c_int) function mat_set_option(matrix, option, value) bind(c, name='MatSetOption')
@@ -186,6 +210,23 @@ module petsc_library
          type(c_ptr), value    :: matrix
          integer(c_int), value :: type
       end function mat_assembly_end
+
+      !> Row ROW, one of this process, from 0 on: N columns, ascending, and their values, until mat_restore_row.
+      integer(c_int) function mat_get_row(matrix, row, n, columns, values) bind(c, name='MatGetRow')
+         import :: c_int, c_ptr
+         type(c_ptr), value          :: matrix
+         integer(c_int), value       :: row
+         integer(c_int), intent(out) :: n
+         type(c_ptr), intent(out)    :: columns, values
+      end function mat_get_row
+
+      integer(c_int) function mat_restore_row(matrix, row, n, columns, values) bind(c, name='MatRestoreRow')
+         import :: c_int, c_ptr
+         type(c_ptr), value            :: matrix
+         integer(c_int), value         :: row
+         integer(c_int), intent(inout) :: n
+         type(c_ptr), intent(inout)    :: columns, values
+      end function mat_restore_row
 
       integer(c_int) function mat_mult(matrix, x, y) bind(c, name='MatMult')
          import :: c_int, c_ptr
@@ -323,12 +364,27 @@ module petsc_library
          character(kind=c_char), intent(in) :: type(*)
       end function pc_set_type
 
-      !> Whether a new set-up of GAMG keeps the aggregates of the one before.
-      integer(c_int) function pc_gamg_set_reuse_interpolation(preconditioner, yes) bind(c, name='PCGAMGSetReuseInterpolation')
+      !> Levels of a multigrid preconditioner that is set up.
+      integer(c_int) function pc_mg_get_levels(preconditioner, levels) bind(c, name='PCMGGetLevels')
          import :: c_int, c_ptr
-         type(c_ptr), value    :: preconditioner
-         integer(c_int), value :: yes
-      end function pc_gamg_set_reuse_interpolation
+         type(c_ptr), value          :: preconditioner
+         integer(c_int), intent(out) :: levels
+      end function pc_mg_get_levels
+
+      integer(c_int) function pc_mg_get_smoother(preconditioner, level, smoother) bind(c, name='PCMGGetSmoother')
+         import :: c_int, c_ptr
+         type(c_ptr), value       :: preconditioner
+         integer(c_int), value    :: level         !! 0: the coarsest
+         type(c_ptr), intent(out) :: smoother
+      end function pc_mg_get_smoother
+
+      !> The matrix by which a level finds its residual; RESIDUAL null: as it does.
+      integer(c_int) function pc_mg_set_residual(preconditioner, level, residual, matrix) bind(c, name='PCMGSetResidual')
+         import :: c_funptr, c_int, c_ptr
+         type(c_ptr), value    :: preconditioner, matrix
+         integer(c_int), value :: level
+         type(c_funptr), value :: residual
+      end function pc_mg_set_residual
 
       !> Why a set-up has failed, 0: it has not.
       integer(c_int) function pc_get_failed_reason(preconditioner, reason) bind(c, name='PCGetFailedReason')

@@ -25,11 +25,11 @@ module petsc_solver
    implicit none
    private
 
-   integer, parameter  :: steps_of_set_up = 30  ! that cost what a new preconditioner does, GAMG
-   real(wp), parameter :: slower = 1.5_wp       ! steps, against those with its own aggregates, at which GAMG gets new ones
-   integer, parameter  :: few_steps = 10        ! that are no reason for it
-   integer, parameter  :: many_steps = 150      ! with which GAMG is given up for the factor of MUMPS
-   integer, parameter  :: small = 100000        ! unknowns, for whose factor there is memory and time
+   integer, parameter :: steps_of_set_up = 30   ! that cost what a new preconditioner does, GAMG
+   integer, parameter :: few_steps = 10         ! more than expected: no reason to give an earlier preconditioner up
+   integer, parameter :: many_steps = 150       ! with which GAMG is given up for the factor of MUMPS
+   integer, parameter :: small = 100000         ! unknowns, for whose factor there is memory and time
+   integer, parameter :: digits_of_estimate = 6 ! for the condition, of which one would do
 
    type, extends(equation_system), public :: petsc_solver_type
       integer :: wanted = by_gamg                 !! or by_mumps
@@ -38,11 +38,9 @@ module petsc_solver
       type(touched_type) :: touched
       type(interface_equations_type) :: joints
       type(factor_reuse_type) :: reuse            !! when to use an earlier preconditioner
-      integer :: fresh_steps = 0                  !! that a solution took with one of its own stiffness
+      real(wp) :: pace = 0.0_wp                   !! steps that a digit takes with the preconditioner of the own stiffness
       integer, allocatable  :: row(:)             !! (n) of the matrix, from 1 on
       logical :: is_own = .false.                 !! whether the preconditioner is that of the stiffness now
-      logical :: is_whole = .false.               !! and begun anew for it, aggregates and all
-      integer :: whole_steps = -1                 !! that a solution took then; -1: there was none, the next is begun anew
       logical :: is_probed = .false.              !! whether a stiffness has been looked at since the run, or its past, began
       real(wp), allocatable :: structure(:)       !! touched blocks with the joints
    contains
@@ -168,7 +166,7 @@ contains
       call order(order_write, values=self%structure)
       self%is_own = .false.
       call may_reuse(self%reuse, reuse)
-      if (.not. reuse) call renew(self, self%whole_steps < 0)
+      if (.not. reuse) call renew(self)
       if (.not. self%is_probed) call probe(self, fault)
    end subroutine form_structure
 
@@ -189,14 +187,11 @@ contains
       fault = 0
    end subroutine find_loose
 
-   !> A new preconditioner, begun WHOLLY anew or with the aggregates that there are.
-   subroutine renew(self, wholly)
+   subroutine renew(self)
       class(petsc_solver_type), intent(inout) :: self
-      logical, intent(in)                     :: wholly
 
-      call order(order_renew, [merge(1, 0, wholly)])
+      call order(order_renew)
       self%is_own = .true.
-      self%is_whole = wholly
       call note_factor(self%reuse)
    end subroutine renew
 
@@ -208,7 +203,7 @@ contains
 
       fault = 0
       x(self%locked) = 0.0_wp
-      call solve_somehow(self, x, steps)
+      call solve_somehow(self, 1, x, steps)
       associate (done => self%description)
          done%solutions = done%solutions + 1
          done%steps = done%steps + steps
@@ -217,40 +212,37 @@ contains
       if (.not. solution%converged) then
          call say_why(self, x, fault)
       else if (self%is_own) then
-         self%fresh_steps = solution%steps
-         if (self%is_whole) self%whole_steps = max(self%whole_steps, solution%steps)
-         if (solution%steps > max(few_steps, int(slower*self%whole_steps))) self%whole_steps = -1
+         call note_pace(self)
          if (solution%steps > many_steps .and. self%n <= small) call take_way(self, by_mumps)
       else
-         call note_steps(self%reuse, max(0, solution%steps - self%fresh_steps))
+         call note_steps(self%reuse, max(0, solution%steps - nint(self%pace*solution%gained)))
       end if
    end subroutine solve
 
    !> X, the load, becomes the solution, in so many STEPS. Where the preconditioner is of an earlier stiffness and does not get there
-   !! it is by a new one, then by one with new aggregates, and at last by the factor of MUMPS.
-   subroutine solve_somehow(self, x, steps)
+   !! it is by a new one, and at last by the factor of MUMPS.
+   subroutine solve_somehow(self, noted, x, steps)
       class(petsc_solver_type), intent(inout) :: self
+      integer, intent(in)                     :: noted !! 1: later solutions begin with it; 0
       real(wp), intent(inout)                 :: x(:)
       integer, intent(out)                    :: steps
       real(wp) :: load(size(self%equations))
 
       load = x(self%equations)
-      call act_on(self, order_solve, x, merge(no_limit, 2*self%fresh_steps + few_steps, self%is_own))
+      call act_on(self, order_solve, x, &
+                  [self%digits, merge(no_limit, 2*nint(self%pace*self%digits) + few_steps, self%is_own), noted])
       steps = solution%steps
       do while (.not. solution%converged)
          if (.not. self%is_own) then
             call note_failure(self%reuse)
-            call renew(self, wholly=self%whole_steps < 0)
-         else if (.not. self%is_whole) then
-            call renew(self, wholly=.true.)
          else if (self%way == by_gamg) then
             call take_way(self, by_mumps)
-            call renew(self, wholly=.true.)
          else
             exit
          end if
+         call renew(self)
          x(self%equations) = load
-         call act_on(self, order_solve, x)
+         call act_on(self, order_solve, x, [self%digits, no_limit, noted])
          steps = steps + solution%steps
       end do
    end subroutine solve_somehow
@@ -263,10 +255,18 @@ contains
       if (self%way == way) return
       self%way = way
       self%is_own = .false.
-      self%whole_steps = -1
+      self%pace = 0.0_wp
       call forget_factor(self%reuse)
       call order(order_way, [way])
    end subroutine take_way
+
+   !> Few digits, where the first guess was good, say little.
+   subroutine note_pace(self)
+      class(petsc_solver_type), intent(inout) :: self
+      real(wp), parameter :: enough = 3.0_wp
+
+      if (solution%gained >= enough .or. self%pace <= 0.0_wp) self%pace = solution%steps/max(1.0_wp, solution%gained)
+   end subroutine note_pace
 
    !> Under a load that excites every motion it is seen what holds the structure hardly or not at all, which loads that do not
    !! move it that way would hide: FAULT is an equation of such a motion. The load of an equation is of the size of sqrt(k_ii), so
@@ -283,7 +283,7 @@ contains
       x = size_of*(2.0_wp*modulo(golden*(size(self%number, 1)*self%node + self%direction), 1.0_wp) - 1.0_wp)
       x(self%locked) = 0.0_wp
       call order(order_forget)
-      call solve_somehow(self, x, steps)
+      call solve_somehow(self, 0, x, steps)
       self%is_probed = .true.
       if (solution%converged) then
          self%weakest = 1.0_wp/max(1.0_wp, maxval(size_of*abs(x)))
@@ -304,7 +304,6 @@ contains
       character(:), allocatable :: words
 
       call forget_factor(self%reuse)
-      self%whole_steps = -1
       fault = no_solution
       words = 'PETSc does not solve the '//integer_text(self%n)//' equations: '
       if (.not. solution%has_memory) then
@@ -361,7 +360,6 @@ contains
       call forget_factor(self%reuse)
       self%one_solution = .false.
       self%weakest = 1.0_wp
-      self%whole_steps = -1
       self%is_probed = .false.
       call take_way(self, self%wanted)
    end subroutine forget_past
@@ -379,7 +377,7 @@ contains
       real(wp), contiguous, intent(inout)  :: x(:)
 
       x(self%locked) = 0.0_wp
-      call act_on(self, order_solve, x)
+      call act_on(self, order_solve, x, [digits_of_estimate, no_limit, 0])
    end subroutine solve_by_factor
 
    subroutine multiply_by_factor(self, x)
@@ -389,20 +387,17 @@ contains
       call act_on(self, order_multiply, x)
    end subroutine multiply_by_factor
 
-   !> X, by equation, is what all processes do with it; a solution takes steps AT_MOST so often.
-   subroutine act_on(self, what, x, at_most)
+   !> X, by equation, is what all processes do with it.
+   subroutine act_on(self, what, x, words)
       class(petsc_solver_type), intent(in) :: self
       integer, intent(in)                  :: what !! order_solve, order_multiply, order_diagonal
       real(wp), intent(inout)              :: x(:)
-      integer, intent(in), optional        :: at_most !! no_limit
+      integer, intent(in), optional        :: words(:)
       real(wp), allocatable :: values(:)
-      integer :: limit
 
       allocate (values(size(self%deal%order)*size(self%number, 1)), source=0.0_wp)
       values(self%row) = x(self%equations)
-      limit = no_limit
-      if (present(at_most)) limit = at_most
-      call order(what, [limit], values)
+      call order(what, words, values)
       x(self%equations) = values(self%row)
    end subroutine act_on
 

@@ -1,14 +1,15 @@
 !> The processes of a run, as MPI numbers them from 0 on. Rank 0 reads, steps and writes; the others wait for its orders.
 module ranks
    use mpi_f08, only: mpi_abort, mpi_allreduce, mpi_bcast, mpi_comm_rank, mpi_comm_size, mpi_comm_world, mpi_double_precision, &
-                      mpi_finalize, mpi_gatherv, mpi_init, mpi_integer, mpi_max, mpi_recv, mpi_scatterv, mpi_send, mpi_status_ignore
+                      mpi_finalize, mpi_gatherv, mpi_init, mpi_integer, mpi_max, mpi_recv, mpi_scatterv, mpi_send, &
+                      mpi_status_ignore, mpi_sum
    use incomplete_results, only: remove_incomplete
    use kinds, only: wp
    use, intrinsic :: iso_fortran_env, only: error_unit
    implicit none
    private
 
-   public :: find_ranks, leave_ranks, tell, send, receive, scatter, gather, largest_of_all, give_up
+   public :: find_ranks, leave_ranks, tell, send, receive, scatter, gather, largest_of_all, sum_of_all, give_up
 
    integer, public, protected :: rank = 0, n_ranks = 1
 
@@ -101,6 +102,12 @@ contains
 
       call mpi_allreduce(value, largest, 1, mpi_double_precision, mpi_max, mpi_comm_world)
    end function largest_of_all
+
+   real(wp) function sum_of_all(value) result(total)
+      real(wp), intent(in) :: value
+
+      call mpi_allreduce(value, total, 1, mpi_double_precision, mpi_sum, mpi_comm_world)
+   end function sum_of_all
 
    !> No process can go on: say why, leave no incomplete file, end all of them with status 3.
    subroutine give_up(why)

@@ -5,7 +5,7 @@ submodule(distribution) several_processes
    use case_control, only: offer_petsc, solver_mumps, solver_petsc
    use distributed_matrix, only: check
    use distributed_solution, only: by_gamg, by_mumps, set_library_options
-   use engine, only: end_engine, obey, order, order_end
+   use engine, only: end_engine, obey, order, order_end, order_memory
    use incomplete_results, only: watch_ends
    use petsc_library, only: petsc_finalize, petsc_initialize, petsc_pop_signal_handler, petsc_push_error_handler, &
                             petsc_return_error_handler
@@ -66,5 +66,14 @@ contains
       call choose_distributed(best, system)
       if (allocated(system)) system%description%reason = weighing_words(work)
    end subroutine weigh_distributed
+
+   module subroutine memory_of_all(bytes)
+      real(wp), intent(out) :: bytes
+      real(wp) :: values(1)
+
+      values = 0.0_wp
+      call order(order_memory, values=values)
+      bytes = values(1)
+   end subroutine memory_of_all
 
 end submodule several_processes

@@ -13,7 +13,7 @@ module shares
    implicit none
    private
 
-   public :: deal_blocks, share_of, is_entangled, send_share, receive_share
+   public :: deal_blocks, share_of, is_entangled, send_share, receive_share, forget_elements
 
    !> How rank 0 has dealt the nodes.
    type, public :: deal_type
@@ -163,6 +163,15 @@ contains
       is_entangled = section_node(model, e) > 0
       if (.not. is_entangled) is_entangled = is_coupled(model, corners_of(model, e))
    end function is_entangled
+
+   !> The matrix is there: what it was made of is not needed any more.
+   subroutine forget_elements(share)
+      type(share_type), intent(inout) :: share
+      type(model_type) :: nothing
+
+      share%model = nothing
+      deallocate (share%block, share%held, share%held_own, share%inside, share%outside, share%x)
+   end subroutine forget_elements
 
    !> Send SHARE to process R.
    subroutine send_share(share, r)

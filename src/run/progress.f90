@@ -3,9 +3,9 @@
 module progress
    use, intrinsic :: iso_fortran_env, only: error_unit
    use c_library, only: is_terminal
+   use distribution, only: memory_of_all
    use equation_solver, only: solver_description
    use kinds, only: long, wp
-   use machine, only: peak_memory
    use stage_plan, only: stage_plan_type
    use text_tools, only: integer_text
    implicit none
@@ -136,7 +136,8 @@ contains
    !> The run is over: clear the line, print the times.
    subroutine finish(self)
       class(progress_type), intent(inout) :: self
-      integer :: i
+      real(wp) :: bytes
+      integer  :: i
 
       call self%enter(phase_write)
       call self%clear()
@@ -149,7 +150,8 @@ contains
          self%deck, ': ', 'operations moving ', self%solver%moving_operations
       if (self%solver%solutions > 0) write (error_unit, '(2a, 3(a, i0))') self%deck, ': ', 'solutions ', self%solver%solutions, &
          ', steps ', self%solver%steps, ', at most ', self%solver%most_steps
-      write (error_unit, '(3a, i12, a)') self%deck, ': ', 'memory    ', nint(peak_memory()/1048576.0_wp), ' MiB'
+      call memory_of_all(bytes)
+      write (error_unit, '(3a, i12, a)') self%deck, ': ', 'memory    ', nint(bytes/1048576.0_wp), ' MiB'
    end subroutine finish
 
 end module progress

@@ -1,5 +1,6 @@
 !> The seam of distribution in the program that runs as one process: there are no solvers behind it.
 submodule(distribution) one_process
+   use machine, only: peak_memory
    implicit none
 
 contains
@@ -24,5 +25,11 @@ contains
       work%processes = 1
       if (work%processes < 1) deallocate (system) ! never, likewise
    end subroutine weigh_distributed
+
+   module subroutine memory_of_all(bytes)
+      real(wp), intent(out) :: bytes
+
+      bytes = real(peak_memory(), wp)
+   end subroutine memory_of_all
 
 end submodule one_process

@@ -12,6 +12,8 @@ module coupled_solution
 
    public :: solve_coupled
 
+   integer, parameter :: digits = 7 ! of a step, where it is iterated itself
+
 contains
 
    !> Displacements U of the retained nodes with ([k] + [r]) U = F on the free components; [k] is the stiffness in SYSTEM. The
@@ -44,7 +46,7 @@ contains
          do j = 1, most_steps
             steps = j
             shifted = basis(:, :, j)
-            call solve_equations(model, system, shifted, u, failure)
+            call solve_equations(model, system, shifted, u, failure, digits=digits)
             if (failure%raised) return
             call rest_times(system%interface, rest, u, shifted)
             basis(:, :, j + 1) = basis(:, :, j) + merge(0.0_wp, shifted, held)
@@ -78,7 +80,7 @@ contains
             shifted = shifted + y(i)*basis(:, :, i)
          end do
       end associate
-      call solve_equations(model, system, shifted, u, failure)
+      call solve_equations(model, system, shifted, u, failure, digits=digits)
    end subroutine solve_coupled
 
    !> F = [r] {U}: forces of displacements of retained nodes, by the interface ELEMENTS.

@@ -2,11 +2,12 @@
 !! process and no such solver, or src/mpi, PETSc on the processes that mpirun has started.
 module distribution
    use equation_solver, only: equation_system
+   use kinds, only: wp
    use solver_weighing, only: solver_work_type
    implicit none
    private
 
-   public :: join_processes, leave_processes, choose_distributed, weigh_distributed
+   public :: join_processes, leave_processes, choose_distributed, weigh_distributed, memory_of_all
 
    interface
       !> At the start of the program: of several processes the first goes on, the others come back from here only at the end of
@@ -30,6 +31,11 @@ module distribution
          type(solver_work_type), intent(inout) :: work !! how many processes and threads there are is set here
          class(equation_system), allocatable, intent(out) :: system
       end subroutine weigh_distributed
+
+      !> The most memory that each process has had, added up; the others wait for orders.
+      module subroutine memory_of_all(bytes)
+         real(wp), intent(out) :: bytes
+      end subroutine memory_of_all
    end interface
 
 end module distribution

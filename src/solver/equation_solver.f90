@@ -18,6 +18,8 @@ module equation_solver
 
    integer, parameter, public :: no_memory = -1                !! as FAULT: an allocation failed
    integer, parameter, public :: no_solution = -2              !! as FAULT: the solver has a COMPLAINT
+   integer, parameter, public :: exact_digits = 11             !! of a solution that nothing corrects: its residual is below
+                                                               !! 10**(-digits) of the load
    real(wp), parameter, public :: pivot_tolerance = 1.0e-12_wp !! of the diagonal entry: below it there is no stiffness
 
    !> A solver in numbers, for the listing and --times.
@@ -49,6 +51,7 @@ module equation_solver
                                                      !! [force/length]
       logical :: one_solution = .false.              !! whether with this k_int the increment solves but once
       integer :: factorisations = 20                 !! that are to be expected
+      integer :: digits = exact_digits               !! that the next solution needs, where a solver iterates
       real(wp) :: shift = 0.0_wp                     !! sigma: in place of [k_b] there is [k_b] - sigma [m], set before it is formed
                                                      !! [1/time^2]; above zero the factor is one with signs, [l] [s] [l]^T
       integer :: n_negative = 0                      !! pivots below zero of the factor there is: so many eigenvalues of

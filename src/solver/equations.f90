@@ -4,7 +4,7 @@
 module equations
    use bar_elements, only: coupled_bar_stiffness
    use case_control, only: solver_auto
-   use equation_solver, only: equation_system
+   use equation_solver, only: equation_system, exact_digits
    use failures, only: failure_type
    use interface_operator, only: add_global_force, global_stiffness, relative_movement
    use kinds, only: wp
@@ -161,14 +161,16 @@ contains
    end subroutine form_structure_stiffness
 
    !> Displacements U of retained nodes under the forces F on them; held components are MOVED, which the forces in the bodies count
-   !! for already, or stay zero, as locked ones do. Where only now the stiffness is factorised that may be a failure.
-   subroutine solve_equations(model, system, f, u, failure, moved)
+   !! for already, or stay zero, as locked ones do. Where only now the stiffness is factorised that may be a failure. DIGITS are
+   !! enough where the caller corrects the solution: for solvers that iterate.
+   subroutine solve_equations(model, system, f, u, failure, moved, digits)
       type(model_type), intent(in)          :: model
       class(equation_system), intent(inout) :: system
       real(wp), intent(in)                  :: f(:, :)     !! of retained nodes [force]
       real(wp), intent(inout)               :: u(:, :)     !! likewise [length]
       type(failure_type), intent(inout)     :: failure
       real(wp), intent(in), optional        :: moved(:, :) !! likewise, zero on free components [length]; zero
+      integer, intent(in), optional         :: digits      !! exact_digits
       real(wp), allocatable :: x(:), less(:, :)
       integer :: fault, i
       logical :: moves
@@ -188,7 +190,9 @@ contains
       else
          call gather(system, f, x)
       end if
+      if (present(digits)) system%digits = digits
       call system%solve(x, fault)
+      system%digits = exact_digits
       call system%report_fault(model, fault, system%where, failure)
       if (failure%raised) return
       do i = 1, size(system%equations)

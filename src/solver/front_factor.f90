@@ -4,7 +4,7 @@ module front_factor
    use equation_solver, only: no_memory, pivot_tolerance
    use front_assembly, only: add_elements, add_matrix, add_update, place_in
    use front_blocks, only: add_to_block, keep_block, restore_block
-   use front_kernel, only: eliminate, top_row
+   use front_kernel, only: eliminate, large, top_row
    use front_tree, only: front_of, front_tree_type, front_type
    use kinds, only: long, wp
    use machine, only: give_back
@@ -16,7 +16,6 @@ module front_factor
    public :: factorise_fixed, factorise_moving, add_to_moving
 
    real(wp), parameter :: task_work = 2.0e6_wp         ! operations of a subtree that is worth a task
-   integer(long), parameter :: large = 8388608_long    ! entries of a matrix whose pages are worth to be given back
    integer, parameter  :: strip = 128                  ! columns that are given back together
 
 contains

@@ -11,11 +11,13 @@
 !! of what is subtracted, L S L^T = L L^T - 2 L_- L_-^T with the columns L_- whose sign is -1; in a structure these are few.
 module front_kernel
    use blas_lapack, only: dgemm, dpotrf, dtrsm
-   use kinds, only: wp
+   use kinds, only: long, wp
    implicit none
    private
 
    public :: eliminate, top_row, touched_entries
+
+   integer(long), parameter, public :: large = 8388608_long !! entries of a matrix whose pages are worth to be given back
 
    integer, parameter :: narrow = 96       ! columns that are eliminated together
    integer, parameter :: wide   = 4*narrow ! columns of the update matrix that are one task

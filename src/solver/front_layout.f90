@@ -3,7 +3,7 @@
 !! Source: Liu, SIAM Review 34 (1992) 82-109.
 module front_layout
    use elimination_tree, only: count_rows, find_parents, number_depth_first, number_places, order_depth_first
-   use front_kernel, only: touched_entries
+   use front_kernel, only: large, touched_entries
    use kinds, only: wp
    use node_graph, only: node_graph_type
    use supernodes, only: find_supernodes, merge_supernodes, sorted_places, supernodes_type, weigh_supernodes
@@ -32,6 +32,7 @@ module front_layout
       real(wp) :: moving_entries = 0.0_wp       !! entries of the moving fronts, whole lower triangles
       real(wp) :: kept_entries   = 0.0_wp       !! lower triangles that fronts which do not move leave to those that do
       real(wp) :: peak_entries   = 0.0_wp       !! most that stand in update matrices at once, one subtree after the other
+      real(wp) :: most_entries   = 0.0_wp       !! most that stand in panels, update matrices and what moving fronts begin with
    end type front_layout_type
 
 contains
@@ -80,8 +81,8 @@ contains
                    + factorisations*(layout%moving_operations + entry_operations*layout%moving_entries)
    end function total_work
 
-   !> The factor; what moving fronts begin with: what is left to them, and elements, which are kept entry by entry and with two
-   !! indices, those of a regular mesh; the update matrices on the way.
+   !> What stands at once, and the elements of moving fronts, which are kept entry by entry and with two indices, those of a
+   !! regular mesh.
    pure real(wp) function bytes_needed(layout, n, dimension)
       type(front_layout_type), intent(in) :: layout
       integer, intent(in)                 :: n         !! unknowns
@@ -89,7 +90,7 @@ contains
       real(wp) :: of_elements
 
       of_elements = 0.5_wp*dimension*3**dimension*n
-      bytes_needed = 8.0_wp*(layout%panel_entries + layout%peak_entries) + 16.0_wp*(layout%kept_entries + of_elements)
+      bytes_needed = 8.0_wp*layout%most_entries + 16.0_wp*of_elements
    end function bytes_needed
 
    !> Lay out the fronts of GRAPH eliminated along ORDER. With JOINTS_LAST the nodes with IN_JOINT go to the end, all into one
@@ -225,14 +226,20 @@ contains
       type(front_layout_type), intent(inout) :: layout
       integer  :: f, s
       real(wp) :: rows
+      real(wp) :: panel(layout%n), update(layout%n) ! entries that take memory
+      real(wp) :: filled(layout%n), whole(layout%n) ! entries that moving fronts begin with, and of them in all
 
       allocate (layout%rows(layout%first_row(layout%n + 1) - 1), layout%parent(layout%n))
       layout%parent = 0
+      filled = 0.0_wp
       do f = 1, layout%n
          s = sequence(f)
          layout%rows(layout%first_row(f):layout%first_row(f + 1) - 1) = &
             new_place(supers%rows(supers%first_row(s):supers%first_row(s + 1) - 1))
          layout%peak_entries = max(layout%peak_entries, supers%peak(s))
+         panel(f) = touched_entries(supers%pivots(s) + supers%beyond(s), supers%pivots(s))
+         update(f) = touched_entries(supers%beyond(s), supers%beyond(s))
+         whole(f) = (supers%pivots(s) + supers%beyond(s))*supers%pivots(s) + supers%beyond(s)**2
          s = supers%parent(s)
          if (s == 0) cycle
          do while (supers%top(s) /= s)
@@ -241,8 +248,47 @@ contains
          layout%parent(f) = number(s)
          rows = supers%beyond(sequence(f))
          if (layout%moves(number(s)) .and. .not. layout%moves(f)) &
-            layout%kept_entries = layout%kept_entries + 0.5_wp*rows*(rows + 1.0_wp)
+            filled(number(s)) = filled(number(s)) + 0.5_wp*rows*(rows + 1.0_wp)
       end do
+      layout%kept_entries = sum(filled)
+      ! with two indices each, or the whole front where that is less
+      layout%most_entries = most_standing(layout, panel, update, sum(merge(panel + update, 2.0_wp*filled, filled > 0.25_wp*whole)))
    end subroutine link_fronts
+
+   !> Most entries that stand at once, with so many in the PANEL and in the UPDATE matrix of every front: those that do not move are
+   !! eliminated one after the other, and what they leave to moving ones is KEPT; then these are eliminated.
+   pure real(wp) function most_standing(layout, panel, update, kept) result(most)
+      type(front_layout_type), intent(in) :: layout
+      real(wp), intent(in)                :: panel(:), update(:), kept
+      real(wp) :: left(layout%n)           ! to a front by its children
+      real(wp) :: of_large(layout%n)       ! of these by large ones: memory that the front takes over
+      real(wp) :: now, own
+      integer  :: f, pass
+
+      most = 0.0_wp
+      now = 0.0_wp
+      do pass = 1, 2                       ! those that do not move, then the others
+         left = 0.0_wp
+         of_large = 0.0_wp
+         if (pass == 2) now = sum(panel) + kept
+         most = max(most, now)
+         do f = 1, layout%n
+            if (layout%moves(f) .neqv. pass == 2) cycle
+            own = update(f) + merge(panel(f), 0.0_wp, pass == 1)
+            now = now + own
+            most = max(most, now - min(own, of_large(f)))
+            now = now - left(f)
+            associate (parent => layout%parent(f))
+               if (parent == 0) then
+                  now = now - update(f)
+                  cycle
+               end if
+               if (layout%moves(parent) .neqv. layout%moves(f)) cycle
+               left(parent) = left(parent) + update(f)
+               if (update(f) >= real(large, wp)) of_large(parent) = of_large(parent) + update(f)
+            end associate
+         end do
+      end do
+   end function most_standing
 
 end module front_layout

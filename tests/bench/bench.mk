@@ -4,14 +4,15 @@
 
 BENCH_FOLDER   := $(BUILD)/bench
 BENCH_CHOLMOD  := $(wildcard /usr/include/suitesparse/cholmod.h /usr/local/include/suitesparse/cholmod.h)
-BENCH_PROGRAMS := $(BENCH_FOLDER)/dgemm_rate \
+BENCH_MPI      := $(filter mpi,$(MODELS))
+BENCH_PROGRAMS := $(BENCH_FOLDER)/dgemm_rate $(if $(BENCH_MPI),$(BENCH_FOLDER)/partition_plan) \
                   $(if $(BENCH_CHOLMOD),$(BENCH_FOLDER)/write_matrix $(BENCH_FOLDER)/cholmod_once)
 
 .PHONY: bench
-bench: bin/jointfem $(BENCH_PROGRAMS)
+bench: bin/jointfem $(BENCH_PROGRAMS) $(BENCH_MPI)
 	@tests/bench/bench.sh bin/jointfem $(BENCH_FOLDER) $(MODELS)
 
-$(BENCH_FOLDER)/dgemm_rate $(BENCH_FOLDER)/write_matrix: $(BENCH_FOLDER)/%: tests/bench/%.f90 $(RELEASE_OBJECTS)
+$(BENCH_FOLDER)/dgemm_rate $(BENCH_FOLDER)/write_matrix $(BENCH_FOLDER)/partition_plan: $(BENCH_FOLDER)/%: tests/bench/%.f90 $(RELEASE_OBJECTS)
 	@mkdir -p $(@D)
 	$(FC) $(FFLAGS) -I$(BUILD)/release -o $@ $< $(RELEASE_OBJECTS) $(LIBRARIES)
 

@@ -6,7 +6,7 @@
 #
 # FOLDER  where the programs of the benchmark are and its files go; FOLDER/measured holds every figure, FOLDER/tables the tables
 # WHAT    all (if nothing is said), small, or any of: shapes as make_deck.sh has them, friction, threads, crossing, gmsh, lists,
-#         modes
+#         modes, mpi; not of all: mpi, which takes hours; MPI_SHAPES are the models it measures
 #
 # Programs run one after another, on one thread unless said otherwise, ours and CHOLMOD in turn; of several runs the fastest
 # counts, long ones are not repeated. Status 1 where a run fails or CHOLMOD finds another answer.
@@ -28,8 +28,8 @@ for word; do
    case $word in
    all)   wanted="$wanted $small $large $wide gmsh friction threads crossing lists modes" ;;
    small) wanted="$wanted $small friction crossing" ;;
-   q4_*|hex8_*|over_*|friction|threads|crossing|gmsh|lists|modes) wanted="$wanted $word" ;;
-   *) echo "bench: '$word' is neither all, small, friction, threads, crossing, gmsh, lists, modes nor a shape like q4_100x20, hex8_20x20x20" >&2
+   q4_*|hex8_*|over_*|friction|threads|crossing|gmsh|lists|modes|mpi) wanted="$wanted $word" ;;
+   *) echo "bench: '$word' is neither all, small, friction, threads, crossing, gmsh, lists, modes, mpi nor a shape like q4_100x20, hex8_20x20x20" >&2
       exit 1 ;;
    esac
 done
@@ -244,6 +244,48 @@ measure_modes() {
    done
 }
 
+# ------------------------------------------------------------------ PETSC on one process and on two, beside TREE on as many threads
+measure_mpi() {
+   local shape n name
+   [ -x "${program}_mpi" ] || fail "there is no ${program}_mpi: make mpi"
+   export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMPI_MCA_mpi_yield_when_idle=1
+   for shape in ${MPI_SHAPES:-hex8_20x20x20 hex8_30x30x30 hex8_40x40x40 hex8_60x60x60 hex8_80x80x80 hex8_100x100x100 bracket_16}; do
+      "$here/make_deck.sh" "$shape" PETSC NONE > "$work/$shape.bdf" || exit 1
+      for n in 1 2; do
+         echo "bench: $shape by PETSC, processes: $n" >&2
+         run_processes $n "$shape"
+         record "mpi_$n" "$shape" "$work/one"
+      done
+      case $shape in hex8_[1-4]?x*)
+         "$here/make_deck.sh" "$shape" TREE NONE > "$work/$shape.bdf" || exit 1
+         for n in 1 2; do
+            echo "bench: $shape by TREE, threads: $n" >&2
+            run_program $n "$work/$shape.bdf"
+            { figures "$work/$shape.bdf"; of_listing "$work/$shape.out"; cat "$work/clock"; } > "$work/one"
+            record "tree_$n" "$shape" "$work/one"
+         done ;;
+      esac
+      remove_results "$shape"
+   done
+   for shape in hex8_80x80x80 bracket_16; do
+      [ -f "$work/$shape.bdf" ] || continue
+      "$here/make_deck.sh" "$shape" TREE NONE > "$work/$shape.bdf" || exit 1
+      "$work/partition_plan" "$work/$shape.bdf" 64 > "$work/one" || fail "no plan of $shape"
+      record plan "$shape" "$work/one"
+   done
+}
+
+# The model $2 by PETSC on $1 processes: its figures, and the steps of its first solution and of all on the average.
+run_processes() {
+   local TIMEFORMAT=$'user %3U\nsystem %3S'
+   { time PETSC_OPTIONS="${PETSC_OPTIONS-} -jointfem_ksp_converged_reason" mpirun -q --oversubscribe -n "$1" "${program}_mpi" \
+      --times -q --threads 1 -o "$work" "$work/$2.bdf" > "$work/said" 2>&1; } 2> "$work/clock" ||
+      { cat "$work/said" >&2; fail "$2 on $1 processes failed"; }
+   { figures "$work/$2.bdf"; of_listing "$work/$2.out"; cat "$work/clock"
+     awk '/ solve converged .* iterations / { n++; all += $NF; if (n == 1) first = $NF }
+          END { if (n) print "first_steps " first "\nsteps " all/n }' "$work/said"; } > "$work/one"
+}
+
 # ------------------------------------------------------------------ meshes from Gmsh: two blocks of linear tetrahedra, a column of second order
 measure_gmsh() {
    command -v gmsh > /dev/null || { echo 'bench: gmsh is not installed, its meshes are left out' >&2; return; }
@@ -291,6 +333,7 @@ for what in $wanted; do
    threads)  measure_threads hex8_30x30x30 ;;
    crossing) measure_crossing ;;
    gmsh)     measure_gmsh ;;
+   mpi)      measure_mpi ;;
    lists)    measure_lists over_20x20x8 over_24x17x8 over_24x24x8 ;;
    modes)    measure_modes q4_1000x200 hex8_40x40x40 ;;
    *)        measure_model "$what" ;;

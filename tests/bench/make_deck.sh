@@ -6,7 +6,9 @@
 # SHAPE  q4_100x20: a plate of 100 x 20 CQUAD4, the second number its height; hex8_20x20x10: a block of 20 x 20 x 10 CHEXA, the
 #        last number its height. The whole bottom stands on a rigid base by a joint. 20 increments press on the whole top, and out
 #        of centre on one node: the pressure is uneven, and the joint stays closed. over_24x17x8: a block of 24 x 24 x 8 CHEXA on one of
-#        17 x 17 x 8, the joint between them: lists of nodes, and pairs where both numbers are the same.
+#        17 x 17 x 8, the joint between them: lists of nodes, and pairs where both numbers are the same. bracket_16: an angle of two legs,
+#        3 x 2 units each, 1 thick, each unit cut into 16 cells an edge and every cell into six CTETRA of second order, node by node:
+#        1,000,000 unknowns. The lower leg stands on the joint, the upper one is pressed on its end.
 # SOLVER, OUTPUT  as in case control
 # MODES  so many natural modes behind one increment
 # NREAN  given: the joint has shear laws and a friction limit that it exceeds in every increment, and so many re-analyses
@@ -54,10 +56,63 @@ SPC1,1,12,1000001
 SPC1,1,1,$(( 1000001 + nx*(n3 + 1) ))"
    down='0.0,0.0,-1.0'
    loads="FORCE,10,$(( 1000000 + (nx + 1)*(nx + 1)*(n3 + 1) )),,100.0,$down" ;;
+bracket_*)
+   mesh='PMARK,22
+PSOLID,1,1'
+   supports='SPCM,1,1,21
+SPCM,1,2,22'
+   down='0.0,0.0,-1.0'
+   loads= ;;
 *)
-   echo "make_deck.sh: '$shape' is no shape, expected q4_NxM, hex8_NxMxK or over_NxMxK" >&2
+   echo "make_deck.sh: '$shape' is no shape, expected q4_NxM, hex8_NxMxK, over_NxMxK or bracket_N" >&2
    exit 1 ;;
 esac
+
+# The nodes, elements and marked sides of a bracket with $1 cells a unit, each 50 long: a cell is cut along its diagonal, one tetrahedron for
+# every order of the three axes. Nodes are numbered on the grid of half cells.
+bracket() {
+   awk -v n="$1" '
+      function id(i, j, k) { return 1 + i + (6*n + 1)*(j + (4*n + 1)*k) }
+      function inside(i, j, k) { return i < n || k < n }               # a cell
+      function node(a, b, c) { return id(x[a] + x[b], y[a] + y[b], z[a] + z[b]) } # between two corners, or one
+      function side(mark, a, b, c) {
+         printf "CTRIA6,%d,%d,%d,%d,%d,%d,%d,%d\n", ++sides + 10000000, mark, node(a, a), node(b, b), node(c, c), node(a, b), node(b, c), node(c, a)
+      }
+      BEGIN {
+         split("1 2 3 2 3 1 3 1 2 1 3 2 3 2 1 2 1 3", axis, " ")       # even orders first
+         h = 25/n
+         for (k = 0; k <= 6*n; k++) for (j = 0; j <= 4*n; j++) for (i = 0; i <= 6*n; i++)
+            if (i <= 2*n || k <= 2*n) printf "GRID,%d,,%.6g,%.6g,%.6g\n", id(i, j, k), i*h, j*h, k*h
+         for (k = 0; k < 3*n; k++) for (j = 0; j < 2*n; j++) for (i = 0; i < 3*n; i++) {
+            if (!inside(i, j, k)) continue
+            for (t = 0; t < 6; t++) {
+               x[1] = i; y[1] = j; z[1] = k
+               for (c = 1; c <= 3; c++) {
+                  a = axis[3*t + c]
+                  x[c + 1] = x[c] + (a == 1); y[c + 1] = y[c] + (a == 2); z[c + 1] = z[c] + (a == 3)
+               }
+               if (t > 2) { # turned the other way round
+                  p = x[2]; x[2] = x[3]; x[3] = p; p = y[2]; y[2] = y[3]; y[3] = p; p = z[2]; z[2] = z[3]; z[3] = p
+               }
+               printf "CTETRA,%d,1,%d,%d,%d,%d,%d,%d\n+,%d,%d,%d,%d\n", ++elements, node(1, 1), node(2, 2), node(3, 3), node(4, 4), \
+                  node(1, 2), node(2, 3), node(3, 1), node(1, 4), node(2, 4), node(3, 4)
+            }
+         }
+         for (i = 0; i < 3*n; i++) for (j = 0; j < 2*n; j++) {         # below, and on the end of the upper leg
+            corners(i, j, 0, 1); side(20, 1, 2, 3); side(20, 1, 3, 4)
+            if (i < n) { corners(i, j, 3*n, 1); side(23, 1, 2, 3); side(23, 1, 3, 4) }
+         }
+         for (j = 0; j < 2*n; j++) for (k = 0; k < 3*n; k++) { corners(0, j, k, 2); side(21, 1, 2, 3); side(21, 1, 3, 4) }
+         for (i = 0; i < 3*n; i++) for (k = 0; k < 3*n; k++)
+            if (inside(i, 0, k)) { corners(i, 0, k, 3); side(22, 1, 2, 3); side(22, 1, 3, 4) }
+      }
+      function corners(i, j, k, way,    c, u, w) { # of a face of a cell, one after another; across z, x, y
+         for (c = 1; c <= 4; c++) {
+            u = c == 2 || c == 3; w = c > 2
+            x[c] = i + (way == 2 ? 0 : u); y[c] = j + (way == 3 ? 0 : way == 1 ? w : u); z[c] = k + (way == 1 ? 0 : w)
+         }
+      }'
+}
 
 cat <<END
 TITLE = ${shape^^}
@@ -69,6 +124,9 @@ SUBCASE 1
 $steps
   OUTPUT = $output
 BEGIN BULK
+END
+[ "${shape%_*}" != bracket ] || bracket "${shape#*_}"
+cat <<END
 $mesh
 MAT1,1,9500.0,,0.25$density
 PMARK,20

@@ -26,6 +26,8 @@ END {
    crossing()
    lists()
    modes()
+   mpi()
+   plan()
 }
 
 # The seconds of the element matrices, which are a part of the phase factor, become a phase of their own. On one thread only:
@@ -189,6 +191,63 @@ function modes(    i, m, once) {
    put()
 }
 
+# PETSC on one process and on two, beside TREE on as many threads.
+function mpi(    i, j, m, last, n, table, shown) {
+   if (!rows["mpi_1"]) return
+   title("By PETSC on one process and on two, " increments " increments; TREE on as many threads")
+   head("model;unknowns;processes;steps, first;steps, mean;factor;increments;all;user and system;MiB, all of them;TREE: all;" \
+      "TREE: user and system;TREE: MiB")
+   for (i = 1; i <= rows["mpi_1"]; i++) {
+      m = row["mpi_1", i]
+      for (n = 1; n <= 2; n++) {
+         table = "mpi_" n
+         cells(label(m) ";" v[table, m, "unknowns"] ";" n ";" v[table, m, "first_steps"] ";" v[table, m, "steps"] ";" \
+            seconds(v[table, m, "factor"]) ";" seconds(v[table, m, "increments"]) ";" seconds(v[table, m, "all"]) ";" \
+            seconds(v[table, m, "user"] + v[table, m, "system"]) ";" v[table, m, "memory"] ";" seconds(v["tree_" n, m, "all"]) ";" \
+            (("tree_" n, m, "user") in v ? seconds(v["tree_" n, m, "user"] + v["tree_" n, m, "system"]) : "") ";" \
+            v["tree_" n, m, "memory"])
+      }
+   }
+   put()
+   head("from;to;processes;all;user and system;memory")
+   for (i = 2; i <= rows["mpi_1"]; i++) {
+      m = row["mpi_1", i]
+      last = ""
+      for (j = 1; j < i; j++) if (proportions(row["mpi_1", j]) == proportions(m)) last = row["mpi_1", j]
+      if (last == "") continue
+      for (n = 1; n <= 2; n++) {
+         table = "mpi_" n
+         cells(label(last) ";" label(m) ";" n ";" \
+            exponent(v[table, last, "all"], v[table, m, "all"], v[table, last, "unknowns"], v[table, m, "unknowns"]) ";" \
+            exponent(v[table, last, "user"] + v[table, last, "system"], v[table, m, "user"] + v[table, m, "system"], \
+               v[table, last, "unknowns"], v[table, m, "unknowns"]) ";" \
+            exponent(v[table, last, "memory"], v[table, m, "memory"], v[table, last, "unknowns"], v[table, m, "unknowns"]))
+         shown = 1
+      }
+   }
+   if (!shown) return
+   title("Growth by PETSC: exponent in the number of unknowns")
+   put()
+}
+
+# A run on many processes, counted in its partition.
+function plan(    i, k, m, names, n) {
+   if (!rows["plan"]) return
+   n = split("nodes partners halo_nodes bytes_sent_a_product bytes_of_the_matrix bytes_of_upper_blocks bytes_of_vectors", names, " ")
+   for (i = 1; i <= rows["plan"]; i++) {
+      m = row["plan", i]
+      title("On " v["plan", m, "processes"] " processes, " label(m) ": of a process; links between nodes cut in all: " \
+         v["plan", m, "edge_cut"])
+      head("quantity;least;mean;most")
+      for (k = 1; k <= n; k++) {
+         words = v["plan", m, names[k]]
+         gsub(/ /, ";", words)
+         cells(names[k] ";" words)
+      }
+      put()
+   }
+}
+
 function threads(    i, k, m, names, n) {
    if (!rows["threads_2"]) return
    n = split("order factor increments recover solution all", names, " ")
@@ -257,7 +316,7 @@ function label(m,    sizes) {
    sizes = substr(m, index(m, "_") + 1)
    gsub(/x/, " x ", sizes)
    if (m ~ /^over/) sub(/ x /, " over ", sizes)
-   return (m ~ /^q4/ ? "Q4 " : "hex8 ") sizes
+   return (m ~ /^q4/ ? "Q4 " : m ~ /^bracket/ ? "bracket " : "hex8 ") sizes
 }
 
 function proportions(m,    d, n) {
