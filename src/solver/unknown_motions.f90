@@ -3,7 +3,7 @@
 module unknown_motions
    use kinds, only: wp
    use model_data, only: model_type, n_points, n_rotations
-   use reference_nodes, only: node_axes, rotation_component, third_axis
+   use reference_nodes, only: node_axes, rotation_component
    use vector_product, only: cross
    implicit none
    private
@@ -65,7 +65,7 @@ contains
          r = findloc(model%rotations%node, node, dim=1)
          associate (point => model%rotations(r)%point, arm => model%rotations(r)%arm)
             if (d == 2) then
-               q(rotation_component(model, 6), 3) = arm*sum(third_axis(model, point))
+               q(rotation_component(model, 6), 3) = arm ! about z, whichever way the system CD has it
             else
                q(:, 4:) = arm*transpose(node_axes(model, point))
             end if
