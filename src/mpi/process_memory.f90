@@ -12,7 +12,7 @@ module process_memory
 
    public :: reserve_blas, check_rows, bytes_of_rows
 
-   real(wp), parameter :: entry_bytes = 21.0_wp !! measured, of an entry of the matrix: itself, coarser levels, what makes these
+   real(wp), parameter :: entry_bytes = 30.0_wp !! measured, of an entry of the matrix: itself, coarser levels, what makes these
 
 contains
 

@@ -26,7 +26,7 @@ module solver_weighing
    real(wp), parameter :: tree_rate = 4.0e10_wp        ! operations in fronts [1/s]
    real(wp), parameter :: mumps_rate = 2.5e10_wp       ! likewise, all of them in every increment
    real(wp), parameter :: set_up_time = 2.2e-7_wp      ! of GAMG, of an entry [s]
-   real(wp), parameter :: solution_time = 1.9e-7_wp    ! 25 steps [s]
+   real(wp), parameter :: solution_time = 5.0e-8_wp    ! some ten steps, from the best sum of earlier solutions on [s]
    integer, parameter  :: solutions_a_set_up = 4       ! that a preconditioner serves
    real(wp), parameter :: gain = 0.8_wp                ! of each further thread or process
 
