@@ -122,14 +122,14 @@ contains
          real(wp), allocatable :: f(:, :), u(:, :)
          integer  :: i
 
-         f = forces_on_unknowns(model, plan%force(:model%dimension, :))
+         allocate (f, source=forces_on_unknowns(model, plan%force(:model%dimension, :)))
          do i = 1, factorised%n
             x(i) = f(factorised%direction(i), factorised%node(i))
          end do
          x(factorised%locked) = 0.0_wp
          call factorised%solve_by_factor(x)
          x(factorised%locked) = 0.0_wp
-         u = all_displacements(model, factorised, x)
+         allocate (u, source=all_displacements(model, factorised, x))
          at_rest = pack(u(:, plan%nodes), .true.)
       end subroutine solve
 

@@ -1,11 +1,12 @@
-# Tables of displacements and reactions of two listings: awk -f compare.awk EXPECTED.out ACTUAL.out
+# Tables of displacements, reactions and natural frequencies of two listings: awk -f compare.awk EXPECTED.out ACTUAL.out
 #
 # A number may be off by 1E-9 of the largest of its quantity in tables of its title, and by a unit of its last digit. Words, and
 # numbers of something, must be the same. Prints what is too far off first, or how many rows there are; the exit status tells which.
 
 BEGIN { real = "^[-+]?[0-9]+[.][0-9]*([eE][-+]?[0-9]+)?$" }
 FNR == 1 { file++; in_table = 0 }
-/^ [A-Z]/ { in_table = /^ (DISPLACEMENTS|REACTIONS)/; title = $1 }
+/^ [A-Z]/ { in_table = /^ (DISPLACEMENTS|REACTIONS|FREQUENCIES)/; title = $1 }
+title == "FREQUENCIES" { $0 = $1 " " $2 " " $3 " " $4 } # the residual is rounding
 in_table && $1 ~ /^[0-9]+$/ { line[file, ++rows[file]] = title " " $0 } # title, node, X Y (Z), two or three of the table
 
 END {
