@@ -30,7 +30,7 @@ module modal_response
 
 contains
 
-   !> The RESPONSE that is PLANned, by MODES, which were found with the factor that SYSTEM has. FAILURE where it has no bound: an
+   !> The RESPONSE that is PLANned, by MODES, whose unknowns have the numbers of SYSTEM. FAILURE where it has no bound: an
    !! undamped mode at its frequency, a structure that is not held at rest.
    subroutine find_response(model, structure, plan, modes, system, response, failure)
       type(model_type), intent(in)        :: model
@@ -95,8 +95,7 @@ contains
       end do
    end subroutine put_together
 
-   !> Displacements at the nodes under the load at rest: by the factor that is there, or where that has a shift by one without. Not
-   !! allocated of a structure that is not held.
+   !> Displacements at the nodes under the load at rest. Not allocated of a structure that is not held.
    subroutine static_answer(model, structure, plan, system, at_rest)
       type(model_type), intent(in)       :: model
       type(oscillating_type), intent(in) :: structure
@@ -105,34 +104,22 @@ contains
       real(wp), allocatable, intent(out) :: at_rest(:)
       class(equation_system), allocatable :: unshifted
       type(failure_type) :: loose
+      real(wp), allocatable :: f(:, :), u(:, :), x(:)
+      integer :: i
 
-      if (abs(system%shift) > 0.0_wp) then
-         if (system%shift < 0.0_wp) return
-         call factorise_at(model, structure, 0.0_wp, unshifted, loose)
-         if (.not. loose%raised) call solve(unshifted)
-      else
-         call solve(system)
-      end if
-
-   contains
-
-      subroutine solve(factorised)
-         class(equation_system), intent(in) :: factorised
-         real(wp) :: x(factorised%n)
-         real(wp), allocatable :: f(:, :), u(:, :)
-         integer  :: i
-
-         allocate (f, source=forces_on_unknowns(model, plan%force(:model%dimension, :)))
-         do i = 1, factorised%n
-            x(i) = f(factorised%direction(i), factorised%node(i))
-         end do
-         x(factorised%locked) = 0.0_wp
-         call factorised%solve_by_factor(x)
-         x(factorised%locked) = 0.0_wp
-         allocate (u, source=all_displacements(model, factorised, x))
-         at_rest = pack(u(:, plan%nodes), .true.)
-      end subroutine solve
-
+      if (system%shift < 0.0_wp) return
+      call factorise_at(model, structure, 0.0_wp, unshifted, loose)
+      if (loose%raised) return
+      allocate (f, source=forces_on_unknowns(model, plan%force(:model%dimension, :)))
+      allocate (x(system%n))
+      do i = 1, system%n
+         x(i) = f(system%direction(i), system%node(i))
+      end do
+      x(system%locked) = 0.0_wp
+      call unshifted%solve_by_factor(x)
+      x(system%locked) = 0.0_wp
+      allocate (u, source=all_displacements(model, system, x))
+      at_rest = pack(u(:, plan%nodes), .true.)
    end subroutine static_answer
 
 end module modal_response

@@ -10,7 +10,7 @@ module natural_modes
    use failures, only: failure_type
    use kinds, only: wp
    use model_data, only: model_type, n_points
-   use oscillating_structure, only: factorise_at, oscillating_type
+   use oscillating_structure, only: factorise_at, hold_bolts, oscillating_type
    use text_tools, only: integer_text
    use vibration_plan, only: vibration_plan_type
    implicit none
@@ -40,7 +40,8 @@ module natural_modes
 
 contains
 
-   !> The modes of STRUCTURE that PLAN asks for, and the factor that they were found with, in SYSTEM.
+   !> The modes of STRUCTURE that PLAN asks for, by the numbers of SYSTEM, which has no factor. Of factors there is never more than
+   !! one at a time.
    subroutine find_natural_modes(model, structure, plan, spectrum, system, failure)
       type(model_type), intent(in)          :: model
       type(oscillating_type), intent(in)    :: structure
@@ -48,14 +49,29 @@ contains
       type(spectrum_type), intent(out)      :: spectrum
       class(equation_system), allocatable, intent(out) :: system
       type(failure_type), intent(inout)     :: failure
-      integer :: below_end
 
       if (failure%raised) return
       spectrum%n_wanted = merge(plan%most, huge(1), plan%most > 0)
       if (needs_all(structure%started, plan%most)) then
-         call find_all(model, structure, plan, spectrum, system, failure)
-         return
+         call find_all(model, structure, plan, spectrum, failure)
+      else
+         call find_some(model, structure, plan, spectrum, failure)
       end if
+      allocate (system, source=structure%started)
+      system%shift = spectrum%shift
+      call hold_bolts(model, structure, system)
+   end subroutine find_natural_modes
+
+   !> Some of the modes of a large structure.
+   subroutine find_some(model, structure, plan, spectrum, failure)
+      type(model_type), intent(in)          :: model
+      type(oscillating_type), intent(in)    :: structure
+      type(vibration_plan_type), intent(in) :: plan
+      type(spectrum_type), intent(inout)    :: spectrum
+      type(failure_type), intent(inout)     :: failure
+      class(equation_system), allocatable   :: system
+      integer :: below_end
+
       below_end = huge(1)
       if (plan%has_highest) then
          spectrum%counted_at = (two_pi*plan%highest)**2
@@ -71,25 +87,26 @@ contains
       if (failure%raised) return
       spectrum%n_wanted = min(spectrum%n_wanted, below_end - spectrum%n_before)
       if (needs_all(structure%started, spectrum%n_wanted)) then
-         call find_all(model, structure, plan, spectrum, system, failure)
+         if (allocated(system)) deallocate (system)
+         call find_all(model, structure, plan, spectrum, failure)
       else if (spectrum%n_wanted <= 0) then
          spectrum%n_wanted = 0
          allocate (spectrum%lambda(0), spectrum%x(structure%started%n, 0))
-      else if (plan%has_lowest) then
-         call find_and_count(model, structure, below_end, spectrum, system, failure)
       else
-         call find_lowest(model, structure, below_end, spectrum, system, failure)
+         if (.not. plan%has_lowest) &
+            call search_from_below(model, structure, spectrum%n_wanted + beyond, spectrum, system, failure)
+         call find_and_count(model, structure, below_end, spectrum, system, failure)
       end if
-   end subroutine find_natural_modes
+   end subroutine find_some
 
    !> All modes of a small structure; of these the range.
-   subroutine find_all(model, structure, plan, spectrum, system, failure)
+   subroutine find_all(model, structure, plan, spectrum, failure)
       type(model_type), intent(in)          :: model
       type(oscillating_type), intent(in)    :: structure
       type(vibration_plan_type), intent(in) :: plan
       type(spectrum_type), intent(inout)    :: spectrum
-      class(equation_system), allocatable, intent(out) :: system
       type(failure_type), intent(inout)     :: failure
+      class(equation_system), allocatable   :: system
       integer :: n
 
       call search_from_below(model, structure, structure%started%n, spectrum, system, failure)
@@ -108,19 +125,6 @@ contains
       spectrum%x = spectrum%x(:, spectrum%n_before + 1:)
    end subroutine find_all
 
-   !> The lowest modes, and the count behind them.
-   subroutine find_lowest(model, structure, below_end, spectrum, system, failure)
-      type(model_type), intent(in)       :: model
-      type(oscillating_type), intent(in) :: structure
-      integer, intent(in)                :: below_end
-      type(spectrum_type), intent(inout) :: spectrum
-      class(equation_system), allocatable, intent(out) :: system
-      type(failure_type), intent(inout)  :: failure
-
-      call search_from_below(model, structure, spectrum%n_wanted + beyond, spectrum, system, failure)
-      call find_and_count(model, structure, below_end, spectrum, system, failure)
-   end subroutine find_lowest
-
    !> The modes from the shift of SYSTEM on, more of them until the count agrees: that at the end of the range, BELOW_END, or where
    !! there is none that in the first clear gap behind the last wanted one; behind all where fewer nodes have mass.
    subroutine find_and_count(model, structure, below_end, spectrum, system, failure)
@@ -128,7 +132,7 @@ contains
       type(oscillating_type), intent(in) :: structure
       integer, intent(in)                :: below_end
       type(spectrum_type), intent(inout) :: spectrum
-      class(equation_system), intent(in) :: system
+      class(equation_system), allocatable, intent(inout) :: system
       type(failure_type), intent(inout)  :: failure
       integer :: last, n, trial, under
 
@@ -136,6 +140,8 @@ contains
       do trial = 1, most_trials
          if (failure%raised) return
          n = min(n, structure%started%n - 1)
+         if (.not. allocated(system)) call factorise_at(model, structure, spectrum%shift, system, failure)
+         if (failure%raised) return
          if (trial > 1 .or. .not. allocated(spectrum%lambda)) &
             call find_eigenpairs(model, structure%mass, system, n, spectrum%lambda, spectrum%x, failure)
          if (failure%raised) return
@@ -157,6 +163,7 @@ contains
                      return
                   end if
                end if
+               deallocate (system)
                call count_below(model, structure, spectrum%counted_at, under, failure)
                if (failure%raised) return
                spectrum%n_counted = under

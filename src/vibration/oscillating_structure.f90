@@ -13,7 +13,7 @@ module oscillating_structure
    implicit none
    private
 
-   public :: let_go, start_oscillation, factorise_at
+   public :: let_go, start_oscillation, factorise_at, hold_bolts
 
    type, public :: oscillating_type
       real(wp), allocatable :: k(:, :)       !! (3, n) k_sx, k_sy, k_n of interface elements [force/length]
@@ -85,9 +85,7 @@ contains
       do i = 1, n_bars(model)
          if (model%bars(i)%bolt > 0 .and. structure%is_elastic(i)) call add_bar(model, i, system)
       end do
-      do i = 1, n_sections(model)
-         if (structure%is_locked(i)) call lock_unknown(model%sections(i)%node, 1, system)
-      end do
+      call hold_bolts(model, structure, system)
       k = 0.0_wp
       do i = 1, size(k, 3)
          do c = 1, 3
@@ -96,5 +94,17 @@ contains
       end do
       call form_structure_stiffness(model, k, 'natural modes', system, failure)
    end subroutine factorise_at
+
+   !> The overlap of solid bolts that have been tightened does not change.
+   subroutine hold_bolts(model, structure, system)
+      type(model_type), intent(in)          :: model
+      type(oscillating_type), intent(in)    :: structure
+      class(equation_system), intent(inout) :: system
+      integer :: i
+
+      do i = 1, n_sections(model)
+         if (structure%is_locked(i)) call lock_unknown(model%sections(i)%node, 1, system)
+      end do
+   end subroutine hold_bolts
 
 end module oscillating_structure
