@@ -119,3 +119,25 @@ mass_on_joint open 'LABEL = LIFTED' && {
       says 'open: it says so' "$work/open.out" 'CARRY PRESSURE: 0 OF 1'
    }
 }
+# the answer of that mass to a force that oscillates: F/(M (omega_r^2 - omega^2 + i eta omega_r^2)), eta the loss factor along the joint
+mass_on_joint answers '' && {
+   sed -i 's/^METHOD.*/&\nSET 1 = 1/; s/^  AMPLITUDE.*/&\n  FREQUENCY = 7\n  DLOAD = 20\n  RESPONSE = SET 1/; s/^EIGRL.*/&\nFREQ1,7,0.0,100.0,4\nFORCE,20,1,,1.0,3.0,4.0/' \
+      "$work/answers.bdf"
+   run answers && {
+      answer() { awk -F, -v f="$1" -v c="$2" 'NR > 1 && $2 == f && $4 == c { print $5 }' "$work/answers.response.csv"; } # FREQUENCY x|y
+      k="((400 + 150*1.3)*100)" loss=$(mode answers 2 loss_factor)
+      for f in 0 100 200 300 400; do
+         w2="((2*$pi*$f)^2*0.02)"
+         near "response at $f: across" "$(answer $f y)" "4/abs(500*100 - $w2)" 1e-10
+         near "response at $f: along" "$(answer $f x)" "3/sqrt(($k - $w2)^2 + ($loss*$k)^2)" 1e-10
+      done
+   }
+}
+# free in space there is no static answer, and none at all at rest
+oscillating_bar bound 40 CONSISTENT 'MODES(FREE)' && {
+   sed -i 's/^MASS.*/&\nSET 1 = 41/; s/^  LOAD.*/&\n  FREQUENCY = 7\n  DLOAD = 10\n  SDAMPING = 8\n  RESPONSE = SET 1/; s/^EIGRL.*/&\nFREQ1,7,50.0,100.0,4\nTABDMP1,8,G\n+,0.0,0.02,1.0E5,0.02,ENDT/' \
+      "$work/bound.bdf"
+   run bound && says 'free bar: its response has no static part' "$work/bound.out" 'BY THESE MODES ALONE'
+   sed -i 's/^FREQ1,7,50.0/FREQ1,7,0.0/' "$work/bound.bdf"
+   run bound 3 && says 'free bar: no response at rest' "$work/bound.log" 'at 0 the response has no bound'
+}
