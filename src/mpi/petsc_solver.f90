@@ -2,6 +2,7 @@
 !! is condensed; the increments solve for all equations. What rank 0 does is here, what all do in engine.
 module petsc_solver
    use body_elements, only: coupled_stiffness
+   use condition_estimate, only: first_large
    use distributed_matrix, only: add_blocks
    use distributed_solution, only: by_gamg, by_mumps, no_limit
    use element_kinds, only: max_coupled_dofs
@@ -299,8 +300,8 @@ contains
       class(petsc_solver_type), intent(inout) :: self
       real(wp), intent(in)                    :: x(:)
       integer, intent(out)                    :: fault
-      real(wp), parameter :: near = 0.9_wp ! of the largest: of a body that moves as a whole it is not rounding that chooses
       real(wp) :: force(size(x)), moved(size(x)), size_of(size(x))
+      integer  :: direction, node
       character(:), allocatable :: words
 
       call forget_factor(self%reuse)
@@ -317,24 +318,13 @@ contains
          moved = x/max(maxval(size_of*abs(x)), tiny(1.0_wp))
          force = moved
          call self%multiply_by_factor(force)
-         if (sum(moved*force) <= pivot_tolerance*sum((size_of*moved)**2)) fault = first_large(self, size_of*abs(moved), near)
+         if (sum(moved*force) <= pivot_tolerance*sum((size_of*moved)**2)) then
+            call first_large(self, size_of*abs(moved), node, direction)
+            fault = self%number(direction, node)
+         end if
       end if
       self%complaint = words//'; the structure may be a mechanism, which SOLVER = TREE would name'
    end subroutine say_why
-
-   !> The equation of the first node, in the order of the model, where V is NEAR its largest value.
-   pure integer function first_large(self, v, near)
-      class(petsc_solver_type), intent(in) :: self
-      real(wp), intent(in)                 :: v(:) !! (n) >= 0
-      real(wp), intent(in)                 :: near !! [-]
-      integer :: i
-
-      first_large = maxloc(v, dim=1)
-      do i = 1, size(v)
-         if (v(i) < near*maxval(v)) cycle
-         if (self%node(i) < self%node(first_large)) first_large = i
-      end do
-   end function first_large
 
    !> Y = [k_b] X, with the joints out of the matrix for the moment.
    subroutine multiply(self, x, y)

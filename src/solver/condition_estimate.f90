@@ -11,7 +11,7 @@ module condition_estimate
    implicit none
    private
 
-   public :: estimate_condition, watch_condition
+   public :: estimate_condition, first_large, watch_condition
 
    real(wp), parameter, public :: poor_condition = 1.0e12_wp !! above it a run says so
    real(wp), parameter :: spread = 300.0_wp ! see watch_condition
