@@ -71,8 +71,10 @@ contains
       do e = 1, model%n_elements
          associate (corners => corners_of(model, e))
             call shape_products(law_of(model, e), model%x(:model%dimension, corners), m_e)
-            m_e = model%properties(model%element_property(e))%rho*m_e
-            if (model%lumped) call lump(m_e(:size(corners), :size(corners)))
+            associate (n => size(corners))
+               m_e(:n, :n) = model%properties(model%element_property(e))%rho*m_e(:n, :n)
+               if (model%lumped) call lump(m_e(:n, :n))
+            end associate
             call add(corners, m_e)
          end associate
       end do
