@@ -46,7 +46,7 @@ contains
       real(wp), intent(in)         :: shift   !! [1/time^2]
       real(wp), intent(inout)      :: k(:, :) !! dimension x coupled nodes rows and columns are set
       real(wp) :: m(max_nodes, max_nodes), full(max_coupled_dofs, max_coupled_dofs)
-      integer  :: c, d, i, j, n
+      integer  :: c, d, n
 
       call coupled_stiffness(model, e, k)
       if (.not. abs(shift) > 0.0_wp) return
@@ -54,12 +54,8 @@ contains
       n = size(corners_of(model, e))
       call scalar_mass(model, e, m)
       full(:d*n, :d*n) = 0.0_wp
-      do j = 1, n
-         do i = 1, n
-            do c = 1, d
-               full(d*(i - 1) + c, d*(j - 1) + c) = m(i, j)
-            end do
-         end do
+      do c = 1, d
+         full(c:d*n:d, c:d*n:d) = m(:n, :n)
       end do
       call extend_stiffness(model, e, full)
       if (allocated(model%coupling%of_node)) call onto_unknowns(model, felt_nodes(model, e), full)

@@ -15,7 +15,7 @@ module eigenpairs
    implicit none
    private
 
-   public :: find_eigenpairs, needs_all, all_displacements
+   public :: find_eigenpairs, needs_all, all_displacements, on_equations
 
    integer, parameter  :: small = 150                !! unknowns of a structure that is solved as a whole
    integer, parameter  :: most_restarts = 500
@@ -219,17 +219,40 @@ contains
       class(equation_system), intent(in) :: system
       real(wp), intent(inout)            :: x(:)
       real(wp), allocatable :: f(:, :)
-      integer :: i
 
       x(system%locked) = 0.0_wp
       allocate (f(model%dimension, model%n_nodes))
       call mass_times(model, mass, all_displacements(model, system, x), f)
-      if (allocated(model%coupling%of_node)) f = forces_on_unknowns(model, f)
-      do i = 1, system%n
-         x(i) = f(system%direction(i), system%node(i))
-      end do
-      x(system%locked) = 0.0_wp
+      x = on_equations(model, system, f)
    end subroutine times_mass
+
+   !> What the equations feel of the forces F on all nodes; nothing where locked.
+   pure function on_equations(model, system, f) result(x)
+      type(model_type), intent(in)       :: model
+      class(equation_system), intent(in) :: system
+      real(wp), intent(in)               :: f(:, :) !! (dimension, n_nodes) [force]
+      real(wp) :: x(system%n)
+
+      if (allocated(model%coupling%of_node)) then
+         x = picked(forces_on_unknowns(model, f))
+      else
+         x = picked(f)
+      end if
+      x(system%locked) = 0.0_wp
+
+   contains
+
+      pure function picked(felt)
+         real(wp), intent(in) :: felt(:, :)
+         real(wp) :: picked(system%n)
+         integer  :: i
+
+         do i = 1, system%n
+            picked(i) = felt(system%direction(i), system%node(i))
+         end do
+      end function picked
+
+   end function on_equations
 
    !> Displacements of all nodes under X(equation), zero where held.
    pure function all_displacements(model, system, x) result(u)

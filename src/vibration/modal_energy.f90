@@ -21,7 +21,7 @@ module modal_energy
       real(wp), allocatable :: bar(:)              !! (bars)
       real(wp), allocatable :: normal(:), shear(:) !! (joints)
    contains
-      procedure :: total
+      procedure :: total, scale
    end type energy_type
 
 contains
@@ -32,6 +32,17 @@ contains
 
       total = sum(self%body) + sum(self%bar) + sum(self%normal) + sum(self%shear)
    end function total
+
+   !> FACTOR times all of it, part by part.
+   pure subroutine scale(self, factor)
+      class(energy_type), intent(inout) :: self
+      real(wp), intent(in)              :: factor
+
+      self%body = factor*self%body
+      self%bar = factor*self%bar
+      self%normal = factor*self%normal
+      self%shear = factor*self%shear
+   end subroutine scale
 
    !> The strain energies of the shapes U, half of u^T [k] u part by part, and the forces F = [k] U that hold them.
    pure subroutine strain_energies(model, structure, u, energies, f)

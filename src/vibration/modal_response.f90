@@ -1,14 +1,13 @@
 !> The answer of the structure to a load that oscillates, at the nodes that are asked for: its modes, superposed, and what they leave
 !! of the static answer.
 module modal_response
-   use eigenpairs, only: all_displacements
+   use eigenpairs, only: all_displacements, on_equations
    use equation_solver, only: equation_system
    use failures, only: failure_type
    use frequency_response, only: modal_system, phase_of, response_at, static_share
    use kinds, only: wp
    use mode_values, only: modes_type
    use model_data, only: model_type
-   use node_coupling, only: forces_on_unknowns
    use oscillating_structure, only: factorise_at, oscillating_type
    use text_tools, only: real_text
    use vibration_plan, only: loss_at, response_plan
@@ -104,18 +103,12 @@ contains
       real(wp), allocatable, intent(out) :: at_rest(:)
       class(equation_system), allocatable :: unshifted
       type(failure_type) :: loose
-      real(wp), allocatable :: f(:, :), u(:, :), x(:)
-      integer :: i
+      real(wp), allocatable :: u(:, :), x(:)
 
       if (system%shift < 0.0_wp) return
       call factorise_at(model, structure, 0.0_wp, unshifted, loose)
       if (loose%raised) return
-      allocate (f, source=forces_on_unknowns(model, plan%force(:model%dimension, :)))
-      allocate (x(system%n))
-      do i = 1, system%n
-         x(i) = f(system%direction(i), system%node(i))
-      end do
-      x(system%locked) = 0.0_wp
+      allocate (x, source=on_equations(model, system, plan%force(:model%dimension, :)))
       call unshifted%solve_by_factor(x)
       x(system%locked) = 0.0_wp
       allocate (u, source=all_displacements(model, system, x))

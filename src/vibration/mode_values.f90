@@ -8,7 +8,8 @@
 !!                           strain energy of the mode there
 module mode_values
    use analysis_state, only: analysis_type
-   use eigenpairs, only: all_displacements
+   use eigenpairs, only: all_displacements, on_equations
+   use element_mapping, only: two_pi
    use equal_modes, only: settle_equal_modes, settle_sign
    use equation_solver, only: equation_system
    use interface_operator, only: joint_movement
@@ -19,7 +20,6 @@ module mode_values
    use modal_energy, only: energy_type, strain_energies
    use model_data, only: model_type, n_points
    use natural_modes, only: spectrum_type
-   use node_coupling, only: forces_on_unknowns
    use oscillating_structure, only: oscillating_type
    use small_oscillation, only: is_pressed
    use vibration_plan, only: vibration_plan_type
@@ -27,8 +27,6 @@ module mode_values
    private
 
    public :: evaluate_modes
-
-   real(wp), parameter :: two_pi = 2.0_wp*acos(-1.0_wp)
 
    type, public :: mode_type
       real(wp) :: lambda = 0.0_wp                   !! omega^2 [1/time^2]
@@ -49,7 +47,6 @@ module mode_values
       integer  :: n_before = 0                      !! modes below the range that was asked for
       integer  :: n_counted = 0                     !! modes below COUNTED_AT, of which none is missing
       real(wp) :: counted_at = 0.0_wp               !! frequency [1/time]; beyond all: huge
-      real(wp) :: shift = 0.0_wp                    !! sigma that they were found from [1/time^2]
       real(wp) :: mass = 0.0_wp                     !! of the structure [force time^2/length]
       real(wp) :: centre(3) = 0.0_wp                !! of that [length]
       real(wp) :: inertia(6) = 0.0_wp               !! about axes through it: I_xx, I_yy, I_zz, I_xy, I_yz, I_zx [force time^2 length]
@@ -67,14 +64,13 @@ contains
       type(spectrum_type), intent(in)       :: spectrum
       class(equation_system), intent(in)    :: system
       type(modes_type), intent(out)         :: modes
-      real(wp), allocatable :: u(:, :, :), of_mass(:, :, :), f(:, :, :), g(:, :)
+      real(wp), allocatable :: u(:, :, :), of_mass(:, :), f(:, :, :), g(:, :)
       type(energy_type), allocatable :: energies(:)
       integer :: m, n
 
       modes%n_before = spectrum%n_before
       modes%n_counted = spectrum%n_counted
       modes%counted_at = merge(sqrt(spectrum%counted_at)/two_pi, huge(1.0_wp), spectrum%counted_at < huge(1.0_wp))
-      modes%shift = spectrum%shift
       modes%n_pressed = count(is_pressed(analysis%states))
       call total_mass(model, structure%mass, modes%mass, modes%centre, modes%inertia)
       n = size(spectrum%lambda)
@@ -88,19 +84,17 @@ contains
       do m = 1, n
          call settle_sign(g(:, m), u(:, :, m))
       end do
-      allocate (energies(n), f(model%dimension, model%n_nodes, n), of_mass(model%dimension, model%n_nodes, n), modes%modes(n))
+      allocate (energies(n), f(model%dimension, model%n_nodes, n), of_mass(model%dimension, model%n_nodes), modes%modes(n))
       call strain_energies(model, structure, u(:, :, :n), energies, f)
       do m = 1, n
-         call mass_times(model, structure%mass, u(:, :, m), of_mass(:, :, m))
-      end do
-      do m = 1, n
+         call mass_times(model, structure%mass, u(:, :, m), of_mass)
          associate (mode => modes%modes(m))
             mode%lambda = spectrum%lambda(m)
             mode%omega = sqrt(max(0.0_wp, mode%lambda))
             mode%frequency = mode%omega/two_pi
             mode%is_rigid = m <= spectrum%n_rigid
-            mode%residual = residual_of(model, system, mode%lambda, mode%is_rigid, f(:, :, m), of_mass(:, :, m))
-            mode%mass = sum(u(:, :, m)*of_mass(:, :, m))
+            mode%residual = residual_of(model, system, mode%lambda, mode%is_rigid, f(:, :, m), of_mass)
+            mode%mass = sum(u(:, :, m)*of_mass)
             mode%participation(:model%dimension) = g(:, m)/mode%mass
             mode%effective(:model%dimension) = g(:, m)**2/mode%mass
             allocate (mode%u, source=u(:, :, m))
@@ -141,27 +135,13 @@ contains
       real(wp), intent(in)               :: f(:, :), of_mass(:, :)
       real(wp) :: felt(system%n), inertia(system%n)
 
-      felt = on_equations(f)
-      inertia = on_equations(of_mass)
+      felt = on_equations(model, system, f)
+      inertia = on_equations(model, system, of_mass)
       if (is_rigid) then
          residual = norm2(felt)/norm2(system%shift*inertia)
       else
          residual = norm2(felt - lambda*inertia)/norm2(felt)
       end if
-
-   contains
-
-      pure function on_equations(forces) result(x)
-         real(wp), intent(in) :: forces(:, :)
-         real(wp) :: x(system%n), all(size(forces, 1), size(forces, 2))
-         integer  :: i
-
-         all = forces_on_unknowns(model, forces)
-         do i = 1, system%n
-            x(i) = all(system%direction(i), system%node(i))
-         end do
-         x(system%locked) = 0.0_wp
-      end function on_equations
 
    end function residual_of
 
@@ -180,10 +160,7 @@ contains
       mode%u = factor*mode%u
       mode%mass = factor**2*mode%mass
       mode%participation = mode%participation/factor
-      mode%energy%body = factor**2*mode%energy%body
-      mode%energy%bar = factor**2*mode%energy%bar
-      mode%energy%normal = factor**2*mode%energy%normal
-      mode%energy%shear = factor**2*mode%energy%shear
+      call mode%energy%scale(factor**2)
    end subroutine normalise
 
    !> The loss factor of MODE where its largest displacement is the amplitude that PLAN gives.
@@ -219,12 +196,8 @@ contains
 
       share = 0.0_wp
       if (.not. mode%is_rigid) share = 1.0_wp/mode%energy%total()
-      associate (energy => mode%energy)
-         energy%body = abs(share*energy%body) ! below zero it is but rounding
-         energy%bar = share*energy%bar
-         energy%normal = share*energy%normal
-         energy%shear = share*energy%shear
-      end associate
+      call mode%energy%scale(share)
+      mode%energy%body = abs(mode%energy%body) ! below zero it is but rounding
    end subroutine share_energy
 
 end module mode_values

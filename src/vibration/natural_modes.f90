@@ -6,6 +6,7 @@
 !! Source: Parlett, The Symmetric Eigenvalue Problem, SIAM 1998, sections 3.3 and 15.
 module natural_modes
    use eigenpairs, only: find_eigenpairs, needs_all
+   use element_mapping, only: two_pi
    use equation_solver, only: equation_system
    use failures, only: failure_type
    use kinds, only: wp
@@ -18,7 +19,6 @@ module natural_modes
 
    public :: find_natural_modes
 
-   real(wp), parameter :: two_pi = 2.0_wp*acos(-1.0_wp)
    real(wp), parameter :: clear = 1.0e-6_wp       ! of an eigenvalue: a wider gap to the next one is safe to count in
    real(wp), parameter :: near_pole = 1.0e-7_wp   ! by which a shift moves away from an eigenvalue that it has hit
    real(wp), parameter :: noise = 2.0e-13_wp      ! of the largest eigenvalue: what is below it is rounding
