@@ -5,7 +5,7 @@ module blas_lapack
    implicit none
    private
 
-   public :: ddot, dgemm, dgemv, dlacn2, dpotrf, dsygv, dsymv, dtrmv, dtrsm, dtrsv
+   public :: ddot, dgemm, dgemv, dlacn2, dpotrf, dsygv, dsymv, dtrmv, dtrsm
 
    interface
 
@@ -88,15 +88,6 @@ module blas_lapack
          real(wp), intent(in)    :: alpha, a(lda, *)
          real(wp), intent(inout) :: b(ldb, *)
       end subroutine dtrsm
-
-      !> x = op(inv(A)) x, A triangular
-      pure subroutine dtrsv(uplo, trans, diag, n, a, lda, x, incx)
-         import :: wp
-         character, intent(in)   :: uplo, trans, diag
-         integer, intent(in)     :: n, lda, incx
-         real(wp), intent(in)    :: a(lda, *)
-         real(wp), intent(inout) :: x(*)
-      end subroutine dtrsv
 
    end interface
 

@@ -1,8 +1,12 @@
 !> Right-hand sides and solutions in a tree of fronts, factorised by front_factor: L y = b, L^T x = y, in the two parts that the
 !! increments need, the fronts that do not move and those that do. A factor with signs, L S L^T, has S L^T x = y.
+!!
+!! Independent subtrees are tasks of OpenMP. On the way up every front keeps what it leaves for the rows beyond it until its parent
+!! takes that from all its children, in their order: no digit depends on the number of threads.
 module front_solve
-   use blas_lapack, only: dgemv, dtrmv, dtrsv
+   use blas_lapack, only: dgemv, dtrmv
    use front_blocks, only: block_times_vector
+   use front_substitution, only: substitute, substitute_back
    use front_tree, only: front_tree_type, front_type
    use kinds, only: wp
    implicit none
@@ -18,103 +22,159 @@ contains
    subroutine eliminate_fixed(tree, x)
       type(front_tree_type), intent(in) :: tree
       real(wp), intent(inout)           :: x(tree%n)
-      real(wp) :: work(tree%most_rows)
-      integer  :: f
 
-      do f = 1, size(tree%fronts)
-         if (.not. tree%fronts(f)%moves) call forward(tree, f, x, work)
-      end do
+      call go_up(tree, .false., x)
    end subroutine eliminate_fixed
 
    !> The other way: X holds y of eliminate_fixed on the fronts that do not move and the solution on those that do; it is the
-   !! solution everywhere then. Independent subtrees are tasks of OpenMP.
+   !! solution everywhere then.
    subroutine recover_fixed(tree, x)
       type(front_tree_type), intent(in) :: tree
       real(wp), intent(inout)           :: x(tree%n)
-      integer :: f
-      logical :: begins
 
-      !$omp parallel default(shared) private(begins) if(tree%is_parallel)
-      !$omp single
-      do f = size(tree%fronts), 1, -1
-         begins = .not. tree%fronts(f)%moves
-         if (begins .and. tree%fronts(f)%parent > 0) begins = tree%fronts(tree%fronts(f)%parent)%moves
-         if (.not. begins) cycle
-         !$omp task default(shared) firstprivate(f) if(tree%fronts(f)%work > task_work)
-         call recover_subtree(tree, f, x)
-         !$omp end task
-      end do
-      !$omp end single
-      !$omp end parallel
+      call go_down(tree, .false., x)
    end subroutine recover_fixed
-
-   !> Front F, then those of its subtree.
-   recursive subroutine recover_subtree(tree, f, x)
-      type(front_tree_type), intent(in) :: tree
-      integer, intent(in)               :: f
-      real(wp), intent(inout)           :: x(tree%n)
-      real(wp), allocatable :: work(:)
-      integer :: c, i
-
-      allocate (work(tree%fronts(f)%r))
-      call backward(tree, f, x, work)
-      deallocate (work)
-      do i = 1, size(tree%fronts(f)%children)
-         c = tree%fronts(f)%children(i)
-         !$omp task default(shared) firstprivate(c) if(tree%fronts(c)%work > task_work)
-         call recover_subtree(tree, c, x)
-         !$omp end task
-      end do
-      !$omp taskwait
-   end subroutine recover_subtree
 
    !> Solve for the equations that move; X is not touched on the others.
    subroutine solve_moving(tree, x)
       type(front_tree_type), intent(in) :: tree
       real(wp), intent(inout)           :: x(tree%n)
-      real(wp) :: work(tree%most_rows)
-      integer  :: k
 
-      do k = 1, size(tree%moving)
-         call forward(tree, tree%moving(k), x, work)
-      end do
-      do k = size(tree%moving), 1, -1
-         call backward(tree, tree%moving(k), x, work)
-      end do
+      call go_up(tree, .true., x)
+      call go_down(tree, .true., x)
    end subroutine solve_moving
 
-   !> L y = x in front F, and what y does to the rows beyond.
-   subroutine forward(tree, f, x, work)
+   !> L y = x in the fronts that MOVE, or those that do not; what they leave for fronts of the other kind is added to X there.
+   subroutine go_up(tree, moves, x)
+      type(front_tree_type), intent(in) :: tree
+      logical, intent(in)               :: moves
+      real(wp), intent(inout)           :: x(tree%n)
+      real(wp), allocatable :: left(:) ! what fronts leave for the rows beyond
+      integer :: f
+
+      allocate (left(tree%n_left))
+      !$omp parallel default(shared) if(tree%is_parallel)
+      !$omp single
+      do f = 1, size(tree%fronts)
+         if (.not. begins(tree, f, moves)) cycle
+         !$omp task default(shared) firstprivate(f) if(tree%fronts(f)%work > task_work)
+         call go_up_subtree(tree, f, x, left)
+         !$omp end task
+      end do
+      !$omp end single
+      !$omp end parallel
+      if (moves) return
+      do f = 1, size(tree%fronts)
+         if (.not. begins(tree, f, moves)) cycle
+         associate (front => tree%fronts(f))
+            x(front%rows) = x(front%rows) + left(front%left + 1:front%left + front%r)
+         end associate
+      end do
+   end subroutine go_up
+
+   !> The subtree of front F, then F.
+   recursive subroutine go_up_subtree(tree, f, x, left)
+      type(front_tree_type), intent(in) :: tree
+      integer, intent(in)               :: f
+      real(wp), intent(inout)           :: x(tree%n), left(:)
+      integer :: c, i
+
+      do i = 1, size(tree%fronts(f)%children)
+         c = tree%fronts(f)%children(i)
+         if (tree%fronts(c)%moves .neqv. tree%fronts(f)%moves) cycle
+         !$omp task default(shared) firstprivate(c) if(tree%fronts(c)%work > task_work)
+         call go_up_subtree(tree, c, x, left)
+         !$omp end task
+      end do
+      !$omp taskwait
+      call forward(tree, f, x, left)
+   end subroutine go_up_subtree
+
+   !> L^T x = y in the fronts that MOVE, or those that do not, X known beyond these.
+   subroutine go_down(tree, moves, x)
+      type(front_tree_type), intent(in) :: tree
+      logical, intent(in)               :: moves
+      real(wp), intent(inout)           :: x(tree%n)
+      integer :: f
+
+      !$omp parallel default(shared) if(tree%is_parallel)
+      !$omp single
+      do f = size(tree%fronts), 1, -1
+         if (.not. begins(tree, f, moves)) cycle
+         !$omp task default(shared) firstprivate(f) if(tree%fronts(f)%work > task_work)
+         call go_down_subtree(tree, f, x)
+         !$omp end task
+      end do
+      !$omp end single
+      !$omp end parallel
+   end subroutine go_down
+
+   !> Front F, then those of its subtree.
+   recursive subroutine go_down_subtree(tree, f, x)
       type(front_tree_type), intent(in) :: tree
       integer, intent(in)               :: f
       real(wp), intent(inout)           :: x(tree%n)
-      real(wp), intent(out)             :: work(:)
+      integer :: c, i
+
+      call backward(tree%fronts(f), x)
+      do i = 1, size(tree%fronts(f)%children)
+         c = tree%fronts(f)%children(i)
+         if (tree%fronts(c)%moves .neqv. tree%fronts(f)%moves) cycle
+         !$omp task default(shared) firstprivate(c) if(tree%fronts(c)%work > task_work)
+         call go_down_subtree(tree, c, x)
+         !$omp end task
+      end do
+      !$omp taskwait
+   end subroutine go_down_subtree
+
+   !> Whether front F MOVES, or does not, and its parent is none of these.
+   pure logical function begins(tree, f, moves)
+      type(front_tree_type), intent(in) :: tree
+      integer, intent(in)               :: f
+      logical, intent(in)               :: moves
+
+      begins = tree%fronts(f)%moves .eqv. moves
+      if (begins .and. tree%fronts(f)%parent > 0) begins = tree%fronts(tree%fronts(f)%parent)%moves .neqv. moves
+   end function begins
+
+   !> L y = x in front F, X and what the children LEFT together; what y does to the rows beyond is left likewise.
+   subroutine forward(tree, f, x, left)
+      type(front_tree_type), intent(in) :: tree
+      integer, intent(in)               :: f
+      real(wp), intent(inout)           :: x(tree%n), left(:)
+      real(wp), allocatable :: w(:) ! pivots, rows beyond
       integer :: i
 
       associate (front => tree%fronts(f), p => tree%fronts(f)%p, r => tree%fronts(f)%r, first => tree%fronts(f)%first)
-         where (tree%locked(first:first + p - 1)) x(first:first + p - 1) = 0.0_wp
-         if (all(abs(x(first:first + p - 1)) <= 0.0_wp)) return ! loads act on few fronts, and on those above them
-         call dtrsv('L', 'N', 'N', p, front%panel, p + r, x(first), 1)
-         if (r == 0) return
-         call dgemv('N', r, p, -1.0_wp, front%panel(p + 1, 1), p + r, x(first), 1, 0.0_wp, work, 1)
-         do i = 1, r
-            x(front%rows(i)) = x(front%rows(i)) + work(i)
+         allocate (w(p + r))
+         w(:p) = x(first:first + p - 1)
+         w(p + 1:) = 0.0_wp
+         do i = 1, size(front%children)
+            associate (child => tree%fronts(front%children(i)))
+               if (child%moves .eqv. front%moves) &
+                  w(child%in_parent) = w(child%in_parent) + left(child%left + 1:child%left + child%r)
+            end associate
          end do
+         where (tree%locked(first:first + p - 1)) w(:p) = 0.0_wp
+         if (any(abs(w(:p)) > 0.0_wp)) call substitute(p + r, p, front%panel, w) ! loads act on few fronts, and on those above them
+         x(first:first + p - 1) = w(:p)
+         left(front%left + 1:front%left + r) = w(p + 1:)
       end associate
    end subroutine forward
 
-   !> L^T x = y in front F, x known in the rows beyond.
-   subroutine backward(tree, f, x, work)
-      type(front_tree_type), intent(in) :: tree
-      integer, intent(in)               :: f
-      real(wp), intent(inout)           :: x(tree%n)
-      real(wp), intent(out)             :: work(:)
+   !> L^T x = y in FRONT, X known in the rows beyond.
+   subroutine backward(front, x)
+      type(front_type), intent(in) :: front
+      real(wp), intent(inout)      :: x(:)
+      real(wp), allocatable :: w(:) ! pivots, rows beyond
 
-      associate (front => tree%fronts(f), p => tree%fronts(f)%p, r => tree%fronts(f)%r, first => tree%fronts(f)%first)
-         call apply_signs(front, x)
-         work(:r) = x(front%rows)
-         if (r > 0) call dgemv('T', r, p, -1.0_wp, front%panel(p + 1, 1), p + r, work, 1, 1.0_wp, x(first), 1)
-         call dtrsv('L', 'T', 'N', p, front%panel, p + r, x(first), 1)
+      call apply_signs(front, x)
+      allocate (w(front%p + front%r))
+      associate (p => front%p, last => front%first + front%p - 1)
+         w(:p) = x(front%first:last)
+         w(p + 1:) = x(front%rows)
+         call substitute_back(size(w), p, front%panel, w)
+         x(front%first:last) = w(:p)
       end associate
    end subroutine backward
 

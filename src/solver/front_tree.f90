@@ -28,6 +28,7 @@ module front_tree
       integer :: first = 0                        !! equation of its first pivot
       integer :: p = 0, r = 0                     !! pivots, rows beyond them
       integer :: parent = 0                       !! 0: none
+      integer :: left = 0                         !! behind which place what it leaves for the rows beyond stands in a solution
       logical :: moves = .false.
       integer, allocatable  :: children(:)
       integer, allocatable  :: rows(:)            !! (r) equations beyond the pivots, ascending
@@ -57,6 +58,7 @@ module front_tree
       integer, allocatable :: moving(:)           !! those that move, ascending
       integer, allocatable :: equations(:)        !! that they eliminate, ascending
       integer :: most_rows = 0                    !! pivots and rows beyond them of the largest
+      integer :: n_left = 0                       !! rows beyond the pivots of all fronts together
       logical :: is_parallel = .false.            !! whether the model is worth more than one thread
       real(wp) :: assembly_time = 0.0_wp          !! of the elements, all threads together [s]
    end type front_tree_type
@@ -93,6 +95,8 @@ contains
             front%parent = layout%parent(f)
             front%r = sum(weight(rows))
             allocate (front%rows(front%r))
+            front%left = tree%n_left
+            tree%n_left = tree%n_left + front%r
             n_rows = 0
             do i = 1, size(rows)
                node = rows(i)

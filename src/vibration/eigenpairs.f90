@@ -19,6 +19,7 @@ module eigenpairs
 
    integer, parameter  :: small = 150                !! unknowns of a structure that is solved as a whole
    integer, parameter  :: most_restarts = 500
+   integer, parameter  :: worth_threads = 20000      !! unknowns
    integer, parameter  :: zero_vector = -9, exhausted = -9999 ! as ARPACK says it: there are no more vectors with mass
    integer, parameter  :: tired = 1                           ! likewise: not so many in so many restarts, perhaps there are no more
    real(wp), parameter :: tolerance = 1.0e-13_wp     ! of nu, of what Lanczos estimates its error
@@ -227,7 +228,7 @@ contains
    end subroutine times_mass
 
    !> What the equations feel of the forces F on all nodes; nothing where locked.
-   pure function on_equations(model, system, f) result(x)
+   function on_equations(model, system, f) result(x)
       type(model_type), intent(in)       :: model
       class(equation_system), intent(in) :: system
       real(wp), intent(in)               :: f(:, :) !! (dimension, n_nodes) [force]
@@ -242,20 +243,22 @@ contains
 
    contains
 
-      pure function picked(felt)
+      function picked(felt)
          real(wp), intent(in) :: felt(:, :)
          real(wp) :: picked(system%n)
          integer  :: i
 
+         !$omp parallel do default(shared) if(system%n > worth_threads)
          do i = 1, system%n
             picked(i) = felt(system%direction(i), system%node(i))
          end do
+         !$omp end parallel do
       end function picked
 
    end function on_equations
 
    !> Displacements of all nodes under X(equation), zero where held.
-   pure function all_displacements(model, system, x) result(u)
+   function all_displacements(model, system, x) result(u)
       type(model_type), intent(in)       :: model
       class(equation_system), intent(in) :: system
       real(wp), intent(in)               :: x(:)
@@ -263,9 +266,11 @@ contains
       integer :: i
 
       allocate (u(model%dimension, model%n_nodes), source=0.0_wp)
+      !$omp parallel do default(shared) if(system%n > worth_threads)
       do i = 1, system%n
          u(system%direction(i), system%node(i)) = x(i)
       end do
+      !$omp end parallel do
       if (allocated(model%coupling%of_node)) u = displacements(model, u)
    end function all_displacements
 

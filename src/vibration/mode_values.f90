@@ -127,7 +127,7 @@ contains
    end subroutine find_participation
 
    !> How far the mode with the forces F = [k] u and OF_MASS = [m] u is from equilibrium.
-   pure real(wp) function residual_of(model, system, lambda, is_rigid, f, of_mass) result(residual)
+   real(wp) function residual_of(model, system, lambda, is_rigid, f, of_mass) result(residual)
       type(model_type), intent(in)       :: model
       class(equation_system), intent(in) :: system
       real(wp), intent(in)               :: lambda

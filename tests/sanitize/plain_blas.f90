@@ -106,33 +106,6 @@ subroutine dgemv(trans, m, n, alpha, a, lda, x, incx, beta, y, incy)
    end do
 end subroutine dgemv
 
-subroutine dtrsv(uplo, trans, diag, n, a, lda, x, incx)
-   use, intrinsic :: iso_fortran_env, only: wp => real64
-   implicit none
-   character, intent(in)   :: uplo, trans, diag
-   integer, intent(in)     :: n, lda, incx
-   real(wp), intent(in)    :: a(lda, *)
-   real(wp), intent(inout) :: x(*)
-   integer :: i, j
-
-   if (uplo /= 'L' .or. diag /= 'N' .or. incx /= 1) error stop 'plain_blas: another case of DTRSV'
-   if (trans == 'N') then
-      do j = 1, n
-         x(j) = x(j)/a(j, j)
-         do i = j + 1, n
-            x(i) = x(i) - a(i, j)*x(j)
-         end do
-      end do
-   else
-      do j = n, 1, -1
-         do i = j + 1, n
-            x(j) = x(j) - a(i, j)*x(i)
-         end do
-         x(j) = x(j)/a(j, j)
-      end do
-   end if
-end subroutine dtrsv
-
 subroutine dsymv(uplo, n, alpha, a, lda, x, incx, beta, y, incy)
    use, intrinsic :: iso_fortran_env, only: wp => real64
    implicit none

@@ -3,7 +3,7 @@
 !! Source: MacNeal, Harder, A proposed standard set of problems to test finite element accuracy, Finite Elements in Analysis
 !! and Design 1 (1985) 3-20.
 module patch_meshes
-   use blas_lapack, only: dpotrf, dtrsv
+   use blas_lapack, only: dpotrf, dtrsm
    use element_kinds, only: element_table, kind_hexa8, kind_penta6, kind_quad4, kind_tetra4, kind_tria3, max_dofs
    use element_mapping, only: element_law
    use isoparametric, only: stiffness
@@ -253,8 +253,8 @@ contains
       b = f(free) - matmul(k(free, :), u)
       call dpotrf('L', size(free), a, size(free), info)
       if (info /= 0) error stop 'the structure is not held'
-      call dtrsv('L', 'N', 'N', size(free), a, size(free), b, 1)
-      call dtrsv('L', 'T', 'N', size(free), a, size(free), b, 1)
+      call dtrsm('L', 'L', 'N', 'N', size(free), 1, 1.0_wp, a, size(free), b, size(free))
+      call dtrsm('L', 'L', 'T', 'N', size(free), 1, 1.0_wp, a, size(free), b, size(free))
       u(free) = b
    end subroutine solve_held
 
