@@ -3,14 +3,8 @@
 # not solved. All processes end then, mpirun's status is not 0, and no result is left, complete or not.
 #
 #    failures.sh PROGRAM_MPI WORK_FOLDER
-set -u
-export LC_ALL=C
-work=$2
 . tests/mpi/lib.sh
-has_processes "$1"
-rm -rf "$work"
-mkdir -p "$work"
-passed=0 failed=0
+begin "$1" "$2"
 tests/bench/make_deck.sh hex8_16x16x16 PETSC NONE > "$work/gamg.bdf"
 sed 's/^SOLVER = .*/SOLVER = MUMPS/' "$work/gamg.bdf" > "$work/mumps.bdf"
 
@@ -28,10 +22,9 @@ check() {
    done
    if [[ $status =~ ^($wanted)$ ]] && [ "$left" -eq 0 ] && { [ -z "$words" ] || grep -qE "$words" "$work/said"; } &&
       ! grep -qi 'backtrace' "$work/said"; then
-      passed=$((passed + 1))
+      pass
    else
-      failed=$((failed + 1))
-      echo "FAILED $what: status $status for $wanted, $left files left; it says:"
+      fail "$what: status $status for $wanted, $left files left; it says:"
       head -n 8 "$work/said"
    fi
    find "$work" -type f ! -name '*.bdf' -delete
@@ -92,5 +85,4 @@ for n in 1 2; do
    status=$?
    check "three steps on $n" 3 'PETSc does not solve the [0-9]+ equations: after [0-9]+ steps the residual is [0-9.E-]+ of the load'
 done
-echo "$passed passed, $failed failed"
-[ $failed -eq 0 ] && [ $passed -gt 0 ]
+finish
