@@ -116,6 +116,7 @@ part 'on several processes: decks against TREE' tests/mpi/run.sh "$program" "$di
    input/{prism_history,friction_once,gib,flange_warm,bolted_cantilever,bracket_spiders,flange_sector,solid_bolt,pin_in_bore}.bdf \
    input/{meshed_apart,column_tetra10,one_element,normal_loop}.bdf tests/solver/{boxes,moved_newton}.bdf
 part 'on several processes: their number' tests/mpi/ranks.sh "$program" "$distributed" "$query" "$build/mpi-ranks"
+part 'on several processes: bodies in pieces' tests/mpi/pieces.sh "$program" "$distributed" "$build/mpi-pieces"
 part 'on several processes: runs that fail' tests/mpi/failures.sh "$distributed" "$build/mpi-failures"
 part 'on several processes: steps' tests/mpi/iterations.sh "$distributed" "$build/mpi-steps"
 everything_so_far

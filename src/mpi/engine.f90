@@ -8,6 +8,7 @@ module engine
    use earlier_vectors, only: forget_vectors
    use kinds, only: wp
    use machine, only: peak_memory, return_memory
+   use own_piece, only: forget_piece, receive_piece, write_received
    use process_memory, only: check_rows, reserve_blas
    use ranks, only: rank, sum_of_all, tell
    use shares, only: forget_elements, receive_share, share_type
@@ -18,7 +19,8 @@ module engine
 
    integer, parameter, public :: order_end = 0, order_take = 1, order_start = 2, order_touched = 3, order_finish = 4, &
                                  order_read = 5, order_write = 6, order_renew = 7, order_solve = 8, order_multiply = 9, &
-                                 order_diagonal = 10, order_forget = 11, order_way = 12, order_memory = 13
+                                 order_diagonal = 10, order_forget = 11, order_way = 12, order_memory = 13, &
+                                 order_cut = 14, order_show = 15
 
    type(share_type), public                :: share
    type(distributed_matrix_type), public   :: stiffness
@@ -74,6 +76,7 @@ contains
       select case (what)
       case (order_take)
          call end_engine()
+         call forget_piece()
          call return_memory()
          call reserve_blas()
          if (rank /= 0) call receive_share(share)
@@ -107,6 +110,10 @@ contains
          if (rank == 0) values = bytes
       case (order_multiply)
          call multiply(values)
+      case (order_cut)                                       ! rank 0 sends, see dealt_pieces
+         if (rank /= 0) call receive_piece()
+      case (order_show)                                      ! likewise
+         if (rank /= 0) call write_received()
       end select
    end subroutine act
 

@@ -1,8 +1,8 @@
 !> The processes of a run, as MPI numbers them from 0 on. Rank 0 reads, steps and writes; the others wait for its orders.
 module ranks
-   use mpi_f08, only: mpi_abort, mpi_allreduce, mpi_bcast, mpi_comm_rank, mpi_comm_size, mpi_comm_world, mpi_double_precision, &
-                      mpi_finalize, mpi_gatherv, mpi_init, mpi_integer, mpi_max, mpi_recv, mpi_scatterv, mpi_send, &
-                      mpi_status_ignore, mpi_sum
+   use mpi_f08, only: mpi_abort, mpi_allreduce, mpi_bcast, mpi_character, mpi_comm_rank, mpi_comm_size, mpi_comm_world, &
+                      mpi_double_precision, mpi_finalize, mpi_gatherv, mpi_init, mpi_integer, mpi_max, mpi_recv, mpi_scatterv, &
+                      mpi_send, mpi_status_ignore, mpi_sum
    use incomplete_results, only: remove_incomplete
    use kinds, only: wp
    use, intrinsic :: iso_fortran_env, only: error_unit
@@ -14,11 +14,11 @@ module ranks
    integer, public, protected :: rank = 0, n_ranks = 1
 
    interface send
-      module procedure :: send_integers, send_reals
+      module procedure :: send_integers, send_reals, send_text
    end interface send
 
    interface receive
-      module procedure :: receive_integers, receive_reals
+      module procedure :: receive_integers, receive_reals, receive_text
    end interface receive
 
 contains
@@ -56,6 +56,14 @@ contains
       call mpi_send(values, size(values), mpi_double_precision, to, 3, mpi_comm_world)
    end subroutine send_reals
 
+   subroutine send_text(to, text)
+      integer, intent(in)      :: to
+      character(*), intent(in) :: text
+
+      call mpi_send([len(text)], 1, mpi_integer, to, 1, mpi_comm_world)
+      call mpi_send(text, len(text), mpi_character, to, 4, mpi_comm_world)
+   end subroutine send_text
+
    !> What rank 0 has sent.
    subroutine receive_integers(values)
       integer, allocatable, intent(out) :: values(:)
@@ -74,6 +82,15 @@ contains
       allocate (values(n))
       call mpi_recv(values, n, mpi_double_precision, 0, 3, mpi_comm_world, mpi_status_ignore)
    end subroutine receive_reals
+
+   subroutine receive_text(text)
+      character(:), allocatable, intent(out) :: text
+      integer :: n
+
+      call mpi_recv(n, 1, mpi_integer, 0, 1, mpi_comm_world, mpi_status_ignore)
+      allocate (character(n) :: text)
+      call mpi_recv(text, n, mpi_character, 0, 4, mpi_comm_world, mpi_status_ignore)
+   end subroutine receive_text
 
    !> OWN: the next COUNTS(rank) of ALL, which rank 0 has, and COUNTS with it.
    subroutine scatter(all, counts, own)

@@ -2,11 +2,13 @@
 !! belongs to the part of its first node. The nodes that have unknowns are the BLOCKS of the equations, the part of rank 0 first, as
 !! many rows in each as there are dimensions: of a held component the row is that of the identity.
 module shares
+   use body_parts, only: extract, nodes_of_elements
    use kinds, only: wp
    use metis, only: part_by_metis
    use model_data, only: corners_of, model_type
    use node_coupling, only: is_coupled
    use node_graph, only: node_graph_type
+   use part_messages, only: receive_part, send_part
    use ranks, only: n_ranks, receive, send
    use section_coupling, only: section_node
    use unknown_motions, only: is_ordinary, motions_of, n_motions
@@ -114,45 +116,20 @@ contains
       type(deal_type), intent(in)     :: deal
       integer, intent(in)             :: r
       type(share_type), intent(inout) :: share
-      integer, allocatable :: mine(:), place(:), nodes(:)
-      integer :: e, i, k, n
+      integer, allocatable :: mine(:), nodes(:)
+      integer :: e, n
 
-      allocate (mine(model%n_elements), place(model%n_nodes), source=0)
+      allocate (mine(model%n_elements))
       n = 0
       do e = 1, model%n_elements
          if (deal%owner(model%element_nodes(1, e)) /= r .or. is_entangled(model, e)) cycle
          n = n + 1
          mine(n) = e
       end do
-      mine = mine(:n)
-      associate (piece => share%model)
-         piece%dimension = model%dimension
-         piece%n_elements = n
-         piece%properties = model%properties
-         piece%element_kind = model%element_kind(mine)
-         piece%element_property = model%element_property(mine)
-         piece%element_nodes = model%element_nodes(:, mine)
-         n = 0
-         do e = 1, piece%n_elements
-            do k = 1, size(piece%element_nodes, 1)
-               i = piece%element_nodes(k, e)
-               if (i == 0) cycle
-               if (place(i) == 0) then
-                  n = n + 1
-                  place(i) = n
-               end if
-               piece%element_nodes(k, e) = place(i)
-            end do
-         end do
-         piece%n_nodes = n
-         allocate (nodes(n))
-         do i = 1, model%n_nodes
-            if (place(i) > 0) nodes(place(i)) = i
-         end do
-         piece%x = model%x(:, nodes)
-         share%block = deal%block(nodes)
-         share%held = model%held(:, nodes)
-      end associate
+      nodes = nodes_of_elements(model, mine(:n))
+      call extract(model, mine(:n), nodes, share%model)
+      share%block = deal%block(nodes)
+      share%held = model%held(:, nodes)
    end subroutine take_elements
 
    !> Whether element E has nodes that move with the unknowns of others, in axes of their own, or at the section of a bolt.
@@ -177,21 +154,9 @@ contains
    subroutine send_share(share, r)
       type(share_type), intent(in) :: share
       integer, intent(in)          :: r
-      real(wp), allocatable :: laws(:)
-      integer :: i
 
-      associate (piece => share%model)
-         call send(r, [share%dimension, share%n_blocks, share%n_own, share%first, piece%n_elements, piece%n_nodes, &
-                       size(piece%element_nodes, 1), size(piece%properties)])
-         call send(r, piece%element_kind)
-         call send(r, piece%element_property)
-         call send(r, reshape(piece%element_nodes, [size(piece%element_nodes)]))
-         call send(r, reshape(piece%x, [size(piece%x)]))
-         call send(r, [(piece%properties(i)%state, merge(1, 0, piece%properties(i)%incompatible), i = 1, size(piece%properties))])
-         allocate (laws(0))
-         laws = [(piece%properties(i)%e, piece%properties(i)%nu, piece%properties(i)%thickness, i = 1, size(piece%properties))]
-         call send(r, laws)
-      end associate
+      call send(r, [share%dimension, share%n_blocks, share%n_own, share%first])
+      call send_part(share%model, r)
       call send(r, share%block)
       call send(r, reshape(merge(1, 0, share%held), [size(share%held)]))
       call send(r, reshape(merge(1, 0, share%held_own), [size(share%held_own)]))
@@ -207,33 +172,14 @@ contains
       type(share_type), intent(out) :: share
       integer, allocatable  :: words(:), sizes(:)
       real(wp), allocatable :: values(:)
-      integer :: i
 
       call receive(sizes)
       share%dimension = sizes(1)
       share%n_blocks = sizes(2)
       share%n_own = sizes(3)
       share%first = sizes(4)
+      call receive_part(share%model)
       associate (piece => share%model, d => share%dimension)
-         piece%dimension = d
-         piece%n_elements = sizes(5)
-         piece%n_nodes = sizes(6)
-         call receive(piece%element_kind)
-         call receive(piece%element_property)
-         call receive(words)
-         piece%element_nodes = reshape(words, [sizes(7), piece%n_elements])
-         call receive(values)
-         piece%x = reshape(values, [3, piece%n_nodes])
-         allocate (piece%properties(sizes(8)))
-         call receive(words)
-         call receive(values)
-         do i = 1, sizes(8)
-            piece%properties(i)%state = words(2*i - 1)
-            piece%properties(i)%incompatible = words(2*i) == 1
-            piece%properties(i)%e = values(3*i - 2)
-            piece%properties(i)%nu = values(3*i - 1)
-            piece%properties(i)%thickness = values(3*i)
-         end do
          call receive(share%block)
          call receive(words)
          share%held = reshape(words == 1, [d, piece%n_nodes])

@@ -4,7 +4,9 @@ module results
    use answer_block, only: print_answer
    use bolt_answer, only: n_bolts
    use c_library, only: close_file, lock_folder
+   use dealt_bodies, only: dealt_bodies_type
    use deck_input, only: deck_type
+   use distribution, only: deal_bodies
    use equation_solver, only: equation_system
    use failures, only: failure_type
    use incomplete_results, only: all_complete, give_up_parts, remove_old
@@ -23,8 +25,9 @@ module results
    use stage_history, only: write_bolt_header, write_bolts, write_stage, write_stage_header
    use stage_plan, only: any_modes, any_response, stage_plan_type, where_in_plan
    use text_tools, only: real_text
-   use vtu_results, only: discard_vtu, finish_vtu, is_vtu_ending, record_vtu, remove_old_vtu, start_vtu, vtu_names, &
-                          vtu_results_type, write_modes_vtu => write_modes, write_vtu
+   use vtu_endings, only: is_vtu_ending, remove_old_vtu
+   use vtu_results, only: discard_vtu, finish_vtu, record_vtu, start_vtu, vtu_names, vtu_results_type, &
+                          write_modes_vtu => write_modes, write_vtu
    implicit none
    private
 
@@ -61,6 +64,7 @@ contains
       class(equation_system), intent(in) :: system
       type(results_type), intent(inout) :: results
       logical, intent(out)              :: ok
+      class(dealt_bodies_type), allocatable :: dealt
       integer :: i
 
       call all_complete()
@@ -68,7 +72,8 @@ contains
       allocate (results%bolts_before(n_bolts(model)), source=0.0_wp)
       if (base == '') call start_listing(results%listing, '', deck, model, plan, system)
       if (base /= '') call start_listing(results%listing, base//listing_ending, deck, model, plan, system)
-      call start_vtu(results%vtu, base, results%listing%page%labels, plan)
+      if (base /= '' .and. any(plan%stages%vtu)) call deal_bodies(model, system, dealt)
+      call start_vtu(results%vtu, base, results%listing%page%labels, plan, dealt)
       ok = .not. results%listing%page%file%failed()
       if (base == '') return
       call results%screen%start('')

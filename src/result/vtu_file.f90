@@ -18,6 +18,9 @@
 !! The header needs the place of every array, so it is written last, into the room that was left for it. As with every result,
 !! the file has the name PATH.abcdef.part until it is complete.
 !!
+!! Where another process is to write it START comes in two parts: this one keeps the file, by RESERVE, FINISH and DISCARD; the other
+!! writes into it, by OPEN_PART and then from POINTS on, and ends with COMPLETE.
+!!
 !! A call that fails, or that contradicts what went before (an array of another size than the points, a node number that
 !! is no point, no points at all, more arrays than the header holds), makes FAILED true; the calls after it do nothing,
 !! and FINISH leaves no file.
@@ -60,7 +63,7 @@ module vtu_file
    type, public :: vtu_file_type
       private
       character(:), allocatable :: path
-      character(:), allocatable :: part      ! its name until it is complete
+      character(:), allocatable, public :: part !! its name until it is complete
       integer :: unit   = 0
       integer :: status = 0                  ! of the first call that failed
       integer :: n_points = -1, n_cells = -1 ! -1: not yet given
@@ -71,6 +74,8 @@ module vtu_file
       logical :: is_named = .false.          ! it has it
    contains
       procedure :: start
+      procedure :: reserve
+      procedure :: open_part
       procedure :: points
       procedure :: cells
       generic   :: add => add_reals, add_integers
@@ -88,25 +93,45 @@ contains
    subroutine start(self, path)
       class(vtu_file_type), intent(inout) :: self
       character(*), intent(in)            :: path
+
+      call self%reserve(path)
+      if (self%waits) call self%open_part(self%part)
+      if (.not. self%is_open) call self%discard()
+   end subroutine start
+
+   !> Create the file that will be PATH, empty: it is given up, or finished as whoever opens it by the name PART has left it.
+   subroutine reserve(self, path)
+      class(vtu_file_type), intent(inout) :: self
+      character(*), intent(in)            :: path
       integer :: descriptor
       logical :: ok
 
       if (self%is_open .or. self%waits) call self%discard()
       self%path = path
+      self%is_named = .false.
+      call create_part(path, self%part, descriptor)
+      call close_file(descriptor, ok)
+      self%status = merge(0, wrong_call, ok)
+      self%waits = ok
+   end subroutine reserve
+
+   !> Open the file PART, which has been reserved.
+   subroutine open_part(self, part)
+      class(vtu_file_type), intent(inout) :: self
+      character(*), intent(in)            :: part
+
+      self%part = part
       self%n_points = -1
       self%n_cells = -1
       self%n_bytes = 0
       if (allocated(self%arrays)) deallocate (self%arrays)
       allocate (self%arrays(0))
-      self%is_named = .false.
-      call create_part(path, self%part, descriptor)
-      call close_file(descriptor, ok)
-      self%status = merge(0, wrong_call, ok)
-      if (ok) open (newunit=self%unit, file=self%part, status='old', action='write', access='stream', &
-                    form='unformatted', iostat=self%status)
+      open (newunit=self%unit, file=self%part, status='old', action='write', access='stream', form='unformatted', &
+            iostat=self%status)
       self%is_open = self%status == 0
+      if (self%is_open) self%waits = .false.
       if (self%is_open) write (self%unit, iostat=self%status) repeat(' ', data_start)
-   end subroutine start
+   end subroutine open_part
 
    !> The points: the first array, and the only one of its kind.
    subroutine points(self, x)

@@ -1,27 +1,34 @@
 !> Results for ParaView: for a stage with OUTPUT = VTU the bodies in one file and the joints in another, with STEPS after every
-!! increment, the shapes of natural modes in a third; where there may be more than one of each their list NAME.pvd. All stay unnamed until the whole run is complete.
+!! increment, the shapes of natural modes in a third; where there may be more than one of each their list NAME.pvd. Bodies that are
+!! dealt out to several processes stand in pieces, a file a process, and their index NAME.pvtu takes the place of the file. All stay
+!! unnamed until the whole run is complete.
 module vtu_results
    use analysis_state, only: analysis_type
-   use c_library, only: is_regular_file, read_all_bytes, remove_file
-   use incomplete_results, only: remove_old
+   use body_parts, only: all_shown
+   use c_library, only: remove_file
+   use dealt_bodies, only: dealt_bodies_type
    use kinds, only: wp
    use listing_table, only: label_type
    use mode_values, only: modes_type
    use model_data, only: model_type
+   use pvtu_file, only: write_index
    use restart_stream, only: restart_stream_type
    use stage_plan, only: stage_plan_type
    use text_tools, only: integer_text
-   use vtu_bodies, only: write_bodies, write_shapes
-   use vtu_file, only: vtu_file_type, write_collection, xml_text
+   use vtu_bodies, only: notes_for_pieces, write_bodies, write_shapes
+   use vtu_endings, only: piece_ending
+   use vtu_file, only: vtu_file_type, write_collection
    use vtu_joints, only: write_joints
    implicit none
    private
 
-   public :: start_vtu, write_vtu, write_modes, finish_vtu, discard_vtu, record_vtu, remove_old_vtu, vtu_names, is_vtu_ending
+   public :: start_vtu, write_vtu, write_modes, finish_vtu, discard_vtu, record_vtu, vtu_names
 
-   !> A file of the run.
+   !> A file of the run, or the pieces of one.
    type :: part_type
-      type(vtu_file_type) :: file
+      type(vtu_file_type), allocatable :: files(:)
+      logical :: is_index = .false.               ! they are pieces, and the name that of their index
+      logical :: is_indexed = .false.             ! which has it
       character(48) :: ending = ''                ! of its name
       real(wp) :: time = 0.0_wp                   ! of its stage the number less one, and how much of its load is on
       integer  :: part = 0                        ! 0 the bodies, 1 the joints, 2 the natural modes
@@ -35,16 +42,19 @@ module vtu_results
       integer :: n = 0
       logical :: many = .false.                   ! more than one stage, or every increment of one
       logical :: is_listed = .false.              ! the list has its name
+      class(dealt_bodies_type), allocatable :: dealt ! where the bodies are written in pieces
    end type vtu_results_type
 
 contains
 
-   !> NAME: what the names of the files begin with, folder included; empty: none are written.
-   subroutine start_vtu(results, name, labels, plan)
+   !> NAME: what the names of the files begin with, folder included; empty: none are written. DEALT, where it is there, writes the bodies,
+   !! and is handed over.
+   subroutine start_vtu(results, name, labels, plan, dealt)
       type(vtu_results_type), intent(inout) :: results
       character(*), intent(in)              :: name
       type(label_type), intent(in)          :: labels
       type(stage_plan_type), intent(in)     :: plan
+      class(dealt_bodies_type), allocatable, intent(inout), optional :: dealt
       integer :: most, s
 
       results%name = name
@@ -52,6 +62,8 @@ contains
       results%n = 0
       results%is_listed = .false.
       results%many = size(plan%stages) > 1 .or. any(plan%stages%steps)
+      if (allocated(results%dealt)) deallocate (results%dealt)
+      if (present(dealt)) call move_alloc(dealt, results%dealt)
       most = 0
       do s = 1, size(plan%stages)
          most = most + merge(size(plan%stages(s)%shares), 1, plan%stages(s)%steps)
@@ -69,21 +81,32 @@ contains
 
       if (results%name == '' .or. .not. plan%stages(analysis%stage)%vtu) return
       if (model%n_elements > 0) then
-         call open_next('.vtu', 0)
-         call write_bodies(results%parts(results%n)%file, results%labels, model, analysis)
-         call results%parts(results%n)%file%complete()
+         if (allocated(results%dealt)) then
+            call name_next('.pvtu', 0, results%dealt%n)
+            call write_pieces(results, results%parts(results%n), analysis)
+         else
+            call name_next('.vtu', 0, 1)
+            associate (file => results%parts(results%n)%files(1))
+               call file%start(path_of(results, results%n, 1))
+               call write_bodies(file, results%labels, model, all_shown(model), analysis%all_u, analysis%temperature)
+               call file%complete()
+            end associate
+         end if
       end if
       if (size(model%interface) > 0) then
-         call open_next('.joint.vtu', 1)
-         call write_joints(results%parts(results%n)%file, results%labels, model, analysis)
-         call results%parts(results%n)%file%complete()
+         call name_next('.joint.vtu', 1, 1)
+         associate (file => results%parts(results%n)%files(1))
+            call file%start(path_of(results, results%n, 1))
+            call write_joints(file, results%labels, model, analysis)
+            call file%complete()
+         end associate
       end if
 
    contains
 
-      subroutine open_next(ending, part)
+      subroutine name_next(ending, part, n_files)
          character(*), intent(in) :: ending
-         integer, intent(in)      :: part
+         integer, intent(in)      :: part, n_files
 
          results%n = results%n + 1
          associate (next => results%parts(results%n), stage => plan%stages(analysis%stage))
@@ -92,11 +115,69 @@ contains
             next%ending = ending
             if (stage%steps) next%ending = '.'//integer_text(analysis%increment)//next%ending
             if (results%many) next%ending = '.'//integer_text(stage%id)//next%ending
-            call next%file%start(results%name//trim(next%ending))
+            call make_room(next, n_files, ending == '.pvtu')
          end associate
-      end subroutine open_next
+      end subroutine name_next
 
    end subroutine write_vtu
+
+   !> PART has so many files, none of them open; where it IS_INDEX they are pieces.
+   pure subroutine make_room(part, n_files, is_index)
+      type(part_type), intent(inout) :: part
+      integer, intent(in)            :: n_files
+      logical, intent(in)            :: is_index
+
+      if (allocated(part%files)) deallocate (part%files)
+      allocate (part%files(n_files))
+      part%is_index = is_index
+      part%is_indexed = .false.
+   end subroutine make_room
+
+   !> What file K of part I will be.
+   pure function path_of(results, i, k) result(path)
+      type(vtu_results_type), intent(in) :: results
+      integer, intent(in)                :: i, k
+      character(:), allocatable :: path
+
+      associate (part => results%parts(i))
+         path = results%name//trim(part%ending)
+         if (part%is_index) path = results%name//piece_ending(trim(part%ending), k - 1)
+      end associate
+   end function path_of
+
+   !> All pieces of PART, by those who have them; none where one cannot be written.
+   subroutine write_pieces(results, part, analysis)
+      type(vtu_results_type), intent(in) :: results
+      type(part_type), intent(inout)     :: part
+      type(analysis_type), intent(in)    :: analysis
+      integer :: k, longest
+      logical :: ok
+
+      longest = 0
+      do k = 1, size(part%files)
+         call part%files(k)%reserve(results%name//piece_ending(trim(part%ending), k - 1))
+         longest = max(longest, len(part%files(k)%part))
+      end do
+      ok = .not. any([(part%files(k)%failed(), k = 1, size(part%files))])
+      if (ok) call write_into(longest)
+      if (ok) return
+      do k = 1, size(part%files)
+         call part%files(k)%discard()
+      end do
+
+   contains
+
+      subroutine write_into(longest)
+         integer, intent(in) :: longest
+         character(longest) :: names(size(part%files))
+
+         do k = 1, size(names)
+            names(k) = part%files(k)%part
+         end do
+         call results%dealt%write(analysis%all_u, analysis%temperature, notes_for_pieces(results%labels), names, ok)
+      end subroutine write_into
+
+   end subroutine write_pieces
 
    !> Write the file of the natural MODES about the end of the stage with this number.
    subroutine write_modes(results, model, stage, modes)
@@ -112,9 +193,10 @@ contains
          part%part = 2
          part%ending = '.modes.vtu'
          if (results%many) part%ending = '.'//integer_text(stage)//part%ending
-         call part%file%start(results%name//trim(part%ending))
-         call write_shapes(part%file, model, modes)
-         call part%file%complete()
+         call make_room(part, 1, .false.)
+         call part%files(1)%start(results%name//trim(part%ending))
+         call write_shapes(part%files(1), model, modes)
+         call part%files(1)%complete()
       end associate
    end subroutine write_modes
 
@@ -123,12 +205,14 @@ contains
       type(vtu_results_type), intent(inout) :: results
       logical, intent(out)                  :: ok
       character(:), allocatable :: base
-      integer :: i
+      integer :: i, k
 
       ok = .true.
       do i = 1, results%n
-         call results%parts(i)%file%finish(ok)
-         if (.not. ok) exit
+         do k = 1, size(results%parts(i)%files)
+            if (ok) call results%parts(i)%files(k)%finish(ok)
+         end do
+         if (ok .and. results%parts(i)%is_index) call write_index_of(results, i, ok)
       end do
       if (ok .and. results%many .and. results%n > 0) then
          base = results%name(index(results%name, '/', back=.true.) + 1:)
@@ -139,6 +223,25 @@ contains
       end if
       if (.not. ok) call discard_vtu(results)
    end subroutine finish_vtu
+
+   !> The index of part I, whose pieces have their names.
+   subroutine write_index_of(results, i, ok)
+      type(vtu_results_type), intent(inout) :: results
+      integer, intent(in)                   :: i
+      logical, intent(out)                  :: ok
+      character(len(results%name) + len(results%parts%ending) + 12) :: names(size(results%parts(i)%files))
+      character(:), allocatable :: base
+      integer :: k
+
+      base = results%name(index(results%name, '/', back=.true.) + 1:)
+      associate (part => results%parts(i))
+         do k = 1, size(names)
+            names(k) = base//piece_ending(trim(part%ending), k - 1)
+         end do
+         call write_index(results%name//trim(part%ending), path_of(results, i, 1), names, ok)
+         part%is_indexed = ok
+      end associate
+   end subroutine write_index_of
 
    !> The files by their endings, each behind a comma: of many their list alone.
    pure function vtu_names(results) result(words)
@@ -159,10 +262,16 @@ contains
    !> Leave nothing behind, files that have their names already included.
    subroutine discard_vtu(results)
       type(vtu_results_type), intent(inout) :: results
-      integer :: i
+      integer :: i, k
 
       do i = 1, results%n
-         call results%parts(i)%file%discard()
+         associate (part => results%parts(i))
+            do k = 1, size(part%files)
+               call part%files(k)%discard()
+            end do
+            if (part%is_indexed) call remove_file(results%name//trim(part%ending))
+            part%is_indexed = .false.
+         end associate
       end do
       if (results%is_listed) call remove_file(results%name//'.pvd')
       results%is_listed = .false.
@@ -173,64 +282,30 @@ contains
    subroutine record_vtu(results, stream)
       type(vtu_results_type), intent(inout)    :: results
       type(restart_stream_type), intent(inout) :: stream
-      integer :: i, n
+      integer :: i, k, n, n_files
+      logical :: is_index
 
       call stream%mark('PARAVIEW')
       n = results%n
-      call stream%count(n, 68)
+      call stream%count(n, 73)
       n = min(n, size(results%parts))
       do i = 1, n
          associate (part => results%parts(i))
             call stream%item(part%ending)
             call stream%item(part%time)
             call stream%item(part%part)
-            call part%file%record(results%name//trim(part%ending), stream)
+            is_index = part%is_index
+            call stream%item(is_index)
+            n_files = 1
+            if (allocated(part%files)) n_files = size(part%files)
+            call stream%count(n_files, 8)
+            if (.not. stream%writes) call make_room(part, n_files, is_index)
+            do k = 1, n_files
+               call part%files(k)%record(path_of(results, i, k), stream)
+            end do
          end associate
          results%n = max(results%n, i)
       end do
    end subroutine record_vtu
-
-   !> Whether a file of a deck may end so, behind the name of the deck: .vtu, .joint.vtu, both with the number of a stage before
-   !! them, or of a stage and an increment; .pvd.
-   pure logical function is_vtu_ending(ending)
-      character(*), intent(in) :: ending
-      integer :: first, k, length
-
-      is_vtu_ending = ending == '.pvd'
-      first = 1
-      do k = 0, 2
-         is_vtu_ending = is_vtu_ending .or. any(ending(first:) == [character(10) :: '.vtu', '.joint.vtu', '.modes.vtu'])
-         if (is_vtu_ending .or. len(ending) < first + 2) return
-         length = verify(ending(first + 1:), '0123456789') - 1
-         if (ending(first:first) /= '.' .or. length < 1) return
-         first = first + 1 + length
-      end do
-   end function is_vtu_ending
-
-   !> Remove what an earlier run left: the files without a number, and those of its list.
-   subroutine remove_old_vtu(name)
-      character(*), intent(in) :: name
-      character(*), parameter   :: mark = 'file="'
-      character(:), allocatable :: bytes, base, ending
-      integer :: at, first
-      logical :: ok
-
-      call remove_old(name//'.vtu')
-      call remove_old(name//'.joint.vtu')
-      call remove_old(name//'.modes.vtu')
-      if (.not. is_regular_file(name//'.pvd')) return
-      call read_all_bytes(name//'.pvd', bytes, ok)
-      if (.not. ok) return
-      base = mark//xml_text(name(index(name, '/', back=.true.) + 1:))
-      first = 1
-      do
-         at = index(bytes(first:), base)
-         if (at == 0) exit
-         first = first + at - 1 + len(base)
-         ending = bytes(first:first + index(bytes(first:)//'"', '"') - 2)
-         if (is_vtu_ending(ending)) call remove_old(name//ending)
-      end do
-      call remove_old(name//'.pvd')
-   end subroutine remove_old_vtu
 
 end module vtu_results

@@ -6,7 +6,7 @@ module command_line
    use deck_numbers, only: parse_integer
    use results, only: history_ending, is_result_ending, listing_ending
    use text_tools, only: upper
-   use vtu_results, only: is_vtu_ending
+   use vtu_endings, only: is_vtu_ending
    implicit none
    private
 

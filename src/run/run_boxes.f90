@@ -28,6 +28,7 @@ module run_boxes
    use run_end, only: end_program
    use run_state, only: goes_on, has_errors, is_over, is_unreadable, is_unwritten, run_type, was_checked, would_overwrite
    use stage_plan, only: factorisations_of, shows_bodies, stage_plan_type
+   use vtu_bodies, only: write_piece
    implicit none
    private
 
@@ -43,7 +44,7 @@ contains
       logical :: finished
       integer :: status
 
-      call join_processes()
+      call join_processes(write_piece)
       call watch_ends()
       call read_command_line(command, finished, status)
       if (finished) call end_program(status)

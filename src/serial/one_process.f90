@@ -5,7 +5,12 @@ submodule(distribution) one_process
 
 contains
 
-   module subroutine join_processes()
+   module subroutine join_processes(write_piece)
+      procedure(piece_writer) :: write_piece
+      procedure(piece_writer), pointer :: told
+
+      told => write_piece
+      nullify (told) ! there is nobody who would have to know
    end subroutine join_processes
 
    module subroutine leave_processes()
@@ -25,6 +30,14 @@ contains
       work%processes = 1
       if (work%processes < 1) deallocate (system) ! never, likewise
    end subroutine weigh_distributed
+
+   module subroutine deal_bodies(model, system, dealt)
+      type(model_type), intent(in)       :: model
+      class(equation_system), intent(in) :: system
+      class(dealt_bodies_type), allocatable, intent(out) :: dealt
+
+      if (model%n_nodes < 0 .and. system%n < 0) deallocate (dealt) ! never, likewise
+   end subroutine deal_bodies
 
    module subroutine memory_of_all(bytes)
       real(wp), intent(out) :: bytes

@@ -210,6 +210,14 @@ row '^\| Q4 6 x 3 \| 52 \| 13 \|( [0-9.]+ \|){10}$' # 7 nodes on the joint, x he
 row '^\| Q4 6 x 3 \| last \|( [0-9.]+ \|){3}( - \|){5}$'
 row '^\| Q4 6 x 3 \| [0-9.e-]+ \| [0-9.-]+ \| [0-9.e-]+ \| [0-9.]+ \| - \| - \| [0-9]+ \| - \| - \|$'
 
+# on several processes, where there is the program for that: 11 x 5 x 5 nodes, x held on 5 x 5, z on 11 x 5 of them: 825 - 25 - 55
+if [ -x "${program}_mpi" ] && command -v mpirun > /dev/null; then
+   MPI_SHAPES=hex8_10x4x4 "$here/bench.sh" "$program" "$work/itself" mpi > "$work/tables" 2> "$work/said"
+   count 'bench.sh on two processes' $?
+   row '^\| hex8 10 x 4 x 4 \| 745 \| 1 \|( [0-9.]+ \|){10}$'
+   row '^\| hex8 10 x 4 x 4 \| 745 \| 2 \|( [0-9.]+ \|){10}$'
+fi
+
 # ------------------------------------------------------------------ a word that it does not know
 "$here/bench.sh" "$program" "$work" q5 > "$work/said" 2>&1
 [ $? -eq 1 ] && grep -q "'q5' is neither" "$work/said"

@@ -3,14 +3,8 @@
 # solution takes more than is stated here, and the larger ones hardly take more than the small ones. Steps are counted, nothing is timed.
 #
 #    iterations.sh PROGRAM_MPI WORK_FOLDER
-set -u
-export LC_ALL=C
-work=$2
 . tests/mpi/lib.sh
-has_processes "$1"
-rm -rf "$work"
-mkdir -p "$work"
-passed=0 failed=0
+begin "$1" "$2"
 
 # tetrahedra KIND N: a column of 1 : 6, clamped
 tetrahedra() { awk -v kind="$1" -v n="$2" -v nz=$((6*$2)) -f tests/elements.awk; }
@@ -56,9 +50,9 @@ while read -r bound small large problem; do
       $problem $size > "$work/problem.bdf"
       steps=$(most "$work/problem.bdf")
       if [ "${steps:-9999}" -le "$bound" ]; then
-         passed=$((passed + 1))
+         pass
       else
-         failed=$((failed + 1)); echo "FAILED $problem $size: ${steps:-no} steps, at most $bound were expected"
+         fail "$problem $size: ${steps:-no} steps, at most $bound were expected"
       fi
       printf '%s %s: %s steps, ' "$problem" "$size" "${steps:-no}"
    done
@@ -70,5 +64,4 @@ done <<'END'
 100 1 2 wall
 120 8 16 relieved
 END
-echo "$passed passed, $failed failed"
-[ $failed -eq 0 ] && [ $passed -gt 0 ]
+finish

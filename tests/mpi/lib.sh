@@ -1,13 +1,36 @@
-# What the tests of several processes share.
+# What the tests of several processes share; they are run from the root of the project.
+set -u
+export LC_ALL=C
 
-# has_processes PROGRAM_MPI: ends the part, with nothing counted, where there is no mpirun or no program by make mpi
-has_processes() {
+# begin PROGRAM_MPI WORK_FOLDER: an empty folder WORK, nothing counted yet. Ends the part, with nothing counted, where there is no
+# mpirun or no program by make mpi
+begin() {
    if ! [ -x "$1" ] || ! command -v mpirun > /dev/null; then
       echo 'skipped: there is no program built by make mpi'
       echo '0 passed, 0 failed'
       exit 0
    fi
    distributed=$(realpath "$1")
+   work=$2
+   rm -rf "$work"
+   mkdir -p "$work"
+   passed=0 failed=0
+}
+
+pass() { passed=$((passed + 1)); }
+fail() { failed=$((failed + 1)); echo "FAILED $1"; }
+
+# finish: the count, and the status of the part
+finish() {
+   echo "$passed passed, $failed failed"
+   [ $failed -eq 0 ] && [ $passed -gt 0 ]
+}
+
+# folders_of_decks FOLDER: INCLUDE looks beside the deck
+folders_of_decks() {
+   local included
+   mkdir -p "$1"
+   for included in input/*/ tests/solver/*.inc; do ln -s "$PWD/${included%/}" "$1/"; done
 }
 
 # on_processes N FOLDER DECK...: results into FOLDER; more processes than cores take turns

@@ -4,20 +4,13 @@
 # one whose factor TREE could not hold gets PETSC.
 #
 #    ranks.sh PROGRAM PROGRAM_MPI QUERY WORK_FOLDER
-set -u
-export LC_ALL=C
-program=$1 query=$3 work=$4
+program=$1 query=$3
 . tests/mpi/lib.sh
 . tests/solver/lib.sh
-has_processes "$2"
+begin "$2" "$4"
 compare_within 1e-9
-passed=0 failed=0
-rm -rf "$work"
-mkdir -p "$work"/{decks,petsc1,petsc2,petsc3,mumps1,mumps3,auto,serial,limited}
-for included in input/*/ tests/solver/*.inc; do ln -s "$PWD/${included%/}" "$work/decks/"; done # INCLUDE looks beside the deck
-
-pass() { passed=$((passed + 1)); }
-fail() { failed=$((failed + 1)); echo "FAILED $1"; }
+mkdir -p "$work"/{petsc1,petsc2,petsc3,mumps1,mumps3,auto,serial,limited}
+folders_of_decks "$work/decks"
 
 for name in ${DECKS:-prism_history flange_sector solid_bolt meshed_apart column_tetra10 one_element}; do
    for way in 'PETSC 1' 'PETSC 2' 'PETSC 3' 'MUMPS 1' 'MUMPS 3'; do
@@ -44,5 +37,4 @@ for mib in 450 500 550 600 650 700 750 800; do
 done
 if grep -q 'SOLVER PETSC' "$work/limited/block.out" && grep -qE 'AUTO: TREE WOULD NEED [0-9]+ MIB, MORE THAN THERE ARE' "$work/limited/block.out"
 then pass; else fail "24 x 24 x 24 in $mib MiB: $(grep SOLVER "$work/limited/block.out" || head -n 3 "$work/said")"; fi
-echo "$passed passed, $failed failed"
-[ $failed -eq 0 ] && [ $passed -gt 0 ]
+finish

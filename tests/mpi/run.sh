@@ -3,18 +3,14 @@
 # Where there is no mpirun or no PETSc the part says so, and counts nothing.
 #
 #    run.sh PROGRAM PROGRAM_MPI QUERY WORK_FOLDER [DECK...]
-set -u
-export LC_ALL=C
-program=$1 query=$3 work=$4
+program=$1 query=$3
 . tests/mpi/lib.sh
 . tests/solver/lib.sh
-has_processes "$2"
+begin "$2" "$4"
 shift 4
 compare_within 1e-8
-passed=0 failed=0
-rm -rf "$work"
-mkdir -p "$work"/{decks,tree,petsc1,petsc2,mumps2}
-for included in input/*/ tests/solver/*.inc; do ln -s "$PWD/${included%/}" "$work/decks/"; done # INCLUDE looks beside the deck
+mkdir -p "$work"/{tree,petsc1,petsc2,mumps2}
+folders_of_decks "$work/decks"
 
 [ $# -gt 0 ] || set -- input/*.bdf tests/solver/*.bdf
 for deck; do
@@ -30,12 +26,11 @@ for deck; do
       with_solver "$deck" $solver > "$work/decks/$name.bdf"
       if words=$(on_processes $n "$folder" "$work/decks/$name.bdf" 2>&1) &&
          words=$(same_history "$work/tree/$name" "$folder/$name"); then
-         passed=$((passed + 1))
+         pass
       else
          failed=$((failed + 1))
          echo "$name by $solver on $n: $words" | head -n 5
       fi
    done
 done
-echo "$passed passed, $failed failed"
-[ $failed -eq 0 ] && [ $passed -gt 0 ]
+finish

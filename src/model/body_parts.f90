@@ -1,0 +1,140 @@
+!> Parts of the bodies: some elements as a model of its own, on nodes numbered anew; and the pieces in which the bodies are shown, every
+!! element in one of them.
+module body_parts
+   use model_data, only: corners_of, model_type, n_points, n_sections
+   use reverse_lists, only: list_owners
+   use section_coupling, only: felt_nodes
+   use temperatures, only: has_temperatures
+   implicit none
+   private
+
+   public :: extract, nodes_of_elements, all_shown, cut_piece
+
+   !> What of a model is shown.
+   type, public :: shown_type
+      integer :: n_points = 0                 !! the first of its nodes
+      integer, allocatable :: elements(:)     !! ascending
+      logical :: is_warm = .false. !! with temperatures
+   end type shown_type
+
+   !> A piece: a model that has besides what is shown of it all elements that meet at the shown nodes, so that means over these are
+   !! those of the whole structure. Set of the model are elements, nodes, properties, sections, which elements meet where.
+   type, public :: body_piece_type
+      type(model_type) :: model
+      type(shown_type) :: shown
+   end type body_piece_type
+
+contains
+
+   !> All bodies of MODEL.
+   pure function all_shown(model) result(shown)
+      type(model_type), intent(in) :: model
+      type(shown_type) :: shown
+      integer :: e
+
+      shown%n_points = n_points(model)
+      allocate (shown%elements(model%n_elements))
+      shown%elements = [(e, e = 1, model%n_elements)]
+      shown%is_warm = has_temperatures(model)
+   end function all_shown
+
+   !> PART: these ELEMENTS of MODEL on these NODES, which have to be all of theirs; kinds, properties and places alone are set.
+   pure subroutine extract(model, elements, nodes, part)
+      type(model_type), intent(in)  :: model
+      integer, intent(in)           :: elements(:), nodes(:)
+      type(model_type), intent(out) :: part
+      integer, allocatable :: place(:)
+      integer :: e, i, k
+
+      allocate (place(0:model%n_nodes), source=0)
+      do i = 1, size(nodes)
+         place(nodes(i)) = i
+      end do
+      part%dimension = model%dimension
+      part%properties = model%properties
+      part%n_elements = size(elements)
+      part%element_kind = model%element_kind(elements)
+      part%element_property = model%element_property(elements)
+      part%element_nodes = model%element_nodes(:, elements)
+      do e = 1, part%n_elements
+         do k = 1, size(part%element_nodes, 1)
+            part%element_nodes(k, e) = place(part%element_nodes(k, e)) ! 0 stays 0
+         end do
+      end do
+      part%n_nodes = size(nodes)
+      part%x = model%x(:, nodes)
+   end subroutine extract
+
+   !> The nodes of these ELEMENTS, ascending.
+   pure function nodes_of_elements(model, elements) result(nodes)
+      type(model_type), intent(in) :: model
+      integer, intent(in)          :: elements(:)
+      integer, allocatable :: nodes(:)
+      logical :: has(model%n_nodes)
+      integer :: i, k
+
+      has = .false.
+      do k = 1, size(elements)
+         has(corners_of(model, elements(k))) = .true.
+      end do
+      nodes = pack([(i, i = 1, model%n_nodes)], has)
+   end function nodes_of_elements
+
+   !> The PIECE number R: the elements whose first nodes are of part R, and the points of this part that no element has. NODES are its
+   !! nodes as MODEL numbers them, those that are shown first. What is of no part goes to piece 0.
+   pure subroutine cut_piece(model, owner, r, piece, nodes)
+      type(model_type), intent(in)       :: model
+      integer, intent(in)                :: owner(:) !! (n_nodes) the part of each node, from 0 on; -1: none
+      integer, intent(in)                :: r
+      type(body_piece_type), intent(out) :: piece
+      integer, allocatable, intent(out)  :: nodes(:)
+      logical, allocatable :: is_shown(:), is_own(:), is_felt(:), is_part(:)
+      integer, allocatable :: elements(:)
+      integer :: e, i
+
+      allocate (is_own(model%n_elements), is_part(model%n_elements))
+      allocate (is_shown(model%n_nodes), is_felt(model%n_nodes), source=.false.)
+      do e = 1, model%n_elements
+         is_own(e) = max(owner(model%element_nodes(1, e)), 0) == r
+         if (is_own(e)) is_shown(corners_of(model, e)) = .true.
+      end do
+      do i = 1, n_points(model)
+         if (model%first_at(i + 1) == model%first_at(i)) is_shown(i) = max(owner(i), 0) == r
+      end do
+      is_part = is_own
+      do i = 1, model%n_nodes
+         if (is_shown(i)) is_part(model%elements_at(model%first_at(i):model%first_at(i + 1) - 1)) = .true.
+      end do
+      elements = pack([(e, e = 1, model%n_elements)], is_part)
+      do e = 1, size(elements)
+         is_felt(felt_nodes(model, elements(e))) = .true.
+      end do
+      nodes = [pack([(i, i = 1, model%n_nodes)], is_shown), pack([(i, i = 1, model%n_nodes)], is_felt .and. .not. is_shown)]
+      call extract(model, elements, nodes, piece%model)
+      associate (part => piece%model)
+         part%node_id = model%node_id(nodes)
+         part%element_id = model%element_id(elements)
+         call list_owners(part%n_nodes, part%element_nodes, part%first_at, part%elements_at)
+         if (n_sections(model) > 0) call take_sections(model, elements, nodes, part)
+      end associate
+      piece%shown%n_points = count(is_shown)
+      piece%shown%elements = pack([(e, e = 1, size(elements))], is_own(elements))
+      piece%shown%is_warm = has_temperatures(model)
+   end subroutine cut_piece
+
+   !> Which of these ELEMENTS and NODES are at sections; a section that PART does not have has no node there.
+   pure subroutine take_sections(model, elements, nodes, part)
+      type(model_type), intent(in)    :: model
+      integer, intent(in)             :: elements(:), nodes(:)
+      type(model_type), intent(inout) :: part
+      integer :: s
+
+      part%element_section = model%element_section(elements)
+      part%node_section = model%node_section(nodes)
+      part%sections = model%sections
+      do s = 1, size(part%sections)
+         part%sections(s)%node = findloc(nodes, model%sections(s)%node, dim=1)
+      end do
+   end subroutine take_sections
+
+end module body_parts
