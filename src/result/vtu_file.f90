@@ -30,13 +30,12 @@ module vtu_file
    use, intrinsic :: iso_fortran_env, only: int8, int32, int64, real64
    use c_library, only: close_file, remove_file
    use incomplete_results, only: create_part, name_part
-   use output_file, only: output_file_type
    use restart_stream, only: restart_stream_type
    use text_tools, only: integer_text
    implicit none
    private
 
-   public :: named, xml_text, write_collection
+   public :: named, xml_text
 
    integer(int8), parameter, public :: vtk_vertex = 1_int8 !! a type of cell; those of bodies: element_kinds
 
@@ -381,31 +380,5 @@ contains
          if (k > 0) escaped = escaped//trim(entities(k))
       end do
    end function xml_text
-
-   !> The list of .vtu files that ParaView opens: which belong together, and at what time. OK is false, and no file is left by us,
-   !! where it cannot be written.
-   subroutine write_collection(path, times, parts, names, ok)
-      character(*), intent(in) :: path
-      real(real64), intent(in) :: times(:) !! ascending
-      integer, intent(in)      :: parts(:) !! 0, 1, ... within one time
-      character(*), intent(in) :: names(:) !! the .vtu files, as seen from the folder of the list
-      logical, intent(out)     :: ok
-      type(output_file_type) :: file
-      character(24) :: time
-      integer :: i
-
-      call file%start(path)
-      call file%put('<?xml version="1.0"?>')
-      call file%put('<VTKFile type="Collection" version="1.0">')
-      call file%put('  <Collection>')
-      do i = 1, size(names)
-         write (time, '(f24.9)') times(i)
-         call file%put('    <DataSet timestep="'//trim(adjustl(time))//'" group="" part="'//integer_text(parts(i))//'"')
-         call file%put('             file="'//xml_text(trim(names(i)))//'"/>') ! a line of its own: names may be long
-      end do
-      call file%put('  </Collection>')
-      call file%put('</VTKFile>')
-      call file%finish(ok)
-   end subroutine write_collection
 
 end module vtu_file

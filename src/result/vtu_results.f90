@@ -11,14 +11,14 @@ module vtu_results
    use listing_table, only: label_type
    use mode_values, only: modes_type
    use model_data, only: model_type
-   use pvtu_file, only: write_index
    use restart_stream, only: restart_stream_type
    use stage_plan, only: stage_plan_type
    use text_tools, only: integer_text
    use vtu_bodies, only: notes_for_pieces, write_bodies, write_shapes
    use vtu_endings, only: piece_ending
-   use vtu_file, only: vtu_file_type, write_collection
+   use vtu_file, only: vtu_file_type
    use vtu_joints, only: write_joints
+   use vtu_lists, only: write_collection, write_index
    implicit none
    private
 

@@ -1,13 +1,15 @@
-!> The index of a grid that stands in pieces, NAME.pvtu for ParaView: which arrays the pieces have, and their names.
-module pvtu_file
+!> What ParaView opens where a grid is not one file: the index of its pieces, NAME.pvtu, which says what arrays these have; the list of the
+!! files that belong together, and at what times, NAME.pvd.
+module vtu_lists
    use c_library, only: close_file, open_file, read_bytes
-   use kinds, only: long
+   use kinds, only: long, wp
    use output_file, only: output_file_type
+   use text_tools, only: integer_text
    use vtu_file, only: data_start, xml_text
    implicit none
    private
 
-   public :: write_index
+   public :: write_index, write_collection
 
 contains
 
@@ -60,6 +62,32 @@ contains
 
    end subroutine write_index
 
+   !> The list of .vtu files that ParaView opens: which belong together, and at what time. OK is false, and no file is left by us,
+   !! where it cannot be written.
+   subroutine write_collection(path, times, parts, names, ok)
+      character(*), intent(in) :: path
+      real(wp), intent(in)     :: times(:) !! ascending
+      integer, intent(in)      :: parts(:) !! 0, 1, ... within one time
+      character(*), intent(in) :: names(:) !! the .vtu files, as seen from the folder of the list
+      logical, intent(out)     :: ok
+      type(output_file_type) :: file
+      character(24) :: time
+      integer :: i
+
+      call file%start(path)
+      call file%put('<?xml version="1.0"?>')
+      call file%put('<VTKFile type="Collection" version="1.0">')
+      call file%put('  <Collection>')
+      do i = 1, size(names)
+         write (time, '(f24.9)') times(i)
+         call file%put('    <DataSet timestep="'//trim(adjustl(time))//'" group="" part="'//integer_text(parts(i))//'"')
+         call file%put('             file="'//xml_text(trim(names(i)))//'"/>') ! a line of its own: names may be long
+      end do
+      call file%put('  </Collection>')
+      call file%put('</VTKFile>')
+      call file%finish(ok)
+   end subroutine write_collection
+
    !> TEXT with BY where THIS stands in it.
    pure function replaced(text, this, by)
       character(*), intent(in)  :: text, this, by
@@ -91,4 +119,4 @@ contains
       if (descriptor >= 0) call close_file(descriptor, closed)
    end subroutine read_header
 
-end module pvtu_file
+end module vtu_lists
