@@ -135,13 +135,13 @@ contains
          call deck%errors%add(line, 'BLOCK2: the model has solids; plane bodies and solids cannot be mixed')
          return
       end if
-      wanted = 'PSHELL or PAXIS '
-      if (element_table(kind)%dimension == 3) wanted = 'PSOLID '
       if (property > 0) then
          if ((model%properties(property)%state == solid) .eqv. element_table(kind)%dimension == 3) return
          property = 0
       end if
       if (id == 0) return
+      wanted = 'PSHELL or PAXIS '
+      if (element_table(kind)%dimension == 3) wanted = 'PSOLID '
       if (any(deck%bulk%pmark%id == id) .and. element_table(kind)%dimension == 2) then
          call deck%field_error(line, 'PID', integer_text(id)//' is a PMARK: a surface of a plane body is '// &
                                'marked with CBAR or CROD edges')

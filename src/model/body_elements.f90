@@ -104,7 +104,7 @@ contains
       allocate (shares(max_stresses, size(model%element_nodes, 1), min(block, model%n_elements)))
       do first = 1, model%n_elements, block
          last = min(model%n_elements, first + block - 1)
-         !$omp parallel do default(shared) if(last - first > few)
+         !$omp parallel do schedule(dynamic, 128) default(shared) if(last - first > few)
          do e = first, last
             call find_shares(e, shares(:, :, e - first + 1))
          end do
@@ -198,7 +198,7 @@ contains
       allocate (p(model%dimension, size(model%element_nodes, 1) + 1, min(block, model%n_elements)))
       do first = 1, model%n_elements, block
          last = min(model%n_elements, first + block - 1)
-         !$omp parallel do default(shared) if(last - first > few)
+         !$omp parallel do schedule(dynamic, 128) default(shared) if(last - first > few)
          do e = first, last
             call element_forces(model, e, u, p(:, :, e - first + 1))
          end do
