@@ -63,7 +63,6 @@ contains
       run%argument = argument
       run%check_only = command%check_only
       run%is_dated = command%dated
-      call keep_memory()
       call run%progress%start(argument%name, command%quiet, command%times)
       call read_deck(argument%path, deck, run%errors, readable)
       if (.not. readable) then
@@ -86,6 +85,7 @@ contains
       type(stage_plan_type), intent(out) :: plan
 
       if (is_over(run)) return
+      call keep_memory()
       call run%progress%enter(phase_build)
       if (.not. (run%check_only .or. run%errors%any())) call check_model_size(deck, run%failure)
       if (is_over(run)) return
