@@ -129,6 +129,7 @@ contains
       integer(c_size_t), parameter :: first_room = 1048576 ! where the size of the file is not known
       integer(c_int), parameter    :: to_read = 0          ! O_RDONLY
       character(:), allocatable :: wider
+      character(1)      :: next
       integer(c_size_t) :: used, got, room
       integer(c_int)    :: descriptor
 
@@ -137,20 +138,24 @@ contains
       if (.not. ok) return
       inquire (file=path, size=room)
       if (room <= 0) room = first_room
-      allocate (character(room + 1) :: bytes) ! one more than there are: the end shows at once
+      allocate (character(room) :: bytes) ! of a file just what it holds: a long deck is not copied
       used = 0
       do
          if (used == len(bytes, c_size_t)) then
+            got = c_read(descriptor, next, 1_c_size_t)
+            if (got <= 0) exit
             allocate (character(2*used) :: wider)
             wider(:used) = bytes
+            wider(used + 1:used + 1) = next
             call move_alloc(wider, bytes)
+            used = used + 1
          end if
          got = c_read(descriptor, bytes(used + 1:), len(bytes, c_size_t) - used)
          if (got <= 0) exit
          used = used + got
       end do
       ok = c_close(descriptor) == 0 .and. got == 0
-      bytes = bytes(:used)
+      if (used < len(bytes, c_size_t)) bytes = bytes(:used)
    end subroutine read_all_bytes
 
    !> Open the file PATH for reading. DESCRIPTOR is below zero where that fails.

@@ -51,8 +51,8 @@ module machine
 
 contains
 
-   !> What is deallocated stays with the program for the next allocation: new pages cost a sixth of a factorisation. All threads have
-   !! one heap: what one of them has deallocated another one can take. Where glibc does not do it nothing is lost.
+   !> What is deallocated stays with the program for the next allocation: new pages cost a sixth of a factorisation. Where glibc does
+   !! not do it nothing is lost.
    subroutine keep_memory()
       integer, allocatable, volatile :: first(:)
       integer(c_int) :: status
@@ -60,7 +60,6 @@ contains
       status = mallopt(trim_threshold, huge(1_c_int))
       status = mallopt(top_pad, 64_c_int*1048576_c_int)
       status = mallopt(mmap_max, 0_c_int)
-      status = mallopt(arena_max, 1_c_int)
       allocate (first(131072)) ! the heap grows now, where it is looked whether it can: not all of what the compiler takes is checked
       first(1) = 0
       deallocate (first)
@@ -132,9 +131,12 @@ contains
    end function peak_memory
 
    !> N threads at most, 0: what OMP_NUM_THREADS says; never more than there are cores. BLAS has one in each: one order of additions, the same digits everywhere.
+   !! They have one heap: what one of them has deallocated another one can take. That must be said before they are there.
    subroutine use_threads(n)
       integer, intent(in) :: n
+      integer(c_int) :: status
 
+      status = mallopt(arena_max, 1_c_int)
       call openblas_set_num_threads(1_c_int)
       call omp_set_num_threads(min(merge(n, omp_get_max_threads(), n > 0), omp_get_num_procs()))
    end subroutine use_threads

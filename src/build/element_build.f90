@@ -16,6 +16,8 @@ module element_build
    implicit none
    private
 
+   integer, parameter :: few = 4096 ! elements that are not worth more than one thread
+
    public :: resolve_properties, collect_elements, check_element_numbers, check_elements, check_one_state, is_face
 
 contains
@@ -135,13 +137,13 @@ contains
          call deck%errors%add(line, 'BLOCK2: the model has solids; plane bodies and solids cannot be mixed')
          return
       end if
-      wanted = 'PSHELL or PAXIS '
-      if (element_table(kind)%dimension == 3) wanted = 'PSOLID '
       if (property > 0) then
          if ((model%properties(property)%state == solid) .eqv. element_table(kind)%dimension == 3) return
          property = 0
       end if
       if (id == 0) return
+      wanted = 'PSHELL or PAXIS '
+      if (element_table(kind)%dimension == 3) wanted = 'PSOLID '
       if (any(deck%bulk%pmark%id == id) .and. element_table(kind)%dimension == 2) then
          call deck%field_error(line, 'PID', integer_text(id)//' is a PMARK: a surface of a plane body is '// &
                                'marked with CBAR or CROD edges')
@@ -205,7 +207,7 @@ contains
       type(checked_deck), intent(in) :: deck
       type(model_type), intent(in)   :: model
       type(id_table_type)  :: doubtful_blocks ! by their lines
-      logical, allocatable :: doubtful(:)
+      logical, allocatable :: doubtful(:), sound(:)
       integer :: e, i, last_line, node
 
       allocate (doubtful(model%n_nodes), source=.false.)
@@ -215,19 +217,35 @@ contains
          if (node > 0) doubtful(node) = .true.
       end do
       call doubtful_blocks%build(pack(deck%bulk%block%line, deck%bulk%block%doubtful))
+      allocate (sound(model%n_elements))
+      !$omp parallel do schedule(dynamic, 512) default(shared) if(model%n_elements > few)
+      do e = 1, model%n_elements
+         sound(e) = is_sound(e)
+      end do
+      !$omp end parallel do
       last_line = 0
       do e = 1, model%n_elements
-         if (model%element_line(e) == last_line) cycle ! once a card
-         associate (nodes => corners_of(model, e))
-            if (any(nodes == 0)) cycle
-            if (any(doubtful(nodes))) cycle
-            if (doubtful_blocks%find(model%element_line(e)) > 0) cycle
-            if (smallest_jacobian(model%element_kind(e), model%x(:model%dimension, nodes)) > 0.0_wp) cycle
-         end associate
+         if (sound(e) .or. model%element_line(e) == last_line) cycle ! once a card
          last_line = model%element_line(e)
          call deck%errors%add(model%element_line(e), 'element '//integer_text(model%element_id(e))//' has no positive '// &
                          shape_words(model%element_kind(e)))
       end do
+
+   contains
+
+      !> Whether element E has a shape to compute with, or is one that cannot be told of yet.
+      pure logical function is_sound(e)
+         integer, intent(in) :: e
+
+         is_sound = .true.
+         associate (nodes => corners_of(model, e))
+            if (any(nodes == 0)) return
+            if (any(doubtful(nodes))) return
+            if (doubtful_blocks%find(model%element_line(e)) > 0) return
+            is_sound = smallest_jacobian(model%element_kind(e), model%x(:model%dimension, nodes)) > 0.0_wp
+         end associate
+      end function is_sound
+
    end subroutine check_elements
 
    !> What an element of a KIND lacks, and what was expected.

@@ -89,7 +89,7 @@ contains
          end if
       case (kind_real)
          if (rule%whole) then
-            call parse_integer(card%fields(k)%text, values%integers(k), ok)
+            call parse_integer(card%fields(k)%text(:card%fields(k)%length), values%integers(k), ok)
             values%reals(k) = real(values%integers(k), wp)
             if (ok) return
          end if

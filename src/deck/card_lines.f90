@@ -8,6 +8,7 @@ module card_lines
    public :: cut_line
 
    integer, parameter, public :: field_width = 32 !! longest entry of a field (free field only)
+   integer, parameter :: blank = iachar(' ')      ! codes are compared at once, characters by a call of the library
 
    !> One entry of a card and where it stands.
    type, public :: card_field
@@ -172,12 +173,12 @@ contains
       card%n = card%n + 1
       from = 1
       do while (from <= len(entry))
-         if (entry(from:from) /= ' ') exit
+         if (iachar(entry(from:from)) /= blank) exit
          from = from + 1
       end do
       to = len(entry)
       do while (to >= from)
-         if (entry(to:to) /= ' ') exit
+         if (iachar(entry(to:to)) /= blank) exit
          to = to - 1
       end do
       associate (field => card%fields(card%n))

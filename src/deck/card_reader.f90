@@ -13,6 +13,8 @@ module card_reader
    implicit none
    private
 
+   integer, parameter :: many_lines = 5000            ! of a deck that is worth two threads
+
    !> One kind of card, and the routine that reads all its cards; kinds that one array holds share a routine.
    type, public :: card_kind
       character(8) :: name = ''
@@ -114,20 +116,42 @@ contains
       end do
    end subroutine note_card
 
-   !> Fill the arrays of BULK, each with the cards noted, in the order of the deck.
+   !> Fill the arrays of BULK, each with the cards noted, in the order of the deck. The first routine, that of the nodes, has about
+   !! half of a long deck: it is the work of one thread, the others that of another. The errors stand as if they had come one after
+   !! the other.
    subroutine read_all(self, bulk)
       class(card_reader_type), intent(inout) :: self
       type(bulk_data_type), intent(inout)    :: bulk
+      type(card_reader_type)                 :: other
+      type(deck_error_list), target          :: others
       integer :: k
 
-      do k = 1, size(self%kinds)
-         if (self%kinds(k)%routine /= k) cycle
-         self%routine = k
-         self%n = sum(self%kinds%n, mask=self%kinds%routine == k)
-         self%line = 0
-         call self%kinds(k)%read(self, bulk)
+      other = self
+      other%errors => others
+      !$omp parallel sections default(shared) if(size(self%kind_at) > many_lines)
+      call read_by(self, 1, bulk)
+      !$omp section
+      do k = 2, size(other%kinds)
+         call read_by(other, k, bulk)
       end do
+      !$omp end parallel sections
+      other%kinds(1) = self%kinds(1)
+      call move_alloc(other%kinds, self%kinds)
+      call self%errors%add_all(others)
    end subroutine read_all
+
+   !> Read all cards of the ROUTINE of that number, where there is one.
+   subroutine read_by(cards, routine, bulk)
+      type(card_reader_type), intent(inout) :: cards
+      integer, intent(in)                   :: routine
+      type(bulk_data_type), intent(inout)   :: bulk
+
+      if (cards%kinds(routine)%routine /= routine) return
+      cards%routine = routine
+      cards%n = sum(cards%kinds%n, mask=cards%kinds%routine == routine)
+      cards%line = 0
+      call cards%kinds(routine)%read(cards, bulk)
+   end subroutine read_by
 
    !> RULES, one a field, are the table of the kind NAME; left out, of the only one of the routine.
    subroutine set_table(self, rules, name, open_ended)

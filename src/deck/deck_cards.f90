@@ -10,6 +10,8 @@ module deck_cards
 
    public :: read_card, add_field_error, card_name, is_continuation, check_first_field
 
+   integer, parameter :: blank = iachar(' '), asterisk = iachar('*') ! as codes: characters are compared by a call of the library
+
 contains
 
    !> Read the card that begins on line CURSOR of TEXT (a line that is no continuation) with all its continuations;
@@ -74,13 +76,13 @@ contains
       last = end_of_first_field(line, comma)
       first = 1
       do while (first <= last)
-         if (line(first:first) /= ' ') exit
+         if (iachar(line(first:first)) /= blank) exit
          first = first + 1
       end do
       n = min(8, last - first + 1)
       do i = 1, n
          code = iachar(line(first + i - 1:first + i - 1))
-         if (code == iachar('*') .and. i > 1 .and. name(1:1) /= '*') exit
+         if (code == asterisk .and. i > 1 .and. name(1:1) /= '*') exit
          if (code >= iachar('a') .and. code <= iachar('z')) code = code - 32
          name(i:i) = achar(code)
       end do
@@ -122,6 +124,7 @@ contains
       integer :: first, last, star
 
       last = end_of_first_field(line, comma)
+      if (is_name_alone(line(:last))) return
       first = max(1, verify(line(:last), ' '))
       associate (entry => line(first:len_trim(line(:last))))
          star = index(entry, '*')
@@ -132,6 +135,26 @@ contains
          end if
       end associate
    end subroutine check_first_field
+
+   !> Whether FIELD holds one word of at most eight characters, none of them a *: of most cards it does.
+   pure logical function is_name_alone(field)
+      character(*), intent(in) :: field
+      integer :: i, length
+      logical :: has_ended
+
+      is_name_alone = .false.
+      has_ended = .false.
+      length = 0
+      do i = 1, len(field)
+         if (iachar(field(i:i)) == blank) then
+            has_ended = length > 0
+         else
+            if (has_ended .or. iachar(field(i:i)) == asterisk) return
+            length = length + 1
+         end if
+      end do
+      is_name_alone = length <= 8
+   end function is_name_alone
 
    !> The name that the user gave a continuation (`+AB`) must be the one in field 10 of the line before, MARKER.
    subroutine check_marker(line, comma, at, marker, errors)

@@ -17,6 +17,7 @@ module deck_errors
       type(deck_error), allocatable :: items(:)
    contains
       procedure :: add
+      procedure :: add_all
       procedure :: any => any_error
    end type deck_error_list
 
@@ -49,6 +50,19 @@ contains
       self%n = self%n + 1
       self%items(self%n) = item
    end subroutine add
+
+   !> Add what OTHERS has, in its order.
+   subroutine add_all(self, others)
+      class(deck_error_list), intent(inout) :: self
+      type(deck_error_list), intent(in)     :: others
+      integer :: i
+
+      do i = 1, others%n
+         associate (item => others%items(i))
+            call self%add(item%line, item%message, item%first, item%last)
+         end associate
+      end do
+   end subroutine add_all
 
    pure logical function any_error(self)
       class(deck_error_list), intent(in) :: self

@@ -41,7 +41,7 @@ module deck_input
 contains
 
    !> Every card that there is, and the routine that reads it: a new one is a line here, or a name on the line of the others that
-   !! its array holds.
+   !! its array holds. GRID stands first, see read_all. No routine needs what another one has read.
    subroutine list_cards(cards)
       type(card_reader_type), intent(inout) :: cards
 

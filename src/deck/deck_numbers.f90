@@ -144,13 +144,13 @@ contains
       ok = ok .and. abs(exponent) < 10000
    end subroutine parse_exponent
 
-   !> len_trim(TEXT), without a call of the library.
+   !> len_trim(TEXT), without a call of the library: for a comparison with a blank the compiler would put one in.
    pure integer function filled_length(text) result(length)
       character(*), intent(in) :: text
 
       length = len(text)
       do while (length > 0)
-         if (text(length:length) /= ' ') exit
+         if (iachar(text(length:length)) /= iachar(' ')) exit
          length = length - 1
       end do
    end function filled_length

@@ -69,7 +69,7 @@ contains
          end select
       end do
       do while (finish >= start)
-         if (bytes(finish:finish) /= ' ') exit
+         if (iachar(bytes(finish:finish)) /= iachar(' ')) exit ! characters would be compared by a call of the library
          finish = finish - 1
       end do
       line%length = int(finish - start + 1)

@@ -18,22 +18,22 @@ module element_mapping
    integer, parameter, public  :: max_shapes = max_nodes     !! shape functions of an element, incompatible modes included
    real(wp), parameter, public :: two_pi = 2.0_wp*acos(-1.0_wp)
 
-   !> What elements of one kind, property and material have in common.
+   !> What elements of one kind, property and material have in common. One is made for every element: arrays have no default.
    type, public :: element_law
       integer  :: kind = 0                                !! kind_tria3 ... kind_hexa20
       integer  :: state = 0                               !! plane_stress ... solid
       real(wp) :: thickness = 1.0_wp                      !! of a plane body [length]; not used by the others
       logical  :: incompatible = .false.                  !! with the modes of Wilson and Taylor, where the kind has them
-      real(wp) :: d(max_stresses, max_stresses) = 0.0_wp  !! [D]: isotropic, or orthotropic along the axes [pressure]
-      real(wp) :: expansion(3) = 0.0_wp                   !! direct strains of a body free to expand, per degree [1/temperature]
+      real(wp) :: d(max_stresses, max_stresses)           !! [D]: isotropic, or orthotropic along the axes [pressure]
+      real(wp) :: expansion(3)                            !! direct strains of a body free to expand, per degree [1/temperature]
    end type element_law
 
-   !> The nodes of one element and what is the same at all its points.
+   !> The nodes of one element and what is the same at all its points, likewise.
    type, public :: element_map
       integer  :: n = 0                                   !! nodes
       integer  :: n_modes = 0                             !! incompatible modes, each with one parameter a component
-      real(wp) :: x(3, max_nodes) = 0.0_wp                !! nodes [length]
-      real(wp) :: inverse(3, 3) = 0.0_wp                  !! of the Jacobian matrix at the centre [1/length], with modes
+      real(wp) :: x(3, max_nodes)                         !! nodes, components and nodes that the kind has [length]
+      real(wp) :: inverse(3, 3)                           !! of the Jacobian matrix at the centre [1/length], with modes
       real(wp) :: jacobian = 0.0_wp                       !! det J at the centre, with modes
    end type element_map
 
@@ -55,6 +55,7 @@ contains
       law%thickness = thickness
       law%incompatible = incompatible .and. (kind == kind_hexa8 .or. (kind == kind_quad4 .and. state /= axisymmetric))
       call elasticity_matrix(state, e, nu, law%d)
+      law%expansion = 0.0_wp
       if (.not. present(alpha)) return
       law%expansion(:2) = merge((1.0_wp + nu)*alpha, alpha, state == plane_strain)
       if (state == axisymmetric .or. state == solid) law%expansion(3) = alpha
@@ -115,7 +116,7 @@ contains
       end if
       do i = 1, map%n_modes
          factor = -2.0_wp*point(i)*map%jacobian/jacobian
-         g(:, map%n + i) = factor*map%inverse(:, i)
+         g(:map%n_modes, map%n + i) = factor*map%inverse(:map%n_modes, i)
       end do
    end subroutine map_point
 

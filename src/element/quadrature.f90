@@ -14,8 +14,8 @@ module quadrature
 
    type, public :: integration_rule
       integer  :: n                          !! points
-      real(wp) :: point(3, max_points)       !! local coordinates, 0 beyond n
-      real(wp) :: weight(max_points)         !! [-], their sum is the size of the local domain; 0 beyond n
+      real(wp) :: point(3, max_points)       !! local coordinates of n points
+      real(wp) :: weight(max_points)         !! [-], the sum of n is the size of the local domain
    end type integration_rule
 
    real(wp), parameter, public :: gauss = 1.0_wp/sqrt(3.0_wp) !! two points of Gauss: -gauss and gauss
@@ -100,13 +100,23 @@ contains
       type(integration_rule), intent(out) :: rule
 
       if (axisymmetric .and. kind == kind_tria3) then
-         rule = triangle_3
+         call take(triangle_3, rule)
       else if (axisymmetric .and. kind == kind_tria6) then
-         rule = triangle_7
+         call take(triangle_7, rule)
       else
-         rule = of_body(kind)
+         call take(of_body(kind), rule)
       end if
    end subroutine body_rule
+
+   !> RULE is that of a TABLE, of which only the points that it has are copied: most rules have few.
+   pure subroutine take(table, rule)
+      type(integration_rule), intent(in)    :: table
+      type(integration_rule), intent(inout) :: rule
+
+      rule%n = table%n
+      rule%point(:, :table%n) = table%point(:, :table%n)
+      rule%weight(:table%n) = table%weight(:table%n)
+   end subroutine take
 
    !> The rule for integrals of shape functions over the body of an element, forces and masses: of second-order elements products
    !! of two shape functions are integrated exactly where the element is not distorted.
@@ -117,11 +127,11 @@ contains
 
       select case (kind)
       case (kind_tria6)
-         rule = triangle_7
+         call take(triangle_7, rule)
       case (kind_tetra10)
-         rule = tetrahedron_15
+         call take(tetrahedron_15, rule)
       case (kind_penta15)
-         rule = wedge_21
+         call take(wedge_21, rule)
       case default
          call body_rule(kind, axisymmetric, rule)
       end select
@@ -144,8 +154,11 @@ contains
       logical, intent(in) :: axisymmetric    !! a triangle then has three points
       type(integration_rule), intent(out) :: rule
 
-      rule = of_stress(kind)
-      if (kind == kind_tria3 .and. axisymmetric) rule = triangle_3
+      if (kind == kind_tria3 .and. axisymmetric) then
+         call take(triangle_3, rule)
+      else
+         call take(of_stress(kind), rule)
+      end if
    end subroutine stress_rule
 
    !> The rule over a side: exact for the forces of a pressure that varies as the shape functions, on edges of rings too, and of a
@@ -154,7 +167,7 @@ contains
       integer, intent(in) :: kind            !! of the side, from side_kind; 0: no points
       type(integration_rule), intent(out) :: rule
 
-      rule = of_side(kind)
+      call take(of_side(kind), rule)
    end subroutine side_rule
 
 end module quadrature

@@ -9,7 +9,7 @@ module body_elements
    use local_nodes, only: centre_point
    use model_data, only: corners_of, model_type, temperature_type
    use node_coupling, only: onto_unknowns
-   use section_coupling, only: add_section_share, corner_displacements, extend_stiffness, felt_nodes
+   use section_coupling, only: add_section_share, corner_displacements, extend_stiffness, felt_nodes, section_node
    use shape_functions, only: shape_values
    use stress_recovery, only: centre_stress, nodal_stress
    use temperatures, only: element_rise
@@ -19,6 +19,10 @@ module body_elements
 
    public :: coupled_stiffness, element_centre, element_stress, element_nodal_stress, node_stresses, whole_stress, element_weight
    public :: felt_stiffness, internal_forces, element_thermal_forces, add_thermal_forces, law_of
+
+   ! What elements have in sums at nodes is formed by all threads, block by block, where there are more than a few; it is added in the
+   ! order of the elements, whatever the number of threads.
+   integer, parameter :: block = 8192, few = 512
 
 contains
 
@@ -88,26 +92,52 @@ contains
    end subroutine element_nodal_stress
 
    !> Stresses at nodes as whole_stress, of every node the mean of those that its elements have there; 0 where it has none.
-   pure subroutine node_stresses(model, u, temperature, at_node)
+   subroutine node_stresses(model, u, temperature, at_node)
       type(model_type), intent(in)       :: model
       real(wp), intent(in)               :: u(:, :)       !! (dimension, n_nodes) [length]
       type(temperature_type), intent(in) :: temperature
       real(wp), intent(out)              :: at_node(:, :) !! (max_stresses, points) [pressure]
-      real(wp) :: own(max_stresses, max_nodes), rise(max_nodes)
-      integer  :: c, e, i
+      real(wp), allocatable :: shares(:, :, :)            ! (max_stresses, nodes, elements of a block)
+      integer :: e, first, i, last
 
       at_node = 0.0_wp
-      do e = 1, model%n_elements
+      allocate (shares(max_stresses, size(model%element_nodes, 1), min(block, model%n_elements)))
+      do first = 1, model%n_elements, block
+         last = min(model%n_elements, first + block - 1)
+         !$omp parallel do schedule(dynamic, 128) default(shared) if(last - first > few)
+         do e = first, last
+            call find_shares(e, shares(:, :, e - first + 1))
+         end do
+         !$omp end parallel do
+         do e = first, last
+            do i = 1, element_table(model%element_kind(e))%n_nodes
+               associate (node => model%element_nodes(i, e))
+                  at_node(:, node) = at_node(:, node) + shares(:, i, e - first + 1)
+               end associate
+            end do
+         end do
+      end do
+
+   contains
+
+      !> What element E has in the means at its nodes.
+      pure subroutine find_shares(e, share)
+         integer, intent(in)     :: e
+         real(wp), intent(inout) :: share(:, :) !! (max_stresses, nodes)
+         real(wp) :: own(max_stresses, max_nodes), rise(max_nodes)
+         integer  :: c, i
+
          associate (nodes => corners_of(model, e))
             c = n_stresses(model%properties(model%element_property(e))%state)
             call element_nodal_stress(model, e, u, temperature, own(:c, :size(nodes)))
             rise(:size(nodes)) = element_rise(model, e, temperature)
             do i = 1, size(nodes)
-               at_node(:, nodes(i)) = at_node(:, nodes(i)) + full_stress(model, e, own(:c, i), rise(i))/ &
-                                      real(model%first_at(nodes(i) + 1) - model%first_at(nodes(i)), wp)
+               share(:, i) = full_stress(model, e, own(:c, i), rise(i))/ &
+                             real(model%first_at(nodes(i) + 1) - model%first_at(nodes(i)), wp)
             end do
          end associate
-      end do
+      end subroutine find_shares
+
    end subroutine node_stresses
 
    !> Stress at the centre of element E as (xx, yy, zz, xy, yz, zx), the stress across the plane and along the hoop included.
@@ -157,29 +187,55 @@ contains
    end subroutine element_weight
 
    !> Forces that hold the bodies in their displaced shape: F = sum of [k] {u} of their elements.
-   pure subroutine internal_forces(model, u, f)
+   subroutine internal_forces(model, u, f)
       type(model_type), intent(in) :: model
       real(wp), intent(in)         :: u(:, :) !! (dimension, n_nodes) [length]
       real(wp), intent(out)        :: f(:, :) !! (dimension, n_nodes) [force]
-      real(wp) :: k(max_coupled_dofs, max_coupled_dofs), q(max_coupled_dofs), p(max_coupled_dofs)
-      integer  :: d, e, i, n
+      real(wp), allocatable :: p(:, :, :)     ! (dimension, felt nodes, elements of a block)
+      integer :: e, first, i, last, n
 
-      d = model%dimension
       f = 0.0_wp
-      do e = 1, model%n_elements
-         call felt_stiffness(model, e, k)
-         associate (nodes => felt_nodes(model, e))
-            n = d*size(nodes)
-            do i = 1, size(nodes)
-               q(d*(i - 1) + 1:d*i) = u(:, nodes(i))
+      allocate (p(model%dimension, size(model%element_nodes, 1) + 1, min(block, model%n_elements)))
+      do first = 1, model%n_elements, block
+         last = min(model%n_elements, first + block - 1)
+         !$omp parallel do schedule(dynamic, 128) default(shared) if(last - first > few)
+         do e = first, last
+            call element_forces(model, e, u, p(:, :, e - first + 1))
+         end do
+         !$omp end parallel do
+         do e = first, last
+            n = element_table(model%element_kind(e))%n_nodes
+            do i = 1, n
+               associate (node => model%element_nodes(i, e))
+                  f(:, node) = f(:, node) + p(:, i, e - first + 1)
+               end associate
             end do
-            p(:n) = matmul(k(:n, :n), q(:n))
-            do i = 1, size(nodes)
-               f(:, nodes(i)) = f(:, nodes(i)) + p(d*(i - 1) + 1:d*i)
-            end do
-         end associate
+            associate (node => section_node(model, e))
+               if (node > 0) f(:, node) = f(:, node) + p(:, n + 1, e - first + 1)
+            end associate
+         end do
       end do
    end subroutine internal_forces
+
+   !> The forces P that hold element E, of its felt_nodes.
+   pure subroutine element_forces(model, e, u, p)
+      type(model_type), intent(in) :: model
+      integer, intent(in)          :: e
+      real(wp), intent(in)         :: u(:, :) !! (dimension, n_nodes) [length]
+      real(wp), intent(inout)      :: p(:, :) !! (dimension, nodes) [force], set here
+      real(wp) :: k(max_coupled_dofs, max_coupled_dofs), q(max_coupled_dofs)
+      integer  :: d, i, n
+
+      d = model%dimension
+      call felt_stiffness(model, e, k)
+      associate (nodes => felt_nodes(model, e))
+         n = d*size(nodes)
+         do i = 1, size(nodes)
+            q(d*(i - 1) + 1:d*i) = u(:, nodes(i))
+         end do
+         p(:, :size(nodes)) = reshape(matmul(k(:n, :n), q(:n)), [d, size(nodes)])
+      end associate
+   end subroutine element_forces
 
    !> F: what element E at this TEMPERATURE pushes its nodes with.
    pure subroutine element_thermal_forces(model, e, temperature, f)

@@ -76,35 +76,39 @@ contains
       integer, intent(in)                  :: id(:)        !! (rows)
       real(wp), intent(in)                 :: x(:, :)      !! (dimension, rows)
       real(wp), intent(in)                 :: values(:, :) !! (n, rows)
-      character(page_width), allocatable :: rows(:)
-      integer :: first, i, last, part
+      character(piece*(page_width + 1)), allocatable :: lines(:)
+      integer :: first, last, part, used(block_rows/piece)
 
-      allocate (rows(min(block_rows, size(id))))
+      allocate (lines(min(block_rows, size(id) + piece - 1)/piece))
       do first = 1, size(id), block_rows
          last = min(size(id), first + block_rows - 1)
          !$omp parallel do schedule(dynamic, 1) default(shared) if(size(id) > few)
-         do part = first, last, piece
-            call write_piece(part, min(last, part + piece - 1))
+         do part = 1, (last - first)/piece + 1
+            call write_piece(first + (part - 1)*piece, min(last, first + part*piece - 1), lines(part), used(part))
          end do
          !$omp end parallel do
-         do i = 1, last - first + 1
-            call page%file%put(rows(i))
+         do part = 1, (last - first)/piece + 1
+            call page%file%put_lines(lines(part)(:used(part)))
          end do
       end do
 
    contains
 
-      subroutine write_piece(from, until)
-         integer, intent(in) :: from, until
+      !> The LINES of rows FROM to UNTIL, so many characters of them USED.
+      subroutine write_piece(from, until, lines, used)
+         integer, intent(in)         :: from, until
+         character(*), intent(inout) :: lines
+         integer, intent(out)        :: used
          type(listing_table_type) :: mine
          integer :: k
 
          mine = table
+         used = 0
          do k = from, until
             call mine%add([id(k)])
             call mine%add(x(:, k))
             call mine%add(values(:, k))
-            call mine%take_row(rows(k - first + 1))
+            call mine%take_line(lines, used)
          end do
       end subroutine write_piece
 

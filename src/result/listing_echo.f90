@@ -2,6 +2,8 @@
 module listing_echo
    use deck_cards, only: card_name
    use deck_input, only: deck_type
+   use deck_text, only: deck_text_type
+   use kinds, only: long
    use line_scan, only: is_include
    use listing_table, only: cut, heading, page_width
    use output_file, only: output_file_type
@@ -20,39 +22,45 @@ contains
    subroutine write_echo(file, deck)
       type(output_file_type), intent(inout) :: file
       type(deck_type), intent(in)           :: deck
-      character(:), allocatable :: line
       character(10) :: counter
-      integer :: i, cards, hidden !! lines of INCLUDE files since the last one shown
-      logical :: in_bulk, ended, shows_cards
+      character(8)  :: name
+      integer :: cards, i, hidden !! lines of INCLUDE files since the last one shown
+      logical :: begins, in_bulk, ended, is_own, shows_cards
 
       if (.not. deck%control%echo) then
          call heading(file, 'DECK: '//integer_text(deck%bulk%n_cards)//' CARDS, NOT ECHOED')
          return
       end if
       call heading(file, 'DECK ECHO')
-      cards = own_cards(deck)
-      shows_cards = deck%control%echo_asked .or. cards <= most_echoed
+      shows_cards = deck%control%echo_asked
+      if (.not. shows_cards) shows_cards = .not. has_many_cards(deck)
       cards = 0
       hidden = 0
       in_bulk = .false.
       ended = .false.
       do i = 1, deck%text%n
-         line = deck%text%card_part(i)
+         is_own = deck%text%file_number(i) == 1
          counter = ''
-         if (in_bulk .and. begins_card(line)) then
-            cards = cards + 1
-            write (counter, '(i9, a)') cards, '-'
-         else if (in_bulk .and. card_name(line) == 'ENDDATA') then
-            in_bulk = deck%text%file_number(i) > 1
-            ended = .not. in_bulk
+         begins = .false.
+         if (in_bulk) then
+            name = name_at(deck%text, i)
+            if (name == 'ENDDATA') then
+               in_bulk = .not. is_own
+               ended = is_own
+            else if (name /= '') then
+               cards = cards + 1
+               if (shows_cards) write (counter, '(i9, a)') cards, '-'
+            end if
+         else if (.not. ended) then
+            begins = begins_bulk(deck%text%card_part(i))
          end if
-         if (deck%text%file_number(i) > 1) then
+         if (.not. is_own) then
             hidden = hidden + 1
          else if (shows_cards .or. .not. in_bulk) then
             call count_hidden()
             call file%put(' '//counter//' '//cut(deck%text%line(i), page_width - 13))
          end if
-         if (.not. (in_bulk .or. ended) .and. index(adjustl(upper(line)), 'BEGIN') == 1) then
+         if (begins) then
             in_bulk = .true.
             if (.not. shows_cards) cycle
             call file%put('   CARD')
@@ -74,29 +82,47 @@ contains
 
    end subroutine write_echo
 
-   !> How many cards stand in the deck itself, not in INCLUDE files.
-   integer function own_cards(deck) result(n)
+   !> Whether more cards than are echoed without being asked for stand in the deck itself, not in INCLUDE files.
+   logical function has_many_cards(deck)
       type(deck_type), intent(in) :: deck
-      character(:), allocatable :: line
-      integer :: i
+      character(8) :: name
+      integer :: i, n
       logical :: in_bulk
 
       n = 0
       in_bulk = .false.
       do i = 1, deck%text%n
          if (deck%text%file_number(i) > 1) cycle
-         line = deck%text%card_part(i)
-         if (in_bulk .and. begins_card(line)) n = n + 1
-         if (in_bulk .and. card_name(line) == 'ENDDATA') exit
-         if (.not. in_bulk) in_bulk = index(adjustl(upper(line)), 'BEGIN') == 1
+         if (in_bulk) then
+            name = name_at(deck%text, i)
+            if (name == 'ENDDATA' .or. n > most_echoed) exit
+            if (name /= '') n = n + 1
+         else
+            in_bulk = begins_bulk(deck%text%card_part(i))
+         end if
       end do
-   end function own_cards
+      has_many_cards = n > most_echoed
+   end function has_many_cards
 
-   !> Whether a card begins with this LINE of the bulk data.
-   pure logical function begins_card(line)
+   !> The name of the card that begins on line I of the bulk data, or ENDDATA; blank where none does. A line is looked at where it
+   !! stands: of a long deck copies would take longer than all the rest of the listing's head.
+   pure function name_at(text, i) result(name)
+      type(deck_text_type), intent(in) :: text
+      integer, intent(in)              :: i
+      character(8) :: name
+      integer(long) :: first, last
+      integer :: comma, file
+
+      call text%find(i, file, first, last, comma)
+      name = card_name(text%files(file)%bytes(first:last), comma)
+      if (is_include(text%files(file)%bytes(first:last))) name = ''
+   end function name_at
+
+   !> Whether LINE of the case control is BEGIN BULK.
+   pure logical function begins_bulk(line)
       character(*), intent(in) :: line
 
-      begins_card = card_name(line) /= '' .and. card_name(line) /= 'ENDDATA' .and. .not. is_include(line)
-   end function begins_card
+      begins_bulk = index(adjustl(upper(line)), 'BEGIN') == 1
+   end function begins_bulk
 
 end module listing_echo

@@ -66,7 +66,7 @@ module listing_table
       generic   :: add => add_integers, add_reals, add_text
       procedure :: skip
       procedure :: print_row
-      procedure :: take_row
+      procedure :: take_line
       procedure :: keep_row
       procedure :: keep_line
       procedure :: print_kept
@@ -234,15 +234,19 @@ contains
       self%used = 0
    end subroutine print_row
 
-   !> The ROW is complete, and its place is another one than the file.
-   pure subroutine take_row(self, row)
+   !> The row is complete: a line of it behind the first USED characters of LINES, without the blanks at its end. There must be room.
+   pure subroutine take_line(self, lines, used)
       class(listing_table_type), intent(inout) :: self
-      character(page_width), intent(out)       :: row
+      character(*), intent(inout)              :: lines
+      integer, intent(inout)                   :: used
+      integer :: length
 
-      row = self%row
+      length = len_trim(self%row)
+      lines(used + 1:used + length + 1) = self%row(:length)//new_line('a')
+      used = used + length + 1
       self%row = ''
       self%used = 0
-   end subroutine take_row
+   end subroutine take_line
 
    !> The row is complete: keep it until the table is printed.
    pure subroutine keep_row(self)

@@ -19,6 +19,7 @@ module output_file
    contains
       procedure :: start
       procedure :: put
+      procedure :: put_lines
       procedure :: failed
       procedure :: finish
       procedure :: discard
@@ -57,6 +58,18 @@ contains
       self%used = self%used + length + 1
       self%buffer(self%used:self%used) = new_line('a')
    end subroutine put
+
+   !> Write TEXT, whole lines with their ends.
+   subroutine put_lines(self, text)
+      class(output_file_type), intent(inout) :: self
+      character(*), intent(in)               :: text
+
+      if (self%fault) return
+      if (self%used + len(text) > len(self%buffer)) call make_room(self, len(text))
+      if (self%fault) return
+      self%buffer(self%used + 1:self%used + len(text)) = text
+      self%used = self%used + len(text)
+   end subroutine put_lines
 
    !> Empty the buffer into the file; for the standard output, make the buffer larger.
    subroutine make_room(self, needed)

@@ -74,6 +74,7 @@ contains
       integer, allocatable :: first(:), weight(:), first_child(:), children(:)
       integer :: d, f, i, k, node, n_rows
 
+      tree%is_parallel = layout%fixed_operations + layout%moving_operations > parallel_work
       tree%number = number
       allocate (tree%fronts(layout%n))
       allocate (first(size(layout%order)), weight(size(layout%order)))
@@ -86,6 +87,7 @@ contains
       allocate (tree%of_equation(tree%n))
       allocate (tree%diagonal(tree%n), source=0.0_wp)
       allocate (tree%locked(tree%n), source=.false.)
+      !$omp parallel do schedule(dynamic, 64) default(shared) private(d, i, n_rows, node) if(tree%is_parallel)
       do f = 1, layout%n
          associate (front => tree%fronts(f), low => layout%first_pivot(f), high => layout%first_pivot(f + 1) - 1, &
                     rows => layout%rows(layout%first_row(f):layout%first_row(f + 1) - 1))
@@ -108,7 +110,9 @@ contains
             tree%of_equation(front%first:front%first + front%p - 1) = f
          end associate
       end do
+      !$omp end parallel do
       call list_owners(layout%n, reshape(layout%parent, [1, layout%n]), first_child, children)
+      !$omp parallel do schedule(dynamic, 64) default(shared) private(i, k) if(tree%is_parallel)
       do f = 1, layout%n
          tree%fronts(f)%children = children(first_child(f):first_child(f + 1) - 1)
          if (tree%fronts(f)%parent == 0) cycle
@@ -129,6 +133,7 @@ contains
             front%run = [pack([(i, i=1, front%r)], [(is_gap(front, parent%p, i), i=1, front%r)]), front%r + 1]
          end associate
       end do
+      !$omp end parallel do
       call hand_out_elements(model, tree)
       do f = 1, layout%n
          associate (front => tree%fronts(f))
@@ -139,7 +144,6 @@ contains
       tree%moving = pack([(f, f = 1, layout%n)], layout%moves(:layout%n))
       tree%equations = pack([(i, i = 1, tree%n)], tree%fronts(tree%of_equation)%moves)
       tree%most_rows = maxval(tree%fronts%p + tree%fronts%r)
-      tree%is_parallel = layout%fixed_operations + layout%moving_operations > parallel_work
    end subroutine start_front_tree
 
    !> Whether row I has its place in the parent's front not right behind that of the row before, or not in the same part of it.
@@ -160,9 +164,11 @@ contains
       integer :: e, f
 
       allocate (front(1, max(model%n_elements, size(model%interface))))
+      !$omp parallel do schedule(dynamic, 512) default(shared) if(tree%is_parallel)
       do e = 1, model%n_elements
          front(1, e) = front_of(tree, pack(tree%number(:, coupled_nodes(model, e)), .true.))
       end do
+      !$omp end parallel do
       call list_owners(size(tree%fronts), front(:, :model%n_elements), first, list)
       do f = 1, size(tree%fronts)
          tree%fronts(f)%elements = list(first(f):first(f + 1) - 1)

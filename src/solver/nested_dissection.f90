@@ -100,14 +100,16 @@ contains
    end subroutine dissect_coarsely
 
    !> WEIGHT of every link to a neighbour: one, and one for every neighbour that both have.
-   pure subroutine weigh_links(graph, weight)
+   subroutine weigh_links(graph, weight)
       type(node_graph_type), intent(in) :: graph
       integer, allocatable, intent(out) :: weight(:) !! as graph%neighbours
       integer, allocatable :: mark(:)
       integer :: i, j, k, l
 
       allocate (weight(size(graph%neighbours)), source=1)
+      !$omp parallel default(shared) private(mark, j, k, l) if(graph%n >= large)
       allocate (mark(graph%n), source=0)
+      !$omp do schedule(static)
       do i = 1, graph%n
          mark(graph%neighbours(graph%first(i):graph%first(i + 1) - 1)) = i
          do k = graph%first(i), graph%first(i + 1) - 1
@@ -117,6 +119,8 @@ contains
             end do
          end do
       end do
+      !$omp end do
+      !$omp end parallel
    end subroutine weigh_links
 
    !> A graph with half the nodes: every node is joined with the neighbour, not joined yet, to which its link weighs most; the

@@ -253,6 +253,15 @@ else check 'files may be that large' 0; fi
 status=$(cat "$work/status")
 check 'a listing into a pipe that nobody reads' 4 'cannot be written to the standard output'
 
+# ---- faults of a long deck: two threads read it ----
+
+{ sed '/^ENDDATA/d' good.bdf; echo 'MAT1,900,X'; seq -f 'GRID,%.0f,,0.0,0.0' 100001 106000; echo 'GRID,200001,Y'; echo ENDDATA; } > long.bdf
+"$program" --threads 1 long.bdf >"$work/stdout" 2>"$work/one_thread"
+"$program" --threads 2 long.bdf >"$work/stdout" 2>"$work/stderr"; status=$?
+check 'faults of a long deck, of a node' 2 'GRID, field 3'
+check 'faults of a long deck, of another card' 2 'MAT1, field 3'
+if cmp -s "$work/one_thread" "$work/stderr"; then pass; else fail 'faults of a long deck: two threads say what one says'; fi
+
 # ---- INCLUDE of what is no file ----
 
 mkfifo pipe
