@@ -335,7 +335,7 @@ for what in $wanted; do
    gmsh)     measure_gmsh ;;
    mpi)      measure_mpi ;;
    lists)    measure_lists over_20x20x8 over_24x17x8 over_24x24x8 ;;
-   modes)    measure_modes q4_1000x200 hex8_40x40x40 ;;
+   modes)    measure_modes q4_1000x200 hex8_40x40x40 hex8_50x50x50 ;;
    *)        measure_model "$what" ;;
    esac
 done

@@ -180,13 +180,13 @@ function lists(    i, m) {
 
 function modes(    i, m, once) {
    if (!rows["modes"]) return
-   title("Twenty natural modes, seconds, beside order and factor of the same run")
-   head("model;unknowns;order;factor;modes;modes/once")
+   title("Twenty natural modes, seconds, beside order and factorisation of the same run")
+   head("model;unknowns;order;factor;increment;modes;modes/once")
    for (i = 1; i <= rows["modes"]; i++) {
       m = row["modes", i]
-      once = v["modes", m, "order"] + v["modes", m, "factor"]
+      once = v["modes", m, "order"] + v["modes", m, "factor"] + v["modes", m, "increments"] # fronts that move: factorised there
       cells(label(m) ";" v["modes", m, "unknowns"] ";" seconds(v["modes", m, "order"]) ";" seconds(v["modes", m, "factor"]) ";" \
-         seconds(v["modes", m, "modes"]) ";" ratio(v["modes", m, "modes"], once))
+         seconds(v["modes", m, "increments"]) ";" seconds(v["modes", m, "modes"]) ";" ratio(v["modes", m, "modes"], once))
    }
    put()
 }

@@ -89,7 +89,8 @@ lists over_4x3x2 increments 2.0
 lists over_4x3x2 operations_moving 3e9
 lists over_4x3x2 unknowns 318
 modes q4_20x4 order 0.5
-modes q4_20x4 factor 1.5
+modes q4_20x4 factor 1
+modes q4_20x4 increments 0.5
 modes q4_20x4 modes 7
 modes q4_20x4 unknowns 400
 crossing_SKYLINE q4_20x4 solution 0.03
