@@ -8,6 +8,7 @@
 # touches the project itself. BUILD/results has a line per mutant: its place in the draw, what became of it, file, line, change.
 set -u
 export LC_ALL=C
+export OPENBLAS_NUM_THREADS=1 OMP_WAIT_POLICY=passive # threads that wait leave the cores to others
 build=$(realpath "$1") release=$(realpath "$2") compare=$(realpath "$3") query=$(realpath "$4") n=$5 seed=$6
 program_flags="-O1 -fopenmp -w"
 here=$(cd "$(dirname "$0")" && pwd)
