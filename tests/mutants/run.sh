@@ -56,7 +56,15 @@ until_failure() {
    done
    wait $id 2> /dev/null && ! tells "$logs"
 }
-tells() { cat "$1"/* 2> /dev/null | grep -qE "FAILED|[^0-9][1-9][0-9]* failed"; }
+failure="FAILED|[^0-9][1-9][0-9]* failed"
+tells() { cat "$1"/* 2> /dev/null | grep -qE "$failure"; }
+
+# The part of run_all.sh that failed; where it ended without a word, the last that had
+part_that_failed() {
+   local log
+   log=$(grep -lE "$failure" "$work/test/logs"/* | head -n 1)
+   if [ -n "$log" ]; then cat "$log.title"; else sed -n 's/^---- //p' "$work/command.log" | tail -n 1; fi
+}
 
 # The suites that use the module, and all others
 suites_of() { (cd "$tree" && grep -liE "^ *use +$1 *(,|$)" tests/unit/*.pf | xargs -r -n 1 basename -s .pf); }
@@ -116,7 +124,7 @@ fate() {
    if suites_fail $(suites_of "$module"); then echo 'killed by its unit tests'
    elif decks_fail $decks; then echo 'killed by decks'
    elif suites_fail $(other_suites "$module"); then echo 'killed by other unit tests'
-   elif rest_fails "$without"; then echo "killed by: $(sed -n 's/^---- //p' "$work/command.log" | tail -n 1)"
+   elif rest_fails "$without"; then echo "killed by: $(part_that_failed)"
    else echo survived
    fi
 }
