@@ -165,7 +165,7 @@ check: bin/jointfem $(COMPARE)
 # PART=threads: only that part
 .PHONY: sanitize
 sanitize: bin/jointfem
-	@MAKE='$(MAKE)' FC='$(FC)' tests/sanitize/run.sh $(BUILD)/sanitize $(PART)
+	@MAKE='$(MAKE)' FC='$(FC)' LIBRARIES='$(LIBRARIES)' tests/sanitize/run.sh $(BUILD)/sanitize $(PART)
 
 # The results of one deck become its reference: make accept CASE=prism05; its tables of stages, bolts, modes, their energy, response where
 # there are references of them, or where TABLES='stage bolt modes modes.energy response' asks for them

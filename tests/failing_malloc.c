@@ -1,5 +1,6 @@
-/* For memory.sh: memory that ends at a given allocation. LD_PRELOADed, it counts the requests of at least FAIL_BYTES (4096), and
-   from the FAIL_FROM-th on (never) they all fail. FAIL_COUNT names a file that the count is written to at the end. */
+/* For memory.sh: memory that ends at a given allocation. LD_PRELOADed, it counts the requests of at least FAIL_BYTES (4097: more than
+   a buffer of C's stdio, of which gcov takes one for every file that it writes when the program has ended), and from the FAIL_FROM-th
+   on (never) they all fail. FAIL_COUNT names a file that the count is written to at the end. */
 #define _GNU_SOURCE
 #include <errno.h>
 #include <stdio.h>
@@ -14,7 +15,7 @@ static int fails(size_t size)
    long this;
    if (__atomic_load_n(&from, __ATOMIC_RELAXED) < 0) {
       const char *text = getenv("FAIL_BYTES");
-      bytes = text ? atol(text) : 4096;
+      bytes = text ? atol(text) : 4097;
       text = getenv("FAIL_FROM");
       __atomic_store_n(&from, text ? atol(text) : 0, __ATOMIC_RELAXED);
    }

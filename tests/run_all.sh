@@ -23,6 +23,7 @@ part() {
    while [ "$(jobs -rp | wc -l)" -ge "$together" ]; do wait -n; done
    log=$build/test/logs/$begun
    titles[begun]=$1
+   echo "$1" > "$log.title"
    shift
    { "$@" > "$log" 2>&1; echo $? > "$log.status"; } &
    begun=$((begun + 1))

@@ -5,7 +5,9 @@
 !! The triangle around a place is found without the triangulation: lifted onto the paraboloid z = x**2 + y**2, it is the lowest one
 !! above the place. So from any triangle around the place the point farthest below its plane is exchanged for one of the corners,
 !! until there is none (the simplex method). Points on a grid make squares, of which both diagonals are as low: the paraboloid is a
-!! little oblique, in no direction that a grid would have, and one of them is lower everywhere.
+!! little oblique, in no direction that a grid would have, and one of them is lower everywhere. Where that makes no difference, in
+!! squares turned by half a radian, points count as lower by next to nothing, the first by most, every other by much less than
+!! the one before it (simulation of simplicity: Edelsbrunner and Muecke, ACM Transactions on Graphics 9 (1990) 66).
 module gap_table
    use kinds, only: wp
    implicit none
@@ -61,7 +63,8 @@ contains
          call find_outline(self)
    end subroutine build
 
-   !> The corners of the convex hull, from the leftmost on: the next one has no point on its right.
+   !> The corners of the convex hull, from the leftmost on: the next one has no point on its right. Points within ROUNDING of a side are on
+   !! it, and no corners: triangles of three of them would be none.
    pure subroutine find_outline(self)
       class(gap_table_type), intent(inout) :: self
       real(wp) :: right
@@ -78,9 +81,10 @@ contains
          next = merge(2, 1, now == 1)
          do i = 1, size(self%values)
             if (i == now .or. i == next) cycle
-            right = cross(self%x(:, i) - self%x(:, now), self%x(:, next) - self%x(:, now))
-            if (right > rounding**2 .or. (abs(right) <= rounding**2 .and. &
-                norm2(self%x(:, i) - self%x(:, now)) > norm2(self%x(:, next) - self%x(:, now)))) next = i
+            associate (here => self%x(:, i) - self%x(:, now), there => self%x(:, next) - self%x(:, now))
+               right = cross(here, there)/max(norm2(here), norm2(there))
+               if (right > rounding .or. (abs(right) <= rounding .and. norm2(here) > norm2(there))) next = i
+            end associate
          end do
          now = next
          if (now == first) exit
@@ -163,11 +167,13 @@ contains
          corners = self%outline([1, k, k + 1])
       end do
       do exchanges = 1, 10*size(self%values)
-         lowest = -flat
+         lowest = 0.0_wp
          entering = 0
          do i = 1, size(self%values)
             if (any(corners == i)) cycle
-            above = self%height(i) - dot_product(shares(self%x(:, corners), self%x(:, i)), self%height(corners))
+            share = shares(self%x(:, corners), self%x(:, i))
+            above = self%height(i) - dot_product(share, self%height(corners))
+            if (abs(above) <= flat) above = merge(-flat, 0.0_wp, counts_as_below(i, corners, share))
             if (above >= lowest) cycle
             lowest = above
             entering = i
@@ -188,6 +194,17 @@ contains
       weights = max(0.0_wp, shares(self%x(:, corners), place))
       weights = weights/sum(weights)
    end subroutine find_triangle
+
+   !> Whether point I, in the plane of the lifted CORNERS, in which they have these SHAREs, counts as below it: what the first of the
+   !! four is lower by decides. It is I itself, or a corner, with which the plane at I falls or rises.
+   pure logical function counts_as_below(i, corners, share)
+      integer, intent(in)  :: i, corners(3)
+      real(wp), intent(in) :: share(3)
+      integer :: k
+
+      k = minloc(corners, mask=abs(share) > rounding, dim=1)
+      counts_as_below = i < corners(k) .or. share(k) < 0.0_wp
+   end function counts_as_below
 
    !> The shares of three CORNERS(2, 3) in a PLACE: their weighted mean, with weights that add up to 1.
    pure function shares(corners, place)

@@ -127,9 +127,7 @@ contains
       at = k
       associate (card => cards%card)
          do while (at <= card%n)
-            if (card%fields(at)%length == 0) then
-               at = at + 1
-            else if (card%fields(at)%text == 'UM' .and. .not. allocated(rigid%um_nodes)) then
+            if (card%fields(at)%text == 'UM' .and. .not. allocated(rigid%um_nodes)) then
                call read_dependent(cards, at, rigid)
             else if (card%fields(at)%text == 'ALPHA' .and. at < card%n .and. rigid%alpha_at == 0) then
                call read_expansion(cards, at + 1, card%n, rigid)

@@ -2,7 +2,7 @@
 #
 # The checked build is made anew under $(BUILD)/coverage with counters in place of checks, and takes the part of both programs.
 
-COVERAGE_FLAGS = -O0 --coverage -fprofile-update=atomic -fopenmp $(WARNINGS)
+COVERAGE_FLAGS = -O0 --coverage -fprofile-update=atomic -fopenmp -fno-backtrace $(WARNINGS)
 
 .PHONY: coverage coverage-run
 coverage: $(COMPARE) $(QUERY)

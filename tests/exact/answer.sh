@@ -140,11 +140,15 @@ run only && judge 'tables limited to a set and a surface: nodes 2, 4, 55 and the
       for (k = 1; k <= 40; k++) if ((k % 4 == 1 || k <= 4 || k == 40) != (("elements", k) in seen)) print "element " k
       print "checked " n["nodes"] + n["joint"] + n["elements"]
    }' "$work/only.out"
-long_deck() { echo "SPC = 1;${1}$nodes;$cards" | sed 's/;ENDDATA//' | tr ';' '\n'; seq -f 'GRID,%.0f,,0.0,0.0' 100 5200; echo ENDDATA; }
+long_deck() { echo "SPC = 1;${1}$nodes;$cards" | sed 's/;ENDDATA//' | tr ';' '\n'; seq -f 'GRID,%.0f,,0.0,0.0' 100 "${2:-5200}"; echo ENDDATA; }
 long_deck '' > "$work/long.bdf"
 long_deck 'ECHO = YES;' > "$work/asked.bdf"
 run long && same 'a long deck: no card is echoed' "$(grep -c 'GRID,' "$work/long.out")" 0 && says 'and that is said' "$work/long.out" 'NOT ECHOED: ECHO = YES'
 run asked && same 'a long deck that is asked for' "$(grep -c 'GRID,' "$work/asked.out")" 5109
+long_deck '' 5085 > "$work/fits.bdf" # behind 14 cards
+run fits && same 'a deck of 5,000 cards is echoed' "$(grep -c 'GRID,' "$work/fits.out")" 4994
+long_deck '' 5086 > "$work/beyond.bdf"
+run beyond && same 'a deck of 5,001 cards is not' "$(grep -c 'GRID,' "$work/beyond.out")" 0
 sed 's/^ *OUTPUT.*//; s/^SUBCASE.*/&\nOUTPUT = NONE, PLOT/' input/bolted_cantilever.bdf > "$work/map.bdf"
 run map && judge 'the map of a joint: tenths of the largest pressure, rows from above, from left to right' '
    NR == FNR {

@@ -27,6 +27,12 @@ gap_spring one NEWTON 0.5 0.05 10.3 10 && ask 'closing is lambda and gap' one co
 says 'the history of a deck with a gap has a column for it' "$work/one.joint.csv" ',slip,gap$'
 gap_spring one NEWTON 0.5 0 10.0 10 && says 'and one without has not' "$work/one.joint.csv" ',slip$'
 
+# beside a joint without a gap: the table of gaps has those of the other alone
+gap_spring one NEWTON 0.5 0.05 10.0 3 && {
+   sed 's/^SPC1,1,12,2/CJOINT,6,2,2,,4.0,0.0,-1.0,0.0\nPJOINT,2,1,,,,,0.1\nSPC1,1,1,2/' "$work/one.bdf" > "$work/beside.bdf"
+   run beside && same 'the joint that has gaps' "$(table beside 'INITIAL GAPS' | awk '$1 ~ /^[0-9]+$/ { $1 = $1; print }')" '1 CONST 5.00000E-02 5.00000E-02 1 0'
+}
+
 # A history about the gap is that without gap under a load that is smaller by what the spring takes to the gap: loaded, relieved until
 # it opens, closed again past A; lambda, p and the work of the joint.
 for method in NEWTON STEP; do

@@ -248,6 +248,10 @@ says '--plot of several files' pictures.gp "set output 'pictures_5.svg'" "set ou
 fit --plot nowhere/fit.gp record.dat
 holds '--plot that cannot be written: status 4' [ $status -eq 4 ]
 says '--plot that cannot be written' stderr 'nowhere/fit.gp cannot be written'
+mkfifo pipe.gp
+fit --plot pipe.gp record.dat
+holds '--plot onto a pipe: status 4' [ $status -eq 4 ]
+says '--plot onto a pipe' stderr 'pipe.gp is a pipe and no file'
 if command -v gnuplot > /dev/null; then
    gnuplot fit.gp pictures.gp > said 2>&1
    holds '--plot: gnuplot draws' [ ! -s said -a -s fit.svg -a -s pictures_5.svg -a -s pictures_6.svg ]

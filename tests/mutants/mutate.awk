@@ -105,7 +105,7 @@ function statements(    p, open, close_at, bound) {
    if (match(code, /^ *([a-z_]+: )?do [a-z_]+ = [^,]*, /) || match(code, /^ *do concurrent \([a-z_]+ = [^:]*:/)) {
       p = RLENGTH + 1
       bound = substr(code, p)
-      if (bound ~ /^[^,]*$/) { sub(/\) *$/, "", bound); sub(/ *$/, "", bound); change(p, length(bound), substr(whole, p, length(bound)) " - 1", "bound of a loop") }
+      if (bound ~ /^[^,]*$/) { if (code ~ /^ *do concurrent/) sub(/\) *$/, "", bound); sub(/ *$/, "", bound); change(p, length(bound), substr(whole, p, length(bound)) " - 1", "bound of a loop") }
    }
    if (match(code, /^ *[a-z][a-z0-9_%]*(\([^=<>\/]*\))? = [a-z(]/)) # the first term of what is assigned
       if (code ~ /_wp|[*\/+]| - /) change(RLENGTH, 0, "-", "sign of a term")

@@ -8,6 +8,7 @@
 # touches the project itself. BUILD/results has a line per mutant: its place in the draw, what became of it, file, line, change.
 set -u
 export LC_ALL=C
+export OPENBLAS_NUM_THREADS=1 OMP_WAIT_POLICY=passive # threads that wait leave the cores to others
 build=$(realpath "$1") release=$(realpath "$2") compare=$(realpath "$3") query=$(realpath "$4") n=$5 seed=$6
 program_flags="-O1 -fopenmp -w"
 here=$(cd "$(dirname "$0")" && pwd)
@@ -55,7 +56,15 @@ until_failure() {
    done
    wait $id 2> /dev/null && ! tells "$logs"
 }
-tells() { cat "$1"/* 2> /dev/null | grep -qE "FAILED|[^0-9][1-9][0-9]* failed"; }
+failure="FAILED|[^0-9][1-9][0-9]* failed"
+tells() { cat "$1"/* 2> /dev/null | grep -qE "$failure"; }
+
+# The part of run_all.sh that failed; where it ended without a word, the last that had
+part_that_failed() {
+   local log
+   log=$(grep -lE "$failure" "$work/test/logs"/* | head -n 1)
+   if [ -n "$log" ]; then cat "$log.title"; else sed -n 's/^---- //p' "$work/command.log" | tail -n 1; fi
+}
 
 # The suites that use the module, and all others
 suites_of() { (cd "$tree" && grep -liE "^ *use +$1 *(,|$)" tests/unit/*.pf | xargs -r -n 1 basename -s .pf); }
@@ -115,7 +124,7 @@ fate() {
    if suites_fail $(suites_of "$module"); then echo 'killed by its unit tests'
    elif decks_fail $decks; then echo 'killed by decks'
    elif suites_fail $(other_suites "$module"); then echo 'killed by other unit tests'
-   elif rest_fails "$without"; then echo "killed by: $(sed -n 's/^---- //p' "$work/command.log" | tail -n 1)"
+   elif rest_fails "$without"; then echo "killed by: $(part_that_failed)"
    else echo survived
    fi
 }

@@ -40,6 +40,9 @@ contains
    end subroutine work
 end module subject
 END
+printf 'contains\n do i = 1, size(n)\n do concurrent (k = 1:size(n))\n' > loops.f90
+awk -v seed=1 -f "$here/mutate.awk" loops.f90 | cut -f 4,6 | grep bound | sort | same 'the bound of a loop, whole' "bound of a loop	 do concurrent (k = 1:size(n) - 1)
+bound of a loop	 do i = 1, size(n) - 1"
 # mutants [OPTION...]: line, what is done, and the line as it becomes
 mutants() { awk -v seed=1 "$@" -f "$here/mutate.awk" src/*/*.f90 | cut -f 3,4,6 | sed "s/$(printf "\\t") */: /g" | sort; }
 mutants | same 'every single change, and no other' "10: call left out: continue  ! 7

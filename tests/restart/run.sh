@@ -160,6 +160,13 @@ rm -rf hand.now; mkdir hand.now; mkdir hand.now/hand.restart
 check 'a restart file that cannot be written' 4 'the restart file hand.now/hand.restart cannot be written; the run goes on'
 rmdir hand.now/hand.restart
 diff -rq -x '*.restart' hand.whole hand.now && pass || fail 'a restart file that cannot be written: other results'
+mkdir factors.now # room for the results, which are smaller
+room=$((($(stat -c %s factors.whole/factors.restart) + $(stat -c %s factors.whole/factors.joint.csv))/2048))
+(trap '' XFSZ; ulimit -f $room; exec "$program" -q --threads 1 -o factors.now decks/factors.bdf) > now.said 2> now.error; status=$?
+check 'a restart file that there is no room for' 4 'the restart file factors.now/factors.restart cannot be written; the run goes on'
+diff -rq -x '*.restart' factors.whole factors.now && pass || fail 'no room for a restart file: other results, or a part of it'
+resume factors 0;                         check 'the older restart file, which stays' 0 ': taken up from'
+same factors
 mkfifo hand.now/hand.restart
 resume hand 0;                            check 'a pipe as restart file' 1 'it is no file that can be read'
 rm -rf hand.now; mkdir hand.now

@@ -69,5 +69,35 @@ DECK
 }
 for method in STEP NEWTON BACK; do overflow $method 1.0E50 1.0E70; done
 
+# beyond E FORCE TIMES WORDS: a block of next to no section, 2E-60, that TIMES the FORCE stretches; WORDS say what is beyond all measure
+beyond() {
+   cat > beyond.bdf << DECK
+SPC = 1
+SUBCASE 1
+  LOAD = 2
+  INCR = 1
+BEGIN BULK
+BLOCK2,1,1,2,1,0.0,0.0
++,2.0E-30,1.0E-30
++,20,,22
+PMARK,20
+PMARK,22
+PSHELL,1,1,1.0E-30
+MAT1,1,$1,,0.3
+SPCM,1,12,20
+FORCEM,1,$2,0.0,1.0,0.0,22
+LOAD,2,$3,1.0,1
+JINCR,1,2
+ENDDATA
+DECK
+   rm -f beyond.out
+   check "E $1, $2 times $3 on an area of 2E-60: status" "$(run beyond)" 3
+   check "E $1, $2 times $3: what is too large, and where" "$(grep -c "stage 1, increment [12].*: $4 .*is .*beyond all measure" beyond.err)" 1
+   check "E $1, $2 times $3: no listing" "$(find . -name 'beyond.out' | wc -l)" 0
+}
+beyond 1.0E-50 1.0E70 1.0 'the displacement of node'       # E-30 F/(E A)
+beyond 1.0E70 1.0E70 1.0E40 'the load of node'
+beyond 1.0E50 1.0E70 1.0 'the stress of element'           # F/A, at a displacement of 1E50
+
 echo "$passed passed, $failed failed"
 [ $failed -eq 0 ]
