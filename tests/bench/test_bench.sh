@@ -105,7 +105,7 @@ row() {
    tr -s ' -' < "$work/tables" | grep -qE "$1"
    count "no row in $work/tables is like $1" $?
 }
-row '^\| Q4 20 x 4 \| 400 \| 0.50 \| 1.50 \| 7.00 \| 3.50 \|$'
+row '^\| Q4 20 x 4 \| 400 \| 0.50 \| 1.00 \| 0.50 \| 7.00 \| 3.50 \|$'
 row '^\| Q4 20 x 4 \| 400 \| - \| - \| - \| 0.20 \| 0.20 \| 0.80 \| 1.60 \| - \| - \| 4.00 \| \|$' # the factor without assembly
 row '^\| Q4 10 x 2 \| 100 \| - \| - \| - \| 0.10 \| 0.0500 \| 0.10 \| 0.40 \| - \| 12.0 \|' # three digits
 row '^\| Q4 10 x 2 \| Q4 20 x 4 \| - \| 0.50 \| 1.00 \| 1.50 \| 1.00 \| - '      # order x 2, factor x 8, unknowns x 4
