@@ -97,8 +97,6 @@ contains
             front%parent = layout%parent(f)
             front%r = sum(weight(rows))
             allocate (front%rows(front%r))
-            front%left = tree%n_left
-            tree%n_left = tree%n_left + front%r
             n_rows = 0
             do i = 1, size(rows)
                node = rows(i)
@@ -111,6 +109,10 @@ contains
          end associate
       end do
       !$omp end parallel do
+      do f = 1, layout%n
+         tree%fronts(f)%left = tree%n_left
+         tree%n_left = tree%n_left + tree%fronts(f)%r
+      end do
       call list_owners(layout%n, reshape(layout%parent, [1, layout%n]), first_child, children)
       !$omp parallel do schedule(dynamic, 64) default(shared) private(i, k) if(tree%is_parallel)
       do f = 1, layout%n
