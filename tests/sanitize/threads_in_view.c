@@ -37,7 +37,7 @@ static task *queue;
 static int lock_word;
 static unsigned seed;
 static __thread task *now;
-static __thread int singles_met, loops_met;
+static __thread int singles_met, loops_met, my_number;
 
 static void lock(void) { while (__atomic_exchange_n(&lock_word, 1, __ATOMIC_ACQUIRE)) sched_yield(); }
 static void unlock(void) { __atomic_store_n(&lock_word, 0, __ATOMIC_RELEASE); }
@@ -50,6 +50,8 @@ int omp_get_max_threads_(void)
    if (n_threads == 0) n_threads = words ? atoi(words) : 4;
    return n_threads;
 }
+int omp_get_num_threads(void) { return team ? team->threads : 1; }
+int omp_get_thread_num(void) { return team ? my_number : 0; }
 double omp_get_wtime_(void)
 {
    struct timespec t;
@@ -190,6 +192,7 @@ static void *work(void *argument)
    task top = {0};
    now = &top;
    singles_met = loops_met = 0;
+   my_number = me->number;
    me->team->routine(me->team->data);
    GOMP_barrier();
    return NULL;
@@ -232,4 +235,18 @@ void GOMP_parallel_loop_dynamic(void (*routine)(void *), void *data, unsigned th
                                 unsigned flags)
 {
    GOMP_parallel_loop_nonmonotonic_dynamic(routine, data, threads, start, end, step, chunk, flags);
+}
+
+/* Sections are a loop over their numbers, from 1 on; 0: no more. */
+unsigned GOMP_sections_next(void)
+{
+   long number, behind;
+   return GOMP_loop_nonmonotonic_dynamic_next(&number, &behind) ? (unsigned)number : 0;
+}
+void GOMP_sections_end_nowait(void) {}
+
+void GOMP_parallel_sections(void (*routine)(void *), void *data, unsigned threads, unsigned count, unsigned flags)
+{
+   (void)flags;
+   parallel((team_type){.routine = routine, .data = data, .next_index = 1, .end = (long)count + 1, .step = 1, .chunk = 1}, threads);
 }
