@@ -454,6 +454,15 @@ DECK
    run "$1"
 }
 
+# Three sections of the bar of oscillating_bar, one of them its end, have equations that tie their nodes.
+tie_sections() { # NAME N
+   local i
+   sed -i 's/^SPC = 1$/&\nMPC = 7/; /^ENDDATA/d' "$work/$1.bdf"
+   for i in 1 $(($2/2)) $2; do echo "MPC,7,$((2*i + 1)),1,1.0,$((2*i + 2)),1,-1.0"; done >> "$work/$1.bdf"
+   echo ENDDATA >> "$work/$1.bdf"
+   run "$1"
+}
+
 # A cantilever, n elements with incompatible modes along it, L/h = 100, plane stress.
 oscillating_cantilever() { # NAME N
    cat > "$work/$1.bdf" <<DECK

@@ -24,6 +24,15 @@ for n in 8 16 32 64; do
    [ -n "$before" ] && near "bar, $n elements: order 2" "$before/($error)" 4 0.02
    before=$error
 done
+# nodes of a section that an equation ties move alike anyway: the same frequencies, mass and modes
+for n in 10 200; do
+   oscillating_bar bar $n CONSISTENT MODES && cp "$work/bar.modes.csv" "$work/loose.modes.csv" && tie_sections bar $n || continue
+   for j in 1 2 3; do
+      near "tied bar of $n elements: mode $j" "$(mode bar $j frequency)" "$(mode loose $j frequency)" 1e-9
+      near "tied bar of $n elements: effective mass $j" "$(mode bar $j mass_x)" "$(mode loose $j mass_x)" 1e-9
+      holds "tied bar of $n elements: residual of mode $j" "$(mode bar $j residual) < 1e-7"
+   done
+done
 # free: the held motions across the bar are supports too, and let go: three motions without strain
 oscillating_bar free 40 CONSISTENT 'MODES(FREE)' && {
    for j in 1 2 3; do same "free bar: mode $j has no frequency" "$(number "$(mode free $j frequency) = 0")" 1; done
