@@ -94,7 +94,7 @@ contains
       character(*), intent(in)            :: path
 
       call self%reserve(path)
-      if (self%waits) call self%open_part(self%part)
+      if (self%waits) call self%open_part((self%part)) ! a copy: the call sets it
       if (.not. self%is_open) call self%discard()
    end subroutine start
 
