@@ -46,6 +46,7 @@ contains
       call set_option('-jointfem_mg_levels_ksp_chebyshev_esteig', '0,0.05,0,1.1')
       call set_option('-jointfem_pc_gamg_use_sa_esteig', '0') ! those bounds are of the stiffness that the aggregates are of
       call set_option('-jointfem_pc_gamg_agg_nsmooths', '1')
+      call set_option('-mat_product_clear', 'true') ! what products of matrices took beside their result goes back at once
    end subroutine set_library_options
 
    subroutine set_option(name, value)
