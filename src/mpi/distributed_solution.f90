@@ -32,7 +32,7 @@ module distributed_solution
    real(wp), parameter :: loosest = 1.0e-9_wp    !! of the load may be left, and it is still a solution: rounding allows no less
    integer, parameter  :: most_steps = 500
    integer, parameter, public :: no_limit = huge(1) !! of the steps of a solution, but that
-   integer, parameter  :: lean_from = 250000     !! rows of a process, from which on the set-up of several takes a third less
+   integer, parameter  :: lean_from = 600000     !! rows of a process, from which on the set-up of several takes a fifth less
                                                  !! memory, and several times longer
    integer, parameter  :: most_solutions = 3     !! one after another, each from where the one before has come
 
