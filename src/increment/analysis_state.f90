@@ -17,7 +17,7 @@ module analysis_state
    private
 
    public :: start_analysis, all_held, interface_stiffness, find_movements, find_unbalanced, subtract_joint_forces, &
-             element_force, tally_work, record_pass, note_largest, free_norm, force_noise, kind_on_branch
+             element_force, tally_work, book_friction, record_pass, note_largest, free_norm, force_noise, kind_on_branch
 
    real(wp), parameter, public :: precise = 1.0e-6_wp !! of the load: what rounding may leave of the forces that joints are to balance
 
@@ -25,8 +25,8 @@ module analysis_state
 
    !> Work done on one joint in the present stage [force x length].
    type, public :: joint_energy
-      real(wp) :: put_in(2)     = 0.0_wp            !! by shear, by normal forces: sum of the positive works
-      real(wp) :: given_back(2) = 0.0_wp            !! likewise of the negative ones, as a positive number
+      real(wp) :: put_in(3)     = 0.0_wp            !! by shear, by normal forces, on friction: sum of the positive works
+      real(wp) :: given_back(3) = 0.0_wp            !! likewise of the negative ones, as a positive number
    end type joint_energy
 
    !> One re-analysis after the Coulomb check, or one iteration towards equilibrium, for the listing.
@@ -271,14 +271,22 @@ contains
       noise = 10.0_wp*epsilon(1.0_wp)*system%stiffest*maxval(abs(u))
    end function force_noise
 
-   !> Add the works (by shear, by normal forces) done on one element to those of its joint.
+   !> Add the works (by shear, by normal forces, on friction) done on one element to those of its joint.
    pure subroutine tally_work(energy, work)
       type(joint_energy), intent(inout) :: energy
-      real(wp), intent(in)              :: work(2)
+      real(wp), intent(in)              :: work(3)
 
       energy%put_in = energy%put_in + max(0.0_wp, work)
       energy%given_back = energy%given_back + max(0.0_wp, -work)
    end subroutine tally_work
+
+   !> WORK of what has been put in by shear was done on friction [force x length].
+   pure subroutine book_friction(energy, work)
+      type(joint_energy), intent(inout) :: energy
+      real(wp), intent(in)              :: work
+
+      energy%put_in = energy%put_in + [-work, 0.0_wp, work]
+   end subroutine book_friction
 
    !> Keep the largest pressure and deflection that there have been.
    pure subroutine note_largest(analysis)

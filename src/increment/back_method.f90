@@ -14,7 +14,7 @@ module back_method
    use equations, only: equation_system, forces_in_bodies, form_structure_stiffness, solve_equations
    use failures, only: failure_type
    use interface_operator, only: add_force, joint_movement
-   use joint_laws, only: back_stiffness, exceeds_limit, loading_work, rest_margin
+   use joint_laws, only: back_stiffness, exceeds_limit, loading_work, rest_margin, stand_at_limits
    use kinds, only: wp
    use model_data, only: joint_node_id, model_type
    use normal_curve, only: loading_deflection, loading_pressure, pressure_floor
@@ -194,6 +194,10 @@ contains
             state%shear%k_s = [now%k_int(1, 1, i), now%k_int(2, 2, i)]
             state%shear%tau = state%shear%k_s*deflection(:2)/element%area
             state%slips = exceeds_limit(law, state, rest_margin)
+            if (state%slips) then
+               call stand_at_limits(law, state)
+               state%shear%slid = state%shear%delta_0
+            end if
             call tally_work(analysis%energy(element%joint), loading_work(law, element%area, state))
          end associate
       end do

@@ -46,7 +46,7 @@ contains
 
       shift = 0.0_wp
       if (state%branch == branch_load) return
-      shift = state%sense*turn%tau - cubic_value(cubic_of(law, state%branch), state%sense*turn%delta, p)
+      shift = state%sense*turn%tau - cubic_value(cubic_of(law, state%branch), state%sense*(turn%delta - state%delta_0), p)
    end function branch_shift
 
 end module branch_starts

@@ -27,7 +27,7 @@ contains
       type(model_type), intent(in)       :: model
       type(analysis_type), intent(inout) :: analysis
       type(element_state) :: after
-      real(wp) :: tangent(3, 3), work(2)
+      real(wp) :: tangent(3, 3), work(3)
       integer  :: i
 
       if (.not. allocated(analysis%exact)) return

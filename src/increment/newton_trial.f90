@@ -21,7 +21,7 @@ module newton_trial
       real(wp), allocatable :: u(:, :), body(:, :)    ! (dimension, retained) displacements, forces in the bodies
       type(element_state), allocatable :: states(:)
       real(wp), allocatable :: tangent(:, :, :)       ! (3, 3, n) in joint axes
-      real(wp), allocatable :: work(:, :)             ! (2, n) since the committed state
+      real(wp), allocatable :: work(:, :)             ! (3, n) since the committed state
       real(wp), allocatable :: residual(:, :)
       real(wp) :: size = 0.0_wp                       ! of the residual on free components [force]
    end type trial_type
@@ -36,7 +36,7 @@ contains
 
       trial%u = analysis%u
       allocate (trial%body, trial%residual, mold=analysis%u)
-      allocate (trial%tangent(3, 3, size(analysis%states)), trial%work(2, size(analysis%states)))
+      allocate (trial%tangent(3, 3, size(analysis%states)), trial%work(3, size(analysis%states)))
       trial%states = analysis%states
       call forces_in_bodies(system, trial%u, trial%body)
    end subroutine start_trial

@@ -1,10 +1,10 @@
 !> METHOD = STEP, the step-wise tangent-stiffness method: one routine a box of the flow chart (Fig. 6a).
 module step_method
-   use analysis_state, only: analysis_type, pass_record, record_pass, slip_record, tally_work
+   use analysis_state, only: analysis_type, book_friction, pass_record, record_pass, slip_record, tally_work
    use equations, only: equation_system, forces_in_bodies, form_structure_stiffness, solve_equations
    use failures, only: failure_type
    use interface_operator, only: add_force, joint_movement
-   use joint_laws, only: exceeds_limit, flag_margin, friction_excess, friction_limit
+   use joint_laws, only: exceeds_limit, flag_margin, friction_excess, friction_limit, take_by_slip
    use kinds, only: wp
    use model_data, only: joint_node_id, model_type
    use normal_stiffness, only: pressure_reached
@@ -91,7 +91,7 @@ contains
       class(equation_system), intent(in) :: system
       real(wp), intent(in)               :: f(:, :) !! (dimension, retained) [force]
       type(analysis_type), intent(inout) :: analysis
-      real(wp) :: movement(3), work(2), tau
+      real(wp) :: movement(3), work(3), tau
       integer  :: i, k
 
       analysis%u = analysis%u + analysis%du
@@ -99,7 +99,7 @@ contains
       do i = 1, size(model%interface)
          movement = joint_movement(system%interface(i), analysis%du)
          associate (state => analysis%states(i), area => model%interface(i)%area)
-            work(1) = 0.0_wp
+            work = 0.0_wp
             do k = 1, 2
                tau = state%shear(k)%tau
                state%shear(k)%delta = state%shear(k)%delta + movement(k)
@@ -242,7 +242,8 @@ contains
       type(analysis_type), intent(inout) :: analysis
       real(wp), intent(out)              :: relief(:, :)
       logical, intent(out)               :: again
-      integer :: i, k
+      real(wp) :: slid(2)
+      integer  :: i
 
       relief = 0.0_wp
       again = .false.
@@ -250,9 +251,8 @@ contains
          if (.not. is_relieved(model, i, pass, excess(:, i))) cycle
          associate (element => system%interface(i))
             again = .true.
-            do k = 1, 2
-               analysis%states(i)%shear(k)%tau = analysis%states(i)%shear(k)%tau - excess(k, i)/element%area
-            end do
+            call take_by_slip(excess(:, i)/element%area, analysis%k(:2, i)/element%area, analysis%states(i)%shear, slid)
+            call book_friction(analysis%energy(model%interface(i)%joint), element%area*sum(analysis%states(i)%shear%tau*slid))
             call add_force(element, [excess(:, i), 0.0_wp], relief)
          end associate
       end do

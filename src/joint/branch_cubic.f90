@@ -2,11 +2,12 @@
 !! Source: Edelugo, Eqs. (3)-(7) and Fig. 2: coefficients that are straight lines in the pressure.
 module branch_cubic
    use kinds, only: wp
+   use polynomial_zeros, only: enclosed_zero
    implicit none
    private
 
    public :: cubic_value, cubic_slope, cubic_slope_derivatives, cubic_secant, cubic_work, cubic_loop
-   public :: cubic_by_pressure, value_on_way, slope_on_way
+   public :: cubic_by_pressure, value_on_way, slope_on_way, deflection_at
 
    !> P(d) = a_1 d + a_2 d**2 + a_3 d**3, a_k = a_k1 + a_k2 p.
    type, public :: cubic
@@ -27,6 +28,30 @@ contains
       a = at_pressure(curve, p)
       stress = d*(a(1) + d*(a(2) + d*a(3)))
    end function cubic_value
+
+   !> The least d >= 0 at which P is STRESS under the pressure P; where P peaks below STRESS, the peak [length].
+   pure real(wp) function deflection_at(curve, stress, p) result(d)
+      type(cubic), intent(in) :: curve
+      real(wp), intent(in)    :: stress !! >= 0 [pressure]
+      real(wp), intent(in)    :: p
+      real(wp) :: a(3), q(3), unit, farthest, root
+
+      d = 0.0_wp
+      a = at_pressure(curve, p)
+      if (a(1) <= 0.0_wp .or. stress <= 0.0_wp) return
+      unit = stress/a(1)                                   ! x = d/unit: P/stress = x + q_2 x**2 + q_3 x**3
+      q = [1.0_wp, a(2)*unit/a(1), a(3)*unit*unit/a(1)]
+      ! the first zero of P', in the form without cancellation; a cubic that rises up to x = 4 has reached 1 there
+      farthest = 4.0_wp
+      root = q(2)**2 - 3.0_wp*q(3)
+      if (root >= 0.0_wp) then
+         root = sqrt(root) - q(2)
+         if (root*farthest > 1.0_wp) farthest = 1.0_wp/root
+      end if
+      d = unit*farthest
+      if (farthest*(1.0_wp + farthest*(q(2) + farthest*q(3))) <= 1.0_wp) return
+      d = unit*enclosed_zero([-1.0_wp, q], [0.0_wp, farthest])
+   end function deflection_at
 
    !> dP/dp at D [-]: the same at every pressure.
    elemental real(wp) function cubic_by_pressure(curve, d) result(slope)

@@ -1,17 +1,17 @@
 !> All laws of a joint together, the state of one of its elements, and the Coulomb limit between them; element by element what
 !! the methods ask of them: STEP stiffnesses, NEWTON the exact way, BACK secants.
 module joint_laws
-   use branch_cubic, only: cubic_secant, cubic_slope, cubic_work
+   use branch_cubic, only: cubic_secant, cubic_work
    use kinds, only: wp
    use normal_curve, only: loading_pressure, normal_law, normal_secant, pressure_floor
    use normal_stiffness, only: branch_open, closed_share, follow_normal, is_virgin, norm, normal_state, stored_work
    use shear_path, only: follow_shear
-   use shear_stiffness, only: shear, shear_law, shear_state
+   use shear_stiffness, only: curve_deflection, shear, shear_law, shear_slope, shear_state, stand_at_limit
    implicit none
    private
 
    public :: element_stiffness_of, follow_element, rest_when_open, is_apart
-   public :: friction_limit, friction_excess, exceeds_limit
+   public :: friction_limit, friction_excess, exceeds_limit, take_by_slip, stand_at_limits
    public :: back_stiffness, loading_work
 
    real(wp), parameter :: slip_margin = 1.0e-9_wp ! of the limit: rounding does not make a joint slip
@@ -58,6 +58,7 @@ contains
       if (is_virgin(area, state%normal)) pressure = state%normal%p_av
       k(:2) = 0.0_wp
       if (state%normal%branch == branch_open) return
+      if (state%slips) call stand_at_limits(law, state)
       do i = 1, 2
          call shear(law%shear(i), area, max(0.0_wp, pressure), state%shear(i), k(i))
       end do
@@ -121,6 +122,30 @@ contains
       excess = tau*(1.0_wp - friction_limit(law, state%normal%pressure)/norm2(tau))*area
    end function friction_excess
 
+   !> Both directions of an element that slips stand at the point of their loading curves where slip begins.
+   pure subroutine stand_at_limits(law, state)
+      type(joint_law), intent(in)        :: law
+      type(element_state), intent(inout) :: state
+      integer :: i
+
+      do i = 1, 2
+         call stand_at_limit(law%shear(i), max(0.0_wp, state%normal%pressure), state%shear(i))
+      end do
+   end subroutine stand_at_limits
+
+   !> Slip takes the stress EXCESS from STATE, which the branch had at the stiffness SLOPE: what it has slid grows by EXCESS/SLOPE.
+   elemental subroutine take_by_slip(excess, slope, state, slid)
+      real(wp), intent(in)             :: excess !! [pressure]
+      real(wp), intent(in)             :: slope  !! [pressure/length], >= 0
+      type(shear_state), intent(inout) :: state
+      real(wp), intent(out)            :: slid   !! by how much [length]
+
+      slid = 0.0_wp
+      state%tau = state%tau - excess
+      if (slope > 0.0_wp) slid = excess/slope
+      state%slid = state%slid + slid
+   end subroutine take_by_slip
+
    !> Follow all laws of one element exactly from its state BEFORE, in equilibrium, to MOVEMENT: the branches, and Coulomb as a
    !! return to the limit.
    pure subroutine follow_element(law, area, before, movement, after, tangent, work)
@@ -130,8 +155,8 @@ contains
       real(wp), intent(in)             :: movement(3)   !! of end 1 against end 2, in all [length]
       type(element_state), intent(out) :: after
       real(wp), intent(out)            :: tangent(3, 3) !! d (forces x, y, z)/d movement [force/length], not symmetric
-      real(wp), intent(out)            :: work(2)       !! done by shear, by normal forces [force x length]
-      real(wp) :: by_delta(2), by_p(2), slope, shear_work, limit, size_of_tau, along(2), share, share_by_lambda
+      real(wp), intent(out)            :: work(3)       !! done by shear, by normal forces, on friction [force x length]
+      real(wp) :: by_delta(2), by_p(2), slope, shear_work, limit, size_of_tau, along(2), share, share_by_lambda, slid(2)
       integer  :: i
 
       after = before
@@ -167,8 +192,14 @@ contains
                                            matmul(spread(along, 1, 1), tangent(:2, :2))))
       tangent(:2, 3) = limit/size_of_tau*(tangent(:2, 3) - along*dot_product(along, tangent(:2, 3))) &
                        + law%mu*slope*area*along
+      do i = 1, 2
+         call take_by_slip(after%shear(i)%tau - limit*along(i), shear_slope(law%shear(i), after%shear(i), &
+                           max(0.0_wp, after%normal%pressure)), after%shear(i), slid(i))
+      end do
       after%shear%tau = limit*along
-      work(1) = sum(0.5_wp*area*(before%shear%tau + after%shear%tau)*(after%shear%delta - before%shear%delta))
+      work(3) = area*sum(after%shear%tau*slid)
+      work(1) = sum(0.5_wp*area*(before%shear%tau + after%shear%tau)*(after%shear%delta - before%shear%delta)) - work(3)
+      call stand_at_limits(law, after)
    end subroutine follow_element
 
    !> BACK: secants K = (k_sx, k_sy, k_n) of the loading curves at the DEFLECTION: p(lambda)/lambda, P(d)/d under this p and cut to
@@ -188,21 +219,17 @@ contains
       k(3) = normal_secant(law%normal, area, p)
    end function back_stiffness
 
-   !> Work done by shear, by normal forces on the way of an element from rest to STATE [force x length]: along the loading curves,
-   !! and where it slips along the limit, from the deflection on at which the first slope reaches it.
+   !> Work done by shear, by normal forces, on friction on the way of an element from rest to STATE [force x length]: along the loading
+   !! curves, and what it has slid along the limit.
    pure function loading_work(law, area, state) result(work)
       type(joint_law), intent(in)     :: law
       real(wp), intent(in)            :: area
       type(element_state), intent(in) :: state
-      real(wp) :: work(2), by_shear(2), d(2), slope(2), tau(2)
+      real(wp) :: work(3)
 
       associate (lambda => state%normal%lambda, p => state%normal%pressure, loading => law%shear%load)
-         d = abs(state%shear%delta)
-         tau = abs(state%shear%tau)
-         slope = cubic_slope(loading, 0.0_wp, p)
-         by_shear = cubic_work(loading, d, p)
-         where (state%slips .and. slope > 0.0_wp) by_shear = tau*(d - 0.5_wp*tau/slope)
-         work = area*[sum(by_shear), stored_work(law%normal, lambda, p, p)]
+         work = area*[sum(cubic_work(loading, curve_deflection(state%shear), p)), stored_work(law%normal, lambda, p, p), &
+                      sum(state%shear%tau*state%shear%slid)]
       end associate
    end function loading_work
 

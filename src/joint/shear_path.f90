@@ -7,8 +7,8 @@ module shear_path
    use kinds, only: wp
    use normal_stiffness, only: branch_load
    use polynomial_zeros, only: derivative, enclosed_zero, find_zeros, polynomial, zero_list
-   use shear_stiffness, only: cubic_of, goal_sense, join_loading, least_movement, least_stress, leave_offset, look_ahead, &
-                              shear_law, shear_slope, shear_state, turn
+   use shear_stiffness, only: cubic_of, goal_sense, join_loading, least_movement, least_stress, leave_offset, shear_law, &
+                              shear_slope, shear_state, turn
    implicit none
    private
 
@@ -20,7 +20,7 @@ module shear_path
    real(wp), parameter :: gauss_3(3) = 0.5_wp + [-0.5_wp, 0.0_wp, 0.5_wp]*sqrt(0.6_wp)  ! on 0..1
    real(wp), parameter :: weight_3(3) = [5.0_wp, 8.0_wp, 5.0_wp]/18.0_wp
 
-   !> The straight way of one step: (delta, p) is start + f change at the fraction f of it.
+   !> The straight way of one step: (delta - delta_0, p) is start + f change at the fraction f of it.
    type :: way_type
       real(wp) :: start(2) = 0.0_wp, change(2) = 0.0_wp
    end type way_type
@@ -29,8 +29,9 @@ module shear_path
    type :: piece_type
       real(wp)    :: from = 0.0_wp, to = 1.0_wp
       type(cubic) :: curve
-      real(wp)    :: sense = 1.0_wp          ! its d is sense*delta
+      real(wp)    :: sense = 1.0_wp          ! its d is sense*(delta - delta_0)
       logical     :: meets = .false.         ! it ends on the loading curve that the branch goes to
+      logical     :: ends_at_a = .false.     ! it ends at d_r
    end type piece_type
 
    !> What is gathered along the way: derivatives of tau by the ends of the way, and work.
@@ -55,7 +56,6 @@ contains
       type(gain_type)  :: gain
       real(wp) :: moved
       integer  :: i
-      logical  :: was_parallel
 
       after = before
       after%delta_before = before%delta
@@ -68,18 +68,20 @@ contains
       after%delta = delta
       if (.not. law%given) return
       if (abs(moved) <= least_movement(law, before, p(2))) then
-         by_delta = shear_slope(law, after, [delta, p(2)])
+         by_delta = shear_slope(law, after, p(2))
          after%tau = before%tau + by_delta*moved
          return
       end if
-      way = way_type(start=[before%delta, p(1)], change=[moved, p(2) - p(1)])
+      way = way_type(start=[before%delta - before%delta_0, p(1)], change=[moved, p(2) - p(1)])
       call turn(after%sense*moved < 0.0_wp, after)
       do i = 1, most_pieces
-         was_parallel = after%parallel
          call next_piece(law, after, way, piece)
-         if (after%parallel .neqv. was_parallel) call pass_bend(law, piece, way, after, gain)
          call follow_piece(piece, way, after, gain)
-         if (piece%meets) call pass_corner(law, piece, way, after, gain)
+         if (piece%meets) then
+            call pass_corner(law, piece, way, after, gain)
+         else if (piece%ends_at_a) then
+            call pass_a(law, piece, way, after, gain)
+         end if
          if (piece%to >= 1.0_wp) exit
          piece%from = piece%to
       end do
@@ -89,17 +91,18 @@ contains
    end subroutine follow_shear
 
    !> The piece that begins at PIECE%FROM, where STATE has the stress. It ends where the way does, where a slope passes through
-   !! zero, at which it is cut off, where delta = 0 and the curve begins that the branch goes to, where the branch becomes
-   !! steeper or less steep than that, or where it meets it.
+   !! zero, at which it is cut off, at d = 0, where the curve begins that the branch goes to, at d_r, where the branch meets that curve,
+   !! and past d_r where another of the two slopes becomes the steeper one.
    pure subroutine next_piece(law, state, way, piece)
-      type(shear_law), intent(in)      :: law
-      type(shear_state), intent(inout) :: state !! which may find here that it will not meet it
-      type(way_type), intent(in)       :: way
-      type(piece_type), intent(inout)  :: piece
-      real(wp) :: d(2), p(2), goal, slope(0:4), goal_slope(0:4), excess(0:4)
+      type(shear_law), intent(in)     :: law
+      type(shear_state), intent(in)   :: state
+      type(way_type), intent(in)      :: way
+      type(piece_type), intent(inout) :: piece
+      real(wp) :: d(2), p(2), goal, at_a, slope(0:4), goal_slope(0:4), excess(0:4)
 
       piece%to = 1.0_wp
       piece%meets = .false.
+      piece%ends_at_a = .false.
       piece%curve = cubic_of(law, state%branch)
       piece%sense = state%sense
       p = [way%start(2), way%change(2)]
@@ -112,23 +115,48 @@ contains
          piece%to = min(piece%to, -d(1)/d(2))
          return
       end if
-      goal_slope = slope_on_way(law%load, d, p)
-      call end_at_zeros(goal_slope, piece)
-      call end_at_zeros(slope - goal_slope, piece)
-      call look_ahead(law, way%start + piece%from*way%change, state)
-      if (state%parallel) then
-         piece%curve = law%load
-         piece%sense = goal
-         slope = goal_slope
+      at_a = (state%d_r - d(1))/d(2)
+      if (piece%from + rounding < at_a) then
+         piece%ends_at_a = at_a <= piece%to
+         piece%to = min(piece%to, at_a)
+      else
+         goal_slope = slope_on_way(law%load, d, p)
+         excess = excess_over_goal(law, state, way, piece, slope)
+         if (polynomial(excess, piece%from) > least_stress(state, maxval(p))) then
+            piece%ends_at_a = .true. ! above the curve at d_r or past it
+            piece%to = piece%from
+            return
+         end if
+         call end_at_zeros(goal_slope, piece)
+         call end_at_zeros(slope - goal_slope, piece)
+         if (polynomial(goal_slope, 0.5_wp*(piece%from + piece%to)) > polynomial(slope, 0.5_wp*(piece%from + piece%to))) then
+            piece%curve = law%load
+            piece%sense = goal
+            slope = goal_slope
+         end if
       end if
-      ! tau above the curve, as a polynomial in f: the integral of the slope from FROM on, less the curve
+      excess = excess_over_goal(law, state, way, piece, slope)
+      call end_at_meeting(excess, least_stress(state, maxval(p)), piece)
+   end subroutine next_piece
+
+   !> tau above the curve that the branch goes to, as a polynomial in f: the stress at the beginning of PIECE and the integral of the
+   !! SLOPE from there on, less the curve [pressure].
+   pure function excess_over_goal(law, state, way, piece, slope) result(excess)
+      type(shear_law), intent(in)   :: law
+      type(shear_state), intent(in) :: state
+      type(way_type), intent(in)    :: way
+      type(piece_type), intent(in)  :: piece
+      real(wp), intent(in)          :: slope(0:4)
+      real(wp) :: excess(0:4), d(2), goal
+
+      goal = goal_sense(state)
+      d = goal*[way%start(1), way%change(1)]
       excess = 0.0_wp
       if (polynomial(slope, 0.5_wp*(piece%from + piece%to)) > 0.0_wp) &
          excess(1:) = d(2)*slope(:3)/[1.0_wp, 2.0_wp, 3.0_wp, 4.0_wp]
       excess(0) = goal*state%tau - state%offset - polynomial(excess, piece%from)
-      excess = excess - value_on_way(law%load, d, p)
-      call end_at_meeting(excess, least_stress(state, maxval(p)), piece)
-   end subroutine next_piece
+      excess = excess - value_on_way(law%load, d, [way%start(2), way%change(2)])
+   end function excess_over_goal
 
    !> Let a piece end at the first zero of the polynomial C, if there is one.
    pure subroutine end_at_zeros(c, piece)
@@ -164,20 +192,30 @@ contains
       piece%meets = .false.
    end subroutine end_at_meeting
 
-   !> Pass from a branch onto the slope of the loading curve that it goes to, where that curve begins: at delta = 0, which stands at
-   !! another fraction of the way when the end of the way moves. Where that happens elsewhere the slopes are the same, or t = 0.
-   pure subroutine pass_bend(law, piece, way, state, gain)
-      type(shear_law), intent(in)    :: law
-      type(piece_type), intent(in)   :: piece
-      type(way_type), intent(in)     :: way
-      type(shear_state), intent(in)  :: state
-      type(gain_type), intent(inout) :: gain
-      real(wp) :: place(2)
+   !> At d_r, without having met the curve that the branch goes to: above it the branch is the loading branch from here, with an o of
+   !! its own; below it the branch goes on along the steeper slope. d_r stands at another fraction of the way when the end of the way
+   !! moves: with t that fraction, g the slope,
+   !!    d tau_end/d end = ... - t (g_before - g_after).
+   pure subroutine pass_a(law, piece, way, state, gain)
+      type(shear_law), intent(in)      :: law
+      type(piece_type), intent(in)     :: piece
+      type(way_type), intent(in)       :: way
+      type(shear_state), intent(inout) :: state
+      type(gain_type), intent(inout)   :: gain
+      real(wp) :: d, goal, p, own, loading
 
-      place = way%start + piece%from*way%change
-      gain%by_delta = gain%by_delta - piece%from*(cubic_slope(cubic_of(law, state%branch), state%sense*place(1), place(2)) &
-                                                  - cubic_slope(law%load, goal_sense(state)*place(1), place(2)))
-   end subroutine pass_bend
+      goal = goal_sense(state)
+      d = goal*(way%start(1) + piece%to*way%change(1))
+      p = way%start(2) + piece%to*way%change(2)
+      own = cubic_slope(piece%curve, piece%sense*goal*d, p)
+      loading = cubic_slope(law%load, d, p)
+      if (goal*state%tau - state%offset > cubic_value(law%load, d, p)) then
+         call join_loading(state)
+      else
+         loading = max(loading, own)
+      end if
+      gain%by_delta = gain%by_delta - piece%to*(own - loading)
+   end subroutine pass_a
 
    !> Pass from the end of a piece onto the loading curve that it meets there. The fraction at which it does changes with the ends
    !! of the way: with t that fraction, e(t) = 0 the excess over the curve, g the slope, D the change of delta,

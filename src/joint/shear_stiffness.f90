@@ -7,24 +7,27 @@
 !!                                   |    L   R  R          U    .                  it meets L of the other sense and joins it
 !!                                   |  L   R            U       .
 !!                                   |L  R           U  U        .       R  RELOAD  tau = c0 + C(d), Eqs. (4), (5), from S, where U
-!!    -------------------------------|-R----------U--------------+------            turned back again, to where it meets L, before
-!!                                 R |         U  U             d_r    d            A or after it; where R turns back, U anew
+!!    -------------------------------|-R----------U--------------+------            turned back again, to where it meets L, at A
+!!                                 R |         U  U             d_r    d            at the latest; where R turns back, U anew
 !!                               R   |      U
 !!                             R     |  U  U                             b0 and c0 make a branch begin at the stress that is there;
 !!                           R  U  U U                                   o, what L has of its path, is 0 where p never changed.
 !!                U  U  U  S         |                                   d and tau count in the sense s of the loading, +1 or -1:
-!! L  L M  U  U  U                   | -tau_r                            d = s delta. A, B, C are cubics whose coefficients are
-!!                                                                       straight lines in the pressure (Fig. 2).
+!! L  L M  U  U  U                   | -tau_r                            d = s (delta - delta_0); slip moves delta_0. A, B, C are
+!!                                                                       cubics, coefficients straight lines in the pressure (Fig. 2).
+!!
+!! U and R end where they meet the loading curve that they go to (M, and A or before it). A branch that comes to d_r without having
+!! met that curve is the loading branch from there where it is above the curve; below it, it goes on along the steeper of the two
+!! slopes until it meets the curve.
 module shear_stiffness
-   use branch_cubic, only: cubic, cubic_slope, cubic_value, value_on_way
+   use branch_cubic, only: cubic, cubic_slope, cubic_value, deflection_at
    use kinds, only: wp
    use normal_stiffness, only: branch_load, branch_reload, branch_unload
-   use polynomial_zeros, only: find_zeros, zero_list
    implicit none
    private
 
-   public :: shear, shear_slope, least_movement, least_stress, turn, goal_sense, look_ahead, join_loading, leave_offset
-   public :: cubic_of
+   public :: shear, shear_slope, least_movement, least_stress, turn, goal_sense, is_past_a, join_loading, leave_offset
+   public :: cubic_of, curve_deflection, stand_at_limit
 
    real(wp), parameter :: rounding = 1.0e-10_wp ! of the stresses at hand: a change below this is none
    real(wp), parameter :: touching = 1.0e-11_wp ! of them: what comes so near to a curve meets it
@@ -40,14 +43,15 @@ module shear_stiffness
    type, public :: shear_state
       integer  :: branch = branch_load
       real(wp) :: sense  = 1.0_wp              !! s
-      real(wp) :: delta  = 0.0_wp              !! accumulated shear deflection [length]
+      real(wp) :: delta  = 0.0_wp              !! all that the faces have moved since they closed [length]
+      real(wp) :: delta_0 = 0.0_wp             !! the origin, which slip moves: d = s (delta - delta_0) [length]
+      real(wp) :: slid   = 0.0_wp              !! how much of delta is sliding [length]
       real(wp) :: delta_before = 0.0_wp        !! before the last increment
       real(wp) :: tau    = 0.0_wp              !! shear stress [pressure]
       real(wp) :: tau_before = 0.0_wp
       real(wp) :: d_r    = 0.0_wp, tau_r = 0.0_wp !! point A, where the last unloading left the loading curve
       real(wp) :: offset = 0.0_wp              !! o = tau - A(d; p) of the loading branch, after it as it was at A [pressure]
       real(wp) :: side   = 0.0_wp              !! of an increment's end: above (+1) or below the curve that the branch goes to
-      logical  :: parallel = .false.           !! the branch will not meet that curve, and goes on along its slope
       real(wp) :: k_s    = 0.0_wp              !! stiffness of the last increment [force/length]
    end type shear_state
 
@@ -66,8 +70,7 @@ contains
       if (.not. law%given) return
       call ask_diamonds(law, pressure, state)
       call leave_offset(law, pressure, state)
-      call look_ahead(law, [state%delta, pressure], state)
-      k_s = area*shear_slope(law, state, [state%delta, pressure])
+      k_s = area*shear_slope(law, state, pressure)
    end subroutine shear
 
    !> The questions of section 4.3: the branch that the element is on for the next increment.
@@ -81,9 +84,24 @@ contains
       change = state%sense*(state%delta - state%delta_before)
       if (abs(change) > least) call turn(change < 0.0_wp, state)
       if (state%branch == branch_load) return
+      if (goal_sense(state)*(state%delta - state%delta_0) < 0.0_wp) return
       call find_side(law, pressure, state)
-      if (.not. abs(state%side) > 0.0_wp .and. goal_sense(state)*state%delta >= 0.0_wp) call join_loading(state)
+      if (.not. abs(state%side) > 0.0_wp .or. (is_past_a(state) .and. state%side > 0.0_wp)) call join_loading(state)
    end subroutine ask_diamonds
+
+   !> d = s (delta - delta_0), the deflection that the cubics are asked at [length].
+   elemental real(wp) function curve_deflection(state) result(d)
+      type(shear_state), intent(in) :: state
+
+      d = state%sense*(state%delta - state%delta_0)
+   end function curve_deflection
+
+   !> Whether a returning branch has come to d_r, in the sense of the loading curve that it goes to.
+   pure logical function is_past_a(state)
+      type(shear_state), intent(in) :: state
+
+      is_past_a = goal_sense(state)*(state%delta - state%delta_0) >= (1.0_wp - rounding)*state%d_r
+   end function is_past_a
 
    !> The branch that begins with a movement, of which STATE holds the place before it: BACK against the sense of the branch, or
    !! forth. Only what leaves the loading curve sets point A.
@@ -95,7 +113,7 @@ contains
       branch = state%branch
       if (back) then
          if (branch == branch_load) then
-            state%d_r = state%sense*state%delta_before
+            state%d_r = state%sense*(state%delta_before - state%delta_0)
             state%tau_r = state%sense*state%tau_before
          end if
          state%branch = branch_unload
@@ -104,7 +122,6 @@ contains
       end if
       if (state%branch == branch) return
       state%side = 0.0_wp
-      state%parallel = .false.
    end subroutine turn
 
    !> The sense of the loading curve that an unloading or reloading branch goes to: the other one, its own.
@@ -114,17 +131,16 @@ contains
       sense = merge(-state%sense, state%sense, state%branch == branch_unload)
    end function goal_sense
 
-   !> On which side of the curve that the branch goes to the increment has ended: SIDE, 0 where it has met that curve, which begins
-   !! at delta = 0, on its straight way, or has not come to delta = 0.
+   !> On which side of the curve that the branch goes to the increment has ended, behind the beginning of that curve at d = 0: SIDE,
+   !! 0 where it has met that curve on its straight way.
    pure subroutine find_side(law, pressure, state)
       type(shear_law), intent(in)      :: law
       real(wp), intent(in)             :: pressure
       type(shear_state), intent(inout) :: state
       real(wp) :: d(2), tau(2), excess(2), least
 
-      d = goal_sense(state)*[state%delta_before, state%delta]
+      d = goal_sense(state)*([state%delta_before, state%delta] - state%delta_0)
       tau = goal_sense(state)*[state%tau_before, state%tau]
-      if (d(2) < 0.0_wp) return
       if (d(1) < 0.0_wp) then
          tau(1) = tau(1) - (tau(2) - tau(1))*d(1)/(d(2) - d(1))
          d(1) = 0.0_wp
@@ -142,7 +158,6 @@ contains
 
       state%sense = goal_sense(state)
       state%branch = branch_load
-      state%parallel = .false.
    end subroutine join_loading
 
    !> Take up o = tau - A(d; p) while the element is on its loading curve: what it has of its path (0 where p never changed). The
@@ -153,7 +168,7 @@ contains
       type(shear_state), intent(inout) :: state
 
       if (state%branch /= branch_load) return
-      state%offset = state%sense*state%tau - cubic_value(law%load, state%sense*state%delta, pressure)
+      state%offset = state%sense*state%tau - cubic_value(law%load, curve_deflection(state), pressure)
       state%side = 0.0_wp
    end subroutine leave_offset
 
@@ -177,46 +192,38 @@ contains
       least = touching*max(abs(state%tau), abs(state%tau_before), abs(state%tau_r), abs(pressure))
    end function least_stress
 
-   !> d tau/d delta on the branch of STATE at the PLACE (delta, p), not below zero [pressure/length].
-   pure real(wp) function shear_slope(law, state, place) result(slope)
+   !> d tau/d delta on the branch of STATE under the PRESSURE, not below zero [pressure/length]. A returning branch past d_r that has not
+   !! met its curve follows the steeper of the two.
+   pure real(wp) function shear_slope(law, state, pressure) result(slope)
       type(shear_law), intent(in)   :: law
       type(shear_state), intent(in) :: state
-      real(wp), intent(in)          :: place(2)
+      real(wp), intent(in)          :: pressure
 
-      if (state%parallel) then
-         slope = cubic_slope(law%load, goal_sense(state)*place(1), place(2))
-      else
-         slope = cubic_slope(cubic_of(law, state%branch), state%sense*place(1), place(2))
-      end if
+      slope = cubic_slope(cubic_of(law, state%branch), curve_deflection(state), pressure)
+      if (state%branch == branch_load) return
+      if (is_past_a(state)) slope = max(slope, cubic_slope(law%load, goal_sense(state)*(state%delta - state%delta_0), pressure))
    end function shear_slope
 
-   !> At the PLACE (delta, p), under the stress of STATE: the branch becomes PARALLEL to the loading curve that it goes to, for the
-   !! rest of it, where it moves away from that curve, less steep below it or steeper above, and would not meet it in the tested
-   !! range.
-   pure subroutine look_ahead(law, place, state)
+   !> An element that slips stands at point D of the loading curve of the sense in which it slips, where slip begins, and has forgotten
+   !! its branches: the asperities that have slid meet anew (section 4.4). Where the curve peaks below its stress it stands at the peak.
+   pure subroutine stand_at_limit(law, pressure, state)
       type(shear_law), intent(in)      :: law
-      real(wp), intent(in)             :: place(2)
-      type(shear_state), intent(inout) :: state
-      real(wp), parameter :: far = 1.0e60_wp ! what polynomials can be formed of
-      type(zero_list) :: meetings
-      real(wp) :: behind(0:4), bound, d, parts, s
-      integer  :: highest
+      real(wp), intent(in)             :: pressure
+      type(shear_state), intent(inout) :: state !! its tau is what slip has left
+      real(wp) :: d
 
-      s = goal_sense(state)
-      d = s*place(1)
-      if (state%branch == branch_load .or. state%parallel .or. d < -rounding*state%d_r) return
-      ! how far it would be above the curve further on, as a polynomial in that distance
-      behind = state%sense*s*value_on_way(cubic_of(law, state%branch), state%sense*s*[d, 1.0_wp], [place(2), 0.0_wp]) &
-               - value_on_way(law%load, [d, 1.0_wp], [place(2), 0.0_wp])
-      behind(0) = s*state%tau - cubic_value(law%load, d, place(2)) - state%offset
-      parts = behind(1)
-      if (abs(parts) <= rounding*cubic_slope(law%load, 0.0_wp, place(2))) parts = behind(2) ! alike here: further on then
-      if (abs(behind(0)) <= least_stress(state, place(2)) .or. behind(0)*parts <= 0.0_wp) return
-      highest = findloc(abs(behind) > 0.0_wp, .true., dim=1, back=.true.) - 1
-      bound = 1.0_wp + maxval(abs(behind(:highest - 1)))/abs(behind(highest)) ! Cauchy's: no zero lies beyond
-      call find_zeros(behind, 0.0_wp, min(bound, far, max(0.0_wp, law%d_max - d)), meetings)
-      state%parallel = meetings%n == 0
-   end subroutine look_ahead
+      if (.not. law%given) return
+      if (abs(state%tau) > 0.0_wp) state%sense = sign(1.0_wp, state%tau)
+      state%branch = branch_load
+      d = deflection_at(law%load, abs(state%tau), pressure)
+      state%delta_0 = state%delta - state%sense*d
+      state%d_r = 0.0_wp
+      state%tau_r = 0.0_wp
+      state%side = 0.0_wp
+      state%delta_before = state%delta ! the increment is no movement along a branch
+      state%tau_before = state%tau
+      call leave_offset(law, pressure, state)
+   end subroutine stand_at_limit
 
    !> The cubic of a branch.
    pure type(cubic) function cubic_of(law, branch) result(curve)

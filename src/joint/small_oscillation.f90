@@ -8,6 +8,7 @@ module small_oscillation
    use kinds, only: wp
    use normal_curve, only: normal_tangent
    use normal_stiffness, only: branch_open
+   use shear_stiffness, only: curve_deflection
    implicit none
    private
 
@@ -40,9 +41,9 @@ contains
          do i = 1, 2
             if (.not. law%shear(i)%given) cycle
             if (on_loading) then
-               k(i) = area*cubic_slope(law%shear(i)%load, abs(state%shear(i)%delta), p)
+               k(i) = area*cubic_slope(law%shear(i)%load, abs(curve_deflection(state%shear(i))), p)
             else
-               k(i) = area*cubic_slope(law%shear(i)%unload, state%shear(i)%sense*state%shear(i)%delta, p)
+               k(i) = area*cubic_slope(law%shear(i)%unload, curve_deflection(state%shear(i)), p)
             end if
          end do
       end associate

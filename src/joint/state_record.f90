@@ -54,6 +54,8 @@ contains
       call stream%item(state%branch)
       call stream%item(state%sense)
       call stream%item(state%delta)
+      call stream%item(state%delta_0)
+      call stream%item(state%slid)
       call stream%item(state%delta_before)
       call stream%item(state%tau)
       call stream%item(state%tau_before)
@@ -61,7 +63,6 @@ contains
       call stream%item(state%tau_r)
       call stream%item(state%offset)
       call stream%item(state%side)
-      call stream%item(state%parallel)
       call stream%item(state%k_s)
    end subroutine record_shear
 

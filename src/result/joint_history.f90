@@ -23,7 +23,7 @@ contains
 
       call file%put('stage,increment,load,joint,element,node1,node2,x,y,z,area,branch,lambda,pressure,force,k_n,'// &
                     'branch_x,delta_x,tau_x,k_sx,branch_y,delta_y,tau_y,k_sy,slip'// &
-                    trim(merge(',gap', '    ', has_gaps(model))))
+                    trim(merge(',gap', '    ', has_gaps(model)))//trim(merge(',slid_x,slid_y', '              ', can_slide(model))))
    end subroutine write_history_header
 
    !> One row an interface element, for the increment just completed. node2 is 0 for the rigid base; a direction without
@@ -35,9 +35,10 @@ contains
       type(analysis_type), intent(in)       :: analysis
       type(csv_line_type) :: line
       integer  :: i, k, same
-      logical  :: gaps
+      logical  :: gaps, slides
 
       gaps = has_gaps(model)
+      slides = can_slide(model)
       call line%add([plan%stages(analysis%stage)%id, analysis%increment])
       call line%add(clean([analysis%fraction]))
       same = line%length                  ! the columns that all rows have in common
@@ -62,8 +63,16 @@ contains
          end do
          call line%add(merge('1', '0', analysis%states(i)%slips))
          if (gaps) call line%add(clean([model%interface(i)%gap]))
+         if (slides) call line%add(clean(analysis%states(i)%shear%slid))
          call file%put(line%text(:line%length))
       end do
    end subroutine write_history
+
+   !> Whether any joint has a coefficient of friction.
+   pure logical function can_slide(model)
+      type(model_type), intent(in) :: model
+
+      can_slide = any(model%joints%law%has_friction)
+   end function can_slide
 
 end module joint_history

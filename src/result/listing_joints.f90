@@ -6,7 +6,7 @@ module listing_joints
    use joint_laws, only: friction_limit
    use joint_motion, only: find_frame, find_resultant, joint_frame, joint_resultant
    use kinds, only: wp
-   use listing_table, only: axes, column, heading, listing_table_type, noise, page_type
+   use listing_table, only: axes, column, column_type, heading, listing_table_type, noise, page_type
    use model_data, only: has_gaps, joint_node_id, model_type
    use normal_curve, only: loading_deflection
    use normal_stiffness, only: branch_name
@@ -225,21 +225,28 @@ contains
       end do
    end subroutine note_passes
 
-   !> Work done on the joints in the stage, by shear and by normal forces; the difference is lost where the stage closes a loop.
+   !> Work done on the joints in the stage, by normal forces, by shear and on friction; of the first two the difference is lost where
+   !! the stage closes a loop, what friction takes is lost at once.
    subroutine list_energy(page, model, analysis)
       type(page_type), intent(inout)  :: page
       type(model_type), intent(in)    :: model
       type(analysis_type), intent(in) :: analysis
       character(10), parameter :: names(3) = [character(10) :: 'PUT IN', 'GIVEN BACK', 'KEPT']
       type(listing_table_type) :: table
+      type(column_type), allocatable :: columns(:)
       real(wp) :: floor
       integer  :: j, k
+      logical  :: slides
 
       if (size(model%joints) == 0) return
+      slides = any(model%joints%law%has_friction)
       call heading(page%file, 'ENERGY OF JOINTS, '//page%stage)
-      call page%file%put('                 ------------- NORMAL -------------------   -------------- SHEAR -------------------')
-      call table%start('', [column('JOINT', 'i11', heading_shift=-1), column(names, ['es14.5', 'es13.5', 'es13.5']), &
-                            column(names, ['es15.5', 'es13.5', 'es13.5'])])
+      call page%file%put('                 ------------- NORMAL -------------------   -------------- SHEAR -------------------'// &
+                         trim(merge('   SLIDING', '          ', slides)))
+      columns = [column('JOINT', 'i11', heading_shift=-1), column(names, ['es14.5', 'es13.5', 'es13.5']), &
+                 column(names, ['es15.5', 'es13.5', 'es13.5'])]
+      if (slides) columns = [columns, column('LOST', 'es15.5')]
+      call table%start('', columns)
       call table%print_head(page%file)
       if (page%labels%moment /= '') call page%file%put('                 ('//trim(page%labels%moment)//')')
       do j = 1, size(model%joints)
@@ -249,6 +256,7 @@ contains
             do k = 2, 1, -1
                call table%add(clean([energy%put_in(k), energy%given_back(k), energy%put_in(k) - energy%given_back(k)], floor))
             end do
+            if (slides) call table%add(clean([energy%put_in(3)], floor))
             call table%print_row(page%file)
          end associate
       end do

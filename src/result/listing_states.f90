@@ -6,6 +6,7 @@ module listing_states
    use listing_table, only: axes, column, heading, listing_table_type, noise, page_type
    use model_data, only: joint_node_id, model_type, n_rotations
    use normal_stiffness, only: branch_name, branch_reload, branch_unload
+   use shear_stiffness, only: curve_deflection
    use shown_rows, only: shows_interface
    use text_tools, only: clean, integer_text, upper
    use branch_starts, only: branch_shift
@@ -79,7 +80,7 @@ contains
                call table%add([element%id, joint_node_id(model, i, 1)])
                call table%add(branch_name(state%branch))
                call table%add([nint(state%sense)])
-               call table%add([clean(state%sense*state%delta, delta_floor), clean(state%sense*state%tau, tau_floor), &
+               call table%add([clean(curve_deflection(state), delta_floor), clean(state%sense*state%tau, tau_floor), &
                                clean(state%d_r, delta_floor), clean(state%tau_r, tau_floor)])
                if (state%branch == branch_unload) call table%add([shift])
                if (state%branch == branch_reload) then

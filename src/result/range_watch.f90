@@ -2,6 +2,7 @@
 !! bound, joint and stage, with the number of interface elements and the worst of them); unloading softer than loading (once a
 !! joint), stages that end far from balance, and stiffnesses of poor condition.
 module range_watch
+   use branch_cubic, only: cubic_slope
    use analysis_state, only: analysis_type, free_norm
    use joint_laws, only: friction_excess, friction_limit
    use kinds, only: wp
@@ -11,7 +12,7 @@ module range_watch
    use normal_stiffness, only: branch_load, branch_open
    use restart_stream, only: restart_stream_type
    use shear_closure, only: loop_closure, worst_closure
-   use shear_stiffness, only: shear_law, shear_slope
+   use shear_stiffness, only: curve_deflection, shear_law, shear_slope
    use stage_plan, only: stage_plan_type, where_in_plan
    use text_tools, only: integer_text, plural, real_text, upper
    use unknown_names, only: unknown_name
@@ -43,13 +44,13 @@ module range_watch
       type(tally_type), allocatable, private :: tallies(:, :) ! (bounds, joints)
       logical, allocatable, private :: soft_line(:)  ! whether a joint was warned of its E_u
       integer, allocatable, private :: first_of(:, :)  ! (2, joints) the first direction of the model with the same shear law
-      logical, allocatable, private :: parted(:)       ! whether that direction, counted through, was warned of parting branches
+      logical, allocatable, private :: soft_unloading(:) ! whether that direction, counted through, was warned of soft unloading
    end type range_watch_type
 
 contains
 
-   !> Note, with the first increment, the laws whose loops stay open; the laws of which an element has come to where a branch will
-   !! not meet the loading curve that it goes to.
+   !> Note, with the first increment, the laws whose loops stay open; and the laws of which an element has come to where unloading would
+   !! begin less steep than loading is: there a branch leaves its loading curve on the wrong side.
    subroutine watch_shear_laws(model, plan, analysis, watch)
       type(model_type), intent(in)          :: model
       type(stage_plan_type), intent(in)     :: plan
@@ -60,15 +61,20 @@ contains
       if (.not. allocated(watch%first_of)) call watch_closures(model, watch)
       do i = 1, size(model%interface)
          do k = 1, model%dimension - 1
-            if (.not. analysis%states(i)%shear(k)%parallel) cycle
             law = watch%first_of(k, model%interface(i)%joint)
-            if (watch%parted(law)) cycle
-            watch%parted(law) = .true.
-            watch%n_warnings = watch%n_warnings + 1
-            call watch%rows%keep_line('  WARNING: NODE '//integer_text(joint_node_id(model, i, 1))//', '// &
-               upper(where_in_plan(plan, analysis%stage, analysis%increment))//': THE BRANCH WILL NOT MEET THE LOADING CURVE, '// &
-               'IT GOES ON ALONG ITS SLOPE; SHEAR LAW OF JOINT '// &
-               integer_text(model%joints(model%interface(i)%joint)%id)//', '//axes(k))
+            if (law == 0) cycle
+            if (watch%soft_unloading(law)) cycle
+            associate (curves => model%joints(model%interface(i)%joint)%law%shear(k), state => analysis%states(i)%shear(k), &
+                       p => max(0.0_wp, analysis%states(i)%normal%pressure))
+               if (state%branch /= branch_load .or. cubic_slope(curves%unload, curve_deflection(state), p) >= &
+                   (1.0_wp - rounding)*cubic_slope(curves%load, curve_deflection(state), p)) cycle
+               watch%soft_unloading(law) = .true.
+               watch%n_warnings = watch%n_warnings + 1
+               call watch%rows%keep_line('  WARNING: NODE '//integer_text(joint_node_id(model, i, 1))//', '// &
+                  upper(where_in_plan(plan, analysis%stage, analysis%increment))//': SHEAR LAW OF JOINT '// &
+                  integer_text(model%joints(model%interface(i)%joint)%id)//', '//axes(k)// &
+                  ': UNLOADING IS LESS STEEP THAN LOADING AT P = '//real_text(p)//', D = '//real_text(curve_deflection(state)))
+            end associate
          end do
       end do
    end subroutine watch_shear_laws
@@ -81,7 +87,7 @@ contains
       integer :: i, j, k
 
       allocate (watch%first_of(2, size(model%joints)), source=0)
-      allocate (watch%parted(2*size(model%joints)), source=.false.)
+      allocate (watch%soft_unloading(2*size(model%joints)), source=.false.)
       do j = 1, size(model%joints)
          do k = 1, model%dimension - 1
             associate (law => model%joints(j)%law%shear(k))
@@ -129,10 +135,10 @@ contains
             associate (law => model%joints(model%interface(i)%joint)%law%shear(k), shear => analysis%states(i)%shear(k))
                if (.not. law%given) cycle
                p = analysis%states(i)%normal%pressure
-               d = abs(shear%delta)
+               d = abs(curve_deflection(shear))
                if (p > law%p_max) call count_element(beyond_p, p, law%p_max)
                if (d > law%d_max) call count_element(beyond_d, d, law%d_max)
-               if (shear_slope(law, shear, [shear%delta, max(0.0_wp, p)]) <= 0.0_wp) call count_element(no_slope, d, 0.0_wp)
+               if (shear_slope(law, shear, max(0.0_wp, p)) <= 0.0_wp) call count_element(no_slope, d, 0.0_wp)
             end associate
          end do
       end do
@@ -310,7 +316,7 @@ contains
       call stream%list(watch%stage)
       call stream%list(watch%soft_line)
       call stream%list(watch%first_of)
-      call stream%list(watch%parted)
+      call stream%list(watch%soft_unloading)
       is_there = allocated(watch%tallies)
       call stream%item(is_there)
       n = 0
