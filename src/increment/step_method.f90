@@ -4,7 +4,7 @@ module step_method
    use equations, only: equation_system, forces_in_bodies, form_structure_stiffness, solve_equations
    use failures, only: failure_type
    use interface_operator, only: add_force, joint_movement
-   use joint_laws, only: exceeds_limit, flag_margin, friction_excess, friction_limit, take_by_slip
+   use joint_laws, only: exceeds_limit, flag_margin, friction_excess, friction_limit
    use kinds, only: wp
    use model_data, only: joint_node_id, model_type
    use normal_stiffness, only: pressure_reached
@@ -251,7 +251,10 @@ contains
          if (.not. is_relieved(model, i, pass, excess(:, i))) cycle
          associate (element => system%interface(i))
             again = .true.
-            call take_by_slip(excess(:, i)/element%area, analysis%k(:2, i)/element%area, analysis%states(i)%shear, slid)
+            slid = 0.0_wp
+            where (analysis%k(:2, i) > 0.0_wp) slid = excess(:, i)/analysis%k(:2, i)
+            analysis%states(i)%shear%tau = analysis%states(i)%shear%tau - excess(:, i)/element%area
+            analysis%states(i)%shear%slid = analysis%states(i)%shear%slid + slid
             call book_friction(analysis%energy(model%interface(i)%joint), element%area*sum(analysis%states(i)%shear%tau*slid))
             call add_force(element, [excess(:, i), 0.0_wp], relief)
          end associate

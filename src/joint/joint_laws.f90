@@ -6,12 +6,12 @@ module joint_laws
    use normal_curve, only: loading_pressure, normal_law, normal_secant, pressure_floor
    use normal_stiffness, only: branch_open, closed_share, follow_normal, is_virgin, norm, normal_state, stored_work
    use shear_path, only: follow_shear
-   use shear_stiffness, only: curve_deflection, shear, shear_law, shear_slope, shear_state, stand_at_limit
+   use shear_stiffness, only: curve_deflection, shear, shear_law, shear_state, slid_from, stand_at_limit
    implicit none
    private
 
    public :: element_stiffness_of, follow_element, rest_when_open, is_apart
-   public :: friction_limit, friction_excess, exceeds_limit, take_by_slip, stand_at_limits
+   public :: friction_limit, friction_excess, exceeds_limit, stand_at_limits
    public :: back_stiffness, loading_work
 
    real(wp), parameter :: slip_margin = 1.0e-9_wp ! of the limit: rounding does not make a joint slip
@@ -133,19 +133,6 @@ contains
       end do
    end subroutine stand_at_limits
 
-   !> Slip takes the stress EXCESS from STATE, which the branch had at the stiffness SLOPE: what it has slid grows by EXCESS/SLOPE.
-   elemental subroutine take_by_slip(excess, slope, state, slid)
-      real(wp), intent(in)             :: excess !! [pressure]
-      real(wp), intent(in)             :: slope  !! [pressure/length], >= 0
-      type(shear_state), intent(inout) :: state
-      real(wp), intent(out)            :: slid   !! by how much [length]
-
-      slid = 0.0_wp
-      state%tau = state%tau - excess
-      if (slope > 0.0_wp) slid = excess/slope
-      state%slid = state%slid + slid
-   end subroutine take_by_slip
-
    !> Follow all laws of one element exactly from its state BEFORE, in equilibrium, to MOVEMENT: the branches, and Coulomb as a
    !! return to the limit.
    pure subroutine follow_element(law, area, before, movement, after, tangent, work)
@@ -193,9 +180,9 @@ contains
       tangent(:2, 3) = limit/size_of_tau*(tangent(:2, 3) - along*dot_product(along, tangent(:2, 3))) &
                        + law%mu*slope*area*along
       do i = 1, 2
-         call take_by_slip(after%shear(i)%tau - limit*along(i), shear_slope(law%shear(i), after%shear(i), &
-                           max(0.0_wp, after%normal%pressure)), after%shear(i), slid(i))
+         slid(i) = slid_from(law%shear(i), after%normal%pressure, after%shear(i), limit*along(i))
       end do
+      after%shear%slid = after%shear%slid + slid
       after%shear%tau = limit*along
       work(3) = area*sum(after%shear%tau*slid)
       work(1) = sum(0.5_wp*area*(before%shear%tau + after%shear%tau)*(after%shear%delta - before%shear%delta)) - work(3)
@@ -228,7 +215,7 @@ contains
       real(wp) :: work(3)
 
       associate (lambda => state%normal%lambda, p => state%normal%pressure, loading => law%shear%load)
-         work = area*[sum(cubic_work(loading, curve_deflection(state%shear), p)), stored_work(law%normal, lambda, p, p), &
+         work = area*[sum(cubic_work(loading, abs(curve_deflection(state%shear)), p)), stored_work(law%normal, lambda, p, p), &
                       sum(state%shear%tau*state%shear%slid)]
       end associate
    end function loading_work

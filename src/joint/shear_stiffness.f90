@@ -27,7 +27,7 @@ module shear_stiffness
    private
 
    public :: shear, shear_slope, least_movement, least_stress, turn, goal_sense, is_past_a, join_loading, leave_offset
-   public :: cubic_of, curve_deflection, stand_at_limit
+   public :: cubic_of, curve_deflection, slid_from, stand_at_limit
 
    real(wp), parameter :: rounding = 1.0e-10_wp ! of the stresses at hand: a change below this is none
    real(wp), parameter :: touching = 1.0e-11_wp ! of them: what comes so near to a curve meets it
@@ -224,6 +224,26 @@ contains
       state%tau_before = state%tau
       call leave_offset(law, pressure, state)
    end subroutine stand_at_limit
+
+   !> How far an element slides whose stress slip takes from that of STATE to TAU: the difference over the slope of its branch, on the
+   !! loading branch the mean slope between the two [length].
+   pure real(wp) function slid_from(law, pressure, state, tau) result(slid)
+      type(shear_law), intent(in)   :: law
+      real(wp), intent(in)          :: pressure, tau
+      type(shear_state), intent(in) :: state
+      real(wp) :: d, offset, slope
+
+      slid = 0.0_wp
+      if (.not. law%given) return
+      d = curve_deflection(state)
+      if (state%branch == branch_load .and. d > 0.0_wp) then
+         offset = state%sense*state%tau - cubic_value(law%load, d, pressure)
+         slid = state%sense*(d - deflection_at(law%load, max(0.0_wp, state%sense*tau - offset), pressure))
+      else
+         slope = shear_slope(law, state, pressure)
+         if (slope > 0.0_wp) slid = (state%tau - tau)/slope
+      end if
+   end function slid_from
 
    !> The cubic of a branch.
    pure type(cubic) function cubic_of(law, branch) result(curve)

@@ -1,15 +1,15 @@
-!> Warnings: shear laws whose loops do not close or whose branches part (once a law), and used outside their range (one line a
+!> Warnings: shear laws whose loops do not close or that unload less steeply than they load (once a law), and used outside their range (one line a
 !! bound, joint and stage, with the number of interface elements and the worst of them); unloading softer than loading (once a
 !! joint), stages that end far from balance, and stiffnesses of poor condition.
 module range_watch
-   use branch_cubic, only: cubic_slope
    use analysis_state, only: analysis_type, free_norm
+   use branch_cubic, only: cubic_slope
    use joint_laws, only: friction_excess, friction_limit
    use kinds, only: wp
    use listing_table, only: axes, listing_table_type, page_width
    use model_data, only: joint_node_id, model_type
    use normal_curve, only: loading_deflection, normal_tangent
-   use normal_stiffness, only: branch_load, branch_open
+   use normal_stiffness, only: branch_load, branch_open, branch_unload
    use restart_stream, only: restart_stream_type
    use shear_closure, only: loop_closure, worst_closure
    use shear_stiffness, only: curve_deflection, shear_law, shear_slope
@@ -49,8 +49,8 @@ module range_watch
 
 contains
 
-   !> Note, with the first increment, the laws whose loops stay open; and the laws of which an element has come to where unloading would
-   !! begin less steep than loading is: there a branch leaves its loading curve on the wrong side.
+   !> Note, with the first increment, the laws whose loops stay open; and the laws of which an element has begun to unload less steeply
+   !! than it was loaded: there a branch leaves its loading curve on the wrong side.
    subroutine watch_shear_laws(model, plan, analysis, watch)
       type(model_type), intent(in)          :: model
       type(stage_plan_type), intent(in)     :: plan
@@ -66,14 +66,14 @@ contains
             if (watch%soft_unloading(law)) cycle
             associate (curves => model%joints(model%interface(i)%joint)%law%shear(k), state => analysis%states(i)%shear(k), &
                        p => max(0.0_wp, analysis%states(i)%normal%pressure))
-               if (state%branch /= branch_load .or. cubic_slope(curves%unload, curve_deflection(state), p) >= &
-                   (1.0_wp - rounding)*cubic_slope(curves%load, curve_deflection(state), p)) cycle
+               if (state%branch /= branch_unload .or. cubic_slope(curves%unload, state%d_r, p) >= &
+                   (1.0_wp - rounding)*cubic_slope(curves%load, state%d_r, p)) cycle
                watch%soft_unloading(law) = .true.
                watch%n_warnings = watch%n_warnings + 1
                call watch%rows%keep_line('  WARNING: NODE '//integer_text(joint_node_id(model, i, 1))//', '// &
                   upper(where_in_plan(plan, analysis%stage, analysis%increment))//': SHEAR LAW OF JOINT '// &
                   integer_text(model%joints(model%interface(i)%joint)%id)//', '//axes(k)// &
-                  ': UNLOADING IS LESS STEEP THAN LOADING AT P = '//real_text(p)//', D = '//real_text(curve_deflection(state)))
+                  ': UNLOADING IS LESS STEEP THAN LOADING AT P = '//real_text(p)//', D = '//real_text(state%d_r))
             end associate
          end do
       end do
