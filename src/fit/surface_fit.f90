@@ -111,12 +111,18 @@ contains
       integer, allocatable :: rows(:)
       character(:), allocatable :: name
       integer :: i
+      logical :: met(data%n)
 
       rows = pack([(i, i = 1, data%n)], data%branch(:data%n) == source)
       name = trim(branch_words(source))
       if (data%kind == data_shear) then
-         call fit_points(data%value(column_d, rows), data%value(column_tau, rows), data%value(column_p, rows), &
-                         data%run(rows), source /= fit_load, command%fit, fit)
+         call fit_rows(rows, data%run(rows))
+         met = .false.
+         if (fit%fault /= fault_none .and. data%in_order .and. source == fit_reload) met = [(returns(i), i = 1, data%n)]
+         if (any(met)) then
+            rows = pack([(i, i = 1, data%n)], met .or. data%branch(:data%n) == source)
+            call fit_rows(rows, merge(data%run(rows - 1), data%run(rows), met(rows)))
+         end if
       else
          call fit_lines_only(data%value(column_c, rows), data%value(column_p, rows), command%fit%one_pressure, fit)
       end if
@@ -135,6 +141,32 @@ contains
          call errors%add(data%line(rows(1)), name//': '//plural(size(rows), 'point')// &
                          ' that do not fix the coefficients: expected more different d and p'//tolerance_help(fit))
       end select
+
+   contains
+
+      subroutine fit_rows(rows, run)
+         integer, intent(in) :: rows(:), run(:)
+
+         call fit_points(data%value(column_d, rows), data%value(column_tau, rows), data%value(column_p, rows), run, &
+                         source /= fit_load, command%fit, fit)
+      end subroutine fit_rows
+
+      !> Whether row I is where a reloading has come back to point A: it is a point of loading, and of reloading too where there are
+      !! few.
+      logical function returns(i)
+         integer, intent(in) :: i
+         integer :: a
+
+         returns = .false.
+         if (i == 1) return
+         if (data%branch(i) /= fit_load .or. data%branch(i - 1) /= fit_reload) return
+         a = findloc(data%branch(:i - 1), fit_load, 1, back=.true.)
+         if (a == 0) return
+         associate (d => data%value(column_d, [a, i]))
+            returns = abs(d(2) - d(1)) <= 1.0e-6_wp*abs(d(1))
+         end associate
+      end function returns
+
    end subroutine fit_branch
 
    !> The option that helps where measured pressures lie close to each other and count as different.
