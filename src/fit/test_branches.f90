@@ -7,6 +7,7 @@ module test_branches
    use fit_command, only: fit_command_type
    use fit_data, only: test_data_type
    use kinds, only: wp
+   use least_squares, only: solve_least_squares
    use pressure_groups, only: group_by_pressure
    use reading_offset, only: check_signs, take_off_offset
    use text_tools, only: integer_text, plural, real_text
@@ -251,7 +252,7 @@ contains
    !> Where a way back, from the point FIRST on, meets the loading CURVE that it goes to: behind the last point up to A that is off
    !! the curve on the side from which the way comes to it; where that is the last one before A, JOINS stays what A makes it. Then
    !! points beyond A that are still off the curve, not far from what is known of it, are on no branch of the law.
-   pure subroutine find_meeting(curve, d, tau, first, joins, branch)
+   subroutine find_meeting(curve, d, tau, first, joins, branch)
       type(curve_type), intent(in) :: curve
       real(wp), intent(in)         :: d(:), tau(:) !! in the sense of that curve
       integer, intent(in)          :: first
@@ -272,7 +273,7 @@ contains
       end do
       if (last_off == 0) return
       if (last_off < joins - 1) then
-         joins = last_off + 1
+         joins = behind(last_off, joins)
          return
       else if (curve%n <= 2*few) then
          return
@@ -282,6 +283,28 @@ contains
          branch(i) = no_branch
          joins = i + 1
       end do
+
+   contains
+
+      !> The first point behind LAST, before END, that is on the curve: of points in doubt, the first behind where the parabola through
+      !! what is off before them comes to it.
+      integer function behind(last, end)
+         integer, intent(in) :: last, end
+         integer  :: points(last - first + 1), k
+         real(wp) :: parabola(3)
+         logical  :: ok
+
+         k = count(d(first:last) >= 0.0_wp)
+         points(:k) = pack([(i, i = first, last)], d(first:last) >= 0.0_wp)
+         associate (x => d(points(:k)), y => tau(points(:k)) - cubic_at(curve, d(points(:k))))
+            call solve_least_squares(reshape([(1.0_wp, i = 1, k), x, x**2], [k, 3]), y, parabola, ok)
+         end associate
+         do behind = last + 1, end - 1
+            if (.not. ok .or. abs(tau(behind) - cubic_at(curve, d(behind))) <= curve%least) return
+            if (side*(parabola(1) + d(behind)*(parabola(2) + d(behind)*parabola(3))) <= 0.0_wp) return
+         end do
+      end function behind
+
    end subroutine find_meeting
 
    !> How far a point at D may lie off the CURVE and be on it: three times what its points scatter, more where none is.
