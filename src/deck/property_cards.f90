@@ -50,21 +50,23 @@ contains
       end do
    end subroutine read_paxis
 
-   !> PSOLID: solids. Field 7 (ISOP) = MODES adds the incompatible modes of Wilson and Taylor to CHEXA. NASTRAN's other choices of
-   !! integration and output, and the system of an isotropic material, have no effect.
+   !> PSOLID: solids. CHEXA of 8 and CPENTA of 6 nodes have incompatible modes, as NASTRAN's have bubble functions, but where ISOP
+   !! asks for full integration. NASTRAN's reduced shear without bubble functions is not there: like them, the modes take the shear
+   !! from bending that does not belong to it. Output and the system of an isotropic material have no effect.
    subroutine read_psolid(cards, bulk)
       type(card_reader_type), intent(inout) :: cards
       type(bulk_data_type), intent(inout)   :: bulk
       type(card_values) :: values
       integer :: i
 
-      call cards%set_table([integer_field(['PID', 'MID']), any_field(['CORDM ', 'IN    ', 'STRESS']), &
-         word_field('ISOP', '|PLAIN|MODES|FULL|REDUCED|0|1|2|3|'), word_field('FCTN', '|SMECH|')])
+      call cards%set_table([integer_field(['PID', 'MID']), any_field(['CORDM']), &
+         word_field('IN', '|BUBBLE|GAUSS|TWO|THREE|0|1|2|3|'), any_field(['STRESS']), &
+         word_field('ISOP', '|MODES|PLAIN|FULL|REDUCED|0|1|2|3|'), word_field('FCTN', '|SMECH|')])
       allocate (bulk%psolid(cards%n))
       do i = 1, cards%n
          call cards%next(values)
          bulk%psolid(i) = property_card(line=cards%line, id=values%integers(1), material=values%integers(2), &
-                                        state=solid, incompatible=values%words(6) == 'MODES')
+                                        state=solid, incompatible=index('|PLAIN|FULL|1|2|3|', '|'//trim(values%words(6))//'|') == 0)
       end do
    end subroutine read_psolid
 
