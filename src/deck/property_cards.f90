@@ -114,14 +114,16 @@ contains
 
       call cards%set_table([integer_field('MID'), real_field(['E', 'G'], default=0.0_wp, above=0.0_wp), &
          real_field('NU', default=0.0_wp, above=-1.0_wp, below=0.5_wp), real_field('RHO', default=0.0_wp, least=0.0_wp), &
-         real_field(['A   ', 'TREF', 'GE  '], default=0.0_wp), any_field(['ST   ', 'SC   ', 'SS   ', 'MCSID'])])
+         real_field(['A   ', 'TREF'], default=0.0_wp), real_field('GE', default=0.0_wp, least=0.0_wp), &
+         any_field(['ST   ', 'SC   ', 'SS   ', 'MCSID'])])
       allocate (bulk%mat1(cards%n))
       do i = 1, cards%n
          call cards%next(values)
          if (values%ok) call fill_in(cards, values)
          bulk%mat1(i) = mat1_card(line=cards%line, id=values%integers(1), e=values%reals(2), nu=values%reals(4), &
-                                  rho=values%reals(5), alpha=values%reals(6), reference=values%reals(7), &
+                                  rho=values%reals(5), alpha=values%reals(6), reference=values%reals(7), damping=values%reals(8), &
                                   bars_only=values%given(2) .and. .not. any(values%given(3:4)))
+         if (values%reals(8) > 0.0_wp) call bulk%idle%wait('GE of MAT1', cards%line, needs_response=.false.)
       end do
    end subroutine read_mat1
 
