@@ -52,7 +52,7 @@ contains
       do r = 1, size(system%lambda)
          if (abs(system%force(r)) <= 0.0_wp) cycle
          associate (lambda => system%lambda(r))
-            resistance = cmplx(lambda - omega**2, system%loss(r)*lambda + system%viscous(r)*omega*sqrt(lambda), wp)
+            resistance = cmplx(lambda - omega**2, system%loss(r)*lambda + system%viscous(r)*omega*sqrt(max(0.0_wp, lambda)), wp)
          end associate
          if (abs(resistance) <= 0.0_wp) then
             ok = .false.
@@ -68,7 +68,7 @@ contains
       type(modal_system), intent(in) :: system
       integer, intent(in)            :: r
 
-      frequency = sqrt(system%lambda(r)*max(0.0_wp, 1.0_wp - 0.5_wp*system%viscous(r)**2))/(2.0_wp*pi)
+      frequency = sqrt(max(0.0_wp, system%lambda(r)*(1.0_wp - 0.5_wp*system%viscous(r)**2)))/(2.0_wp*pi)
    end function peak_frequency
 
    !> What the elastic modes have in the static answer, which less this is u_rest [length].
