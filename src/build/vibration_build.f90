@@ -23,14 +23,20 @@ contains
       type(model_type), intent(in)         :: model
       type(stage_load_type), intent(in)    :: oscillating(:) !! (stages) the loads of DLOAD
       type(stage_plan_type), intent(inout) :: plan
-      integer :: s
+      integer :: s, undamped
 
+      undamped = 0
       do s = 1, size(plan%stages)
          associate (asked => deck%control%stages(s)%vibration)
             if (asked%modes%id == 0) cycle
             allocate (plan%stages(s)%vibration)
             call plan_modes(deck, model, asked, plan%stages(s)%vibration)
             if (asked%frequency%id == 0) cycle
+            if (asked%damping%id == 0 .and. .not. plan%stages(s)%vibration%has_losses .and. asked%frequency%line /= undamped) then
+               undamped = asked%frequency%line ! once of an entry that stands above all stages
+               call deck%errors%add(undamped, 'FREQUENCY: expected beside it SDAMPING, AMPLITUDE for the loss factors of the '// &
+                                    'joints, PARAM G, or GE on some MAT1: without damping peaks have no bound')
+            end if
             allocate (plan%stages(s)%vibration%response)
             call plan_response(deck, model, asked, oscillating(s), plan%stages(s)%vibration%response)
          end associate
@@ -95,9 +101,6 @@ contains
       if (size(response%frequencies) + size(response%spreads) == 0) call deck%errors%add(asked%frequency%line, &
          'FREQUENCY: there is no FREQ1 and no FREQ4 with set '//integer_text(asked%frequency%id))
       response%is_structural = deck%bulk%parameters%is_structural
-      if (asked%damping%id == 0 .and. asked%amplitude <= 0.0_wp .and. .not. is_damped(deck, model)) &
-         call deck%errors%add(asked%frequency%line, 'FREQUENCY: expected beside it SDAMPING, AMPLITUDE for the loss factors of '// &
-                              'the joints, PARAM G, or GE on some MAT1: without damping peaks have no bound')
       allocate (response%force(3, model%n_nodes), source=0.0_wp)
       do k = 1, load%n
          response%force(:, load%node(k)) = response%force(:, load%node(k)) + load%force(:, k)
