@@ -2,11 +2,11 @@
 #
 #    awk -v kind=KIND -v n=4 -v nz=24 -f elements.awk
 #
-# KIND  CTETRA, CPENTA, CHEXA, MODES (CHEXA with them), CTETRA10, CPENTA15 or CHEXA20; n x n x nz bricks, or what they are cut into:
+# KIND  CTETRA, CPENTA, CHEXA, CPENTA_PLAIN, CHEXA_PLAIN, CTETRA10, CPENTA15 or CHEXA20; n x n x nz bricks, or what they are cut into:
 #       a brick is six tetrahedra, or two wedges. Corners 1, 2, 3, 4 of the top are the nodes 1 to 4.
 
 BEGIN {
-   card = kind; sub(/[0-9]+$/, "", card); if (card == "MODES") card = "CHEXA"
+   card = kind; sub(/[0-9]+$/, "", card); sub(/_PLAIN$/, "", card)
    s = kind ~ /[0-9]$/ ? 2 : 1
    m = s * n; mz = s * nz
    print "UNITS = MM, N\nECHO = NO\nSPC = 1\nSUBCASE 1\n  LOAD = 1\nBEGIN BULK"
@@ -28,7 +28,7 @@ BEGIN {
          else { element("CTRIA", 20 + top, top ? A " " B " " C : a " " b " " c); element("CTRIA", 20 + top, top ? A " " C " " D : a " " c " " d) }
       }
    }
-   print "PSOLID,1,1" (kind == "MODES" ? ",,,,MODES" : "")
+   print "PSOLID,1,1" (kind ~ /PLAIN/ ? ",,,,PLAIN" : "")
    print "MAT1,1,210000.0,,0.3\nPMARK,20\nPMARK,21\nSPCM,1,123,20\nFORCEM,1,1000.0,1.0,0.0,0.0,21\nENDDATA"
 }
 

@@ -59,7 +59,7 @@ if command -v gnuplot > /dev/null; then
 fi
 
 # every word of a chart in characters is in the SVG file, which is the one that the script makes of it
-for chart in a b; do
+for chart in a b c; do
    awk -v title="Fig. 6($chart)" -f $figures/chart.awk $figures/README.md > "$work/fig6$chart.svg"
    same "fig6$chart.svg is that of the chart" "$(cmp "$work/fig6$chart.svg" "$figures/fig6$chart.svg" 2>&1)" ''
    awk -v title="Fig. 6($chart)" '/^#/ { found = index($0, title) } /^```/ { on = found && !on; next } on' $figures/README.md |

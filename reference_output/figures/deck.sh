@@ -32,7 +32,7 @@ read -r length force <<< "$(sed -n 's/^ *UNITS, LABELS ONLY: LENGTH \([^,]*\), F
 
 quoted() { printf "'%s'" "${1//\'/\'\'}"; }
 draw() { # PICTURE SETTINGS SCRIPT
-   gnuplot -e "set terminal pngcairo size 1000,700 font 'Helvetica,14'; set output $(quoted "$1")" \
+   gnuplot -e "set terminal pngcairo size 1000,700 font 'DejaVu Sans,14'; set output $(quoted "$1")" \
       -e "folder = $(quoted "$tables/"); deck = $(quoted "$name"); $2" \
       -e "length_unit = '${length:-}'; force_unit = '${force:-}'" \
       "$here/style.inc" "$here/$3" || exit 1

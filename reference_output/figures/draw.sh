@@ -40,6 +40,12 @@ done
    awk 'BEGIN { print "coefficient,constant,slope" }
         $2 ~ /^a[123]$/ && $3 == "=" { print $2 "," $4 "," ($5 == "-" ? -$6 : $6) }' > "$work/sanad.csv"
 
+# Fig. 5(a): one element under constant pressure, pushed past its friction limit
+sed -E -e 's/^METHOD.*/METHOD = STEP/' -e 's/^  LOAD = 2/  LOAD = 3/' \
+   -e 's/^PJOINT.*/PJOINT,1,1,1,,0.83,0/' input/shear_cycles.bdf |
+   awk '/^SUBCASE [3-9]/ { off = 1 } /^BEGIN BULK/ { off = 0 } !off' > "$work/friction_curve.bdf"
+"$program" -q -o "$work" "$work/friction_curve.bdf" > /dev/null
+
 # how far the contact of the clamped flange pair reaches beside its bolt circle, radius 40, with rings of different thickness
 echo 'thickness,flexible,stiff' > "$work/flange.csv"
 for t in 2 3 4 5 6 7 8 9 10 11 12; do
@@ -64,13 +70,13 @@ sed -i -E 's/^\+ +20$/+,,,,,20,,1/; /^P?JOINT/d; /^JNORM/d; /^JSHEAR/d; /^\+ +75
 column 8000 > "$work/welded.csv"
 "$program" -q -o "$work" input/column_modes_08.bdf > /dev/null 2>&1
 
-for chart in a b; do
+for chart in a b c; do
    awk -v title="Fig. 6($chart)" -f "$here/chart.awk" "$here/README.md" > "$here/fig6$chart.svg"
    echo "$here/fig6$chart.svg"
 done
 for script in "$here"/*.gp; do
    name=$(basename "$script" .gp)
-   for terminal in 'pngcairo size 1000,700 font "Helvetica,14"' 'svg size 1000,700 font "Helvetica,14" background "white"'; do
+   for terminal in 'pngcairo size 1000,700 font "DejaVu Sans,14"' 'svg size 1000,700 font "Helvetica,14" background "white"'; do
       suffix=${terminal%% *}
       suffix=${suffix%cairo}
       gnuplot -e "set terminal $terminal; set output '$here/$name.$suffix'; folder = '$work/'; includes = '$here/'" \

@@ -7,7 +7,7 @@ module c_library
    private
 
    public :: read_all_bytes, open_file, read_bytes, create_unique, write_bytes, close_file, rename_file, remove_file, &
-             remove_terminated, true_path, kind_of_file, is_regular_file, is_terminal, tell_failed_writes, &
+             remove_terminated, true_path, kind_of_file, is_regular_file, is_same_file, is_terminal, tell_failed_writes, &
              call_at_interrupts, end_by_signal, lock_folder, end_run
 
    !> What a path may lead to.
@@ -274,6 +274,19 @@ contains
 
       is_regular_file = kind_of_file(path) == regular_file
    end function is_regular_file
+
+   !> Whether the paths A and B lead to one plain file, by links of either kind.
+   logical function is_same_file(a, b)
+      character(*), intent(in) :: a, b
+      integer(c_int), parameter :: here = -100, follow_links = 0, number_asked = 256 ! AT_FDCWD, STATX_INO
+      integer(c_int8_t) :: status_a(256), status_b(256)
+
+      is_same_file = .false.
+      if (.not. is_regular_file(a)) return
+      if (c_statx(here, a//c_null_char, follow_links, number_asked, status_a) /= 0) return
+      if (c_statx(here, b//c_null_char, follow_links, number_asked, status_b) /= 0) return
+      is_same_file = all(status_a(33:40) == status_b(33:40)) .and. all(status_a(137:144) == status_b(137:144)) ! stx_ino, stx_dev
+   end function is_same_file
 
    !> A write into a pipe that nobody reads, or beyond the size that files may have, fails from now on as one on a full disk does,
    !! and does not kill the program.

@@ -78,9 +78,10 @@ contains
       end if
       bar%direction = spread(along/length, 2, 2)
       bar%stiffness = deck%bulk%mat1(material)%e*prod%area/length
-      bar%mass = deck%bulk%mass_factor*(deck%bulk%mat1(material)%rho*prod%area + prod%extra_mass)*length
+      bar%mass = deck%bulk%parameters%mass_factor*(deck%bulk%mat1(material)%rho*prod%area + prod%extra_mass)*length
       bar%expansion = deck%bulk%mat1(material)%alpha*length
       bar%reference = deck%bulk%mat1(material)%reference
+      bar%damping = deck%bulk%mat1(material)%damping
       if (model%axisymmetric .and. abs(bar%direction(1, 1)) > 1.0e-9_wp) call deck%errors%add(line, 'bar '// &
          integer_text(bar%id)//': in an axisymmetric model bars stand along y; their area is that of all round the ring')
    end subroutine build_bar

@@ -50,8 +50,9 @@ contains
                property%nu = deck%bulk%mat1(k)%nu
                if (deck%bulk%mat1(k)%bars_only) call deck%field_error(card%line, 2, 'MAT1 '//integer_text(card%material)// &
                   ' has E alone, which is enough for bars only; expected two of E, G and NU on it')
-               property%rho = deck%bulk%mass_factor*deck%bulk%mat1(k)%rho
+               property%rho = deck%bulk%parameters%mass_factor*deck%bulk%mat1(k)%rho
                property%alpha = deck%bulk%mat1(k)%alpha
+               property%damping = deck%bulk%mat1(k)%damping
                property%reference = deck%bulk%mat1(k)%reference
             else if (card%material > 0) then
                call deck%field_error(card%line, 2, 'there is no MAT1 '//integer_text(card%material))

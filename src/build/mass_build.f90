@@ -21,6 +21,15 @@ contains
       integer :: i, n
 
       model%lumped = deck%control%lumped
+      associate (parameters => deck%bulk%parameters)
+         if (parameters%mass_line > 0 .and. .not. deck%control%mass_is_given) then
+            model%lumped = parameters%lumped
+         else if (parameters%mass_line > 0 .and. (parameters%lumped .neqv. model%lumped)) then
+            call deck%errors%add(parameters%mass_line, 'PARAM COUPMASS asks for '// &
+               trim(merge('lumped    ', 'consistent', parameters%lumped))//' mass, MASS in case control does not; '// &
+               'expected one of the two')
+         end if
+      end associate
       allocate (model%masses(size(deck%bulk%mass)))
       n = 0
       do i = 1, size(deck%bulk%mass)
@@ -30,7 +39,7 @@ contains
                call deck%field_error(card%line, 'G', 'node '//integer_text(card%node)//' belongs to no element')
             n = n + 1
             model%masses(n)%node = node
-            model%masses(n)%mass = deck%bulk%mass_factor*card%mass
+            model%masses(n)%mass = deck%bulk%parameters%mass_factor*card%mass
             call find_inertia(deck, model, card, model%x(:, node), model%masses(n)%inertia)
          end associate
       end do
@@ -51,7 +60,7 @@ contains
 
       associate (i11 => card%inertia(1), i21 => card%inertia(2), i22 => card%inertia(3), i31 => card%inertia(4), &
                  i32 => card%inertia(5), i33 => card%inertia(6))
-         inertia = deck%bulk%mass_factor*reshape([i11, -i21, -i31, -i21, i22, -i32, -i31, -i32, i33], [3, 3])
+         inertia = deck%bulk%parameters%mass_factor*reshape([i11, -i21, -i31, -i21, i22, -i32, -i31, -i32, i33], [3, 3])
       end associate
       if (any(deck%control%stages%vibration%modes%id > 0) .and. .not. is_inertia(inertia)) call deck%field_error(card%line, &
          'I11', 'these moments of inertia are of no body, whose kinetic energy is nowhere below zero')

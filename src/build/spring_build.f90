@@ -45,11 +45,11 @@ contains
       type(model_type), intent(inout) :: model
       type(bar_type), intent(inout)   :: bars(:)
       integer, intent(inout)          :: n
-      real(wp) :: stiffness(3), directions(3, 3)
+      real(wp) :: stiffness(3), damping, directions(3, 3)
       integer  :: k, nodes(2)
       logical  :: ok
 
-      call find_stiffness(deck, card, stiffness)
+      call find_stiffness(deck, card, stiffness, damping)
       if (card%is_bush) then
          call find_nodes(deck, card%line, card%nodes, model, nodes)
          call find_axes(deck, card, model, nodes, stiffness, directions, ok)
@@ -88,25 +88,29 @@ contains
          bars(n)%nodes = nodes
          bars(n)%axis = axis
          bars(n)%stiffness = k_axis
+         bars(n)%damping = damping
          bars(n)%direction = along
          model%used(pack(nodes, nodes > 0)) = .true.
       end subroutine add
 
    end subroutine build_spring
 
-   !> The stiffness of the spring of CARD: the first one of a CELAS.
-   subroutine find_stiffness(deck, card, stiffness)
+   !> The stiffness of the spring of CARD, the first one of a CELAS, and its structural damping.
+   subroutine find_stiffness(deck, card, stiffness, damping)
       type(checked_deck), intent(in) :: deck
       type(spring_card), intent(in)  :: card
       real(wp), intent(out)          :: stiffness(3) !! [force/length]
+      real(wp), intent(out)          :: damping      !! [-]
       integer :: k
 
       stiffness = [card%stiffness, 0.0_wp, 0.0_wp]
+      damping = card%damping
       if (card%property == 0) return
       associate (laws => deck%bulk%spring_property)
          k = findloc(laws%id == card%property .and. (laws%is_bush .eqv. card%is_bush), .true., dim=1)
          if (k > 0) then
             stiffness = laws(k)%stiffness
+            damping = laws(k)%damping
          else
             call deck%field_error(card%line, 'PID', 'there is no '//trim(merge('PBUSH', 'PELAS', card%is_bush))//' '// &
                                   integer_text(card%property))

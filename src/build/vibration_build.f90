@@ -1,7 +1,7 @@
-!> What case control asks of the oscillation after each stage, put together: the range of EIGRL, the frequencies of FREQ1, the load, the
+!> What case control asks of the oscillation after each stage, put together: the range of EIGRL, the frequencies of FREQ1 and FREQ4, the load, the
 !! damping, the nodes.
 module vibration_build
-   use bulk_data, only: freq1_card
+   use bulk_data, only: freq1_card, freq4_card
    use deck_check, only: checked_deck
    use kinds, only: wp
    use model_data, only: model_type, stage_load_type
@@ -9,13 +9,11 @@ module vibration_build
    use stage_plan, only: stage_plan_type
    use text_tools, only: integer_text
    use vibration_entries, only: vibration_entries_type
-   use vibration_plan, only: response_plan, vibration_plan_type
+   use vibration_plan, only: frequency_spread, merged, response_plan, vibration_plan_type
    implicit none
    private
 
    public :: plan_vibrations, merged_frequencies
-
-   real(wp), parameter :: same_frequency = 1.0e-9_wp ! of the largest: what is nearer is one
 
 contains
 
@@ -25,14 +23,20 @@ contains
       type(model_type), intent(in)         :: model
       type(stage_load_type), intent(in)    :: oscillating(:) !! (stages) the loads of DLOAD
       type(stage_plan_type), intent(inout) :: plan
-      integer :: s
+      integer :: s, undamped
 
+      undamped = 0
       do s = 1, size(plan%stages)
          associate (asked => deck%control%stages(s)%vibration)
             if (asked%modes%id == 0) cycle
             allocate (plan%stages(s)%vibration)
-            call plan_modes(deck, asked, plan%stages(s)%vibration)
+            call plan_modes(deck, model, asked, plan%stages(s)%vibration)
             if (asked%frequency%id == 0) cycle
+            if (asked%damping%id == 0 .and. .not. plan%stages(s)%vibration%has_losses .and. asked%frequency%line /= undamped) then
+               undamped = asked%frequency%line ! once of an entry that stands above all stages
+               call deck%errors%add(undamped, 'FREQUENCY: expected beside it SDAMPING, AMPLITUDE for the loss factors of the '// &
+                                    'joints, PARAM G, or GE on some MAT1: without damping peaks have no bound')
+            end if
             allocate (plan%stages(s)%vibration%response)
             call plan_response(deck, model, asked, oscillating(s), plan%stages(s)%vibration%response)
          end associate
@@ -41,8 +45,9 @@ contains
 
    !> MODES of one stage. How many where ND is blank: the lowest one, or with V2 all up to it, as in NASTRAN. Nothing oscillates
    !! below zero, so that a V1 of zero and less is none.
-   subroutine plan_modes(deck, asked, vibration)
+   subroutine plan_modes(deck, model, asked, vibration)
       type(checked_deck), intent(in)           :: deck
+      type(model_type), intent(in)             :: model
       type(vibration_entries_type), intent(in) :: asked
       type(vibration_plan_type), intent(out)   :: vibration
       integer :: k
@@ -51,6 +56,8 @@ contains
       vibration%free = asked%free
       vibration%on_loading = asked%on_loading
       vibration%amplitude = asked%amplitude
+      vibration%damping = deck%bulk%parameters%damping
+      vibration%has_losses = vibration%amplitude > 0.0_wp .or. is_damped(deck, model)
       k = findloc(deck%bulk%eigrl%id, asked%modes%id, dim=1)
       if (k == 0) then
          call deck%errors%add(asked%modes%line, 'MODES: there is no EIGRL '//integer_text(asked%modes%id))
@@ -67,6 +74,15 @@ contains
       end associate
    end subroutine plan_modes
 
+   !> Whether materials, or PARAM G, have structural damping.
+   pure logical function is_damped(deck, model)
+      type(checked_deck), intent(in) :: deck
+      type(model_type), intent(in)   :: model
+
+      is_damped = deck%bulk%parameters%damping > 0.0_wp .or. any(model%properties%damping > 0.0_wp)
+      if (allocated(model%bars)) is_damped = is_damped .or. any(model%bars%damping > 0.0_wp)
+   end function is_damped
+
    !> FREQUENCY of one stage.
    subroutine plan_response(deck, model, asked, load, response)
       type(checked_deck), intent(in)           :: deck
@@ -74,12 +90,17 @@ contains
       type(vibration_entries_type), intent(in) :: asked
       type(stage_load_type), intent(in)        :: load
       type(response_plan), intent(out)         :: response
+      type(freq4_card), allocatable :: spreads(:)
       logical, allocatable :: are_named(:)
       integer :: k
 
       response%frequencies = merged_frequencies(pack(deck%bulk%freq1, deck%bulk%freq1%set == asked%frequency%id))
-      if (size(response%frequencies) == 0) call deck%errors%add(asked%frequency%line, &
-         'FREQUENCY: there is no FREQ1 with set '//integer_text(asked%frequency%id))
+      spreads = pack(deck%bulk%freq4, deck%bulk%freq4%set == asked%frequency%id)
+      response%spreads = [(frequency_spread(spreads(k)%lowest, spreads(k)%highest, spreads(k)%spread, spreads(k)%n), &
+                           k = 1, size(spreads))]
+      if (size(response%frequencies) + size(response%spreads) == 0) call deck%errors%add(asked%frequency%line, &
+         'FREQUENCY: there is no FREQ1 and no FREQ4 with set '//integer_text(asked%frequency%id))
+      response%is_structural = deck%bulk%parameters%is_structural
       allocate (response%force(3, model%n_nodes), source=0.0_wp)
       do k = 1, load%n
          response%force(:, load%node(k)) = response%force(:, load%node(k)) + load%force(:, k)
@@ -115,29 +136,6 @@ contains
       do i = 1, size(cards)
          f = merged(f, [(cards(i)%first + k*cards(i)%step, k = 0, cards(i)%n)])
       end do
-      if (size(f) > 1) f = pack(f, [.true., f(2:) - f(:size(f) - 1) > same_frequency*f(size(f))])
    end function merged_frequencies
-
-   !> Two ascending lists as one.
-   pure function merged(a, b) result(c)
-      real(wp), intent(in) :: a(:), b(:)
-      real(wp) :: c(size(a) + size(b))
-      logical  :: take_a
-      integer  :: i, j, k
-
-      i = 1
-      j = 1
-      do k = 1, size(c)
-         take_a = j > size(b)
-         if (.not. take_a .and. i <= size(a)) take_a = a(i) <= b(j)
-         if (take_a) then
-            c(k) = a(i)
-            i = i + 1
-         else
-            c(k) = b(j)
-            j = j + 1
-         end if
-      end do
-   end function merged
 
 end module vibration_build

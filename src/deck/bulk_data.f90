@@ -5,6 +5,7 @@ module bulk_data
    use element_kinds, only: max_nodes
    use entry_tally, only: entry_tally_type
    use kinds, only: wp
+   use nastran_habits, only: parameters_type
    use normal_curve, only: normal_law
    use shear_stiffness, only: shear_law
    implicit none
@@ -72,6 +73,7 @@ module bulk_data
       logical  :: is_bush = .false.
       integer  :: system = -1                           ! CID of a CBUSH, 0: global axes, -1: blank
       real(wp) :: stiffness = 0.0_wp                    ! of a CELAS2
+      real(wp) :: damping = 0.0_wp                      ! likewise, GE
    end type spring_card
 
    !> PELAS (the first stiffness) and PBUSH.
@@ -80,6 +82,7 @@ module bulk_data
       logical  :: is_bush = .false.
       integer  :: field = 1                             ! data field of the id
       real(wp) :: stiffness(3) = 0.0_wp
+      real(wp) :: damping = 0.0_wp                      ! GE of a PELAS
    end type spring_property_card
 
    !> CONM2: a mass at a node.
@@ -95,6 +98,7 @@ module bulk_data
       logical  :: bars_only = .false.                   ! E alone is given
       real(wp) :: e = 0.0_wp, nu = 0.0_wp, rho = 0.0_wp
       real(wp) :: alpha = 0.0_wp, reference = 0.0_wp    ! A and TREF
+      real(wp) :: damping = 0.0_wp                      ! GE
    end type mat1_card
 
    !> SPC, SPC1 and SPCM alike: nodes FIRST(k) to LAST(k), or all nodes of a marked surface.
@@ -275,6 +279,12 @@ module bulk_data
       logical  :: unit_mass = .true.                    ! NORM = MASS
    end type eigrl_card
 
+   !> FREQ4: N frequencies from 1 - SPREAD to 1 + SPREAD times that of every mode from LOWEST to HIGHEST.
+   type, public :: freq4_card
+      integer  :: line = 0, set = 0, n = 0
+      real(wp) :: lowest = 0.0_wp, highest = 0.0_wp, spread = 0.0_wp
+   end type freq4_card
+
    !> FREQ1: frequencies FIRST + k STEP, k = 0 to N.
    type, public :: freq1_card
       integer  :: line = 0, set = 0, n = 0
@@ -292,7 +302,7 @@ module bulk_data
    type, public :: bulk_data_type
       integer :: n_cards = 0                               !! of all kinds
       type(entry_tally_type) :: idle                       !! entries without effect, of case control too
-      real(wp) :: mass_factor = 1.0_wp                     !! PARAM WTMASS: densities are multiplied by it
+      type(parameters_type) :: parameters                  !! of PARAM
       type(grid_card), allocatable         :: grid(:)
       type(grid_defaults_card)             :: grid_defaults
       type(system_card), allocatable       :: system(:)
@@ -328,6 +338,7 @@ module bulk_data
       type(jincr_card), allocatable        :: jincr(:)
       type(eigrl_card), allocatable        :: eigrl(:)
       type(freq1_card), allocatable        :: freq1(:)
+      type(freq4_card), allocatable        :: freq4(:)
       type(tabdmp1_card), allocatable      :: tabdmp1(:)
    end type bulk_data_type
 

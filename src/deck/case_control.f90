@@ -9,6 +9,7 @@ module case_control
    use entry_tally, only: entry_tally_type
    use habit_entries, only: read_echo, read_habit
    use kinds, only: wp
+   use nastran_habits, only: parameters_type
    use stage_entries, only: read_stage_entry, stage_type
    use text_tools, only: integer_text, upper
    use vibration_entries, only: check_vibration
@@ -38,8 +39,9 @@ module case_control
       logical :: echo  = .true.
       logical :: echo_asked = .false.                    !! by ECHO: however many cards there are
       logical :: lumped = .false.                        !! MASS = LUMPED: the mass of elements stands at their nodes
+      logical :: mass_is_given = .false.                 !! MASS is
       type(number_set), allocatable :: sets(:)
-      real(wp) :: mass_factor = 1.0_wp                   !! PARAM WTMASS: densities are multiplied by it
+      type(parameters_type) :: parameters                !! of PARAM
       type(entry_tally_type) :: idle                     !! entries without effect
       type(stage_type), allocatable :: stages(:)
    end type case_control_type
@@ -107,7 +109,7 @@ contains
             call check_repeated(entry, keys_seen, errors)
             call read_entry(entry, control, common, errors)
          else
-            call read_habit(entry, control%mass_factor, control%idle, errors)
+            call read_habit(entry, control%parameters, control%idle, errors)
             goes_on = line(len(line):) == ','
          end if
       end do
@@ -194,6 +196,7 @@ contains
       case ('MASS')
          call choose(entry, '|CONSISTENT|LUMPED|', choice, errors)
          control%lumped = choice == 2
+         control%mass_is_given = .true.
       case ('SOLVER')
          call choose(entry, '|AUTO|SKYLINE|TREE|PETSC|MUMPS|', control%solver, errors)
          if (any(control%solver == [solver_petsc, solver_mumps]) .and. .not. has_petsc) then

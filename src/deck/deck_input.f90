@@ -22,7 +22,7 @@ module deck_input
    use system_cards, only: fill_grid_defaults, read_grid_defaults, read_system, system_names
    use temperature_cards, only: read_temperature
    use unused_cards, only: count_unused
-   use vibration_cards, only: read_eigrl, read_freq1, read_tabdmp1
+   use vibration_cards, only: read_eigrl, read_freq1, read_freq4, read_tabdmp1
    implicit none
    private
 
@@ -83,6 +83,7 @@ contains
       call cards%add_kinds(['JINCR'], read_jincr)
       call cards%add_kinds(['EIGRL'], read_eigrl)
       call cards%add_kinds(['FREQ1'], read_freq1)
+      call cards%add_kinds(['FREQ4'], read_freq4)
       call cards%add_kinds(['TABDMP1'], read_tabdmp1)
       call cards%add_kinds(['PARAM'], read_parameter)
    end subroutine list_cards
@@ -127,11 +128,14 @@ contains
       call cards%start(deck%text, errors)
       call list_cards(cards)
       deck%bulk%idle = deck%control%idle
-      deck%bulk%mass_factor = deck%control%mass_factor
+      deck%bulk%parameters = deck%control%parameters
       call find_cards(deck%text, cursor, cards, deck%bulk, errors)
       call cards%read_all(deck%bulk)
       call fill_grid_defaults(deck%bulk)
       call count_unused(deck%bulk)
+      associate (asked => deck%control%stages%vibration)
+         call deck%bulk%idle%settle(any(asked%modes%id > 0), any(asked%modes%id > 0 .and. asked%frequency%id > 0), errors)
+      end associate
       call move_alloc(cards%kinds, deck%kinds)
       deck%is_whole = is_whole
    end subroutine read_lines

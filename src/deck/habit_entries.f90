@@ -3,8 +3,7 @@ module habit_entries
    use case_entries, only: choose, entry_type, value_error
    use deck_errors, only: deck_error_list
    use entry_tally, only: entry_tally_type
-   use kinds, only: wp
-   use nastran_habits, only: control_habit, judge_parameter, parameter_idle, parameter_refused
+   use nastran_habits, only: control_habit, parameters_type, take_parameter
    use text_tools, only: upper
    implicit none
    private
@@ -14,9 +13,9 @@ module habit_entries
 contains
 
    !> What a line says that is none of the program's own keys: it has no effect, or is not known.
-   subroutine read_habit(entry, mass_factor, idle, errors)
+   subroutine read_habit(entry, parameters, idle, errors)
       type(entry_type), intent(in)           :: entry
-      real(wp), intent(inout)                :: mass_factor !! PARAM WTMASS
+      type(parameters_type), intent(inout)   :: parameters
       type(entry_tally_type), intent(inout)  :: idle        !! entries without effect
       type(deck_error_list), intent(inout)   :: errors
       integer :: choice
@@ -28,7 +27,7 @@ contains
          call choose(entry, '|STATICS|STATIC|DISP|DISPLACEMENT|', choice, errors)
          call idle%add(entry%key)
       case ('PARAM')
-         call read_parameter(entry, mass_factor, idle, errors)
+         call read_parameter(entry, parameters, idle, errors)
       case default
          if (control_habit(entry%key) /= '') then
             call idle%add(control_habit(entry%key))
@@ -42,27 +41,22 @@ contains
    end subroutine read_habit
 
    !> 'PARAM,POST,-1' in case control.
-   subroutine read_parameter(entry, mass_factor, idle, errors)
+   subroutine read_parameter(entry, parameters, idle, errors)
       type(entry_type), intent(in)           :: entry
-      real(wp), intent(inout)                :: mass_factor !! PARAM WTMASS
+      type(parameters_type), intent(inout)   :: parameters
       type(entry_tally_type), intent(inout)  :: idle        !! entries without effect
       type(deck_error_list), intent(inout)   :: errors
       character(:), allocatable :: expected, name, value
-      real(wp) :: mass
-      integer  :: comma, what
+      integer :: comma
 
       value = upper(adjustl(entry%value))
       if (index(value, ',') == 1) value = adjustl(value(2:))
       comma = scan(value//',', ', ')
       name = value(:comma - 1)
       value = trim(adjustl(value(min(comma + 1, len(value) + 1):)))
-      call judge_parameter(name, value, what, mass, expected)
-      if (what == parameter_idle) then
-         call idle%add('PARAM')
-      else if (what == parameter_refused) then
+      call take_parameter(name, value, entry%line, parameters, idle, expected)
+      if (expected /= '') then
          call errors%add(entry%line, 'PARAM '//name//': '''//value//''', expected '//expected, entry%first, entry%last)
-      else
-         mass_factor = mass
       end if
    end subroutine read_parameter
 

@@ -2,13 +2,24 @@
 !! uses. They are read and have no effect; what would change an answer is not among them.
 module nastran_habits
    use deck_numbers, only: parse_integer, parse_real
+   use entry_tally, only: entry_tally_type
    use kinds, only: wp
    implicit none
    private
 
-   public :: control_habit, is_idle_card, judge_parameter
+   public :: control_habit, is_idle_card, take_parameter
 
-   integer, parameter, public :: parameter_idle = 0, parameter_mass = 1, parameter_refused = 2 !! what a PARAM is
+   !> What the PARAMs of a deck ask for.
+   type, public :: parameters_type
+      real(wp) :: mass_factor = 1.0_wp        !! WTMASS: densities are multiplied by it
+      real(wp) :: damping = 0.0_wp            !! G: overall structural damping [-]
+      integer  :: mass_line = 0               !! of COUPMASS, 0: not given
+      logical  :: lumped = .false.            !! COUPMASS below 1
+      logical  :: is_structural = .false.     !! KDAMP = -1: damping of SDAMPING is structural
+   end type parameters_type
+
+   real(wp), parameter     :: all_frequencies = 1.0e30_wp ! HFREQ of NASTRAN where it is not given
+   character(*), parameter :: which_modes = 'expected none: V1, V2 and ND of EIGRL say which modes take part'
 
    ! of the executive control and of the case control
    character(12), parameter :: control_words(63) = [character(12) :: &
@@ -47,32 +58,70 @@ contains
       is_idle_card = any(card_names == name)
    end function is_idle_card
 
-   !> What the PARAM called NAME with this VALUE is: without effect, WTMASS (then MASS is what densities are multiplied by), or
-   !! one that asks for another answer; then EXPECTED says what of it would be understood.
-   pure subroutine judge_parameter(name, value, what, mass, expected)
+   !> Take the PARAM called NAME with this VALUE on LINE into PARAMETERS, or among the entries without effect, IDLE. Where it asks for
+   !! another answer, or its value is wrong, EXPECTED says what of it would be understood.
+   pure subroutine take_parameter(name, value, line, parameters, idle, expected)
       character(*), intent(in)               :: name, value !! in capitals, no blanks in front
-      integer, intent(out)                   :: what        !! parameter_idle, ...
-      real(wp), intent(out)                  :: mass
+      integer, intent(in)                    :: line
+      type(parameters_type), intent(inout)   :: parameters
+      type(entry_tally_type), intent(inout)  :: idle
       character(:), allocatable, intent(out) :: expected
-      integer :: number
-      logical :: ok
+      real(wp) :: x
+      integer  :: number
+      logical  :: is_integer, is_real
 
-      what = parameter_idle
-      mass = 1.0_wp
       expected = ''
-      call parse_integer(value, number, ok)
+      call parse_integer(value, number, is_integer)
+      call parse_real(value, x, is_real)
+      if (is_integer) x = real(number, wp)
       select case (name)
       case ('WTMASS')
-         what = parameter_mass
-         call parse_real(value, mass, ok)
-         if (ok) ok = mass > 0.0_wp
-         if (.not. ok) expected = 'a real number above 0: densities are multiplied by it'
-      case ('INREL')
-         if (.not. ok .or. number /= 0) expected = '0: bodies without supports are not held by their inertia here'
-      case ('LGDISP')
-         if (.not. ok .or. number > 0) expected = '-1 or 0: displacements are small here'
+         if (is_real) is_real = x > 0.0_wp
+         if (is_real) parameters%mass_factor = x
+         if (.not. is_real) expected = 'a real number above 0: densities are multiplied by it'
+      case ('G')
+         if (is_real) is_real = x >= 0.0_wp
+         if (is_real) parameters%damping = x
+         if (.not. is_real) expected = 'a real number of at least 0, the structural damping of everything'
+         call idle%wait('PARAM G', line, needs_response=.false.)
+      case ('COUPMASS')
+         parameters%lumped = number < 1
+         parameters%mass_line = line
+         if (.not. is_integer) expected = 'an integer: above 0 consistent mass, else lumped mass'
+         call idle%wait('PARAM COUPMASS', line, needs_response=.false.)
+      case ('KDAMP')
+         parameters%is_structural = number == -1
+         if (.not. is_integer .or. abs(number) /= 1) expected = '1, SDAMPING is viscous, or -1, it is structural'
+         call idle%wait('PARAM KDAMP', line, needs_response=.true.)
+      case ('ALPHA1', 'ALPHA2')
+         call idle%wait('PARAM '//name, line, needs_response=.true., refusal=refusal(abs(x) <= 0.0_wp, &
+            'expected 0.0: damping is SDAMPING, AMPLITUDE, PARAM G and GE of MAT1'))
+      case ('LMODES', 'LFREQ')
+         call idle%wait('PARAM '//name, line, needs_response=.true., refusal=refusal(abs(x) <= 0.0_wp, which_modes))
+      case ('HFREQ')
+         call idle%wait('PARAM '//name, line, needs_response=.true., refusal=refusal(x >= all_frequencies, which_modes))
+      case default
+         if (name == 'INREL' .and. (.not. is_integer .or. number /= 0)) then
+            expected = '0: bodies without supports are not held by their inertia here'
+         else if (name == 'LGDISP' .and. (.not. is_integer .or. number > 0)) then
+            expected = '-1 or 0: displacements are small here'
+         else
+            call idle%add('PARAM '//name)
+         end if
       end select
-      if (expected /= '') what = parameter_refused
-   end subroutine judge_parameter
+
+   contains
+
+      !> Why the value is refused, empty where it is that of a PARAM that is not given.
+      pure function refusal(is_default, words)
+         logical, intent(in)       :: is_default
+         character(*), intent(in)  :: words
+         character(:), allocatable :: refusal
+
+         refusal = ''
+         if (.not. is_default .or. .not. (is_integer .or. is_real)) refusal = words
+      end function refusal
+
+   end subroutine take_parameter
 
 end module nastran_habits

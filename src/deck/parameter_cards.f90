@@ -4,8 +4,7 @@ module parameter_cards
    use card_fields, only: card_values
    use card_reader, only: card_reader_type
    use field_rules, only: any_field
-   use kinds, only: wp
-   use nastran_habits, only: judge_parameter, parameter_idle, parameter_refused
+   use nastran_habits, only: take_parameter
    implicit none
    private
 
@@ -19,8 +18,7 @@ contains
       type(bulk_data_type), intent(inout)   :: bulk
       type(card_values)         :: values
       character(:), allocatable :: expected
-      real(wp) :: mass
-      integer  :: i, what
+      integer :: i
 
       call cards%set_table(any_field(['N ', 'V1', 'V2']))
       do i = 1, cards%n
@@ -29,13 +27,9 @@ contains
          if (.not. values%given(2)) call cards%error('V1', 'blank, expected the value of the parameter')
          if (.not. all(values%given(:2))) cycle
          associate (fields => cards%card%fields)
-            call judge_parameter(trim(fields(1)%text), trim(fields(2)%text), what, mass, expected)
-            if (what == parameter_idle) then
-               call bulk%idle%add('PARAM')
-            else if (what == parameter_refused) then
+            call take_parameter(trim(fields(1)%text), trim(fields(2)%text), cards%line, bulk%parameters, bulk%idle, expected)
+            if (expected /= '') then
                call cards%error('V1', ''''//trim(fields(2)%text)//''' for '//trim(fields(1)%text)//', expected '//expected)
-            else
-               bulk%mass_factor = mass
             end if
          end associate
       end do

@@ -50,21 +50,23 @@ contains
       end do
    end subroutine read_paxis
 
-   !> PSOLID: solids. Field 7 (ISOP) = MODES adds the incompatible modes of Wilson and Taylor to CHEXA. NASTRAN's other choices of
-   !! integration and output, and the system of an isotropic material, have no effect.
+   !> PSOLID: solids. CHEXA of 8 and CPENTA of 6 nodes have incompatible modes, as NASTRAN's have bubble functions, but where ISOP
+   !! asks for full integration. NASTRAN's reduced shear without bubble functions is not there: like them, the modes take the shear
+   !! from bending that does not belong to it. Output and the system of an isotropic material have no effect.
    subroutine read_psolid(cards, bulk)
       type(card_reader_type), intent(inout) :: cards
       type(bulk_data_type), intent(inout)   :: bulk
       type(card_values) :: values
       integer :: i
 
-      call cards%set_table([integer_field(['PID', 'MID']), any_field(['CORDM ', 'IN    ', 'STRESS']), &
-         word_field('ISOP', '|PLAIN|MODES|FULL|REDUCED|0|1|2|3|'), word_field('FCTN', '|SMECH|')])
+      call cards%set_table([integer_field(['PID', 'MID']), any_field(['CORDM']), &
+         word_field('IN', '|BUBBLE|GAUSS|TWO|THREE|0|1|2|3|'), any_field(['STRESS']), &
+         word_field('ISOP', '|MODES|PLAIN|FULL|REDUCED|0|1|2|3|'), word_field('FCTN', '|SMECH|')])
       allocate (bulk%psolid(cards%n))
       do i = 1, cards%n
          call cards%next(values)
          bulk%psolid(i) = property_card(line=cards%line, id=values%integers(1), material=values%integers(2), &
-                                        state=solid, incompatible=values%words(6) == 'MODES')
+                                        state=solid, incompatible=index('|PLAIN|FULL|1|2|3|', '|'//trim(values%words(6))//'|') == 0)
       end do
    end subroutine read_psolid
 
@@ -112,14 +114,16 @@ contains
 
       call cards%set_table([integer_field('MID'), real_field(['E', 'G'], default=0.0_wp, above=0.0_wp), &
          real_field('NU', default=0.0_wp, above=-1.0_wp, below=0.5_wp), real_field('RHO', default=0.0_wp, least=0.0_wp), &
-         real_field(['A   ', 'TREF', 'GE  '], default=0.0_wp), any_field(['ST   ', 'SC   ', 'SS   ', 'MCSID'])])
+         real_field(['A   ', 'TREF'], default=0.0_wp), real_field('GE', default=0.0_wp, least=0.0_wp), &
+         any_field(['ST   ', 'SC   ', 'SS   ', 'MCSID'])])
       allocate (bulk%mat1(cards%n))
       do i = 1, cards%n
          call cards%next(values)
          if (values%ok) call fill_in(cards, values)
          bulk%mat1(i) = mat1_card(line=cards%line, id=values%integers(1), e=values%reals(2), nu=values%reals(4), &
-                                  rho=values%reals(5), alpha=values%reals(6), reference=values%reals(7), &
+                                  rho=values%reals(5), alpha=values%reals(6), reference=values%reals(7), damping=values%reals(8), &
                                   bars_only=values%given(2) .and. .not. any(values%given(3:4)))
+         if (values%reals(8) > 0.0_wp) call bulk%idle%wait('GE of MAT1', cards%line, needs_response=.false.)
       end do
    end subroutine read_mat1
 

@@ -28,7 +28,8 @@ contains
          integer_field('C2', default=0, least=0, most=6)], 'CELAS1')
       call cards%set_table([integer_field('EID'), real_field('K', least=0.0_wp), integer_field('G1', default=0), &
          integer_field('C1', default=0, least=0, most=6), integer_field('G2', default=0), &
-         integer_field('C2', default=0, least=0, most=6), any_field(['GE', 'S '])], 'CELAS2')
+         integer_field('C2', default=0, least=0, most=6), real_field('GE', default=0.0_wp, least=0.0_wp), &
+         any_field('S')], 'CELAS2')
       call cards%set_table([integer_field(['EID', 'PID', 'GA ']), integer_field('GB', default=0), &
          any_field(['GO', 'X2', 'X3']), integer_field('CID', default=-1, least=0), any_field('S'), &
          integer_field('OCID', default=-1, least=-1), blank_field(['S1', 'S2', 'S3'])], 'CBUSH')
@@ -47,7 +48,11 @@ contains
                cycle
             end if
             if (cards%card%name == 'CELAS1') spring%property = integers(2)
-            if (cards%card%name == 'CELAS2') spring%stiffness = values%reals(2)
+            if (cards%card%name == 'CELAS2') then
+               spring%stiffness = values%reals(2)
+               spring%damping = values%reals(7)
+               if (spring%damping > 0.0_wp) call bulk%idle%wait('GE of CELAS2', cards%line, needs_response=.false.)
+            end if
             spring%nodes = integers([3, 5])
             spring%components = integers([4, 6])
             if (values%ok) call check_ends(cards, spring)
@@ -75,16 +80,17 @@ contains
       end do
    end subroutine check_ends
 
-   !> PELAS: the stiffnesses K of one or two springs; PBUSH: K1, K2, K3 of a CBUSH along its axes. Damping has no effect in statics,
-   !! nor have factors of stresses.
+   !> PELAS: the stiffnesses K of one or two springs; PBUSH: K1, K2, K3 of a CBUSH along its axes. Factors of stresses have no effect.
    subroutine read_spring_property(cards, bulk)
       type(card_reader_type), intent(inout) :: cards
       type(bulk_data_type), intent(inout)   :: bulk
       type(card_values) :: values
       integer :: field, i, k, n
 
-      call cards%set_table([integer_field('PID1'), real_field('K1', least=0.0_wp), any_field(['GE1', 'S1 ']), &
-         integer_field('PID2', default=0), real_field('K2', default=0.0_wp, least=0.0_wp), any_field(['GE2', 'S2 '])], 'PELAS')
+      call cards%set_table([integer_field('PID1'), real_field('K1', least=0.0_wp), &
+         real_field('GE1', default=0.0_wp, least=0.0_wp), any_field('S1'), &
+         integer_field('PID2', default=0), real_field('K2', default=0.0_wp, least=0.0_wp), &
+         real_field('GE2', default=0.0_wp, least=0.0_wp), any_field('S2')], 'PELAS')
       call cards%set_table([integer_field('PID'), word_field('FLAG', '|K|'), &
          real_field(['K1', 'K2', 'K3'], default=0.0_wp, least=0.0_wp), real_field(['K4', 'K5', 'K6'], default=0.0_wp)], 'PBUSH', &
          open_ended=.true.)
@@ -100,13 +106,15 @@ contains
                if (abs(values%reals(k)) > 0.0_wp) call cards%error('K'//integer_text(k - 2), &
                   'against a rotation, which nodes of bodies do not have; expected blank')
             end do
-            call check_rest(cards)
+            call check_rest(cards, bulk)
             cycle
          end if
          do field = 1, merge(5, 1, values%given(5)), 4
             n = n + 1
             bulk%spring_property(n) = spring_property_card(line=cards%line, id=values%integers(field), field=field, &
-                                                           stiffness=[values%reals(field + 1), 0.0_wp, 0.0_wp])
+                                                           stiffness=[values%reals(field + 1), 0.0_wp, 0.0_wp], &
+                                                           damping=values%reals(field + 2))
+            if (values%reals(field + 2) > 0.0_wp) call bulk%idle%wait('GE of PELAS', cards%line, needs_response=.false.)
          end do
          if (values%given(6) .and. .not. values%given(5)) call cards%error('PID2', 'blank, but K2 is not')
       end do
@@ -114,12 +122,16 @@ contains
    end subroutine read_spring_property
 
    !> Behind the stiffnesses of a PBUSH may stand lines of damping, B and GE, of stress recovery, RCV, and of mass, M, which counts.
-   subroutine check_rest(cards)
+   !! Damping of a CBUSH is not done: where a structure responds to a load it is an error.
+   subroutine check_rest(cards, bulk)
       type(card_reader_type), intent(inout) :: cards
+      type(bulk_data_type), intent(inout)   :: bulk
       integer :: k
 
       do k = 10, cards%card%n, 8
          associate (flag => cards%card%fields(k)%text)
+            if (flag == 'B' .or. flag == 'GE') call bulk%idle%wait(trim(flag)//' of PBUSH', cards%line, needs_response=.true., &
+               refusal='expected none: of springs GE of CELAS2 and PELAS is done')
             if (flag == 'B' .or. flag == 'GE' .or. flag == 'RCV' .or. flag == '') cycle
             call cards%card%field_error(k, 'FLAG: '''//trim(flag)//''', expected B, GE or RCV behind the line of K', cards%errors)
          end associate

@@ -1,6 +1,6 @@
-!> The cards of oscillation: EIGRL, FREQ1, TABDMP1. A table and a routine each.
+!> The cards of oscillation: EIGRL, FREQ1, FREQ4, TABDMP1. A table and a routine each.
 module vibration_cards
-   use bulk_data, only: bulk_data_type, eigrl_card, freq1_card, tabdmp1_card
+   use bulk_data, only: bulk_data_type, eigrl_card, freq1_card, freq4_card, tabdmp1_card
    use card_fields, only: card_values, decode_real, smallest_size
    use card_reader, only: card_reader_type
    use field_rules, only: any_field, blank_field, integer_field, real_field, word_field
@@ -9,9 +9,9 @@ module vibration_cards
    implicit none
    private
 
-   public :: read_eigrl, read_freq1, read_tabdmp1
+   public :: read_eigrl, read_freq1, read_freq4, read_tabdmp1
 
-   integer, parameter :: most_frequencies = 100000 ! of one FREQ1
+   integer, parameter :: most_frequencies = 100000 ! of one FREQ1, and of one mode by FREQ4
    integer, parameter :: list_from = 9             ! data field in which the list of a TABDMP1 begins
 
 contains
@@ -54,6 +54,26 @@ contains
                                     n=values%integers(4))
       end do
    end subroutine read_freq1
+
+   !> FREQ4: NFM frequencies, an odd number so that the mode itself is one of them, spread by FSPD about every mode from F1 to F2.
+   subroutine read_freq4(cards, bulk)
+      type(card_reader_type), intent(inout) :: cards
+      type(bulk_data_type), intent(inout)   :: bulk
+      type(card_values) :: values
+      integer :: i
+
+      call cards%set_table([integer_field('SID'), real_field('F1', default=0.0_wp, least=0.0_wp), &
+         real_field('F2', default=1.0e20_wp, above=0.0_wp), real_field('FSPD', default=0.1_wp, above=0.0_wp, below=1.0_wp), &
+         integer_field('NFM', default=3, most=most_frequencies)])
+      allocate (bulk%freq4(cards%n))
+      do i = 1, cards%n
+         call cards%next(values)
+         bulk%freq4(i) = freq4_card(line=cards%line, set=values%integers(1), lowest=values%reals(2), highest=values%reals(3), &
+                                    spread=values%reals(4), n=values%integers(5) + modulo(values%integers(5) + 1, 2))
+         if (values%ok .and. values%reals(2) >= values%reals(3)) call cards%error('F2', real_text(values%reals(3))// &
+            ' is no more than F1, '//real_text(values%reals(2))//'; expected the end of the range')
+      end do
+   end subroutine read_freq4
 
    !> TABDMP1: pairs of a frequency and the damping there, closed by ENDT. TYPE says what the damping is.
    subroutine read_tabdmp1(cards, bulk)

@@ -24,7 +24,7 @@ module vibration_entries
       logical  :: free = .false.              !! MODES(FREE)
       logical  :: on_loading = .false.        !! STIFFNESS = LOAD
       real(wp) :: amplitude = 0.0_wp          !! [length], 0: not given
-      type(set_reference) :: frequency        !! FREQ1
+      type(set_reference) :: frequency        !! FREQ1, FREQ4
       type(set_reference) :: load             !! set of the load that oscillates
       type(set_reference) :: damping          !! TABDMP1
       type(limit_type), allocatable :: response(:) !! nodes whose response is asked; not allocated: none
@@ -118,7 +118,7 @@ contains
       end do
    end subroutine check_vibration
 
-   !> FREQUENCY, where it has an effect, needs a load, nodes and damping.
+   !> FREQUENCY, where it has an effect, needs a load and nodes; damping may be that of materials, of which nothing is known here.
    subroutine check_response(asked, said, errors)
       type(vibration_entries_type), intent(in) :: asked !! of one stage
       integer, intent(inout)                   :: said  !! line of the FREQUENCY of which it was said last
@@ -129,8 +129,6 @@ contains
       lacking = ''
       if (asked%line(dload) == 0) lacking = ', DLOAD (the set of the load that oscillates)'
       if (asked%line(response) == 0) lacking = lacking//', RESPONSE (the nodes to be written)'
-      if (asked%line(sdamping) == 0 .and. asked%line(amplitude) == 0) lacking = lacking// &
-         ', SDAMPING (or AMPLITUDE, for the loss factors of the joints)'
       if (lacking == '' .or. asked%line(frequency) == said) return
       said = asked%line(frequency)
       call errors%add(said, 'FREQUENCY: expected beside it '//lacking(3:))

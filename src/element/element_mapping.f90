@@ -4,7 +4,7 @@
 !! Beresford, Wilson, A non-conforming element for stress analysis, Int. J. Numer. Meth. Engng 10 (1976) 1211-1219.
 module element_mapping
    use elasticity, only: axisymmetric, elasticity_matrix, max_stresses, plane_strain, solid
-   use element_kinds, only: element_table, kind_hexa8, kind_quad4, max_nodes, side_kind
+   use element_kinds, only: element_table, kind_hexa8, kind_penta6, kind_quad4, max_nodes, side_kind
    use kinds, only: wp
    use local_nodes, only: centre_point, node_point
    use quadrature, only: body_rule, integration_rule, max_points, side_rule, volume_rule
@@ -13,7 +13,7 @@ module element_mapping
    implicit none
    private
 
-   public :: make_element_law, map_element, map_point, smallest_jacobian
+   public :: has_modes, make_element_law, map_element, map_point, smallest_jacobian
 
    integer, parameter, public  :: max_shapes = max_nodes     !! shape functions of an element, incompatible modes included
    real(wp), parameter, public :: two_pi = 2.0_wp*acos(-1.0_wp)
@@ -47,19 +47,28 @@ contains
       integer, intent(in)  :: kind, state                 !! kind_tria3 ... kind_hexa20; plane_stress ... solid
       real(wp), intent(in) :: e, nu                       !! [pressure], > 0; [-], -1 < nu < 0.5
       real(wp), intent(in) :: thickness                   !! of a plane body [length], > 0
-      logical, intent(in)  :: incompatible                !! wanted; the plane quadrilateral and the hexahedron have modes
+      logical, intent(in)  :: incompatible                !! wanted; linear quadrilaterals, hexahedra and wedges have modes
       real(wp), intent(in), optional :: alpha             !! thermal expansion, 0 [1/temperature]
 
       law%kind = kind
       law%state = state
       law%thickness = thickness
-      law%incompatible = incompatible .and. (kind == kind_hexa8 .or. (kind == kind_quad4 .and. state /= axisymmetric))
+      law%incompatible = incompatible .and. has_modes(kind, state)
       call elasticity_matrix(state, e, nu, law%d)
       law%expansion = 0.0_wp
       if (.not. present(alpha)) return
       law%expansion(:2) = merge((1.0_wp + nu)*alpha, alpha, state == plane_strain)
       if (state == axisymmetric .or. state == solid) law%expansion(3) = alpha
    end function make_element_law
+
+   !> Whether elements of a KIND in a STATE of stress can have incompatible modes: linear ones with edges that bending leaves
+   !! straight. Those of a triangle and a tetrahedron, whose strain is constant, have nothing to work on; on a ring those of the
+   !! quadrilateral have a hoop strain that fails the patch test.
+   pure logical function has_modes(kind, state)
+      integer, intent(in) :: kind, state
+
+      has_modes = kind == kind_hexa8 .or. kind == kind_penta6 .or. (kind == kind_quad4 .and. state /= axisymmetric)
+   end function has_modes
 
    !> Take up the nodes of an element.
    pure subroutine map_element(law, x, map)
@@ -73,23 +82,23 @@ contains
       map%n = element_table(law%kind)%n_nodes
       map%x(:d, :map%n) = x(:d, :map%n)
       if (.not. law%incompatible) return
-      map%n_modes = d
+      map%n_modes = merge(4, d, law%kind == kind_penta6)
       call shape_derivatives(law%kind, centre_point(:, law%kind), dn)
       call invert_jacobian(d, map%n, map%x, dn, map%inverse, map%jacobian)
    end subroutine map_element
 
    !> Gradients at a point and the volume that a unit of weight stands for there. The first components are d/dx, d/dy, d/dz;
-   !! in an axisymmetric body the third is N/r, which makes the hoop strain. After the nodes come the incompatible modes
-   !! 1 - r**2, 1 - s**2, 1 - t**2, their gradients formed with J at the centre and the ratio of the determinants, so that
-   !! their integral over the element is zero whatever its shape: this is what passes the patch test.
+   !! in an axisymmetric body the third is N/r, which makes the hoop strain. After the nodes come the incompatible modes, their
+   !! gradients formed with J at the centre and the ratio of the determinants, so that their integral over the element is zero
+   !! whatever its shape: this is what passes the patch test.
    pure subroutine map_point(law, map, point, g, volume)
       type(element_law), intent(in) :: law
       type(element_map), intent(in) :: map
       real(wp), intent(in)    :: point(3)                 !! local coordinates
       real(wp), intent(inout) :: g(3, max_shapes)         !! of nodes, then modes [1/length]; in the plane two rows are set
       real(wp), intent(out)   :: volume                   !! [length^3]; det J times thickness, 2 pi r or 1
-      real(wp) :: dn(3, max_nodes), n(max_nodes), inverse(3, 3), jacobian, radius, factor
-      integer  :: i, k
+      real(wp) :: dn(3, max_nodes), dm(3, 4), n(max_nodes), inverse(3, 3), jacobian, radius
+      integer  :: d, i, k
 
       call shape_derivatives(law%kind, point, dn)
       if (law%state == solid) then
@@ -114,11 +123,39 @@ contains
          g(3, :map%n) = n(:map%n)/radius
          volume = jacobian*two_pi*radius
       end if
+      if (map%n_modes == 0) return
+      d = element_table(law%kind)%dimension
+      call mode_derivatives(law%kind, point, dm)
       do i = 1, map%n_modes
-         factor = -2.0_wp*point(i)*map%jacobian/jacobian
-         g(:map%n_modes, map%n + i) = factor*map%inverse(:map%n_modes, i)
+         do k = 1, d
+            g(k, map%n + i) = sum(map%inverse(k, :d)*dm(:d, i))*(map%jacobian/jacobian)
+         end do
       end do
    end subroutine map_point
+
+   !> Derivatives of the incompatible modes with respect to the local coordinates; their integrals over the element are zero, and so
+   !! are they at its centre. Quadrilateral and hexahedron: 1 - r**2, 1 - s**2, 1 - t**2. Wedge: 1 - t**2, and of the triangle the
+   !! three quadratic functions less what is linear of them on the mean; all of them, so that no corner is preferred.
+   pure subroutine mode_derivatives(kind, point, dm)
+      integer, intent(in)   :: kind
+      real(wp), intent(in)  :: point(3)
+      real(wp), intent(out) :: dm(3, 4)                   !! d(mode i)/d(local j) in dm(j, i)
+      real(wp), parameter   :: third = 1.0_wp/3.0_wp
+      integer :: i
+
+      dm = 0.0_wp
+      if (kind == kind_penta6) then
+         dm(1, 1) = 2.0_wp*(point(1) - third)
+         dm(2, 2) = 2.0_wp*(point(2) - third)
+         dm(1, 3) = point(2) - third
+         dm(2, 3) = point(1) - third
+         dm(3, 4) = -2.0_wp*point(3)
+      else
+         do i = 1, 3
+            dm(i, i) = -2.0_wp*point(i)
+         end do
+      end if
+   end subroutine mode_derivatives
 
    !> The derivatives of the local coordinates, and det J: d/dx_b = sum over a of inverse(b, a) d/d(local a).
    pure subroutine invert_jacobian(dimension, n, x, dn, inverse, jacobian)

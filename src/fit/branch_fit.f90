@@ -34,6 +34,7 @@ module branch_fit
       logical :: from_points = .false.      !! false: the cubics were given
       logical :: constant  = .false.        !! every run of a pressure has a constant term
       logical :: two_step  = .false.        !! CUBICS and LINES are there
+      integer, allocatable  :: row(:)       !! (points) of the data
       integer, allocatable  :: group(:)     !! (points) the pressure that each was taken at
       real(wp), allocatable :: group_p(:)   !! (pressures)
       real(wp), allocatable :: cubic(:, :)  !! (3, pressures)

@@ -1,6 +1,7 @@
 !> The command line of jointfit: options and data files.
 module fit_command
    use branch_fit, only: fit_choice
+   use c_library, only: is_same_file
    use command_arguments, only: argument_text, complain, input_argument, is_option, say, set_input, version
    use data_columns, only: branch_number, reading_type
    use data_entries, only: read_number
@@ -15,6 +16,7 @@ module fit_command
    public :: read_fit_command
 
    character(*), parameter :: program = 'jointfit'
+   character(*), parameter :: standard_output = '/dev/stdout'
    integer, parameter :: largest_in_small_field = 99999999
 
    type, public :: fit_command_type
@@ -98,12 +100,35 @@ contains
       else if (command%small .and. command%id > largest_in_small_field - (size(command%files) - 1)) then
          call complain(program, '--id '//integer_text(command%id)//': --small has eight columns for the numbers of '// &
                        plural(size(command%files), 'file')//', they end at '//integer_text(largest_in_small_field))
-      else
+      else if (.not. overwrites_data(command)) then
          if (command%as == 0) command%as = command%only
          finished = .false.
          status = 0
       end if
    end subroutine read_fit_command
+
+   !> Whether an output of the command would go to one of its data files, however that is named; then it is said.
+   logical function overwrites_data(command) result(overwrites)
+      type(fit_command_type), intent(in) :: command
+      integer :: i
+
+      overwrites = .true.
+      do i = 1, size(command%files)
+         associate (file => command%files(i))
+            if (command%plot /= '') then
+               if (is_same_file(command%plot, file%path)) then
+                  call complain(program, '--plot '//command%plot//' would overwrite the data file '//file%name)
+                  return
+               end if
+            end if
+            if (is_same_file(standard_output, file%path)) then
+               call complain(program, 'the cards would be written to the data file '//file%name)
+               return
+            end if
+         end associate
+      end do
+      overwrites = .false.
+   end function overwrites_data
 
    !> One more of FILES, the one that ARGUMENT means. (An array constructor would leak its names in gfortran 12.)
    subroutine add_file(files, argument)

@@ -120,7 +120,8 @@ contains
       type(fit_command_type), intent(in)    :: command
       type(surface_fit_type), intent(in)    :: fit
       type(output_file_type), intent(inout) :: out
-      integer :: b, left_out
+      logical :: is_used(data%n)
+      integer :: b
 
       call comment(out, 'law', 'tau = (a11 + a12 p) d + (a21 + a22 p) d^2 + (a31 + a32 p) d^3, b unloading, c reloading')
       do b = fit_load, fit_reload
@@ -132,8 +133,22 @@ contains
                                               trim(branch_words(fit%source(b)))//' data')
          call describe_branch(data, fit, b, command%fit%one_step, out)
       end do
-      left_out = data%n - sum(fit%branch%n_points)
-      if (left_out > 0) call comment(out, '', plural(left_out, 'row')//' of other branches left out')
+      if (fit%has_loading) then
+         associate (closure => fit%closure)
+            if (.not. closure%is_known) then
+               call comment(out, 'closure', 'unloading does not come to tau = 0')
+            else
+               call comment(out, 'closure', real_text(0.01_wp*nint(1.0e4_wp*min(closure%share, 1.0e4_wp)))//' % of tau_r, '// &
+                            trim(merge('widest at                              ', 'of the smallest loops, DMAX unknown, at', &
+                                       closure%d > 0.0_wp))//' p = '//real_text(closure%p)//', d = '//real_text(closure%d))
+            end if
+         end associate
+      end if
+      is_used = data%branch(:data%n) == 0      ! these were told as left out
+      do b = fit_load, fit_reload
+         if (fit%branch(b)%n_points > 0) is_used(fit%branch(b)%row) = .true.
+      end do
+      if (.not. all(is_used)) call comment(out, '', plural(count(.not. is_used), 'row')//' of other branches left out')
       if (fit%has_loading .and. fit%d_max <= 0.0_wp) call comment(out, 'DMAX', 'left blank: the data do not show it')
    end subroutine describe_shear
 
@@ -144,11 +159,8 @@ contains
       integer, intent(in)                   :: b
       logical, intent(in)                   :: joint_fit
       type(output_file_type), intent(inout) :: out
-      integer, allocatable :: rows(:)
-      integer :: i
 
-      rows = pack([(i, i = 1, data%n)], data%branch(:data%n) == fit%source(b))
-      associate (branch => fit%branch(b), points => fit%branch(b)%from_points)
+      associate (branch => fit%branch(b), points => fit%branch(b)%from_points, rows => fit%branch(b)%row)
          if (points) then
             call comment(out, branch_words(b), plural(branch%n_points, 'point')//' at '// &
                          plural(size(branch%group_p), 'pressure')//', p '//range_text(branch%p_low, branch%p_high)//', d '// &
@@ -179,8 +191,8 @@ contains
          character(:), allocatable :: words
 
          words = 'rms '//real_text(residual%rms)//', largest '//real_text(residual%largest)//' at p = '// &
-                 real_text(data%value(column_p, rows(residual%at)))//', d = '// &
-                 real_text(data%value(column_d, rows(residual%at)))
+                 real_text(data%value(column_p, fit%branch(b)%row(residual%at)))//', d = '// &
+                 real_text(data%value(column_d, fit%branch(b)%row(residual%at)))
       end function residual_words
 
    end subroutine describe_branch

@@ -114,12 +114,11 @@ contains
       integer, intent(in)                      :: b
       character(:), allocatable, intent(inout) :: plots
       type(output_file_type), intent(inout)    :: out
-      integer, allocatable :: own(:), rows(:)
+      integer, allocatable :: own(:)
       real(wp) :: fitted(data%n)
-      integer  :: g, i, k
+      integer  :: g, k
 
-      rows = pack([(i, i = 1, data%n)], data%branch(:data%n) == fit%source(b))
-      associate (branch => fit%branch(b))
+      associate (branch => fit%branch(b), rows => fit%branch(b)%row)
          do k = 1, size(branch%start)
             own = pack(rows, branch%curve == k)
             g = branch%group(branch%curve_at(k))

@@ -1,11 +1,13 @@
 !> Which branch and which run each row of a test belongs to, found from the way that the test went.
 module test_branches
+   use branch_fit, only: fit_cubic
    use data_columns, only: column_d, column_lambda, column_p, column_symbols, column_tau, data_cubics, data_normal, &
                            data_shear, fit_load, fit_reload, fit_unload
    use deck_errors, only: deck_error_list
    use fit_command, only: fit_command_type
    use fit_data, only: test_data_type
    use kinds, only: wp
+   use least_squares, only: solve_least_squares
    use pressure_groups, only: group_by_pressure
    use reading_offset, only: check_signs, take_off_offset
    use text_tools, only: integer_text, plural, real_text
@@ -18,6 +20,20 @@ module test_branches
    real(wp), parameter :: least_band = 0.01_wp, most_band = 0.25_wp ! of noise, shares of the range
    real(wp), parameter :: far = 0.1_wp         ! share of the range that is away from the first reading
    integer, parameter  :: few = 3              ! rows in a run, on average, below which the order is hardly that of time
+
+   integer, parameter  :: no_branch = 0        ! of a row that the law has no branch for
+   real(wp), parameter :: exact = 1.0e-6_wp    ! share of the stress, or of d, that tells readings apart
+   real(wp), parameter :: known = 1.5_wp       ! times the largest d of loading: how far its cubic tells where loading goes on
+
+   !> The loading curve of a test as its points so far show it.
+   type :: curve_type
+      logical  :: is_known = .false.
+      integer  :: n = 0                        ! points
+      real(wp) :: a(3) = 0.0_wp                ! coefficients of its cubic
+      real(wp) :: d = 0.0_wp                   ! of the last point [length]
+      real(wp) :: scatter = 0.0_wp             ! of its points [stress]
+      real(wp) :: least = 0.0_wp               ! what tells readings apart [stress]
+   end type curve_type
 
 contains
 
@@ -48,7 +64,7 @@ contains
       band = min(most_band, max(least_band, 2.0_wp*scatter))
       if (command%noise > 0.0_wp) band = command%noise
       if (command%unordered .and. .not. data%has_branch) data%branch = fit_load
-      if (data%has_branch .and. .not. data%has_run) call number_stretches(data, command%fit%p_tolerance)
+      if (data%has_branch .and. .not. data%has_run) call number_stretches(data, command%fit%p_tolerance, command%noise)
       call separate_tests(data, command%fit%p_tolerance, columns, range, band, test)
       runs = 0
       do t = 1, maxval(test)
@@ -123,13 +139,15 @@ contains
       integer :: branch(size(rows)), i, run, sense(size(rows))
 
       if (data%kind == data_shear) then
-         call follow(data%value(column_d, rows), u, starts, .true., data%is_record, branch, sense)
+         call follow(data%value(column_d, rows), u, starts, .true., data%is_record, branch, sense, data%value(column_tau, rows))
          data%value(column_d, rows) = sense*data%value(column_d, rows)
          data%value(column_tau, rows) = sense*data%value(column_tau, rows)
       else
          call follow(data%value(column_p, rows), u, starts, .false., data%is_record, branch, sense)
       end if
       data%branch(rows) = branch
+      if (any(branch == no_branch)) call data%notes%add(0, plural(count(branch == no_branch), 'row')// &
+         ' left out: past point A and off the loading curve, p = '//real_text(data%value(column_p, rows(1))))
       if (.not. data%is_record) return
       data%joined(rows(2:)) = .true.
       run = maxval(data%run) + 1
@@ -141,18 +159,21 @@ contains
    end subroutine take_branches
 
    !> The branch of every point of a test that goes straight along U between the points START, as the law has it: it loads;
-   !! turned back it unloads; turned again it reloads, up to the largest deflection of its loading, and loads again beyond. In
-   !! a test that MIRRORS, unloading beyond the mirror of that deflection is loading in the other SENSE.
-   pure subroutine follow(forward, u, starts, mirrors, joined, branch, sense)
+   !! turned back it unloads; turned again it reloads, up to where it meets the loading curve, and loads again beyond. In a test
+   !! that MIRRORS, unloading that meets the loading curve of the other SENSE is loading there. Without stresses, and where no
+   !! curve is known, it is met at the deflection where the last unloading left it, point A.
+   subroutine follow(forward, u, starts, mirrors, joined, branch, sense, tau)
       real(wp), intent(in) :: forward(:) !! d, or p of a normal test
       real(wp), intent(in) :: u(:)       !! grows where the test loads
       integer, intent(in)  :: starts(:)  !! first points of the straight ways
       logical, intent(in)  :: mirrors
       logical, intent(in)  :: joined     !! a way begins at the last point of the one before, else at its own first one
-      integer, intent(out) :: branch(:)  !! fit_load, fit_unload, fit_reload
+      integer, intent(out) :: branch(:)  !! fit_load, fit_unload, fit_reload, no_branch
       integer, intent(out) :: sense(:)   !! 1 or -1
-      real(wp) :: reached               ! the largest deflection of loading, in the sense S
-      integer  :: before, i, k, last, s, way
+      real(wp), intent(in), optional :: tau(:)
+      type(curve_type) :: curve
+      real(wp) :: reached               ! deflection of point A, in the sense S; while the test loads the largest so far
+      integer  :: before, goal, i, joins, k, last, s, way
 
       s = 1
       reached = 0.0_wp
@@ -167,26 +188,143 @@ contains
             if (s*(u(last) - u(1)) < 0.0_wp) reached = s*forward(1)
          end if
          way = merge(fit_unload, merge(fit_load, fit_reload, k == 1), s*(u(last) - u(before)) < 0.0_wp)
-         do i = starts(k), last
-            if (way == fit_reload .and. s*forward(i) > reached) way = fit_load
-            if (way == fit_unload .and. mirrors .and. s*forward(i) < -reached) then
-               s = -s
-               way = fit_load
+         joins = starts(k)
+         if (way /= fit_load) then
+            goal = merge(-s, s, way == fit_unload)
+            joins = last + 1
+            if (way == fit_reload .or. mirrors) joins = findloc(goal*forward(starts(k):last) > reached, .true., 1) + starts(k) - 1
+            if (joins < starts(k)) joins = last + 1
+            branch(starts(k):last) = way
+            sense(starts(k):last) = s
+            if (present(tau)) then
+               curve = loading_curve(starts(k) - 1)
+               call find_meeting(curve, goal*forward(:last), goal*tau(:last), starts(k), joins, branch(:last))
             end if
-            if (way == fit_load) reached = max(reached, s*forward(i))
-            branch(i) = way
-            sense(i) = s
+            if (joins > last) cycle
+            s = goal
+            reached = s*forward(joins)
+         end if
+         branch(joins:last) = fit_load
+         sense(joins:last) = s
+         do i = joins, last
+            reached = max(reached, s*forward(i))
          end do
       end do
+
+   contains
+
+      !> The loading curve as the first N points show it.
+      type(curve_type) function loading_curve(n) result(curve)
+         integer, intent(in) :: n
+         integer :: points(n), m
+
+         m = count(branch(:n) == fit_load)
+         points(:m) = pack([(i, i = 1, n)], branch(:n) == fit_load)
+         associate (own => points(:m))
+            call lay_curve(sense(own)*forward(own), sense(own)*tau(own), curve)
+         end associate
+      end function loading_curve
+
    end subroutine follow
 
-   !> Rows that name their branches and have no runs: each stretch of one branch at one pressure is a run. Stretches of very few
-   !! rows of shear are rows in no order: those of a branch and pressure are one run.
-   subroutine number_stretches(data, p_tolerance)
+   !> The loading curve tau = a1 d + a2 d^2 + a3 d^3 through the points of loading.
+   subroutine lay_curve(d, tau, curve)
+      real(wp), intent(in)          :: d(:), tau(:)
+      type(curve_type), intent(out) :: curve
+      real(wp), allocatable :: starts(:)
+      logical :: belongs(size(d), 0)
+
+      curve%n = size(d)
+      if (curve%n < few) return
+      call fit_cubic(d, tau, belongs, curve%a, starts, curve%is_known)
+      curve%d = maxval(d)
+      curve%scatter = norm2(tau - cubic_at(curve, d))/sqrt(real(max(1, curve%n - 3), wp))
+      curve%least = exact*maxval(abs(tau))
+   end subroutine lay_curve
+
+   elemental real(wp) function cubic_at(curve, d) result(tau)
+      type(curve_type), intent(in) :: curve
+      real(wp), intent(in)         :: d
+
+      tau = d*(curve%a(1) + d*(curve%a(2) + d*curve%a(3)))
+   end function cubic_at
+
+   !> Where a way back, from the point FIRST on, meets the loading CURVE that it goes to: behind the last point up to A that is off
+   !! the curve on the side from which the way comes to it; where that is the last one before A, JOINS stays what A makes it. Then
+   !! points beyond A that are still off the curve, not far from what is known of it, are on no branch of the law.
+   subroutine find_meeting(curve, d, tau, first, joins, branch)
+      type(curve_type), intent(in) :: curve
+      real(wp), intent(in)         :: d(:), tau(:) !! in the sense of that curve
+      integer, intent(in)          :: first
+      integer, intent(inout)       :: joins        !! the first point of loading
+      integer, intent(inout)       :: branch(:)
+      integer  :: i, last_off
+      real(wp) :: off, side
+
+      if (.not. curve%is_known) return
+      side = 0.0_wp
+      last_off = 0
+      do i = first, joins - 1
+         if (d(i) < 0.0_wp) cycle
+         off = tau(i) - cubic_at(curve, d(i))
+         if (abs(off) <= doubt(curve, d(i))) cycle
+         if (.not. abs(side) > 0.0_wp) side = sign(1.0_wp, off)
+         if (side*off > 0.0_wp) last_off = i
+      end do
+      if (last_off == 0) return
+      if (last_off < joins - 1) then
+         joins = behind(last_off, joins)
+         return
+      else if (curve%n <= 2*few) then
+         return
+      end if
+      do i = joins, size(d)
+         if (abs(tau(i) - cubic_at(curve, d(i))) <= doubt(curve, d(i)) .or. d(i) > known*curve%d) exit
+         branch(i) = no_branch
+         joins = i + 1
+      end do
+
+   contains
+
+      !> The first point behind LAST, before END, that is on the curve: of points in doubt, the first behind where the parabola through
+      !! what is off before them comes to it.
+      integer function behind(last, end)
+         integer, intent(in) :: last, end
+         integer  :: points(last - first + 1), k
+         real(wp) :: parabola(3)
+         logical  :: ok
+
+         k = count(d(first:last) >= 0.0_wp)
+         points(:k) = pack([(i, i = first, last)], d(first:last) >= 0.0_wp)
+         associate (x => d(points(:k)), y => tau(points(:k)) - cubic_at(curve, d(points(:k))))
+            call solve_least_squares(reshape([(1.0_wp, i = 1, k), x, x**2], [k, 3]), y, parabola, ok)
+         end associate
+         do behind = last + 1, end - 1
+            if (.not. ok .or. abs(tau(behind) - cubic_at(curve, d(behind))) <= curve%least) return
+            if (side*(parabola(1) + d(behind)*(parabola(2) + d(behind)*parabola(3))) <= 0.0_wp) return
+         end do
+      end function behind
+
+   end subroutine find_meeting
+
+   !> How far a point at D may lie off the CURVE and be on it: three times what its points scatter, more where none is.
+   elemental real(wp) function doubt(curve, d)
+      type(curve_type), intent(in) :: curve
+      real(wp), intent(in)         :: d
+
+      doubt = curve%least + 3.0_wp*curve%scatter*max(1.0_wp, d/curve%d)**6
+   end function doubt
+
+   !> Rows that name their branches and have no runs: each stretch of one branch at one pressure is a run, up to where d, of a
+   !! normal test p, turns back. Stretches of very few rows of shear are rows in no order: those of a branch and pressure are one
+   !! run.
+   subroutine number_stretches(data, p_tolerance, noise)
       type(test_data_type), intent(inout) :: data
       real(wp), intent(in)                :: p_tolerance
-      integer :: i, stretch(data%n)
-      logical :: new
+      real(wp), intent(in)                :: noise !! share of the range, 0: to be found
+      real(wp) :: band, scatter
+      integer  :: column, i, stretch(data%n)
+      logical  :: new
 
       stretch = 1
       do i = 2, data%n
@@ -196,8 +334,39 @@ contains
          end associate
          stretch(i) = stretch(i - 1) + merge(1, 0, new)
       end do
+      column = merge(column_d, column_p, data%kind == data_shear)
+      associate (x => data%value(column, :data%n), y => data%value(merge(column_tau, column_lambda, column == column_d), :data%n))
+         scatter = scatter_of(x, y)
+         band = max(least_band, 2.0_wp*scatter)
+         if (noise > 0.0_wp) band = noise
+         if (band <= most_band .or. noise > 0.0_wp) call part_stretches(x, band*(maxval(x) - minval(x)), stretch)
+      end associate
       if (data%kind == data_normal .or. data%n >= few*stretch(data%n)) data%run(:data%n) = stretch
    end subroutine number_stretches
+
+   !> Part each STRETCH where X turns back by more than BAND, and number them anew.
+   pure subroutine part_stretches(x, band, stretch)
+      real(wp), intent(in)   :: x(:), band
+      integer, intent(inout) :: stretch(:)
+      integer, allocatable :: turns(:)
+      integer :: first, last, n, parted(size(x))
+
+      n = 0
+      first = 1
+      do while (first <= size(x))
+         last = first
+         do while (last < size(x))
+            if (stretch(last + 1) /= stretch(first)) exit
+            last = last + 1
+         end do
+         call find_turns(x(first:last), band, turns)
+         if (size(turns) > 0) last = first + turns(1) - 1
+         n = n + 1
+         parted(first:last) = n
+         first = last + 1
+      end do
+      stretch = parted
+   end subroutine part_stretches
 
    !> Note how the record was cut, and say where it is hardly a record.
    subroutine report_record(data, p_tolerance, columns, share, band, counts, errors)

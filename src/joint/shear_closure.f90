@@ -10,6 +10,8 @@ module shear_closure
 
    public :: closure_at, worst_closure
 
+   real(wp), parameter, public :: wide_gap = 0.05_wp !! that is warned of
+
    integer, parameter  :: divisions = 20        ! of the tested range
    real(wp), parameter :: alike = 1.0e-9_wp     ! gaps of loops that rounding alone tells apart: the first counts
 

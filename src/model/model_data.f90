@@ -23,6 +23,7 @@ module model_data
       real(wp) :: rho = 0.0_wp               !! mass density [force x time^2/length^4]
       real(wp) :: alpha = 0.0_wp             !! thermal expansion [1/temperature]
       real(wp) :: reference = 0.0_wp         !! TREF, at which it has no thermal strain [temperature]
+      real(wp) :: damping = 0.0_wp           !! GE, structural damping [-]
       logical  :: incompatible = .false.     !! modes of Wilson and Taylor
    end type property_type
 
@@ -100,6 +101,7 @@ module model_data
       real(wp) :: mass = 0.0_wp              !! (rho A + NSM) L of a bar [force x time^2/length]
       real(wp) :: expansion = 0.0_wp         !! alpha L [length/temperature]
       real(wp) :: reference = 0.0_wp         !! TREF [temperature]
+      real(wp) :: damping = 0.0_wp           !! GE, structural damping [-]
    end type bar_type
 
    !> CONM2: a mass at a node.

@@ -2,7 +2,7 @@
 module listing_modes
    use kinds, only: wp
    use listing_table, only: axes, column, column_type, listing_table_type, page_type
-   use modal_response, only: response_type
+   use modal_response, only: missed_peak, response_type
    use mode_values, only: modes_type
    use model_data, only: model_type
    use text_tools, only: clean, integer_text, real_text
@@ -109,13 +109,15 @@ contains
          associate (mode => modes%modes(m))
             call table%add([modes%n_before + m])
             call table%add([mode%frequency, mode%omega, mode%mass, mode%residual])
-            if (plan%amplitude > 0.0_wp .and. .not. mode%is_rigid) call table%add([mode%loss])
+            if (plan%has_losses .and. .not. mode%is_rigid) call table%add([mode%loss])
             call table%print_row(page%file)
          end associate
       end do
       if (any(modes%modes%is_rigid)) call page%file%put('  FREQUENCY 0: THE STRUCTURE, OR A PART OF IT, MOVES WITHOUT STRAIN')
       if (plan%amplitude > 0.0_wp) call page%file%put('  LOSS FACTORS WHERE THE LARGEST DISPLACEMENT OF THE MODE IS '// &
                                                       real_text(plan%amplitude))
+      if (plan%has_losses .and. plan%amplitude <= 0.0_wp) call page%file%put( &
+         '  LOSS FACTORS OF MATERIALS (GE, PARAM G) ALONE: WHAT JOINTS LOSE DEPENDS ON AN AMPLITUDE')
    end subroutine list_frequencies
 
    subroutine list_participation(page, model, modes)
@@ -154,6 +156,11 @@ contains
       type(listing_table_type) :: table
       integer :: at, c, i
 
+      if (size(response%frequency) == 0) then
+         call page%file%put('')
+         call page%file%put('  WARNING: NO RESPONSE TO THE OSCILLATING LOAD: NO MODE FOUND IS IN THE RANGE OF FREQ4')
+         return
+      end if
       call table%start('RESPONSE TO THE OSCILLATING LOAD, LARGEST AMPLITUDES OF '//integer_text(size(response%frequency))// &
                        ' FREQUENCIES', [column('NODE', 'i11'), column('ALONG', 'a7'), &
                        column('AMPLITUDE', 'es15.5', page%labels%length), column('AT FREQUENCY', 'es15.5', '1/TIME'), &
@@ -170,7 +177,26 @@ contains
       end do
       if (.not. response%is_complete) call page%file%put( &
          '  BY THESE MODES ALONE: THE STRUCTURE IS NOT HELD, AND HAS NO STATIC ANSWER')
+      do i = 1, size(response%missed)
+         call page%file%put(missed_words(response, response%missed(i)))
+      end do
    end subroutine list_response
+
+   !> The line that warns of a PEAK between the frequencies asked for.
+   pure function missed_words(response, peak) result(words)
+      type(response_type), intent(in) :: response
+      type(missed_peak), intent(in)   :: peak
+      character(:), allocatable       :: words
+      character(12) :: amplitude, beside, frequency
+
+      write (frequency, '(es12.5)') peak%frequency
+      write (amplitude, '(es12.5)') peak%amplitude
+      write (beside, '(es12.5)') peak%beside
+      if (peak%amplitude <= 0.0_wp) amplitude = 'NO BOUND'
+      words = '  WARNING: MODE '//integer_text(peak%mode)//' HAS ITS PEAK BETWEEN THE FREQUENCIES ASKED FOR: AT '// &
+              trim(adjustl(frequency))//' NODE '//integer_text(response%node(peak%node))//' '//axes(peak%component)//' '// &
+              trim(adjustl(amplitude))//', BESIDE IT '//trim(adjustl(beside))//'; SEE FREQ4'
+   end function missed_words
 
    !> A row a mode for every body, joint and bar that has some of its strain energy.
    subroutine list_energies(page, model, modes)

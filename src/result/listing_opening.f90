@@ -4,6 +4,8 @@ module listing_opening
    use command_arguments, only: standard_input, version
    use case_control, only: method_newton, method_step, pressure_eq10
    use deck_input, only: deck_type
+   use element_kinds, only: element_table, n_kinds
+   use element_mapping, only: has_modes
    use equation_solver, only: equation_system
    use joint_motion, only: is_closed
    use kinds, only: long, wp
@@ -76,6 +78,7 @@ contains
       if (model%n_filled > 0) call count_line('   OF THESE PUT AT THE MIDDLE OF EDGES', int(model%n_filled, long))
       if (any(model%twin > 0)) call count_line('   OF THESE DOUBLED AT SPLIT SURFACES', count(model%twin > 0, kind=long))
       call count_line('BODY ELEMENTS', int(model%n_elements, long))
+      call count_formulations(model)
       if (n_bars(model) > n_springs(model)) call count_line('BARS, BOLTS INCLUDED', int(n_bars(model) - n_springs(model), long))
       if (n_springs(model) > 0) call count_line('SPRINGS, ONE A DIRECTION', int(n_springs(model), long))
       if (n_sections(model) > 0) call count_line('SOLID BOLTS', size(model%sections, kind=long))
@@ -110,6 +113,30 @@ contains
       if (tetra_words(model) /= '') call file%put('  WARNING: '//upper(tetra_words(model)))
 
    contains
+
+      !> The body elements of every kind, and which formulation they are of.
+      subroutine count_formulations(model)
+         type(model_type), intent(in) :: model
+         integer(long) :: n(2, n_kinds) ! without and with incompatible modes
+         integer :: e, k, m
+
+         n = 0
+         do e = 1, model%n_elements
+            k = model%element_kind(e)
+            associate (property => model%properties(model%element_property(e)))
+               m = merge(2, 1, property%incompatible .and. has_modes(k, property%state))
+            end associate
+            n(m, k) = n(m, k) + 1
+         end do
+         do k = 1, n_kinds
+            associate (kind => element_table(k))
+               if (n(1, k) > 0) call count_line('   '//trim(kind%card)//' OF '//integer_text(kind%n_nodes)//' NODES, '// &
+                                                trim(merge('PLAIN       ', 'SECOND ORDER', kind%linear == k)), n(1, k))
+               if (n(2, k) > 0) call count_line('   '//trim(kind%card)//' OF '//integer_text(kind%n_nodes)// &
+                                                ' NODES, INCOMPATIBLE MODES', n(2, k))
+            end associate
+         end do
+      end subroutine count_formulations
 
       subroutine count_line(words, number)
          character(*), intent(in)  :: words

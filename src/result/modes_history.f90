@@ -23,7 +23,7 @@ contains
       call file%put('stage,mode,frequency,omega,residual,mass_x,mass_y,mass_z,loss_factor')
    end subroutine write_modes_header
 
-   !> The rows of STAGE, a mode each: effective masses are those of the mode; the loss factor where an amplitude is given.
+   !> The rows of STAGE, a mode each: effective masses are those of the mode; the loss factor where PLAN has losses.
    subroutine write_modes(file, stage, plan, modes)
       type(output_file_type), intent(inout) :: file
       integer, intent(in)                   :: stage !! its number
@@ -38,7 +38,7 @@ contains
             call line%add([stage, modes%n_before + m])
             call line%add([mode%frequency, mode%omega, mode%residual])
             call line%add(clean(mode%effective, no_mass*modes%mass))
-            if (plan%amplitude > 0.0_wp .and. .not. mode%is_rigid) then
+            if (plan%has_losses .and. .not. mode%is_rigid) then
                call line%add([mode%loss])
             else
                call line%add('')

@@ -11,7 +11,7 @@ module range_watch
    use normal_curve, only: loading_deflection, normal_tangent
    use normal_stiffness, only: branch_load, branch_open, branch_unload
    use restart_stream, only: restart_stream_type
-   use shear_closure, only: loop_closure, worst_closure
+   use shear_closure, only: loop_closure, wide_gap, worst_closure
    use shear_stiffness, only: curve_deflection, shear_law, shear_slope
    use stage_plan, only: stage_plan_type, where_in_plan
    use text_tools, only: integer_text, plural, real_text, upper
@@ -23,7 +23,6 @@ module range_watch
 
    real(wp), parameter :: much = 0.01_wp ! of the largest load, or of the friction limits: what may be left without a warning
    real(wp), parameter :: rounding = 1.0e-9_wp
-   real(wp), parameter :: wide = 0.05_wp ! the gap of a loop that is warned of
 
    integer, parameter :: beyond_p = 1, beyond_d = 2, no_slope = 3 ! how a shear law is left
 
@@ -98,7 +97,7 @@ contains
                watch%first_of(k, j) = i
                if (i < 2*(j - 1) + k) cycle
                closure = worst_closure(law, model%joints(j)%p_av)
-               if (.not. closure%is_known .or. closure%share <= wide) cycle
+               if (.not. closure%is_known .or. closure%share <= wide_gap) cycle
                watch%n_warnings = watch%n_warnings + 1
                call watch%rows%keep_line('  WARNING: SHEAR LAW OF JOINT '//integer_text(model%joints(j)%id)//', '//axes(k)// &
                   ': RELOADING MISSES POINT A BY MORE THAN 5 PER CENT OF TAU_R, CYCLES CREEP: SEE ITS CLOSURE ABOVE')

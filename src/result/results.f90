@@ -167,6 +167,9 @@ contains
       type(results_type), intent(inout) :: results
 
       call list_response(results%listing%page, response)
+      associate (watch => results%listing%watch)
+         watch%n_warnings = watch%n_warnings + size(response%missed) + merge(1, 0, size(response%frequency) == 0)
+      end associate
       if (results%base /= '') call write_response(results%tables(response_csv), plan%stages(stage)%id, response)
    end subroutine print_response
 

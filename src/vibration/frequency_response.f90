@@ -3,10 +3,10 @@
 !! Mode r, its shape phi_r, modal mass m_r, lambda_r = omega_r**2, feels the force q_r = phi_r . F. Under F e**(i omega t) the displacement
 !! u e**(i omega t) has
 !!
-!!    u = sum over r of phi_r q_r / (m_r (lambda_r - omega**2) + i b_r) + u_rest
+!!    u = sum over r of phi_r q_r / (m_r (lambda_r - omega**2 + i b_r)) + u_rest,   b_r = eta_r lambda_r + omega g_r omega_r
 !!
-!!    structural damping: b_r = eta_r lambda_r m_r         the loss factor of the joints in this mode
-!!    viscous damping:    b_r = omega g_r omega_r m_r      of a TABDMP1, NASTRAN's B = g omega_r m, which is g at omega = omega_r
+!!    structural damping: eta_r, the loss factor of materials and joints in this mode
+!!    viscous damping:    g_r of a TABDMP1, NASTRAN's B = g omega_r m, which is g at omega = omega_r
 !!
 !! u_rest is what modes that were not asked for give, as they do when nothing oscillates: the static answer less the share of the modes
 !! in it, phi_r q_r/(m_r lambda_r).
@@ -17,7 +17,7 @@ module frequency_response
    implicit none
    private
 
-   public :: response_at, static_share, phase_of
+   public :: response_at, static_share, peak_frequency, phase_of
 
    real(wp), parameter :: pi = acos(-1.0_wp)
 
@@ -27,8 +27,8 @@ module frequency_response
       real(wp), allocatable :: mass(:)    !! (modes) modal mass, > 0 [force x time^2/length, by the scale of the shapes]
       real(wp), allocatable :: shape(:, :) !! (components, modes) of the components asked
       real(wp), allocatable :: force(:)   !! (modes) phi_r . F
-      real(wp), allocatable :: loss(:)    !! (modes) eta_r or g_r [-]
-      logical               :: viscous = .false. !! they are g_r of viscous damping
+      real(wp), allocatable :: loss(:)    !! (modes) eta_r, structural damping [-]
+      real(wp), allocatable :: viscous(:) !! (modes) g_r, viscous damping [-]
       real(wp), allocatable :: rest(:)    !! (components) u_rest, zero where there is none [length]
    end type modal_system
 
@@ -51,12 +51,8 @@ contains
       ok = .true.
       do r = 1, size(system%lambda)
          if (abs(system%force(r)) <= 0.0_wp) cycle
-         associate (lambda => system%lambda(r), eta => system%loss(r))
-            if (system%viscous) then
-               resistance = cmplx(lambda - omega**2, eta*omega*sqrt(lambda), wp)
-            else
-               resistance = cmplx(lambda - omega**2, eta*lambda, wp)
-            end if
+         associate (lambda => system%lambda(r))
+            resistance = cmplx(lambda - omega**2, system%loss(r)*lambda + system%viscous(r)*omega*sqrt(max(0.0_wp, lambda)), wp)
          end associate
          if (abs(resistance) <= 0.0_wp) then
             ok = .false.
@@ -65,6 +61,15 @@ contains
          u = u + system%shape(:, r)*system%force(r)/(system%mass(r)*resistance)
       end do
    end subroutine response_at
+
+   !> Where mode R alone has its largest amplitude: with structural damping at its natural frequency, with viscous damping below it.
+   !! 0 of a mode that has no peak: a motion without strain, or one damped too much [1/time].
+   pure real(wp) function peak_frequency(system, r) result(frequency)
+      type(modal_system), intent(in) :: system
+      integer, intent(in)            :: r
+
+      frequency = sqrt(max(0.0_wp, system%lambda(r)*(1.0_wp - 0.5_wp*system%viscous(r)**2)))/(2.0_wp*pi)
+   end function peak_frequency
 
    !> What the elastic modes have in the static answer, which less this is u_rest [length].
    pure function static_share(system) result(u)

@@ -20,6 +20,7 @@ module modal_energy
       real(wp), allocatable :: body(:)             !! (bodies)
       real(wp), allocatable :: bar(:)              !! (bars)
       real(wp), allocatable :: normal(:), shear(:) !! (joints)
+      real(wp) :: damped = 0.0_wp                  !! of bodies and bars, each part times its GE; what a cycle loses is 2 pi times this
    contains
       procedure :: total, scale
    end type energy_type
@@ -42,6 +43,7 @@ contains
       self%bar = factor*self%bar
       self%normal = factor*self%normal
       self%shear = factor*self%shear
+      self%damped = factor*self%damped
    end subroutine scale
 
    !> The strain energies of the shapes U, half of u^T [k] u part by part, and the forces F = [k] U that hold them.
@@ -67,6 +69,7 @@ contains
             associate (bar => model%bars(i))
                tension = bar%stiffness*bar_elongation(bar, u(:, bar_nodes(bar), m))
                energies(m)%bar(i) = 0.5_wp*tension**2/bar%stiffness
+               energies(m)%damped = energies(m)%damped + bar%damping*energies(m)%bar(i)
                call add_pull(model, i, -tension, f(:, :, m))
             end associate
          end do
@@ -90,6 +93,7 @@ contains
       type(energy_type), intent(inout) :: energies(:)
       real(wp), intent(inout)          :: f(:, :, :)
       real(wp) :: k(max_coupled_dofs, max_coupled_dofs), q(max_coupled_dofs, size(energies)), p(max_coupled_dofs, size(energies))
+      real(wp) :: own
       integer  :: d, e, i, m, n
 
       d = model%dimension
@@ -105,8 +109,10 @@ contains
                f(:, nodes(i), :) = f(:, nodes(i), :) + p(d*(i - 1) + 1:d*i, :)
             end do
             do m = 1, size(energies)
-               associate (energy => energies(m)%body(body(e)))
-                  energy = energy + 0.5_wp*dot_product(q(:n, m), p(:n, m))
+               own = 0.5_wp*dot_product(q(:n, m), p(:n, m))
+               associate (energy => energies(m))
+                  energy%body(body(e)) = energy%body(body(e)) + own
+                  energy%damped = energy%damped + model%properties(model%element_property(e))%damping*own
                end associate
             end do
          end associate

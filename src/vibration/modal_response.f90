@@ -4,13 +4,13 @@ module modal_response
    use eigenpairs, only: all_displacements, on_equations
    use equation_solver, only: equation_system
    use failures, only: failure_type
-   use frequency_response, only: modal_system, phase_of, response_at, static_share
+   use frequency_response, only: modal_system, peak_frequency, phase_of, response_at, static_share
    use kinds, only: wp
    use mode_values, only: modes_type
    use model_data, only: model_type
    use oscillating_structure, only: factorise_at, oscillating_type
    use text_tools, only: real_text
-   use vibration_plan, only: loss_at, response_plan
+   use vibration_plan, only: asked_frequencies, loss_at, response_plan
    implicit none
    private
 
@@ -18,12 +18,26 @@ module modal_response
 
    real(wp), parameter :: nothing = 1.0e-10_wp !! of the largest amplitude at a frequency: rounding, which has no phase
 
+   real(wp), parameter :: missed_share = 0.05_wp  ! by which a peak is above what is asked for beside it: then it is missed
+   real(wp), parameter :: small_share = 0.01_wp   ! of the largest amplitude of a component: its peaks below are not looked for
+   real(wp), parameter :: untouched = 1.0e-9_wp   ! of a mode: a load that does not move it, a component that it does not move
+
+   !> The peak of a mode between the frequencies asked for.
+   type, public :: missed_peak
+      integer  :: mode = 0                        !! its place among the modes found
+      real(wp) :: frequency = 0.0_wp              !! of the peak [1/time]
+      integer  :: node = 0, component = 0         !! where it is largest: place among the nodes asked for; 1 to 3
+      real(wp) :: amplitude = 0.0_wp              !! there, 0: without bound, the mode has no damping [length]
+      real(wp) :: beside = 0.0_wp                 !! the larger one at the frequencies beside it [length]
+   end type missed_peak
+
    !> The response of one stage.
    type, public :: response_type
       integer, allocatable  :: node(:)            !! (nodes) their numbers
       real(wp), allocatable :: frequency(:)       !! (frequencies) [1/time]
       real(wp), allocatable :: amplitude(:, :, :) !! (2 or 3 components, nodes, frequencies), >= 0 [length]
       real(wp), allocatable :: phase(:, :, :)     !! likewise, of the displacement against the force [degrees]
+      type(missed_peak), allocatable :: missed(:)
       logical :: is_complete = .false.            !! with the static answer of the modes that have not been asked for
    end type response_type
 
@@ -51,13 +65,13 @@ contains
       response%is_complete = allocated(at_rest)
       if (response%is_complete) superposed%rest = at_rest - static_share(superposed)
       response%node = model%node_id(plan%nodes)
-      response%frequency = plan%frequencies
-      associate (d => model%dimension, n => size(plan%nodes))
-         allocate (response%amplitude(d, n, size(plan%frequencies)), response%phase(d, n, size(plan%frequencies)))
-         do f = 1, size(plan%frequencies)
-            call response_at(superposed, plan%frequencies(f), u, ok)
+      response%frequency = asked_frequencies(plan, modes%modes%frequency)
+      associate (d => model%dimension, n => size(plan%nodes), frequencies => response%frequency)
+         allocate (response%amplitude(d, n, size(frequencies)), response%phase(d, n, size(frequencies)))
+         do f = 1, size(frequencies)
+            call response_at(superposed, frequencies(f), u, ok)
             if (.not. ok) then
-               call failure%raise('FREQUENCY: at '//real_text(plan%frequencies(f))//' the response has no bound: no damping, '// &
+               call failure%raise('FREQUENCY: at '//real_text(frequencies(f))//' the response has no bound: no damping, '// &
                                   'or a structure that nothing holds')
                return
             end if
@@ -67,7 +81,53 @@ contains
             response%phase(:, :, f) = reshape(phase_of(u), [d, n])
          end do
       end associate
+      call find_missed_peaks(plan, modes, superposed, response)
    end subroutine find_response
+
+   !> The modes that have a peak between two frequencies of RESPONSE and are not seen there: at the peak of the mode some component
+   !! has an amplitude above those at both frequencies. Of each mode the component with the largest one.
+   subroutine find_missed_peaks(plan, modes, superposed, response)
+      type(response_plan), intent(in)    :: plan
+      type(modes_type), intent(in)       :: modes
+      type(modal_system), intent(in)     :: superposed
+      type(response_type), intent(inout) :: response
+      type(missed_peak) :: peak
+      complex(wp) :: u(size(superposed%shape, 1))
+      real(wp)    :: at_peak(size(u)), beside(size(u)), most(size(u)), of_load
+      integer     :: at, d, k, m
+      logical     :: is_damped, ok
+
+      allocate (response%missed(0))
+      if (size(response%frequency) < 2) return
+      d = size(response%amplitude, 1)
+      most = reshape(maxval(response%amplitude, dim=3), [size(u)])
+      of_load = sqrt(sum(plan%force**2))
+      do m = 1, size(modes%modes)
+         peak = missed_peak(mode=modes%n_before + m, frequency=peak_frequency(superposed, m))
+         k = count(response%frequency <= peak%frequency) ! the one below
+         if (k == 0 .or. k == size(response%frequency) .or. peak%frequency <= 0.0_wp) cycle
+         associate (largest => maxval(abs(modes%modes(m)%u)))
+            if (abs(superposed%force(m)) <= untouched*of_load*largest) cycle
+            is_damped = superposed%loss(m) + superposed%viscous(m) > untouched
+            beside = reshape(maxval(response%amplitude(:, :, k:k + 1), dim=3), [size(u)])
+            if (is_damped) then
+               call response_at(superposed, peak%frequency, u, ok)
+               at_peak = abs(u)
+               where (at_peak <= max(nothing*maxval(at_peak), small_share*most, (1.0_wp + missed_share)*beside)) at_peak = 0.0_wp
+            else
+               at_peak = abs(superposed%shape(:, m))
+               where (at_peak <= untouched*largest) at_peak = 0.0_wp
+            end if
+         end associate
+         at = maxloc(at_peak, dim=1)
+         if (at_peak(at) <= 0.0_wp) cycle
+         if (is_damped) peak%amplitude = at_peak(at)
+         peak%beside = beside(at)
+         peak%node = (at - 1)/d + 1
+         peak%component = at - d*(peak%node - 1)
+         response%missed = [response%missed, peak]
+      end do
+   end subroutine find_missed_peaks
 
    !> MODES as the superposition sees them.
    pure subroutine put_together(model, plan, modes, superposed)
@@ -79,17 +139,24 @@ contains
 
       d = model%dimension
       n = size(modes%modes)
-      allocate (superposed%shape(d*size(plan%nodes), n), superposed%force(n), superposed%loss(n))
+      allocate (superposed%shape(d*size(plan%nodes), n), superposed%force(n), superposed%loss(n), &
+                superposed%viscous(n))
       superposed%lambda = modes%modes%lambda
       superposed%mass = modes%modes%mass
-      superposed%viscous = allocated(plan%damping)
+      superposed%viscous = 0.0_wp
       superposed%rest = [(0.0_wp, m = 1, size(superposed%shape, 1))]
       do m = 1, n
          associate (mode => modes%modes(m))
             superposed%shape(:, m) = pack(mode%u(:, plan%nodes), .true.)
             superposed%force(m) = sum(mode%u*plan%force(:d, :))
             superposed%loss(m) = mode%loss
-            if (superposed%viscous) superposed%loss(m) = loss_at(plan%damping, mode%frequency)
+            if (.not. allocated(plan%damping)) cycle
+            superposed%loss(m) = mode%material_loss
+            if (plan%is_structural) then
+               superposed%loss(m) = superposed%loss(m) + loss_at(plan%damping, mode%frequency)
+            else
+               superposed%viscous(m) = loss_at(plan%damping, mode%frequency)
+            end if
          end associate
       end do
    end subroutine put_together

@@ -4,8 +4,10 @@
 !!      generalised mass     m_r = u^T [m] u            participation  g_d = u^T [m] e_d/m_r, e_d all nodes by 1 along d
 !!      effective mass       g_d^2 m_r; of all modes together the mass that is not held at supports
 !!      residual             |[k] u - lambda [m] u|/|[k] u| on what is not held, of a motion without strain beside |sigma [m] u|
-!!      loss factor          sum of a_i W/(2 pi U): W the loss of the Masing loops of the joints at the amplitude asked for, U the
-!!                           strain energy of the mode there
+!!      loss factor          of materials PARAM G + sum of GE U_e/U, U_e the strain energy of an element or bar, U that of the mode;
+!!                           and of joints sum of a_i W/(2 pi U): W the loss of their Masing loops at the amplitude asked for
+!! Source of the share by strain energy: C. D. Johnson, D. A. Kienholz, Finite element prediction of damping in structures with
+!! constrained viscoelastic layers, AIAA Journal 20 (1982) 1284-1290.
 module mode_values
    use analysis_state, only: analysis_type
    use eigenpairs, only: all_displacements, on_equations
@@ -36,7 +38,8 @@ module mode_values
       real(wp) :: participation(3) = 0.0_wp         !! along x, y, z; of a ring along y alone [-]
       real(wp) :: effective(3) = 0.0_wp             !! mass [force time^2/length]
       real(wp) :: residual = 0.0_wp                 !! [-]
-      real(wp) :: loss = 0.0_wp                     !! loss factor, where an amplitude is given [-]
+      real(wp) :: loss = 0.0_wp                     !! loss factor, of joints where an amplitude is given [-]
+      real(wp) :: material_loss = 0.0_wp            !! what materials and PARAM G have in it [-]
       real(wp), allocatable :: u(:, :)              !! (dimension, n_nodes) shape [length]
       type(energy_type) :: energy                   !! shares of the strain energy, their sum 1; of a motion without strain 0
    end type mode_type
@@ -100,7 +103,11 @@ contains
             allocate (mode%u, source=u(:, :, m))
             mode%energy = energies(m)
             call normalise(model, plan, mode)
-            if (plan%amplitude > 0.0_wp .and. .not. mode%is_rigid) mode%loss = loss_factor(model, analysis, plan, mode)
+            if (.not. mode%is_rigid) then
+               mode%material_loss = plan%damping + mode%energy%damped/mode%energy%total()
+               mode%loss = mode%material_loss
+               if (plan%amplitude > 0.0_wp) mode%loss = mode%loss + loss_of_joints(model, analysis, plan, mode)
+            end if
             call share_energy(mode)
          end associate
       end do
@@ -163,8 +170,8 @@ contains
       call mode%energy%scale(factor**2)
    end subroutine normalise
 
-   !> The loss factor of MODE where its largest displacement is the amplitude that PLAN gives.
-   pure real(wp) function loss_factor(model, analysis, plan, mode) result(loss)
+   !> What the joints have in the loss factor of MODE where its largest displacement is the amplitude that PLAN gives.
+   pure real(wp) function loss_of_joints(model, analysis, plan, mode) result(loss)
       type(model_type), intent(in)          :: model
       type(analysis_type), intent(in)       :: analysis
       type(vibration_plan_type), intent(in) :: plan
@@ -187,7 +194,7 @@ contains
          end associate
       end do
       loss = lost/(two_pi*factor**2*mode%energy%total())
-   end function loss_factor
+   end function loss_of_joints
 
    !> The energies become shares of all.
    pure subroutine share_energy(mode)

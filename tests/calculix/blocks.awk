@@ -55,7 +55,7 @@ function deck(   k) {
    for (k = 1; k <= nodes; k++) printf "GRID,%d,,%.10f,%.10f,%.10f\n", k, x[k], y[k], z[k]
    for (k = 1; k <= elements; k++) card("CHEXA", k ",1", corner[k] (order == 2 ? " " below[k] " " between[k] " " above[k] : ""))
    for (k = 1; k <= faces; k++) card(order == 2 ? "CQUAD8" : "CQUAD4", elements + k "," mark_of[k], face[k])
-   printf "PMARK,20\nPMARK,21\nPSOLID,1,1\nMAT1,1,%.1f,,0.3\nJOINT,1,1,21,20\nPJOINT,1,1,,,,,1.0\nJNORM,1,%.3E,0.5,1.0+9\nJINCR,1,4\n", young, c
+   printf "PMARK,20\nPMARK,21\nPSOLID,1,1,,,,PLAIN\nMAT1,1,%.1f,,0.3\nJOINT,1,1,21,20\nPJOINT,1,1,,,,,1.0\nJNORM,1,%.3E,0.5,1.0+9\nJINCR,1,4\n", young, c
    for (k in held) print "SPC1,1," held[k] "," k
    for (k in force) printf "FORCE,1,%d,,%.10f,0.0,0.0,-1.0\n", k, force[k]
    print "ENDDATA"

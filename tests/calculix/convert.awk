@@ -1,7 +1,7 @@
 # A deck of the project, small or free field, as input of CalculiX: the cards below and no others, one step a SUBCASE.
 #    GRID, CTETRA, CPENTA, CHEXA, CTRIA3, CTRIA6, CQUAD4, CQUAD8, PSOLID, PSHELL, PAXIS, MAT1, SPC1 (a list of nodes), FORCE, GRAV,
 #    PLOAD4 (even), PLOADE
-# CHEXA of a PSOLID with MODES become C3D8I, others C3D8, C3D20 where they have twenty nodes, and so on. On a PAXIS plane elements
+# CHEXA of a PSOLID with PLAIN or FULL become C3D8, others C3D8I, C3D20 where they have twenty nodes, and so on. On a PAXIS plane elements
 # become CAX. Others become CPE, plane strain: CalculiX expands CPS in its own way, so a plane-stress deck gets the constants with
 # which plane strain is the same, E (1+2 nu)/(1+nu)**2 and nu/(1+nu). With -v stress=CPS it gets CPS after all. With -v modes_wanted=8 the one
 # step is that of the eight lowest natural frequencies.
@@ -78,7 +78,7 @@ END {
       if (kind ~ /^[0-9]$/ && p in ring) kind = "CAX" kind
       else if (kind ~ /^[0-9]$/ && strain[p] != "-1" && stress == "CPS") kind = "CPS" kind
       else if (kind ~ /^[0-9]$/) { kind = "CPE" kind; converted = strain[p] != "-1" }
-      if (kind == "C3D8" && modes[p] == "MODES") kind = "C3D8I"
+      if (kind == "C3D8" && modes[p] !~ /^(PLAIN|FULL)$/) kind = "C3D8I"
       printf "*ELEMENT, TYPE=%s, ELSET=ALL\n%s", kind, of[k]
       if (p in thickness) t = thickness[p]
    }

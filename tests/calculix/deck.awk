@@ -50,7 +50,7 @@ BEGIN {
       if (!ring && i == mx) print "FORCE,1," node(i, j, k) ",," 100 + 10 * j + k (solid ? ".0,0.5,0.25,-1.0" : ".0,0.5,-1.0,0.0")
    }
    if (ring) print "PAXIS,1,1"
-   else if (solid) print "PSOLID,1,1" (name == "modes" ? ",,,,MODES" : "")
+   else if (solid) print "PSOLID,1,1" (name == "hexa" ? ",,,,PLAIN" : "")
    else print "PSHELL,1,1," (name == "stress8" ? "0.02" : "8.0") (name ~ /strain/ ? ",-1" : "")
    print "MAT1,1,210000.0,,0.3,7.85-6"
    print solid ? "GRAV,2,,9.81,0.3,0.2,-1.0" : ring ? "GRAV,2,,9.81,0.0,-1.0,0.0" : "GRAV,2,,9.81,0.3,-1.0,0.0"

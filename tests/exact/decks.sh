@@ -411,6 +411,33 @@ beam3() { # NAME MODES DIRECTION: in y (depth 0.2) or z (depth 0.1)
    run "$1"
 }
 
+# The twisted beam of MacNeal and Harder. twisted NAME CARD ALONG ISOP: 48 x 6 x 2 elements; CPENTA have their triangles across the beam. ALONG: 1 along the width, 0 across it
+twisted() {
+   awk -v card="$2" -v along="$3" -v isop="$4" 'BEGIN {
+      nx = 48; ny = 6; nz = 2; right = atan2(0, -1) / 2
+      print "ECHO = NO\nSPC = 1\nSUBCASE 1\n  LOAD = 1\nBEGIN BULK"
+      for (i = 0; i <= nx; i++) for (j = 0; j <= ny; j++) for (k = 0; k <= nz; k++) {
+         a = right * i / nx; y = 1.1 * (j / ny - 0.5); z = 0.32 * (k / nz - 0.5)
+         printf "GRID,%d,,%.12f,%.12f,%.12f\n", at(i, j, k), 12 * i / nx, y * cos(a) - z * sin(a), y * sin(a) + z * cos(a)
+         if (i == 0) print "SPC1,1,123," at(i, j, k)
+         if (i == nx) printf "FORCE,1,%d,,%.12f,0.0,%s\n", at(i, j, k), (j % ny ? 1 : 0.5) * (k % nz ? 1 : 0.5) / (ny * nz), along ? "0.0,1.0" : "1.0,0.0"
+      }
+      for (i = 0; i < nx; i++) for (j = 0; j < ny; j++) for (k = 0; k < nz; k++) {
+         a = at(i, j, k); b = at(i, j + 1, k); c = at(i, j + 1, k + 1); d = at(i, j, k + 1); n = at(i + 1, j, k) - a
+         if (card == "CHEXA") printf "CHEXA,%d,1,%d,%d,%d,%d,%d,%d\n+,%d,%d\n", ++e, a, b, c, d, a + n, b + n, c + n, d + n
+         else {
+            printf "CPENTA,%d,1,%d,%d,%d,%d,%d,%d\n", ++e, a, b, c, a + n, b + n, c + n
+            printf "CPENTA,%d,1,%d,%d,%d,%d,%d,%d\n", ++e, a, c, d, a + n, c + n, d + n
+         }
+      }
+      print "PSOLID,1,1" (isop == "" ? "" : ",,,," isop) "\nMAT1,1,29.0+6,,0.22\nENDDATA"
+   }
+   function at(i, j, k) { return 1 + k + (nz + 1) * (j + (ny + 1) * i) }' > "$work/$1.bdf"
+   run "$1"
+}
+# the node in the middle of its end, along the load
+tip() { moved "$1" $((1 + 1 + 3*(3 + 7*48))) "$((2 + $2))"; }
+
 # ---- decks of input/ in more increments ----
 
 # input/DECK.bdf as $work/DECK.METHOD.N.bdf, with N equal increments in every stage

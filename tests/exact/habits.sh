@@ -124,7 +124,7 @@ if run habits_nastran; then
       done
       same_rows "turned in its own system, $way" habits_way_nastran habits_way_own 1e-10 $resultant
    done
-   same 'named once on the screen' "$(grep -c "habits_nastran.bdf: $names ENDDATA, PARAM, CORD2S\$" "$work/habits_nastran.log")" 1
+   same 'named once on the screen' "$(grep -c "habits_nastran.bdf: $names ENDDATA, PARAM POST, CORD2S\$" "$work/habits_nastran.log")" 1
    same 'named once in the listing' "$(grep -c 'ENTRIES WITHOUT EFFECT: NASTRAN, ID, TIME' "$work/habits_nastran.out")" 1
    same 'SUBCASEs are stages: said once' "$(grep -c '2 SUBCASEs are stages of one history' "$work/habits_nastran.log")" 1
 fi

@@ -59,7 +59,7 @@ prism_in() { # NAME DIMENSION METHOD MODES
       if (plane) {
          print "BLOCK2,1,1,10,4,0.0,0.0\n+,150.0,100.0\n+,20,21\nPSHELL,1,1,20.0" (modes == "YES" ? "\n+,YES" : "") "\nFORCE,1,55,,800.0,0.0,-1.0"
       } else {
-         print "BLOCK3,1,1,10,4,2,0.0,0.0,0.0\n+,150.0,100.0,20.0\n+,,21,20,,22\nPMARK,22\nSPCM,1,3,22\nPSOLID,1,1,,,," (modes == "YES" ? "MODES" : "")
+         print "BLOCK3,1,1,10,4,2,0.0,0.0,0.0\n+,150.0,100.0,20.0\n+,,21,20,,22\nPMARK,22\nSPCM,1,3,22\nPSOLID,1,1,,,," (modes == "YES" ? "MODES" : "PLAIN")
          print "FORCE,1,163,,200.0,0.0,-1.0\nFORCE,1,164,,400.0,0.0,-1.0\nFORCE,1,165,,200.0,0.0,-1.0"
       }
       print "ENDDATA" }' > "$work/$1.bdf"
@@ -306,9 +306,9 @@ done
 # ---- prescribed displacements ----
 
 # node 36, a corner of the top, is moved down; a force as large as its reaction gives the same joint and moves it as far
-p0=0.1 box pushed HEXA 1.2 'PSOLID,1,1\nSPC1,1,12,1\nSPC1,1,2,4\nSPC1,1,3,30\nSPCD,1,30,3,-0.02' && {
+p0=0.1 box pushed HEXA 1.2 'PSOLID,1,1,,,,PLAIN\nSPC1,1,12,1\nSPC1,1,2,4\nSPC1,1,3,30\nSPCD,1,30,3,-0.02' && {
    reaction=$(table pushed 'REACTIONS AT' | awk '$1 == 30 { r = $NF } END { print r }')
-   box pressed HEXA 1.2 "PSOLID,1,1\nSPC1,1,12,1\nSPC1,1,2,4\nFORCE,1,30,,1.0,0.0,0.0,$reaction" && {
+   box pressed HEXA 1.2 "PSOLID,1,1,,,,PLAIN\nSPC1,1,12,1\nSPC1,1,2,4\nFORCE,1,30,,1.0,0.0,0.0,$reaction" && {
       near 'a force as large as the reaction: the displacement of SPCD' "$(moved pressed 30 3)" -0.02 3e-5
       ask 'SPCD and a force: the same pressures' pressed rows 'increment = 5' count 12 with "$work/pushed.joint.csv" on increment on node1 \
          all 'pressure = other.pressure within 3e-5*max(other.pressure) and max(other.pressure) > 0'

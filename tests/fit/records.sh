@@ -14,7 +14,9 @@ for form in record run words stretches turned; do
    fit $form.dat
    holds "Fig. 1(b), $form: status 0 and no word" [ "$status $(wc -c < stderr)" = '0 0' ]
    near "Fig. 1(b), $form: the coefficients" 1e-9 fig1b
-   says "Fig. 1(b), $form: each way has a start of its own" cards '75 points at 3 pressures' '72 points at 3 pressures' 'b0'
+   loading=75                # a name ends where it says, a record where the loading curve is met: in A already
+   [[ $form = @(words|stretches) ]] || loading=81
+   says "Fig. 1(b), $form: each way has a start of its own" cards "$loading points at 3 pressures" '72 points at 3 pressures' 'b0'
    holds "Fig. 1(b), $form: 9 of unloading, 6 of reloading" \
       [ "$(awk '$2 ~ /^[0-9]+$/ && NF == 7' cards | wc -l)" -eq 15 ]
    fit --joint-fit $form.dat
@@ -34,6 +36,17 @@ fit --branch UNLOAD --as LOAD unloading.dat
 awk '$2 < 8 || $2 == 25' fig1b | awk 'NR == 1 || $2 == 25 { print; next } { print $1, $2, a[split("40 90 100 50 2000 0", a) * 0 + $2 - 1] }' > as_load
 { cat as_load; echo 'JSHEAR 26 0.0285'; } > unload_as_load
 near 'unloading alone, as LOAD' 1e-9 unload_as_load
+# three stretches of one name in sequence, a part of each only: they end where d turns back
+awk 'NR == 1 { print "d tau p branch"; next } { print $1, $2, $3, "UNLOAD" }' unloading.dat > sequence.dat
+fit --branch UNLOAD --as LOAD sequence.dat
+near 'three UNLOAD stretches in sequence' 1e-9 unload_as_load
+holds 'three UNLOAD stretches in sequence: nine runs' [ "$(awk '$2 ~ /^[0-9]+$/ && NF == 7' cards | wc -l)" -eq 9 ]
+awk 'NR == 1 { print "d tau p branch"; next } { print $1, $2, $3, "UNLOAD" }' unloading.dat | awk 'NR == 1 || NR % 2' > every_second.dat
+fit --branch UNLOAD --as LOAD every_second.dat
+holds 'every second row of them: nine runs' [ "$(awk '$2 ~ /^[0-9]+$/ && NF == 7' cards | wc -l)" -eq 9 ]
+awk 'NR == 1 { print "d tau p branch"; next } { print $1, $2, $3, "UNLOAD" }' unloading.dat | awk 'NR > 1 { $1 += 2e-4 * (NR % 3 - 1) } { print }' > jitter.dat
+fit --branch UNLOAD --as LOAD --noise 0.05 jitter.dat
+holds 'noise of d is no turn of a stretch: nine runs' [ "$(awk '$2 ~ /^[0-9]+$/ && NF == 7' cards | wc -l)" -eq 9 ]
 awk 'NR == 1 { print "d tau p branch"; next } { print }' run.dat > numbers.dat
 fit numbers.dat
 near 'numbers in the column branch are runs' 1e-9 fig1b
@@ -58,6 +71,54 @@ says 'pressures that wobble: the option that helps' stderr '--p-tolerance 0.05'
 fit --p-tolerance 0.05 wobbly.dat
 holds 'pressures that wobble: taken with --p-tolerance' [ $status -eq 0 ]
 says 'pressures that wobble: three tests' cards '3 tests, 15 turns'
+
+# ---- records made by jointfem: the law of the deck comes back ----
+
+# its reloading meets the loading curve before point A
+law_of_cycles='20 200 -2000 -12000 5e4 3e5 20 200 500 3000 0 0 35 200 0 3000 0 0'
+echo "$law_of_cycles" | awk '{ print "JSHEAR 1 1"
+   for (k = 1; k <= 18; k++) print "JSHEAR", k + 1 + (k > 6) + 2 * (k > 12), $k; print "JSHEAR 25 0.5"; print "JSHEAR 26 0.01" }' > cycles
+cycles() { # PRESSURE: rows d tau p of input/shear_cycles.bdf under it, the loads by its share of 0.5
+   sed -E "s/50\.0( +0\.0 +-1\.0)/$(awk -v p=$1 'BEGIN { printf "%.1f", 100 * p }')\1/" "$here/../../input/shear_cycles.bdf" |
+      awk -v share="$(awk -v p=$1 'BEGIN { print p / 0.5 }')" \
+         '/^LOAD /{ printf "LOAD,%d,1.,1.,1,%.4f,12\n", $2, $6 * share; next } { print }' > cycles.bdf
+   timeout 60 "$jointfem" -q cycles.bdf > /dev/null 2>&1
+   awk -F, 'NR > 1 { print $18, $19, $14 }' cycles.joint.csv
+}
+{ echo 'd tau p'; cycles 0.5; cycles 0.4; } > own_record.dat
+holds 'a record of jointfem: reloading meets the curve' [ "$(wc -l < own_record.dat)" -eq 163 ]
+fit own_record.dat
+near 'a record of jointfem gives the law of its deck back' 1e-6 cycles
+sed '/^JSHEAR/,/^+ .*1\.0 .*0\.012/d' cycles.bdf | awk '/^ENDDATA/ { while (getline line < "cards") print line } { print }' > closes.bdf
+timeout 60 "$jointfem" -q closes.bdf > /dev/null 2>&1
+holds 'a record of jointfem: the closure is that of the listing' awk '
+   FNR == NR { if ($2 == "closure") { share = $3; p = $11; d = $14 } next }
+   $1 == "CLOSURE" { found = (share - $2)^2 < 0.0051^2 && (p / $11 - 1)^2 < 1e-8 && (d / $14 - 1)^2 < 1e-4 } END { exit !found }' \
+   <(tr -d ',' < cards) closes.out
+says 'a record of jointfem: that alone is warned of' stderr 'WARNING: reloading misses point A by more than 5 % of tau_r'
+awk 'NR > 1 { seed = (seed * 16807 + 11) % 2147483647; $2 *= 1 + 0.004 * (2 * seed / 2147483647 - 1) } { print }' own_record.dat > noisy_record.dat
+fit noisy_record.dat
+awk -f "$here/card_values.awk" cards > got
+holds 'a noisy record of jointfem: c1 at p = 0.45 within 5 per cent' awk '$2 == 17 || $2 == 18 { c += $2 == 17 ? $3 : 0.45 * $3 }
+   END { exit !(c > 118 && c < 132) }' got
+
+# thin loops that close, with noise: what lies in doubt near A stays with the reloading that comes to it
+awk -v form=record -v n=20 -f "$here/fig1b.awk" | awk 'NR == 1 { print; next } { seed = (seed * 16807 + 11) % 2147483647
+   $2 += 0.015 * (2 * seed / 2147483647 - 1); print }' > thin.dat
+fit thin.dat
+holds 'thin loops with noise: nine of ten points of reloading' awk '/RELOAD/ { exit !($3 >= 108 && $3 <= 122) }' cards
+
+# ---- a residual that is warned of ----
+
+awk 'NR == 8 { $2 += 0.5 } { print }' words.dat > one_off.dat
+fit one_off.dat
+says 'a reading that is off' stderr 'LOAD: tau lies up to 0.' 'off the law on the card, more than 5 % of the largest tau'
+awk 'NR == 8 { $2 += 0.01 } { print }' words.dat > one_off.dat
+fit one_off.dat
+holds 'a reading that is off by less' [ "$(grep -c 'off the law' stderr)" -eq 0 ]
+awk 'BEGIN { print "lambda p"; for (i = 0; i <= 20; i++) print 0.8 * sqrt(i / 4) + (i == 7 ? 0.2 : 0), i / 4 }' > one_off.dat
+fit --unordered one_off.dat
+says 'a normal reading that is off' stderr 'lambda lies up to 0.1' 'more than 5 % of the largest lambda'
 
 # a record may hold a little of a branch
 awk -v form=words -f "$here/fig1b.awk" | awk '$4 == "RELOAD" && n[$3, $5]++ { next } { print $1, $2, $3 }' > little.dat
@@ -233,7 +294,7 @@ fit --units mm,n normal.csv
 holds 'manual: the normal test' alike expected cards
 fit --units mm,n --small --id 7 shear.csv
 block 'A shear test' 2 > expected
-tail -n 5 cards > last_cards
+tail -n 7 cards > last_cards
 holds 'manual: the shear test' alike expected last_cards
 
 # ---- pictures ----
@@ -248,6 +309,20 @@ says '--plot of several files' pictures.gp "set output 'pictures_5.svg'" "set ou
 fit --plot nowhere/fit.gp record.dat
 holds '--plot that cannot be written: status 4' [ $status -eq 4 ]
 says '--plot that cannot be written' stderr 'nowhere/fit.gp cannot be written'
+cp record.dat kept.dat
+ln -s kept.dat soft.dat
+ln kept.dat hard.dat
+mkdir aside
+for plot in kept.dat ./aside/../kept.dat soft.dat hard.dat; do
+   fit --plot $plot kept.dat
+   holds "--plot $plot, which is the data: status 1" [ $status -eq 1 ]
+   says "--plot $plot, which is the data" stderr "--plot $plot would overwrite the data file kept.dat"
+done
+fit --plot kept.dat all.dat soft.dat
+says '--plot of what a link to the data leads to' stderr '--plot kept.dat would overwrite the data file soft.dat'
+timeout 60 "$jointfit" kept.dat >> kept.dat 2> stderr
+says 'cards at the end of the data' stderr 'the cards would be written to the data file kept.dat'
+holds 'the data are as they were' cmp -s record.dat kept.dat
 mkfifo pipe.gp
 fit --plot pipe.gp record.dat
 holds '--plot onto a pipe: status 4' [ $status -eq 4 ]

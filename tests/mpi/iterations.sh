@@ -13,7 +13,7 @@ head='ECHO = NO\nOUTPUT = NONE'
 # springs N: a cube of bricks that eight soft springs hold, at its corners in all directions, one of them ten times as stiff
 springs() {
    local n=$1 k=0 i
-   printf "$head\nSUBCASE 1\n  LOAD = 1\nBEGIN BULK\nBLOCK3,1,1,$n,$n,$n\n+,100.0,100.0,100.0\nPSOLID,1,1\nMAT1,1,9500.0,,0.25\n"
+   printf "$head\nSUBCASE 1\n  LOAD = 1\nBEGIN BULK\nBLOCK3,1,1,$n,$n,$n\n+,100.0,100.0,100.0\nPSOLID,1,1,,,,PLAIN\nMAT1,1,9500.0,,0.25\n"
    for i in 1 $((n + 1)) $((n*(n + 1) + 1)) $(((n + 1)**2)) $((n*(n + 1)**2 + 1)) $((n*(n + 1)**2 + n + 1)) $(((n + 1)**3 - n)) $(((n + 1)**3)); do
       for d in 1 2 3; do
          k=$((k + 1))
@@ -27,7 +27,7 @@ springs() {
 wall() {
    local n=$1
    printf "$head\nSPC = 1\nSUBCASE 1\n  LOAD = 1\n  INCR = 1\nBEGIN BULK\nBLOCK3,1,1,$((20*n)),$n,$((20*n))\n+,400.0,20.0,400.0\n+,,,,,21,22\n"
-   printf "PSOLID,1,1\nMAT1,1,9500.0,,0.25\nPMARK,21\nPMARK,22\nSPC,1,1,12\nSPC1,1,1,$((n + 1))\nJOINT,1,1,21\nPJOINT,1,1\nJNORM,1,8.0-3,0.5\n"
+   printf "PSOLID,1,1,,,,PLAIN\nMAT1,1,9500.0,,0.25\nPMARK,21\nPMARK,22\nSPC,1,1,12\nSPC1,1,1,$((n + 1))\nJOINT,1,1,21\nPJOINT,1,1\nJNORM,1,8.0-3,0.5\n"
    printf "FORCEM,1,2000.0,0.0,0.002,-1.0,22\nJINCR,1,4,ARITH,0.02\nSPCM,1,1,21\nSPCM,1,2,21\nENDDATA\n"
 }
 

@@ -1,0 +1,110 @@
+# Damping of materials and springs, and the frequencies at which a response is asked for, by hand.
+
+# hung NAME CASE CARDS: a mass of 0.02 on a rod (k = 3000, GE 0.05), a CELAS2 (k = 1000, GE 0.01) and a CELAS1 (k = 2000, GE 0.2) in
+# parallel along x, pulled with 3; across x it is held. CASE: lines of case control, CARDS: of the bulk data
+k=6000 mass=0.02 pull=3
+eta='((3000*0.05 + 1000*0.01 + 2000*0.2)/6000)'
+hung() {
+   printf '%b\n' "SPC = 1\nSET 1 = 1\nSUBCASE 1\n  MODES = 5\n$2\nBEGIN BULK" \
+      'GRID,1,,100.0,0.0\nGRID,2,,0.0,0.0\nCROD,1,1,2,1\nPROD,1,1,100.0\nMAT1,1,3000.0,,,,,,0.05' \
+      'CELAS2,2,1000.0,1,1,,,0.01\nCELAS1,3,7,1,1\nPELAS,7,2000.0,0.2\nCONM2,4,1,,0.02\nSPC1,1,12,2\nSPC1,1,2,1\nEIGRL,5,,,1' \
+      "$3" 'FORCE,20,1,,3.0,1.0\nENDDATA' > "$work/$1.bdf"
+   run "$1" "${4:-0}"
+}
+asked='  FREQUENCY = 7\n  DLOAD = 20\n  RESPONSE = SET 1'
+amplitude() { awk -F, -v f="$2" 'NR > 1 && $4 == "x" && $2 - f < 1e-9*f && f - $2 < 1e-9*f { print $5 }' "$work/$1.response.csv"; } # NAME FREQUENCY
+phase() { awk -F, -v f="$2" 'NR > 1 && $4 == "x" && $2 - f < 1e-9*f && f - $2 < 1e-9*f { print $6 }' "$work/$1.response.csv"; }
+f0=$(number "sqrt($k/$mass)/(2*$pi)")
+
+# ---- structural damping: the loss factor is the sum of GE times the shares of the strain energy; at resonance F/(k eta)
+hung ge "$asked" 'FREQ4,7' && {
+   near 'GE: loss factor of the mode' "$(mode ge 1 loss_factor)" "$eta" 1e-13
+   near 'GE: amplitude at resonance' "$(amplitude ge "$f0")" "$pull/($k*$eta)" 1e-10
+   near 'GE: phase at resonance' "$(phase ge "$f0")" -90 1e-9
+   near 'GE: a tenth below' "$(amplitude ge "$(number "0.9*$f0")")" "$pull/($k*sqrt((1 - 0.81)^2 + $eta^2))" 1e-10
+   says 'GE: the listing says whose loss it is' "$work/ge.out" 'LOSS FACTORS OF MATERIALS (GE, PARAM G) ALONE'
+   same 'GE: it has an effect' "$(grep -c 'without effect' "$work/ge.log")" 0
+}
+hung ge_g "$asked" 'FREQ4,7\nPARAM,G,0.03' && {
+   near 'PARAM G: loss factor of the mode' "$(mode ge_g 1 loss_factor)" "$eta + 0.03" 1e-13
+   near 'PARAM G: amplitude at resonance' "$(amplitude ge_g "$f0")" "$pull/($k*($eta + 0.03))" 1e-10
+}
+# beside SDAMPING, which is viscous: i (eta lambda + g omega omega_0); with KDAMP -1 structural
+table='TABDMP1,8,G\n+,0.0,0.1,1.0E5,0.1,ENDT'
+hung viscous "$asked\n  SDAMPING = 8" "FREQ4,7\n$table" && near 'GE beside SDAMPING' "$(amplitude viscous "$(number "0.9*$f0")")" \
+   "$pull/($k*sqrt((1 - 0.81)^2 + ($eta + 0.1*0.9)^2))" 1e-10
+hung kdamp "$asked\n  SDAMPING = 8" "FREQ4,7\n$table\nPARAM,KDAMP,-1" && near 'GE beside structural SDAMPING' \
+   "$(amplitude kdamp "$(number "0.9*$f0")")" "$pull/($k*sqrt((1 - 0.81)^2 + ($eta + 0.1)^2))" 1e-10
+# a bar that oscillates along itself, every mode has the loss factor of its material
+oscillating_bar solid 40 CONSISTENT MODES && {
+   sed -i 's/^\(MAT1,1,[^$]*\)$/&,,,0.04/; s/^MASS.*/&\nSET 1 = 41/; s/^  LOAD.*/&\n  FREQUENCY = 7\n  DLOAD = 10\n  RESPONSE = SET 1/; s/^EIGRL.*/&\nFREQ4,7,0.0,1.0E4,0.05,1/' \
+      "$work/solid.bdf"
+   run solid && for j in 1 2 3; do near "GE of a bar: mode $j" "$(mode solid $j loss_factor)" 0.04 1e-12; done
+}
+# together with what the joint loses at an amplitude
+mass_on_joint alone '' && mass_on_joint sprung '' && {
+   sed -i 's/^CJOINT.*/&\nCELAS2,2,20000.0,1,1,,,0.3/' "$work/sprung.bdf"
+   run sprung && near 'GE beside the loss of a joint' "$(mode sprung 2 loss_factor)" \
+      "($(mode alone 2 loss_factor)*(400 + 150*1.3)*100 + 0.3*20000)/((400 + 150*1.3)*100 + 20000)" 1e-12
+}
+# PARAM COUPMASS chooses the mass as MASS does
+oscillating_bar lumped 10 LUMPED MODES && oscillating_bar coupled 10 CONSISTENT MODES && {
+   for value in -1 1; do
+      name=$([ $value = 1 ] && echo coupled || echo lumped)
+      sed "/^MASS/d; s/^EIGRL.*/&\nPARAM,COUPMASS,$value/" "$work/$name.bdf" > "$work/coupmass.bdf"
+      run coupmass && near "PARAM COUPMASS $value is $name mass" "$(mode coupmass 1 frequency)" "$(mode $name 1 frequency)" 1e-14
+   done
+   sed "s/^EIGRL.*/&\nPARAM,COUPMASS,1/" "$work/lumped.bdf" > "$work/both.bdf"
+   run both 2 && says 'MASS = LUMPED and COUPMASS 1' "$work/both.log" 'PARAM COUPMASS asks for consistent mass, MASS in case control does not'
+}
+
+# ---- what has no effect is named, what would have another one is an error
+sed '/MODES = /d; /^EIGRL/d; s/^  RESPONSE.*//' "$work/ge_g.bdf" | sed '/FREQUENCY\|DLOAD/d; s/^SUBCASE.*/&\n  LOAD = 20/; s/^PARAM.*/&\nPARAM,ALPHA1,0.1\nPARAM,POST,-1\nPARAM,COUPMASS,1\nPARAM,POST,0/' > "$work/still.bdf"
+run still && same 'entries without effect in statics' "$(sed -n 's/.*still.bdf: //p' "$work/still.log")" \
+   '9 entries without effect: SET, PARAM POST, GE of CELAS2, GE of PELAS, GE of MAT1, PARAM G, PARAM ALPHA1, PARAM COUPMASS'
+hung alpha "$asked" 'FREQ4,7\nPARAM,ALPHA1,0.1' 2 && says 'PARAM ALPHA1' "$work/alpha.log" 'PARAM ALPHA1: another response than it would have without'
+hung lmodes "$asked" 'FREQ4,7\nPARAM,LMODES,20' 2 && says 'PARAM LMODES' "$work/lmodes.log" 'EIGRL say which modes take part'
+hung undamped "$asked" 'FREQ4,7' && {
+   sed -i 's/,0.05$//; s/,0.01$//; s/,0.2$//' "$work/undamped.bdf"
+   run undamped 2 && says 'no damping at all' "$work/undamped.log" 'FREQUENCY: expected beside it SDAMPING, AMPLITUDE'
+}
+
+# ---- FREQ4: NFM frequencies from (1 - FSPD) to (1 + FSPD) times that of the mode, an odd number; modes out of its range have none
+frequencies() { awk -F, 'NR > 1 && $4 == "x" { printf "%.15g ", $2 }' "$work/$1.response.csv"; }
+grid() { # NAME WORDS SHARES...: its frequencies are these shares of f0
+   local i=0 found=($(frequencies "$1")) words=$2
+   shift 2
+   same "$words: so many" ${#found[@]} $#
+   for share; do near "$words: number $((i + 1))" "${found[i]:-0}" "$share*$f0" 1e-12; i=$((i + 1)); done
+}
+hung spread "$asked" 'FREQ4,7,10.0,1000.0,0.3,7' && grid spread 'FREQ4' 0.7 0.8 0.9 1 1.1 1.2 1.3
+hung spread "$asked" 'FREQ4,7,,,0.2,4' && grid spread 'FREQ4, NFM even' 0.8 0.9 1 1.1 1.2
+hung spread "$asked" 'FREQ4,7' && grid spread 'FREQ4, blank' 0.9 1 1.1
+hung spread "$asked" 'FREQ4,7,,,,1' && grid spread 'FREQ4, NFM 1' 1
+hung spread "$asked" "FREQ4,7\nFREQ1,7,$(number "0.95*$f0"),$(number "0.1*$f0"),1" && grid spread 'FREQ4 and FREQ1' 0.9 0.95 1 1.05 1.1
+hung spread "$asked" 'FREQ4,7,500.0,1000.0\nFREQ1,7,10.0,10.0,1' && same 'FREQ4, the mode out of its range' "$(frequencies spread)" '10 20 '
+hung spread "$asked" 'FREQ4,7,500.0,1000.0' && says 'FREQ4, no mode in its range' "$work/spread.out" 'NO MODE FOUND IS IN THE RANGE OF FREQ4'
+
+# ---- a peak between two frequencies is warned of, by the mode and what it would be
+warned() { grep -c 'HAS ITS PEAK BETWEEN THE FREQUENCIES ASKED FOR' "$work/$1.out"; }
+hung coarse "$asked" 'FREQ1,7,0.0,60.0,4' && {
+   same 'a missed peak: one warning' "$(warned coarse)" 1
+   line=$(grep 'HAS ITS PEAK' "$work/coarse.out")
+   same 'a missed peak: mode, node and component' "$(sed -E 's/ AT [^ ]+ / AT F /; s/ X [^ ]+, BESIDE IT .*;/ X A;/' <<< "$line")" \
+      '  WARNING: MODE 1 HAS ITS PEAK BETWEEN THE FREQUENCIES ASKED FOR: AT F NODE 1 X A; SEE FREQ4'
+   near 'a missed peak: its frequency' "$(sed -E 's/.* AT ([^ ]+) NODE.*/\1/' <<< "$line")" "$f0" 1e-5
+   near 'a missed peak: its amplitude' "$(sed -E 's/.* X ([^,]+), .*/\1/' <<< "$line")" "$pull/($k*$eta)" 1e-5
+   near 'a missed peak: beside it' "$(sed -E 's/.* BESIDE IT ([^;]+);.*/\1/' <<< "$line")" "$(amplitude coarse 60)" 1e-5
+   says 'a missed peak: counted' "$work/coarse.log" '1 warning in the listing'
+}
+hung coarse "$asked\n  SDAMPING = 8" "FREQ1,7,0.0,60.0,4\nTABDMP1,8,G\n+,0.0,0.2,1.0E5,0.2,ENDT" && near 'a missed viscous peak: its frequency' \
+   "$(sed -nE 's/.*PEAK.* AT ([^ ]+) NODE.*/\1/p' "$work/coarse.out")" "$f0*sqrt(1 - 0.02)" 1e-5
+hung fine "$asked" 'FREQ1,7,0.0,2.0,120' && same 'a fine FREQ1 misses no peak' "$(warned fine)" 0
+hung ahead "$asked" 'FREQ1,7,0.0,10.0,8' && same 'a peak beyond the frequencies asked for is not missed' "$(warned ahead)" 0
+hung both "$asked" 'FREQ1,7,0.0,60.0,4\nFREQ4,7' && same 'with FREQ4 beside FREQ1 no peak is missed' "$(warned both)" 0
+# a mode without damping has no bound
+mass_on_joint bare '' && {
+   sed -i 's/^METHOD.*/&\nSET 1 = 1/; s/^  AMPLITUDE.*/&\n  FREQUENCY = 7\n  DLOAD = 20\n  RESPONSE = SET 1/; s/^EIGRL.*/&\nFREQ1,7,0.0,200.0,2\nFORCE,20,1,,1.0,3.0,4.0/' \
+      "$work/bare.bdf"
+   run bare && says 'an undamped peak' "$work/bare.out" 'MODE 1 HAS ITS PEAK BETWEEN .* NODE 1 Y NO BOUND'
+}
