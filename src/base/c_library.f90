@@ -6,6 +6,7 @@ module c_library
    implicit none
    private
 
+   public :: keep_on_disk, open_standard_streams
    public :: read_all_bytes, open_file, read_bytes, create_unique, write_bytes, close_file, rename_file, remove_file, &
              remove_terminated, true_path, kind_of_file, is_regular_file, is_same_file, is_terminal, tell_failed_writes, &
              call_at_interrupts, end_by_signal, lock_folder, end_run
@@ -55,6 +56,11 @@ module c_library
          character(kind=c_char), intent(in) :: bytes(*)
          integer(c_size_t), value           :: count
       end function c_write
+
+      integer(c_int) function c_fsync(descriptor) bind(c, name='fsync')
+         import :: c_int
+         integer(c_int), value :: descriptor
+      end function c_fsync
 
       integer(c_int) function c_close(descriptor) bind(c, name='close')
          import :: c_int
@@ -132,10 +138,12 @@ contains
       character(1)      :: next
       integer(c_size_t) :: used, got, room
       integer(c_int)    :: descriptor
+      logical           :: endless
 
       descriptor = c_open(path//c_null_char, to_read)
       ok = descriptor >= 0
       if (.not. ok) return
+      endless = .not. is_regular_file(path)
       inquire (file=path, size=room)
       if (room <= 0) room = first_room
       allocate (character(room) :: bytes) ! of a file just what it holds: a long deck is not copied
@@ -153,6 +161,10 @@ contains
          got = c_read(descriptor, bytes(used + 1:), len(bytes, c_size_t) - used)
          if (got <= 0) exit
          used = used + got
+         if (endless) then ! a device such as /dev/zero has no end; what is no text already need not be read to one
+            if (index(bytes(:used), c_null_char) > 0) got = 0
+            if (got == 0) exit
+         end if
       end do
       ok = c_close(descriptor) == 0 .and. got == 0
       if (used < len(bytes, c_size_t)) bytes = bytes(:used)
@@ -220,6 +232,27 @@ contains
 
       ok = c_close(int(descriptor, c_int)) == 0
    end subroutine close_file
+
+   !> What has been written to DESCRIPTOR is on the disk and no longer in the machine's memory. OK is false on failure.
+   subroutine keep_on_disk(descriptor, ok)
+      integer, intent(in)  :: descriptor
+      logical, intent(out) :: ok
+
+      ok = c_fsync(int(descriptor, c_int)) == 0
+   end subroutine keep_on_disk
+
+   !> A standard stream that the user has closed gets a descriptor that cannot be written, so that no result file gets its number
+   !! and with it the lines of the screen.
+   subroutine open_standard_streams()
+      integer(c_int), parameter :: to_read = 0 ! O_RDONLY
+      integer(c_int) :: descriptor
+
+      do
+         descriptor = c_open('/dev/null'//c_null_char, to_read)
+         if (descriptor < 0 .or. descriptor > 2) exit
+      end do
+      if (descriptor > 2) descriptor = c_close(descriptor)
+   end subroutine open_standard_streams
 
    !> Give the file OLD the name NEW, in place of any file of that name. OK is false on failure.
    subroutine rename_file(old, new, ok)

@@ -51,7 +51,7 @@ contains
       input%name = 'standard input'
    end subroutine set_input
 
-   !> Write TEXT and a line end on the standard output; STATUS is 0, or 4 where it cannot be written.
+   !> Write TEXT and a line end on the standard output; STATUS is 0, or 4 where it cannot be written, which is said.
    subroutine say(text, status)
       character(*), intent(in) :: text
       integer, intent(out)     :: status
@@ -59,6 +59,7 @@ contains
 
       call write_bytes(1, text//new_line('a'), ok)
       status = merge(0, 4, ok)
+      if (.not. ok) write (error_unit, '(a)') 'the standard output cannot be written'
    end subroutine say
 
    !> Say on the standard error what is wrong with the command of PROGRAM.

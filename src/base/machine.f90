@@ -1,6 +1,6 @@
 !> What the machine has, and what the program takes of it: memory and threads.
 module machine
-   use, intrinsic :: iso_c_binding, only: c_int, c_intptr_t, c_loc, c_size_t
+   use, intrinsic :: iso_c_binding, only: c_int, c_intptr_t, c_loc, c_long, c_size_t
    use kernel_figures, only: kernel_figure, memory_left_by_groups, no_figure
    use kinds, only: long, wp
    use omp_lib, only: omp_get_max_threads, omp_get_num_procs, omp_set_num_threads
@@ -42,6 +42,28 @@ module machine
       type(heap_figures) function mallinfo2() bind(c)
          import :: heap_figures
       end function mallinfo2
+
+      integer(c_int) function pthread_getattr_default_np(attributes) bind(c, name='pthread_getattr_default_np')
+         import :: c_int, c_long
+         integer(c_long), intent(inout) :: attributes(*)
+      end function pthread_getattr_default_np
+
+      integer(c_int) function pthread_setattr_default_np(attributes) bind(c, name='pthread_setattr_default_np')
+         import :: c_int, c_long
+         integer(c_long), intent(in) :: attributes(*)
+      end function pthread_setattr_default_np
+
+      integer(c_int) function pthread_attr_getstacksize(attributes, bytes) bind(c, name='pthread_attr_getstacksize')
+         import :: c_int, c_long, c_size_t
+         integer(c_long), intent(in)    :: attributes(*)
+         integer(c_size_t), intent(out) :: bytes
+      end function pthread_attr_getstacksize
+
+      integer(c_int) function pthread_attr_setstacksize(attributes, bytes) bind(c, name='pthread_attr_setstacksize')
+         import :: c_int, c_long, c_size_t
+         integer(c_long), intent(inout) :: attributes(*)
+         integer(c_size_t), value       :: bytes
+      end function pthread_attr_setstacksize
 
       subroutine openblas_set_num_threads(n) bind(c, name='openblas_set_num_threads')
          import :: c_int
@@ -137,8 +159,25 @@ contains
       integer(c_int) :: status
 
       status = mallopt(arena_max, 1_c_int)
+      call widen_stacks()
       call openblas_set_num_threads(1_c_int)
       call omp_set_num_threads(min(merge(n, omp_get_max_threads(), n > 0), omp_get_num_procs()))
    end subroutine use_threads
+
+   !> Threads take the limit of the user's shell as the size of their stacks (ulimit -s). Where that is small it is not enough for
+   !! the element kernels: such threads get what is usual.
+   subroutine widen_stacks()
+      integer(c_size_t), parameter :: usual = 8388608_c_size_t ! bytes, ulimit -s 8192
+      integer(c_long)   :: attributes(64)                      ! a pthread_attr_t of glibc has 56 bytes
+      integer(c_size_t) :: bytes
+      integer(c_int)    :: status
+
+      attributes = 0
+      if (pthread_getattr_default_np(attributes) /= 0) return
+      if (pthread_attr_getstacksize(attributes, bytes) /= 0) return
+      if (bytes >= usual) return
+      status = pthread_attr_setstacksize(attributes, usual)
+      if (status == 0) status = pthread_setattr_default_np(attributes)
+   end subroutine widen_stacks
 
 end module machine

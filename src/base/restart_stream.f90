@@ -142,12 +142,7 @@ contains
          problem = 'it is damaged: its bytes are in no order'
          if (order /= order_mark) return
       end if
-      problem = 'it has layout '//integer_text(of_layout)//' of another version of the program, this one reads '// &
-                integer_text(layout)
-      if (of_layout /= layout) return
-      call stream%item(of_version)
-      call long_item(stream, of_deck)
-      stream%used = n - tail_length
+      stream%used = n - tail_length           ! every layout has the same tail: what is damaged is of no layout
       call long_item(stream, n)
       problem = 'it is damaged or cut: not as long as it says'
       if (n /= stream%last) return
@@ -156,6 +151,12 @@ contains
       call add_to_checksum(stream%bytes(:n - tail_length/2), sum_now)
       problem = 'it is damaged: its checksum is not that of its bytes'
       if (sum /= sum_now) return
+      problem = 'it has layout '//integer_text(of_layout)//' of another version of the program, this one reads '// &
+                integer_text(layout)
+      if (of_layout /= layout) return
+      stream%used = head_length - version_length - tail_length/2
+      call stream%item(of_version)
+      call long_item(stream, of_deck)
       problem = 'version '//trim(of_version)//' of the program wrote it, this one is '//version
       if (of_version /= version) return
       problem = 'it belongs to another deck, or the deck has been changed since'

@@ -87,10 +87,10 @@ contains
 
       if (entry%key == 'SUBCASE') then
          keys_seen = '|'
-      else if (index(keys_seen, '|'//entry%key//'|') > 0) then
+      else if (index(keys_seen, '|'//entry%key//'('//entry%describers//')|') > 0) then
          call errors%add(entry%line, entry%key//': given twice in the same place')
       else
-         keys_seen = keys_seen//entry%key//'|'
+         keys_seen = keys_seen//entry%key//'('//entry%describers//')|'
       end if
    end subroutine check_repeated
 

@@ -282,7 +282,8 @@ contains
          return
       end if
       if (is_regular_file(path)) call add_file(text, path, me, depth + 1, errors, followed)
-      if (.not. followed) call errors%add(here, 'INCLUDE: '''//path//''' cannot be read: no such file, or not a file')
+      if (.not. followed) call errors%add(here, 'INCLUDE: '''//path(:min(len(path), 200))// &
+                                          ''' cannot be read: no such file, or not a file')
    end subroutine follow_include
 
 end module deck_text

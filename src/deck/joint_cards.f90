@@ -72,7 +72,7 @@ contains
 
       call cards%set_table([integer_field(['PJID', 'NID ']), integer_field(['SIDX', 'SIDY'], default=0), &
          real_field('MU', default=0.0_wp, least=0.0_wp), integer_field('NREAN', default=1, least=-1, most=most_reanalyses), &
-         real_field('P0', default=0.0_wp, above=0.0_wp)])
+         real_field('P0', default=0.0_wp, above=0.0_wp, most=1.0e30_wp)]) ! above, the joint leaves no digits to the bodies
       allocate (bulk%pjoint(cards%n))
       do i = 1, cards%n
          call cards%next(values)

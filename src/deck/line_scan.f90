@@ -9,8 +9,6 @@ module line_scan
 
    public :: scan_line, is_include, included_path
 
-   integer, parameter :: longest_include = 10000 ! characters; no path is longer
-
    !> Where a line stands. Its card part is the line without its comment ($ to the end) and without blanks at its end.
    type, public :: line_place
       integer(long) :: start  = 0 !! byte of its file, from 1
@@ -91,7 +89,7 @@ contains
 
       is_include = .false.
       first = verify(line, ' ')
-      if (first == 0 .or. len(line) > longest_include) return
+      if (first == 0) return
       if (len(line) < first + 6) return
       if (line(first:first) /= 'I' .and. line(first:first) /= 'i') return ! most lines
       if (upper(line(first:first + 6)) /= 'INCLUDE') return

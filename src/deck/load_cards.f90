@@ -161,7 +161,7 @@ contains
       integer :: i
 
       call cards%set_table([integer_field('SID'), integer_field('CID', default=0, least=0), real_field('A'), &
-         real_field(['N1', 'N2', 'N3'], default=0.0_wp)])
+         real_field(['N1', 'N2', 'N3'], default=0.0_wp), integer_field('MB', default=0, least=-1, most=0)]) ! no superelements
       allocate (bulk%gravity(cards%n))
       do i = 1, cards%n
          call cards%next(values)

@@ -24,12 +24,11 @@ contains
       integer :: i
 
       call cards%set_table([integer_field(['EID', 'PID']), integer_field('G1', default=0), &
-         integer_field('C1', default=0, least=0, most=6), integer_field('G2', default=0), &
-         integer_field('C2', default=0, least=0, most=6)], 'CELAS1')
+         integer_field('C1', default=0), integer_field('G2', default=0), &
+         integer_field('C2', default=0)], 'CELAS1')
       call cards%set_table([integer_field('EID'), real_field('K', least=0.0_wp), integer_field('G1', default=0), &
-         integer_field('C1', default=0, least=0, most=6), integer_field('G2', default=0), &
-         integer_field('C2', default=0, least=0, most=6), real_field('GE', default=0.0_wp, least=0.0_wp), &
-         any_field('S')], 'CELAS2')
+         integer_field('C1', default=0), integer_field('G2', default=0), &
+         integer_field('C2', default=0), real_field('GE', default=0.0_wp, least=0.0_wp), any_field('S')], 'CELAS2')
       call cards%set_table([integer_field(['EID', 'PID', 'GA ']), integer_field('GB', default=0), &
          any_field(['GO', 'X2', 'X3']), integer_field('CID', default=-1, least=0), any_field('S'), &
          integer_field('OCID', default=-1, least=-1), blank_field(['S1', 'S2', 'S3'])], 'CBUSH')
@@ -72,6 +71,11 @@ contains
          return
       end if
       do k = 1, 2
+         if (spring%components(k) < 0 .or. spring%components(k) > 6) then
+            call cards%error('C'//integer_text(k), 'there is no component '//integer_text(spring%components(k))// &
+                             '; expected 1, 2 or 3, blank or 0 at the ground')
+            cycle
+         end if
          if (spring%nodes(k) == 0 .or. (spring%components(k) >= 1 .and. spring%components(k) <= 3)) cycle
          field = 'C'//integer_text(k)
          if (spring%components(k) == 0) call cards%error(field, 'blank or 0, expected the component at G'//integer_text(k))

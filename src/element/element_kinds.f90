@@ -19,7 +19,7 @@ module element_kinds
    integer, parameter, public :: n_shapes = n_kinds + 2             !! kinds of body and edges: all that have shape functions
 
    integer, parameter, public :: max_nodes = 20, max_dofs = 60      !! of one element
-   integer, parameter, public :: max_coupled_dofs = max_dofs + 3    !! with the node of a section of a solid bolt
+   integer, parameter, public :: max_felt_dofs = max_dofs + 3       !! with the node of a section of a solid bolt
    integer, parameter, public :: max_sides = 6, max_side_nodes = 8, max_edges = 12
 
    !> What distinguishes one kind from another. Sides of plane elements are edges, run through with the body on the left;

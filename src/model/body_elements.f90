@@ -1,7 +1,7 @@
 !> The elements of the bodies, each by its kind: stiffness, stresses, forces. The one place that knows which kinds there are.
 module body_elements
    use elasticity, only: max_stresses, n_stresses, plane_strain, solid
-   use element_kinds, only: element_table, max_coupled_dofs, max_nodes
+   use element_kinds, only: element_table, max_felt_dofs, max_nodes
    use element_loads, only: body_forces
    use element_mapping, only: element_law, make_element_law
    use isoparametric, only: stiffness
@@ -26,12 +26,14 @@ module body_elements
 
 contains
 
-   !> Stiffness between the unknowns of the coupled_nodes of element E, components of node 1 first [force/length].
+   !> Stiffness between the unknowns of the coupled_nodes of element E, components of node 1 first [force/length]. K is given room
+   !! where it has too little: dependent nodes couple an element with any number of unknowns. A loop over elements keeps one K.
    pure subroutine coupled_stiffness(model, e, k)
-      type(model_type), intent(in) :: model
-      integer, intent(in)          :: e
-      real(wp), intent(inout)      :: k(:, :) !! dimension x coupled nodes rows and columns are set
+      type(model_type), intent(in)         :: model
+      integer, intent(in)                  :: e
+      real(wp), allocatable, intent(inout) :: k(:, :) !! dimension x coupled nodes rows and columns are set
 
+      if (.not. allocated(k)) allocate (k(max_felt_dofs, max_felt_dofs))
       call felt_stiffness(model, e, k)
       if (allocated(model%coupling%of_node)) call onto_unknowns(model, felt_nodes(model, e), k)
    end subroutine coupled_stiffness
@@ -223,7 +225,7 @@ contains
       integer, intent(in)          :: e
       real(wp), intent(in)         :: u(:, :) !! (dimension, n_nodes) [length]
       real(wp), intent(inout)      :: p(:, :) !! (dimension, nodes) [force], set here
-      real(wp) :: k(max_coupled_dofs, max_coupled_dofs), q(max_coupled_dofs)
+      real(wp) :: k(max_felt_dofs, max_felt_dofs), q(max_felt_dofs)
       integer  :: d, i, n
 
       d = model%dimension

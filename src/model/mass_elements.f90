@@ -1,7 +1,7 @@
 !> The masses of the structure, each as a matrix: of body elements, of bars, and at nodes. Consistent, or lumped where the deck says so.
 module mass_elements
    use body_elements, only: coupled_stiffness, law_of
-   use element_kinds, only: max_coupled_dofs, max_nodes
+   use element_kinds, only: max_felt_dofs, max_nodes
    use element_mass, only: lump, shape_products
    use kinds, only: wp
    use model_data, only: bar_nodes, corners_of, model_type, point_mass_type
@@ -44,8 +44,9 @@ contains
       type(model_type), intent(in) :: model
       integer, intent(in)          :: e
       real(wp), intent(in)         :: shift   !! [1/time^2]
-      real(wp), intent(inout)      :: k(:, :) !! dimension x coupled nodes rows and columns are set
-      real(wp) :: m(max_nodes, max_nodes), full(max_coupled_dofs, max_coupled_dofs)
+      real(wp), allocatable, intent(inout) :: k(:, :) !! as of coupled_stiffness; dimension x coupled nodes rows and columns are set
+      real(wp), allocatable :: full(:, :)
+      real(wp) :: m(max_nodes, max_nodes)
       integer  :: c, d, n
 
       call coupled_stiffness(model, e, k)
@@ -53,6 +54,7 @@ contains
       d = model%dimension
       n = size(corners_of(model, e))
       call scalar_mass(model, e, m)
+      allocate (full(max_felt_dofs, max_felt_dofs))
       full(:d*n, :d*n) = 0.0_wp
       do c = 1, d
          full(c:d*n:d, c:d*n:d) = m(:n, :n)

@@ -112,13 +112,19 @@ contains
    pure subroutine onto_unknowns(model, nodes, k)
       type(model_type), intent(in) :: model
       integer, intent(in)          :: nodes(:)
-      real(wp), intent(inout)      :: k(:, :) !! at least as many rows and columns as either has components [force/length]
+      real(wp), allocatable, intent(inout) :: k(:, :) !! at least as many rows and columns as NODES have components, afterwards
+                                                      !! as the unknowns have too [force/length]
       real(wp), parameter :: rounding = 16.0_wp*epsilon(1.0_wp) ! of the largest entry
-      real(wp), allocatable :: t(:, :)
+      real(wp), allocatable :: t(:, :), wider(:, :)
 
       if (.not. is_coupled(model, nodes)) return
       t = transformation(model, nodes)
       associate (n => size(t, 1), m => size(t, 2))
+         if (m > size(k, 1)) then
+            allocate (wider(m, m))
+            wider(:n, :n) = k(:n, :n)
+            call move_alloc(wider, k)
+         end if
          k(:m, :m) = matmul(transpose(t), matmul(k(:n, :n), t))
          where (abs(k(:m, :m)) <= rounding*maxval(abs(k(:m, :m)))) k(:m, :m) = 0.0_wp
       end associate

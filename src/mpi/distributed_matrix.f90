@@ -3,7 +3,6 @@
 module distributed_matrix
    use, intrinsic :: iso_c_binding, only: c_double, c_f_pointer, c_int, c_null_ptr, c_ptr
    use body_elements, only: coupled_stiffness
-   use element_kinds, only: max_coupled_dofs
    use kinds, only: wp
    use model_data, only: corners_of
    use petsc_library
@@ -34,7 +33,7 @@ contains
       type(share_type), intent(in)               :: share
       integer, intent(in)                        :: counts(:) !! (ranks) blocks of each
       type(distributed_matrix_type), intent(out) :: stiffness
-      real(wp) :: k(max_coupled_dofs, max_coupled_dofs)
+      real(wp), allocatable :: k(:, :)
       integer  :: d, e, n
 
       d = share%dimension

@@ -5,7 +5,6 @@ module petsc_solver
    use condition_estimate, only: first_large
    use distributed_matrix, only: add_blocks
    use distributed_solution, only: by_gamg, by_mumps, no_limit
-   use element_kinds, only: max_coupled_dofs
    use engine, only: order, order_diagonal, order_finish, order_forget, order_multiply, order_read, order_renew, order_solve, &
                      order_start, order_take, order_touched, order_way, order_write, share, solution, stiffness, &
                      stiffest_of_all => stiffest
@@ -102,7 +101,7 @@ contains
       class(petsc_solver_type), intent(inout) :: self
       type(model_type), intent(in)            :: model
       integer, intent(out)                    :: fault
-      real(wp) :: k(max_coupled_dofs, max_coupled_dofs)
+      real(wp), allocatable :: k(:, :)
       integer  :: e, n
 
       fault = 0

@@ -1,9 +1,9 @@
 !> What a bolt bears after an increment, and of which load: of bars and of solid bolts alike.
 module bolt_answer
    use analysis_state, only: analysis_type
-   use body_elements, only: coupled_stiffness, element_thermal_forces
+   use body_elements, only: element_thermal_forces, felt_stiffness
    use bolt_locking, only: bar_tension, elongation_now, overlap_now, section_tension
-   use element_kinds, only: max_coupled_dofs, max_nodes
+   use element_kinds, only: max_felt_dofs, max_nodes
    use kinds, only: wp
    use model_data, only: corners_of, model_type, n_bars, n_sections, section_type, temperature_type
    use section_coupling, only: corner_displacements
@@ -101,7 +101,7 @@ contains
       type(temperature_type), intent(in) :: temperature
       type(surface_node_list) :: list
       real(wp) :: centroid(3), force(3), thermal(3, max_nodes), total(3)
-      real(wp) :: k(max_coupled_dofs, max_coupled_dofs), p(max_coupled_dofs)
+      real(wp) :: k(max_felt_dofs, max_felt_dofs), p(max_felt_dofs)
       integer  :: d, e, i, j, n, s
 
       d = model%dimension
@@ -114,7 +114,7 @@ contains
       total = 0.0_wp
       do j = model%first_at(section%node), model%first_at(section%node + 1) - 1
          e = model%elements_at(j)
-         call coupled_stiffness(model, e, k)
+         call felt_stiffness(model, e, k)
          call element_thermal_forces(model, e, temperature, thermal(:d, :))
          associate (nodes => corners_of(model, e))
             n = d*size(nodes)

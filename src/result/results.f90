@@ -9,7 +9,7 @@ module results
    use distribution, only: deal_bodies
    use equation_solver, only: equation_system
    use failures, only: failure_type
-   use incomplete_results, only: all_complete, give_up_parts, remove_old
+   use incomplete_results, only: all_complete, give_up_parts, remove_old, what_is_in_the_way
    use joint_history, only: write_history, write_history_header
    use kinds, only: wp
    use listing, only: finish_listing, list_increment, list_stage, listing_type, record_listing, start_listing
@@ -49,6 +49,7 @@ module results
       type(output_file_type) :: screen        !! the answers, for the standard output at the end
       type(vtu_results_type) :: vtu
       real(wp), allocatable, private :: bolts_before(:) ! their forces at the end of the stage before
+      character(:), allocatable :: missing_vtu !! why there are no files for ParaView though they were asked for; '': there are
       character(:), allocatable :: base !! what the names of the files begin with, folder included
    end type results_type
 
@@ -69,6 +70,7 @@ contains
 
       call all_complete()
       results%base = base
+      results%missing_vtu = ''
       allocate (results%bolts_before(n_bolts(model)), source=0.0_wp)
       if (base == '') call start_listing(results%listing, '', deck, model, plan, system)
       if (base /= '') call start_listing(results%listing, base//listing_ending, deck, model, plan, system)
@@ -173,14 +175,15 @@ contains
       if (results%base /= '') call write_response(results%tables(response_csv), plan%stages(stage)%id, response)
    end subroutine print_response
 
-   !> Give the files their names. All or none: OK is false where one could not be written.
+   !> Give the files their names. All or none: OK is false where one could not be written. But for files for ParaView, the largest:
+   !! where these cannot be written the tables and the listing stay, and MISSING_VTU says why.
    subroutine finish_results(plan, failure, results, ok)
       type(stage_plan_type), intent(in) :: plan
       type(failure_type), intent(in)    :: failure !! raised: the results end before it
       type(results_type), intent(inout) :: results
       logical, intent(out)              :: ok
       integer :: i, hold
-      logical :: closed
+      logical :: closed, has_vtu
 
       call lock_folder(folder_of(results%base), hold)
       call remove_all(results%base) ! of two runs of one name the last to come here leaves all of its files, and no others
@@ -188,7 +191,11 @@ contains
       do i = 1, size(table_endings)
          if (ok .and. results%tables(i)%is_open) call results%tables(i)%finish(ok)
       end do
-      if (ok) call finish_vtu(results%vtu, ok)
+      if (ok) then
+         call finish_vtu(results%vtu, has_vtu)
+         if (.not. has_vtu) results%missing_vtu = what_is_in_the_way()
+         if (.not. has_vtu .and. results%missing_vtu == '') results%missing_vtu = 'is there room on the disk?'
+      end if
       if (ok) call finish_listing(results%listing, plan, failure, ok)
       if (.not. ok) call discard_results(results)
       if (ok) call all_complete()

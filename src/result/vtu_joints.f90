@@ -1,5 +1,5 @@
 !> The joints as ParaView shows them: the faces of their side 1 with what the interface elements have there, in the places of the
-!! nodes; joints of single elements (CJOINT) as points.
+!! nodes; joints of single elements (CJOINT) as points, and of several elements at one node all but the first.
 module vtu_joints
    use, intrinsic :: iso_fortran_env, only: int8
    use analysis_state, only: analysis_type
@@ -78,10 +78,9 @@ contains
                points = points + sum(surface%n_nodes(:surface%n))
                cells = cells + surface%n
             end associate
-         else
-            points = points + model%joints(j)%last - model%joints(j)%first + 1
-            cells = cells + model%joints(j)%last - model%joints(j)%first + 1
          end if
+         points = points + model%joints(j)%last - model%joints(j)%first + 1
+         cells = cells + model%joints(j)%last - model%joints(j)%first + 1
       end do
       allocate (grid%x(3, points), grid%element(points), grid%corners(points), grid%ends(cells), grid%types(cells))
       allocate (grid%u(3, points), grid%values(n_values, points), source=0.0_wp)
@@ -95,13 +94,18 @@ contains
       type(surface_type), intent(in)  :: surface
       type(grid_type), intent(inout)  :: grid
       integer, allocatable :: all_nodes(:), own(:), point(:), share(:)
+      logical, allocatable :: second(:)
       integer :: before, f, i, k
 
       allocate (own(model%n_nodes), point(model%n_nodes), source=0) ! the element, and the point, of a node
       allocate (share(size(grid%element)), source=0)
+      allocate (second(joint%first:joint%last), source=.false.) ! whether the node of an element belongs to one before it
       do i = joint%first, joint%last
          associate (nodes => nodes_of_end(model%interface(i), 1), weights => weights_of_end(model%interface(i), 1))
-            own(nodes(maxloc(weights, dim=1))) = i
+            associate (node => nodes(maxloc(weights, dim=1)))
+               second(i) = own(node) > 0
+               if (.not. second(i)) own(node) = i
+            end associate
          end associate
       end do
       before = grid%n_points
@@ -133,8 +137,21 @@ contains
             call add_cell(point(nodes), cell_type(surface%corners(f), size(nodes)), grid)
          end associate
       end do
+      do f = 1, surface%n                                 ! where none stands beside, as at the edge of the other side
+         associate (nodes => surface%nodes(:surface%n_nodes(f), f))
+            do k = 1, size(nodes)
+               if (point(nodes(k)) == 0) cycle
+               if (share(point(nodes(k))) > 0) cycle
+               i = findloc(own(nodes) > 0, .true., dim=1)
+               if (i > 0) call take(own(nodes(i)), point(nodes(k)), .true.)
+            end do
+         end associate
+      end do
       do k = before + 1, grid%n_points
          grid%values(:, k) = grid%values(:, k)/max(1, share(k))
+      end do
+      do i = joint%first, joint%last
+         if (second(i)) call add_element(model, analysis, i, grid)
       end do
 
    contains
@@ -174,14 +191,24 @@ contains
       integer :: i
 
       do i = joint%first, joint%last
-         associate (nodes => nodes_of_end(model%interface(i), 1))
-            call add_point(model, analysis, nodes(1), at_first_end(model%interface(i), model%x), grid)
-         end associate
-         grid%element(grid%n_points) = i
-         grid%values(:, grid%n_points) = values_of(model, analysis, i)
-         call add_cell([grid%n_points], vtk_vertex, grid)
+         call add_element(model, analysis, i, grid)
       end do
    end subroutine add_points
+
+   !> Interface element I as a point.
+   subroutine add_element(model, analysis, i, grid)
+      type(model_type), intent(in)    :: model
+      type(analysis_type), intent(in) :: analysis
+      integer, intent(in)             :: i
+      type(grid_type), intent(inout)  :: grid
+
+      associate (nodes => nodes_of_end(model%interface(i), 1))
+         call add_point(model, analysis, nodes(1), at_first_end(model%interface(i), model%x), grid)
+      end associate
+      grid%element(grid%n_points) = i
+      grid%values(:, grid%n_points) = values_of(model, analysis, i)
+      call add_cell([grid%n_points], vtk_vertex, grid)
+   end subroutine add_element
 
    !> A point at X that moves as NODE does.
    subroutine add_point(model, analysis, node, x, grid)

@@ -8,7 +8,7 @@ module restart_file
    use analysis_record, only: record_analysis
    use analysis_state, only: analysis_type
    use bolt_locking, only: lock_again
-   use c_library, only: close_file, is_regular_file, read_all_bytes, remove_file
+   use c_library, only: close_file, is_regular_file, keep_on_disk, read_all_bytes, remove_file
    use case_control, only: no_restart, restart_stages
    use command_arguments, only: version
    use deck_input, only: deck_type
@@ -47,7 +47,8 @@ contains
       name = restart_name(run%argument%base)
       inquire (file=name, exist=there)
       if (.not. there) then
-         write (error_unit, '(4a)') run%argument%name, ': there is no ', name, ', the run starts from the beginning'
+         write (error_unit, '(5a)') run%argument%name, ': there is no ', name, ', the run ', &
+            trim(merge('would start from the beginning', 'starts from the beginning     ', run%check_only))
          return
       end if
       run%ending = is_refused
@@ -57,8 +58,9 @@ contains
       if (.not. readable) return
       call open_restart(bytes, version, checksum_of(deck%text), run%restart, run%problem)
       if (run%problem /= '') return
-      run%resumes = .true.
+      run%resumes = .not. run%check_only
       run%ending = goes_on
+      if (run%check_only) write (error_unit, '(4a)') run%argument%name, ': ', name, ' is whole, of this deck and this program'
    end subroutine open_restart_file
 
    !> TAKE UP FROM THE RESTART FILE: the state of ANALYSIS, of the bolts in the equations of SYSTEM, and the results so far.
@@ -147,6 +149,7 @@ contains
       call stream%start(descriptor, version, run%deck_sum)
       call record_state(stream, analysis, run%results)
       call stream%complete(ok)
+      if (ok) call keep_on_disk(descriptor, ok) ! before the older one goes: a power failure leaves one of the two
       call close_file(descriptor, closed)
       if (ok .and. closed) then
          call name_part(part, restart_name(run%argument%base), ok, stays=.true.)

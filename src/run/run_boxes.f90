@@ -2,7 +2,7 @@
 !! run is, and does nothing once one before it has ended the run; whatever ended it is said in one place, finish_run of run_end.
 module run_boxes
    use analysis_state, only: analysis_type, interface_stiffness, note_largest, start_analysis
-   use c_library, only: tell_failed_writes
+   use c_library, only: open_standard_streams, tell_failed_writes
    use case_control, only: method_back
    use condensed_interface, only: condense_on_joints
    use condition_estimate, only: watch_condition
@@ -44,6 +44,7 @@ contains
       logical :: finished
       integer :: status
 
+      call open_standard_streams()
       call join_processes(write_piece)
       call watch_ends()
       call read_command_line(command, finished, status)
@@ -73,9 +74,9 @@ contains
       do i = 2, deck%text%n_files
          if (is_result_of(deck%text%files(i)%true_path, argument)) run%ending = would_overwrite
       end do
-      if (is_over(run) .or. command%check_only) return
+      if (is_over(run)) return
       if (command%resume) call open_restart_file(deck, run)
-      if (.not. is_over(run)) call remove_old_results(argument%base)
+      if (.not. (is_over(run) .or. command%check_only)) call remove_old_results(argument%base)
    end subroutine read_data
 
    !> Bodies, joints, supports, loads, stages.

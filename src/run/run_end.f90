@@ -53,7 +53,11 @@ contains
          call say_of_deck(run, deck)
          if (ok) then
             call show_answers(run%results, shown)
-            if (.not. shown) exit_status = max(exit_status, status_of(is_unwritten))
+            if (.not. shown) call miss_output(run%argument%name)
+            if (run%results%missing_vtu /= '') then
+               write (error_unit, '(3a)') run%argument%name, ': the files for ParaView cannot be written: ', run%results%missing_vtu
+               exit_status = max(exit_status, status_of(is_unwritten))
+            end if
          else
             run%ending = is_unwritten
          end if
@@ -104,7 +108,7 @@ contains
                              plural(model%n_elements, 'body element')//', '// &
                              plural(size(model%interface), 'interface element')//', '//plural(size(plan%stages), 'stage')// &
                              new_line('a'), ok)
-            if (.not. ok) exit_status = max(exit_status, status_of(is_unwritten))
+            if (.not. ok) call miss_output(name)
          case (is_unsolved)
             write (error_unit, '(4a)') name, ': ', run%failure%message, &
                trim(merge('; the results end there', '; no results           ', run%keeps))
@@ -123,6 +127,14 @@ contains
          end select
       end associate
    end subroutine say_how_it_ended
+
+   !> The standard output of the deck NAME is full or closed.
+   subroutine miss_output(name)
+      character(*), intent(in) :: name
+
+      write (error_unit, '(2a)') name, ': the standard output cannot be written'
+      exit_status = max(exit_status, status_of(is_unwritten))
+   end subroutine miss_output
 
    !> End with STATUS, or the highest of the decks where that is higher.
    subroutine end_program(status)

@@ -1,7 +1,6 @@
 !> How matrices come into a front: those of elements, of interface elements, and what the elimination of its children leaves.
 !! Source: Duff, Reid, ACM Trans. Math. Softw. 9 (1983) 302-325.
 module front_assembly
-   use element_kinds, only: max_coupled_dofs
    use front_tree, only: front_tree_type, front_type
    use kinds, only: wp
    use mass_elements, only: coupled_dynamic_stiffness
@@ -19,18 +18,18 @@ contains
       type(model_type), intent(in)      :: model
       type(front_tree_type), intent(in) :: tree
       type(front_type), intent(inout)   :: front
-      real(wp) :: k(max_coupled_dofs, max_coupled_dofs)
-      integer  :: d, e, j, n, rows(max_coupled_dofs)
+      real(wp), allocatable :: k(:, :)
+      integer, allocatable  :: rows(:)
+      integer :: e, j
 
-      d = model%dimension
+      allocate (rows(0))
       do j = 1, size(front%elements)
          e = front%elements(j)
          call coupled_dynamic_stiffness(model, e, tree%shift, k)
          associate (nodes => coupled_nodes(model, e))
-            n = d*size(nodes)
-            rows(:n) = [tree%number(:, nodes)]
+            rows = [tree%number(:, nodes)]
          end associate
-         call add_matrix(front, rows(:n), k(:n, :n))
+         call add_matrix(front, rows, k(:size(rows), :size(rows)))
       end do
    end subroutine add_elements
 

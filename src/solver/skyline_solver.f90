@@ -1,7 +1,6 @@
 !> The solver SKYLINE, the method of the period: [k_b] of the bodies formed once in a profile; in every increment
 !! [k_s] = [k_b] + sum of [k_int] formed and factorised, all of it.
 module skyline_solver
-   use element_kinds, only: max_coupled_dofs
    use equation_solver, only: equation_system, pivot_tolerance
    use failures, only: failure_type
    use interface_equations, only: interface_equations_type, list_interface_equations
@@ -147,18 +146,18 @@ contains
       class(skyline_solver_type), intent(inout) :: self
       type(model_type), intent(in)              :: model
       integer, intent(out)                      :: fault
-      real(wp) :: k(max_coupled_dofs, max_coupled_dofs)
-      integer  :: d, e, n, rows(max_coupled_dofs)
+      real(wp), allocatable :: k(:, :)
+      integer, allocatable  :: rows(:)
+      integer :: e
 
       fault = 0
-      d = model%dimension
+      allocate (rows(0))
       do e = 1, model%n_elements
          call coupled_dynamic_stiffness(model, e, self%shift, k)
          associate (nodes => coupled_nodes(model, e))
-            n = d*size(nodes)
-            rows(:n) = [self%number(:, nodes)]
+            rows = [self%number(:, nodes)]
          end associate
-         call scatter(self%body, rows(:n), k(:n, :n))
+         call scatter(self%body, rows, k(:size(rows), :size(rows)))
       end do
       self%stiffest = maxval(self%body%values(self%body%diagonal(1:)))
    end subroutine form_bodies

@@ -4,7 +4,7 @@ module modal_energy
    use bar_elements, only: add_pull, bar_elongation
    use body_elements, only: felt_stiffness
    use connected_parts, only: find_bodies
-   use element_kinds, only: max_coupled_dofs
+   use element_kinds, only: max_felt_dofs
    use interface_operator, only: add_force, joint_movement
    use kinds, only: wp
    use model_data, only: bar_nodes, model_type, n_bars
@@ -92,7 +92,7 @@ contains
       real(wp), intent(in)             :: u(:, :, :)
       type(energy_type), intent(inout) :: energies(:)
       real(wp), intent(inout)          :: f(:, :, :)
-      real(wp) :: k(max_coupled_dofs, max_coupled_dofs), q(max_coupled_dofs, size(energies)), p(max_coupled_dofs, size(energies))
+      real(wp) :: k(max_felt_dofs, max_felt_dofs), q(max_felt_dofs, size(energies)), p(max_felt_dofs, size(energies))
       real(wp) :: own
       integer  :: d, e, i, m, n
 

@@ -346,3 +346,36 @@ if command -v script > /dev/null; then
    if grep -q ", increment [0-9]* of" "$work/stderr"; then fail '-q on a terminal: progress'; else pass; fi
 fi
 rm -rf here large.bdf
+
+# ---- standard output full or closed, devices, a small stack ----
+
+cd "$work/command" || exit 2
+fresh here
+for options in '-q -o here' '--check' '-q'; do
+   deck=good.bdf; [ "$options" = -q ] && deck=-
+   "$program" $options $deck < good.bdf > /dev/full 2> "$work/stderr"; status=$?
+   check "$options $deck, standard output full" 4 'cannot be written'
+   "$program" $options $deck < good.bdf >&- 2> "$work/stderr"; status=$?
+   check "$options $deck, standard output closed" 4 'cannot be written'
+done
+"$program" --version > /dev/full 2> "$work/stderr"; status=$?
+check '--version, standard output full' 4 'the standard output cannot be written'
+run -o here good.bdf
+cp -r here open
+fresh here
+"$program" -q -o here good.bdf > /dev/null 2>&-; status=$?
+: > "$work/stderr"
+check 'standard error closed' 0
+if diff -rq here open > /dev/null; then pass; else fail 'standard error closed: other results'; fi
+rm -rf open
+LIMIT=20 run --check /dev/zero;       check 'a device without an end' 2 'byte 0 on this line is no text'
+sed 's/^MAT1.*/MAT1    1       9500.0          0.25    7.8-9/; s/^FORCE .* 3 .*/GRAV    10              9.81    0.0     -1.0    0.0     0/; /^FORCE/d' good.bdf > grav.bdf
+run --check grav.bdf;                 check 'GRAV with MB = 0, as pyNastran writes it' 0
+sed 's/^SUBCASE.*/TEMPERATURE(INITIAL) = 1\nTEMPERATURE(LOAD) = 2\n&/' good.bdf > warm.bdf
+run --check warm.bdf;                 check 'TEMPERATURE(INITIAL)' 2 'expected TEMPERATURE(LOAD) = set'
+if grep -q 'given twice' "$work/stderr"; then fail 'TEMPERATURE(INITIAL) beside (LOAD): given twice'; else pass; fi
+for deck in flange_warm solid_bolt column_tetra10; do
+   (ulimit -s 128; exec "$program" -q -o here "$here/../../input/$deck.bdf" > /dev/null 2> "$work/stderr"); status=$?
+   check "$deck with stacks of 128 kB" 0
+done
+rm -rf here grav.bdf warm.bdf

@@ -103,12 +103,13 @@ contains
       integer, intent(inout)            :: place(:)
       integer, intent(inout), optional  :: rows(:)
       real(wp), intent(inout), optional :: values(:)
-      real(wp) :: k(max_dofs, max_dofs), k_int(3), k_global(3, 3)
+      real(wp), allocatable :: k(:, :)
+      real(wp) :: k_int(3), k_global(3, 3)
       type(element_state) :: state
       integer :: d, e, i
 
       d = model%dimension
-      k = 0.0_wp
+      allocate (k(max_dofs, max_dofs), source=0.0_wp)
       do e = 1, model%n_elements
          if (present(rows)) call coupled_stiffness(model, e, k)
          call visit(equations_of(corners_of(model, e)), k, place, rows, values)

@@ -68,3 +68,48 @@ run bolts_apart && {
    done
    same_rows 'bolts, SKYLINE and TREE' bolts_SKYLINE bolts_TREE 1e-7 delta_x tau_x delta_y tau_y
 }
+
+# The file of a joint for ParaView has every interface element, also where side 1 is covered in part and one node of it is the
+# nearest of two elements. elements_shown FILE: the numbers in the array `element`, each once
+elements_shown() {
+   local at skip offset n
+   at=$(grep -abo '<AppendedData' "$1" | head -n 1 | cut -d: -f1)
+   skip=$(tail -c +$((at + 1)) "$1" | head -c 200 | grep -abo _ | head -n 1 | cut -d: -f1)
+   offset=$(grep -ao 'Name="element" format="appended" offset="[0-9]*"' "$1" | grep -o '[0-9]*')
+   at=$((at + skip + 1 + offset))
+   n=$(od -An -tu8 -j $at -N 8 "$1")
+   od -An -v -td4 -w4 -j $((at + 8)) -N "$((n))" "$1" | awk '{ print $1 }' | sort -nu
+}
+for place in '7. 33. 20 21' '22. 61. 20 21' '-9. 31. 20 21' '-9. 31. 21 20'; do
+   set -- $place
+   cat > "$work/covered.bdf" <<DECK
+SPC = 1
+METHOD = NEWTON
+SUBCASE 1
+  LOAD = 10
+  OUTPUT = LAST, VTU
+BEGIN BULK
+BLOCK2,1,1,3,1,0.,0.
++,60.,10.
++,23,,20
+BLOCK2,2,1,3,1,$1,10.
++,$2,20.,,,,,101,101
++,21,,22
+PMARK,23
+PMARK,20
+PMARK,21
+PMARK,22
+PSHELL,1,1,2.
+MAT1,1,9500.,,.25
+JOINT,1,1,$3,$4
+PJOINT,1,1,,,,,0.1
+JNORM,1,8.-3,0.5
+SPCM,1,12,23
+SPC1,1,1,101
+PLOADM,10,1.,22
+ENDDATA
+DECK
+   run covered
+   same "side 1 covered in part ($place): elements in the VTU file of the joint" "$(elements_shown "$work/covered.joint.vtu")" \
+      "$(awk -F, 'NR > 1 { print $5 }' "$work/covered.joint.csv" | sort -nu)"
+done

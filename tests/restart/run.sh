@@ -195,7 +195,19 @@ flip() {
    draw 255
    printf "\\x$(printf %x $((old ^ drawn)))" | dd of=hand.now/hand.restart bs=1 seek="$1" conv=notrunc status=none
 }
-for ((k = 0; k < 48; k += 1)); do flip $k; refused "byte $k of the head damaged" ''; done
+for ((k = 0; k < 16; k++)); do flip $k; refused "byte $k of the head damaged" 'it is no restart file'; done
+for ((k = 16; k < 48; k++)); do flip $k; refused "byte $k of the head damaged" 'it is damaged'; done
+# --check --resume says what a run would find, solves nothing and leaves all files as they are
+looked() { # WHAT STATUS WORDS
+   cp hand.now/hand.restart before
+   "$program" --check --resume -o hand.now decks/hand.bdf > now.said 2> now.error; status=$?
+   check "$1" "$2" "$3"
+   if cmp -s before hand.now/hand.restart; then pass; else fail "$1: the restart file has changed"; fi
+}
+cp sound hand.now/hand.restart; looked '--check of a sound restart file' 0 'hand.now/hand.restart is whole, of this deck and this program'
+flip 17;                        looked '--check of a damaged restart file' 1 'hand.now/hand.restart cannot be taken up: it is damaged'
+cp step.whole/step.restart hand.now/hand.restart; looked '--check of the restart file of another deck' 1 'it belongs to another deck'
+
 for ((k = size - 16; k < size; k += 3)); do flip $k; refused "byte $k of the end damaged" 'it is damaged'; done
 for ((k = 0; k < 60; k++)); do
    draw $((size - 64))

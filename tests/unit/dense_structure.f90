@@ -27,7 +27,8 @@ contains
    function dense_bodies(model) result(k)
       type(model_type), intent(in) :: model
       real(wp), allocatable :: k(:, :)
-      real(wp) :: k_e(max_dofs, max_dofs), pull(2*model%dimension)
+      real(wp), allocatable :: k_e(:, :)
+      real(wp) :: pull(2*model%dimension)
       integer  :: e, i
 
       allocate (k(model%dimension*model%n_nodes, model%dimension*model%n_nodes), source=0.0_wp)
