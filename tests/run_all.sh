@@ -92,6 +92,7 @@ part 'runs that are killed and go on' tests/restart/run.sh "$program" "$build/re
 part 'decks made at random' tests/fuzz/run.sh -s 1984 -n 2000 -j 1 "$build/test/fuzz" checked="$checked"
 part 'the fuzzer itself' tests/fuzz/selftest.sh
 part 'decks on other processors, built otherwise' tests/processors.sh "$program" "$compare" "$build"
+part 'listings that are the same bytes on other processors' tests/same_bytes.sh "$program" "$build/same-bytes" 36
 part 'worked examples of the tour' tests/tour/run.sh "$query" "$build/tour"
 part 'decks through the program with run-time checks' tests/check.sh "$checked" "$compare" "$build/check-checked"
 part 'what the paper says of the prism' tests/prism_findings.sh "$query" "$build/check"

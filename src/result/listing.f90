@@ -23,6 +23,7 @@ module listing
    use range_watch, only: note_condition, range_watch_type, record_watch, say_ranges, watch_balance, watch_ranges, &
                           watch_shear_laws, watch_unloading
    use restart_stream, only: restart_stream_type
+   use stage_answer, only: first_largest
    use stage_entries, only: output_all, output_joint, output_last
    use stage_plan, only: stage_plan_type
    use text_tools, only: clean, integer_text, plural, upper
@@ -198,23 +199,26 @@ contains
       integer, intent(in)                     :: j
       real(wp), intent(in)                    :: floor !! of forces
       type(listing_table_type), intent(inout) :: table
-      real(wp) :: force, applied
+      real(wp) :: force, applied, lambda_most, p_most
       integer  :: i, at_lambda, at_p, n_open
 
       associate (joint => model%joints(j), state => analysis%states%normal)
          n_open = 0; force = 0.0_wp
-         at_lambda = joint%first; at_p = joint%first
          do i = joint%first, joint%last
             if (state(i)%branch == branch_open) n_open = n_open + 1
             force = force + state(i)%sumf*dot_product(model%interface(i)%axes(:, 3), joint%normal)
-            ! of values that rounding alone tells apart the first counts
-            if (state(i)%lambda > state(at_lambda)%lambda + noise*analysis%largest_lambda) at_lambda = i
-            if (state(i)%pressure > state(at_p)%pressure + noise*analysis%largest_p) at_p = i
          end do
+         associate (lambda => clean(state(joint%first:joint%last)%lambda, noise*analysis%largest_lambda), &
+                    p => clean(state(joint%first:joint%last)%pressure, noise*analysis%largest_p))
+            at_lambda = joint%first - 1 + first_largest(lambda, spread(.true., 1, size(lambda)))
+            at_p = joint%first - 1 + first_largest(p, spread(.true., 1, size(p)))
+            lambda_most = maxval(lambda)
+            p_most = maxval(p)
+         end associate
          call table%add([joint%id, n_open])
-         call table%add([clean(state(at_lambda)%lambda, noise*analysis%largest_lambda)])
+         call table%add([lambda_most])
          call table%add([joint_node_id(model, at_lambda, 1)])
-         call table%add([clean(state(at_p)%pressure, noise*analysis%largest_p)])
+         call table%add([p_most])
          call table%add([joint_node_id(model, at_p, 1)])
          if (is_closed(model, joint)) then
             call table%skip(1)

@@ -209,7 +209,9 @@ contains
          associate (pass => analysis%passes(i))
             if (pass%part > 0) then
                call table%add([analysis%increment, pass%part, i])
-               call table%add([pass%before, pass%after, pass%step])
+               call add_unbalanced(pass%before)
+               call add_unbalanced(pass%after)
+               call table%add([pass%step])
                call table%add([pass%changes])
             else
                call table%add([analysis%increment, i])
@@ -223,6 +225,20 @@ contains
             call table%keep_row()
          end associate
       end do
+
+   contains
+
+      !> Below the tolerance the digits of an unbalanced FORCE are those of rounding.
+      subroutine add_unbalanced(force)
+         real(wp), intent(in) :: force
+
+         if (force <= analysis%tolerance) then
+            call table%add('BELOW TOL')
+         else
+            call table%add([force])
+         end if
+      end subroutine add_unbalanced
+
    end subroutine note_passes
 
    !> Work done on the joints in the stage, by normal forces, by shear and on friction; of the first two the difference is lost where

@@ -1,7 +1,7 @@
 !> The tables of the natural modes about the state at the end of a stage.
 module listing_modes
    use kinds, only: wp
-   use listing_table, only: axes, column, column_type, listing_table_type, page_type
+   use listing_table, only: axes, column, column_type, listing_table_type, noise, page_type
    use modal_response, only: missed_peak, response_type
    use mode_values, only: modes_type
    use model_data, only: model_type
@@ -108,7 +108,7 @@ contains
       do m = 1, size(modes%modes)
          associate (mode => modes%modes(m))
             call table%add([modes%n_before + m])
-            call table%add([mode%frequency, mode%omega, mode%mass, mode%residual])
+            call table%add([mode%frequency, mode%omega, mode%mass, clean(mode%residual, noise)])
             if (plan%has_losses .and. .not. mode%is_rigid) call table%add([mode%loss])
             call table%print_row(page%file)
          end associate

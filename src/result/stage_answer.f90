@@ -17,7 +17,7 @@ module stage_answer
    implicit none
    private
 
-   public :: find_answer, find_bolt_answers, stands_apart, fault_of_answer
+   public :: find_answer, find_bolt_answers, first_largest, stands_apart, fault_of_answer
 
    ! Of forces and movements what is left of sums and differences that would be zero but for rounding and for what iterations leave,
    ! and how far values may differ that a symmetric structure would have alike.
@@ -125,16 +125,18 @@ contains
    end subroutine find_peaks
 
    !> Where the largest of the VALUES that count is, the first of those that are as large but for what rounding may have made; 0
-   !! where none counts.
+   !! where none counts. The listing, the answer and the tables of stages find every place by this rule.
    pure integer function first_largest(values, counts) result(at)
-      real(wp), intent(in) :: values(:) !! none negative
+      real(wp), intent(in) :: values(:)
       logical, intent(in)  :: counts(:)
+      real(wp) :: most
 
       at = 0
       if (any(counts .and. .not. is_measure(values))) then
          at = findloc(counts .and. .not. is_measure(values), .true., dim=1)
       else if (any(counts)) then
-         at = findloc(counts .and. values >= (1.0_wp - tie)*maxval(values, mask=counts), .true., dim=1)
+         most = maxval(values, mask=counts)
+         at = findloc(counts .and. values >= most - tie*abs(most), .true., dim=1)
       end if
    end function first_largest
 
