@@ -9,7 +9,7 @@
 !!       |                *
 !!     0 *---*----*------------------ lambda
 module back_method
-   use analysis_state, only: analysis_type, find_movements, force_noise, find_unbalanced, no_stiffness, pass_record, record_pass, &
+   use analysis_state, only: analysis_type, find_unbalanced, force_noise, no_stiffness, pass_record, reach, record_pass, &
                              secant_stiffness, tally_work
    use equations, only: equation_system, forces_in_bodies, form_structure_stiffness, solve_equations
    use failures, only: failure_type
@@ -50,6 +50,7 @@ contains
       class(equation_system), intent(inout) :: system
       type(failure_type), intent(inout)    :: failure
       type(iterate_type) :: now
+      real(wp), allocatable :: u(:, :), body(:, :)
       real(wp) :: largest_p
       integer  :: iteration, n
 
@@ -76,8 +77,9 @@ contains
          return
       end if
       call store(model, now, analysis)
-      call forces_in_bodies(system, analysis%u, analysis%body)
-      call find_movements(system, analysis)
+      allocate (u, body, source=analysis%u)
+      call forces_in_bodies(system, u, body)
+      call reach(system, u, body, analysis)
       call find_unbalanced(system, analysis)
    end subroutine back_increment
 
