@@ -17,7 +17,7 @@ module back_method
    use joint_laws, only: back_stiffness, exceeds_limit, loading_work, rest_margin
    use kinds, only: wp
    use model_data, only: joint_node_id, model_type
-   use normal_curve, only: loading_deflection, loading_pressure, pressure_floor
+   use normal_curve, only: loading_deflection, loading_pressure, normal_tangent, pressure_floor
    use normal_stiffness, only: branch_load, branch_open
    use stage_plan, only: stage_plan_type, where_in_plan
    use text_tools, only: integer_text, real_text
@@ -28,7 +28,7 @@ module back_method
 
    integer, parameter  :: most_averages = 1000 ! iterations that average
    integer, parameter  :: most_shown = 24      ! iterations that do not: as many as the listing shows
-   real(wp), parameter :: rounding = 1.0e-12_wp ! of the largest pressure, over m: TOL asks for no less
+   real(wp), parameter :: rounding = 1.0e-12_wp ! of the deflections: by what it changes a pressure TOL asks for no less
    real(wp), parameter :: touching = 1.0e-10_wp ! of the largest deflection: what stands apart by less does not
 
    !> The interface elements in one iteration, n of them.
@@ -142,17 +142,24 @@ contains
       end do
    end subroutine read_off
 
-   !> Whether the secants agree with what they led to: by TOL of the largest pressure, and no better than rounding lets them.
+   !> Whether the secants agree with what they led to: by TOL of the largest pressure, and no better than the slope of the law makes of
+   !! the rounding of its deflections.
    pure logical function has_settled(model, system, analysis, now, largest_p)
       type(model_type), intent(in)       :: model
       class(equation_system), intent(in) :: system
       type(analysis_type), intent(in)    :: analysis
       type(iterate_type), intent(in)     :: now
       real(wp), intent(in)               :: largest_p !! [pressure]
-      real(wp) :: left(size(model%interface))
+      real(wp) :: left(size(model%interface)), p, slope
+      integer  :: i
 
-      left = max(analysis%load_tolerance, rounding/model%joints(model%interface%joint)%law%normal%m)* &
-             max(largest_p, pressure_floor*maxval(analysis%states%normal%p_av))
+      p = max(largest_p, pressure_floor*maxval(analysis%states%normal%p_av))
+      do i = 1, size(model%interface)
+         associate (law => model%joints(model%interface(i)%joint)%law%normal)
+            slope = normal_tangent(law, 1.0_wp, p, analysis%states(i)%normal%p_av)
+            left(i) = max(analysis%load_tolerance*p, rounding*loading_deflection(law, p)*slope)
+         end associate
+      end do
       left = max(left, 0.1_wp*force_noise(system, analysis%u)/model%interface%area)
       has_settled = all(now%change <= left)
    end function has_settled

@@ -95,8 +95,8 @@ contains
       real(wp) :: movement(3), work(2), tau
       integer  :: i, k
 
-      u = analysis%u + analysis%du
-      body = analysis%body + f
+      allocate (u, source=analysis%u + analysis%du)
+      allocate (body, source=analysis%body + f)
       do i = 1, size(model%interface)
          movement = joint_movement(system%interface(i), analysis%du)
          associate (state => analysis%states(i), area => model%interface(i)%area)
