@@ -68,3 +68,14 @@ run bolts_apart && {
    done
    same_rows 'bolts, SKYLINE and TREE' bolts_SKYLINE bolts_TREE 1e-7 delta_x tau_x delta_y tau_y
 }
+
+# Faces with eight nodes, distorted: the order of nodes and elements does not matter, nor does a mirror.
+solids_apart solids plain && {
+   ask 'solids: the joint carries the load' solids by increment all 'sum(force) = 1440*load within 1e-6'
+   for form in turned renumbered mirrored; do
+      solids_apart $form $form || continue
+      [ $form = mirrored ] && sense=-1 || sense=1
+      apart=$(furthest_apart solids $form $sense)
+      holds "solids, $form: pressures differ by $apart" "$apart >= 0 and $apart < 1e-9"
+   done
+}
