@@ -18,7 +18,7 @@ module back_method
    use kinds, only: wp
    use model_data, only: joint_node_id, model_type
    use normal_curve, only: loading_deflection, loading_pressure, normal_tangent, pressure_floor
-   use normal_stiffness, only: branch_load, branch_open
+   use normal_stiffness, only: branch_load, branch_open, has_come_to
    use stage_plan, only: stage_plan_type, where_in_plan
    use text_tools, only: integer_text, real_text
    implicit none
@@ -29,7 +29,6 @@ module back_method
    integer, parameter  :: most_averages = 1000 ! iterations that average
    integer, parameter  :: most_shown = 24      ! iterations that do not: as many as the listing shows
    real(wp), parameter :: rounding = 1.0e-12_wp ! of the deflections: by what it changes a pressure TOL asks for no less
-   real(wp), parameter :: touching = 1.0e-10_wp ! of the largest deflection: what stands apart by less does not
 
    !> The interface elements in one iteration, n of them.
    type :: iterate_type
@@ -184,15 +183,15 @@ contains
       type(model_type), intent(in)       :: model
       type(iterate_type), intent(in)     :: now
       type(analysis_type), intent(inout) :: analysis
-      real(wp) :: apart
+      real(wp) :: largest
       integer  :: i
 
-      apart = 0.0_wp
-      if (size(model%interface) > 0) apart = touching*maxval(abs(now%deflection(3, :)))
+      largest = 0.0_wp
+      if (size(model%interface) > 0) largest = maxval(abs(now%deflection(3, :)))
       do i = 1, size(model%interface)
          associate (state => analysis%states(i), element => model%interface(i), deflection => now%deflection(:, i), &
                     law => model%joints(model%interface(i)%joint)%law)
-            state%normal%branch = merge(branch_load, branch_open, deflection(3) >= -apart)
+            state%normal%branch = merge(branch_load, branch_open, has_come_to(0.0_wp, deflection(3), largest))
             state%normal%lambda = deflection(3)
             state%normal%k_n = now%k_int(3, 3, i)
             analysis%kind(i) = merge(secant_stiffness, no_stiffness, state%normal%k_n > 0.0_wp)

@@ -19,7 +19,7 @@ module normal_stiffness
    implicit none
    private
 
-   public :: at_rest, norm, is_virgin, pressure_reached, follow_normal, closed_share, branch_name
+   public :: at_rest, norm, is_virgin, pressure_reached, follow_normal, closed_share, branch_name, touches, has_come_to
    public :: line_pressure, stored_work
 
    integer, parameter, public :: branch_load = 1, branch_unload = 2, branch_open = 3, branch_reload = 4
@@ -117,8 +117,8 @@ contains
          state%sumf = 0.0_wp
          state%branch = branch_open
       end if
-      if (was_open .and. has_come_to(state%lambda_b, state)) state%branch = branch_reload
-      if (state%branch == branch_reload .and. has_come_to(state%lambda_a, state)) state%branch = branch_load
+      if (was_open .and. touches(state)) state%branch = branch_reload
+      if (state%branch == branch_reload .and. has_come_to(state%lambda_a, state%lambda, size_of(state))) state%branch = branch_load
    end subroutine ask_diamonds
 
    !> Whether the last increment was tensile.
@@ -137,13 +137,28 @@ contains
       no_change = rounding*max(abs(state%sumf), abs(state%sigmaf), state%p_av*area)
    end function no_change
 
-   !> Whether the deflection of STATE is at that of POINT or beyond it, but for rounding.
-   pure logical function has_come_to(point, state)
-      real(wp), intent(in)           :: point
+   !> Whether the faces touch at an element in this STATE: all but those that stand apart by more than rounding, whether or not they
+   !! press. What rounds to nothing is not told apart by its sign.
+   elemental logical function touches(state)
       type(normal_state), intent(in) :: state
 
-      has_come_to = state%lambda >= point - rounding*max(abs(point), abs(state%lambda_a), abs(state%gap))
+      touches = state%branch /= branch_open
+      if (.not. touches) touches = has_come_to(state%lambda_b, state%lambda, size_of(state))
+   end function touches
+
+   !> Whether the deflection LAMBDA is at POINT or beyond it, but for the rounding of deflections of this SIZE.
+   elemental logical function has_come_to(point, lambda, size)
+      real(wp), intent(in) :: point, lambda, size !! [length]
+
+      has_come_to = lambda >= point - rounding*size
    end function has_come_to
+
+   !> The largest deflection that there has been in STATE, as far as it is known [length].
+   elemental real(wp) function size_of(state)
+      type(normal_state), intent(in) :: state
+
+      size_of = max(abs(state%lambda_a), abs(state%lambda_b), abs(state%gap))
+   end function size_of
 
    !> Whether nothing is on the element on its loading curve: at first, until a load reaches it, and where it closes past A.
    pure logical function is_virgin(area, state)
