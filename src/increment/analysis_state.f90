@@ -111,6 +111,7 @@ module analysis_state
       logical  :: ends_early = .false.              !! NEWTON cannot go on: this is the last state in equilibrium, there is one
       logical  :: is_partial = .false.              !! ... and it is a part of the way into an increment
       integer  :: n_parts   = 1                     !! NEWTON: parts that the last increment was divided into
+      logical  :: is_whole  = .true.                !! ... or only to find the way: it was made as a whole from where they led
    end type analysis_type
 
 contains
