@@ -112,12 +112,12 @@ contains
       case (branch_unload)
          if (state%sumf > state%sigmaf + no_change(area, state)) state%branch = branch_reload
       end select
-      if (state%branch == branch_unload .and. state%sumf <= -rounding*max(state%p_a, state%p_av)*area) then
+      if (state%branch == branch_unload .and. state%sumf <= -no_pressure(state)*area) then
          state%lambda_b = state%lambda
          state%sumf = 0.0_wp
          state%branch = branch_open
       end if
-      if (was_open .and. touches(state)) state%branch = branch_reload
+      if (was_open .and. has_come_to(state%lambda_b, state%lambda, size_of(state))) state%branch = branch_reload
       if (state%branch == branch_reload .and. has_come_to(state%lambda_a, state%lambda, size_of(state))) state%branch = branch_load
    end subroutine ask_diamonds
 
@@ -137,13 +137,12 @@ contains
       no_change = rounding*max(abs(state%sumf), abs(state%sigmaf), state%p_av*area)
    end function no_change
 
-   !> Whether the faces touch at an element in this STATE: all but those that stand apart by more than rounding, whether or not they
-   !! press. What rounds to nothing is not told apart by its sign.
+   !> Whether the faces touch at an element in this STATE, whether or not they press. NORM and the exact law remove an element only where
+   !! its force has come below zero by more than rounding, so the sign of a pressure that is but rounding does not matter.
    elemental logical function touches(state)
       type(normal_state), intent(in) :: state
 
       touches = state%branch /= branch_open
-      if (.not. touches) touches = has_come_to(state%lambda_b, state%lambda, size_of(state))
    end function touches
 
    !> Whether the deflection LAMBDA is at POINT or beyond it, but for the rounding of deflections of this SIZE.
@@ -152,6 +151,13 @@ contains
 
       has_come_to = lambda >= point - rounding*size
    end function has_come_to
+
+   !> The pressure that is but rounding in STATE.
+   elemental real(wp) function no_pressure(state)
+      type(normal_state), intent(in) :: state
+
+      no_pressure = rounding*max(state%p_a, state%p_av)
+   end function no_pressure
 
    !> The largest deflection that there has been in STATE, as far as it is known [length].
    elemental real(wp) function size_of(state)
@@ -209,7 +215,7 @@ contains
          after%p_a = after%pressure
          slope = normal_tangent(law, 1.0_wp, after%pressure, before%p_av)
          after%k_n = slope*area
-      else if (unloaded > 0.0_wp) then
+      else if (unloaded > merge(-no_pressure(before), 0.0_wp, before%p_a > 0.0_wp)) then
          if (lambda >= before%lambda_a - least) then
             after%branch = branch_load
          else if (lambda > before%lambda + least .or. before%branch == branch_open) then
@@ -217,10 +223,10 @@ contains
          else if (lambda < before%lambda - least .or. before%branch == branch_load) then
             after%branch = branch_unload
          end if
-         after%pressure = unloaded
+         after%pressure = max(0.0_wp, unloaded)
          slope = law%e_u
          after%k_n = slope*area
-         if (after%branch == branch_load) after%k_n = normal_tangent(law, area, unloaded, before%p_av)
+         if (after%branch == branch_load) after%k_n = normal_tangent(law, area, after%pressure, before%p_av)
       else
          after%branch = branch_open
          after%pressure = 0.0_wp

@@ -19,7 +19,7 @@ module listing
    use model_data, only: joint_node_id, model_type, stage_load_type
    use model_warnings, only: tetra_words
    use node_coupling, only: held_forces
-   use normal_stiffness, only: touches
+   use normal_stiffness, only: branch_open
    use range_watch, only: note_condition, note_division, range_watch_type, record_watch, say_ranges, watch_balance, watch_ranges, &
                           watch_shear_laws, watch_unloading
    use restart_stream, only: restart_stream_type
@@ -208,7 +208,7 @@ contains
          n_open = 0; force = 0.0_wp
          at_lambda = joint%first; at_p = joint%first
          do i = joint%first, joint%last
-            if (.not. touches(state(i))) n_open = n_open + 1
+            if (state(i)%branch == branch_open) n_open = n_open + 1
             force = force + state(i)%sumf*dot_product(model%interface(i)%axes(:, 3), joint%normal)
             ! of values that rounding alone tells apart the first counts
             if (state(i)%lambda > state(at_lambda)%lambda + noise*analysis%largest_lambda) at_lambda = i

@@ -11,7 +11,7 @@ module stage_answer
    use listing_table, only: noise
    use measures, only: is_measure
    use model_data, only: joint_type, model_type, n_points
-   use normal_stiffness, only: branch_open, normal_state, touches
+   use normal_stiffness, only: branch_open, normal_state
    use stress_measures, only: von_mises
    use text_tools, only: clean, integer_text
    implicit none
@@ -154,7 +154,7 @@ contains
       type(joint_answer), intent(inout) :: answer
 
       associate (states => analysis%states(joint%first:joint%last), elements => model%interface(joint%first:joint%last))
-         answer%contact = clean(1.0_wp - sum(elements%area, mask=.not. touches(states%normal))/joint%area, noise)
+         answer%contact = clean(1.0_wp - sum(elements%area, mask=states%normal%branch == branch_open)/joint%area, noise)
          answer%slipping = count(states%slips)
          answer%pressure = clean(maxval(states%normal%pressure), noise*analysis%largest_p)
          answer%gap = clean(maxval(stands_apart(states%normal)), noise*analysis%largest_lambda)

@@ -21,8 +21,6 @@ alike() {
    ask "$1, other units" pushed with "$work/units.joint.csv" all 'slip = other.slip and branch = other.branch' \
       all "$2*pressure = other.pressure within 1e-7*$2*max(abs(pressure))" all "$2*tau_x = other.tau_x within 1e-7*$2*max(abs(pressure))"
    for deck in pushed tree units; do
-      same "$1, $deck: it is said what was divided" "$(grep -c ': DIVIDED INTO' "$work/$deck.out")" \
-         "$(awk '/^ [A-Z]/ { stage = "" } /^ CONVERGENCE HISTORY/ { stage = $0 } stage && NF >= 6 && $2 > 1 && $3 > 1 && !(stage $1 in seen) { seen[stage $1]; n++ } END { print n + 0 }' "$work/$deck.out")"
       same "$1, $deck: the screen too" "$(grep -c 'divided into' "$work/$deck.log")" "$(grep -c -m 1 ': DIVIDED INTO' "$work/$deck.out")"
       same "$1, $deck: the parts only lead the way" "$(grep -c 'DEPENDS ON THE PARTS' "$work/$deck.out")" 0
    done
