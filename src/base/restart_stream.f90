@@ -29,7 +29,7 @@ module restart_stream
 
    public :: open_restart
 
-   integer, parameter, public :: layout = 2 !! changes with every change of what is kept, or how
+   integer, parameter, public :: layout = 3 !! changes with every change of what is kept, or how
    character(*), parameter    :: magic = 'JOINTFEM RESTART'
    integer(int32), parameter  :: order_mark = int(z'01020304', int32)
    integer, parameter, public :: version_length = 16

@@ -1,11 +1,10 @@
 !> Where two faces lie over one another, as seen in the frame of the first: the points over which to integrate. Faces are taken in
 !! parts with straight rims; what two parts have in common is a polygon, of edges an interval.
 module face_overlap
-   use element_kinds, only: kind_tria6
    use face_frames, only: seen_face
    use kinds, only: wp
-   use polygon_clip, only: clip_polygon, polygon_area
-   use quadrature, only: integration_rule, side_rule
+   use polygon_clip, only: clip_polygon, drop_straight_corners, polygon_area, polygon_centroid
+   use quadrature, only: integration_rule, side_product_rule
    implicit none
    private
 
@@ -23,6 +22,8 @@ module face_overlap
    integer, parameter  :: room = 4*2**most_corners   ! corners of what two parts have in common
    integer, parameter  :: corner_numbers(4) = [1, 2, 3, 4]
    real(wp), parameter :: least_piece = 1.0e-10_wp   ! of the area of the first face: what is smaller is dropped
+
+   real(wp), parameter :: straight = 1.0e-3_wp       ! of that: the triangle of a corner at which a polygon does not turn
 
    ! Gauss, five points. Source: Abramowitz, Stegun, Handbook of Mathematical Functions, Table 25.4.
    real(wp), parameter :: r = sqrt(10.0_wp/7.0_wp), q = sqrt(70.0_wp)
@@ -45,7 +46,7 @@ contains
       call list_parts(first, n(1), parts_1)
       call list_parts(second, n(2), parts_2)
       smallest = least_piece*seen_area(first)
-      call side_rule(kind_tria6, rule) ! seven points, exact to degree 5
+      if (.not. first%is_edge) call side_product_rule(max(first%n, second%n), rule)
       do i = 1, n(1)
          do k = 1, n(2)
             associate (a => corners(first, parts_1(:, i)), b => corners(second, parts_2(:, k)))
@@ -125,14 +126,15 @@ contains
       end do
    end subroutine add_interval
 
-   !> Add the points of what the polygons A and B have in common: the RULE over each triangle of a fan.
+   !> Add the points of what the polygons A and B have in common: the RULE over each triangle of a fan from the centroid, so that it
+   !! does not matter which corner the polygon begins with. A triangle is its own fan.
    pure subroutine add_polygon(a, b, rule, smallest, points)
       real(wp), intent(in)               :: a(:, :), b(:, :) !! (2, corners), either sense; A convex
       type(integration_rule), intent(in) :: rule
       real(wp), intent(in)               :: smallest
       type(plane_points), intent(inout)  :: points
-      real(wp) :: common(2, room), area, twice
-      integer  :: i, k, n
+      real(wp) :: common(2, room), area
+      integer  :: k, n
 
       if (any(minval(a, dim=2) > maxval(b, dim=2)) .or. any(minval(b, dim=2) > maxval(a, dim=2))) return
       if (polygon_area(a) > 0.0_wp) then
@@ -143,14 +145,34 @@ contains
       if (n < 3) return
       area = polygon_area(common(:, :n))
       if (abs(area) <= smallest) return
-      do k = 3, n
-         twice = 2.0_wp*sign(1.0_wp, area)*polygon_area(common(:, [1, k - 1, k]))
-         do i = 1, rule%n
-            call add_point(common(:, 1) + rule%point(1, i)*(common(:, k - 1) - common(:, 1)) &
-                           + rule%point(2, i)*(common(:, k) - common(:, 1)), twice*rule%weight(i), points)
+      call drop_straight_corners(straight*smallest, n, common)
+      if (n < 3) return
+      if (n == 3) then
+         call add_triangle(common(:, :3), sign(1.0_wp, area), rule, points)
+         return
+      end if
+      associate (middle => polygon_centroid(common(:, :n)))
+         do k = 1, n
+            call add_triangle(reshape([middle, common(:, k), common(:, modulo(k, n) + 1)], [2, 3]), sign(1.0_wp, area), rule, &
+                              points)
          end do
-      end do
+      end associate
    end subroutine add_polygon
+
+   !> Add the points of the RULE over a triangle of these CORNERS, whose polygon has the SENSE +1 or -1.
+   pure subroutine add_triangle(corners, sense, rule, points)
+      real(wp), intent(in)               :: corners(2, 3), sense
+      type(integration_rule), intent(in) :: rule
+      type(plane_points), intent(inout)  :: points
+      real(wp) :: twice
+      integer  :: i
+
+      twice = 2.0_wp*sense*polygon_area(corners)
+      do i = 1, rule%n
+         call add_point(corners(:, 1) + rule%point(1, i)*(corners(:, 2) - corners(:, 1)) &
+                        + rule%point(2, i)*(corners(:, 3) - corners(:, 1)), twice*rule%weight(i), points)
+      end do
+   end subroutine add_triangle
 
    !> Add a point.
    pure subroutine add_point(place, weight, points)

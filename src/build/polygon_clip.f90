@@ -4,7 +4,7 @@ module polygon_clip
    implicit none
    private
 
-   public :: clip_polygon, polygon_area
+   public :: clip_polygon, drop_straight_corners, polygon_area, polygon_centroid
 
 contains
 
@@ -49,6 +49,44 @@ contains
       end function left_of
 
    end subroutine clip_polygon
+
+   !> Drop the corners of POLYGON at which it does not turn: clipping leaves some, by rounding, where sides of both polygons lie on one
+   !! another. A corner goes with which the triangle between its neighbours has no more than the area LEAST.
+   pure subroutine drop_straight_corners(least, n, polygon)
+      real(wp), intent(in)    :: least         !! [length^2]
+      integer, intent(inout)  :: n             !! corners
+      real(wp), intent(inout) :: polygon(:, :) !! (2, room) [length]
+      real(wp) :: before(2), next(2)
+      integer  :: k, kept
+
+      if (n < 3) return
+      before = polygon(:, n)
+      kept = 0
+      do k = 1, n
+         next = polygon(:, merge(1, k + 1, k == n)) ! at the end the first that is kept
+         if (abs(polygon_area(reshape([before, polygon(:, k), next], [2, 3]))) <= least) cycle
+         kept = kept + 1
+         polygon(:, kept) = polygon(:, k)
+         before = polygon(:, k)
+      end do
+      n = kept
+   end subroutine drop_straight_corners
+
+   !> Centroid of POLYGON, whose area is not zero.
+   pure function polygon_centroid(polygon) result(centroid)
+      real(wp), intent(in) :: polygon(:, :) !! (2, corners) [length]
+      real(wp) :: centroid(2), area, all_area
+      integer :: i
+
+      centroid = 0.0_wp
+      all_area = 0.0_wp
+      do i = 3, size(polygon, 2)
+         area = polygon_area(polygon(:, [1, i - 1, i]))
+         centroid = centroid + area/3.0_wp*(polygon(:, i - 1) + polygon(:, i) - 2.0_wp*polygon(:, 1))
+         all_area = all_area + area
+      end do
+      centroid = polygon(:, 1) + centroid/all_area
+   end function polygon_centroid
 
    !> Area of POLYGON, negative where its corners go round clockwise [length^2].
    pure real(wp) function polygon_area(polygon) result(area)

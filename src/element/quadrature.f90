@@ -1,14 +1,16 @@
 !> Integration points and weights, in the local coordinates of local_nodes. The points of a rule with as many points as
 !! corners stand in the order of the corners, each in the direction of its corner from the centre.
 !! Source: Zienkiewicz, Taylor, Zhu, The Finite Element Method, 6th ed., section 5.11; of the fifth degree in triangles and
-!! tetrahedra: Stroud, Approximate calculation of multiple integrals, 1971, T2:5-1 and T3:5-1.
+!! tetrahedra: Stroud, Approximate calculation of multiple integrals, 1971, T2:5-1 and T3:5-1; of the sixth degree in triangles:
+!! Dunavant, High degree efficient symmetrical Gaussian quadrature rules for the triangle, Int. J. Numer. Meth. Engng 21 (1985)
+!! 1129-1148, p = 6, its numbers to 20 digits from the equations of the moments.
 module quadrature
    use element_kinds, only: kind_penta15, kind_tetra10, kind_tria3, kind_tria6, n_kinds, n_linear_kinds, n_shapes
    use kinds, only: wp
    implicit none
    private
 
-   public :: body_rule, mass_rule, side_rule, stress_rule, volume_rule
+   public :: body_rule, mass_rule, side_product_rule, side_rule, stress_rule, volume_rule
 
    integer, parameter, public :: max_points = 27
 
@@ -70,6 +72,16 @@ module quadrature
                third, third, o, a1, a1, o, b1, a1, o, a1, b1, o, a2, a2, o, b2, a2, o, a2, b2, o, &
                third, third, h, a1, a1, h, b1, a1, h, a1, b1, h, a2, a2, h, b2, a2, h, a2, b2, h], [3, 27], pad=[o]), &
       reshape([we*of_seven, wm*of_seven, we*of_seven], [27], pad=[o]))
+
+   ! twelve points of a triangle: (a, a) with its images, twice, and (x, y) with its
+   real(wp), parameter :: a3 = 0.2492867451709104212916_wp, b3 = 1.0_wp - 2.0_wp*a3, w3 = 0.05839313786318968301264_wp
+   real(wp), parameter :: a4 = 0.06308901449150222834033_wp, b4 = 1.0_wp - 2.0_wp*a4, w4 = 0.02542245318510340846047_wp
+   real(wp), parameter :: x5 = 0.05314504984481694735325_wp, y5 = 0.3103524510337844054166_wp, z5 = 1.0_wp - x5 - y5
+   real(wp), parameter :: w5 = 0.04142553780918678759678_wp
+   type(integration_rule), parameter :: triangle_12 = integration_rule(12, &
+      reshape([a3, a3, o, b3, a3, o, a3, b3, o, a4, a4, o, b4, a4, o, a4, b4, o, &
+               x5, y5, o, y5, x5, o, x5, z5, o, z5, x5, o, y5, z5, o, z5, y5, o], [3, 27], pad=[o]), &
+      reshape([w3, w3, w3, w4, w4, w4, w5, w5, w5, w5, w5, w5], [27], pad=[o]))
 
    ! fifteen points of a tetrahedron: the centre, those towards the corners and the faces, those towards the edges
    real(wp), parameter :: c1 = (7.0_wp - s15)/34.0_wp, d1 = 1.0_wp - 3.0_wp*c1, v1 = (2665.0_wp + 14.0_wp*s15)/226800.0_wp
@@ -169,5 +181,18 @@ contains
 
       call take(of_side(kind), rule)
    end subroutine side_rule
+
+   !> The rule over triangles that faces are cut into, for products of two of their shape functions: of faces with up to MOST_NODES
+   !! nodes these are of degree 4, of those with eight nodes of degree 6.
+   pure subroutine side_product_rule(most_nodes, rule)
+      integer, intent(in) :: most_nodes
+      type(integration_rule), intent(out) :: rule
+
+      if (most_nodes == 8) then
+         call take(triangle_12, rule)
+      else
+         call take(triangle_7, rule)
+      end if
+   end subroutine side_product_rule
 
 end module quadrature

@@ -16,7 +16,7 @@ module analysis_state
    implicit none
    private
 
-   public :: start_analysis, all_held, interface_stiffness, find_movements, find_unbalanced, subtract_joint_forces, &
+   public :: start_analysis, all_held, interface_stiffness, reach, find_unbalanced, subtract_joint_forces, &
              element_force, tally_work, book_friction, record_pass, note_largest, free_norm, force_noise, kind_on_branch
 
    real(wp), parameter, public :: precise = 1.0e-6_wp !! of the load: what rounding may leave of the forces that joints are to balance
@@ -111,6 +111,7 @@ module analysis_state
       logical  :: ends_early = .false.              !! NEWTON cannot go on: this is the last state in equilibrium, there is one
       logical  :: is_partial = .false.              !! ... and it is a part of the way into an increment
       integer  :: n_parts   = 1                     !! NEWTON: parts that the last increment was divided into
+      logical  :: is_whole  = .true.                !! ... or only to find the way: it was made as a whole from where they led
    end type analysis_type
 
 contains
@@ -168,7 +169,6 @@ contains
       integer :: before, i
 
       if (failure%raised) return
-      call find_movements(system, analysis)
       analysis%n_removed = 0
       do i = 1, size(model%interface)
          before = analysis%states(i)%normal%branch
@@ -204,16 +204,21 @@ contains
       if (branch == branch_open) kind = no_stiffness
    end function kind_on_branch
 
-   !> The movements of all interface elements under the displacements now.
-   subroutine find_movements(system, analysis)
+   !> The structure reaches the displacements U, under which its bodies take the forces BODY. All methods commit both here, with what
+   !! follows from them: the movements of the interface elements.
+   subroutine reach(system, u, body, analysis)
       class(equation_system), intent(in) :: system
+      real(wp), intent(in)               :: u(:, :)    !! (dimension, retained) [length]
+      real(wp), intent(in)               :: body(:, :) !! likewise, [k_b] {u} [force]
       type(analysis_type), intent(inout) :: analysis
       integer :: i
 
+      analysis%u = u
+      analysis%body = body
       do i = 1, size(system%interface)
          analysis%movement(:, i) = joint_movement(system%interface(i), analysis%u)
       end do
-   end subroutine find_movements
+   end subroutine reach
 
    !> Force that an interface ELEMENT in this STATE carries, in global axes, as it acts on its end 2 or the base [force].
    pure function element_force(element, state) result(force)

@@ -9,7 +9,7 @@
 !!       |                *
 !!     0 *---*----*------------------ lambda
 module back_method
-   use analysis_state, only: analysis_type, find_movements, force_noise, find_unbalanced, no_stiffness, pass_record, record_pass, &
+   use analysis_state, only: analysis_type, find_unbalanced, force_noise, no_stiffness, pass_record, reach, record_pass, &
                              secant_stiffness, tally_work
    use equations, only: equation_system, forces_in_bodies, form_structure_stiffness, solve_equations
    use failures, only: failure_type
@@ -17,8 +17,8 @@ module back_method
    use joint_laws, only: back_stiffness, exceeds_limit, loading_work, rest_margin, stand_at_limits
    use kinds, only: wp
    use model_data, only: joint_node_id, model_type
-   use normal_curve, only: loading_deflection, loading_pressure, pressure_floor
-   use normal_stiffness, only: branch_load, branch_open
+   use normal_curve, only: loading_deflection, loading_pressure, normal_tangent, pressure_floor
+   use normal_stiffness, only: branch_load, branch_open, has_come_to
    use stage_plan, only: stage_plan_type, where_in_plan
    use text_tools, only: integer_text, real_text
    implicit none
@@ -28,8 +28,7 @@ module back_method
 
    integer, parameter  :: most_averages = 1000 ! iterations that average
    integer, parameter  :: most_shown = 24      ! iterations that do not: as many as the listing shows
-   real(wp), parameter :: rounding = 1.0e-12_wp ! of the largest pressure, over m: TOL asks for no less
-   real(wp), parameter :: touching = 1.0e-10_wp ! of the largest deflection: what stands apart by less does not
+   real(wp), parameter :: rounding = 1.0e-12_wp ! of the deflections: by what it changes a pressure TOL asks for no less
 
    !> The interface elements in one iteration, n of them.
    type :: iterate_type
@@ -50,6 +49,7 @@ contains
       class(equation_system), intent(inout) :: system
       type(failure_type), intent(inout)    :: failure
       type(iterate_type) :: now
+      real(wp), allocatable :: u(:, :), body(:, :)
       real(wp) :: largest_p
       integer  :: iteration, n
 
@@ -76,8 +76,9 @@ contains
          return
       end if
       call store(model, now, analysis)
-      call forces_in_bodies(system, analysis%u, analysis%body)
-      call find_movements(system, analysis)
+      allocate (u, body, source=analysis%u)
+      call forces_in_bodies(system, u, body)
+      call reach(system, u, body, analysis)
       call find_unbalanced(system, analysis)
    end subroutine back_increment
 
@@ -140,17 +141,24 @@ contains
       end do
    end subroutine read_off
 
-   !> Whether the secants agree with what they led to: by TOL of the largest pressure, and no better than rounding lets them.
+   !> Whether the secants agree with what they led to: by TOL of the largest pressure, and no better than the slope of the law makes of
+   !! the rounding of its deflections.
    pure logical function has_settled(model, system, analysis, now, largest_p)
       type(model_type), intent(in)       :: model
       class(equation_system), intent(in) :: system
       type(analysis_type), intent(in)    :: analysis
       type(iterate_type), intent(in)     :: now
       real(wp), intent(in)               :: largest_p !! [pressure]
-      real(wp) :: left(size(model%interface))
+      real(wp) :: left(size(model%interface)), p, slope
+      integer  :: i
 
-      left = max(analysis%load_tolerance, rounding/model%joints(model%interface%joint)%law%normal%m)* &
-             max(largest_p, pressure_floor*maxval(analysis%states%normal%p_av))
+      p = max(largest_p, pressure_floor*maxval(analysis%states%normal%p_av))
+      do i = 1, size(model%interface)
+         associate (law => model%joints(model%interface(i)%joint)%law%normal)
+            slope = normal_tangent(law, 1.0_wp, p, analysis%states(i)%normal%p_av)
+            left(i) = max(analysis%load_tolerance*p, rounding*loading_deflection(law, p)*slope)
+         end associate
+      end do
       left = max(left, 0.1_wp*force_noise(system, analysis%u)/model%interface%area)
       has_settled = all(now%change <= left)
    end function has_settled
@@ -175,15 +183,15 @@ contains
       type(model_type), intent(in)       :: model
       type(iterate_type), intent(in)     :: now
       type(analysis_type), intent(inout) :: analysis
-      real(wp) :: apart
+      real(wp) :: largest
       integer  :: i
 
-      apart = 0.0_wp
-      if (size(model%interface) > 0) apart = touching*maxval(abs(now%deflection(3, :)))
+      largest = 0.0_wp
+      if (size(model%interface) > 0) largest = maxval(abs(now%deflection(3, :)))
       do i = 1, size(model%interface)
          associate (state => analysis%states(i), element => model%interface(i), deflection => now%deflection(:, i), &
                     law => model%joints(model%interface(i)%joint)%law)
-            state%normal%branch = merge(branch_load, branch_open, deflection(3) >= -apart)
+            state%normal%branch = merge(branch_load, branch_open, has_come_to(0.0_wp, deflection(3), largest))
             state%normal%lambda = deflection(3)
             state%normal%k_n = now%k_int(3, 3, i)
             analysis%kind(i) = merge(secant_stiffness, no_stiffness, state%normal%k_n > 0.0_wp)

@@ -140,6 +140,7 @@ contains
       analysis%n_passes = 0
       analysis%slips = analysis%slips(:0)
       analysis%n_parts = 1
+      analysis%is_whole = .true.
    end subroutine start_increment
 
    !> The increment could not be made, but all of it up to what is LEFT: the loads and movements that this state bears. Where nothing

@@ -1,5 +1,6 @@
 !> METHOD = NEWTON: every increment iterated to equilibrium with the exact branch laws, consistent tangent and line search; the
-!! states of the joints are committed only at equilibrium. An increment that does not converge is divided.
+!! states of the joints are committed only at equilibrium. An increment that does not converge is divided; where its parts lead to, it
+!! is made once more as a whole, so that the answer does not depend on how it was divided.
 module newton_method
    use analysis_state, only: all_held, analysis_type, force_noise, free_norm, pass_record, precise, record_pass
    use equations, only: equation_system, forces_in_bodies
@@ -23,7 +24,9 @@ module newton_method
 
    character(*), parameter, public :: no_balance = &
       'stiffnesses differ so much, or bodies moved so far, that rounding leaves no balance of forces'
-   integer, parameter  :: most_iterations = 40
+   integer, parameter  :: most_iterations = 120
+   integer, parameter  :: patience = 10                ! iterations that must leave less than as many before them have
+   real(wp), parameter :: progress = 0.9_wp            ! of it: what counts as less
    integer, parameter  :: most_halvings = 12
    real(wp), parameter :: far_below = 1.0e-3_wp        ! TOL: what is left there is not worth another iteration
    real(wp), parameter :: idle = 10.0_wp*pressure_floor ! of p_av: what interference presses by less, it does not press
@@ -112,9 +115,10 @@ contains
       class(equation_system), intent(inout) :: system
       type(attempt_type), intent(inout)    :: attempt
       type(failure_type), intent(inout)    :: failure
+      type(analysis_type), allocatable :: start
       real(wp), allocatable :: u_start(:, :)
       real(wp) :: done, part
-      integer  :: before_open, i
+      integer  :: before_open
 
       allocate (u_start, source=analysis%u)
       before_open = count(analysis%states%normal%branch == branch_open)
@@ -123,17 +127,13 @@ contains
       analysis%n_parts = 0
       do while (done < 1.0_wp)
          part = min(part, 1.0_wp - done)
-         do i = 1, 2 ! once more with the joints held where one has slipped all over
-            attempt%holds = i == 2
-            call start_attempt(model, system, analysis, merge(1.0_wp - done - part, 0.0_wp, done + part < 1.0_wp), attempt)
-            call iterate(model, system, analysis, attempt)
-            if (attempt%converged .or. .not. attempt%slides) exit
-         end do
+         call try_part(model, system, analysis, merge(1.0_wp - done - part, 0.0_wp, done + part < 1.0_wp), attempt)
          if (attempt%converged) then
             done = done + part
             part = 2.0_wp*part
             analysis%n_parts = analysis%n_parts + 1
          else if (part > 0.5_wp**most_halvings) then
+            if (.not. allocated(start)) allocate (start, source=analysis) ! nothing is committed yet
             part = 0.5_wp*part
          else
             attempt%left_over = 1.0_wp - done
@@ -145,9 +145,53 @@ contains
             return
          end if
       end do
+      if (allocated(start)) call make_whole(model, system, start, analysis, attempt)
       analysis%du = analysis%u - u_start
       analysis%n_removed = max(0, count(analysis%states%normal%branch == branch_open) - before_open)
    end subroutine find_equilibrium
+
+   !> An ATTEMPT to where so much of the increment is LEFT; once more with the joints held where one has slipped all over.
+   subroutine try_part(model, system, analysis, left, attempt, from)
+      type(model_type), intent(in)          :: model
+      class(equation_system), intent(inout) :: system
+      type(analysis_type), intent(inout)    :: analysis
+      real(wp), intent(in)                  :: left
+      type(attempt_type), intent(inout)     :: attempt
+      real(wp), intent(in), optional        :: from(:, :) !! (dimension, retained) displacements to iterate from, supports moved [length]
+      integer :: i
+
+      do i = 1, 2
+         attempt%holds = i == 2
+         call start_attempt(model, system, analysis, left, attempt)
+         call iterate(model, system, analysis, attempt, from)
+         if (attempt%converged .or. .not. attempt%slides) exit
+      end do
+   end subroutine try_part
+
+   !> An increment that was divided is made once more, as a whole, from the START and the displacements that its parts have led to: the laws
+   !! remember the way, and rounding decides into which parts an increment is divided. Where this does not converge, the parts stand.
+   subroutine make_whole(model, system, start, analysis, attempt)
+      type(model_type), intent(in)          :: model
+      class(equation_system), intent(inout) :: system
+      type(analysis_type), intent(in)       :: start
+      type(analysis_type), intent(inout)    :: analysis
+      type(attempt_type), intent(inout)     :: attempt
+      type(analysis_type), allocatable :: whole
+
+      allocate (whole, source=start)
+      whole%passes = analysis%passes
+      whole%n_passes = analysis%n_passes
+      whole%n_parts = analysis%n_parts
+      whole%tolerance = analysis%tolerance
+      call try_part(model, system, whole, 0.0_wp, attempt, analysis%u)
+      if (attempt%converged) then
+         analysis = whole
+      else
+         analysis%passes = whole%passes
+         analysis%n_passes = whole%n_passes
+         analysis%is_whole = .false.
+      end if
+   end subroutine make_whole
 
    !> The next ATTEMPT goes to where so much of the increment, or of the interference, is LEFT.
    subroutine start_attempt(model, system, analysis, left, attempt)
@@ -172,23 +216,30 @@ contains
 
    !> Newton iterations of ATTEMPT from the committed state; converged, they are committed. The first iteration moves the supports,
    !! in one go and with the tangent of the committed state.
-   subroutine iterate(model, system, analysis, attempt)
+   subroutine iterate(model, system, analysis, attempt, from)
       type(model_type), intent(in)          :: model
       class(equation_system), intent(inout) :: system
       type(analysis_type), intent(inout)    :: analysis
       type(attempt_type), intent(inout)     :: attempt
+      real(wp), intent(in), optional        :: from(:, :) !! the first trial, where it is not the committed state
       type(trial_type)      :: now, next
       real(wp), allocatable :: direction(:, :)
       logical  :: flips(size(analysis%states))
-      real(wp) :: load_size, noise, pressed, rounding, spoilt, step, travel
+      real(wp) :: load_size, noise, pressed, rounding, sizes(0:most_iterations), spoilt, step, travel
       integer  :: iteration
-      logical  :: moves, carried
+      logical  :: moves, carried, is_last
 
       allocate (direction, mold=analysis%u)
       moves = analysis%moves
       travel = max(maxval(abs(analysis%moved)), maxval(abs(analysis%u)))
       call start_trial(system, analysis, now)
       call start_trial(system, analysis, next)
+      if (present(from)) then
+         moves = .false.
+         attempt%move = 0.0_wp
+         now%u = from
+         call forces_in_bodies(system, now%u, now%body)
+      end if
       call evaluate(model, system, attempt%load, analysis, now)
       load_size = analysis%tolerance/analysis%load_tolerance ! the largest so far
       spoilt = 0.0_wp
@@ -208,11 +259,13 @@ contains
          carried = load_size <= rounding .and. maxval(abs(now%u)) <= 10.0_wp*travel
          attempt%converged = now%size <= max(analysis%tolerance, 0.1_wp*noise) .and. noise <= precise*load_size
          attempt%converged = .not. moves .and. (attempt%converged .or. (carried .and. now%size <= rounding))
-         if (iteration == most_iterations) attempt%converged = attempt%converged .or. &
-            now%size <= idle*max(attempt%seat_force, analysis%loose_force)
-         if (attempt%converged .or. iteration == most_iterations) exit
+         sizes(iteration) = merge(huge(1.0_wp), now%size, moves)
+         is_last = iteration == most_iterations .or. leads_nowhere(sizes(:iteration))
+         if (is_last) attempt%converged = attempt%converged .or. now%size <= idle*max(attempt%seat_force, analysis%loose_force)
+         if (attempt%converged .or. is_last) exit
          if (noise > load_size .and. .not. (carried .or. moves)) exit
-         call find_direction(model, now, analysis, iteration == 0, system, attempt, direction)
+         call find_direction(model, now, analysis, iteration == 0 .and. .not. present(from), system, &
+                             attempt, direction)
          if (attempt%trouble%raised .and. .not. moves) call close_gaps(model, now, analysis, system, attempt, direction)
          if (attempt%trouble%raised) exit
          if (moves) then
@@ -243,6 +296,18 @@ contains
       if (now%size > max(far_below*analysis%tolerance, noise)) call refine(model, system, analysis, attempt, now, next)
       call commit(model, system, now, analysis)
    end subroutine iterate
+
+   !> Whether iterations that have left forces of these SIZES lead nowhere: the last of them have left hardly less than those before. A
+   !! number of iterations would not do, for rounding decides which of them is the last.
+   pure logical function leads_nowhere(sizes)
+      real(wp), intent(in) :: sizes(:) !! [force]
+      integer :: n
+
+      n = size(sizes)
+      leads_nowhere = n >= 2*patience
+      if (leads_nowhere) leads_nowhere = minval(sizes(n - patience + 1:)) > &
+                                         progress*minval(sizes(n - 2*patience + 1:n - patience))
+   end function leads_nowhere
 
    !> Forces in the bodies are summed up from step to step. Where a trial has been far away, what rounding left of them there is no longer
    !! small beside the NOISE here: they are computed anew.

@@ -1,6 +1,6 @@
 !> A trial of METHOD = NEWTON: displacements, joints, what is unbalanced; the step along a direction; how it becomes the state.
 module newton_trial
-   use analysis_state, only: analysis_type, find_movements, free_norm, kind_on_branch, subtract_joint_forces, tally_work
+   use analysis_state, only: analysis_type, free_norm, kind_on_branch, reach, subtract_joint_forces, tally_work
    use equations, only: equation_system, forces_in_bodies
    use interface_operator, only: joint_movement
    use joint_laws, only: element_state, follow_element, rest_when_open
@@ -194,10 +194,9 @@ contains
       type(analysis_type), intent(inout) :: analysis
       integer :: i
 
-      analysis%u = trial%u
+      call reach(system, trial%u, trial%body, analysis)
       analysis%unbalanced = trial%residual
       analysis%states = trial%states
-      call find_movements(system, analysis)
       do i = 1, size(model%interface)
          call tally_work(analysis%energy(model%interface(i)%joint), trial%work(:, i))
          associate (state => analysis%states(i))

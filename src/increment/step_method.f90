@@ -1,6 +1,6 @@
 !> METHOD = STEP, the step-wise tangent-stiffness method: one routine a box of the flow chart (Fig. 6a).
 module step_method
-   use analysis_state, only: analysis_type, book_friction, pass_record, record_pass, slip_record, tally_work
+   use analysis_state, only: analysis_type, book_friction, pass_record, reach, record_pass, slip_record, tally_work
    use equations, only: equation_system, forces_in_bodies, form_structure_stiffness, solve_equations
    use failures, only: failure_type
    use interface_operator, only: add_force, joint_movement
@@ -91,11 +91,12 @@ contains
       class(equation_system), intent(in) :: system
       real(wp), intent(in)               :: f(:, :) !! (dimension, retained) [force]
       type(analysis_type), intent(inout) :: analysis
+      real(wp), allocatable :: u(:, :), body(:, :)
       real(wp) :: movement(3), work(3), tau
       integer  :: i, k
 
-      analysis%u = analysis%u + analysis%du
-      analysis%body = analysis%body + f
+      allocate (u, source=analysis%u + analysis%du)
+      allocate (body, source=analysis%body + f)
       do i = 1, size(model%interface)
          movement = joint_movement(system%interface(i), analysis%du)
          associate (state => analysis%states(i), area => model%interface(i)%area)
@@ -112,9 +113,10 @@ contains
             state%normal%pressure = pressure_reached(area, analysis%eq10, state%normal)
          end associate
          call tally_work(analysis%energy(model%interface(i)%joint), work)
-         call add_force(system%interface(i), -analysis%k(:, i)*movement, analysis%body)
+         call add_force(system%interface(i), -analysis%k(:, i)*movement, body)
       end do
-      if (size(system%locked) > 0) call forces_in_bodies(system, analysis%u, analysis%body) ! a locked unknown takes more than F
+      if (size(system%locked) > 0) call forces_in_bodies(system, u, body) ! a locked unknown takes more than F
+      call reach(system, u, body, analysis)
    end subroutine add_displacements
 
    !> Coulomb limit (section 4.4): where |tau| > mu p, the element is relieved of the excess, which is applied at its two ends,

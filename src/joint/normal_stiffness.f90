@@ -19,7 +19,7 @@ module normal_stiffness
    implicit none
    private
 
-   public :: at_rest, norm, is_virgin, pressure_reached, follow_normal, closed_share, branch_name
+   public :: at_rest, norm, is_virgin, pressure_reached, follow_normal, closed_share, branch_name, touches, has_come_to
    public :: line_pressure, stored_work
 
    integer, parameter, public :: branch_load = 1, branch_unload = 2, branch_open = 3, branch_reload = 4
@@ -112,13 +112,13 @@ contains
       case (branch_unload)
          if (state%sumf > state%sigmaf + no_change(area, state)) state%branch = branch_reload
       end select
-      if (state%branch == branch_unload .and. state%sumf <= -rounding*max(state%p_a, state%p_av)*area) then
+      if (state%branch == branch_unload .and. state%sumf <= -no_pressure(state)*area) then
          state%lambda_b = state%lambda
          state%sumf = 0.0_wp
          state%branch = branch_open
       end if
-      if (was_open .and. has_come_to(state%lambda_b, state)) state%branch = branch_reload
-      if (state%branch == branch_reload .and. has_come_to(state%lambda_a, state)) state%branch = branch_load
+      if (was_open .and. has_come_to(state%lambda_b, state%lambda, size_of(state))) state%branch = branch_reload
+      if (state%branch == branch_reload .and. has_come_to(state%lambda_a, state%lambda, size_of(state))) state%branch = branch_load
    end subroutine ask_diamonds
 
    !> Whether the last increment was tensile.
@@ -137,13 +137,34 @@ contains
       no_change = rounding*max(abs(state%sumf), abs(state%sigmaf), state%p_av*area)
    end function no_change
 
-   !> Whether the deflection of STATE is at that of POINT or beyond it, but for rounding.
-   pure logical function has_come_to(point, state)
-      real(wp), intent(in)           :: point
+   !> Whether the faces touch at an element in this STATE, whether or not they press. NORM and the exact law remove an element only where
+   !! its force has come below zero by more than rounding, so the sign of a pressure that is but rounding does not matter.
+   elemental logical function touches(state)
       type(normal_state), intent(in) :: state
 
-      has_come_to = state%lambda >= point - rounding*max(abs(point), abs(state%lambda_a), abs(state%gap))
+      touches = state%branch /= branch_open
+   end function touches
+
+   !> Whether the deflection LAMBDA is at POINT or beyond it, but for the rounding of deflections of this SIZE.
+   elemental logical function has_come_to(point, lambda, size)
+      real(wp), intent(in) :: point, lambda, size !! [length]
+
+      has_come_to = lambda >= point - rounding*size
    end function has_come_to
+
+   !> The pressure that is but rounding in STATE.
+   elemental real(wp) function no_pressure(state)
+      type(normal_state), intent(in) :: state
+
+      no_pressure = rounding*max(state%p_a, state%p_av)
+   end function no_pressure
+
+   !> The largest deflection that there has been in STATE, as far as it is known [length].
+   elemental real(wp) function size_of(state)
+      type(normal_state), intent(in) :: state
+
+      size_of = max(abs(state%lambda_a), abs(state%lambda_b), abs(state%gap))
+   end function size_of
 
    !> Whether nothing is on the element on its loading curve: at first, until a load reaches it, and where it closes past A.
    pure logical function is_virgin(area, state)
@@ -194,7 +215,7 @@ contains
          after%p_a = after%pressure
          slope = normal_tangent(law, 1.0_wp, after%pressure, before%p_av)
          after%k_n = slope*area
-      else if (unloaded > 0.0_wp) then
+      else if (unloaded > merge(-no_pressure(before), 0.0_wp, before%p_a > 0.0_wp)) then
          if (lambda >= before%lambda_a - least) then
             after%branch = branch_load
          else if (lambda > before%lambda + least .or. before%branch == branch_open) then
@@ -202,10 +223,10 @@ contains
          else if (lambda < before%lambda - least .or. before%branch == branch_load) then
             after%branch = branch_unload
          end if
-         after%pressure = unloaded
+         after%pressure = max(0.0_wp, unloaded)
          slope = law%e_u
          after%k_n = slope*area
-         if (after%branch == branch_load) after%k_n = normal_tangent(law, area, unloaded, before%p_av)
+         if (after%branch == branch_load) after%k_n = normal_tangent(law, area, after%pressure, before%p_av)
       else
          after%branch = branch_open
          after%pressure = 0.0_wp

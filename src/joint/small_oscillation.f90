@@ -1,27 +1,20 @@
 !> What an interface element resists small oscillation about its present state with. Oscillation turns back all the time: where the
 !! joint has been loaded it unloads first, and goes to and fro on its unloading branches, stiffer than it was on the way there. So the
 !! joint of a structure that shakes is that of unloading, E_u and the slope that the shear unloading branch begins with; the tangent
-!! of loading is what a slowly growing load sees. An element that carries no pressure has neither.
+!! of loading is what a slowly growing load sees. An element that stands apart has neither.
 module small_oscillation
    use branch_cubic, only: cubic_slope
    use joint_laws, only: element_state, joint_law
    use kinds, only: wp
    use normal_curve, only: normal_tangent
-   use normal_stiffness, only: branch_open
+   use normal_stiffness, only: touches
    use shear_stiffness, only: curve_deflection
    implicit none
    private
 
-   public :: oscillation_stiffness, is_pressed
+   public :: oscillation_stiffness
 
 contains
-
-   !> Whether the element bears on its counterpart.
-   elemental logical function is_pressed(state)
-      type(element_state), intent(in) :: state
-
-      is_pressed = state%normal%branch /= branch_open .and. state%normal%pressure > 0.0_wp
-   end function is_pressed
 
    !> K = (k_sx, k_sy, k_n) under the present pressure p and shear deflections d [force/length]: E_u a_i and a_i B'(d; p), the slope of
    !! the unloading cubic; ON_LOADING dp/dlambda a_i and a_i A'(d; p) of the loading curves.
@@ -34,8 +27,8 @@ contains
       integer  :: i
 
       k = 0.0_wp
-      if (.not. is_pressed(state)) return
-      associate (p => state%normal%pressure)
+      if (.not. touches(state%normal)) return
+      associate (p => max(0.0_wp, state%normal%pressure))
          k(3) = law%normal%e_u*area
          if (on_loading) k(3) = normal_tangent(law%normal, area, p, state%normal%p_av)
          do i = 1, 2

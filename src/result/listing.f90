@@ -20,7 +20,7 @@ module listing
    use model_warnings, only: tetra_words
    use node_coupling, only: held_forces
    use normal_stiffness, only: branch_open
-   use range_watch, only: note_condition, range_watch_type, record_watch, say_ranges, watch_balance, watch_ranges, &
+   use range_watch, only: note_condition, note_division, range_watch_type, record_watch, say_ranges, watch_balance, watch_ranges, &
                           watch_shear_laws, watch_unloading
    use restart_stream, only: restart_stream_type
    use stage_answer, only: first_largest
@@ -38,6 +38,7 @@ module listing
       type(listing_table_type) :: increments, distances, resultants, passes, slips, bars, springs, sections ! of the stage so far
       type(farthest_type) :: farthest !! from the laws
       character(:), allocatable :: poor_condition !! the last warning of it, '': none
+      character(:), allocatable :: divided        !! what is said of the last increment that was, '': none
       integer :: n_increments = 0, n_removed = 0
       type(range_watch_type) :: watch
    end type listing_type
@@ -56,6 +57,7 @@ contains
       call listing%page%file%start(path)
       listing%method = deck%control%method
       listing%poor_condition = ''
+      listing%divided = ''
       if (deck%control%length_unit /= '') call set_labels(trim(deck%control%length_unit), trim(deck%control%force_unit), &
                                                           listing%page%labels)
       call write_opening(listing%page, deck, model, plan, system)
@@ -107,6 +109,7 @@ contains
          call note_springs(page, model, analysis, listing%springs)
          call note_sections(page, model, analysis, listing%sections)
          if (analysis%condition%is_new) call note_condition(model, plan, analysis, listing%watch, listing%poor_condition)
+         call note_division(plan, analysis, listing%watch, listing%divided)
          call watch_ranges(model, analysis, listing%watch)
          if (listing%method /= method_back) then
             call watch_shear_laws(model, plan, analysis, listing%watch)
@@ -278,6 +281,7 @@ contains
       call stream%list(listing%farthest%stress)
       call stream%list(listing%farthest%place)
       call stream%list(listing%poor_condition)
+      call stream%list(listing%divided)
       call stream%item(listing%n_increments)
       call stream%item(listing%n_removed)
       call record_watch(stream, listing%watch)

@@ -30,8 +30,8 @@ contains
                          trim(merge('JOINTS AS THEY LOAD  ', 'JOINTS AS THEY UNLOAD', plan%on_loading))//', '// &
                          trim(merge('SUPPORTS LET GO      ', 'SUPPORTS AS THEY ARE ', plan%free))//', '// &
                          trim(merge('LUMPED MASS    ', 'CONSISTENT MASS', model%lumped)))
-      if (size(model%interface) > 0) call page%file%put('  INTERFACE ELEMENTS THAT CARRY PRESSURE: '// &
-         integer_text(modes%n_pressed)//' OF '//integer_text(size(model%interface))//'; THE OTHERS TAKE NO PART')
+      if (size(model%interface) > 0) call page%file%put('  INTERFACE ELEMENTS THAT TOUCH: '// &
+         integer_text(modes%n_touching)//' OF '//integer_text(size(model%interface))//'; THE OTHERS TAKE NO PART')
       call say_count(page, modes)
       call list_mass(page, model, modes)
       if (size(modes%modes) == 0) return

@@ -1,6 +1,6 @@
 !> Warnings: shear laws whose loops do not close or that unload less steeply than they load (once a law), and used outside their range (one line a
 !! bound, joint and stage, with the number of interface elements and the worst of them); unloading softer than loading (once a
-!! joint), stages that end far from balance, and stiffnesses of poor condition.
+!! joint), stages that end far from balance, increments that were divided, and stiffnesses of poor condition.
 module range_watch
    use analysis_state, only: analysis_type, free_norm
    use branch_cubic, only: cubic_slope
@@ -19,7 +19,7 @@ module range_watch
    implicit none
    private
 
-   public :: watch_shear_laws, watch_ranges, say_ranges, watch_unloading, watch_balance, note_condition, record_watch
+   public :: watch_shear_laws, watch_ranges, say_ranges, watch_unloading, watch_balance, note_condition, note_division, record_watch
 
    real(wp), parameter :: much = 0.01_wp ! of the largest load, or of the friction limits: what may be left without a warning
    real(wp), parameter :: rounding = 1.0e-9_wp
@@ -301,6 +301,26 @@ contains
       call keep_two_parts(watch, '  WARNING: '//upper(first)//': ', upper(second))
       words = first//': '//second
    end subroutine note_condition
+
+   !> Note that the increment just completed was divided, and warn where its answer depends on the parts; WORDS are the same for the
+   !! screen.
+   subroutine note_division(plan, analysis, watch, words)
+      type(stage_plan_type), intent(in)      :: plan
+      type(analysis_type), intent(in)        :: analysis
+      type(range_watch_type), intent(inout)  :: watch
+      character(:), allocatable, intent(inout) :: words
+      character(:), allocatable :: first, second
+
+      if (analysis%n_parts <= 1 .or. analysis%is_partial) return
+      first = where_in_plan(plan, analysis%stage, analysis%increment)//': divided into '//integer_text(analysis%n_parts)//' parts'
+      second = 'then made as a whole from where they led'
+      if (.not. analysis%is_whole) then
+         second = 'it did not converge as a whole, and the answer depends on the parts: more increments tell by how much'
+         watch%n_warnings = watch%n_warnings + 1
+      end if
+      call keep_two_parts(watch, merge('  NOTE:    ', '  WARNING: ', analysis%is_whole)//upper(first)//', ', upper(second))
+      words = first//', '//second
+   end subroutine note_division
 
    !> Write what has been warned of, and what is to be, to a restart file, or read it.
    subroutine record_watch(stream, watch)

@@ -47,6 +47,8 @@ contains
          end associate
          words = run%results%listing%poor_condition
          if (words /= '') write (error_unit, '(3a)') run%argument%name, ': ', words
+         words = run%results%listing%divided
+         if (words /= '') write (error_unit, '(3a)') run%argument%name, ': ', words
          words = distance_words(run%results%listing%farthest)
          if (words /= '') write (error_unit, '(3a)') run%argument%name, ': ', words
          if (tetra_words(model) /= '') write (error_unit, '(3a)') run%argument%name, ': ', tetra_words(model)

@@ -22,8 +22,8 @@ module mode_values
    use modal_energy, only: energy_type, strain_energies
    use model_data, only: model_type, n_points
    use natural_modes, only: spectrum_type
+   use normal_stiffness, only: touches
    use oscillating_structure, only: oscillating_type
-   use small_oscillation, only: is_pressed
    use vibration_plan, only: vibration_plan_type
    implicit none
    private
@@ -53,7 +53,7 @@ module mode_values
       real(wp) :: mass = 0.0_wp                     !! of the structure [force time^2/length]
       real(wp) :: centre(3) = 0.0_wp                !! of that [length]
       real(wp) :: inertia(6) = 0.0_wp               !! about axes through it: I_xx, I_yy, I_zz, I_xy, I_yz, I_zx [force time^2 length]
-      integer  :: n_pressed = 0                     !! interface elements that carry pressure, and so take part
+      integer  :: n_touching = 0                     !! interface elements that touch, and so take part
    end type modes_type
 
 contains
@@ -74,7 +74,7 @@ contains
       modes%n_before = spectrum%n_before
       modes%n_counted = spectrum%n_counted
       modes%counted_at = merge(sqrt(spectrum%counted_at)/two_pi, huge(1.0_wp), spectrum%counted_at < huge(1.0_wp))
-      modes%n_pressed = count(is_pressed(analysis%states))
+      modes%n_touching = count(touches(analysis%states%normal))
       call total_mass(model, structure%mass, modes%mass, modes%centre, modes%inertia)
       n = size(spectrum%lambda)
       allocate (u(model%dimension, model%n_nodes, n), g(model%dimension, n))
@@ -183,13 +183,14 @@ contains
       lost = 0.0_wp
       do i = 1, size(model%interface)
          associate (state => analysis%states(i), law => model%joints(model%interface(i)%joint)%law)
-            if (.not. is_pressed(state)) cycle
+            if (.not. touches(state%normal)) cycle
             limit = no_limit
             if (law%has_friction) limit = friction_limit(law, state%normal%pressure)
             movement = factor*joint_movement(model%interface(i), mode%u)
             do d = 1, 2
                if (.not. law%shear(d)%given) cycle
-               lost = lost + model%interface(i)%area*loop_loss(law%shear(d)%load, state%normal%pressure, limit, movement(d))
+               lost = lost + model%interface(i)%area*loop_loss(law%shear(d)%load, max(0.0_wp, state%normal%pressure), limit, &
+                                                                movement(d))
             end do
          end associate
       end do

@@ -626,3 +626,53 @@ ENDDATA
 DECK
    run "$1"
 }
+
+# Two solids of CHEXA20, 3 x 2 distorted elements on 2 x 3, the upper one loaded at a corner. FORM: plain; turned, each element from another
+# of its corners; renumbered, nodes and elements from the last to the first; mirrored, in x.
+solids_apart() { # NAME FORM
+   awk -v form="$2" 'function is_node() { return i % 2 + j % 2 + k % 2 <= 1 }
+   function name(i, j, k, n) { n = first + i + 20*(j + 20*k); return form == "renumbered" ? 90001 - 7*n : n }
+   # corners of elements, moved as these are numbered; what is between them is in the middle
+   function put(i, j, k) { xy[1] = 60*i/(2*nx); xy[2] = 50*j/(2*ny)
+      if (i > 0 && i < 2*nx) xy[1] += 3*sin(first + 2*i + j)
+      if (j > 0 && j < 2*ny) xy[2] += 3*cos(first + i + 3*j) }
+   function block(nx_, ny_, first_, z, side, mark,   n, t, at, g) { # e, the element, is for node
+      nx = nx_; ny = ny_; first = first_
+      for (k = 0; k <= 2; k++) for (j = 0; j <= 2*ny; j++) for (i = 0; i <= 2*nx; i++) if (is_node()) {
+         put(i - i % 2, j - j % 2, k); x = xy[1]; y = xy[2]
+         put(i + i % 2, j + j % 2, k)
+         printf "GRID,%d,,%.12f,%.12f,%.12f\n", name(i, j, k), (form == "mirrored" ? -1 : 1)*(x + xy[1])/2, (y + xy[2])/2, z + 10*k }
+      for (e = 0; e < nx*ny; e++) {
+         n = 0
+         for (k = 0; k <= 2; k += 2) for (t = 0; t < 4; t++) { at[++n] = corner(t + (form == "turned")*(e + 1)); level[n] = k }
+         for (n = 1; n <= 8; n++) g[n] = node(at[n], at[n], level[n])
+         for (n = 1; n <= 4; n++) { t = n % 4 + 1
+            g[8 + n] = node(at[n], at[t], 0); g[12 + n] = node(at[n], at[n], 1); g[16 + n] = node(at[n], at[t], 2) }
+         printf "CHEXA,%d,1", first + (form == "renumbered" ? 50 - e : e)
+         for (n = 1; n <= 20; n++) printf "%s,%d", n == 7 || n == 15 ? "\n+" : "", g[n]
+         print ""
+         printf "CQUAD4,%d,%d,%d,%d,%d,%d\n", first + 100 + e, mark, g[side + 1], g[side + 2], g[side + 3], g[side + 4] }
+      print "PMARK," mark }
+   function corner(t) { return (form == "mirrored" ? 7 - t : t) % 4 }
+   function node(a, b, k,   i, j) { i = 2*(e % nx); j = 2*int(e/nx)
+      return name(i + (a == 1 || a == 2) + (b == 1 || b == 2), j + (a >= 2) + (b >= 2), k) }
+   BEGIN {
+      print "METHOD = NEWTON\nTOL = 1.0E-13\nSPC = 1\nSUBCASE 1\n  LOAD = 1\n  OUTPUT = NONE\nBEGIN BULK"
+      block(3, 2, 1, 0, 4, 20); for (i = 0; i <= 6; i++) for (j = 0; j <= 4; j++) { k = 0; if (is_node()) print "SPC1,1,123," name(i, j, 0) }
+      block(2, 3, 2001, 20, 0, 30)
+      print "SPC1,1,12," name(0, 0, 2) "\nSPC1,1,2," name(4, 0, 2)
+      for (i = 0; i <= 4; i += 2) for (j = 0; j <= 6; j += 2) printf "FORCE,1,%d,,%.1f,0.0,0.0,-1.0\n", name(i, j, 2), 50 + 20*i + 10*j
+      print "JOINT,1,1,20,30\nPJOINT,1,1,,,,,0.2\nJNORM,1,8.0-3,0.5,9500.0\nMAT1,1,9500.0,,0.25\nPSOLID,1,1,,,,FULL\nENDDATA" }' \
+      > "$work/$1.bdf"
+   run "$1"
+}
+
+# furthest_apart NAME-A NAME-B SENSE: by how much the pressures at the same places, x of B times SENSE, differ, over the largest; -1: other places
+furthest_apart() {
+   awk -F, -v sense="$3" 'FNR == 1 { file++; for (c = 1; c <= NF; c++) at[$c] = c; next }
+      { place = sprintf("%.6f %.6f", (file == 2 ? sense : 1)*$at["x"] + 1e3, $at["y"]) }
+      file == 1 { p[place] = $at["pressure"]; n++; if ($at["pressure"] > most) most = $at["pressure"]; next }
+      !(place in p) { worst = 1e9; next }
+      { d = p[place] - $at["pressure"]; if (d < 0) d = -d; if (d > worst) worst = d; m++ }
+      END { print (n == m && n > 0 ? worst/most : -1) }' "$work/$1.joint.csv" "$work/$2.joint.csv"
+}

@@ -113,3 +113,13 @@ DECK
    same "side 1 covered in part ($place): elements in the VTU file of the joint" "$(elements_shown "$work/covered.joint.vtu")" \
       "$(awk -F, 'NR > 1 { print $5 }' "$work/covered.joint.csv" | sort -nu)"
 done
+# Faces with eight nodes, distorted: the order of nodes and elements does not matter, nor does a mirror.
+solids_apart solids plain && {
+   ask 'solids: the joint carries the load' solids by increment all 'sum(force) = 1440*load within 1e-6'
+   for form in turned renumbered mirrored; do
+      solids_apart $form $form || continue
+      [ $form = mirrored ] && sense=-1 || sense=1
+      apart=$(furthest_apart solids $form $sense)
+      holds "solids, $form: pressures differ by $apart" "$apart >= 0 and $apart < 1e-9"
+   done
+}

@@ -109,6 +109,12 @@ deck law && {
       before(lambda) + (pressure - before(pressure))*2e-3/(0.5 + before(pressure)), $curve) within 1e-14"
    deck law 's/NEWTON/BACK/; /^SUBCASE 2/,/^BEGIN/{/^BEGIN/!d}' law_back && \
       near 'JNEXP, BACK' "$(cell law_back 1 1 1 lambda)" '2e-3*log(3.6)' 1e-9
+   for method in BACK NEWTON; do # a law without M
+      sed -E "s/^METHOD.*/METHOD = $method\nTOL = 1.E-12/; s/^JNORM .*/JNEXP   1       2.0-3   0.5/; s/^JINCR.*/JINCR,15,1/" input/prism15.bdf \
+         > "$work/prism_$method.bdf"
+      run prism_$method
+   done
+   same_rows 'JNEXP, the prism by BACK and by NEWTON' prism_BACK prism_NEWTON 1e-9
    refused 'one number, one law' law '/^JNEXP/{p;s/.*/JNORM,1,8.0-3,0.5/}' 'JNORM 1 is given twice'
    refused 'what the card needs' law 's/^JNEXP.*/JNEXP,1,2.0-3/' "JNEXP, field 4, PE: blank"
 }
