@@ -129,7 +129,7 @@ contains
       do while (done < 1.0_wp)
          part = min(part, 1.0_wp - done)
          do i = 1, 2 ! once more with the joints held where one has slipped all over
-            attempt%holds = i == 2
+            attempt%holds = (i == 2) .neqv. attempt%seats
             call start_attempt(model, system, analysis, merge(1.0_wp - done - part, 0.0_wp, done + part < 1.0_wp), attempt)
             call iterate(model, system, analysis, attempt)
             if (attempt%converged .or. .not. attempt%slides) exit

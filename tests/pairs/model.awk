@@ -249,11 +249,11 @@ function make_model(   b, i, j, n, x0, x1, y0, z, length_, width, h, e, list, to
       }
       if (b == top && rbe2) {
          if (!(space && frame_of[rbe2] == 1)) frame_of[rbe2] = 0
-         if (space && !sheared) hold(rbe2, "6") # one spring along each axis: no hold against a twist
+         if (space && !sheared && !on["moved"]) hold(rbe2, "6") # one spring along each axis: no hold against a twist
       }
    }
    if (holding == "support") {
-      if (rbe2) { frame_of[rbe2] = space ? frame_of[rbe2] : 0; hold(rbe2, space ? "126" : "1") }
+      if (rbe2) { frame_of[rbe2] = space ? frame_of[rbe2] : 0; hold(rbe2, space ? (on["moved"] ? "12" : "126") : "1") }
       else if (space) {
          a = at[top, 0, 0, 1]; for (i = 1; (top, i, 0, 1) in at; i++) e = at[top, i, 0, 1]
          frame_of[a] = frame_of[a] == 1 ? 1 : 0; frame_of[e] = 0
@@ -275,6 +275,9 @@ function make_model(   b, i, j, n, x0, x1, y0, z, length_, width, h, e, list, to
       m_comp = comp
       if (n_mpc == 0) { m_dependent = 0 }
    }
+   # without MU an element that opens drops its shear stress at once, and NEWTON may have no answer, or several
+   rough = on["friction"]
+   if (!rough && sheared && on["newton"] && random(2)) { rough = 1; mu = between(1, 1.5) }
    # a bolt: a bar from the top to a node below that is held
    if (on["bolt"]) {
       i = 1 + random(n_top)
@@ -286,7 +289,7 @@ function make_model(   b, i, j, n, x0, x1, y0, z, length_, width, h, e, list, to
       bolt_stage = on["stages"] && random(3) == 0 ? 2 : 1
    }
    if (on["moved"]) {
-      if (rbe2) { frame_of[rbe2] = 0; hold(rbe2, up) }
+      if (rbe2) { frame_of[rbe2] = 0; hold(rbe2, up); hold(rbe2, space ? "456" : "6") }
       else for (i = 1; i <= n_top; i++) { frame_of[top_node[i]] = 0; if (!(i == 1 && 0)) hold(top_node[i], up) }
    }
    # loads of the stages
@@ -318,7 +321,7 @@ function make_model(   b, i, j, n, x0, x1, y0, z, length_, width, h, e, list, to
             }
          }
       } else {
-         d = -lambda_ref * between(0.8, 2) * (stage == 1 ? 1 : between(0.5, 1.3))
+         d = stage == 1 ? -lambda_ref * between(0.8, 2) : d * between(0.97, 1.3) # a little back at most: what is lifted off may be loose
          if (rbe2) load(10 * stage, "SPCD", rbe2, up, d, 0)
          else for (i = 1; i <= n_top; i++) load(10 * stage, "SPCD", top_node[i], up, d * (1 + 0.1 * (X[top_node[i]] - left[top]) / length_), 0)
          if (!axi) {
@@ -347,6 +350,8 @@ function make_model(   b, i, j, n, x0, x1, y0, z, length_, width, h, e, list, to
       gcx = between(-1, 2) * lambda_ref / length_ ^ 2
       gcy = space ? between(-1, 2) * lambda_ref / length_ ^ 2 : 0
    }
+   # six-node triangles have no elements at their corners, which NODES cannot name
+   if (gap_kind == "NODES" && space && on["tri"] && on["order2"]) gap_kind = "TABLE"
    # the pressure of the first increment: where statics does not give it
    p0 = on["back"] || random(2) && free && !on["temp"] && !on["gap"] && n_joints == 1 ? 0 : p_ref * between(0.05, 0.2)
 }

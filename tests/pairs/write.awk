@@ -28,11 +28,12 @@ function describe(   j, s, n) {
    method = on["newton"] ? "NEWTON" : on["back"] ? "BACK" : "STEP"
    print "DECK", copy, pair, method, (space ? "space" : axi ? "axi" : "plane"), features
    for (j = 1; j <= n_joints; j++)
-      printf "JOINT %d %.17g %.17g %.17g %.17g %.17g %d %.17g\n", j, area[j], c, m, e_u, on["friction"] ? mu : -1, nrean, sheared && !on["cubic"] && !a12 && !on["friction"] ? a11 : 0
+      printf "JOINT %d %.17g %.17g %.17g %.17g %.17g %d %.17g\n", j, area[j], c, m, e_u, rough ? mu : -1, nrean, sheared && !on["cubic"] && !a12 && !rough ? a11 : 0
    n = 0
    for (j = 1; j <= ne; j++) if (e_pid[j] < 10) n++
    print "CELLS", n
    if (on["gap"] && !on["moved"] && !(gap_kind == "CONST" && g0 > 0) && gap_kind != "TRUE") print "PUSHED_AWAY"
+   if (sheared && !rough && on["newton"]) print "DROPS"
    for (s = 1; s <= n_stages; s++) {
       printf "LOADS %d %.17g %.17g %.17g\n", s, total_x[s], total_y[s], total_z[s]
       # what each joint carries where nothing else holds what stands on it
@@ -91,10 +92,10 @@ function card(text,   w, n, k, line) {
 # numbers of nodes and elements
 function numbers(shuffled,   i, k, t, step) {
    for (i = 1; i <= nn; i++) id[i] = i
-   for (i = 1; i <= ne + 50; i++) eid[i] = i
+   for (i = 1; i <= ne + 300; i++) eid[i] = i
    if (!shuffled) return
    for (i = nn; i > 1; i--) { k = 1 + random(i); t = id[i]; id[i] = id[k]; id[k] = t }
-   for (i = ne + 50; i > 1; i--) { k = 1 + random(i); t = eid[i]; eid[i] = eid[k]; eid[k] = t }
+   for (i = ne + 300; i > 1; i--) { k = 1 + random(i); t = eid[i]; eid[i] = eid[k]; eid[k] = t }
    step = 1 + random(30)
    for (i = 1; i <= nn; i++) id[i] = 7 + step * id[i] + (step > 1 ? random(step) : 0)
 }
@@ -173,7 +174,7 @@ function write_variant(name,   i, k, s, j, file, n, text, f, set, e, kept, t, cd
    }
    # joints
    for (j = 1; j <= n_joints; j++) put("JOINT," j ",1," side_1[j] "," (side_2[j] ? side_2[j] : "") "," (gap_kind == "TRUE" && side_2[j] ? real(0.05 * s_l) : ""))
-   put("PJOINT,1,1," (sheared ? "1,1" : ",") "," (on["friction"] ? real(mu) "," nrean : ",") "," (p0 ? real(p0 * stress) : ""))
+   put("PJOINT,1,1," (sheared ? "1,1" : ",") "," (rough ? real(mu) "," nrean : ",") "," (p0 ? real(p0 * stress) : ""))
    put("JNORM,1," real(c * s_l / stress ^ m) "," real(m) "," real(e_u * stress / s_l))
    law = stress / s_l
    if (sheared) {
@@ -206,9 +207,9 @@ function write_variant(name,   i, k, s, j, file, n, text, f, set, e, kept, t, cd
    }
    # bolt
    if (bolt) {
-      put("CROD," eid[ne + 49] ",90," id[bolt_top] "," id[bolt])
+      put("CROD," eid[ne + 299] ",90," id[bolt_top] "," id[bolt])
       put("PROD,90,1," real(bolt_area * s_l ^ 2))
-      put("BOLT,1," eid[ne + 49] "," real(preload * s_f) "," bolt_stage)
+      put("BOLT,1," eid[ne + 299] "," real(preload * s_f) "," bolt_stage)
    }
    # loads
    for (i = 1; i <= n_loads; i++) {
