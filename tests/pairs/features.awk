@@ -1,12 +1,13 @@
 # What a deck of a pair of features is made of: the pair, the other features by chance, what cannot stand together.
 
 BEGIN {
-   n_features = split("order2 fit part gap rbe2 rbe3 mpc temp cd stages carry friction restart modes vtu bolt moved two axi space newton back cubic base tri", feature, " ")
+   n_features = split("order2 fit part gap rbe2 rbe3 mpc temp cd stages carry friction restart modes vtu bolt moved two axi space newton back cubic base tri split", feature, " ")
    excludes("axi", "space rbe2 rbe3 part cubic")
    excludes("back", "stages carry newton bolt")
    excludes("carry", "newton")
    excludes("rbe2", "rbe3")
    excludes("two", "moved")
+   excludes("split", "fit part")
    for (i = 1; i <= n_features; i++) for (j = 1; j < i; j++) if (!((feature[i], feature[j]) in not_with)) {
       n_pairs++
       pair_1[n_pairs] = feature[j]

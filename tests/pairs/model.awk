@@ -47,7 +47,7 @@ function block_2(b, nx, ny, y0, y1, order, tri,   i, j, x, y, a, c, d, f) {
    for (i = 0; i <= nx; i++) for (j = 0; j <= ny; j++) {
       x = gx[i]; y = y0 + (y1 - y0) * j / ny
       if (i > 0 && i < nx && j > 0 && j < ny) { x += between(-0.15, 0.15) * (gx[nx] - gx[0]) / nx; y += between(-0.15, 0.15) * (y1 - y0) / ny }
-      at[b, i, j, 0] = node(x, y, 0)
+      at[b, i, j, 0] = shares && j == 0 ? at[b - 1, i, layers[b - 1], 0] : node(x, y, 0)
    }
    for (i = 0; i < nx; i++) for (j = 0; j < ny; j++) {
       a = at[b, i, j, 0]; c = at[b, i + 1, j, 0]; d = at[b, i + 1, j + 1, 0]; f = at[b, i, j + 1, 0]
@@ -58,7 +58,7 @@ function block_2(b, nx, ny, y0, y1, order, tri,   i, j, x, y, a, c, d, f) {
    }
    for (i = 0; i < nx; i++) {
       element("CBAR", 10 * b + 1, at[b, i, 0, 0] " " at[b, i + 1, 0, 0])
-      element("CBAR", 10 * b + 2, at[b, i, ny, 0] " " at[b, i + 1, ny, 0])
+      if (!next_shares) element("CBAR", 10 * b + 2, at[b, i, ny, 0] " " at[b, i + 1, ny, 0])
       if (order == 2) { on_bottom[b, middle(at[b, i, 0, 0], at[b, i + 1, 0, 0])] = 1; on_top[b, middle(at[b, i, ny, 0], at[b, i + 1, ny, 0])] = 1 }
    }
    for (i = 0; i <= nx; i++) { on_bottom[b, at[b, i, 0, 0]] = 1; on_top[b, at[b, i, ny, 0]] = 1; if (ny > 1) within[b, at[b, i, 1, 0]] = 1 }
@@ -80,7 +80,7 @@ function block_3(b, nx, ny, nz, z0, z1, order, tri,   i, j, k, x, y, z, c, n, s,
    for (i = 0; i <= nx; i++) for (j = 0; j <= ny; j++) for (k = 0; k <= nz; k++) {
       x = gx[i]; y = gy[j]; z = z0 + (z1 - z0) * k / nz
       if (i > 0 && i < nx && j > 0 && j < ny && k > 0 && k < nz) { x += between(-0.1, 0.1) * (gx[nx] - gx[0]) / nx; z += between(-0.1, 0.1) * (z1 - z0) / nz }
-      at[b, i, j, k] = node(x, y, z)
+      at[b, i, j, k] = shares && k == 0 ? at[b - 1, i, j, layers[b - 1]] : node(x, y, z)
    }
    for (i = 0; i < nx; i++) for (j = 0; j < ny; j++) for (k = 0; k < nz; k++) {
       c = at[b, i, j, k] " " at[b, i + 1, j, k] " " at[b, i + 1, j + 1, k] " " at[b, i, j + 1, k] " " \
@@ -100,7 +100,7 @@ function block_3(b, nx, ny, nz, z0, z1, order, tri,   i, j, k, x, y, z, c, n, s,
    }
    for (i = 0; i < nx; i++) for (j = 0; j < ny; j++) {
       face(b, 10 * b + 1, at[b, i, j, 0], at[b, i + 1, j, 0], at[b, i + 1, j + 1, 0], at[b, i, j + 1, 0], tri > 0, order)
-      face(b, 10 * b + 2, at[b, i, j, nz], at[b, i + 1, j, nz], at[b, i + 1, j + 1, nz], at[b, i, j + 1, nz], tri > 0, order)
+      if (!next_shares) face(b, 10 * b + 2, at[b, i, j, nz], at[b, i + 1, j, nz], at[b, i + 1, j + 1, nz], at[b, i, j + 1, nz], tri > 0, order)
    }
    for (i = 0; i <= nx; i++) for (j = 0; j <= ny; j++) if (nz > 1) within[b, at[b, i, j, 1]] = 1
 }
@@ -164,13 +164,13 @@ function make_model(   b, i, j, n, x0, x1, y0, z, length_, width, h, e, list, to
    bottom_height = z
    apart = on["gap"] && random(3) == 0 ? between(0.1, 0.8) * lambda_ref : 0 # the mesh itself has a gap
    gap_kind = !on["gap"] ? "" : apart ? "TRUE" : chance(space ? "CONST PLANE TABLE NODES" : "CONST PLANE TABLE NODES")
-   if (apart && on["base"]) { apart = 0; gap_kind = "CONST" }
+   if (apart && (on["base"] || on["split"])) { apart = 0; gap_kind = "CONST" }
    first_order = on["order2"] ? 2 : 1
    for (b = 1; b <= n_blocks; b++) {
       fit = on["fit"] || on["part"]
       ord = first_order
       if (b > 1 && fit && on["order2"] && random(2)) ord = 1
-      triangles = on["tri"] && (b == 1 || random(2)) ? (space ? 1 + random(2) : 1) : 0
+      if (b == 1 || !on["split"]) triangles = on["tri"] && (b == 1 || random(2)) ? (space ? 1 + random(2) : 1) : 0
       if (b == 1 || fit) {
          nx = space ? (ord == 2 ? 1 + random(2) : 2 + random(2)) : (ord == 2 ? 2 + random(2) : 3 + random(4))
          ny = space ? (ord == 2 ? 1 + random(2) : 1 + random(3)) : 0
@@ -183,6 +183,9 @@ function make_model(   b, i, j, n, x0, x1, y0, z, length_, width, h, e, list, to
       h = between(0.2, 0.35) * length_
       nz = on["mpc"] || random(2) ? 2 : 1
       left[b] = gx[0]; right[b] = gx[nx]; front[b] = gy[0]; back_[b] = gy[ny]
+      layers[b] = nz
+      shares = on["split"] && b > 1 # the nodes of the block below: a joint splits them
+      next_shares = on["split"] && b < n_blocks
       if (space) block_3(b, nx, ny, nz, z, z + h, ord, triangles)
       else block_2(b, nx, nz, z, z + h, ord, triangles)
       bottom_at[b] = z; top_at[b] = z + h
@@ -202,7 +205,8 @@ function make_model(   b, i, j, n, x0, x1, y0, z, length_, width, h, e, list, to
       joint_x[j] = (from_x + to_x) / 2; joint_y[j] = (from_y + to_y) / 2; joint_z[j] = bottom_at[b]
       joint_length[j] = to_x - from_x; joint_width[j] = to_y - from_y
       side_1[j] = 10 * b + 1; side_2[j] = b == 1 ? 0 : 10 * (b - 1) + 2
-      if (b > 1 && random(2)) { side_1[j] = 10 * (b - 1) + 2; side_2[j] = 10 * b + 1 }
+      if (b > 1 && on["split"]) side_2[j] = 0
+      else if (b > 1 && random(2)) { side_1[j] = 10 * (b - 1) + 2; side_2[j] = 10 * b + 1 }
    }
    n_press = p_ref * area[n_joints] * between(0.7, 1.3)
    height = top_at[top] - joint_z[1]

@@ -170,7 +170,7 @@ function write_variant(name,   i, k, s, j, file, n, text, f, set, e, kept, t, cd
       else put("PSHELL," k "," k "," real(thick * s_l) (k == 1 ? ",,,,,\n+,YES" : ""))
       put("MAT1," k "," real(modulus * (k == 2 ? 0.6 : 1) * stress) ",," (k == 2 ? ".33" : ".27") "," real(density * s_f / s_l ^ 4) "," real(expansion * k) ",20.")
       put("PMARK," 10 * k + 1)
-      put("PMARK," 10 * k + 2)
+      if (!on["split"] || k == n_blocks) put("PMARK," 10 * k + 2)
    }
    # joints
    for (j = 1; j <= n_joints; j++) put("JOINT," j ",1," side_1[j] "," (side_2[j] ? side_2[j] : "") "," (gap_kind == "TRUE" && side_2[j] ? real(0.05 * s_l) : ""))
