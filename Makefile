@@ -7,10 +7,11 @@ endif
 BUILD      = build
 BIN        = bin
 WARNINGS   = -std=f2018 -Wall -Wextra
-# -fcheck=mem: of what the compiler allocates on its own, failures too are found
-FFLAGS     = -O2 -fopenmp -fcheck=mem -fno-backtrace $(WARNINGS)
-# the check of recursion would take another thread in the same routine for one
-FFLAGS_CHECKED = -O1 -g -fopenmp $(WARNINGS) -fcheck=all,no-array-temps,no-recursion -ffpe-trap=invalid,zero
+# FFLAGS of the user, from the command line or the environment, follow the flags of the project
+# -fcheck=mem reports a failed allocation that the compiler makes on its own
+FFLAGS_RELEASE = -O2 -fopenmp -fcheck=mem -fno-backtrace $(WARNINGS) $(FFLAGS)
+# -fcheck=recursion would take a second thread in a routine for a recursion
+FFLAGS_CHECKED = -O1 -g -fopenmp $(WARNINGS) -fcheck=all,no-array-temps,no-recursion -ffpe-trap=invalid,zero $(FFLAGS)
 LIBRARIES  = -larpack -lmetis -lopenblas
 
 MANUAL     = $(BUILD)/manual/card_manual.f90
@@ -57,7 +58,7 @@ help:
 
 $(BIN)/jointfem: src/jointfem.f90 $(RELEASE_OBJECTS)
 	@mkdir -p $(@D)
-	$(FC) $(FFLAGS) -I$(BUILD)/release -o $@ $< $(RELEASE_OBJECTS) $(LIBRARIES)
+	$(FC) $(FFLAGS_RELEASE) -I$(BUILD)/release -o $@ $< $(RELEASE_OBJECTS) $(LIBRARIES)
 
 # The program on several processes
 .PHONY: mpi
@@ -67,11 +68,11 @@ mpi:
 
 $(BIN)/jointfem_mpi: src/jointfem.f90 $(RELEASE_OBJECTS)
 	@mkdir -p $(@D)
-	$(FC) $(FFLAGS) -I$(BUILD)/release -o $@ $< $(RELEASE_OBJECTS) $(PETSC) $(LIBRARIES)
+	$(FC) $(FFLAGS_RELEASE) -I$(BUILD)/release -o $@ $< $(RELEASE_OBJECTS) $(PETSC) $(LIBRARIES)
 
 $(BIN)/jointfit: src/jointfit.f90 $(RELEASE_OBJECTS)
 	@mkdir -p $(@D)
-	$(FC) $(FFLAGS) -I$(BUILD)/release -o $@ $< $(RELEASE_OBJECTS) $(LIBRARIES)
+	$(FC) $(FFLAGS_RELEASE) -I$(BUILD)/release -o $@ $< $(RELEASE_OBJECTS) $(LIBRARIES)
 
 $(BUILD)/checked/jointfit: src/jointfit.f90 $(CHECKED_LIBRARY)
 	$(FC) $(FFLAGS_CHECKED) -I$(CHECKED_MODULES) -o $@ $< $(CHECKED_LIBRARY) $(LIBRARIES)
@@ -83,11 +84,26 @@ $(CHECKED_LIBRARY): $(CHECKED_OBJECTS)
 	@rm -f $@
 	ar rcs $@ $(CHECKED_OBJECTS)
 
-$(BUILD)/release/%.o: %.f90
+# Compiler and flags of the objects: the file is rewritten, and the objects are rebuilt, when either changes
+RELEASE_STAMP = $(BUILD)/release.flags
+CHECKED_STAMP = $(BUILD)/checked.flags
+$(RELEASE_STAMP): private text = $(FC) $(FFLAGS_RELEASE)
+$(CHECKED_STAMP): private text = $(FC) $(FFLAGS_CHECKED)
+ifneq ($(file < $(RELEASE_STAMP)),$(FC) $(FFLAGS_RELEASE))
+.PHONY: $(RELEASE_STAMP)
+endif
+ifneq ($(file < $(CHECKED_STAMP)),$(FC) $(FFLAGS_CHECKED))
+.PHONY: $(CHECKED_STAMP)
+endif
+$(RELEASE_STAMP) $(CHECKED_STAMP):
 	@mkdir -p $(@D)
-	$(FC) $(FFLAGS) -J$(@D) -c -o $@ $<
+	@printf '%s\n' '$(text)' > $@
 
-$(BUILD)/checked/%.o: %.f90
+$(BUILD)/release/%.o: %.f90 $(RELEASE_STAMP)
+	@mkdir -p $(@D)
+	$(FC) $(FFLAGS_RELEASE) -J$(@D) -c -o $@ $<
+
+$(BUILD)/checked/%.o: %.f90 $(CHECKED_STAMP)
 	@mkdir -p $(@D)
 	$(FC) $(FFLAGS_CHECKED) -J$(@D) -c -o $@ $<
 
@@ -140,19 +156,20 @@ run: bin/jointfem bin/jointfit
 # Tests -----------------------------------------------------------------------------------------------------------
 
 include tests/runner/unit_tests.mk
+$(UNIT_OBJECTS) $(UNIT_HELPERS): $(CHECKED_STAMP)
 
 COMPARE = $(BUILD)/compare/compare_results
 QUERY   = $(BUILD)/compare/query_results
 
 $(COMPARE): $(addprefix $(BUILD)/compare/,comparison_text.o comparison_rules.o compare_results.o)
-	$(FC) $(FFLAGS) -o $@ $^
+	$(FC) $(FFLAGS_RELEASE) -o $@ $^
 
 $(QUERY): $(addprefix $(BUILD)/compare/,comparison_text.o csv_table.o query_expression.o query_results.o)
-	$(FC) $(FFLAGS) -o $@ $^
+	$(FC) $(FFLAGS_RELEASE) -o $@ $^
 
-$(BUILD)/compare/%.o: tests/compare/%.f90
+$(BUILD)/compare/%.o: tests/compare/%.f90 $(RELEASE_STAMP)
 	@mkdir -p $(@D)
-	$(FC) $(FFLAGS) -J$(@D) -c -o $@ $<
+	$(FC) $(FFLAGS_RELEASE) -J$(@D) -c -o $@ $<
 
 .PHONY: test
 test: bin/jointfem $(BUILD)/checked/jointfem $(BUILD)/checked/jointfit $(COMPARE) $(QUERY) $(UNIT_PROGRAM)

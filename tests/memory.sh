@@ -136,7 +136,7 @@ if command -v gcc > /dev/null && gcc -shared -fPIC -O1 -o "$work/failing.so" tes
    for name in one parts friction newton skyline; do failing "$work/$name.bdf" 1; done
    failing "$work/one.bdf" 2
 else
-   echo 'the failure of every allocation: skipped, there is no gcc'
+   echo 'skipped: the failure of every allocation: there is no gcc'
 fi
 
 # ------------------------------------------------------------------ an allocation fails in the midst of the results: none is left

@@ -6,26 +6,31 @@
 # CHECKED_PROGRAM is the program with run-time checks; bad decks and those made at random go through it, so that a bound exceeded or a
 # floating-point exception is seen. Every part ends with a line `N passed, N failed`; a part without one has failed. As many parts
 # run side by side as there are cores (TOGETHER=n: n of them); each has a folder of its own.
-# WITHOUT in the environment: a pattern of titles that are passed over.
+# WITHOUT in the environment: a pattern of titles that are passed over. A part names what it leaves out, and why, in lines
+# `skipped: WHAT: WHY`; these lines and the time of each part are shown before the sum.
 set -u
 program=$1 checked=$2 compare=$3 query=$4 build=$5 without=${WITHOUT:-}
 together=${TOGETHER:-$(nproc)}
 passed=0 failed=0 begun=0 shown=0
 titles=()
+left_out=()
 rm -rf "$build/test/logs"
 mkdir -p "$build/test/logs"
 
 # part TITLE COMMAND...: begins it as soon as fewer than TOGETHER parts run
 part() {
    local log
-   [[ -n $without && $1 =~ $without ]] && return
+   if [[ -n $without && $1 =~ $without ]]; then
+      left_out+=("$1: WITHOUT names it")
+      return
+   fi
    show_finished
    while [ "$(jobs -rp | wc -l)" -ge "$together" ]; do wait -n; done
    log=$build/test/logs/$begun
    titles[begun]=$1
    echo "$1" > "$log.title"
    shift
-   { "$@" > "$log" 2>&1; echo $? > "$log.status"; } &
+   { local start=$SECONDS status; "$@" > "$log" 2>&1; status=$?; echo $((SECONDS - start)) > "$log.seconds"; echo $status > "$log.status"; } &
    begun=$((begun + 1))
 }
 
@@ -48,6 +53,7 @@ judge() {
    local title=$1 status=$3 last
    echo "---- $title"
    cat "$2"
+   while read -r last; do left_out+=("$title: ${last#skipped: }"); done < <(grep '^skipped: ' "$2")
    last=$(grep -E '^[0-9]+ passed, [0-9]+ failed$' "$2" | tail -n 1)
    if [ -z "$last" ]; then
       echo "$title: ended without a count, with status $status"
@@ -123,6 +129,13 @@ part 'on several processes: bodies in pieces' tests/mpi/pieces.sh "$program" "$d
 part 'on several processes: runs that fail' tests/mpi/failures.sh "$distributed" "$build/mpi-failures"
 part 'on several processes: steps' tests/mpi/iterations.sh "$distributed" "$build/mpi-steps"
 everything_so_far
+echo '---- seconds of each part, in the order of their end'
+ls -tr "$build"/test/logs/*.seconds | while read -r seconds; do
+   printf '%6d  %s\n' "$(cat "$seconds")" "$(cat "${seconds%.seconds}.title")"
+done
+echo '---- skipped'
+[ ${#left_out[@]} -eq 0 ] && left_out=(nothing)
+printf '%s\n' "${left_out[@]}"
 echo '----'
 echo "$passed passed, $failed failed"
 [ $failed -eq 0 ]

@@ -1,7 +1,9 @@
-!> How many digits the equations of the structure cost: an estimate of their condition, of the matrix [k] that the factor there is
-!! is of. It is that of [d] [k] [d], d_i = k_ii^(-1/2): one that does not depend on units, that of a rotation beside a displacement
-!! included, nor on a soft part that hangs on a stiff one, which costs nothing. A stiff part that hangs on a soft one does: of what
-!! holds it only the difference of large numbers is known.
+!> How many digits the equations of the structure cost: an estimate of the condition of the matrix [k] whose factor the solver
+!! holds. [k] is scaled to [d] [k] [d], d_i = k_ii^(-1/2), so that neither units nor rotations beside displacements count, nor a
+!! soft part that hangs on a stiff one, which costs no digits. A stiff part on a soft support costs digits: the stiffness of its
+!! support is a small difference of large numbers. The scaled matrix has a unit diagonal, and its norm lies between 1 and the
+!! number of unknowns of an element; the condition is therefore taken as the norm of the inverse. (An estimate of the norm of the
+!! matrix itself would depend on rounding: where columns have equal sums, rounding chooses among them.)
 !! Source: Higham, ACM Trans. Math. Softw. 14 (1988) 381-396, DLACN2 of LAPACK; scaling: van der Sluis, Numer. Math. 14 (1969)
 !! 14-23.
 module condition_estimate
@@ -19,7 +21,7 @@ module condition_estimate
 
    !> An estimate of the condition.
    type, public :: condition_type
-      real(wp) :: number = 0.0_wp          !! norm([d] [k] [d]) norm(([d] [k] [d])^-1), the norms largest column sums [-]
+      real(wp) :: number = 0.0_wp          !! norm(([d] [k] [d])^-1), the largest column sum [-]
       integer  :: node = 0, direction = 0  !! of the largest component of the displacement that [k] resists least
       real(wp) :: weakest = 1.0_wp         !! pivot that has been looked at, as equation_system has it
       logical  :: is_new = .false.         !! it is poor, and has not been told
@@ -30,7 +32,7 @@ contains
    !> Look at the factor that SYSTEM has, where its weakest pivot makes that worth while. 1/pivot is an entry of the diagonal of
    !! the inverse of a part of [d] [k] [d], and the largest column sum is at most n times the largest entry: with n equations the
    !! condition of structures has been found between 1E-4 and 41 n/pivot, of slender beams, bodies on soft bars and all decks.
-   !! Looked at is what is ten times worse than what has been looked at before: an estimate costs some ten solutions.
+   !! A factor is looked at when its pivot is ten times worse than any before: an estimate costs some five solutions.
    subroutine watch_condition(system, condition)
       class(equation_system), intent(in)  :: system
       type(condition_type), intent(inout) :: condition
@@ -42,49 +44,29 @@ contains
       condition%is_new = condition%number > poor_condition
    end subroutine watch_condition
 
-   !> The condition of the matrix that the factor of SYSTEM is of, by some five solutions and as many products.
+   !> The condition of the matrix whose factor SYSTEM holds, by some five solutions.
    subroutine estimate_condition(system, condition)
       class(equation_system), intent(in)  :: system
       type(condition_type), intent(inout) :: condition
-      real(wp), allocatable :: scale(:), v(:)
-      real(wp) :: of_inverse, of_matrix
+      real(wp), allocatable :: scale(:), v(:), x(:)
+      integer, allocatable  :: signs(:)
+      integer :: kase, state(3)
 
       allocate (scale, source=sqrt(system%diagonal_of_factor()))
-      allocate (v(system%n))
-      call estimate_norm(.false., of_matrix)
-      call estimate_norm(.true., of_inverse)
-      condition%number = of_matrix*of_inverse
+      allocate (v(system%n), x(system%n), signs(system%n))
+      kase = 0
+      condition%number = 0.0_wp
+      do
+         call dlacn2(system%n, v, x, signs, condition%number, kase, state)
+         if (kase == 0) exit
+         x = scale*x
+         call system%solve_by_factor(x)
+         x = scale*x
+      end do
       condition%weakest = system%weakest
       v = abs(v)
       v(system%locked) = 0.0_wp
       call first_large(system, v, condition%node, condition%direction)
-
-   contains
-
-      !> The largest column sum of the scaled matrix, or of its inverse; V is the product that has it.
-      subroutine estimate_norm(inverse, norm)
-         logical, intent(in)   :: inverse
-         real(wp), intent(out) :: norm
-         real(wp) :: x(system%n)
-         integer  :: signs(system%n), kase, state(3)
-
-         kase = 0
-         norm = 0.0_wp
-         do
-            call dlacn2(system%n, v, x, signs, norm, kase, state)
-            if (kase == 0) exit
-            if (inverse) then
-               x = scale*x
-               call system%solve_by_factor(x)
-               x = scale*x
-            else
-               x = x/scale
-               call system%multiply_by_factor(x)
-               x = x/scale
-            end if
-         end do
-      end subroutine estimate_norm
-
    end subroutine estimate_condition
 
    !> The first node, in the order of the model, and DIRECTION where V is as good as largest.

@@ -239,7 +239,7 @@ if unshare -rm mount -t tmpfs -o size=4k none results 2>/dev/null; then
    done
    rm -rf disk kept
 else
-   echo 'skipped: a full disk (no user may mount a file system here)'
+   echo 'skipped: a full disk: no user may mount a file system here'
 fi
 
 # ---- writes that the system ends with a signal ----

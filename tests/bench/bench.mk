@@ -1,6 +1,6 @@
 # The programs of the benchmark, and `make bench`. CHOLMOD is measured where its header is installed (libsuitesparse-dev).
 #
-# The including makefile sets CC, FC, FFLAGS, BUILD, RELEASE_OBJECTS and LIBRARIES, and has a rule for bin/jointfem.
+# The including makefile sets CC, FC, FFLAGS_RELEASE, BUILD, RELEASE_OBJECTS and LIBRARIES, and has a rule for bin/jointfem.
 
 BENCH_FOLDER   := $(BUILD)/bench
 BENCH_CHOLMOD  := $(wildcard /usr/include/suitesparse/cholmod.h /usr/local/include/suitesparse/cholmod.h)
@@ -14,7 +14,7 @@ bench: bin/jointfem $(BENCH_PROGRAMS) $(BENCH_MPI)
 
 $(BENCH_FOLDER)/dgemm_rate $(BENCH_FOLDER)/write_matrix $(BENCH_FOLDER)/partition_plan: $(BENCH_FOLDER)/%: tests/bench/%.f90 $(RELEASE_OBJECTS)
 	@mkdir -p $(@D)
-	$(FC) $(FFLAGS) -I$(BUILD)/release -o $@ $< $(RELEASE_OBJECTS) $(LIBRARIES)
+	$(FC) $(FFLAGS_RELEASE) -I$(BUILD)/release -o $@ $< $(RELEASE_OBJECTS) $(LIBRARIES)
 
 $(BENCH_FOLDER)/cholmod_once: tests/bench/cholmod_once.c
 	@mkdir -p $(@D)

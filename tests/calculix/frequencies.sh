@@ -52,7 +52,7 @@ if command -v ccx > /dev/null; then
       { ccx -v | sed -n "s/.*Version\(.*\)/Frequencies by CalculiX\1, $(date +%F): deck, mode, frequency/p"; cat "$work/found"; } > "$here/frequencies.dat"
    fi
 else
-   echo 'ccx is not installed: only the stored frequencies of CalculiX are compared'
+   echo 'skipped: runs of CalculiX: ccx is not installed; its stored frequencies are compared'
 fi
 
 # the comparison notices a density that is wrong in its fourth digit, and a mode that is missing

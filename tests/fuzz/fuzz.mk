@@ -2,7 +2,7 @@
 
 # those of `make sanitize`
 ADDRESS   = $(BUILD)/sanitize/address
-SANITIZED = -O1 -g -fopenmp -std=f2018 -fsanitize=address,undefined -fno-omit-frame-pointer
+SANITIZED = -O1 -g -fbacktrace -fsanitize=address,undefined -fno-omit-frame-pointer
 
 MINUTES = 5
 SEED    = $(shell date +%s)

@@ -6,7 +6,7 @@ export LC_ALL=C
 # mpirun or no program by make mpi
 begin() {
    if ! [ -x "$1" ] || ! command -v mpirun > /dev/null; then
-      echo 'skipped: there is no program built by make mpi'
+      echo 'skipped: runs on several processes: PETSc or mpirun is not installed (libpetsc-real-dev, pkg-config)'
       echo '0 passed, 0 failed'
       exit 0
    fi

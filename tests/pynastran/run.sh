@@ -17,7 +17,7 @@ pass() { passed=$((passed + 1)); }
 fail() { failed=$((failed + 1)); echo "FAILED: $1"; }
 
 if ! "$python" -c 'import pyNastran' > /dev/null 2>&1; then
-   echo 'pyNastran is not installed (python3 -m pip install pyNastran): nothing is exchanged with it'
+   echo 'skipped: decks to and from pyNastran: it is not installed (python3 -m pip install pyNastran)'
    echo '0 passed, 0 failed'
    exit 0
 fi

@@ -33,7 +33,7 @@ verdict() {
 # built FOLDER FLAGS OBJECTS: the programs of this project with other FLAGS. Where the compiler has these for a program of one line the
 # failure is ours.
 built() {
-   "$make" --no-print-directory BUILD="$work/$1" BIN="$work/$1" FC="$fc" FFLAGS="-O1 -g -fopenmp -std=f2018 $2" \
+   "$make" --no-print-directory BUILD="$work/$1" BIN="$work/$1" FC="$fc" FFLAGS="-O1 -g -fbacktrace $2" \
       LIBRARIES="$3 $libraries" "$work/$1/jointfem" "$work/$1/jointfit" > "$work/$1.log" 2>&1 && return 0
    echo end > "$work/$1.f90"
    if "$fc" $2 -o "$work/$1.out" "$work/$1.f90" > /dev/null 2>&1; then

@@ -20,7 +20,7 @@ FNR == 1 {
    shorter = p * given[k, 6] / given[k, 2]
    next
 }
-FILENAME ~ /joint/ { rows[k]++; note(k, $14, p); note(k, $13, lambda); next }
+FILENAME ~ /\.joint\.csv$/ { rows[k]++; note(k, $14, p); note(k, $13, lambda); next }
 { answers[k]++; note(k, $3, sqrt((given[k, 7] * shorter) ^ 2 + (lambda + shorter) ^ 2)) }
 
 function note(k, value, exact,   off) {

@@ -3,7 +3,8 @@
 #     awk -v length_power=-3 -v force_power=2 -v tolerance=1e-9 -f same.awk FIRST OTHER
 #
 # Prints nothing where they are: words and numbers of things alike, every other column to TOLERANCE of its largest value
-# (secants to 100 times that).
+# (secants to 100 times that). The measure of a moment is the largest force times the largest coordinate, that of an angle the
+# largest movement over that coordinate: a joint pressed evenly has moments and angles that are small differences.
 
 BEGIN {
    FS = ","
@@ -25,11 +26,28 @@ function say(names, f, l,   n, i, name) {
 FNR == 1 { file++ }
 { for (i = 1; i <= NF; i++) entry[file, FNR, i] = $i; columns[file] = NF; rows[file] = FNR }
 
+# The largest value of the first file among the columns NAMES
+function largest_of(names,   n, c, i, k, r, a, most) {
+   n = split(names, c, " ")
+   for (i = 1; i <= columns[1]; i++) for (k = 1; k <= n; k++) if (entry[1, 1, i] == c[k]) for (r = 2; r <= rows[1]; r++) {
+      a = entry[1, r, i] + 0
+      if (a < 0) a = -a
+      if (a > most) most = a
+   }
+   return most + 0
+}
+
 END {
+   lever = largest_of("x y z")
+   measure["moment"] = lever * largest_of("n t force_x force_y force_n")
+   if (lever > 0) measure["turn"] = largest_of("move_x move_y move_n") / lever
    if (rows[1] != rows[2] || columns[1] != columns[2] || rows[1] < 2) { print "rows or columns are missing"; exit }
    for (i = 1; i <= columns[1]; i++) {
       name = entry[1, 1, i]
-      largest = off = 0
+      kind = name == "m" ? "moment" : name
+      sub(/_.*/, "", kind)
+      largest = measure[kind] + 0
+      off = 0
       if (!(name in has_unit)) {
          for (r = 1; r <= rows[1]; r++) if (entry[1, r, i] != entry[2, r, i]) {
             print name ", line " r ": " entry[1, r, i] " and " entry[2, r, i]

@@ -43,7 +43,7 @@ for example in $examples; do
 done
 becomes "$top/tree" "$top/next"
 if [ $failed -gt 0 ] || ! ${MAKE:-make} --no-print-directory -s -j2 -C "$top/tree" BUILD=build BIN=bin \
-   FFLAGS='-O0 -fopenmp -fno-backtrace -std=f2018 -Wall -Wextra -Wno-maybe-uninitialized -Werror' bin/jointfem \
+   FFLAGS='-O0 -Wno-maybe-uninitialized -Werror' bin/jointfem \
    < /dev/null > "$top/build.log" 2>&1; then
    cat "$top/build.log"
    fail 'the program with the four examples is built'

@@ -59,7 +59,7 @@ can_read() { "$1" -c 'import meshio' 2> /dev/null || "$1" -c 'import vtk' 2> /de
 
 python=${PYTHON:-python3}
 if ! "$python" -c 'import xml.etree' 2> /dev/null; then
-   echo 'reading back: skipped, no python3; 0 checks'
+   echo 'skipped: reading .vtu files back: there is no python3'
    finish
 fi
 if ! can_read "$python"; then
@@ -74,7 +74,7 @@ if ! can_read "$python"; then
    if can_read "$own"; then
       python=$own
    else
-      echo 'reading .vtu back: skipped, neither meshio nor vtk is there and pip cannot install meshio; 0 checks'
+      echo 'skipped: reading .vtu files back: neither meshio nor vtk is there, and pip cannot install meshio'
    fi
 fi
 "$python" "$here/read_back.py" "$work/sample" "$@" > "$work/log" 2>&1
