@@ -51,6 +51,7 @@ help:
 	@echo 'make figures DECK=path   pressure, deflection and loops of the joints of any deck'
 	@echo 'make figures DATA=file   test data and their fit'
 	@echo 'make fuzz MINUTES=60 SEED=7  decks made at random, through the program, with run-time checks and sanitizers'
+	@echo 'make pairs N=5000 SEED=7  decks in which every pair of features meets: other solver, renumbered, mirrored, turned, other units'
 	@echo 'make clean'
 
 # The program, optimised and with run-time checks -----------------------------------------------------------------

@@ -91,6 +91,8 @@ part 'bad decks and command lines' tests/bad/run.sh "$PWD/$checked"
 part 'runs that are killed and go on' tests/restart/run.sh "$program" "$build/restart"
 part 'decks made at random' tests/fuzz/run.sh -s 1984 -n 2000 -j 1 "$build/test/fuzz" checked="$checked"
 part 'the fuzzer itself' tests/fuzz/selftest.sh
+part 'decks in which every pair of features meets' tests/pairs/run.sh -s 1984 -n 100 "$program" "$build/test/pairs"
+part 'the fuzzer of pairs itself' tests/pairs/selftest.sh "$program" "$build/test/pairs-selftest"
 part 'decks on other processors, built otherwise' tests/processors.sh "$program" "$compare" "$build"
 part 'listings that are the same bytes on other processors' tests/same_bytes.sh "$program" "$build/same-bytes" 36
 part 'worked examples of the tour' tests/tour/run.sh "$query" "$build/tour"

@@ -14,6 +14,7 @@ module newton_method
    use node_coupling, only: forces_on_unknowns
    use normal_curve, only: pressure_floor
    use normal_stiffness, only: at_rest, branch_name, branch_open
+   use shear_stiffness, only: shear_state
    use stage_plan, only: stage_plan_type, where_in_plan
    use text_tools, only: integer_text, real_text
    use unknown_names, only: unknown_name
@@ -91,7 +92,7 @@ contains
    subroutine free_idle_joints(model, analysis)
       type(model_type), intent(in)       :: model
       type(analysis_type), intent(inout) :: analysis
-      integer :: j
+      integer :: i, j
 
       analysis%is_loose = .false.
       analysis%loose_force = 0.0_wp
@@ -102,6 +103,10 @@ contains
             if (norm2(max(states%pressure, states%p_a)*elements%area) > 10.0_wp*idle*norm2(states%p_av*elements%area)) cycle
             states = at_rest(states%p_av, -states%lambda) ! behind what is left of the gap
             states%gap = elements%gap
+            do i = model%joints(j)%first, model%joints(j)%last ! how far they have slid under next to no pressure is chance
+               analysis%states(i)%shear = shear_state()
+               analysis%states(i)%origin = analysis%movement(:2, i)
+            end do
             analysis%is_loose = .true.
             analysis%loose_force = norm2([analysis%loose_force, states%p_av*elements%area])
          end associate
@@ -161,7 +166,7 @@ contains
       integer :: i
 
       do i = 1, 2
-         attempt%holds = i == 2
+         attempt%holds = (i == 2) .neqv. attempt%seats
          call start_attempt(model, system, analysis, left, attempt)
          call iterate(model, system, analysis, attempt, from)
          if (attempt%converged .or. .not. attempt%slides) exit

@@ -225,3 +225,66 @@ DECK
       done
    done
 done
+
+# Interference at one edge pushes a block away until nothing presses; how far it slides there under no pressure is no shear deflection.
+# Loaded then, it sticks everywhere: tau = 100 delta from rest on, by NEWTON and by STEP.
+for method in NEWTON STEP; do
+   cat > "$work/pushed.bdf" <<DECK
+METHOD = $method
+SUBCASE 1
+  LOAD = 1
+  INCR = 1
+BEGIN BULK
+BLOCK2,1,1,4,2,0.0,0.0
++,40.0,20.0
++,20,,22
+PSHELL,1,1,10.0
+MAT1,1,100000.0,,0.3
+PMARK,20
+PMARK,22
+JOINT,1,1,20
+JGAP,1,PLANE,-1.0-3,1.3-4
+PJOINT,1,1,1,,0.3,,0.1
+JNORM,1,8.0-3,0.5,5000.0
+JSHEAR,1,100.0
+CELAS2,900,50.0,3,1
+FORCEM,1,1.0,1.0,-100.0,0.0,22
+JINCR,1,4
+ENDDATA
+DECK
+   run pushed && ask "$method, pushed away by interference, then pressed: no shear deflection from the way" pushed count 20 \
+      all 'slip = 0 and abs(tau_x - 100*delta_x) <= 1e-12 + 1e-9*abs(tau_x)'
+done
+
+# Two blocks, one on the other, interference below the lower one: while neither presses they do not slide off sideways.
+for solver in SKYLINE TREE; do
+   cat > "$work/stack.bdf" <<DECK
+METHOD = NEWTON
+SOLVER = $solver
+SUBCASE 1
+  LOAD = 1
+BEGIN BULK
+BLOCK2,1,1,4,2,0.0,0.0
++,40.0,12.0,,,,,1,1
++,20,,21
+BLOCK2,2,1,4,2,0.0,12.0
++,40.0,20.0,,,,,101,101
++,22,,23
+PSHELL,1,1,10.0
+MAT1,1,100000.0,,0.3
+PMARK,20
+PMARK,21
+PMARK,22
+PMARK,23
+JOINT,1,1,20
+JOINT,2,1,22,21
+JGAP,1,PLANE,-1.0-3,1.3-4
+PJOINT,1,1,1,,1.3,,0.1
+JNORM,1,8.0-3,0.5,5000.0
+JSHEAR,1,100.0
+FORCEM,1,1.0,0.0,-400.0,0.0,23
+ENDDATA
+DECK
+   run stack && ask "$solver, a stack pushed away by interference: it does not slide off" stack count 10 \
+      all 'slip = 0 and abs(tau_x - 100*delta_x) <= 1e-9 and abs(delta_x) < 1e-3'
+done

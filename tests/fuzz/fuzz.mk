@@ -17,3 +17,10 @@ sanitized:
 fuzz: bin/jointfem bin/jointfit $(BUILD)/checked/jointfem $(BUILD)/checked/jointfit sanitized
 	@tests/fuzz/run.sh -s $(SEED) -f $(FROM) $(if $(DECKS),-n $(DECKS),-m $(MINUTES)) -a 4 $(BUILD)/fuzz \
 	   release=bin/jointfem checked=$(BUILD)/checked/jointfem asan=$(ADDRESS)/jointfem
+
+# make pairs N=5000 SEED=1: valid decks in which every pair of features meets; FROM=401: from that deck on
+N = 1000
+
+.PHONY: pairs
+pairs: bin/jointfem
+	@tests/pairs/run.sh -s $(SEED) -f $(FROM) -n $(N) bin/jointfem $(BUILD)/pairs
