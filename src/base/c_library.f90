@@ -241,12 +241,14 @@ contains
       ok = c_fsync(int(descriptor, c_int)) == 0
    end subroutine keep_on_disk
 
-   !> A standard stream that the user has closed gets a descriptor that cannot be written, so that no result file gets its number
-   !! and with it the lines of the screen.
+   !> A standard stream that the user has closed gets a descriptor that cannot be used (an input that cannot be read, outputs that
+   !! cannot be written), so that no result file gets its number and with it the lines of the screen.
    subroutine open_standard_streams()
-      integer(c_int), parameter :: to_read = 0 ! O_RDONLY
+      integer(c_int), parameter :: to_read = 0, to_write = 1 ! O_RDONLY, O_WRONLY
       integer(c_int) :: descriptor
 
+      descriptor = c_open('/dev/null'//c_null_char, to_write)
+      if (descriptor > 0) descriptor = c_close(descriptor)
       do
          descriptor = c_open('/dev/null'//c_null_char, to_read)
          if (descriptor < 0 .or. descriptor > 2) exit
