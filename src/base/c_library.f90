@@ -6,7 +6,7 @@ module c_library
    implicit none
    private
 
-   public :: keep_on_disk, open_standard_streams
+   public :: keep_on_disk, open_standard_outputs
    public :: read_all_bytes, open_file, read_bytes, create_unique, write_bytes, close_file, rename_file, remove_file, &
              remove_terminated, true_path, kind_of_file, is_regular_file, is_same_file, is_terminal, tell_failed_writes, &
              call_at_interrupts, end_by_signal, lock_folder, end_run
@@ -241,20 +241,22 @@ contains
       ok = c_fsync(int(descriptor, c_int)) == 0
    end subroutine keep_on_disk
 
-   !> A standard stream that the user has closed gets a descriptor that cannot be used (an input that cannot be read, outputs that
-   !! cannot be written), so that no result file gets its number and with it the lines of the screen.
-   subroutine open_standard_streams()
-      integer(c_int), parameter :: to_read = 0, to_write = 1 ! O_RDONLY, O_WRONLY
-      integer(c_int) :: descriptor
+   !> A standard output that the user has closed gets a descriptor that cannot be written, so that no result file gets its number
+   !! and with it the lines of the screen. A closed standard input stays closed: it cannot be read.
+   subroutine open_standard_outputs()
+      integer(c_int), parameter :: to_read = 0 ! O_RDONLY
+      integer(c_int) :: descriptor, status
+      logical :: input_is_closed
 
-      descriptor = c_open('/dev/null'//c_null_char, to_write)
-      if (descriptor > 0) descriptor = c_close(descriptor)
+      input_is_closed = .false.
       do
          descriptor = c_open('/dev/null'//c_null_char, to_read)
+         if (descriptor == 0) input_is_closed = .true.
          if (descriptor < 0 .or. descriptor > 2) exit
       end do
-      if (descriptor > 2) descriptor = c_close(descriptor)
-   end subroutine open_standard_streams
+      if (descriptor > 2) status = c_close(descriptor)
+      if (input_is_closed) status = c_close(0_c_int)
+   end subroutine open_standard_outputs
 
    !> Give the file OLD the name NEW, in place of any file of that name. OK is false on failure.
    subroutine rename_file(old, new, ok)

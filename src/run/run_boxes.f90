@@ -2,7 +2,7 @@
 !! run is, and does nothing once one before it has ended the run; whatever ended it is said in one place, finish_run of run_end.
 module run_boxes
    use analysis_state, only: analysis_type, interface_stiffness, note_largest, start_analysis
-   use c_library, only: open_standard_streams, tell_failed_writes
+   use c_library, only: open_standard_outputs, tell_failed_writes
    use case_control, only: method_back
    use condensed_interface, only: condense_on_joints
    use condition_estimate, only: watch_condition
@@ -44,7 +44,7 @@ contains
       logical :: finished
       integer :: status
 
-      call open_standard_streams()
+      call open_standard_outputs()
       call join_processes(write_piece)
       call watch_ends()
       call read_command_line(command, finished, status)
