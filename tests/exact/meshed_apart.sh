@@ -15,7 +15,7 @@ run_input meshed_apart && {
    carries meshed_apart 2 '20*load' 100
    carries meshed_apart 3 '20*(1 - load)' 100
    carries meshed_apart 4 '-24*load' 100
-   near 'pressed evenly: work put in' "$(table meshed_apart 'ENERGY OF JOINTS, STAGE 1' | awk 'NF == 7 && $1 == 1 { print $2 }')" \
+   near 'pressed evenly: work put in' "$(table meshed_apart 'ENERGY OF JOINTS, STAGE 1' | awk 'NF >= 7 && $1 == 1 { print $2 }')" \
       '100*0.008*sqrt(0.2)/3' 1e-5   # integral of p dlambda: m/(1 + m) of F lambda
    ask 'no element beyond its friction limit' meshed_apart all 'abs(tau_x) <= 0.3*pressure + 1e-9'
    ask 'some slip' meshed_apart rows 'slip = 1' count 4
