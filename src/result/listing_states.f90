@@ -54,8 +54,7 @@ contains
       end do
    end subroutine list_states
 
-   !> Likewise of the shear way of joint J in direction K. D and TAU count in the sense of the loading, like point A;
-   !! O is tau - A(d; p) of the loading branch, SIDE that of the curve on which a returning branch is.
+   !> Likewise of the shear way of joint J in direction K. D and TAU count in the sense of the loading, like point A.
    subroutine list_shear_state(page, model, analysis, j, k)
       type(page_type), intent(inout)  :: page
       type(model_type), intent(in)    :: model
@@ -71,8 +70,7 @@ contains
          call table%start('STATE OF SHEAR IN DIRECTION '//axes(k)//' OF JOINT '//integer_text(joint%id)//page%now, &
                           [column([character(7) :: 'ELEMENT', 'NODE 1'], 'i11'), column('BRANCH', 'a8'), column('SENSE', 'i6'), &
                            column('D', 'es13.5', length), column('TAU', 'es13.5', pressure), column('D_R', 'es13.5', length), &
-                           column([character(5) :: 'TAU_R', 'O'], 'es13.5', pressure), column('SIDE', 'i5'), &
-                           column(['B0', 'C0'], 'es13.5', pressure)])
+                           column([character(5) :: 'TAU_R', 'B0', 'C0'], 'es13.5', pressure)])
          call table%print_head(page%file)
          do i = joint%first, joint%last
             if (.not. shows_interface(page, model, i)) cycle
@@ -83,8 +81,7 @@ contains
                call table%add(branch_name(state%branch))
                call table%add([nint(state%sense)])
                call table%add([clean(curve_deflection(state), delta_floor), clean(state%sense*state%tau, tau_floor), &
-                               clean(state%d_r, delta_floor), clean(state%tau_r, tau_floor), clean(state%offset, tau_floor)])
-               call table%add([nint(state%side)])
+                               clean(state%d_r, delta_floor), clean(state%tau_r, tau_floor)])
                if (state%branch == branch_unload) call table%add([shift])
                if (state%branch == branch_reload) then
                   call table%skip(1)
