@@ -25,7 +25,7 @@ module listing
    use restart_stream, only: restart_stream_type
    use stage_answer, only: first_largest
    use stage_entries, only: output_all, output_joint, output_last
-   use stage_plan, only: stage_plan_type
+   use stage_plan, only: planned_stage, stage_plan_type
    use text_tools, only: clean, integer_text, plural, upper
    implicit none
    private
@@ -84,6 +84,7 @@ contains
       type(model_type), intent(in)      :: model
       type(stage_plan_type), intent(in) :: plan
       type(analysis_type), intent(in)   :: analysis
+      character(40) :: words
 
       listing%n_increments = listing%n_increments + 1
       listing%n_removed = listing%n_removed + analysis%n_removed
@@ -116,8 +117,11 @@ contains
             call watch_unloading(model, plan, analysis, listing%watch)
          end if
          if (stage%condensed .and. analysis%increment == 1) call list_condensed(page, model, analysis)
-         if (shows_increment(stage, analysis%increment)) call heading(page%file, page%stage//', INCREMENT '// &
-            integer_text(analysis%increment)//': SHARE '//fixed_text(analysis%share, 5)//', LOAD '//fixed_text(analysis%fraction, 4))
+         if (shows_increment(stage, analysis%increment)) then
+            write (words, '(2(a, f8.5))') '   SHARE', analysis%share, '   LOAD', analysis%fraction
+            call page%file%put('')
+            call page%file%put(' '//page%stage//', INCREMENT '//integer_text(analysis%increment)//trim(words))
+         end if
          if (analysis%increment == size(stage%shares)) return ! list_stage prints its tables
          if (stage%output == output_all .or. stage%output == output_joint) call list_joints(page, stage%state, model, analysis)
          if (stage%output == output_all) call list_bodies(page, stage%stress, model, analysis)
