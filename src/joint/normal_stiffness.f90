@@ -20,7 +20,7 @@ module normal_stiffness
    private
 
    public :: at_rest, norm, is_virgin, pressure_reached, follow_normal, closed_share, branch_name, touches, has_come_to
-   public :: line_pressure, stored_work
+   public :: line_pressure, stored_work, law_deflection, force_reached
 
    integer, parameter, public :: branch_load = 1, branch_unload = 2, branch_open = 3, branch_reload = 4
 
@@ -255,6 +255,26 @@ contains
 
       p = p_a - law%e_u*(lambda_a - lambda)
    end function line_pressure
+
+   !> The deflection at which the exact law of STATE, on the branch that it is on, has the pressure P: B_i of Fig. 3 [length].
+   pure real(wp) function law_deflection(law, state, p) result(lambda)
+      type(normal_law), intent(in)   :: law
+      type(normal_state), intent(in) :: state !! exact, as follow_normal leaves it
+      real(wp), intent(in)           :: p     !! >= 0 [pressure]
+
+      if (state%branch == branch_load .or. p > state%p_a) then
+         lambda = loading_deflection(law, p)
+      else
+         lambda = state%lambda_a - (state%p_a - p)/law%e_u
+      end if
+   end function law_deflection
+
+   !> SUMF that the last increment of STEP has led to: NORM asks it, and forgets it where it removes the element for it [force].
+   elemental real(wp) function force_reached(state) result(force)
+      type(normal_state), intent(in) :: state
+
+      force = state%sigmaf + state%k_n*(state%lambda - state%lambda_before)
+   end function force_reached
 
    !> Integral of p d lambda from rest along the loading curve to A and back along the line to P [pressure x length].
    pure real(wp) function stored_work(law, lambda_a, p_a, p) result(work)

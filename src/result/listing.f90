@@ -25,7 +25,7 @@ module listing
    use restart_stream, only: restart_stream_type
    use stage_answer, only: first_largest
    use stage_entries, only: output_all, output_joint, output_last
-   use stage_plan, only: stage_plan_type
+   use stage_plan, only: planned_stage, stage_plan_type
    use text_tools, only: clean, integer_text, plural, upper
    implicit none
    private
@@ -84,6 +84,7 @@ contains
       type(model_type), intent(in)      :: model
       type(stage_plan_type), intent(in) :: plan
       type(analysis_type), intent(in)   :: analysis
+      character(40) :: words
 
       listing%n_increments = listing%n_increments + 1
       listing%n_removed = listing%n_removed + analysis%n_removed
@@ -116,13 +117,27 @@ contains
             call watch_unloading(model, plan, analysis, listing%watch)
          end if
          if (stage%condensed .and. analysis%increment == 1) call list_condensed(page, model, analysis)
-         if (analysis%increment == size(stage%shares)) return ! the tables of the end of the stage follow
+         if (shows_increment(stage, analysis%increment)) then
+            write (words, '(2(a, f8.5))') '   SHARE', analysis%share, '   LOAD', analysis%fraction
+            call page%file%put('')
+            call page%file%put(' '//page%stage//', INCREMENT '//integer_text(analysis%increment)//trim(words))
+         end if
+         if (analysis%increment == size(stage%shares)) return ! list_stage prints its tables
          if (stage%output == output_all .or. stage%output == output_joint) call list_joints(page, stage%state, model, analysis)
          if (stage%output == output_all) call list_bodies(page, stage%stress, model, analysis)
       end associate
    end subroutine list_increment
 
-   !> Print the table of increments of the stage just completed, and the tables of its end.
+   !> Whether tables of the increment of this number of STAGE are printed.
+   pure logical function shows_increment(stage, increment)
+      type(planned_stage), intent(in) :: stage
+      integer, intent(in)             :: increment
+
+      shows_increment = stage%output == output_all .or. stage%output == output_joint .or. &
+                        (stage%output == output_last .and. increment == size(stage%shares))
+   end function shows_increment
+
+   !> Print the tables of the end of the stage just completed, which are those of its last increment, and then its own.
    subroutine list_stage(listing, model, plan, analysis)
       type(listing_type), intent(inout) :: listing
       type(model_type), intent(in)      :: model
@@ -130,6 +145,9 @@ contains
       type(analysis_type), intent(in)   :: analysis
 
       associate (stage => plan%stages(analysis%stage), page => listing%page)
+         if (stage%output >= output_last) call list_joints(page, stage%state, model, analysis)
+         if (stage%plot) call plot_joints(page, model, analysis)
+         if (stage%output == output_all .or. stage%output == output_last) call list_bodies(page, stage%stress, model, analysis)
          call listing%increments%print_kept(page%file)
          call listing%distances%print_kept(page%file)
          call say_ranges(model, plan, analysis, listing%watch)
@@ -142,9 +160,6 @@ contains
          call listing%springs%print_kept(page%file)
          call listing%sections%print_kept(page%file)
          call list_energy(page, model, analysis)
-         if (stage%output >= output_last) call list_joints(page, stage%state, model, analysis)
-         if (stage%plot) call plot_joints(page, model, analysis)
-         if (stage%output == output_all .or. stage%output == output_last) call list_bodies(page, stage%stress, model, analysis)
       end associate
    end subroutine list_stage
 
@@ -278,7 +293,7 @@ contains
       call listing%sections%record(stream)
       call stream%item(listing%farthest%share)
       call stream%item(listing%farthest%node)
-      call stream%list(listing%farthest%stress)
+      call stream%list(listing%farthest%quantity)
       call stream%list(listing%farthest%place)
       call stream%list(listing%poor_condition)
       call stream%list(listing%divided)

@@ -9,7 +9,7 @@ module listing_joints
    use listing_table, only: axes, column, column_type, heading, listing_table_type, noise, page_type
    use model_data, only: has_gaps, joint_node_id, model_type
    use normal_curve, only: loading_deflection
-   use normal_stiffness, only: branch_name
+   use normal_stiffness, only: branch_name, branch_open, force_reached
    use shown_rows, only: shows_interface
    use text_tools, only: clean, integer_text
    implicit none
@@ -55,6 +55,7 @@ contains
                end associate
             end do
             call list_stiffness(page, model, analysis, j)
+            if (allocated(analysis%exact)) call list_removed(page, model, analysis, j)
             if (any(joint%law%shear%given)) call list_shear(page, model, analysis, j)
          end associate
       end do
@@ -94,6 +95,36 @@ contains
          end do
       end associate
    end subroutine list_stiffness
+
+   !> STEP: the elements of joint J that the increment has removed, and the force that decided it, which they no longer have.
+   subroutine list_removed(page, model, analysis, j)
+      type(page_type), intent(inout)  :: page
+      type(model_type), intent(in)    :: model
+      type(analysis_type), intent(in) :: analysis
+      integer, intent(in)             :: j
+      type(listing_table_type) :: table
+      real(wp) :: lambda_floor, p_floor
+      integer  :: i
+
+      lambda_floor = noise*analysis%largest_lambda
+      p_floor = noise*analysis%largest_p
+      associate (joint => model%joints(j), labels => page%labels)
+         call table%start('ELEMENTS REMOVED FROM JOINT '//integer_text(joint%id)//page%now, &
+                          [column([character(7) :: 'ELEMENT', 'NODE 1'], 'i11'), &
+                           column([character(13) :: 'SIGMAF', 'SUMF, DECIDED'], ['es13.5', 'es15.5'], labels%force), &
+                           column('LAMBDA B', 'es13.5', labels%length)])
+         do i = joint%first, joint%last
+            if (.not. shows_interface(page, model, i)) cycle
+            associate (state => analysis%states(i)%normal, area => model%interface(i)%area)
+               if (state%branch /= branch_open .or. force_reached(state) >= 0.0_wp) cycle
+               call table%add([model%interface(i)%id, joint_node_id(model, i, 1)])
+               call table%add([clean([state%sigmaf, force_reached(state)], p_floor*area), clean(state%lambda_b, lambda_floor)])
+               call table%keep_row()
+            end associate
+         end do
+         call table%print_kept(page%file)
+      end associate
+   end subroutine list_removed
 
    !> Shear of the interface elements of joint J. LIMIT is mu p.
    subroutine list_shear(page, model, analysis, j)

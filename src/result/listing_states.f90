@@ -70,7 +70,7 @@ contains
          call table%start('STATE OF SHEAR IN DIRECTION '//axes(k)//' OF JOINT '//integer_text(joint%id)//page%now, &
                           [column([character(7) :: 'ELEMENT', 'NODE 1'], 'i11'), column('BRANCH', 'a8'), column('SENSE', 'i6'), &
                            column('D', 'es13.5', length), column('TAU', 'es13.5', pressure), column('D_R', 'es13.5', length), &
-                           column([character(5) :: 'TAU_R', 'B0', 'C0'], 'es13.5', pressure)])
+                           column([character(5) :: 'TAU_R', 'O', 'B0', 'C0'], 'es13.5', pressure)])
          call table%print_head(page%file)
          do i = joint%first, joint%last
             if (.not. shows_interface(page, model, i)) cycle
@@ -81,7 +81,7 @@ contains
                call table%add(branch_name(state%branch))
                call table%add([nint(state%sense)])
                call table%add([clean(curve_deflection(state), delta_floor), clean(state%sense*state%tau, tau_floor), &
-                               clean(state%d_r, delta_floor), clean(state%tau_r, tau_floor)])
+                               clean(state%d_r, delta_floor), clean([state%tau_r, state%offset], tau_floor)])
                if (state%branch == branch_unload) call table%add([shift])
                if (state%branch == branch_reload) then
                   call table%skip(1)

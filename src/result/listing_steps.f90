@@ -13,13 +13,13 @@ module listing_steps
 
    public :: note_distances, note_slips, distance_words
 
-   real(wp), parameter :: far = 0.02_wp !! of the largest stress: the answer is another one than that of the laws
+   real(wp), parameter :: far = 0.02_wp !! of the largest deflection or stress: the answer is another one than that of the laws
 
    !> The largest distance from a law in a run.
    type, public :: farthest_type
-      real(wp) :: share = 0.0_wp           !! of the largest stress of the joint in the increment
+      real(wp) :: share = 0.0_wp           !! of the largest deflection or stress of the joint in the increment
       integer  :: node = 0                 !! its number
-      character(:), allocatable :: stress, place !! in words
+      character(:), allocatable :: quantity, place !! in words
    end type farthest_type
 
 contains
@@ -39,16 +39,16 @@ contains
       if (.not. allocated(analysis%exact) .or. size(model%joints) == 0) return
       has_shear = any([(model%joints(j)%law%shear%given, j = 1, size(model%joints))])
       if (table%is_empty()) then
-         associate (p => page%labels%pressure)
+         associate (p => page%labels%pressure, length => page%labels%length)
             if (has_shear) then
-               call table%start(title('P, |TAU - TAU LAW| OF THE LARGEST TAU'), &
-                  [column('INCR', 'i6'), column('JOINT', 'i11'), column('P OFF %', 'f9.3'), column('AT NODE', 'i11'), &
-                   column(['P    ', 'P LAW'], 'es13.5', p), column('TAU OFF %', 'f11.3'), column('AT NODE', 'i11'), &
+               call table%start(title('LAMBDA, |TAU - TAU LAW| OF THE LARGEST TAU'), &
+                  [column('INCR', 'i6'), column('JOINT', 'i11'), column('LAMBDA OFF %', 'f13.3'), column('AT NODE', 'i11'), &
+                   column(['LAMBDA    ', 'LAMBDA LAW'], 'es13.5', length), column('TAU OFF %', 'f11.3'), column('AT NODE', 'i11'), &
                    column('ALONG', 'a6'), column(['TAU    ', 'TAU LAW'], 'es13.5', p)])
             else
-               call table%start(title('P'), &
-                  [column('INCR', 'i6'), column('JOINT', 'i11'), column('P OFF %', 'f9.3'), column('AT NODE', 'i11'), &
-                   column(['P    ', 'P LAW'], 'es13.5', p)])
+               call table%start(title('LAMBDA'), &
+                  [column('INCR', 'i6'), column('JOINT', 'i11'), column('LAMBDA OFF %', 'f13.3'), column('AT NODE', 'i11'), &
+                   column(['LAMBDA    ', 'LAMBDA LAW'], 'es13.5', length)])
             end if
          end associate
       end if
@@ -56,10 +56,10 @@ contains
          normal = normal_distance(model, analysis, j)
          shear = shear_distance(model, analysis, j)
          call table%add([analysis%increment, model%joints(j)%id])
-         call add(normal)
-         if (shear%is_there) call add(shear)
+         call add(normal, analysis%largest_lambda)
+         if (shear%is_there) call add(shear, analysis%largest_p)
          call table%keep_row()
-         call remember(normal, 'pressure')
+         call remember(normal, 'deflection')
          call remember(shear, 'shear stress')
       end do
 
@@ -69,12 +69,13 @@ contains
          character(*), intent(in)  :: what
          character(:), allocatable :: words
 
-         words = 'DISTANCE FROM THE LAWS, '//page%stage//': LARGEST |P - P LAW| OF THE LARGEST '//what
+         words = 'DISTANCE FROM THE LAWS, '//page%stage//': LARGEST |LAMBDA - LAMBDA LAW| OF THE LARGEST '//what
       end function title
 
-      !> The columns of one DISTANCE.
-      subroutine add(distance)
+      !> The columns of one DISTANCE, of values of which LARGEST is the largest so far.
+      subroutine add(distance, largest)
          type(distance_type), intent(in) :: distance
+         real(wp), intent(in)            :: largest
 
          if (.not. distance%is_there) then
             call table%skip(4)
@@ -83,18 +84,18 @@ contains
          call table%add([100.0_wp*clean(distance%share, noise)])
          call table%add([joint_node_id(model, distance%element, 1)])
          if (distance%direction < 3) call table%add(axes(distance%direction))
-         call table%add(clean([distance%stress, distance%by_law], noise*analysis%largest_p))
+         call table%add(clean([distance%actual, distance%by_law], noise*largest))
       end subroutine add
 
       !> Keep DISTANCE if it is the largest so far.
-      subroutine remember(distance, stress)
+      subroutine remember(distance, quantity)
          type(distance_type), intent(in) :: distance
-         character(*), intent(in)        :: stress
+         character(*), intent(in)        :: quantity
 
          if (.not. distance%is_there .or. distance%share <= farthest%share) return
          farthest%share = distance%share
          farthest%node = joint_node_id(model, distance%element, 1)
-         farthest%stress = stress
+         farthest%quantity = quantity
          farthest%place = where_in_plan(plan, analysis%stage, analysis%increment)
       end subroutine remember
 
@@ -107,7 +108,7 @@ contains
 
       words = ''
       if (farthest%share > far) words = 'STEP is up to '//real_text(0.1_wp*anint(1000.0_wp*farthest%share))// &
-         ' % of the largest '//farthest%stress//' away from its law, at node '//integer_text(farthest%node)//' in '// &
+         ' % of the largest '//farthest%quantity//' away from its law, at node '//integer_text(farthest%node)//' in '// &
          farthest%place//'; METHOD = NEWTON gives the answer of the laws'
    end function distance_words
 

@@ -109,7 +109,7 @@ for name in lap_joint flange_pair; do
          next
       }
       /^ ANSWER AT THE END OF STAGE/ { s = $7; on = 1; next }
-      /^ END OF LISTING/ || /^ INCREMENTS/ { on = 0 }
+      /^ (END OF LISTING|STAGE|INCREMENTS)/ { on = 0 }
       on && /LARGEST DISPLACEMENT/ { checked++; if (!close_to($3, row[s, "u_max"], 1e-4) || $0 !~ "NODE +" row[s, "u_node"] " ") print }
       on && /VON MISES, CENTRES/ { checked++; if (!close_to($5, row[s, "mises_centre"], 1e-4)) print }
       on && /VON MISES, NODES/ { checked++; if (!close_to($5, row[s, "mises_max"], 1e-4)) print }
