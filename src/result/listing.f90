@@ -16,6 +16,7 @@ module listing
    use listing_states, only: list_condensed, list_states
    use listing_steps, only: farthest_type, note_distances, note_slips
    use listing_table, only: column, label_type, listing_table_type, noise, page_type
+   use measures, only: first_largest
    use model_data, only: joint_node_id, model_type, stage_load_type
    use model_warnings, only: tetra_words
    use node_coupling, only: held_forces
@@ -23,10 +24,9 @@ module listing
    use range_watch, only: note_condition, note_division, range_watch_type, record_watch, say_ranges, watch_balance, watch_ranges, &
                           watch_shear_laws, watch_unloading
    use restart_stream, only: restart_stream_type
-   use stage_answer, only: first_largest
    use stage_entries, only: output_all, output_joint, output_last
    use stage_plan, only: stage_plan_type
-   use text_tools, only: clean, integer_text, plural, upper
+   use text_tools, only: above, clean, integer_text, plural, upper
    implicit none
    private
 
@@ -211,12 +211,11 @@ contains
             if (state(i)%branch == branch_open) n_open = n_open + 1
             force = force + state(i)%sumf*dot_product(model%interface(i)%axes(:, 3), joint%normal)
          end do
-         associate (lambda => clean(state(joint%first:joint%last)%lambda, noise*analysis%largest_lambda), &
-                    p => clean(state(joint%first:joint%last)%pressure, noise*analysis%largest_p))
-            at_lambda = joint%first - 1 + first_largest(lambda, spread(.true., 1, size(lambda)))
-            at_p = joint%first - 1 + first_largest(p, spread(.true., 1, size(p)))
-            lambda_most = maxval(lambda)
-            p_most = maxval(p)
+         associate (states => state(joint%first:joint%last))
+            at_lambda = joint%first - 1 + first_largest(above(states%lambda, noise*analysis%largest_lambda))
+            at_p = joint%first - 1 + first_largest(above(states%pressure, noise*analysis%largest_p))
+            lambda_most = clean(maxval(states%lambda), noise*analysis%largest_lambda)
+            p_most = clean(maxval(states%pressure), noise*analysis%largest_p)
          end associate
          call table%add([joint%id, n_open])
          call table%add([lambda_most])
