@@ -202,7 +202,8 @@ contains
       integer, intent(in)                     :: j
       real(wp), intent(in)                    :: floor !! of forces
       type(listing_table_type), intent(inout) :: table
-      real(wp) :: force, applied, lambda_most, p_most
+      real(wp), allocatable :: lambda(:), p(:)
+      real(wp) :: force, applied
       integer  :: i, at_lambda, at_p, n_open
 
       associate (joint => model%joints(j), state => analysis%states%normal)
@@ -211,16 +212,14 @@ contains
             if (state(i)%branch == branch_open) n_open = n_open + 1
             force = force + state(i)%sumf*dot_product(model%interface(i)%axes(:, 3), joint%normal)
          end do
-         associate (states => state(joint%first:joint%last))
-            at_lambda = joint%first - 1 + first_largest(above(states%lambda, noise*analysis%largest_lambda))
-            at_p = joint%first - 1 + first_largest(above(states%pressure, noise*analysis%largest_p))
-            lambda_most = clean(maxval(states%lambda), noise*analysis%largest_lambda)
-            p_most = clean(maxval(states%pressure), noise*analysis%largest_p)
-         end associate
+         allocate (lambda, source=state(joint%first:joint%last)%lambda)
+         allocate (p, source=state(joint%first:joint%last)%pressure)
+         at_lambda = joint%first - 1 + first_largest(above(lambda, noise*analysis%largest_lambda))
+         at_p = joint%first - 1 + first_largest(above(p, noise*analysis%largest_p))
          call table%add([joint%id, n_open])
-         call table%add([lambda_most])
+         call table%add([clean(maxval(lambda), noise*analysis%largest_lambda)])
          call table%add([joint_node_id(model, at_lambda, 1)])
-         call table%add([p_most])
+         call table%add([clean(maxval(p), noise*analysis%largest_p)])
          call table%add([joint_node_id(model, at_p, 1)])
          if (is_closed(model, joint)) then
             call table%skip(1)
