@@ -208,12 +208,13 @@ contains
 
       associate (joint => model%joints(j), state => analysis%states%normal)
          n_open = 0; force = 0.0_wp
+         allocate (lambda(joint%first:joint%last), p(joint%first:joint%last))
          do i = joint%first, joint%last
+            lambda(i) = state(i)%lambda
+            p(i) = state(i)%pressure
             if (state(i)%branch == branch_open) n_open = n_open + 1
             force = force + state(i)%sumf*dot_product(model%interface(i)%axes(:, 3), joint%normal)
          end do
-         allocate (lambda, source=state(joint%first:joint%last)%lambda)
-         allocate (p, source=state(joint%first:joint%last)%pressure)
          at_lambda = joint%first - 1 + first_largest(above(lambda, noise*analysis%largest_lambda))
          at_p = joint%first - 1 + first_largest(above(p, noise*analysis%largest_p))
          call table%add([joint%id, n_open])
