@@ -126,7 +126,7 @@ contains
    elemental real(wp) function clean(value, floor) result(printed)
       real(wp), intent(in)           :: value
       real(wp), intent(in), optional :: floor
-      real(wp), parameter :: in_full = 1.0e6_wp ! times FLOOR: six digits stand above it
+      real(wp), parameter :: in_full = 1.0e6_wp ! times FLOOR: more than six digits stand above it
       real(wp) :: unit
       integer  :: power
 
@@ -138,6 +138,7 @@ contains
       if (abs(printed) >= in_full*floor .or. .not. floor > in_full*tiny(1.0_wp) .or. .not. abs(printed) > 0.0_wp) return
       power = nint(log10(floor) - 0.5_wp + 1.0e-6_wp) ! a floor of 1E-9 is one on any machine
       unit = 10.0_wp**abs(power)
+      if (abs(printed) >= 0.1_wp*in_full*merge(unit, 1.0_wp/unit, power > 0)) return ! all six: print rounds them, once
       if (power < 0) printed = anint(printed*unit)/unit ! by a whole power, so that the decimal is the nearest number
       if (power > 0) printed = anint(printed/unit)*unit
       if (power == 0) printed = anint(printed)
