@@ -6,7 +6,7 @@ module text_tools
    implicit none
    private
 
-   public :: upper, integer_text, real_text, fitted_text, plural, clean
+   public :: upper, integer_text, real_text, fitted_text, plural, above, clean
 
 contains
 
@@ -113,18 +113,35 @@ contains
       if (count /= 1) text = text//'s'
    end function plural
 
-   !> VALUE for print: what lies below FLOOR counts as zero, and zero has no sign.
-   !! FLOOR [unit of value], default 0, takes away digits that another compiler would not reproduce.
-   elemental function clean(value, floor) result(printed)
+   !> VALUE in full, or zero where it lies below FLOOR; zero has no sign.
+   elemental real(wp) function above(value, floor)
+      real(wp), intent(in) :: value, floor
+
+      above = value
+      if (abs(value) < max(floor, tiny(1.0_wp))) above = 0.0_wp
+   end function above
+
+   !> VALUE for print: what lies below FLOOR counts as zero, what stands above is rounded to the power of ten of FLOOR, and zero has no
+   !! sign. FLOOR [unit of value], default 0, takes away digits that another compiler or processor would not reproduce.
+   elemental real(wp) function clean(value, floor) result(printed)
       real(wp), intent(in)           :: value
       real(wp), intent(in), optional :: floor
-      real(wp) :: printed
+      real(wp), parameter :: in_full = 1.0e6_wp ! times FLOOR: more than six digits stand above it
+      real(wp) :: unit
+      integer  :: power
 
-      printed = value
-      if (present(floor)) then
-         if (abs(value) < floor) printed = 0.0_wp
+      if (.not. present(floor)) then
+         printed = above(value, 0.0_wp)
+         return
       end if
-      if (abs(printed) < tiny(1.0_wp)) printed = 0.0_wp
+      printed = above(value, floor)
+      if (abs(printed) >= in_full*floor .or. .not. floor > in_full*tiny(1.0_wp) .or. .not. abs(printed) > 0.0_wp) return
+      power = nint(log10(floor) - 0.5_wp + 1.0e-6_wp) ! a floor of 1E-9 is one on any machine
+      unit = 10.0_wp**abs(power)
+      if (abs(printed) >= 0.1_wp*in_full*merge(unit, 1.0_wp/unit, power > 0)) return ! all six: print rounds them, once
+      if (power < 0) printed = anint(printed*unit)/unit ! by a whole power, so that the decimal is the nearest number
+      if (power > 0) printed = anint(printed/unit)*unit
+      if (power == 0) printed = anint(printed)
    end function clean
 
 end module text_tools

@@ -16,6 +16,7 @@ module back_method
    use interface_operator, only: add_force, joint_movement
    use joint_laws, only: back_stiffness, exceeds_limit, loading_work, rest_margin, stand_at_limits
    use kinds, only: wp
+   use measures, only: first_largest
    use model_data, only: joint_node_id, model_type
    use normal_curve, only: loading_deflection, loading_pressure, normal_tangent, pressure_floor
    use normal_stiffness, only: branch_load, branch_open, has_come_to
@@ -172,7 +173,7 @@ contains
       type(failure_type), intent(inout) :: failure
       integer :: worst
 
-      worst = maxloc(now%change, dim=1)
+      worst = first_largest(now%change)
       call failure%raise(where_in_plan(plan, analysis%stage, analysis%increment)//': the pressures have not settled after '// &
          integer_text(analysis%n_passes)//' iterations; the one of node '//integer_text(joint_node_id(model, worst, 1))// &
          ' still changes by '//real_text(now%change(worst))//'; METHOD = NEWTON follows such laws')

@@ -8,6 +8,7 @@ module newton_method
    use joint_laws, only: is_apart
    use kinds, only: wp
    use load_path, only: go_back, support_force
+   use measures, only: first_largest
    use model_data, only: joint_node_id, model_type
    use newton_direction, only: attempt_type, close_gaps, find_direction, loose_joint
    use newton_trial, only: commit, evaluate, search, start_trial, swap, take_whole_step, trial_type
@@ -231,7 +232,7 @@ contains
       real(wp), allocatable :: direction(:, :)
       logical  :: flips(size(analysis%states))
       real(wp) :: load_size, noise, pressed, rounding, sizes(0:most_iterations), spoilt, step, travel
-      integer  :: iteration
+      integer  :: at, iteration
       logical  :: moves, carried, is_last
 
       allocate (direction, mold=analysis%u)
@@ -294,8 +295,11 @@ contains
       attempt%imprecise = noise > precise*load_size .and. .not. carried
       attempt%loose = loose_joint(model, now)
       attempt%slides = attempt%loose > 0 .and. any(now%states%slips)
-      attempt%worst = maxloc(abs(now%residual), mask=.not. analysis%held)
-      if (all(attempt%worst > 0)) attempt%worst = [system%retained(attempt%worst(2)), attempt%worst(1)]
+      at = first_largest(pack(abs(now%residual), .true.), pack(.not. analysis%held, .true.))
+      attempt%worst = 0
+      associate (n => size(now%residual, 1))
+         if (at > 0) attempt%worst = [system%retained((at - 1)/n + 1), modulo(at - 1, n) + 1]
+      end associate
       if (attempt%seats) analysis%tolerance = analysis%load_tolerance*load_size
       if (.not. attempt%converged) return
       if (now%size > max(far_below*analysis%tolerance, noise)) call refine(model, system, analysis, attempt, now, next)

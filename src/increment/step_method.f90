@@ -6,6 +6,7 @@ module step_method
    use interface_operator, only: add_force, joint_movement
    use joint_laws, only: exceeds_limit, flag_margin, friction_excess, friction_limit
    use kinds, only: wp
+   use measures, only: first_largest
    use model_data, only: joint_node_id, model_type
    use normal_stiffness, only: pressure_reached
    use stage_entries, only: output_joint
@@ -150,7 +151,7 @@ contains
          call record_pass(analysis, pass_record(before=total, after=total_after, changes=count(analysis%states%slips)))
          total = total_after
       end do
-      worst = maxloc(maxval(abs(excess), dim=1), mask=is_endless(model), dim=1)
+      worst = first_largest(maxval(abs(excess), dim=1), is_endless(model))
       call failure%raise(where_in_plan(plan, analysis%stage, analysis%increment)//': after '//integer_text(most_passes)// &
          ' re-analyses the friction of joint '//integer_text(model%joints(model%interface(worst)%joint)%id)// &
          ' is still exceeded, by '//real_text(total)//' in all, most at node '// &

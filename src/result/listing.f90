@@ -16,6 +16,7 @@ module listing
    use listing_states, only: list_condensed, list_states
    use listing_steps, only: farthest_type, note_distances, note_slips
    use listing_table, only: column, label_type, listing_table_type, noise, page_type
+   use measures, only: first_largest
    use model_data, only: joint_node_id, model_type, stage_load_type
    use model_warnings, only: tetra_words
    use node_coupling, only: held_forces
@@ -23,10 +24,9 @@ module listing
    use range_watch, only: note_condition, note_division, range_watch_type, record_watch, say_ranges, watch_balance, watch_ranges, &
                           watch_shear_laws, watch_unloading
    use restart_stream, only: restart_stream_type
-   use stage_answer, only: first_largest
    use stage_entries, only: output_all, output_joint, output_last
    use stage_plan, only: planned_stage, stage_plan_type
-   use text_tools, only: clean, integer_text, plural, upper
+   use text_tools, only: above, clean, integer_text, plural, upper
    implicit none
    private
 
@@ -217,26 +217,25 @@ contains
       integer, intent(in)                     :: j
       real(wp), intent(in)                    :: floor !! of forces
       type(listing_table_type), intent(inout) :: table
-      real(wp) :: force, applied, lambda_most, p_most
+      real(wp), allocatable :: lambda(:), p(:)
+      real(wp) :: force, applied
       integer  :: i, at_lambda, at_p, n_open
 
       associate (joint => model%joints(j), state => analysis%states%normal)
          n_open = 0; force = 0.0_wp
+         allocate (lambda(joint%first:joint%last), p(joint%first:joint%last))
          do i = joint%first, joint%last
+            lambda(i) = state(i)%lambda
+            p(i) = state(i)%pressure
             if (state(i)%branch == branch_open) n_open = n_open + 1
             force = force + state(i)%sumf*dot_product(model%interface(i)%axes(:, 3), joint%normal)
          end do
-         associate (lambda => clean(state(joint%first:joint%last)%lambda, noise*analysis%largest_lambda), &
-                    p => clean(state(joint%first:joint%last)%pressure, noise*analysis%largest_p))
-            at_lambda = joint%first - 1 + first_largest(lambda, spread(.true., 1, size(lambda)))
-            at_p = joint%first - 1 + first_largest(p, spread(.true., 1, size(p)))
-            lambda_most = maxval(lambda)
-            p_most = maxval(p)
-         end associate
+         at_lambda = joint%first - 1 + first_largest(above(lambda, noise*analysis%largest_lambda))
+         at_p = joint%first - 1 + first_largest(above(p, noise*analysis%largest_p))
          call table%add([joint%id, n_open])
-         call table%add([lambda_most])
+         call table%add([clean(maxval(lambda), noise*analysis%largest_lambda)])
          call table%add([joint_node_id(model, at_lambda, 1)])
-         call table%add([p_most])
+         call table%add([clean(maxval(p), noise*analysis%largest_p)])
          call table%add([joint_node_id(model, at_p, 1)])
          if (is_closed(model, joint)) then
             call table%skip(1)

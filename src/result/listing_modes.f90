@@ -2,10 +2,11 @@
 module listing_modes
    use kinds, only: wp
    use listing_table, only: axes, column, column_type, listing_table_type, noise, page_type
+   use measures, only: first_largest
    use modal_response, only: missed_peak, response_type
    use mode_values, only: modes_type
    use model_data, only: model_type
-   use text_tools, only: clean, integer_text, real_text
+   use text_tools, only: above, clean, integer_text, real_text
    use vibration_plan, only: vibration_plan_type
    implicit none
    private
@@ -136,7 +137,9 @@ contains
       do m = 1, size(modes%modes)
          associate (mode => modes%modes(m))
             call table%add([modes%n_before + m])
-            call table%add(clean(mode%participation(:d), sqrt(no_part*modes%mass/mode%mass)))
+            associate (largest => sqrt(modes%mass/mode%mass))
+               call table%add(clean(above(mode%participation(:d), sqrt(no_part)*largest), no_part*largest))
+            end associate
             call table%add(clean(mode%effective(:d), no_part*modes%mass))
             call table%print_row(page%file)
             sums = sums + mode%effective
@@ -168,7 +171,7 @@ contains
       call table%print_head(page%file)
       do i = 1, size(response%node)
          do c = 1, size(response%amplitude, 1)
-            at = maxloc(response%amplitude(c, i, :), dim=1)
+            at = first_largest(response%amplitude(c, i, :))
             call table%add([response%node(i)])
             call table%add(axes(c))
             call table%add([response%amplitude(c, i, at), response%frequency(at), response%phase(c, i, at)])

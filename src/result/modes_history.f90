@@ -6,7 +6,7 @@ module modes_history
    use mode_values, only: modes_type
    use model_data, only: model_type
    use output_file, only: output_file_type
-   use text_tools, only: clean
+   use text_tools, only: above
    use vibration_plan, only: vibration_plan_type
    implicit none
    private
@@ -37,7 +37,7 @@ contains
             line%length = 0
             call line%add([stage, modes%n_before + m])
             call line%add([mode%frequency, mode%omega, mode%residual])
-            call line%add(clean(mode%effective, no_mass*modes%mass))
+            call line%add(above(mode%effective, no_mass*modes%mass))
             if (plan%has_losses .and. .not. mode%is_rigid) then
                call line%add([mode%loss])
             else

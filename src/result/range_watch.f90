@@ -7,6 +7,7 @@ module range_watch
    use joint_laws, only: friction_excess, friction_limit
    use kinds, only: wp
    use listing_table, only: axes, listing_table_type, page_width
+   use measures, only: tie
    use model_data, only: joint_node_id, model_type
    use normal_curve, only: loading_deflection, normal_tangent
    use normal_stiffness, only: branch_load, branch_open, branch_unload
@@ -157,7 +158,7 @@ contains
             end if
             if (watch%stage(which, i) /= analysis%stage) tally%n = tally%n + 1
             watch%stage(which, i) = analysis%stage
-            if (tally%worst_node > 0 .and. value <= (1.0_wp + rounding)*tally%excess) return
+            if (tally%worst_node > 0 .and. value <= (1.0_wp + tie)*tally%excess) return
             tally%excess = value
             tally%worst_node = joint_node_id(model, i, 1)
             tally%p = p

@@ -9,19 +9,18 @@ module stage_answer
    use joint_tangents, only: tangents_now
    use kinds, only: wp
    use listing_table, only: noise
-   use measures, only: is_measure
+   use measures, only: first_largest, is_measure
    use model_data, only: joint_type, model_type, n_points
    use normal_stiffness, only: branch_open, normal_state
    use stress_measures, only: von_mises
-   use text_tools, only: clean, integer_text
+   use text_tools, only: above, integer_text
    implicit none
    private
 
-   public :: find_answer, find_bolt_answers, first_largest, stands_apart, fault_of_answer
+   public :: find_answer, find_bolt_answers, stands_apart, fault_of_answer
 
-   ! Of forces and movements what is left of sums and differences that would be zero but for rounding and for what iterations leave,
-   ! and how far values may differ that a symmetric structure would have alike.
-   real(wp), parameter :: remainder = 1.0e-7_wp, tie = 1.0e-6_wp
+   ! of forces and movements: what is left of sums and differences that would be zero but for rounding and for what iterations leave
+   real(wp), parameter :: remainder = 1.0e-7_wp
 
    !> The largest of some kind of value, and where.
    type, public :: peak_type
@@ -124,22 +123,6 @@ contains
       answer%at_centre%x(:model%dimension) = element_centre(model, e)
    end subroutine find_peaks
 
-   !> Where the largest of the VALUES that count is, the first of those that are as large but for what rounding may have made; 0
-   !! where none counts. The listing, the answer and the tables of stages find every place by this rule.
-   pure integer function first_largest(values, counts) result(at)
-      real(wp), intent(in) :: values(:)
-      logical, intent(in)  :: counts(:)
-      real(wp) :: most
-
-      at = 0
-      if (any(counts .and. .not. is_measure(values))) then
-         at = findloc(counts .and. .not. is_measure(values), .true., dim=1)
-      else if (any(counts)) then
-         most = maxval(values, mask=counts)
-         at = findloc(counts .and. values >= most - tie*abs(most), .true., dim=1)
-      end if
-   end function first_largest
-
    !> The largest of VALUES, or the first that is none.
    pure real(wp) function largest(values)
       real(wp), intent(in) :: values(:)
@@ -156,10 +139,10 @@ contains
       type(joint_answer), intent(inout) :: answer
 
       associate (states => analysis%states(joint%first:joint%last), elements => model%interface(joint%first:joint%last))
-         answer%contact = clean(1.0_wp - sum(elements%area, mask=states%normal%branch == branch_open)/joint%area, noise)
+         answer%contact = above(1.0_wp - sum(elements%area, mask=states%normal%branch == branch_open)/joint%area, noise)
          answer%slipping = count(states%slips)
-         answer%pressure = clean(maxval(states%normal%pressure), noise*analysis%largest_p)
-         answer%gap = clean(maxval(stands_apart(states%normal)), noise*analysis%largest_lambda)
+         answer%pressure = above(maxval(states%normal%pressure), noise*analysis%largest_p)
+         answer%gap = above(maxval(stands_apart(states%normal)), noise*analysis%largest_lambda)
          if (answer%pressure > 0.0_wp) answer%pressed_at = &
             joint%first - 1 + first_largest(states%normal%pressure, states%normal%pressure > 0.0_wp)
          if (answer%gap > 0.0_wp) answer%open_at = &
@@ -190,17 +173,17 @@ contains
       total = find_resultant(model, analysis, joint)
       associate (frame => answer%frame)
          if (model%axisymmetric) total%shear(1) = 0.0_wp ! all round the ring it balances
-         answer%normal = clean(total%normal, floor)
-         answer%shear = clean(norm2(total%shear), floor)
-         answer%force(:3) = clean(matmul(total%force, frame%axes), floor)
-         answer%force(4:) = clean(matmul(total%moment, frame%axes), floor*frame%extent)
+         answer%normal = above(total%normal, floor)
+         answer%shear = above(norm2(total%shear), floor)
+         answer%force(:3) = above(matmul(total%force, frame%axes), floor)
+         answer%force(4:) = above(matmul(total%moment, frame%axes), floor*frame%extent)
          answer%force = merge(answer%force, 0.0_wp, frame%exists)
          answer%moment = norm2(answer%force(4:))
          answer%has_safety = joint%law%has_friction .and. answer%shear > 0.0_wp
          if (answer%has_safety) answer%safety = joint%law%mu*max(0.0_wp, answer%normal)/answer%shear
          least = remainder*analysis%largest_lambda
          least(4:) = least(4:)/max(frame%extent, tiny(1.0_wp))
-         answer%movement = clean(rigid_movement(model, analysis, joint, frame), least)
+         answer%movement = above(rigid_movement(model, analysis, joint, frame), least)
          answer%tangent = stiffness_about(model, joint, frame, k)
          answer%has_secant = frame%exists .and. answer%force*answer%movement > 0.0_wp
          where (answer%has_secant) answer%secant = answer%force/answer%movement
@@ -222,16 +205,16 @@ contains
       do i = 1, size(bolts)
          associate (answer => answers(i), bolt => bolts(i), floor => remainder*largest_force)
             answer%bolt = bolt
-            answer%force = clean(bolt%force, floor)
-            answer%change = clean(bolt%force - before(i), floor)
-            answer%load_change = clean(load_along(model, bolt%direction, analysis%stage, analysis%fraction) &
+            answer%force = above(bolt%force, floor)
+            answer%change = above(bolt%force - before(i), floor)
+            answer%load_change = above(load_along(model, bolt%direction, analysis%stage, analysis%fraction) &
                                        - load_along(model, bolt%direction, analysis%stage - 1, 1.0_wp), floor)
             answer%has_ratio = .not. bolt%is_tightened .and. abs(answer%load_change) > 0.0_wp
             if (answer%has_ratio) answer%ratio = answer%change/answer%load_change
             answer%has_moment = bolt%section > 0 .and. analysis%fraction >= 1.0_wp
             if (answer%has_moment) then
                associate (section => model%sections(bolt%section))
-                  answer%moment = clean(bending_moment(model, section, analysis%all_u, analysis%temperature), &
+                  answer%moment = above(bending_moment(model, section, analysis%all_u, analysis%temperature), &
                                         floor*sqrt(section%area))
                end associate
             end if

@@ -6,6 +6,7 @@ module modal_response
    use failures, only: failure_type
    use frequency_response, only: modal_system, peak_frequency, phase_of, response_at, static_share
    use kinds, only: wp
+   use measures, only: first_largest
    use mode_values, only: modes_type
    use model_data, only: model_type
    use oscillating_structure, only: factorise_at, oscillating_type
@@ -119,7 +120,7 @@ contains
                where (at_peak <= untouched*largest) at_peak = 0.0_wp
             end if
          end associate
-         at = maxloc(at_peak, dim=1)
+         at = first_largest(at_peak)
          if (at_peak(at) <= 0.0_wp) cycle
          if (is_damped) peak%amplitude = at_peak(at)
          peak%beside = beside(at)
