@@ -6,11 +6,11 @@ module csv_line
    implicit none
    private
 
-   integer, parameter :: room = 2048 ! characters, more than any line has; what lies beyond is cut off
+   integer, parameter :: room = 2048 ! characters at first, doubled where a line is longer
 
    type, public :: csv_line_type
-      integer         :: length = 0  !! used of TEXT; 0 begins a new line
-      character(room) :: text
+      integer                   :: length = 0  !! used of TEXT; 0 begins a new line
+      character(:), allocatable :: text        !! where anything was added
    contains
       generic :: add => add_integers, add_reals, add_text
       procedure, private :: add_integers, add_reals, add_text
@@ -22,14 +22,21 @@ contains
    pure subroutine add_text(self, words)
       class(csv_line_type), intent(inout) :: self
       character(*), intent(in)            :: words
+      character(:), allocatable :: longer
       integer :: n
 
-      if (self%length > 0 .and. self%length < room) then
+      n = len(words)
+      if (.not. allocated(self%text)) allocate (character(room) :: self%text)
+      if (self%length + 1 + n > len(self%text)) then
+         allocate (character(2*(self%length + 1 + n)) :: longer)
+         longer(:self%length) = self%text(:self%length)
+         call move_alloc(longer, self%text)
+      end if
+      if (self%length > 0) then
          self%length = self%length + 1
          self%text(self%length:self%length) = ','
       end if
-      n = min(len(words), room - self%length)
-      self%text(self%length + 1:self%length + n) = words(:n)
+      self%text(self%length + 1:self%length + n) = words
       self%length = self%length + n
    end subroutine add_text
 

@@ -116,7 +116,8 @@ contains
          ' of the table is, seen along the normal of the joint, at the same place as point '//integer_text(twice(1)), called='X')
    end subroutine start_table
 
-   !> NODES: by node of SIDE1, zero where none is given. An element that hangs on several has their mean.
+   !> NODES: by node of SIDE1, zero where none is given. An element that hangs on several has their mean. A node on which none hangs, as
+   !! a corner of a flat face of six nodes, is on SIDE1 all the same.
    subroutine gaps_by_node(deck, card, joint, model)
       type(checked_deck), intent(in)  :: deck
       type(jgap_card), intent(in)     :: card
@@ -132,6 +133,13 @@ contains
       do i = joint%first, joint%last
          given_at(nodes_of_end(model%interface(i), 1)) = -1
       end do
+      if (joint%side_1 > 0) then
+         associate (side => model%surfaces(joint%side_1))
+            do i = 1, side%n
+               given_at(side%nodes(:side%n_nodes(i), i)) = -1
+            end do
+         end associate
+      end if
       do i = 1, size(card%node)
          if (card%node(i) == 0) cycle
          words = ''

@@ -7,7 +7,7 @@ module joint_build
    use interface_operator, only: hang_on, interface_element
    use joint_sides, only: join_one_side, join_two_sides
    use kinds, only: wp
-   use law_build, only: default_slope, law_tables, list_laws, resolve_laws
+   use law_build, only: check_first_pressure, default_slope, law_tables, list_laws, resolve_laws
    use model_data, only: joint_type, model_type, surface_type
    use node_build, only: find_nodes
    use reverse_lists, only: list_owners
@@ -68,6 +68,7 @@ contains
       do j = 1, size(model%joints)
          call sum_joint(model, model%joints(j))
          call default_slope(deck, model, model%joints(j))
+         call check_first_pressure(deck, model, model%joints(j))
       end do
    end subroutine build_joints
 

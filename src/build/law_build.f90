@@ -5,11 +5,11 @@ module law_build
    use interface_operator, only: nodes_of_end, weights_of_end
    use kinds, only: wp
    use model_data, only: joint_type, model_type
-   use text_tools, only: integer_text
+   use text_tools, only: integer_text, real_text
    implicit none
    private
 
-   public :: list_laws, resolve_laws, default_slope
+   public :: list_laws, resolve_laws, default_slope, check_first_pressure
 
    !> Where the cards of the laws stand.
    type, public :: law_tables
@@ -80,6 +80,25 @@ contains
       higher = maxval(e, mask=is_there)
       if (higher > 0.0_wp) joint%law%normal%e_u = lower*(2.0_wp*higher/(lower + higher)) ! exactly E where both are the same
    end subroutine default_slope
+
+   !> A P0 above E of the bodies is no pressure that they could bear. The joint laws take the scale of rounding from it, and would take
+   !! the tension of an element for rounding.
+   subroutine check_first_pressure(deck, model, joint)
+      type(checked_deck), intent(in) :: deck
+      type(model_type), intent(in)   :: model
+      type(joint_type), intent(in)   :: joint
+      real(wp) :: e(2)
+      logical  :: is_there(2)
+      integer  :: end
+
+      if (joint%p0 <= 0.0_wp) return
+      do end = 1, 2
+         call find_modulus(model, joint, end, e(end), is_there(end))
+      end do
+      if (maxval(e) > 0.0_wp .and. joint%p0 > maxval(e)) call deck%errors%add(joint%line, 'joint '//integer_text(joint%id)// &
+         ': P0 of its PJOINT, '//real_text(joint%p0)//', is above E of the bodies beside it, '//real_text(maxval(e))// &
+         ': give about the mean pressure of the first increment')
+   end subroutine check_first_pressure
 
    !> E of the bodies at END 1 or 2 of the interface elements of JOINT, if there are any: the mean of their elements at the nodes
    !! there, areas of influence as weights, which the nodes of a list share out as its weights stand to each other [pressure].

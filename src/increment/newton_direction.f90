@@ -13,7 +13,7 @@ module newton_direction
    implicit none
    private
 
-   public :: find_direction, close_gaps, loose_joint
+   public :: find_direction, close_gaps, check_lifted, loose_joint
 
    integer, parameter  :: digits = 6                  ! of a direction: the next one corrects it
    real(wp), parameter :: little = 1.0e-7_wp          ! of the elastic stiffness: what the matrix has where an element has none
@@ -118,6 +118,39 @@ contains
       call form_structure_stiffness(model, matrix, attempt%where, system, attempt%trouble, one_solution=.true.)
       call solve_equations(model, system, load, direction, attempt%trouble, digits=digits)
    end subroutine close_gaps
+
+   !> Supports that are moved have opened joints all over, from the branches BEFORE: what they have lifted off must be held without
+   !! these joints. The little stiffness that open elements have in find_direction hides what is not.
+   subroutine check_lifted(model, before, analysis, where, system, failure)
+      type(model_type), intent(in)          :: model
+      integer, intent(in)                   :: before(:) !! branches of all interface elements in the normal direction
+      type(analysis_type), intent(in)       :: analysis
+      character(*), intent(in)              :: where     !! for the message
+      class(equation_system), intent(inout) :: system
+      type(failure_type), intent(inout)     :: failure
+      real(wp), allocatable :: matrix(:, :, :)
+      real(wp) :: k(3)
+      integer  :: d, i, j
+      logical  :: lifted
+
+      lifted = .false.
+      do j = 1, size(model%joints)
+         associate (was => before(model%joints(j)%first:model%joints(j)%last), &
+                    now => analysis%states(model%joints(j)%first:model%joints(j)%last)%normal%branch)
+            if (any(was /= branch_open) .and. all(now == branch_open)) lifted = .true.
+         end associate
+      end do
+      if (.not. lifted .or. .not. analysis%moves) return
+      allocate (matrix(3, 3, size(model%interface)), source=0.0_wp)
+      do i = 1, size(model%interface)
+         if (analysis%states(i)%normal%branch == branch_open) cycle
+         k = first_stiffness_of(model, analysis, i)
+         do d = 1, 3
+            matrix(d, d, i) = k(d)
+         end do
+      end do
+      call form_structure_stiffness(model, matrix, where, system, failure, one_solution=.true.)
+   end subroutine check_lifted
 
    !> (k_sx, k_sy, k_n) of interface element I in its first increment [force/length].
    pure function first_stiffness_of(model, analysis, i) result(k)

@@ -10,7 +10,7 @@ module newton_method
    use load_path, only: go_back, support_force
    use measures, only: first_largest
    use model_data, only: joint_node_id, model_type
-   use newton_direction, only: attempt_type, close_gaps, find_direction, loose_joint
+   use newton_direction, only: attempt_type, check_lifted, close_gaps, find_direction, loose_joint
    use newton_trial, only: commit, evaluate, search, start_trial, swap, take_whole_step, trial_type
    use node_coupling, only: forces_on_unknowns
    use normal_curve, only: pressure_floor
@@ -43,12 +43,17 @@ contains
       class(equation_system), intent(inout) :: system
       type(failure_type), intent(inout)    :: failure
       type(attempt_type) :: attempt
+      integer :: before(size(analysis%states))
 
+      before = analysis%states%normal%branch
       analysis%tolerance = max(analysis%tolerance, analysis%load_tolerance*free_norm(forces_on_unknowns(model, &
                                analysis%applied), all_held(model, analysis)), tiny(1.0_wp))
       attempt%where = where_in_plan(plan, analysis%stage, analysis%increment)
       call find_equilibrium(model, analysis, system, attempt, failure)
-      if (.not. failure%raised) return
+      if (.not. failure%raised) then
+         call check_lifted(model, before, analysis, attempt%where, system, failure)
+         return
+      end if
       call go_back(plan, attempt%left_over, analysis)
       if (analysis%ends_early) failure%message = failure%message//'; the last state in equilibrium stands at '// &
          real_text(anint(1.0e4_wp*analysis%fraction)*1.0e-4_wp)//' of stage '//integer_text(plan%stages(analysis%stage)%id)

@@ -14,7 +14,7 @@ module joint_motion
    public :: find_frame, is_closed, find_resultant, rigid_movement, stiffness_about
 
    real(wp), parameter :: closed_below = 0.1_wp ! length of the mean normal of a joint that faces all ways, as a pin in its bore
-   real(wp), parameter :: straight = 1.0e-9_wp  ! of the largest moment of inertia: a turn that moves no element
+   real(wp), parameter :: straight = 1.0e-9_wp  ! of the largest moment of inertia, of the whole joint's: a turn that moves no element
 
    type, public :: joint_frame
       logical  :: closed = .false.          !! no mean normal: the axes are those of the model
@@ -62,8 +62,8 @@ contains
       type(model_type), intent(in) :: model
       type(joint_type), intent(in) :: joint
       type(joint_frame) :: frame
-      real(wp) :: arm(3), inertia(3, 3), normal(3), kept(3)
-      integer  :: i
+      real(wp) :: arm(3), inertia(3, 3), normal(3)
+      integer  :: c, i
 
       normal = mean_normal(model, joint)
       if (model%axisymmetric) normal(1) = 0.0_wp ! all round the ring it is the part along the axis
@@ -78,13 +78,15 @@ contains
       do i = joint%first, joint%last
          arm = arm_of(model, frame, i)
          frame%extent = max(frame%extent, norm2(arm))
-         inertia = inertia + model%interface(i)%area*(dot_product(arm, arm)*unit_matrix() - outer(arm, arm))
+         inertia = inertia + model%interface(i)%area*inertia_of(arm)
       end do
       frame%exists = .true.
       if (model%dimension == 2) frame%exists = [.true., .false., .true., .false., .true., .false.]
       if (model%axisymmetric) frame%exists = [.false., .false., .true., .false., .false., .false.]
       if (frame%extent <= straight*norm2(frame%centroid)) frame%exists(4:) = .false. ! all in one place, but for rounding
-      call solve(inertia, [1.0_wp, 1.0_wp, 1.0_wp], frame%exists(4:), kept)
+      do c = 1, 3
+         frame%exists(3 + c) = frame%exists(3 + c) .and. inertia(c, c) > straight*maxval(inertia)
+      end do
    end function find_frame
 
    !> What JOINT transmits now.
@@ -111,43 +113,80 @@ contains
    end function find_resultant
 
    !> Movement of side 1 against side 2 as of rigid bodies, nearest to the deflections {d} of the elements that are not open
-   !! (delta_x, delta_y, lambda as in the joint history) by least squares, their areas the weights: sum a [m]^T [m] {q} =
-   !! sum a [m]^T {d}, the columns of [m] as in rigid_mode. It is that of the point at the centroid; a component that the places of these elements
-   !! do not tell is 0 [length; radians].
+   !! (delta_x, delta_y, lambda as in the joint history) by least squares, their areas the weights: about the centroid s of these
+   !! elements the mean of {d}, and the turn {t} with [J] {t} = sum a (r - s) x {d}, [J] their inertia. It is the movement of the point
+   !! at the centroid of the joint. These elements do not tell the turn about a line on which all of them stand: it is 0 [length; radians].
    pure function rigid_movement(model, analysis, joint, frame) result(q)
       type(model_type), intent(in)    :: model
       type(analysis_type), intent(in) :: analysis
       type(joint_type), intent(in)    :: joint
       type(joint_frame), intent(in)   :: frame
       real(wp) :: q(6)
-      real(wp) :: d(3), m(3, 6), a(6, 6), b(6), scale
-      logical  :: exists(6)
-      integer  :: c, i
+      real(wp) :: area, arm(3), d(3), inertia(3, 3), mean(3), moment(3), place(3)
+      integer  :: i
 
-      a = 0.0_wp
-      b = 0.0_wp
-      scale = max(frame%extent, tiny(1.0_wp)) ! turns as what they move there
+      q = 0.0_wp
+      area = 0.0_wp
+      place = 0.0_wp
+      mean = 0.0_wp
       do i = joint%first, joint%last
          if (analysis%states(i)%normal%branch == branch_open) cycle
-         associate (element => model%interface(i), state => analysis%states(i))
-            d(:2) = merge(state%shear%delta, analysis%movement(:2, i), joint%law%shear%given)
-            d(3) = state%normal%lambda
-            d = matmul(element%axes, d)
-            d = matmul(d, frame%axes)
-            do c = 1, 6
-               m(:, c) = rigid_mode(model, frame, i, c)
-               if (c > 3) m(:, c) = m(:, c)/scale
-            end do
-            do c = 1, 6
-               a(:, c) = a(:, c) + element%area*matmul(m(:, c), m)
-               b(c) = b(c) + element%area*dot_product(m(:, c), d)
-            end do
-         end associate
+         area = area + model%interface(i)%area
+         place = place + model%interface(i)%area*arm_of(model, frame, i)
+         mean = mean + model%interface(i)%area*deflection_of(model, analysis, joint, frame, i)
       end do
-      exists = frame%exists
-      call solve(a, b, exists, q)
-      q(4:) = q(4:)/scale
+      if (.not. area > 0.0_wp) return
+      place = place/area
+      mean = mean/area
+      inertia = 0.0_wp
+      moment = 0.0_wp
+      do i = joint%first, joint%last
+         if (analysis%states(i)%normal%branch == branch_open) cycle
+         arm = arm_of(model, frame, i) - place
+         d = deflection_of(model, analysis, joint, frame, i) - mean
+         inertia = inertia + model%interface(i)%area*inertia_of(arm)
+         moment = moment + model%interface(i)%area*cross(arm, d)
+      end do
+      q(4:) = merge(smallest_turn(inertia, moment, straight*area*frame%extent**2), 0.0_wp, frame%exists(4:))
+      q(:3) = merge(mean - cross(q(4:), place), 0.0_wp, frame%exists(:3))
    end function rigid_movement
+
+   !> How interface element I is deflected, in the axes of FRAME [length].
+   pure function deflection_of(model, analysis, joint, frame, i) result(d)
+      type(model_type), intent(in)    :: model
+      type(analysis_type), intent(in) :: analysis
+      type(joint_type), intent(in)    :: joint
+      type(joint_frame), intent(in)   :: frame
+      integer, intent(in)             :: i
+      real(wp) :: d(3)
+
+      d(:2) = merge(analysis%states(i)%shear%delta, analysis%movement(:2, i), joint%law%shear%given)
+      d(3) = analysis%states(i)%normal%lambda
+      d = matmul(model%interface(i)%axes, d)
+      d = matmul(d, frame%axes)
+   end function deflection_of
+
+   !> The smallest {t} with [J] {t} = {moment}. Of elements on one line along e, [J] = J ([1] - e e^T): {t} = {moment}/J.
+   pure function smallest_turn(inertia, moment, least) result(turn)
+      real(wp), intent(in) :: inertia(3, 3) !! [J] about the centroid of the elements
+      real(wp), intent(in) :: moment(3)
+      real(wp), intent(in) :: least         !! below it J is that of one place
+      real(wp) :: turn(3)
+      real(wp) :: determinant, j, minors(3, 3)
+
+      turn = 0.0_wp
+      j = 0.5_wp*(inertia(1, 1) + inertia(2, 2) + inertia(3, 3))
+      if (j <= least) return
+      minors(:, 1) = cross(inertia(:, 2), inertia(:, 3))
+      minors(:, 2) = cross(inertia(:, 3), inertia(:, 1))
+      minors(:, 3) = cross(inertia(:, 1), inertia(:, 2))
+      determinant = dot_product(inertia(:, 1), minors(:, 1))
+      if (determinant > straight*j**3) then
+         turn = matmul(minors, moment)/determinant
+      else
+         turn = moment/j
+      end if
+   end function smallest_turn
 
    !> What rigid movement C of 1, along an axis or about it, moves at interface element I, in the axes of FRAME.
    pure function rigid_mode(model, frame, i, c) result(moved)
@@ -195,44 +234,16 @@ contains
       arm = matmul(arm, frame%axes)
    end function arm_of
 
-   !> [A] {x} = {b} for the components that exist; one that A does not hold ceases to exist. The others are 0.
-   pure subroutine solve(a, b, exists, x)
-      real(wp), intent(in)   :: a(:, :) !! symmetric, no negative eigenvalue
-      real(wp), intent(in)   :: b(:)
-      logical, intent(inout) :: exists(:)
-      real(wp), intent(out)  :: x(:)
-      real(wp) :: left(size(b), size(b)), right(size(b)), largest
-      integer  :: c, r
+   !> The moments of inertia of a unit area that is ARM away.
+   pure function inertia_of(arm) result(inertia)
+      real(wp), intent(in) :: arm(3)
+      real(wp) :: inertia(3, 3)
+      integer  :: c
 
-      left = a
-      right = b
-      largest = maxval(abs(a))
-      do c = 1, size(b)
-         exists(c) = exists(c) .and. left(c, c) > straight*largest
-         if (.not. exists(c)) cycle
-         do r = 1, size(b)
-            if (r == c .or. .not. exists(r)) cycle
-            right(r) = right(r) - left(r, c)/left(c, c)*right(c)
-            left(r, :) = left(r, :) - left(r, c)/left(c, c)*left(c, :)
-         end do
+      inertia = -spread(arm, 2, 3)*spread(arm, 1, 3)
+      do c = 1, 3
+         inertia(c, c) = inertia(c, c) + dot_product(arm, arm)
       end do
-      x = 0.0_wp
-      do c = 1, size(b)
-         if (exists(c)) x(c) = right(c)/left(c, c)
-      end do
-   end subroutine solve
-
-   pure function unit_matrix() result(matrix)
-      real(wp) :: matrix(3, 3)
-
-      matrix = reshape([1.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 1.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 1.0_wp], [3, 3])
-   end function unit_matrix
-
-   pure function outer(a, b) result(matrix)
-      real(wp), intent(in) :: a(3), b(3)
-      real(wp) :: matrix(3, 3)
-
-      matrix = spread(a, 2, 3)*spread(b, 1, 3)
-   end function outer
+   end function inertia_of
 
 end module joint_motion
