@@ -112,7 +112,10 @@ $(MANUAL): input/README.md src/run/card_manual.awk
 	@mkdir -p $(@D)
 	@awk -f src/run/card_manual.awk $< > $@.part && mv $@.part $@
 
-# Which object needs which, from the `use` lines.
+# Which object needs which, from the `use` lines. A .mod file comes with its object, and is older where nothing in it has changed.
+%.mod: %.o
+	@:
+
 $(BUILD)/dependencies.mk: $(SOURCES) $(COMPARISONS) tests/runner/dependencies.awk Makefile
 	@mkdir -p $(@D)
 	@$(DEPENDENCIES) -v folder=$(BUILD)/release -v objects='$(RELEASE_OBJECTS)' $(SOURCES) > $@

@@ -39,16 +39,16 @@ contains
       if (.not. allocated(analysis%exact) .or. size(model%joints) == 0) return
       has_shear = any([(model%joints(j)%law%shear%given, j = 1, size(model%joints))])
       if (table%is_empty()) then
-         associate (p => page%labels%pressure)
+         associate (length => page%labels%length, p => page%labels%pressure)
             if (has_shear) then
-               call table%start(title('P, |TAU - TAU LAW| OF THE LARGEST TAU'), &
-                  [column('INCR', 'i6'), column('JOINT', 'i11'), column('P OFF %', 'f9.3'), column('AT NODE', 'i11'), &
-                   column(['P    ', 'P LAW'], 'es13.5', p), column('TAU OFF %', 'f11.3'), column('AT NODE', 'i11'), &
+               call table%start(title('LAMBDA, |TAU - TAU LAW| OF THE LARGEST TAU'), &
+                  [column('INCR', 'i6'), column('JOINT', 'i11'), column('OFF %', 'f9.3'), column('AT NODE', 'i11'), &
+                   column(['LAMBDA    ', 'LAMBDA LAW'], 'es13.5', length), column('TAU OFF %', 'f11.3'), column('AT NODE', 'i11'), &
                    column('ALONG', 'a6'), column(['TAU    ', 'TAU LAW'], 'es13.5', p)])
             else
-               call table%start(title('P'), &
-                  [column('INCR', 'i6'), column('JOINT', 'i11'), column('P OFF %', 'f9.3'), column('AT NODE', 'i11'), &
-                   column(['P    ', 'P LAW'], 'es13.5', p)])
+               call table%start(title('LAMBDA'), &
+                  [column('INCR', 'i6'), column('JOINT', 'i11'), column('OFF %', 'f9.3'), column('AT NODE', 'i11'), &
+                   column(['LAMBDA    ', 'LAMBDA LAW'], 'es13.5', length)])
             end if
          end associate
       end if
@@ -56,10 +56,10 @@ contains
          normal = normal_distance(model, analysis, j)
          shear = shear_distance(model, analysis, j)
          call table%add([analysis%increment, model%joints(j)%id])
-         call add(normal)
-         if (shear%is_there) call add(shear)
+         call add(normal, noise*analysis%largest_lambda)
+         if (shear%is_there) call add(shear, noise*analysis%largest_p)
          call table%keep_row()
-         call remember(normal, 'pressure')
+         call remember(normal, 'deflection')
          call remember(shear, 'shear stress')
       end do
 
@@ -69,12 +69,13 @@ contains
          character(*), intent(in)  :: what
          character(:), allocatable :: words
 
-         words = 'DISTANCE FROM THE LAWS, '//page%stage//': LARGEST |P - P LAW| OF THE LARGEST '//what
+         words = 'DISTANCE FROM THE LAWS, '//page%stage//': LARGEST |LAMBDA - LAMBDA LAW| AT THE SAME P OF THE LARGEST '//what
       end function title
 
-      !> The columns of one DISTANCE.
-      subroutine add(distance)
+      !> The columns of one DISTANCE; values below FLOOR are rounding.
+      subroutine add(distance, floor)
          type(distance_type), intent(in) :: distance
+         real(wp), intent(in)            :: floor
 
          if (.not. distance%is_there) then
             call table%skip(4)
@@ -83,7 +84,7 @@ contains
          call table%add([100.0_wp*clean(distance%share, noise)])
          call table%add([joint_node_id(model, distance%element, 1)])
          if (distance%direction < 3) call table%add(axes(distance%direction))
-         call table%add(clean([distance%stress, distance%by_law], noise*analysis%largest_p))
+         call table%add(clean([distance%value, distance%by_law], floor))
       end subroutine add
 
       !> Keep DISTANCE if it is the largest so far.

@@ -38,6 +38,8 @@ include $here/unit_tests.mk
 	mkdir -p \$(@D) && \$(FC) \$(FFLAGS_CHECKED) -J\$(@D) -c \$< -o \$@
 \$(CHECKED_LIBRARY): \$(CHECKED_OBJECTS)
 	ar rcs \$@ \$<
+%.mod: %.o
+	@:
 END
 
 # Write a test file from the routines on standard input; its first line becomes line 10.
@@ -371,11 +373,14 @@ END
    check "$runner: nothing else is built" lacks "-o build/unit-$runner/test_case.o"
    touch src/subject.f90
    run
+   check "$runner: what uses a module whose interface is as before is not built" lacks "-o build/unit-$runner/test_case.o"
+   sed -i "0,/^contains/s//   integer, parameter, public :: later_$runner = 1\ncontains/" src/subject.f90
+   run
    check "$runner: what uses a changed module is built" shows "-o build/unit-$runner/test_case.o"
    sed -i 's/subroutine unused/subroutine also_unused/; s/call quit/call unused/; s/use subject.*/use test_case, only: unused/' \
       tests/unit/test_other.pf
    run
-   touch $pf
+   sed -i "0,/^contains/s//   integer, parameter, public :: later_$runner = 1\ncontains/" $pf
    run
    check "$runner: what uses a changed test file is built" shows "-o build/unit-$runner/test_other.o"
    check "$runner: and runs" ended '2 passed, 0 failed' success
