@@ -70,6 +70,7 @@ contains
       if (abs(moved) <= least_movement(law, before, p(2))) then
          by_delta = shear_slope(law, after, p(2))
          after%tau = before%tau + by_delta*moved
+         call leave_offset(law, p(2), after)
          return
       end if
       way = way_type(start=[before%delta - before%delta_0, p(1)], change=[moved, p(2) - p(1)])
@@ -85,6 +86,7 @@ contains
          if (piece%to >= 1.0_wp) exit
          piece%from = piece%to
       end do
+      call leave_offset(law, p(2), after)
       by_delta = gain%by_delta
       by_p = gain%by_p
       work = gain%work

@@ -30,6 +30,7 @@ module shear_stiffness
    public :: cubic_of, curve_deflection, slid_from, stand_at_limit
 
    real(wp), parameter :: rounding = 1.0e-10_wp ! of the stresses at hand: a change below this is none
+   real(wp), parameter :: past_peaks = 1.0e6_wp ! of a stress along the first slope: a cubic without a peak has it far behind d
    real(wp), parameter :: touching = 1.0e-11_wp ! of them: what comes so near to a curve meets it
 
    type, public :: shear_law
@@ -237,8 +238,9 @@ contains
       if (.not. law%given) return
       d = curve_deflection(state)
       if (state%branch == branch_load .and. d > 0.0_wp) then
+         d = min(d, deflection_at(law%load, past_peaks*cubic_slope(law%load, 0.0_wp, pressure)*d, pressure)) ! at the peak tau stays
          offset = state%sense*state%tau - cubic_value(law%load, d, pressure)
-         slid = state%sense*(d - deflection_at(law%load, max(0.0_wp, state%sense*tau - offset), pressure))
+         slid = state%sense*(curve_deflection(state) - deflection_at(law%load, max(0.0_wp, state%sense*tau - offset), pressure))
       else
          slope = shear_slope(law, state, pressure)
          if (slope > 0.0_wp) slid = (state%tau - tau)/slope
