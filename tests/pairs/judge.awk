@@ -203,6 +203,14 @@ function largest(v, name,   r, x) {
    return x
 }
 
+# The largest closing of an element that is closed
+function largest_closing(   r, x) {
+   if (number in closing_of) return closing_of[number]
+   x = 0
+   for (r = 1; r <= n_rows[1]; r++) if (value[1, r, "branch"] != "OPEN" && abs(value[1, r, "lambda"]) > x) x = abs(value[1, r, "lambda"])
+   return closing_of[number] = x
+}
+
 # WHAT is off by X, which must not exceed BOUND
 function measure(what, x, bound, row,   where) {
    where = row ? ", row " row " (stage " value[1, row, "stage"] ", increment " value[1, row, "increment"] ", joint " value[1, row, "joint"] ", element " value[1, row, "element"] ")" : ""
@@ -244,7 +252,7 @@ function same_joints(v,   r, b, k, names, n, stress, s, f, spinning, q, scale) {
    for (k = 1; k <= n; k++) {
       split(names[k], q, ":")
       scale = largest(1, q[1])
-      if (q[1] ~ /^delta/ && scale < 1e-5 * largest(1, "lambda")) scale = 1e-5 * largest(1, "lambda") # below, a movement is rounding of the closing
+      if (q[1] ~ /^delta/ && scale < 1e-5 * largest_closing()) scale = 1e-5 * largest_closing() # below, a movement is rounding of the closing
       if (q[1] == "delta_y" && scale < largest(1, "delta_x")) scale = largest(1, "delta_x")
       if (q[1] == "tau_y" && scale < largest(1, "tau_x")) scale = largest(1, "tau_x")
       if (q[1] == "delta_x" && scale < largest(1, "delta_y")) scale = largest(1, "delta_y")
@@ -319,7 +327,7 @@ function answers(v,   r, n, j, s, k, names, q, unit, x, y, scale, of, f, stress)
          if (x > scale) scale = x
       }
       # a body that moves as a rigid one has stresses of rounding; Eq. (1) says what its movement is worth
-      if (q[1] ~ /^mises/ && scale < (x = 1e-5 * (largest(1, "lambda") / c) ^ (1 / m))) scale = x
+      if (q[1] ~ /^mises/ && scale < (x = 1e-5 * (largest_closing() / c) ^ (1 / m))) scale = x
       if (scale == 0) scale = 1
       for (r = 1; r <= n; r++) {
          x = answer[v, r, q[1]]; y = answer[1, r, q[1]]
