@@ -211,3 +211,50 @@ for solver in SKYLINE TREE; do
    coarse_plate ends $solver nx=12 ny=1 l=100 h=20 t=1 e=1000 mu=0.05 law=.008,.33,9500. shear=1000.,0. p0= stages=1:0,2:1,1:-1,2:1,1:-1 \
       press=2:.5,26:.5 push=26:.025
 done
+
+# Slip erases what an element remembers: from the first slip on the two senses are mirror images, stiffnesses included, and what has slid
+# comes back. One element beside a spring, its three shear cubics different, pushed beyond the limit to and fro.
+for method in STEP NEWTON; do
+   cat > "$work/mirror.bdf" <<DECK
+METHOD = $method
+SUBCASE 1
+  LOAD = 10
+SUBCASE 2
+  LOAD = 20
+  INCR = 1
+SUBCASE 3
+  LOAD = 30
+  INCR = 1
+SUBCASE 4
+  LOAD = 20
+  INCR = 1
+BEGIN BULK
+GRID,1,,0.,0.,0.
+CJOINT,9,1,1,,1.0,0.,1.
+PJOINT,1,1,1,,0.3,-1
+JNORM,1,8.-3,0.5,5000.
+JSHEAR,1,100.,5.,-1000.,0.,0.,0.
++,,200.,10.,3000.,0.,0.,0.
++,,180.,9.,-500.,0.,0.,0.
+CELAS2,900,50.,1,1
+FORCE,1,1,,10.,0.,-1.
+FORCE,2,1,,6.,1.,0.
+LOAD,10,1.,1.,1
+LOAD,20,1.,1.,1,1.,2
+LOAD,30,1.,1.,1,-1.,2
+JINCR,1,12,ARITH,0.05
+ENDDATA
+DECK
+   run mirror && {
+      ask "$method, to and fro: it slips in both senses" mirror rows 'stage > 2 and increment = 12' count 2 all 'slip = 1'
+      judge "$method, to and fro: mirror images from the first slip on" -F, '
+         function off(what, a, b, scale) { if (!(a - b < 1e-7 * scale && b - a < 1e-7 * scale)) print "increment " $2 ": " what " " a ", " b }
+         $1 == 3 { n++; branch[$2] = $17; delta[$2] = $18; tau[$2] = $19; k[$2] = $20; slid[$2] = $26; next }
+         $1 == 4 {
+            if ($17 != branch[$2]) print "increment " $2 ": " $17 " and " branch[$2]
+            off("delta", $18, -delta[$2], 0.06); off("tau", $19, -tau[$2], 3); off("k", $20, k[$2], 400)
+            n++; back = $26 }
+         $1 == 2 { first = $26 }
+         END { off("slid", back, first, 0.1); if (n != 24) print n " rows"; print "checked " n }' "$work/mirror.joint.csv"
+   }
+done
