@@ -44,7 +44,7 @@ for face in -3 3 -1 1 -2 2; do
       all "tau_x = 0.2 + 120*(delta_x - ($1)) + 2000*(delta_x^2 - ($1)^2) within 1e-9" \
       all "tau_y = -0.12 + 100*(delta_y - ($2)) - 800*(delta_y^2 - ($2)^2) within 1e-9"
    set -- "$@" $(value drawn rows 'stage = 3 and increment = 20 and node1 = min(node1)' print delta_x print delta_y)
-   ask "$words: and again, reloading, parallel to the loading curve" drawn rows 'stage = 4' count 180 \
+   ask "$words: and again, reloading" drawn rows 'stage = 4' count 180 \
       all 'branch_x = "RELOAD" and branch_y = "RELOAD"' \
       all "tau_x = 0.1 + 120*(delta_x - ($3)) - 8000*(delta_x^2 - ($3)^2) + 2e5*(delta_x^3 - ($3)^3) within 1e-9" \
       all "tau_y = -0.06 + 80*(delta_y - ($4)) + 6000*(delta_y^2 - ($4)^2) + 1.3e5*(delta_y^3 - ($4)^3) within 1e-9"
@@ -59,10 +59,10 @@ for face in -3 3 -1 1 -2 2; do
             r = k == "X" ? rx : -ry; s = k == "X" ? sx : -sy; tau = k == "X" ? 0.2 : 0.12
             b = k == "X" ? 120*r + 2000*r^2 : 100*r + 800*r^2
             c = k == "X" ? 120*s - 8000*s^2 + 2e5*s^3 : 80*s - 6000*s^2 + 1.3e5*s^3
-            if ($4 != sense || NF != 9) print "sense, columns: " $0
+            if ($4 != sense || NF != 10) print "sense, columns: " $0
             if ($3 == "UNLOAD") near("D", $5, s)
             near("TAU", $6, ($3 == "UNLOAD" ? 0.5 : 0.75)*tau); near("D_R", $7, r); near("TAU_R", $8, tau)
-            near("B0, C0", $9, $3 == "UNLOAD" ? tau - b : 0.5*tau - c) }
+            near("B0, C0", $10, $3 == "UNLOAD" ? tau - b : 0.5*tau - c) }
          END { if (n != 18) print n " rows"; print "checked " n }' "$work/state"
    done
    ask "$words: tangents" drawn rows 'stage = 2' \
