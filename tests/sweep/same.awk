@@ -8,7 +8,7 @@
 
 BEGIN {
    FS = ","
-   say("lambda gap x y z delta_x delta_y u_max gap_max move_x move_y move_n", 0, 1)
+   say("lambda gap x y z delta_x delta_y slid_x slid_y u_max gap_max move_x move_y move_n", 0, 1)
    say("area", 0, 2)
    say("pressure tau_x tau_y p_max mises_centre mises_max", 1, -2)
    say("force n t force_x force_y force_n", 1, 0)
