@@ -72,7 +72,8 @@ check 'pieces: rank 0 is killed' '[1-9][0-9]*' '' '*.part'
 export OMPI_MCA_btl=self,tcp
 start "$work/pieces.bdf" "trap '' XFSZ; ulimit -f 100"
 ended
-check 'rank 1 has 100 kB for its piece' 4 'cannot be written: is the folder there, and is there room on the disk'
+# listing and tables stay: a ParaView file that fails loses no other result
+check 'rank 1 has 100 kB for its piece' 4 'cannot be written: is the folder there, and is there room on the disk' '*.[oc]*'
 unset OMPI_MCA_btl
 
 # ------------------------------------------------------------------ no memory for one of them
