@@ -4,19 +4,19 @@ module newton_direction
    use coupled_solution, only: solve_coupled
    use equations, only: equation_system, form_structure_stiffness, solve_equations
    use failures, only: failure_type
-   use interface_operator, only: add_force
-   use joint_laws, only: element_state, element_stiffness_of, is_apart
+   use joint_laws, only: element_state
    use kinds, only: wp
    use model_data, only: model_type
-   use newton_trial, only: trial_type
    use normal_stiffness, only: branch_open
+   use straight_laws, only: stiffness_at_rest, straight_laws_type
    implicit none
    private
 
-   public :: find_direction, close_gaps, check_lifted, loose_joint
+   public :: find_direction, check_lifted, loose_joint
 
    integer, parameter  :: digits = 6                  ! of a direction: the next one corrects it
    real(wp), parameter :: little = 1.0e-7_wp          ! of the elastic stiffness: what the matrix has where an element has none
+   real(wp), parameter :: far = 1.0e3_wp               ! times the last direction: nothing holds the body
 
    !> One attempt at a part of the increment: what it has to reach, and how it ended.
    type, public :: attempt_type
@@ -30,94 +30,86 @@ module newton_direction
       real(wp) :: seat_force = 0.0_wp             !! then what counts as one: p_av on the elements pressed [force]
       integer :: loose = 0                        !! a joint that is open or slips all over at its end, 0: none
       logical :: slides = .false.                 !! it is, and somewhere the friction limit is reached
+      logical :: searches = .false.               !! along the tangents of the laws themselves, by line search
       integer :: worst(2) = 0                     !! node and direction that are farthest from balance at its end
       logical :: imprecise = .false.              !! rounding in the bodies is no small part of the load
-      logical :: holds = .false.                  !! joints that slip at all nodes are held by their elastic shear stiffness
+      logical :: settled = .false.                !! no element has begun or ended to slip in the last iteration
+      logical :: floats = .false.                 !! nothing but friction holds a body: it stays held
+      real(wp) :: length = 0.0_wp                 !! of the last direction [length]
       logical :: converged = .false.
       type(failure_type) :: trouble               !! a matrix that could not be factorised
    end type attempt_type
 
 contains
 
-   !> The Newton direction from NOW. The factorised matrix has the symmetric, positive part of the tangent, with a little where
-   !! an element has no stiffness, and at the very first the secant of Eq. (9); what it lacks is brought in by solve_coupled. Where ATTEMPT
-   !! holds a joint that slips at all nodes the elastic stiffness stays: nodes that turn back are found so, when no tangent tells of them.
-   subroutine find_direction(model, now, analysis, first, system, attempt, direction)
+   !> The DIRECTION that balances what the straight LAWS leave as RESIDUAL. A joint that slips at all nodes is held by its elastic stiffness
+   !! at first: nodes that turn back are found so, when no tangent tells of them. When no node turns any more its tangent counts, which
+   !! squares the residual, unless nothing else holds the body in the direction of its movement.
+   subroutine find_direction(model, residual, analysis, system, attempt, laws, direction)
+      type(model_type), intent(in)            :: model
+      real(wp), intent(in)                    :: residual(:, :)
+      type(analysis_type), intent(inout)      :: analysis
+      class(equation_system), intent(inout)   :: system
+      type(attempt_type), intent(inout)       :: attempt
+      type(straight_laws_type), intent(inout) :: laws !! their tangents become those of the equations solved
+      real(wp), intent(inout)                 :: direction(:, :)
+      real(wp) :: tangent(3, 3, size(laws%states))
+      logical  :: is_loose
+
+      is_loose = loose_joint(model, laws%states) > 0
+      tangent = laws%tangent
+      call solve_laws(model, residual, is_loose .and. (attempt%floats .or. .not. attempt%settled), analysis, system, attempt, &
+                      laws%tangent, direction)
+      if (is_loose .and. attempt%settled .and. .not. attempt%floats .and. norm2(direction) > far*attempt%length) then
+         attempt%floats = .true.
+         laws%tangent = tangent
+         call solve_laws(model, residual, .true., analysis, system, attempt, laws%tangent, direction)
+      end if
+      attempt%length = norm2(direction)
+   end subroutine find_direction
+
+   !> The DIRECTION under the TANGENTs of the joints, which become those of the equations solved. The factorised matrix has the
+   !! symmetric, positive part of them, with a little where an element has no stiffness; what it lacks is brought in by solve_coupled.
+   !! HOLDS: no element slips.
+   subroutine solve_laws(model, residual, holds, analysis, system, attempt, tangent, direction)
       type(model_type), intent(in)          :: model
-      type(trial_type), intent(in)          :: now
+      real(wp), intent(in)                  :: residual(:, :)
+      logical, intent(in)                   :: holds
       type(analysis_type), intent(inout)    :: analysis
-      logical, intent(in)                   :: first
       class(equation_system), intent(inout) :: system
       type(attempt_type), intent(inout)     :: attempt
+      real(wp), intent(inout)               :: tangent(:, :, :)
       real(wp), intent(inout)               :: direction(:, :)
       real(wp), allocatable :: matrix(:, :, :), rest(:, :, :)
       real(wp) :: elastic(3)
       integer  :: i, k
-      logical  :: virgin, coupled, held
+      logical  :: coupled
 
       allocate (matrix(3, 3, size(model%interface)), rest(3, 3, size(model%interface)), source=0.0_wp)
-      coupled = .false.
-      held = .false.
-      if (attempt%holds) held = loose_joint(model, now) > 0
       do i = 1, size(model%interface)
-         associate (element => model%interface(i))
-            virgin = first .and. abs(analysis%states(i)%normal%lambda_a) <= 0.0_wp .and. abs(element%gap) <= 0.0_wp
-            elastic = first_stiffness_of(model, analysis, i)
-            matrix(3, 3, i) = max(now%tangent(3, 3, i), little*elastic(3))
-            if (virgin) matrix(3, 3, i) = elastic(3)
-            matrix(:2, :2, i) = 0.5_wp*(now%tangent(:2, :2, i) + transpose(now%tangent(:2, :2, i)))
-            do k = 1, 2
-               matrix(k, k, i) = max(0.0_wp, matrix(k, k, i)) + little*elastic(k)
-               if (virgin .or. (held .and. now%states(i)%slips)) matrix(k, k, i) = max(matrix(k, k, i), elastic(k))
-            end do
-            analysis%k(:, i) = [now%tangent(1, 1, i), now%tangent(2, 2, i), now%tangent(3, 3, i)]
-            rest(:2, :, i) = now%tangent(:2, :, i) - matrix(:2, :, i)
-            if (held) rest(:2, :2, i) = 0.0_wp
-            if (any(abs(now%tangent(:2, 3, i)) > 0.0_wp)) coupled = .true.
-         end associate
+         elastic = stiffness_at_rest(model, analysis, i)
+         analysis%k(:, i) = [tangent(1, 1, i), tangent(2, 2, i), tangent(3, 3, i)]
+         matrix(3, 3, i) = max(tangent(3, 3, i), little*elastic(3))
+         matrix(:2, :2, i) = 0.5_wp*(tangent(:2, :2, i) + transpose(tangent(:2, :2, i)))
+         do k = 1, 2
+            matrix(k, k, i) = max(0.0_wp, matrix(k, k, i)) + little*elastic(k)
+            if (holds) matrix(k, k, i) = max(matrix(k, k, i), elastic(k))
+         end do
+         rest(:2, :, i) = tangent(:2, :, i) - matrix(:2, :, i)
+         if (holds) rest(:2, :2, i) = 0.0_wp
       end do
+      coupled = any(abs(rest(:2, 3, :)) > 0.0_wp) .and. all(abs(attempt%move) <= 0.0_wp)
       associate (failure => attempt%trouble)
          call form_structure_stiffness(model, matrix, attempt%where, system, failure, one_solution=.not. coupled)
-         if (coupled .and. all(abs(attempt%move) <= 0.0_wp)) then
-            call solve_coupled(model, system, rest, now%residual, 1.0e-4_wp, 25, direction, failure)
+         if (coupled) then
+            call solve_coupled(model, system, rest, residual, 1.0e-4_wp, 25, direction, failure)
+            tangent = matrix + rest
          else
-            call solve_equations(model, system, now%residual, direction, failure, moved=attempt%move, digits=digits)
+            call solve_equations(model, system, residual, direction, failure, moved=attempt%move, digits=digits)
+            tangent = matrix
          end if
       end associate
-   end subroutine find_direction
-
-   !> A body that nothing holds before a gap closes: the direction from NOW in which all open elements with gaps close, and
-   !! bear what is unbalanced with the secants of Eq. (9). ATTEMPT stays in trouble where there are none, or that does not help.
-   subroutine close_gaps(model, now, analysis, system, attempt, direction)
-      type(model_type), intent(in)          :: model
-      type(trial_type), intent(in)          :: now
-      type(analysis_type), intent(in)       :: analysis
-      class(equation_system), intent(inout) :: system
-      type(attempt_type), intent(inout)     :: attempt
-      real(wp), intent(inout)               :: direction(:, :)
-      real(wp), allocatable :: matrix(:, :, :), load(:, :)
-      type(failure_type) :: none
-      real(wp) :: k(3)
-      integer  :: d, i
-
-      if (.not. any(is_apart(now%states))) return
-      attempt%trouble = none
-      allocate (matrix(3, 3, size(model%interface)), source=0.0_wp)
-      load = now%residual
-      do i = 1, size(model%interface)
-         k = first_stiffness_of(model, analysis, i)
-         do d = 1, 3
-            matrix(d, d, i) = max(0.0_wp, now%tangent(d, d, i)) + little*k(d)
-         end do
-         if (.not. is_apart(now%states(i))) cycle
-         matrix(3, 3, i) = k(3)
-         associate (state => now%states(i)%normal)
-            call add_force(system%interface(i), [0.0_wp, 0.0_wp, k(3)*(state%lambda_b - state%lambda)], load)
-         end associate
-      end do
-      call form_structure_stiffness(model, matrix, attempt%where, system, attempt%trouble, one_solution=.true.)
-      call solve_equations(model, system, load, direction, attempt%trouble, digits=digits)
-   end subroutine close_gaps
+   end subroutine solve_laws
 
    !> Supports that are moved have opened joints all over, from the branches BEFORE: what they have lifted off must be held without
    !! these joints. The little stiffness that open elements have in find_direction hides what is not.
@@ -144,7 +136,7 @@ contains
       allocate (matrix(3, 3, size(model%interface)), source=0.0_wp)
       do i = 1, size(model%interface)
          if (analysis%states(i)%normal%branch == branch_open) cycle
-         k = first_stiffness_of(model, analysis, i)
+         k = stiffness_at_rest(model, analysis, i)
          do d = 1, 3
             matrix(d, d, i) = k(d)
          end do
@@ -152,28 +144,14 @@ contains
       call form_structure_stiffness(model, matrix, where, system, failure, one_solution=.true.)
    end subroutine check_lifted
 
-   !> (k_sx, k_sy, k_n) of interface element I in its first increment [force/length].
-   pure function first_stiffness_of(model, analysis, i) result(k)
+   !> The first joint whose elements all are open or slip in STATES, 0 for none.
+   pure integer function loose_joint(model, states) result(joint)
       type(model_type), intent(in)    :: model
-      type(analysis_type), intent(in) :: analysis
-      integer, intent(in)             :: i
-      real(wp) :: k(3)
-      type(element_state) :: at_rest
-
-      at_rest%normal%p_av = analysis%states(i)%normal%p_av
-      associate (element => model%interface(i))
-         call element_stiffness_of(model%joints(element%joint)%law, element%area, .false., [0.0_wp, 0.0_wp, 0.0_wp], at_rest, k)
-      end associate
-   end function first_stiffness_of
-
-   !> The first joint whose elements all are open or slip in TRIAL, 0 for none.
-   pure integer function loose_joint(model, trial) result(joint)
-      type(model_type), intent(in) :: model
-      type(trial_type), intent(in) :: trial
+      type(element_state), intent(in) :: states(:)
 
       do joint = 1, size(model%joints)
-         associate (states => trial%states(model%joints(joint)%first:model%joints(joint)%last))
-            if (size(states) > 0 .and. all(states%slips .or. states%normal%branch == branch_open)) return
+         associate (of_joint => states(model%joints(joint)%first:model%joints(joint)%last))
+            if (size(of_joint) > 0 .and. all(of_joint%slips .or. of_joint%normal%branch == branch_open)) return
          end associate
       end do
       joint = 0

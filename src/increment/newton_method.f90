@@ -1,4 +1,4 @@
-!> METHOD = NEWTON: every increment iterated to equilibrium with the exact branch laws, consistent tangent and line search; the
+!> METHOD = NEWTON: every increment iterated to equilibrium with the exact branch laws, by full steps under the tangents of straight_laws; the
 !! states of the joints are committed only at equilibrium. An increment that does not converge is divided; where its parts lead to, it
 !! is made once more as a whole, so that the answer does not depend on how it was divided.
 module newton_method
@@ -10,13 +10,14 @@ module newton_method
    use load_path, only: go_back, support_force
    use measures, only: first_largest
    use model_data, only: joint_node_id, model_type
-   use newton_direction, only: attempt_type, check_lifted, close_gaps, find_direction, loose_joint
-   use newton_trial, only: commit, evaluate, search, start_trial, swap, take_whole_step, trial_type
+   use newton_direction, only: attempt_type, check_lifted, find_direction, loose_joint
+   use newton_trial, only: commit, evaluate, search, start_trial, swap, take_step, trial_type
    use node_coupling, only: forces_on_unknowns
    use normal_curve, only: pressure_floor
    use normal_stiffness, only: at_rest, branch_name, branch_open
    use shear_stiffness, only: shear_state
    use stage_plan, only: stage_plan_type, where_in_plan
+   use straight_laws, only: first_laws, laws_at, next_laws, residual_of, straight_laws_type
    use text_tools, only: integer_text, real_text
    use unknown_names, only: unknown_name
    implicit none
@@ -26,12 +27,27 @@ module newton_method
 
    character(*), parameter, public :: no_balance = &
       'stiffnesses differ so much, or bodies moved so far, that rounding leaves no balance of forces'
-   integer, parameter  :: most_iterations = 120
-   integer, parameter  :: patience = 10                ! iterations that must leave less than as many before them have
+   integer, parameter  :: most_iterations = 60
+   integer, parameter  :: patience = 8                ! iterations that must leave less than as many before them have
    real(wp), parameter :: progress = 0.9_wp            ! of it: what counts as less
    integer, parameter  :: most_halvings = 12
    real(wp), parameter :: far_below = 1.0e-3_wp        ! TOL: what is left there is not worth another iteration
+   real(wp), parameter :: away = 100.0_wp              ! times what was unbalanced at first: iterations lead away
    real(wp), parameter :: idle = 10.0_wp*pressure_floor ! of p_av: what interference presses by less, it does not press
+
+   !> How the iterations of an attempt go.
+   type :: progress_type
+      integer  :: iteration = 0
+      real(wp) :: sizes(0:most_iterations) = 0.0_wp !! what is unbalanced [force]
+      integer  :: circles = 0                       !! iterations that have not left half of it
+      real(wp) :: load_size = 0.0_wp                !! what that is measured by [force]
+      real(wp) :: noise = 0.0_wp                    !! what rounding leaves of the forces in the bodies now [force]
+      real(wp) :: spoilt = 0.0_wp                   !! the largest of that since they were computed [force]
+      real(wp) :: travel = 0.0_wp                   !! of the supports or anything, at the beginning [length]
+      logical  :: moves = .false.                   !! the next iteration moves supports
+      logical  :: carried = .false.                 !! bodies only go with supports, and nothing bears a force
+      logical  :: ends = .false.                    !! there is no point in going on
+   end type progress_type
 
 contains
 
@@ -161,7 +177,8 @@ contains
       analysis%n_removed = max(0, count(analysis%states%normal%branch == branch_open) - before_open)
    end subroutine find_equilibrium
 
-   !> An ATTEMPT to where so much of the increment is LEFT; once more with the joints held where one has slipped all over.
+   !> An ATTEMPT to where so much of the increment is LEFT: by straight laws; where these go round in circles, by a line search along the
+   !! tangents; once more with the joints held where one has slipped all over.
    subroutine try_part(model, system, analysis, left, attempt, from)
       type(model_type), intent(in)          :: model
       class(equation_system), intent(inout) :: system
@@ -171,11 +188,13 @@ contains
       real(wp), intent(in), optional        :: from(:, :) !! (dimension, retained) displacements to iterate from, supports moved [length]
       integer :: i
 
-      do i = 1, 2
-         attempt%holds = (i == 2) .neqv. attempt%seats
+      do i = 1, 3
          call start_attempt(model, system, analysis, left, attempt)
+         attempt%searches = i > 1
+         attempt%settled = i == 2
+         attempt%floats = i == 3
          call iterate(model, system, analysis, attempt, from)
-         if (attempt%converged .or. .not. attempt%slides) exit
+         if (attempt%converged .or. (i == 2 .and. .not. attempt%slides)) exit
       end do
    end subroutine try_part
 
@@ -225,99 +244,172 @@ contains
       attempt%trouble = none
    end subroutine start_attempt
 
-   !> Newton iterations of ATTEMPT from the committed state; converged, they are committed. The first iteration moves the supports,
-   !! in one go and with the tangent of the committed state.
+   !> Iterations of ATTEMPT from the committed state; converged, they are committed. The first one moves the supports.
    subroutine iterate(model, system, analysis, attempt, from)
       type(model_type), intent(in)          :: model
       class(equation_system), intent(inout) :: system
       type(analysis_type), intent(inout)    :: analysis
       type(attempt_type), intent(inout)     :: attempt
       real(wp), intent(in), optional        :: from(:, :) !! the first trial, where it is not the committed state
-      type(trial_type)      :: now, next
-      real(wp), allocatable :: direction(:, :)
-      logical  :: flips(size(analysis%states))
-      real(wp) :: load_size, noise, pressed, rounding, sizes(0:most_iterations), spoilt, step, travel
-      integer  :: at, iteration
-      logical  :: moves, carried, is_last
+      type(trial_type)         :: now, next
+      type(straight_laws_type) :: laws
+      type(progress_type)      :: way
+      real(wp), allocatable :: direction(:, :), residual(:, :)
+      real(wp) :: step
+      integer  :: iteration
 
       allocate (direction, mold=analysis%u)
-      moves = analysis%moves
-      travel = max(maxval(abs(analysis%moved)), maxval(abs(analysis%u)))
+      way%moves = analysis%moves .and. .not. present(from)
+      way%travel = max(maxval(abs(analysis%moved)), maxval(abs(analysis%u)))
+      way%load_size = analysis%tolerance/analysis%load_tolerance ! the largest so far
       call start_trial(system, analysis, now)
       call start_trial(system, analysis, next)
       if (present(from)) then
-         moves = .false.
          attempt%move = 0.0_wp
          now%u = from
          call forces_in_bodies(system, now%u, now%body)
       end if
       call evaluate(model, system, attempt%load, analysis, now)
-      load_size = analysis%tolerance/analysis%load_tolerance ! the largest so far
-      spoilt = 0.0_wp
       do iteration = 0, most_iterations
-         if (attempt%seats) then ! what the joints press into the bodies is the load
-            pressed = free_norm(now%body, analysis%held)
-            load_size = max(pressed, attempt%seat_force)
-            analysis%tolerance = analysis%load_tolerance*load_size
-            if (pressed <= idle*attempt%seat_force) analysis%tolerance = idle*attempt%seat_force ! the bodies have made way
+         call judge(model, system, iteration, analysis, attempt, way, now)
+         if (attempt%converged .or. way%ends) exit
+         if (present(from) .and. iteration == 0) then
+            call laws_at(model, system, now, laws)
+         else if (iteration == 0) then
+            call first_laws(model, system, analysis, now, analysis%increment <= 1 .and. .not. attempt%searches, laws)
          end if
-         ! forces in the bodies are differences of large numbers: what rounding leaves of them is no residual, and where it is no
-         ! small part of the load, a body has moved away and nothing is in equilibrium
-         noise = force_noise(system, now%u)
-         call renew_forces(model, system, analysis, attempt, noise, spoilt, now)
-         ! ... unless it only goes with supports that are moved, and nothing bears a force
-         rounding = 10.0_wp*epsilon(1.0_wp)*system%stiffest*travel*sqrt(real(size(analysis%applied), wp))
-         carried = load_size <= rounding .and. maxval(abs(now%u)) <= 10.0_wp*travel
-         attempt%converged = now%size <= max(analysis%tolerance, 0.1_wp*noise) .and. noise <= precise*load_size
-         attempt%converged = .not. moves .and. (attempt%converged .or. (carried .and. now%size <= rounding))
-         sizes(iteration) = merge(huge(1.0_wp), now%size, moves)
-         is_last = iteration == most_iterations .or. leads_nowhere(sizes(:iteration))
-         if (is_last) attempt%converged = attempt%converged .or. now%size <= idle*max(attempt%seat_force, analysis%loose_force)
-         if (attempt%converged .or. is_last) exit
-         if (noise > load_size .and. .not. (carried .or. moves)) exit
-         call find_direction(model, now, analysis, iteration == 0 .and. .not. present(from), system, &
-                             attempt, direction)
-         if (attempt%trouble%raised .and. .not. moves) call close_gaps(model, now, analysis, system, attempt, direction)
+         residual = residual_of(system, attempt%load, now, laws)
+         call find_direction(model, residual, analysis, system, attempt, laws, direction)
          if (attempt%trouble%raised) exit
-         if (moves) then
-            call take_whole_step(model, system, attempt%load, analysis, now, direction, next)
-            step = 1.0_wp
-            moves = .false.
+         step = 1.0_wp
+         if (attempt%searches .and. .not. way%moves) then
+            call search(model, system, attempt%load, analysis, now, direction, next, step)
+         else
+            call take_step(model, system, attempt%load, analysis, now, direction, next)
+         end if
+         if (way%moves) then
+            way%moves = .false.
             attempt%move = 0.0_wp
             analysis%tolerance = max(analysis%tolerance, &
                                      analysis%load_tolerance*support_force(model, system, analysis, next%u, attempt%left))
-            load_size = analysis%tolerance/analysis%load_tolerance ! what the supports take is a load here
-         else
-            call search(model, system, attempt%load, analysis, now, direction, next, step)
+            way%load_size = analysis%tolerance/analysis%load_tolerance ! what the supports take is a load here
          end if
-         flips = next%states%normal%branch /= now%states%normal%branch .or. (next%states%slips .neqv. now%states%slips)
-         where (flips) attempt%flips = attempt%flips + 1
-         call record_pass(analysis, pass_record(before=now%size, after=next%size, step=step, changes=count(flips), &
-                                                part=analysis%n_parts + 1))
+         call note_iteration(now, next, step, analysis, attempt)
          if (.not. next%size < huge(1.0_wp)) exit
+         call renew_laws(model, system, analysis, next, free_norm(residual, analysis%held), attempt, way, laws)
          call swap(now, next)
       end do
-      attempt%imprecise = noise > precise*load_size .and. .not. carried
-      attempt%loose = loose_joint(model, now)
+      call note_end(model, system, now, way, analysis, attempt)
+      if (.not. attempt%converged) return
+      if (now%size > max(far_below*analysis%tolerance, way%noise)) call refine(model, system, analysis, attempt, now, next)
+      call commit(model, system, now, analysis)
+   end subroutine iterate
+
+   !> Whether the trial NOW is in equilibrium, or iterations lead nowhere. Forces in the bodies are differences of large numbers: what rounding
+   !! leaves of them is no residual, and where it is no small part of the load, a body has moved away and nothing is in
+   !! equilibrium, unless it only goes with supports that are moved, and nothing bears a force.
+   subroutine judge(model, system, iteration, analysis, attempt, way, now)
+      type(model_type), intent(in)       :: model
+      class(equation_system), intent(in) :: system
+      integer, intent(in)                :: iteration
+      type(analysis_type), intent(inout) :: analysis
+      type(attempt_type), intent(inout)  :: attempt
+      type(progress_type), intent(inout) :: way
+      type(trial_type), intent(inout)    :: now
+      real(wp) :: pressed, rounding
+
+      if (attempt%seats) then ! what the joints press into the bodies is the load
+         pressed = free_norm(now%body, analysis%held)
+         way%load_size = max(pressed, attempt%seat_force)
+         analysis%tolerance = analysis%load_tolerance*way%load_size
+         if (pressed <= idle*attempt%seat_force) analysis%tolerance = idle*attempt%seat_force ! the bodies have made way
+      end if
+      way%noise = force_noise(system, now%u)
+      call renew_forces(model, system, analysis, attempt, way%noise, way%spoilt, now)
+      rounding = 10.0_wp*epsilon(1.0_wp)*system%stiffest*way%travel*sqrt(real(size(analysis%applied), wp))
+      way%carried = way%load_size <= rounding .and. maxval(abs(now%u)) <= 10.0_wp*way%travel
+      attempt%converged = now%size <= max(analysis%tolerance, 0.1_wp*way%noise) .and. way%noise <= precise*way%load_size
+      attempt%converged = .not. way%moves .and. (attempt%converged .or. (way%carried .and. now%size <= rounding))
+      way%sizes(iteration) = merge(huge(1.0_wp), now%size, way%moves)
+      way%ends = iteration == most_iterations .or. leads_nowhere(way%sizes(:iteration))
+      if (way%ends) attempt%converged = attempt%converged .or. now%size <= idle*max(attempt%seat_force, analysis%loose_force)
+      way%ends = way%ends .or. (way%noise > way%load_size .and. .not. (way%carried .or. way%moves))
+      way%iteration = iteration
+   end subroutine judge
+
+   !> Straight laws for the next iteration, from NEXT. Iterations that go round in a circle leave it with other rho.
+   subroutine renew_laws(model, system, analysis, next, unbalanced, attempt, way, laws)
+      type(model_type), intent(in)            :: model
+      class(equation_system), intent(in)      :: system
+      type(analysis_type), intent(in)         :: analysis
+      type(trial_type), intent(in)            :: next
+      real(wp), intent(in)                    :: unbalanced
+      type(attempt_type), intent(inout)       :: attempt
+      type(progress_type), intent(inout)      :: way
+      type(straight_laws_type), intent(inout) :: laws
+      real(wp) :: softer
+      integer  :: flips
+
+      if (attempt%searches) then
+         call laws_at(model, system, next, laws)
+         return
+      end if
+      associate (n => way%iteration)
+         if (n > 4) then
+            if (next%size > 0.5_wp*minval(way%sizes(n - 2:n))) way%circles = way%circles + 1
+         end if
+         softer = 1.0_wp
+         if (way%circles > 0) softer = merge(10.0_wp, 0.1_wp, modulo(way%circles, 2) == 1)
+         call next_laws(model, system, analysis, next, unbalanced, softer, laws, flips)
+         attempt%settled = n > 1 .and. flips == 0
+      end associate
+   end subroutine renew_laws
+
+   !> Note an iteration from NOW to NEXT for the listing, and which elements have changed their branch.
+   subroutine note_iteration(now, next, step, analysis, attempt)
+      type(trial_type), intent(in)       :: now, next
+      real(wp), intent(in)               :: step
+      type(analysis_type), intent(inout) :: analysis
+      type(attempt_type), intent(inout)  :: attempt
+      logical :: flips(size(now%states))
+
+      flips = next%states%normal%branch /= now%states%normal%branch .or. (next%states%slips .neqv. now%states%slips)
+      where (flips) attempt%flips = attempt%flips + 1
+      call record_pass(analysis, pass_record(before=now%size, after=next%size, step=step, changes=count(flips), &
+                                             part=analysis%n_parts + 1))
+   end subroutine note_iteration
+
+   !> How ATTEMPT has ended, at the trial NOW.
+   subroutine note_end(model, system, now, way, analysis, attempt)
+      type(model_type), intent(in)       :: model
+      class(equation_system), intent(in) :: system
+      type(trial_type), intent(in)       :: now
+      type(progress_type), intent(in)    :: way
+      type(analysis_type), intent(inout) :: analysis
+      type(attempt_type), intent(inout)  :: attempt
+      integer :: at
+
+      attempt%imprecise = way%noise > precise*way%load_size .and. .not. way%carried
+      attempt%loose = loose_joint(model, now%states)
       attempt%slides = attempt%loose > 0 .and. any(now%states%slips)
       at = first_largest(pack(abs(now%residual), .true.), pack(.not. analysis%held, .true.))
       attempt%worst = 0
       associate (n => size(now%residual, 1))
          if (at > 0) attempt%worst = [system%retained((at - 1)/n + 1), modulo(at - 1, n) + 1]
       end associate
-      if (attempt%seats) analysis%tolerance = analysis%load_tolerance*load_size
-      if (.not. attempt%converged) return
-      if (now%size > max(far_below*analysis%tolerance, noise)) call refine(model, system, analysis, attempt, now, next)
-      call commit(model, system, now, analysis)
-   end subroutine iterate
+      if (attempt%seats) analysis%tolerance = analysis%load_tolerance*way%load_size
+   end subroutine note_end
 
-   !> Whether iterations that have left forces of these SIZES lead nowhere: the last of them have left hardly less than those before. A
-   !! number of iterations would not do, for rounding decides which of them is the last.
+   !> Whether iterations that have left forces of these SIZES lead nowhere: the last of them have left hardly less than those before, or
+   !! they leave far more than there was. A number of iterations would not do, for rounding decides which of them is the last.
    pure logical function leads_nowhere(sizes)
       real(wp), intent(in) :: sizes(:) !! [force]
       integer :: n
 
       n = size(sizes)
+      leads_nowhere = n > patience
+      if (leads_nowhere) leads_nowhere = minval(sizes(n - patience/2:n)) > away*sizes(1)
+      if (leads_nowhere) return
       leads_nowhere = n >= 2*patience
       if (leads_nowhere) leads_nowhere = minval(sizes(n - patience + 1:)) > &
                                          progress*minval(sizes(n - 2*patience + 1:n - patience))
@@ -349,14 +441,16 @@ contains
       type(analysis_type), intent(inout)    :: analysis
       type(attempt_type), intent(inout)     :: attempt !! whose trouble, if this iteration has any, does not count
       type(trial_type), intent(inout)       :: now, next
-      real(wp), allocatable :: direction(:, :)
+      real(wp), allocatable    :: direction(:, :)
+      type(straight_laws_type) :: laws
 
       allocate (direction, mold=analysis%u)
-      call find_direction(model, now, analysis, .false., system, attempt, direction)
+      call laws_at(model, system, now, laws)
+      call find_direction(model, now%residual, analysis, system, attempt, laws, direction)
       if (attempt%trouble%raised) return
-      call take_whole_step(model, system, attempt%load, analysis, now, direction, next)
+      call take_step(model, system, attempt%load, analysis, now, direction, next)
       if (.not. next%size < now%size) return
-      call record_pass(analysis, pass_record(before=now%size, after=next%size, step=1.0_wp, changes=0, part=analysis%n_parts + 1))
+      call note_iteration(now, next, 1.0_wp, analysis, attempt)
       call swap(now, next)
    end subroutine refine
 

@@ -1,4 +1,4 @@
-!> A trial of METHOD = NEWTON: displacements, joints, what is unbalanced; the step along a direction; how it becomes the state.
+!> A trial of METHOD = NEWTON: displacements, joints, what is unbalanced; how it becomes the state.
 module newton_trial
    use analysis_state, only: analysis_type, free_norm, kind_on_branch, reach, subtract_joint_forces, tally_work
    use equations, only: equation_system, forces_in_bodies
@@ -10,7 +10,7 @@ module newton_trial
    implicit none
    private
 
-   public :: start_trial, evaluate, swap, take_whole_step, search, commit
+   public :: start_trial, evaluate, swap, take_step, search, commit
 
    real(wp), parameter :: longest = 10.0_wp           ! line search: a step is lengthened by no more at once
    real(wp), parameter :: enough = 0.8_wp             ! line search: the unbalanced work falls to this share or is searched
@@ -83,20 +83,20 @@ contains
       trial%size = free_norm(trial%residual, analysis%held)
    end subroutine evaluate
 
-   !> The step that moves the supports: it cannot be shortened.
-   subroutine take_whole_step(model, system, load, analysis, now, direction, next)
-      type(model_type), intent(in)      :: model
+   !> NEXT is the trial to which DIRECTION leads from NOW.
+   subroutine take_step(model, system, load, analysis, now, direction, next)
+      type(model_type), intent(in)       :: model
       class(equation_system), intent(in) :: system
-      real(wp), intent(in)              :: load(:, :)
-      type(analysis_type), intent(in)   :: analysis
-      type(trial_type), intent(in)      :: now
-      real(wp), intent(in)              :: direction(:, :)
-      type(trial_type), intent(inout)   :: next
+      real(wp), intent(in)               :: load(:, :)
+      type(analysis_type), intent(in)    :: analysis
+      type(trial_type), intent(in)       :: now
+      real(wp), intent(in)               :: direction(:, :)
+      type(trial_type), intent(inout)    :: next
 
       next%u = now%u + direction
       call forces_in_bodies(system, next%u, next%body)
       call evaluate(model, system, load, analysis, next)
-   end subroutine take_whole_step
+   end subroutine take_step
 
    !> Line search: the step along DIRECTION at which the unbalanced forces do (next to) no work on it any more. While that work falls, but
    !! hardly, the step is lengthened: secants of a first pressure far above the real one are too stiff. Where it does not change its
