@@ -121,14 +121,14 @@ contains
       do j = 1, size(model%joints)
          associate (elements => model%interface(model%joints(j)%first:model%joints(j)%last), &
                     states => analysis%states(model%joints(j)%first:model%joints(j)%last)%normal)
-            if (.not. any(elements%gap < 0.0_wp)) cycle
             if (norm2(max(states%pressure, states%p_a)*elements%area) > 10.0_wp*idle*norm2(states%p_av*elements%area)) cycle
-            states = at_rest(states%p_av, -states%lambda) ! behind what is left of the gap
-            states%gap = elements%gap
             do i = model%joints(j)%first, model%joints(j)%last ! how far they have slid under next to no pressure is chance
                analysis%states(i)%shear = shear_state()
                analysis%states(i)%origin = analysis%movement(:2, i)
             end do
+            if (.not. any(elements%gap < 0.0_wp)) cycle
+            states = at_rest(states%p_av, -states%lambda) ! behind what is left of the gap
+            states%gap = elements%gap
             analysis%is_loose = .true.
             analysis%loose_force = norm2([analysis%loose_force, states%p_av*elements%area])
          end associate
