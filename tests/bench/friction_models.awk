@@ -166,7 +166,7 @@ function lap(   a, b, t, w, n, nx, ny, i, k0) {
    return "LAP JOINT"
 }
 
-# Two plates tied by bolts: rings or one half of a plane clamp, pulled at the bore or the middle; in space two to four bolts, pushed aside.
+# Two plates tied by bolts: rings or one half of a plane clamp, pulled at the bore or the middle; in space three or four bolts, pushed aside.
 function flange(   r, l, t, w, n, nx, ny, nz, i, at, preload, count, ring, bolts, u, v, d) {
    t = between(10, 25)
    bolt_id = 0
@@ -204,10 +204,10 @@ function flange(   r, l, t, w, n, nx, ny, nz, i, at, preload, count, ring, bolts
    card("SPCM,1,123,21")
    card(d > 1 ? "JOINT,1,1,12,11" : "JOINT,1,1,11,12")
    area = l*w
-   bolts = random(2) ? 4 : 2
+   bolts = 3 + random(2)
    preload = pressure*area/bolts
    for (i = 0; i < bolts; i++) {
-      u = i % 2 ? nx/d - 1 : 1; v = bolts == 2 ? int(ny/d/2) : i < 2 ? 1 : ny/d - 1
+      u = i % 2 ? nx/d - 1 : 1; v = i < 2 ? 1 : ny/d - 1
       bolt(node(1, u, v, 0), node(2, d*u, d*v, layers[2]), preload)
    }
    card("PROD,90,1," real(preload/between(300, 600)))
