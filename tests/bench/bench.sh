@@ -6,7 +6,7 @@
 #
 # FOLDER  where the programs of the benchmark are and its files go; FOLDER/measured holds every figure, FOLDER/tables the tables
 # WHAT    all (if nothing is said), small, or any of: shapes as make_deck.sh has them, friction, threads, crossing, gmsh, lists,
-#         modes, mpi; not of all: mpi, which takes hours; MPI_SHAPES are the models it measures
+#         modes, foot, mpi; not of all: foot and mpi, which take hours; FOOT_MODELS and MPI_SHAPES are the models they measure
 #
 # Programs run one after another, on one thread unless said otherwise, ours and CHOLMOD in turn; of several runs the fastest
 # counts, long ones are not repeated. Status 1 where a run fails or CHOLMOD finds another answer.
@@ -28,8 +28,8 @@ for word; do
    case $word in
    all)   wanted="$wanted $small $large $wide gmsh friction threads crossing lists modes" ;;
    small) wanted="$wanted $small friction crossing" ;;
-   q4_*|hex8_*|over_*|friction|threads|crossing|gmsh|lists|modes|mpi) wanted="$wanted $word" ;;
-   *) echo "bench: '$word' is neither all, small, friction, threads, crossing, gmsh, lists, modes, mpi nor a shape like q4_100x20, hex8_20x20x20" >&2
+   q4_*|hex8_*|over_*|friction|threads|crossing|gmsh|lists|modes|foot|mpi) wanted="$wanted $word" ;;
+   *) echo "bench: '$word' is neither all, small, friction, threads, crossing, gmsh, lists, modes, foot, mpi nor a shape like q4_100x20, hex8_20x20x20" >&2
       exit 1 ;;
    esac
 done
@@ -312,6 +312,63 @@ measure_mesh() {
    remove_results "$name"
 }
 
+# ------------------------------------------------------------------ the foot of a column, bolted, with friction: iterations
+# FOOT_MODELS  SIZE_BOLTS, SIZE_BOLTS_none without MU, SIZE_cut_0.15_linear for CalculiX's law: the arguments of foot.sh
+# FOOT_LIMIT   seconds, after which a run is stopped; its row says so
+measure_foot() {
+   local model words name status threads
+   command -v gmsh > /dev/null || { echo 'bench: gmsh is not installed, the foot is left out' >&2; return; }
+   threads=$(nproc)
+   for model in ${FOOT_MODELS:-small_cut small_bars small_cut_none small_bars_none medium_cut medium_bars large_cut large_bars \
+                               huge_cut huge_bars small_cut_0.15_linear medium_cut_0.15_linear}; do
+      echo "bench: foot, $model" >&2
+      read -ra words <<< "${model//_/ }"
+      "$here/foot.sh" "$work" "${words[@]}" || fail "no foot $model"
+      name=foot_${model/_0.15/}
+      remove_results "$name"
+      timeout "${FOOT_LIMIT:-1800}" "$program" --times -q --threads "$threads" -o "$work" "$work/$name.bdf" > "$work/said" 2>&1
+      status=$?
+      {
+         case $status in
+         0)   echo 'ends yes' ;;
+         124) echo 'ends stopped' ;;
+         *)   echo "ends status $status" ;;
+         esac
+         echo "threads $threads"
+         figures "$work/$name.bdf"
+         [ ! -f "$work/$name.out" ] || { of_listing "$work/$name.out"; iterations "$work/$name.out"; }
+         awk '/^GRID/ { n++ } END { print "nodes", n }' "$work/foot_${words[0]}_${words[1]}_mesh.bdf"
+      } > "$work/one"
+      record foot "$model" "$work/one"
+      case $model in *_linear) measure_ccx "$model" "$work/foot_${words[0]}_${words[1]}_mesh.bdf" ;; esac
+      remove_results "$name"
+      rm -f "$work/$name".*.csv
+   done
+}
+
+# The increments and iterations of the listing $1.
+iterations() {
+   awk -v head=x -v seconds=0 -f "$here/iterations.awk" "$1" |
+      awk '{ print "increments_done", $2; print "iterations", $3; print "most", $4
+             print "divided", ($5 == "-" ? 0 : split($5, list, ",")) }'
+}
+
+# The foot $1 of the mesh $2 by CalculiX, where there is ccx: seconds, increments and iterations of its table NAME.sta.
+measure_ccx() {
+   local name=ccx_$1 TIMEFORMAT='seconds %R' status
+   command -v ccx > /dev/null || { echo 'bench: ccx is not installed, CalculiX is left out' >&2; return; }
+   awk -F, -f "$here/foot_ccx.awk" "$2" > "$work/$name.inp" || fail "no input of CalculiX for $1"
+   rm -f "$work/$name.sta"
+   {
+      { time (cd "$work" && OMP_NUM_THREADS=$(nproc) timeout "${FOOT_LIMIT:-1800}" ccx "$name" > "$name.log" 2>&1); } 2>&1
+      status=$?
+      [ ! -f "$work/$name.sta" ] || awk '$1 + 0 > 0 { n++; i += $4 } $1 + 0 == 2 && $6 > 0.999 { whole = 1 }
+         END { print "increments_done", n + 0; print "iterations", i + 0; print "ends", (whole ? "yes" : "no") }' "$work/$name.sta"
+   } > "$work/one"
+   record foot_ccx "$1" "$work/one"
+   rm -f "$work/$name".{dat,frd,cvg,12d,cel}
+}
+
 # ------------------------------------------------------------------ the machine
 dgemm_rate() {
    echo 'bench: DGEMM' >&2
@@ -333,6 +390,7 @@ for what in $wanted; do
    threads)  measure_threads hex8_30x30x30 ;;
    crossing) measure_crossing ;;
    gmsh)     measure_gmsh ;;
+   foot)     measure_foot ;;
    mpi)      measure_mpi ;;
    lists)    measure_lists over_20x20x8 over_24x17x8 over_24x24x8 ;;
    modes)    measure_modes q4_1000x200 hex8_40x40x40 hex8_50x50x50 ;;

@@ -26,6 +26,7 @@ END {
    crossing()
    lists()
    modes()
+   foot()
    mpi()
    plan()
 }
@@ -187,6 +188,31 @@ function modes(    i, m, once) {
       once = v["modes", m, "order"] + v["modes", m, "factor"] + v["modes", m, "increments"] # fronts that move: factorised there
       cells(label(m) ";" v["modes", m, "unknowns"] ";" seconds(v["modes", m, "order"]) ";" seconds(v["modes", m, "factor"]) ";" \
          seconds(v["modes", m, "increments"]) ";" seconds(v["modes", m, "modes"]) ";" ratio(v["modes", m, "modes"], once))
+   }
+   put()
+}
+
+# A model that ran to its end has yes in `ends`.
+function foot(    i, m) {
+   if (!rows["foot"]) return
+   title("The foot of a column, threads: " v["foot", row["foot", 1], "threads"])
+   head("model;nodes;unknowns;increments;iterations;most;divided;factorisations;factor;increments s;an iteration ms;all;peak MiB;to its end")
+   for (i = 1; i <= rows["foot"]; i++) {
+      m = row["foot", i]
+      cells(words_of(m) ";" v["foot", m, "nodes"] ";" either(v["foot", m, "unknowns"]) ";" either(v["foot", m, "increments_done"]) ";" \
+         either(v["foot", m, "iterations"]) ";" either(v["foot", m, "most"]) ";" either(v["foot", m, "divided"]) ";" \
+         either(v["foot", m, "factorisations"]) ";" seconds(v["foot", m, "factor"]) ";" seconds(v["foot", m, "increments"]) ";" \
+         (v["foot", m, "iterations"] + 0 > 0 ? milliseconds(v["foot", m, "increments"]/v["foot", m, "iterations"]) : "-") ";" \
+         seconds(v["foot", m, "all"]) ";" either(v["foot", m, "memory"]) ";" v["foot", m, "ends"])
+   }
+   put()
+   if (!rows["foot_ccx"]) return
+   title("The same by CalculiX, contact surface to surface")
+   head("model;increments;iterations;all;to its end;CalculiX/ours")
+   for (i = 1; i <= rows["foot_ccx"]; i++) {
+      m = row["foot_ccx", i]
+      cells(words_of(m) ";" either(v["foot_ccx", m, "increments_done"]) ";" either(v["foot_ccx", m, "iterations"]) ";" \
+         seconds(v["foot_ccx", m, "seconds"]) ";" either(v["foot_ccx", m, "ends"]) ";" ratio(v["foot_ccx", m, "seconds"], v["foot", m, "all"]))
    }
    put()
 }

@@ -93,6 +93,22 @@ modes q4_20x4 factor 1
 modes q4_20x4 increments 0.5
 modes q4_20x4 modes 7
 modes q4_20x4 unknowns 400
+foot small_cut ends yes
+foot small_cut threads 2
+foot small_cut nodes 6895
+foot small_cut unknowns 20000
+foot small_cut increments_done 15
+foot small_cut iterations 110
+foot small_cut most 14
+foot small_cut divided 0
+foot small_cut increments 11
+foot small_cut all 12
+foot small_cut memory 205
+foot small_cut_none ends stopped
+foot_ccx small_cut seconds 30
+foot_ccx small_cut iterations 60
+foot_ccx small_cut increments_done 15
+foot_ccx small_cut ends yes
 crossing_SKYLINE q4_20x4 solution 0.03
 crossing_SKYLINE q4_20x4 entries 900
 crossing_TREE q4_20x4 solution 0.02
@@ -117,6 +133,9 @@ row '^\| Q4 20 x 4 \| 8 \| 0.50 \| 0.4 \| 0.25 \| 5 \| 0.25 \|'                 
 row '^\| Q4 20 x 4 \| 20.0 \| 0.500 \| 0.025 \|$'                         # 0.1 s of 200 re-analyses
 row '^\| two_blocks \| 50000 \| - \| - \| last in parts \| 0.70 \| - \| - \| 0.30 \| 0.20 \|( - \|){5}$'
 row '^\| hex8 4 over 3 x 2 \| 318 \| - \| 0.30 \| - \| 100 \| 3.00 \|$'
+row '^\| small cut \| 6895 \| 20000 \| 15 \| 110 \| 14 \| 0 \| - \| - \| 11.0 \| 100 \| 12.0 \| 205 \| yes \|$'
+row '^\| small cut none \| -? ?\|( - \|){11} stopped \|$'
+row '^\| small cut \| 15 \| 60 \| 30.0 \| yes \| 2.50 \|$'
 row '^\| factor \| 3.00 \| 2.00 \| 1.50 \|$'
 row '^\| Q4 20 x 4 \| 400 \| 900 \| - \| 30.0 \| 20.0 \| 1.50 \|$'
 
@@ -210,6 +229,49 @@ count 'bench.sh on a small plate' $?
 row '^\| Q4 6 x 3 \| 52 \| 13 \|( [0-9.]+ \|){10}$' # 7 nodes on the joint, x held on one
 row '^\| Q4 6 x 3 \| last \|( [0-9.]+ \|){3}( - \|){5}$'
 row '^\| Q4 6 x 3 \| [0-9.e-]+ \| [0-9.-]+ \| [0-9.e-]+ \| [0-9.]+ \| - \| - \| [0-9]+ \| - \| - \|$'
+
+# the foot of a column, from a Gmsh that gives two tetrahedra with all its marks in place of a mesh: decks, their names, what is left out
+foot=$work/foot
+rm -rf "$foot" && mkdir -p "$foot/bin"
+cat > "$foot/bin/gmsh" << 'END'
+#!/usr/bin/env bash
+while [ $# -gt 1 ]; do [ "$1" = -o ] && mesh=$2; shift; done
+printf 'GRID,%d,0,%d.0,0.0,0.0\n' 1 0 2 1 3 2 4 3 5 4 6 5 > "$mesh"
+for pid in 31 32 33 34 35 36 37 38; do echo "CTRIA6,$pid,$pid,1,2,3,4,5,6" >> "$mesh"; done
+END
+chmod +x "$foot/bin/gmsh"
+for words in 'small cut' 'small bars' 'small cut none' 'small cut 0.15 linear'; do
+   # shellcheck disable=SC2086
+   PATH=$foot/bin:$PATH "$here/foot.sh" "$foot" $words || echo "foot.sh $words" >> "$foot/wrong"
+done
+[ ! -e "$foot/wrong" ] && [ "$(cat "$foot"/foot_small_{cut,bars,cut_none,cut_linear}.bdf | grep -c '^BOLT ')" -eq 12 ] &&
+   [ "$(grep -c '^BOLT,' "$foot/foot_small_bars.bdf")" -eq 4 ] && [ "$(grep -c '^RBE3,.*,123,1.0,123,4,5$' "$foot/foot_small_bars.bdf")" -eq 8 ]
+count 'decks of the foot: bolts and spiders' $?
+grep -q '^PJOINT .* 0.15$' "$foot/foot_small_cut.bdf" && grep -q '^PJOINT  1       1       1       1 *$' "$foot/foot_small_cut_none.bdf"
+count 'decks of the foot: friction' $?
+"$here/foot.sh" "$foot" small screws 2> "$work/said"
+[ $? -eq 1 ] && grep -q 'cut or bars' "$work/said"
+count 'foot.sh takes screws for bolts' $?
+mkdir -p "$foot/none"
+for tool in bash awk dirname basename cat cp date grep head mkdir nproc rm sed sort tail tee timeout tr cut; do
+   ln -s "$(command -v "$tool")" "$foot/none/$tool"
+done
+cp "$work/stand-in/dgemm_rate" "$foot"
+PATH=$foot/none "$here/bench.sh" "$program" "$foot" foot > "$work/tables" 2> "$work/said"
+[ $? -eq 0 ] && grep -q 'gmsh is not installed, the foot is left out' "$work/said"
+count 'bench.sh does not say that there is no gmsh' $?
+
+# random models with friction: the same again, valid, counted
+"$here/friction_models.sh" -n 6 "$foot/first" "$program" "$program" > "$work/tables" 2> "$work/said"
+count 'friction_models.sh: a program is no worse than itself' $?
+[ "$(awk 'NR > 1 && $2 == 6 && $3 > 6 && $4 > $3 && $7 == 0' "$work/tables" | wc -l)" -eq 2 ]
+count "friction_models.sh: its lines in $work/tables" $?
+"$here/friction_models.sh" -n 6 "$foot/second" && cat "$foot"/first/f00?.bdf | cmp -s - <(cat "$foot"/second/f00?.bdf)
+count 'friction_models.sh makes other decks' $?
+printf '%s\n' ' CONVERGENCE HISTORY, STAGE 2: UNBALANCED' '' '  INCR  PART ITER' '  1 1 1 1.0 BELOW TOL 1.0 3' '  1 2 2 1.0 2.0 1.0 3' \
+   '  3 1 1 1.0 2.0 1.0 3' ' RESULTANTS' '  4 1 1 1.0 2.0 1.0 3' | awk -v head=h -v seconds=7 -f "$here/iterations.awk" > "$work/said"
+[ "$(cat "$work/said")" = 'h 2 3 2 2.1 7' ]
+count 'iterations.awk' $?
 
 # on several processes, where there is the program for that: 11 x 5 x 5 nodes, x held on 5 x 5, z on 11 x 5 of them: 825 - 25 - 55
 if [ -x "${program}_mpi" ] && command -v mpirun > /dev/null; then
