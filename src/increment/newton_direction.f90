@@ -69,7 +69,8 @@ contains
    end subroutine find_direction
 
    !> The DIRECTION under the TANGENTs of the joints, which become those of the equations solved. The factorised matrix has the
-   !! symmetric, positive part of them, with a little where an element has no stiffness; what it lacks is brought in by solve_coupled.
+   !! symmetric part of them, shifted where an eigenvalue is below zero (an element that slips has one where its two
+   !! shear laws differ), with a little where an element has no stiffness; what it lacks is brought in by solve_coupled.
    !! HOLDS: no element slips.
    subroutine solve_laws(model, residual, holds, analysis, system, attempt, tangent, direction)
       type(model_type), intent(in)          :: model
@@ -81,7 +82,7 @@ contains
       real(wp), intent(inout)               :: tangent(:, :, :)
       real(wp), intent(inout)               :: direction(:, :)
       real(wp), allocatable :: matrix(:, :, :), rest(:, :, :)
-      real(wp) :: elastic(3)
+      real(wp) :: elastic(3), least ! its eigenvalue
       integer  :: i, k
       logical  :: coupled
 
@@ -91,8 +92,9 @@ contains
          analysis%k(:, i) = [tangent(1, 1, i), tangent(2, 2, i), tangent(3, 3, i)]
          matrix(3, 3, i) = max(tangent(3, 3, i), little*elastic(3))
          matrix(:2, :2, i) = 0.5_wp*(tangent(:2, :2, i) + transpose(tangent(:2, :2, i)))
+         least = 0.5_wp*(matrix(1, 1, i) + matrix(2, 2, i)) - hypot(0.5_wp*(matrix(1, 1, i) - matrix(2, 2, i)), matrix(1, 2, i))
          do k = 1, 2
-            matrix(k, k, i) = max(0.0_wp, matrix(k, k, i)) + little*elastic(k)
+            matrix(k, k, i) = matrix(k, k, i) - min(0.0_wp, least) + little*elastic(k)
             if (holds) matrix(k, k, i) = max(matrix(k, k, i), elastic(k))
          end do
          rest(:2, :, i) = tangent(:2, :, i) - matrix(:2, :, i)
