@@ -18,7 +18,7 @@ module newton_method
    use shear_stiffness, only: shear_state
    use stage_plan, only: stage_plan_type, where_in_plan
    use text_tools, only: integer_text, real_text
-   use unknown_names, only: unknown_name
+   use unknowns, only: unknown_name
    implicit none
    private
 

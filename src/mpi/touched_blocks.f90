@@ -13,7 +13,7 @@ module touched_blocks
    use model_data, only: bar_nodes, model_type, n_bars, n_sections
    use node_coupling, only: unknown_nodes
    use node_graph, only: node_graph_type
-   use shares, only: deal_type
+   use partition, only: partition_type
    implicit none
    private
 
@@ -31,10 +31,10 @@ module touched_blocks
 contains
 
    !> The touched blocks of the interface ELEMENTS, on unknowns, of the bars and of the sections of MODEL.
-   subroutine list_touched(model, graph, deal, elements, touched)
+   subroutine list_touched(model, graph, parts, elements, touched)
       type(model_type), intent(in)        :: model
       type(node_graph_type), intent(in)   :: graph
-      type(deal_type), intent(in)         :: deal
+      type(partition_type), intent(in)         :: parts
       type(interface_element), intent(in) :: elements(:)
       type(touched_type), intent(out)     :: touched
       integer, allocatable :: pairs(:, :)
@@ -57,15 +57,15 @@ contains
          end do
          if (pass == 1) allocate (pairs(2, n))
       end do
-      call sort_once(size(deal%order), pairs, touched)
+      call sort_once(size(parts%order), pairs, touched)
       allocate (touched%bodies(model%dimension, model%dimension, touched%n), source=0.0_wp)
-      allocate (touched%counts(size(deal%counts)))
+      allocate (touched%counts(size(parts%counts)))
       n = 0
-      do i = 1, size(deal%counts)
-         touched%counts(i) = touched%first(n + deal%counts(i) + 1) - touched%first(n + 1)
-         n = n + deal%counts(i)
+      do i = 1, size(parts%counts)
+         touched%counts(i) = touched%first(n + parts%counts(i) + 1) - touched%first(n + 1)
+         n = n + parts%counts(i)
       end do
-      call place_joints(deal, elements, touched)
+      call place_joints(parts, elements, touched)
 
    contains
 
@@ -75,9 +75,9 @@ contains
 
          do b = 1, size(nodes)
             do a = 1, size(nodes)
-               if (deal%block(nodes(a)) < 0 .or. deal%block(nodes(b)) < 0) cycle
+               if (parts%block(nodes(a)) < 0 .or. parts%block(nodes(b)) < 0) cycle
                n = n + 1
-               if (pass == 2) pairs(:, n) = deal%block([nodes(a), nodes(b)])
+               if (pass == 2) pairs(:, n) = parts%block([nodes(a), nodes(b)])
             end do
          end do
       end subroutine pair
@@ -118,8 +118,8 @@ contains
    end subroutine sort_once
 
    !> Where the pairs of nodes of interface elements stand in the list; 0: a node without unknowns.
-   subroutine place_joints(deal, elements, touched)
-      type(deal_type), intent(in)         :: deal
+   subroutine place_joints(parts, elements, touched)
+      type(partition_type), intent(in)         :: parts
       type(interface_element), intent(in) :: elements(:)
       type(touched_type), intent(inout)   :: touched
       integer :: a, b, i, n
@@ -132,7 +132,7 @@ contains
       allocate (touched%joint_at(touched%joint_first(size(elements) + 1) - 1), source=0)
       do i = 1, size(elements)
          n = touched%joint_first(i)
-         associate (blocks => deal%block(elements(i)%node))
+         associate (blocks => parts%block(elements(i)%node))
             do b = 1, size(blocks)
                do a = 1, size(blocks)
                   if (blocks(a) >= 0 .and. blocks(b) >= 0) touched%joint_at(n) = place_of(touched, blocks(a), blocks(b))

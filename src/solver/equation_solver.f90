@@ -12,7 +12,7 @@ module equation_solver
    use model_data, only: model_type
    use node_graph, only: node_graph_type
    use text_tools, only: integer_text
-   use unknown_names, only: what_is_loose
+   use unknowns, only: what_is_loose
    implicit none
    private
 
@@ -36,6 +36,12 @@ module equation_solver
       integer  :: most_steps = 0                     !! of one
    end type solver_description
 
+   !> What is asked of a solver with the stiffness that it has.
+   type, public :: solver_options
+      logical :: one_solution = .false.              !! with this k_int the increment solves but once
+      integer :: digits = exact_digits               !! that the next solution needs, where a solver iterates
+   end type solver_options
+
    type, abstract, public :: equation_system
       integer :: n = 0                               !! unknowns
       integer, allocatable  :: number(:, :)          !! (dimension, n_nodes) equation, 0: held or without element
@@ -49,16 +55,15 @@ module equation_solver
       real(wp) :: stiffest = 0.0_wp                  !! largest diagonal entry of [k_b] [force/length]
       real(wp), allocatable :: k_int(:, :, :)        !! (3, 3, n) between the ends of interface elements now, global axes
                                                      !! [force/length]
-      logical :: one_solution = .false.              !! whether with this k_int the increment solves but once
       integer :: factorisations = 20                 !! that are to be expected
-      integer :: digits = exact_digits               !! that the next solution needs, where a solver iterates
+      type(solver_options) :: options                !! set anew with every k_int
       real(wp) :: shift = 0.0_wp                     !! sigma: in place of [k_b] there is [k_b] - sigma [m], set before it is formed
                                                      !! [1/time^2]; above zero the factor is one with signs, [l] [s] [l]^T
       integer :: n_negative = 0                      !! pivots below zero of the factor there is: so many eigenvalues of
                                                      !! [k] {x} = lambda [m] {x} are below sigma (Sylvester)
       real(wp) :: weakest = 1.0_wp                   !! least pivot of the factor there is, as a share of its diagonal entry
                                                      !! before any elimination; 1: there is no factor
-      character(:), allocatable :: where             !! stage and increment, for messages
+      character(:), allocatable :: formed_in         !! stage and increment of this k_int, for messages
       character(:), allocatable :: complaint         !! why there is no solution
       type(solver_description) :: description        !! of the solver, once it has started
    contains
@@ -106,7 +111,7 @@ module equation_solver
          real(wp), intent(in)                  :: k(:, :)
       end subroutine add_to_bodies
 
-      !> [k_s] = [k_b] + sum of K_INT, Eq. (8), ready to solve; where ONE_SOLUTION is all that is wanted an earlier factor may do
+      !> [k_s] = [k_b] + sum of K_INT, Eq. (8), ready to solve; where OPTIONS want one solution an earlier factor may do
       !! for that. The unknowns of LOCKED equations are held.
       subroutine form_structure(self, fault)
          import :: equation_system
@@ -218,7 +223,7 @@ contains
    subroutine forget_past(self)
       class(equation_system), intent(inout) :: self
 
-      self%one_solution = .false.
+      self%options%one_solution = .false.
       self%weakest = 1.0_wp
    end subroutine forget_past
 

@@ -2,23 +2,108 @@
 !! are tasks of OpenMP; every addition has its place in one order, whatever the number of threads.
 module front_factor
    use equation_solver, only: no_memory, pivot_tolerance
-   use front_assembly, only: add_elements, add_matrix, add_update, place_in
-   use front_blocks, only: add_to_block, keep_block, restore_block
+   use front_tree, only: add_to_block, begins, front_of, front_tree_type, front_type, keep_block, restore_block, task_work
    use front_kernel, only: eliminate, large, top_row
-   use front_tree, only: front_of, front_tree_type, front_type
    use kinds, only: long, wp
    use machine, only: give_back
+   use mass_elements, only: coupled_dynamic_stiffness
    use model_data, only: model_type
    use omp_lib, only: omp_get_wtime
+   use section_coupling, only: coupled_nodes
    implicit none
    private
 
    public :: factorise_fixed, factorise_moving, add_to_moving
 
-   real(wp), parameter :: task_work = 2.0e6_wp         ! operations of a subtree that is worth a task
    integer, parameter  :: strip = 128                  ! columns that are given back together
 
 contains
+
+   !> Add the symmetric matrix K of the EQUATIONS (0: held) to FRONT, of which all of them are rows.
+   pure subroutine add_matrix(front, equations, k)
+      type(front_type), intent(inout) :: front
+      integer, intent(in)             :: equations(:)
+      real(wp), intent(in)            :: k(:, :)
+      integer :: places(size(equations)), i, j, row, column
+
+      do i = 1, size(equations)
+         places(i) = place_in(front, equations(i))
+      end do
+      do j = 1, size(equations)
+         column = places(j)
+         if (column == 0) cycle
+         front%diagonal(column) = front%diagonal(column) + k(j, j)
+         if (column <= front%p) then
+            do i = 1, size(equations)
+               row = places(i)
+               if (row >= column) front%panel(row, column) = front%panel(row, column) + k(i, j)
+            end do
+         else
+            do i = 1, size(equations)
+               row = places(i)
+               if (row >= column) front%update(row - front%p, column - front%p) = &
+                  front%update(row - front%p, column - front%p) + k(i, j)
+            end do
+         end if
+      end do
+   end subroutine add_matrix
+
+   !> Row of EQUATION in FRONT, 0 for equation 0.
+   pure integer function place_in(front, equation) result(place)
+      type(front_type), intent(in) :: front
+      integer, intent(in)          :: equation
+      integer :: low, high, middle
+
+      place = 0
+      if (equation == 0) return
+      place = equation - front%first + 1
+      if (place <= front%p) return
+      low = 1
+      high = front%r
+      do while (low < high)
+         middle = (low + high)/2
+         if (front%rows(middle) < equation) then
+            low = middle + 1
+         else
+            high = middle
+         end if
+      end do
+      place = front%p + low
+   end function place_in
+
+   !> Add to FRONT what the elimination of CHILD left, of it the columns FROM to UNTIL.
+   pure subroutine add_update(child, front, from, until)
+      type(front_type), intent(in)    :: child
+      type(front_type), intent(inout) :: front
+      integer, intent(in)             :: from, until
+      integer :: column, first, i, j, k, last, row, this
+
+      this = 1                                       ! the run that column J is in
+      do j = from, until
+         do while (j >= child%run(this + 1))
+            this = this + 1
+         end do
+         column = child%in_parent(j)
+         front%diagonal(column) = front%diagonal(column) + child%diagonal(child%p + j)
+         do k = this, size(child%run) - 1
+            first = max(j, child%run(k))
+            last = child%run(k + 1) - 1
+            row = child%in_parent(first)
+            if (column <= front%p) then
+               !$omp simd
+               do i = 0, last - first
+                  front%panel(row + i, column) = front%panel(row + i, column) + child%update(first + i, j)
+               end do
+            else
+               row = row - front%p
+               !$omp simd
+               do i = 0, last - first
+                  front%update(row + i, column - front%p) = front%update(row + i, column - front%p) + child%update(first + i, j)
+               end do
+            end if
+         end do
+      end do
+   end subroutine add_update
 
    !> Eliminate all fronts that do not move, and keep what the others begin with. FAULT is 0, no_memory, or the first equation
    !! without stiffness.
@@ -67,10 +152,7 @@ contains
       !$omp parallel default(shared) if(tree%is_parallel)
       !$omp single
       do f = 1, size(tree%fronts)
-         if (tree%fronts(f)%moves .neqv. moving) cycle
-         if (tree%fronts(f)%parent > 0) then
-            if (tree%fronts(tree%fronts(f)%parent)%moves .eqv. moving) cycle
-         end if
+         if (.not. begins(tree, f, moving)) cycle
          !$omp task default(shared) firstprivate(f) if(tree%fronts(f)%work > task_work)
          call eliminate_subtree(tree, f, faults, k, model)
          !$omp end task
@@ -120,15 +202,22 @@ contains
       end associate
    end subroutine eliminate_subtree
 
-   !> Add the elements of FRONT; the time that takes is kept.
+   !> Add the stiffness of the elements of FRONT; the time that takes is kept.
    subroutine assemble(model, tree, front)
       type(model_type), intent(in)         :: model
       type(front_tree_type), intent(inout) :: tree
       type(front_type), intent(inout)      :: front
+      real(wp), allocatable :: k(:, :)
       real(wp) :: time
+      integer  :: j
 
       time = omp_get_wtime()
-      call add_elements(model, tree, front)
+      do j = 1, size(front%elements)
+         call coupled_dynamic_stiffness(model, front%elements(j), tree%shift, k)
+         associate (rows => pack(tree%number(:, coupled_nodes(model, front%elements(j))), .true.))
+            call add_matrix(front, rows, k(:size(rows), :size(rows)))
+         end associate
+      end do
       time = omp_get_wtime() - time
       !$omp atomic
       tree%assembly_time = tree%assembly_time + time

@@ -2,11 +2,11 @@
 !! Everything here is symbolic and counts nodes; WEIGHT(node) is how many unknowns a node has.
 !! Source: Liu, SIAM Review 34 (1992) 82-109.
 module front_layout
-   use elimination_tree, only: count_rows, find_parents, number_depth_first, number_places, order_depth_first
+   use elimination_tree, only: count_rows, find_parents, find_supernodes, merge_supernodes, number_depth_first, number_places, &
+                               order_depth_first, sorted_places, supernodes_type, weigh_supernodes
    use front_kernel, only: large, touched_entries
    use kinds, only: wp
    use node_graph, only: node_graph_type
-   use supernodes, only: find_supernodes, merge_supernodes, sorted_places, supernodes_type, weigh_supernodes
    implicit none
    private
 

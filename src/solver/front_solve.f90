@@ -5,16 +5,13 @@
 !! takes that from all its children, in their order: no digit depends on the number of threads.
 module front_solve
    use blas_lapack, only: dgemv, dtrmv
-   use front_blocks, only: block_times_vector
-   use front_substitution, only: substitute, substitute_back
-   use front_tree, only: front_tree_type, front_type
+   use front_tree, only: begins, block_times_vector, front_tree_type, front_type, task_work
+   use front_kernel, only: substitute, substitute_back
    use kinds, only: wp
    implicit none
    private
 
    public :: eliminate_fixed, recover_fixed, solve_moving, moving_times_vector, factor_times_vector
-
-   real(wp), parameter :: task_work = 2.0e6_wp ! operations of the factorisation of a subtree that is worth a task
 
 contains
 
@@ -23,7 +20,7 @@ contains
       type(front_tree_type), intent(in) :: tree
       real(wp), intent(inout)           :: x(tree%n)
 
-      call go_up(tree, .false., x)
+      call sweep(tree, .false., .true., x)
    end subroutine eliminate_fixed
 
    !> The other way: X holds y of eliminate_fixed on the fronts that do not move and the solution on those that do; it is the
@@ -32,7 +29,7 @@ contains
       type(front_tree_type), intent(in) :: tree
       real(wp), intent(inout)           :: x(tree%n)
 
-      call go_down(tree, .false., x)
+      call sweep(tree, .false., .false., x)
    end subroutine recover_fixed
 
    !> Solve for the equations that move; X is not touched on the others.
@@ -40,102 +37,58 @@ contains
       type(front_tree_type), intent(in) :: tree
       real(wp), intent(inout)           :: x(tree%n)
 
-      call go_up(tree, .true., x)
-      call go_down(tree, .true., x)
+      call sweep(tree, .true., .true., x)
+      call sweep(tree, .true., .false., x)
    end subroutine solve_moving
 
-   !> L y = x in the fronts that MOVE, or those that do not; what they leave for fronts of the other kind is added to X there.
-   subroutine go_up(tree, moves, x)
+   !> L y = x (UP), or L^T x = y with X known beyond these, in the fronts that MOVE, or those that do not; what is left by these for
+   !! fronts of the other kind is added to X there.
+   subroutine sweep(tree, moves, up, x)
       type(front_tree_type), intent(in) :: tree
-      logical, intent(in)               :: moves
+      logical, intent(in)               :: moves, up
       real(wp), intent(inout)           :: x(tree%n)
       real(wp), allocatable :: left(:) ! what fronts leave for the rows beyond
       integer :: f
 
-      allocate (left(tree%n_left))
+      allocate (left(merge(tree%n_left, 0, up)))
       !$omp parallel default(shared) if(tree%is_parallel)
       !$omp single
       do f = 1, size(tree%fronts)
          if (.not. begins(tree, f, moves)) cycle
          !$omp task default(shared) firstprivate(f) if(tree%fronts(f)%work > task_work)
-         call go_up_subtree(tree, f, x, left)
+         call sweep_subtree(tree, f, up, x, left)
          !$omp end task
       end do
       !$omp end single
       !$omp end parallel
-      if (moves) return
+      if (moves .or. .not. up) return
       do f = 1, size(tree%fronts)
          if (.not. begins(tree, f, moves)) cycle
          associate (front => tree%fronts(f))
             x(front%rows) = x(front%rows) + left(front%left + 1:front%left + front%r)
          end associate
       end do
-   end subroutine go_up
+   end subroutine sweep
 
-   !> The subtree of front F, then F.
-   recursive subroutine go_up_subtree(tree, f, x, left)
+   !> UP: the subtree of front F, then F; else F, then its subtree.
+   recursive subroutine sweep_subtree(tree, f, up, x, left)
       type(front_tree_type), intent(in) :: tree
       integer, intent(in)               :: f
+      logical, intent(in)               :: up
       real(wp), intent(inout)           :: x(tree%n), left(:)
       integer :: c, i
 
+      if (.not. up) call backward(tree%fronts(f), x)
       do i = 1, size(tree%fronts(f)%children)
          c = tree%fronts(f)%children(i)
          if (tree%fronts(c)%moves .neqv. tree%fronts(f)%moves) cycle
          !$omp task default(shared) firstprivate(c) if(tree%fronts(c)%work > task_work)
-         call go_up_subtree(tree, c, x, left)
+         call sweep_subtree(tree, c, up, x, left)
          !$omp end task
       end do
       !$omp taskwait
-      call forward(tree, f, x, left)
-   end subroutine go_up_subtree
-
-   !> L^T x = y in the fronts that MOVE, or those that do not, X known beyond these.
-   subroutine go_down(tree, moves, x)
-      type(front_tree_type), intent(in) :: tree
-      logical, intent(in)               :: moves
-      real(wp), intent(inout)           :: x(tree%n)
-      integer :: f
-
-      !$omp parallel default(shared) if(tree%is_parallel)
-      !$omp single
-      do f = size(tree%fronts), 1, -1
-         if (.not. begins(tree, f, moves)) cycle
-         !$omp task default(shared) firstprivate(f) if(tree%fronts(f)%work > task_work)
-         call go_down_subtree(tree, f, x)
-         !$omp end task
-      end do
-      !$omp end single
-      !$omp end parallel
-   end subroutine go_down
-
-   !> Front F, then those of its subtree.
-   recursive subroutine go_down_subtree(tree, f, x)
-      type(front_tree_type), intent(in) :: tree
-      integer, intent(in)               :: f
-      real(wp), intent(inout)           :: x(tree%n)
-      integer :: c, i
-
-      call backward(tree%fronts(f), x)
-      do i = 1, size(tree%fronts(f)%children)
-         c = tree%fronts(f)%children(i)
-         if (tree%fronts(c)%moves .neqv. tree%fronts(f)%moves) cycle
-         !$omp task default(shared) firstprivate(c) if(tree%fronts(c)%work > task_work)
-         call go_down_subtree(tree, c, x)
-         !$omp end task
-      end do
-      !$omp taskwait
-   end subroutine go_down_subtree
-
-   !> Whether front F MOVES, or does not, and its parent is none of these.
-   pure logical function begins(tree, f, moves)
-      type(front_tree_type), intent(in) :: tree
-      integer, intent(in)               :: f
-      logical, intent(in)               :: moves
-
-      begins = tree%fronts(f)%moves .eqv. moves
-      if (begins .and. tree%fronts(f)%parent > 0) begins = tree%fronts(tree%fronts(f)%parent)%moves .neqv. moves
-   end function begins
+      if (up) call forward(tree, f, x, left)
+   end subroutine sweep_subtree
 
    !> L y = x in front F, X and what the children LEFT together; what y does to the rows beyond is left likewise.
    subroutine forward(tree, f, x, left)

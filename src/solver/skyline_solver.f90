@@ -11,8 +11,7 @@ module skyline_solver
    use model_data, only: bar_nodes, model_type, n_bars
    use node_coupling, only: list_on_unknowns, unknown_nodes
    use section_coupling, only: coupled_nodes
-   use node_graph, only: node_graph_type
-   use profile_ordering, only: reverse_cuthill_mckee
+   use node_graph, only: node_graph_type, reverse_cuthill_mckee
    use skyline, only: add_to_skyline, factor_times_vector, factorise_skyline, skyline_matrix, skyline_times_vector, solve_skyline, &
                       start_skyline
    use text_tools, only: integer_text

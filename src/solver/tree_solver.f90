@@ -6,9 +6,8 @@
 module tree_solver
    use equation_solver, only: equation_system
    use failures, only: failure_type
-   use conjugate_gradients, only: iterate_moving
-   use earlier_solutions, only: earlier_solutions_type, forget_solutions, guess_solution, note_solution
-   use factor_reuse, only: factor_reuse_type, forget_factor, forget_steps, may_reuse, note_factor, note_failure, note_steps
+   use factor_reuse, only: earlier_solutions_type, factor_reuse_type, guess_solution, iterate_moving, may_reuse, note_factor, &
+                           note_failure, note_solution, note_steps
    use front_factor, only: add_to_moving, factorise_fixed, factorise_moving
    use front_layout, only: bytes_needed, choose_layout, front_layout_type
    use front_solve, only: eliminate_fixed, factor_times_vector, moving_times_vector, recover_fixed, solve_moving
@@ -189,8 +188,8 @@ contains
       fault = 0
       reuse = .false.
       associate (factor => self%factor)
-         if (self%one_solution) call may_reuse(factor%reuse, reuse)
-         factor%is_awaited = self%one_solution .and. factor%reuse%most_steps > 0
+         if (self%options%one_solution) call may_reuse(factor%reuse, reuse)
+         factor%is_awaited = self%options%one_solution .and. factor%reuse%most_steps > 0
          factor%is_own = .false.
       end associate
       if (.not. reuse) call factorise(self, fault)
@@ -211,7 +210,7 @@ contains
          self%factor%k_int = self%k_int
          call note_factor(self%factor%reuse)
       else
-         call forget_factor(self%factor%reuse)
+         self%factor%reuse%has_factor = .false.
       end if
    end subroutine factorise
 
@@ -266,8 +265,8 @@ contains
    subroutine forget(self)
       class(tree_solver_type), intent(inout) :: self
 
-      call forget_factor(self%factor%reuse)
-      call forget_solutions(self%factor%earlier)
+      self%factor%reuse%has_factor = .false.
+      self%factor%earlier%n = 0
    end subroutine forget
 
    !> As at the start, the costs of a factorisation aside.
@@ -275,7 +274,7 @@ contains
       class(tree_solver_type), intent(inout) :: self
 
       call forget(self)
-      call forget_steps(self%factor%reuse)
+      self%factor%reuse = factor_reuse_type(most_steps=self%factor%reuse%most_steps)
       self%factor%is_own = .false.
       self%factor%is_awaited = .false.
    end subroutine forget_past
