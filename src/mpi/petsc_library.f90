@@ -20,110 +20,19 @@ module petsc_library
 
    type(c_ptr), bind(c, name='PETSC_COMM_WORLD') :: petsc_comm_world
 
-   ! Functions of the same arguments: a handle first; other handles, numbers and texts that they take or give.
-   abstract interface
-      integer(c_int) function no_arguments() bind(c)
-         import :: c_int
-      end function no_arguments
-
-      integer(c_int) function gives_handle(handle, given) bind(c)
-         import :: c_int, c_ptr
-         type(c_ptr), value :: handle
-         type(c_ptr), intent(out) :: given
-      end function gives_handle
-
-      integer(c_int) function destroys(handle) bind(c)
-         import :: c_int, c_ptr
-         type(c_ptr), intent(inout) :: handle
-      end function destroys
-
-      integer(c_int) function takes_handle(handle, other) bind(c)
-         import :: c_int, c_ptr
-         type(c_ptr), value :: handle, other
-      end function takes_handle
-
-      integer(c_int) function adds_vector(y, a, x) bind(c)
-         import :: c_double, c_int, c_ptr
-         type(c_ptr), value :: y
-         real(c_double), value :: a
-         type(c_ptr), value :: x
-      end function adds_vector
-
-      integer(c_int) function takes_text(handle, text) bind(c)
-         import :: c_char, c_int, c_ptr
-         type(c_ptr), value :: handle
-         character(kind=c_char), intent(in) :: text(*)
-      end function takes_text
-
-      integer(c_int) function takes_integer(handle, value) bind(c)
-         import :: c_int, c_ptr
-         type(c_ptr), value :: handle
-         integer(c_int), value :: value
-      end function takes_integer
-
-      integer(c_int) function takes_two_handles(handle, first, second) bind(c)
-         import :: c_int, c_ptr
-         type(c_ptr), value :: handle, first, second
-      end function takes_two_handles
-
-      integer(c_int) function acts(handle) bind(c)
-         import :: c_int, c_ptr
-         type(c_ptr), value :: handle
-      end function acts
-
-      integer(c_int) function gives_integer(handle, value) bind(c)
-         import :: c_int, c_ptr
-         type(c_ptr), value :: handle
-         integer(c_int), intent(out) :: value
-      end function gives_integer
-   end interface
-
-   ! the library itself
-   procedure(no_arguments), bind(c, name='PetscInitializeNoArguments') :: petsc_initialize
-   procedure(no_arguments), bind(c, name='PetscFinalize') :: petsc_finalize
-   procedure(no_arguments), bind(c, name='PetscPopSignalHandler') :: petsc_pop_signal_handler
-
-   ! vectors
-   procedure(gives_handle), bind(c, name='VecDuplicate') :: vec_duplicate
-   procedure(gives_handle), bind(c, name='VecGetArray') :: vec_get_array !! the values that this process has, until vec_restore_array.
-   procedure(destroys), bind(c, name='VecDestroy') :: vec_destroy
-   procedure(takes_handle), bind(c, name='VecCopy') :: vec_copy !! y = x
-   procedure(adds_vector), bind(c, name='VecAXPY') :: vec_axpy !! y = y + a x
-   procedure(adds_vector), bind(c, name='VecAYPX') :: vec_aypx !! y = x + a y
-
-   ! matrices
-   procedure(gives_handle), bind(c, name='MatCreate') :: mat_create
-   procedure(takes_text), bind(c, name='MatSetType') :: mat_set_type
-   procedure(takes_integer), bind(c, name='MatSetBlockSize') :: mat_set_block_size
-   procedure(takes_integer), bind(c, name='MatAssemblyBegin') :: mat_assembly_begin
-   procedure(takes_integer), bind(c, name='MatAssemblyEnd') :: mat_assembly_end
-   procedure(takes_two_handles), bind(c, name='MatMult') :: mat_mult
-   procedure(takes_handle), bind(c, name='MatGetDiagonal') :: mat_get_diagonal
-   procedure(destroys), bind(c, name='MatNullSpaceDestroy') :: mat_null_space_destroy
-   procedure(takes_handle), bind(c, name='MatSetNearNullSpace') :: mat_set_near_null_space
-   procedure(destroys), bind(c, name='MatDestroy') :: mat_destroy
-
-   ! solvers, preconditioners
-   procedure(gives_handle), bind(c, name='KSPCreate') :: ksp_create
-   procedure(takes_text), bind(c, name='KSPSetOptionsPrefix') :: ksp_set_options_prefix
-   procedure(takes_text), bind(c, name='KSPSetType') :: ksp_set_type
-   procedure(takes_integer), bind(c, name='KSPSetNormType') :: ksp_set_norm_type
-   procedure(takes_integer), bind(c, name='KSPSetInitialGuessNonzero') :: ksp_set_initial_guess_nonzero
-   procedure(takes_two_handles), bind(c, name='KSPSetOperators') :: ksp_set_operators
-   procedure(takes_integer), bind(c, name='KSPSetReusePreconditioner') :: ksp_set_reuse_preconditioner
-   procedure(acts), bind(c, name='KSPSetFromOptions') :: ksp_set_from_options
-   procedure(acts), bind(c, name='KSPSetUp') :: ksp_set_up
-   procedure(takes_two_handles), bind(c, name='KSPSolve') :: ksp_solve
-   procedure(gives_integer), bind(c, name='KSPGetIterationNumber') :: ksp_get_iteration_number
-   procedure(gives_integer), bind(c, name='KSPGetConvergedReason') :: ksp_get_converged_reason !! positive: it has converged
-   procedure(gives_handle), bind(c, name='KSPGetPC') :: ksp_get_pc
-   procedure(destroys), bind(c, name='KSPDestroy') :: ksp_destroy
-   procedure(takes_text), bind(c, name='PCSetType') :: pc_set_type
-   procedure(gives_integer), bind(c, name='PCMGGetLevels') :: pc_mg_get_levels !! levels of a multigrid preconditioner that is set up.
-   procedure(gives_integer), bind(c, name='PCGetFailedReason') :: pc_get_failed_reason !! why a set-up has failed, 0: it has not.
-   procedure(takes_text), bind(c, name='PCFactorSetMatSolverType') :: pc_factor_set_solver
-
    interface
+      integer(c_int) function petsc_initialize() bind(c, name='PetscInitializeNoArguments')
+         import :: c_int
+      end function petsc_initialize
+
+      integer(c_int) function petsc_finalize() bind(c, name='PetscFinalize')
+         import :: c_int
+      end function petsc_finalize
+
+      integer(c_int) function petsc_pop_signal_handler() bind(c, name='PetscPopSignalHandler')
+         import :: c_int
+      end function petsc_pop_signal_handler
+
       integer(c_int) function petsc_push_error_handler(handler, context) bind(c, name='PetscPushErrorHandler')
          import :: c_funptr, c_int, c_ptr
          type(c_funptr), value :: handler
@@ -140,6 +49,8 @@ module petsc_library
          character(kind=c_char), intent(in) :: name(*), value(*)
       end function petsc_options_set_value
 
+      ! ---------------------------------------------------------------------------------------------------- vectors
+
       !> Vectors that MATRIX multiplies and gives.
       integer(c_int) function mat_create_vecs(matrix, right, left) bind(c, name='MatCreateVecs')
          import :: c_int, c_ptr
@@ -147,11 +58,29 @@ module petsc_library
          type(c_ptr), intent(out) :: right, left
       end function mat_create_vecs
 
+      integer(c_int) function vec_duplicate(vector, other) bind(c, name='VecDuplicate')
+         import :: c_int, c_ptr
+         type(c_ptr), value       :: vector
+         type(c_ptr), intent(out) :: other
+      end function vec_duplicate
+
+      !> The values that this process has, until vec_restore_array.
+      integer(c_int) function vec_get_array(vector, values) bind(c, name='VecGetArray')
+         import :: c_int, c_ptr
+         type(c_ptr), value       :: vector
+         type(c_ptr), intent(out) :: values
+      end function vec_get_array
+
       integer(c_int) function vec_restore_array(vector, values) bind(c, name='VecRestoreArray')
          import :: c_int, c_ptr
          type(c_ptr), value         :: vector
          type(c_ptr), intent(inout) :: values
       end function vec_restore_array
+
+      integer(c_int) function vec_destroy(vector) bind(c, name='VecDestroy')
+         import :: c_int, c_ptr
+         type(c_ptr), intent(inout) :: vector
+      end function vec_destroy
 
       integer(c_int) function vec_norm(vector, norm_type, norm) bind(c, name='VecNorm')
          import :: c_double, c_int, c_ptr
@@ -165,6 +94,12 @@ module petsc_library
          type(c_ptr), value          :: x, y
          real(c_double), intent(out) :: product
       end function vec_dot
+
+      !> y = x
+      integer(c_int) function vec_copy(x, y) bind(c, name='VecCopy')
+         import :: c_int, c_ptr
+         type(c_ptr), value :: x, y
+      end function vec_copy
 
       !> PRODUCTS of X and N other vectors.
       integer(c_int) function vec_many_dot(x, n, y, products) bind(c, name='VecMDot')
@@ -184,17 +119,51 @@ module petsc_library
          type(c_ptr), intent(in)    :: x(*)
       end function vec_many_axpy
 
+      !> y = y + a x
+      integer(c_int) function vec_axpy(y, a, x) bind(c, name='VecAXPY')
+         import :: c_double, c_int, c_ptr
+         type(c_ptr), value    :: y, x
+         real(c_double), value :: a
+      end function vec_axpy
+
+      !> y = x + a y
+      integer(c_int) function vec_aypx(y, a, x) bind(c, name='VecAYPX')
+         import :: c_double, c_int, c_ptr
+         type(c_ptr), value    :: y, x
+         real(c_double), value :: a
+      end function vec_aypx
+
       integer(c_int) function vec_scale(x, a) bind(c, name='VecScale')
          import :: c_double, c_int, c_ptr
          type(c_ptr), value    :: x
          real(c_double), value :: a
       end function vec_scale
 
+      ! ---------------------------------------------------------------------------------------------------- matrices
+
+      integer(c_int) function mat_create(comm, matrix) bind(c, name='MatCreate')
+         import :: c_int, c_ptr
+         type(c_ptr), value       :: comm
+         type(c_ptr), intent(out) :: matrix
+      end function mat_create
+
       integer(c_int) function mat_set_sizes(matrix, own_rows, own_columns, rows, columns) bind(c, name='MatSetSizes')
          import :: c_int, c_ptr
          type(c_ptr), value    :: matrix
          integer(c_int), value :: own_rows, own_columns, rows, columns
       end function mat_set_sizes
+
+      integer(c_int) function mat_set_type(matrix, type) bind(c, name='MatSetType')
+         import :: c_char, c_int, c_ptr
+         type(c_ptr), value                 :: matrix
+         character(kind=c_char), intent(in) :: type(*)
+      end function mat_set_type
+
+      integer(c_int) function mat_set_block_size(matrix, size) bind(c, name='MatSetBlockSize')
+         import :: c_int, c_ptr
+         type(c_ptr), value    :: matrix
+         integer(c_int), value :: size
+      end function mat_set_block_size
 
       !> Room for so many blocks in every row of blocks of this process: in its own columns, and in those of others; the second
       !! pair counts for types that keep the upper blocks alone.
@@ -213,8 +182,7 @@ module petsc_library
       end function mat_set_option
 
       !> VALUES row after row.
-      integer(c_int) function mat_set_values_blocked(matrix, m, rows, n, columns, values, mode) &
-         bind(c, name='MatSetValuesBlocked')
+      integer(c_int) function mat_set_values_blocked(matrix, m, rows, n, columns, values, mode) bind(c, name='MatSetValuesBlocked')
          import :: c_double, c_int, c_ptr
          type(c_ptr), value         :: matrix
          integer(c_int), value      :: m, n
@@ -230,6 +198,18 @@ module petsc_library
          integer(c_int), intent(in)  :: rows(*), columns(*) !! from 0 on
          real(c_double), intent(out) :: values(*)
       end function mat_get_values
+
+      integer(c_int) function mat_assembly_begin(matrix, type) bind(c, name='MatAssemblyBegin')
+         import :: c_int, c_ptr
+         type(c_ptr), value    :: matrix
+         integer(c_int), value :: type
+      end function mat_assembly_begin
+
+      integer(c_int) function mat_assembly_end(matrix, type) bind(c, name='MatAssemblyEnd')
+         import :: c_int, c_ptr
+         type(c_ptr), value    :: matrix
+         integer(c_int), value :: type
+      end function mat_assembly_end
 
       !> Row ROW, one of this process, from 0 on: N columns, ascending, and their values, until mat_restore_row.
       integer(c_int) function mat_get_row(matrix, row, n, columns, values) bind(c, name='MatGetRow')
@@ -248,14 +228,64 @@ module petsc_library
          type(c_ptr), intent(inout)    :: columns, values
       end function mat_restore_row
 
-      integer(c_int) function mat_null_space_create(comm, has_constant, n, vectors, null_space) &
-         bind(c, name='MatNullSpaceCreate')
+      integer(c_int) function mat_mult(matrix, x, y) bind(c, name='MatMult')
+         import :: c_int, c_ptr
+         type(c_ptr), value :: matrix, x, y
+      end function mat_mult
+
+      integer(c_int) function mat_get_diagonal(matrix, vector) bind(c, name='MatGetDiagonal')
+         import :: c_int, c_ptr
+         type(c_ptr), value :: matrix, vector
+      end function mat_get_diagonal
+
+      integer(c_int) function mat_null_space_create(comm, has_constant, n, vectors, null_space) bind(c, name='MatNullSpaceCreate')
          import :: c_int, c_ptr
          type(c_ptr), value       :: comm
          integer(c_int), value    :: has_constant, n
          type(c_ptr), intent(in)  :: vectors(*)
          type(c_ptr), intent(out) :: null_space
       end function mat_null_space_create
+
+      integer(c_int) function mat_null_space_destroy(null_space) bind(c, name='MatNullSpaceDestroy')
+         import :: c_int, c_ptr
+         type(c_ptr), intent(inout) :: null_space
+      end function mat_null_space_destroy
+
+      integer(c_int) function mat_set_near_null_space(matrix, null_space) bind(c, name='MatSetNearNullSpace')
+         import :: c_int, c_ptr
+         type(c_ptr), value :: matrix, null_space
+      end function mat_set_near_null_space
+
+      integer(c_int) function mat_destroy(matrix) bind(c, name='MatDestroy')
+         import :: c_int, c_ptr
+         type(c_ptr), intent(inout) :: matrix
+      end function mat_destroy
+
+      ! ---------------------------------------------------------------------------------------------------- solvers
+
+      integer(c_int) function ksp_create(comm, solver) bind(c, name='KSPCreate')
+         import :: c_int, c_ptr
+         type(c_ptr), value       :: comm
+         type(c_ptr), intent(out) :: solver
+      end function ksp_create
+
+      integer(c_int) function ksp_set_options_prefix(solver, prefix) bind(c, name='KSPSetOptionsPrefix')
+         import :: c_char, c_int, c_ptr
+         type(c_ptr), value                 :: solver
+         character(kind=c_char), intent(in) :: prefix(*)
+      end function ksp_set_options_prefix
+
+      integer(c_int) function ksp_set_type(solver, type) bind(c, name='KSPSetType')
+         import :: c_char, c_int, c_ptr
+         type(c_ptr), value                 :: solver
+         character(kind=c_char), intent(in) :: type(*)
+      end function ksp_set_type
+
+      integer(c_int) function ksp_set_norm_type(solver, norm_type) bind(c, name='KSPSetNormType')
+         import :: c_int, c_ptr
+         type(c_ptr), value    :: solver
+         integer(c_int), value :: norm_type
+      end function ksp_set_norm_type
 
       integer(c_int) function ksp_set_tolerances(solver, relative, absolute, divergence, most_steps) &
          bind(c, name='KSPSetTolerances')
@@ -273,6 +303,74 @@ module petsc_library
          integer(c_int), intent(out) :: most_steps
       end function ksp_get_tolerances
 
+      integer(c_int) function ksp_set_initial_guess_nonzero(solver, yes) bind(c, name='KSPSetInitialGuessNonzero')
+         import :: c_int, c_ptr
+         type(c_ptr), value    :: solver
+         integer(c_int), value :: yes
+      end function ksp_set_initial_guess_nonzero
+
+      integer(c_int) function ksp_set_operators(solver, matrix, preconditioned) bind(c, name='KSPSetOperators')
+         import :: c_int, c_ptr
+         type(c_ptr), value :: solver, matrix, preconditioned
+      end function ksp_set_operators
+
+      integer(c_int) function ksp_set_reuse_preconditioner(solver, yes) bind(c, name='KSPSetReusePreconditioner')
+         import :: c_int, c_ptr
+         type(c_ptr), value    :: solver
+         integer(c_int), value :: yes
+      end function ksp_set_reuse_preconditioner
+
+      integer(c_int) function ksp_set_from_options(solver) bind(c, name='KSPSetFromOptions')
+         import :: c_int, c_ptr
+         type(c_ptr), value :: solver
+      end function ksp_set_from_options
+
+      integer(c_int) function ksp_set_up(solver) bind(c, name='KSPSetUp')
+         import :: c_int, c_ptr
+         type(c_ptr), value :: solver
+      end function ksp_set_up
+
+      integer(c_int) function ksp_solve(solver, b, x) bind(c, name='KSPSolve')
+         import :: c_int, c_ptr
+         type(c_ptr), value :: solver, b, x
+      end function ksp_solve
+
+      integer(c_int) function ksp_get_iteration_number(solver, steps) bind(c, name='KSPGetIterationNumber')
+         import :: c_int, c_ptr
+         type(c_ptr), value          :: solver
+         integer(c_int), intent(out) :: steps
+      end function ksp_get_iteration_number
+
+      integer(c_int) function ksp_get_converged_reason(solver, reason) bind(c, name='KSPGetConvergedReason')
+         import :: c_int, c_ptr
+         type(c_ptr), value          :: solver
+         integer(c_int), intent(out) :: reason   !! positive: it has converged
+      end function ksp_get_converged_reason
+
+      integer(c_int) function ksp_get_pc(solver, preconditioner) bind(c, name='KSPGetPC')
+         import :: c_int, c_ptr
+         type(c_ptr), value       :: solver
+         type(c_ptr), intent(out) :: preconditioner
+      end function ksp_get_pc
+
+      integer(c_int) function ksp_destroy(solver) bind(c, name='KSPDestroy')
+         import :: c_int, c_ptr
+         type(c_ptr), intent(inout) :: solver
+      end function ksp_destroy
+
+      integer(c_int) function pc_set_type(preconditioner, type) bind(c, name='PCSetType')
+         import :: c_char, c_int, c_ptr
+         type(c_ptr), value                 :: preconditioner
+         character(kind=c_char), intent(in) :: type(*)
+      end function pc_set_type
+
+      !> Levels of a multigrid preconditioner that is set up.
+      integer(c_int) function pc_mg_get_levels(preconditioner, levels) bind(c, name='PCMGGetLevels')
+         import :: c_int, c_ptr
+         type(c_ptr), value          :: preconditioner
+         integer(c_int), intent(out) :: levels
+      end function pc_mg_get_levels
+
       integer(c_int) function pc_mg_get_smoother(preconditioner, level, smoother) bind(c, name='PCMGGetSmoother')
          import :: c_int, c_ptr
          type(c_ptr), value       :: preconditioner
@@ -287,6 +385,19 @@ module petsc_library
          integer(c_int), value :: level
          type(c_funptr), value :: residual
       end function pc_mg_set_residual
+
+      !> Why a set-up has failed, 0: it has not.
+      integer(c_int) function pc_get_failed_reason(preconditioner, reason) bind(c, name='PCGetFailedReason')
+         import :: c_int, c_ptr
+         type(c_ptr), value          :: preconditioner
+         integer(c_int), intent(out) :: reason
+      end function pc_get_failed_reason
+
+      integer(c_int) function pc_factor_set_solver(preconditioner, name) bind(c, name='PCFactorSetMatSolverType')
+         import :: c_char, c_int, c_ptr
+         type(c_ptr), value                 :: preconditioner
+         character(kind=c_char), intent(in) :: name(*)
+      end function pc_factor_set_solver
    end interface
 
 end module petsc_library

@@ -47,8 +47,8 @@ module distribution
 
    !> What is to be done, and by how many.
    type, public :: solver_work_type
-      real(wp) :: fixed_operations = 0.0_wp  !! of TREE, once
-      real(wp) :: moving_operations = 0.0_wp !! of TREE, in every increment
+      real(wp) :: static_operations = 0.0_wp  !! of TREE, once
+      real(wp) :: refactored_operations = 0.0_wp !! of TREE, in every increment
       real(wp) :: bytes = 0.0_wp             !! that TREE needs
       real(wp) :: there = 0.0_wp             !! that there are, to the process that it runs in
       real(wp) :: entries = 0.0_wp           !! of the stiffness matrix
@@ -112,9 +112,9 @@ contains
       integer, intent(out)               :: best !! solver_*
 
       associate (n => work%solutions, hands => 1.0_wp + gain*(work%processes - 1))
-         seconds = [(work%fixed_operations + n*work%moving_operations)/(tree_rate*(1.0_wp + gain*(work%threads - 1))), &
+         seconds = [(work%static_operations + n*work%refactored_operations)/(tree_rate*(1.0_wp + gain*(work%threads - 1))), &
                     work%entries*(n*solution_time + (1 + n/solutions_a_set_up)*set_up_time)/hands, &
-                    n*(work%fixed_operations + work%moving_operations)/(mumps_rate*hands)]
+                    n*(work%static_operations + work%refactored_operations)/(mumps_rate*hands)]
       end associate
       best = weighed(minloc(seconds, dim=1, mask=[work%bytes <= work%there, .true., work%bytes <= work%there]))
    end subroutine weigh_solvers

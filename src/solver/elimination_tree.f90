@@ -21,7 +21,7 @@ module elimination_tree
       integer, allocatable :: parent(:), top(:)                  ! (n) top: the one it was merged into
       integer, allocatable :: child(:), sibling(:)               ! (n) lists of what was not merged
       integer, allocatable :: member(:), last_member(:), next(:) ! (n) lists of what was
-      logical, allocatable :: moves(:)
+      logical, allocatable :: is_refactored(:)
       real(wp), allocatable :: pivots(:), beyond(:), zeros(:)    ! (n) unknowns; entries that are stored for nothing
       real(wp), allocatable :: peak(:)                           ! (n) entries of update matrices
    end type supernodes_type
@@ -242,24 +242,26 @@ contains
       call sorted_order(rows, places)
    end function sorted_places
 
-   !> Unknowns of the supernodes, and which of them move.
+   !> Unknowns of the supernodes, and which of them are refactored.
    subroutine weigh_supernodes(order, weight, in_joint, supers)
       integer, intent(in)                  :: order(:), weight(:)
       logical, intent(in)                  :: in_joint(:)
       type(supernodes_type), intent(inout) :: supers
       integer :: s
 
-      allocate (supers%pivots(supers%n), supers%beyond(supers%n), supers%moves(supers%n))
+      allocate (supers%pivots(supers%n), supers%beyond(supers%n), supers%is_refactored(supers%n))
       do s = 1, supers%n
          associate (columns => order(supers%first(s):supers%first(s + 1) - 1), &
                     rows => order(supers%rows(supers%first_row(s):supers%first_row(s + 1) - 1)))
             supers%pivots(s) = sum(weight(columns))
             supers%beyond(s) = sum(weight(rows))
-            supers%moves(s) = any(in_joint(columns))
+            supers%is_refactored(s) = any(in_joint(columns))
          end associate
       end do
       do s = 1, supers%n
-         if (supers%parent(s) > 0) supers%moves(supers%parent(s)) = supers%moves(supers%parent(s)) .or. supers%moves(s)
+         associate (up => supers%parent(s))
+            if (up > 0) supers%is_refactored(up) = supers%is_refactored(up) .or. supers%is_refactored(s)
+         end associate
       end do
    end subroutine weigh_supernodes
 
@@ -286,7 +288,7 @@ contains
             added = entries(pivots, supers%beyond(s)) - entries(supers%pivots(s), supers%beyond(s)) &
                     - entries(supers%pivots(c), supers%beyond(c))
             zeros = supers%zeros(c) + supers%zeros(s) + added
-            merge = (supers%moves(c) .eqv. supers%moves(s)) .and. .not. (keep_last .and. s == supers%n)
+            merge = (supers%is_refactored(c) .eqv. supers%is_refactored(s)) .and. .not. (keep_last .and. s == supers%n)
             if (merge) merge = zeros <= merged_zeros(findloc(pivots <= real(merged_pivots, wp), .true., dim=1)) &
                                         *entries(pivots, supers%beyond(s))
             if (merge) then

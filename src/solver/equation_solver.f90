@@ -28,8 +28,8 @@ module equation_solver
       character(:), allocatable :: reason            !! why AUTO has taken it, where that is no matter of course
       character(40) :: words(3) = ''                 !! what NUMBERS count; '' behind the last
       integer(long) :: numbers(3) = 0
-      real(wp) :: fixed_operations  = 0.0_wp         !! multiplications and additions of what is factorised once
-      real(wp) :: moving_operations = 0.0_wp         !! of what is factorised in every increment
+      real(wp) :: static_operations  = 0.0_wp         !! multiplications and additions of what is factorised once
+      real(wp) :: refactored_operations = 0.0_wp         !! of what is factorised in every increment
       real(wp) :: assembly_time     = 0.0_wp         !! of the elements, all threads together [s]
       integer(long) :: solutions = 0                 !! so far, by steps of an iteration on several processes
       integer(long) :: steps = 0                     !! of all of them

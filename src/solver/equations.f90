@@ -87,16 +87,8 @@ contains
       do i = 1, n_bars(model)
          if (model%bars(i)%bolt == 0) call add_bar(model, i, system)
       end do
-      if (abs(system%shift) > 0.0_wp) call subtract_masses(model, system)
-   end subroutine form_body_stiffness
-
-   !> - sigma [m] of bars, and of masses at nodes.
-   subroutine subtract_masses(model, system)
-      type(model_type), intent(in)          :: model
-      class(equation_system), intent(inout) :: system
-      integer :: i
-
-      do i = 1, n_bars(model)
+      if (.not. abs(system%shift) > 0.0_wp) return
+      do i = 1, n_bars(model) ! - sigma [m] of bars, and of masses at nodes
          if (.not. model%bars(i)%mass > 0.0_wp) cycle
          associate (nodes => unknown_nodes(model, bar_nodes(model%bars(i))))
             call system%add_to_bodies([system%number(:, nodes)], -system%shift*coupled_bar_mass(model, i))
@@ -107,7 +99,7 @@ contains
             call system%add_to_bodies([system%number(:, nodes)], -system%shift*coupled_point_mass(model, model%masses(i)))
          end associate
       end do
-   end subroutine subtract_masses
+   end subroutine form_body_stiffness
 
    !> Add bar I to the stiffness of the bodies.
    subroutine add_bar(model, i, system)

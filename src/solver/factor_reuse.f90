@@ -4,16 +4,16 @@
 !! Sources: Hestenes, Stiefel, J. Res. NBS 49 (1952) 409-436, preconditioned as in Golub, Van Loan, Matrix Computations, 11.5;
 !! Fischer, Comput. Methods Appl. Mech. Engrg. 163 (1998) 193-204 (the first guess).
 module factor_reuse
-   use front_solve, only: moving_times_vector, solve_moving
+   use front_solve, only: refactored_times_vector, solve_refactored
    use front_tree, only: front_tree_type
    use interface_equations, only: add_products
    use kinds, only: wp
    implicit none
    private
 
-   public :: may_reuse, note_factor, note_steps, note_failure, note_solution, guess_solution, find_least_energy, iterate_moving
+   public :: may_reuse, note_factor, note_steps, note_failure, note_solution, guess_solution, find_least_energy, iterate_refactored
 
-   real(wp), parameter :: step_operations = 75.0_wp !! that a step costs for every entry of the fronts that move
+   real(wp), parameter :: step_operations = 75.0_wp !! that a step costs for every entry of the refactored fronts
    integer, parameter  :: first_wait = 4            !! solutions that are not tried after steps were in vain
    integer, parameter  :: fewest_steps = 8          !! a factorisation that costs less is not worth the trouble
    integer, parameter  :: few = 3                   !! steps after which it can be told how many there will be
@@ -32,7 +32,7 @@ module factor_reuse
 
    type, public :: earlier_solutions_type
       integer :: n = 0                              !! kept, the last one first
-      real(wp), allocatable, private :: u(:, :)     ! (unknowns that move, most_kept)
+      real(wp), allocatable, private :: u(:, :)     ! (refactored unknowns, most_kept)
       real(wp), allocatable, private :: f(:, :)     ! [k_b] u
    end type earlier_solutions_type
 
@@ -85,11 +85,11 @@ contains
       self%wait = min(64, 2*self%wait)
    end subroutine note_failure
 
-   !> X solves ([k_b] + sum of [k_int]) x = b on the equations that move.
+   !> X solves ([k_b] + sum of [k_int]) x = b on the refactored equations.
    subroutine note_solution(tree, k_int, b, x, earlier)
       type(front_tree_type), intent(in)           :: tree
       real(wp), intent(in)                        :: k_int(:, :, :) !! (3, 3, n) of interface elements [force/length]
-      real(wp), intent(in)                        :: b(:)           !! of the equations that move [force]
+      real(wp), intent(in)                        :: b(:)           !! of the refactored equations [force]
       real(wp), intent(in)                        :: x(:)           !! (tree%n) [length]
       type(earlier_solutions_type), intent(inout) :: earlier
       real(wp), allocatable :: of_joints(:)
@@ -109,14 +109,14 @@ contains
       earlier%f(:, 1) = b - of_joints(tree%equations)
    end subroutine note_solution
 
-   !> X on the equations that move, not touched elsewhere: with it the energy x'([k_b] + sum of [k_int]) x/2 - b'x is least of all
+   !> X on the refactored equations, not touched elsewhere: with it the energy x'([k_b] + sum of [k_int]) x/2 - b'x is least of all
    !! sums of earlier solutions; zero where there is none. With it comes RESIDUAL = b - ([k_b] + sum of [k_int]) x, and WORK =
    !! x'([k_b] + sum of [k_int]) x.
    subroutine guess_solution(tree, k_int, earlier, b, x, residual, work)
       type(front_tree_type), intent(in)        :: tree
       real(wp), intent(in)                     :: k_int(:, :, :) !! (3, 3, n) [force/length]
       type(earlier_solutions_type), intent(in) :: earlier
-      real(wp), intent(in)                     :: b(:)           !! of the equations that move [force]
+      real(wp), intent(in)                     :: b(:)           !! of the refactored equations [force]
       real(wp), intent(inout)                  :: x(:)           !! (tree%n) [length]
       real(wp), intent(inout)                  :: residual(:)    !! (tree%n) [force]
       real(wp), intent(out)                    :: work           !! [force*length]
@@ -138,7 +138,7 @@ contains
          end do
          call find_least_energy(energy, matmul(b, u), share)
          x(e) = matmul(u, share)
-         call moving_times_vector(tree, x, f)
+         call refactored_times_vector(tree, x, f)
          call add_products(tree%joints, k_int, x, f)
          residual(e) = b - f(e)
          work = dot_product(x(e), f(e))
@@ -176,11 +176,11 @@ contains
       end do
    end subroutine find_least_energy
 
-   !> Solve ([k] + sum of CHANGE) d = r on the equations that move, [k] what the tree has the factor of, and add d to X. Beside
+   !> Solve ([k] + sum of CHANGE) d = r on the refactored equations, [k] what the tree has the factor of, and add d to X. Beside
    !! r = [k] z, the product p = [k] d goes along with the direction d: no step multiplies by a matrix other than CHANGE. STEPS
    !! is how many it took, more than MOST_STEPS where that was not enough: X is of no use then. Enough is where d leaves of the
    !! ENERGY, of what X had, and of d, no more than the square of TOLERANCE, a share of a length.
-   subroutine iterate_moving(tree, change, energy, tolerance, most_steps, r, x, steps)
+   subroutine iterate_refactored(tree, change, energy, tolerance, most_steps, r, x, steps)
       type(front_tree_type), intent(in) :: tree
       real(wp), intent(in)              :: change(:, :, :) !! (3, 3, n) of interface elements since [k] [force/length]
       real(wp), intent(in)              :: energy          !! [force*length], twice the work
@@ -194,8 +194,8 @@ contains
 
       allocate (z(tree%n), direction(tree%n), of_factor(tree%n), product(tree%n))
       associate (e => tree%equations)
-         z(e) = r(e)                ! what stands at locked equations meets zeros: solve_moving leaves none else there
-         call solve_moving(tree, z)
+         z(e) = r(e)                ! what stands at locked equations meets zeros: solve_refactored leaves none else there
+         call solve_refactored(tree, z)
          now = dot_product(r(e), z(e))
          start = now
          enough = tolerance**2*(energy + start)
@@ -212,7 +212,7 @@ contains
             x(e) = x(e) + alpha*direction(e)
             r(e) = r(e) - alpha*product(e)
             z(e) = r(e)
-            call solve_moving(tree, z)
+            call solve_refactored(tree, z)
             before = now
             now = dot_product(r(e), z(e))
             if (now <= enough) return
@@ -222,6 +222,6 @@ contains
          end do
          steps = most_steps + 1
       end associate
-   end subroutine iterate_moving
+   end subroutine iterate_refactored
 
 end module factor_reuse

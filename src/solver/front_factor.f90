@@ -1,4 +1,4 @@
-!> Factorisation in a tree of fronts: once for those that do not move, in every increment for the others. Independent subtrees
+!> Factorisation in a tree of fronts: once for static ones, in every increment for the others. Independent subtrees
 !! are tasks of OpenMP; every addition has its place in one order, whatever the number of threads.
 module front_factor
    use equation_solver, only: no_memory, pivot_tolerance
@@ -13,7 +13,7 @@ module front_factor
    implicit none
    private
 
-   public :: factorise_fixed, factorise_moving, add_to_moving
+   public :: factorise_static, factorise_refactored, add_to_refactored
 
    integer, parameter  :: strip = 128                  ! columns that are given back together
 
@@ -105,9 +105,9 @@ contains
       end do
    end subroutine add_update
 
-   !> Eliminate all fronts that do not move, and keep what the others begin with. FAULT is 0, no_memory, or the first equation
+   !> Eliminate all static fronts, and keep what the others begin with. FAULT is 0, no_memory, or the first equation
    !! without stiffness.
-   subroutine factorise_fixed(model, tree, fault)
+   subroutine factorise_static(model, tree, fault)
       type(model_type), intent(in)         :: model
       type(front_tree_type), intent(inout) :: tree
       integer, intent(out)                 :: fault
@@ -119,12 +119,12 @@ contains
       fault = first_fault(faults)
       if (fault /= 0) return
       !$omp parallel do schedule(dynamic, 8) default(shared) if(tree%is_parallel)
-      do k = 1, size(tree%moving)
-         call keep_start(model, tree, tree%fronts(tree%moving(k)), faults(tree%moving(k)))
+      do k = 1, size(tree%refactored)
+         call keep_start(model, tree, tree%fronts(tree%refactored(k)), faults(tree%refactored(k)))
       end do
       !$omp end parallel do
       fault = first_fault(faults)
-   end subroutine factorise_fixed
+   end subroutine factorise_static
 
    !> What went wrong first in the order of elimination, 0: nothing.
    pure integer function first_fault(faults) result(fault)
@@ -138,13 +138,13 @@ contains
       end if
    end function first_fault
 
-   !> Eliminate all fronts that do not move, those of MODEL, or all that are MOVING, with the stiffnesses K. (An optional array would be
+   !> Eliminate all static fronts, those of MODEL, or all that are REFACTORED, with the stiffnesses K. (An optional array would be
    !! shared by the tasks with bounds that are not set where it is absent.)
-   subroutine eliminate_fronts(tree, faults, moving, k, model)
+   subroutine eliminate_fronts(tree, faults, refactored, k, model)
       type(front_tree_type), intent(inout)   :: tree
       integer, allocatable, intent(out)      :: faults(:)  !! (fronts)
-      logical, intent(in)                    :: moving
-      real(wp), intent(in)                   :: k(:, :, :) !! of no element where they do not move
+      logical, intent(in)                    :: refactored
+      real(wp), intent(in)                   :: k(:, :, :) !! of no element where they are static
       type(model_type), intent(in), optional :: model
       integer :: f
 
@@ -152,7 +152,7 @@ contains
       !$omp parallel default(shared) if(tree%is_parallel)
       !$omp single
       do f = 1, size(tree%fronts)
-         if (.not. begins(tree, f, moving)) cycle
+         if (.not. begins(tree, f, refactored)) cycle
          !$omp task default(shared) firstprivate(f) if(tree%fronts(f)%work > task_work)
          call eliminate_subtree(tree, f, faults, k, model)
          !$omp end task
@@ -161,7 +161,7 @@ contains
       !$omp end parallel
    end subroutine eliminate_fronts
 
-   !> Eliminate front F after those of its subtree that move as it does, or do not.
+   !> Eliminate front F after those of its subtree that are refactored as it is, or static.
    recursive subroutine eliminate_subtree(tree, f, faults, k, model)
       type(front_tree_type), intent(inout)   :: tree
       integer, intent(in)                    :: f
@@ -172,7 +172,7 @@ contains
 
       do i = 1, size(tree%fronts(f)%children)
          c = tree%fronts(f)%children(i)
-         if (tree%fronts(c)%moves .neqv. tree%fronts(f)%moves) cycle
+         if (tree%fronts(c)%is_refactored .neqv. tree%fronts(f)%is_refactored) cycle
          !$omp task default(shared) firstprivate(c) if(tree%fronts(c)%work > task_work)
          call eliminate_subtree(tree, c, faults, k, model)
          !$omp end task
@@ -181,7 +181,7 @@ contains
       associate (front => tree%fronts(f), fault => faults(f))
          fault = first_fault(faults(front%children))
          if (fault /= 0) return
-         if (front%moves) then
+         if (front%is_refactored) then
             call restart_front(tree, front, k, fault)
          else
             call start_front(model, tree, front, fault)
@@ -223,7 +223,7 @@ contains
       tree%assembly_time = tree%assembly_time + time
    end subroutine assemble
 
-   !> What FRONT begins with: its elements, and what its children that do not move leave.
+   !> What FRONT begins with: its elements, and what its static children leave.
    subroutine start_front(model, tree, front, fault)
       type(model_type), intent(in)         :: model
       type(front_tree_type), intent(inout) :: tree
@@ -241,7 +241,7 @@ contains
       call assemble(model, tree, front)
       do k = 1, size(front%children)
          c = front%children(k)
-         if (tree%fronts(c)%moves) cycle
+         if (tree%fronts(c)%is_refactored) cycle
          call take_update(tree%fronts(c), front)
       end do
       fault = 0
@@ -297,7 +297,7 @@ contains
       a(last:) = 0.0_wp
    end subroutine set_ends_to_zero
 
-   !> Keep what moving FRONT begins with.
+   !> Keep what refactored FRONT begins with.
    subroutine keep_start(model, tree, front, fault)
       type(model_type), intent(in)         :: model
       type(front_tree_type), intent(inout) :: tree
@@ -316,8 +316,8 @@ contains
       deallocate (front%update)
    end subroutine keep_start
 
-   !> Eliminate all fronts that move, with the stiffnesses K of the interface elements. FAULT as above.
-   subroutine factorise_moving(tree, k, fault)
+   !> Eliminate all refactored fronts, with the stiffnesses K of the interface elements. FAULT as above.
+   subroutine factorise_refactored(tree, k, fault)
       type(front_tree_type), intent(inout) :: tree
       real(wp), intent(in)                 :: k(:, :, :) !! (3, 3, n) between their ends, global axes [force/length]
       integer, intent(out)                 :: fault
@@ -327,19 +327,19 @@ contains
       call eliminate_fronts(tree, faults, .true., k)
       fault = first_fault(faults)
       if (fault == 0) return
-      do i = 1, size(tree%moving)
-         f = tree%moving(i)
+      do i = 1, size(tree%refactored)
+         f = tree%refactored(i)
          if (allocated(tree%fronts(f)%update)) deallocate (tree%fronts(f)%update)
       end do
-   end subroutine factorise_moving
+   end subroutine factorise_refactored
 
-   !> What moving FRONT begins with in an increment: what was kept, its interface elements, and what its children that move leave.
+   !> What refactored FRONT begins with in an increment: what was kept, its interface elements, and what its refactored children leave.
    subroutine restart_front(tree, front, k, fault)
       type(front_tree_type), intent(inout) :: tree
       type(front_type), intent(inout)      :: front
       real(wp), intent(in)                 :: k(:, :, :)
       integer, intent(out)                 :: fault !! 0, or no_memory
-      integer :: c, i, status
+      integer :: c, i, j, status
 
       allocate (front%update(front%r, front%r), stat=status)
       fault = merge(0, no_memory, status == 0)
@@ -353,30 +353,21 @@ contains
       end do
       do i = 1, size(front%children)
          c = front%children(i)
-         if (.not. tree%fronts(c)%moves) cycle
+         if (.not. tree%fronts(c)%is_refactored) cycle
          call add_update(tree%fronts(c), front, 1, tree%fronts(c)%r)
          deallocate (tree%fronts(c)%update)
       end do
-      call lock(tree%locked(front%first:front%first + front%p - 1), front)
-   end subroutine restart_front
-
-   !> The rows and columns of LOCKED pivots become those of the identity.
-   subroutine lock(locked, front)
-      logical, intent(in)             :: locked(:) !! (p)
-      type(front_type), intent(inout) :: front
-      integer :: j
-
-      do j = 1, front%p
-         if (.not. locked(j)) cycle
+      do j = 1, front%p                    ! rows and columns of locked pivots become those of the identity
+         if (.not. tree%locked(front%first + j - 1)) cycle
          front%panel(j, :j - 1) = 0.0_wp
          front%panel(j:, j) = 0.0_wp
          front%panel(j, j) = 1.0_wp
          front%diagonal(j) = 1.0_wp
       end do
-   end subroutine lock
+   end subroutine restart_front
 
-   !> Add the symmetric matrix K of the EQUATIONS (0: held), all of fronts that move, for good.
-   subroutine add_to_moving(tree, equations, k)
+   !> Add the symmetric matrix K of the EQUATIONS (0: held), all of refactored fronts, for good.
+   subroutine add_to_refactored(tree, equations, k)
       type(front_tree_type), intent(inout) :: tree
       integer, intent(in)                  :: equations(:)
       real(wp), intent(in)                 :: k(:, :)
@@ -401,6 +392,6 @@ contains
             end do
          end do
       end associate
-   end subroutine add_to_moving
+   end subroutine add_to_refactored
 
 end module front_factor

@@ -1,4 +1,4 @@
-!> The tree of dense fronts of a multifrontal factorisation. Fronts that do not move have no unknown of a joint in their subtree;
+!> The tree of dense fronts of a multifrontal factorisation. Static fronts have no unknown of a joint in their subtree;
 !! they are eliminated once. The others are assembled and eliminated again and again.
 !! Sources: Duff, Reid, ACM Trans. Math. Softw. 9 (1983) 302-325; Liu, SIAM Review 34 (1992) 82-109.
 module front_tree
@@ -28,7 +28,7 @@ module front_tree
    real(wp), parameter, public :: task_work = 2.0e6_wp !! operations of the factorisation of a subtree that is worth a task
    real(wp), parameter :: parallel_work = 5.0e7_wp  ! operations of a factorisation that is worth more than one thread
 
-   !> What a front that moves begins with in every increment: all that does not move.
+   !> What a refactored front begins with in every increment: all that stays the same.
    type :: front_start
       type(kept_block) :: panel, update
       real(wp), allocatable :: diagonal(:)        ! (p + r)
@@ -39,7 +39,7 @@ module front_tree
       integer :: p = 0, r = 0                     !! pivots, rows beyond them
       integer :: parent = 0                       !! 0: none
       integer :: left = 0                         !! behind which place what it leaves for the rows beyond stands in a solution
-      logical :: moves = .false.
+      logical :: is_refactored = .false.
       integer, allocatable  :: children(:)
       integer, allocatable  :: rows(:)            !! (r) equations beyond the pivots, ascending
       integer, allocatable  :: in_parent(:)       !! (r) their places in the front of the parent
@@ -52,7 +52,7 @@ module front_tree
                                                   !! gone likewise
       integer, allocatable :: negative(:)         !! of a factor with signs: the pivots of this front whose sign is -1
       real(wp) :: weakest = 1.0_wp                !! least pivot, as a share of its diagonal entry before any elimination
-      type(front_start), allocatable :: start     !! of a front that moves
+      type(front_start), allocatable :: start     !! of a refactored front
       real(wp) :: work = 0.0_wp                   !! operations of its subtree
    end type front_type
 
@@ -63,9 +63,9 @@ module front_tree
       integer, allocatable :: of_equation(:)      !! (n) front that eliminates it
       type(interface_equations_type) :: joints
       real(wp), allocatable :: diagonal(:)        !! (n) of the matrix that the factor is of
-      logical, allocatable :: locked(:)           !! (n) unknowns that do not change any more; of fronts that move
+      logical, allocatable :: locked(:)           !! (n) unknowns that do not change any more; of refactored fronts
       type(front_type), allocatable :: fronts(:)  !! children before parents
-      integer, allocatable :: moving(:)           !! those that move, ascending
+      integer, allocatable :: refactored(:)           !! refactored ones, ascending
       integer, allocatable :: equations(:)        !! that they eliminate, ascending
       integer :: most_rows = 0                    !! pivots and rows beyond them of the largest
       integer :: n_left = 0                       !! rows beyond the pivots of all fronts together
@@ -195,7 +195,7 @@ contains
       integer, allocatable :: first(:), weight(:), first_child(:), children(:)
       integer :: d, f, i, k, node, n_rows
 
-      tree%is_parallel = layout%fixed_operations + layout%moving_operations > parallel_work
+      tree%is_parallel = layout%static_operations + layout%refactored_operations > parallel_work
       tree%number = number
       allocate (tree%fronts(layout%n))
       allocate (first(size(layout%order)), weight(size(layout%order)))
@@ -214,7 +214,7 @@ contains
                     rows => layout%rows(layout%first_row(f):layout%first_row(f + 1) - 1))
             front%first = first(low)
             front%p = sum(weight(low:high))
-            front%moves = layout%moves(f)
+            front%is_refactored = layout%is_refactored(f)
             front%parent = layout%parent(f)
             front%r = sum(weight(rows))
             allocate (front%rows(front%r))
@@ -264,8 +264,8 @@ contains
             if (front%parent > 0) tree%fronts(front%parent)%work = tree%fronts(front%parent)%work + front%work
          end associate
       end do
-      tree%moving = pack([(f, f = 1, layout%n)], layout%moves(:layout%n))
-      tree%equations = pack([(i, i = 1, tree%n)], tree%fronts(tree%of_equation)%moves)
+      tree%refactored = pack([(f, f = 1, layout%n)], layout%is_refactored(:layout%n))
+      tree%equations = pack([(i, i = 1, tree%n)], tree%fronts(tree%of_equation)%is_refactored)
       tree%most_rows = maxval(tree%fronts%p + tree%fronts%r)
    end subroutine start_front_tree
 
@@ -318,17 +318,17 @@ contains
       if (first <= tree%n) f = tree%of_equation(first)
    end function front_of
 
-   !> Whether front F MOVES, or does not, and its parent is none of these.
-   pure logical function begins(tree, f, moves)
+   !> Whether front F is REFACTORED, or static, and its parent is none of these.
+   pure logical function begins(tree, f, refactored)
       type(front_tree_type), intent(in) :: tree
       integer, intent(in)               :: f
-      logical, intent(in)               :: moves
+      logical, intent(in)               :: refactored
 
-      begins = tree%fronts(f)%moves .eqv. moves
-      if (begins .and. tree%fronts(f)%parent > 0) begins = tree%fronts(tree%fronts(f)%parent)%moves .neqv. moves
+      begins = tree%fronts(f)%is_refactored .eqv. refactored
+      if (begins .and. tree%fronts(f)%parent > 0) begins = tree%fronts(tree%fronts(f)%parent)%is_refactored .neqv. refactored
    end function begins
 
-   !> The largest diagonal entry of the matrix without what moves, when the fronts that do not move have been eliminated and those
+   !> The largest diagonal entry of the matrix without the joints, when the static fronts have been eliminated and those
    !! that do have not.
    pure real(wp) function largest_diagonal(tree) result(largest)
       type(front_tree_type), intent(in) :: tree
@@ -337,8 +337,8 @@ contains
 
       allocate (diagonal, source=tree%diagonal)
       diagonal(tree%equations) = 0.0_wp
-      do k = 1, size(tree%moving)
-         associate (front => tree%fronts(tree%moving(k)))
+      do k = 1, size(tree%refactored)
+         associate (front => tree%fronts(tree%refactored(k)))
             associate (first => front%first, last => front%first + front%p - 1)
                diagonal(first:last) = diagonal(first:last) + front%start%diagonal(:front%p)
                diagonal(front%rows) = diagonal(front%rows) + front%start%diagonal(front%p + 1:)

@@ -86,6 +86,16 @@ contains
       if (ok) order = old_of_new + 1
    end subroutine order_by_metis
 
+   !> Whether there is the memory that METIS takes for GRAPH.
+   logical function has_room(graph)
+      type(node_graph_type), intent(in) :: graph
+      integer, allocatable :: room(:, :)
+      integer :: status
+
+      allocate (room(words, graph%n + size(graph%neighbours)), stat=status)
+      has_room = status == 0
+   end function has_room
+
    !> Cut GRAPH by separators into N_PARTS, a power of 2: PLACE of every node in the tree of nested_dissection; all in place 1
    !! where METIS does not say which nodes the separators are. OK is false where there is not the memory: METIS would end the
    !! program.
@@ -95,13 +105,10 @@ contains
       integer, allocatable, intent(out) :: place(:) !! (graph%n)
       logical, intent(out)              :: ok
       integer(c_int32_t) :: old_of_new(graph%n), new_of_old(graph%n), sizes(2*n_parts - 1), options(n_options)
-      integer, allocatable :: room(:, :)
       integer :: n, status
 
-      allocate (room(words, graph%n + size(graph%neighbours)), stat=status)
-      ok = status == 0
+      ok = has_room(graph)
       if (.not. ok) return
-      deallocate (room)
       status = metis_set_default_options(options)
       options(compress) = 0   ! sizes would count what is left of the nodes
       sizes = 0
@@ -138,16 +145,13 @@ contains
       integer, allocatable, intent(out) :: part(:) !! (graph%n)
       logical, intent(out)              :: ok
       integer(c_int32_t) :: cut, options(n_options)
-      integer, allocatable :: room(:, :)
       integer :: status
 
       allocate (part(graph%n), source=0)
       ok = .true.
       if (n_parts == 1 .or. graph%n < n_parts) return
-      allocate (room(words, graph%n + size(graph%neighbours)), stat=status)
-      ok = status == 0
+      ok = has_room(graph)
       if (.not. ok) return
-      deallocate (room)
       status = metis_set_default_options(options)
       ok = metis_part_kway(graph%n, 1, graph%first - 1, graph%neighbours - 1, c_null_ptr, c_null_ptr, c_null_ptr, n_parts, &
                            c_null_ptr, c_null_ptr, options, cut, part) == metis_ok

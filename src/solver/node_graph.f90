@@ -11,7 +11,7 @@ module node_graph
    implicit none
    private
 
-   public :: build_node_graph, part_of_graph, reverse_cuthill_mckee
+   public :: build_node_graph, list_joined, part_of_graph, reverse_cuthill_mckee
 
    !> Nodes and their neighbours: neighbours(first(i):first(i+1)-1) share an element or interface element with node i.
    type, public :: node_graph_type
@@ -33,7 +33,7 @@ contains
 
       graph%n = model%n_nodes
       if (present(with_masses)) graph%with_masses = with_masses
-      call list_joined(model, graph%with_masses, joined)
+      call list_joined(model, graph%with_masses, .true., joined)
       call list_owners(graph%n, joined, first_list, lists_at)
       allocate (graph%first(graph%n + 1), mark(graph%n))
       do pass = 1, 2 ! count, then fill
@@ -74,11 +74,11 @@ contains
 
    end subroutine build_node_graph
 
-   !> JOINED(:, n): the nodes whose unknowns interface elements and bars couple, and body elements with nodes that move with the
-   !! unknowns of others; 0 behind the last.
-   subroutine list_joined(model, with_masses, joined)
+   !> JOINED(:, n): the nodes whose unknowns interface elements and bars couple; WITH_MASSES those of masses at nodes; and WITH_BODIES
+   !! body elements with nodes that move with the unknowns of others; 0 behind the last.
+   subroutine list_joined(model, with_masses, with_bodies, joined)
       type(model_type), intent(in)      :: model
-      logical, intent(in)               :: with_masses
+      logical, intent(in)               :: with_masses, with_bodies
       integer, allocatable, intent(out) :: joined(:, :)
       integer, allocatable :: wider(:, :)
       integer :: e, i, n
@@ -94,7 +94,7 @@ contains
       do i = 1, merge(n_masses(model), 0, with_masses)
          call join(unknown_nodes(model, mass_nodes(model, model%masses(i))))
       end do
-      if (.not. allocated(model%coupling%of_node)) return
+      if (.not. (with_bodies .and. allocated(model%coupling%of_node))) return
       do e = 1, model%n_elements
          if (moves_with_others(e)) call join(coupled_nodes(model, e))
       end do

@@ -65,8 +65,8 @@ contains
       tree%factorisations = factorisations
       call tree%lay_out(model, graph)
       if (is_weighed .and. tree%is_laid_out) then
-         work%fixed_operations = tree%description%fixed_operations
-         work%moving_operations = tree%description%moving_operations
+         work%static_operations = tree%description%static_operations
+         work%refactored_operations = tree%description%refactored_operations
          work%bytes = tree%bytes
          work%there = real(memory_for(work%bytes), wp)
          work%entries = real(model%dimension, wp)**2*(size(graph%neighbours) + real(model%n_nodes, wp))
