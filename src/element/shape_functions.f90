@@ -19,44 +19,6 @@ module shape_functions
 
 contains
 
-   !> The shape functions N at a point. What is beyond the nodes of the kind, and all of another kind, is left as it is.
-   pure subroutine quadratic_values(kind, point, n)
-      integer, intent(in)     :: kind                 !! kind_tria6 ... kind_hexa20, kind_edge3
-      real(wp), intent(in)    :: point(3)             !! local coordinates; those beyond the kind's dimension are not used
-      real(wp), intent(inout) :: n(max_nodes)         !! [-]
-      real(wp) :: l(4), bubble
-      integer  :: i
-
-      associate (r => point(1), s => point(2), t => point(3))
-         select case (kind)
-         case (kind_edge3)
-            n(:3) = [0.5_wp*r*(r - 1.0_wp), 0.5_wp*r*(r + 1.0_wp), (1.0_wp - r)*(1.0_wp + r)]
-         case (kind_tria6, kind_tetra10)
-            associate (corners => element_table(kind)%n_corners)
-               l = barycentric(corners, point)
-               do i = 1, corners
-                  n(i) = l(i)*(2.0_wp*l(i) - 1.0_wp)
-               end do
-               do i = corners + 1, element_table(kind)%n_nodes
-                  n(i) = 4.0_wp*product(l(element_table(kind)%edges(:, i - corners)))
-               end do
-            end associate
-         case (kind_quad8, kind_hexa20)
-            call serendipity_values(kind, point, n)
-         case (kind_penta15)
-            l = barycentric(3, point)
-            bubble = (1.0_wp - t)*(1.0_wp + t)
-            do i = 1, 3
-               n(i) = 0.5_wp*l(i)*((2.0_wp*l(i) - 1.0_wp)*(1.0_wp - t) - bubble)
-               n(i + 3) = 0.5_wp*l(i)*((2.0_wp*l(i) - 1.0_wp)*(1.0_wp + t) - bubble)
-               n(i + 6) = 2.0_wp*l(i)*l(next(i))*(1.0_wp - t)
-               n(i + 9) = l(i)*bubble
-               n(i + 12) = 2.0_wp*l(i)*l(next(i))*(1.0_wp + t)
-            end do
-         end select
-      end associate
-   end subroutine quadratic_values
-
    !> Derivatives of the shape functions with respect to the local coordinates; the rest of DN is left as it is.
    pure subroutine quadratic_derivatives(kind, point, dn)
       integer, intent(in)     :: kind                 !! kind_tria6 ... kind_hexa20, kind_edge3
@@ -194,6 +156,7 @@ contains
       integer, intent(in)   :: kind                   !! kind_tria3 ... kind_edge3
       real(wp), intent(in)  :: point(3)               !! local coordinates; those beyond the kind's dimension are not used
       real(wp), intent(out) :: n(max_nodes)           !! [-]
+      real(wp) :: l(4), bubble
       integer  :: i
 
       n = 0.0_wp
@@ -216,8 +179,30 @@ contains
             end do
          case (kind_edge2)
             n(:2) = [0.5_wp*(1.0_wp - r), 0.5_wp*(1.0_wp + r)]
-         case default
-            call quadratic_values(kind, point, n)
+         case (kind_edge3)
+            n(:3) = [0.5_wp*r*(r - 1.0_wp), 0.5_wp*r*(r + 1.0_wp), (1.0_wp - r)*(1.0_wp + r)]
+         case (kind_tria6, kind_tetra10)
+            associate (corners => element_table(kind)%n_corners)
+               l = barycentric(corners, point)
+               do i = 1, corners
+                  n(i) = l(i)*(2.0_wp*l(i) - 1.0_wp)
+               end do
+               do i = corners + 1, element_table(kind)%n_nodes
+                  n(i) = 4.0_wp*product(l(element_table(kind)%edges(:, i - corners)))
+               end do
+            end associate
+         case (kind_quad8, kind_hexa20)
+            call serendipity_values(kind, point, n)
+         case (kind_penta15)
+            l = barycentric(3, point)
+            bubble = (1.0_wp - t)*(1.0_wp + t)
+            do i = 1, 3
+               n(i) = 0.5_wp*l(i)*((2.0_wp*l(i) - 1.0_wp)*(1.0_wp - t) - bubble)
+               n(i + 3) = 0.5_wp*l(i)*((2.0_wp*l(i) - 1.0_wp)*(1.0_wp + t) - bubble)
+               n(i + 6) = 2.0_wp*l(i)*l(next(i))*(1.0_wp - t)
+               n(i + 9) = l(i)*bubble
+               n(i + 12) = 2.0_wp*l(i)*l(next(i))*(1.0_wp + t)
+            end do
          end select
       end associate
    end subroutine shape_values

@@ -6,7 +6,7 @@
 !!
 !! and the processes that have them put them in their places.
 module touched_blocks
-   use id_table, only: sorted_order
+   use id_table, only: first_not_below, sorted_order
    use interface_equations, only: interface_equations_type
    use interface_operator, only: interface_element
    use kinds, only: wp
@@ -147,18 +147,10 @@ contains
    pure integer function place_of(touched, row, column) result(place)
       type(touched_type), intent(in) :: touched
       integer, intent(in)            :: row, column
-      integer :: high, middle
 
-      place = touched%first(row + 1)
-      high = touched%first(row + 2) - 1
-      do while (place < high)
-         middle = (place + high)/2
-         if (touched%column(middle) < column) then
-            place = middle + 1
-         else
-            high = middle
-         end if
-      end do
+      associate (first => touched%first(row + 1), behind => touched%first(row + 2))
+         place = first - 1 + first_not_below(touched%column(first:behind - 1), column)
+      end associate
    end function place_of
 
    !> Add the symmetric matrix K between the components C(i) of the blocks B(i) to the bodies; a block below 0 is none.

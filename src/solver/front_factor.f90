@@ -4,6 +4,7 @@ module front_factor
    use equation_solver, only: no_memory, pivot_tolerance
    use front_tree, only: add_to_block, begins, front_of, front_tree_type, front_type, keep_block, restore_block, task_work
    use front_kernel, only: eliminate, large, top_row
+   use id_table, only: first_not_below
    use kinds, only: long, wp
    use machine, only: give_back
    use mass_elements, only: coupled_dynamic_stiffness
@@ -52,23 +53,11 @@ contains
    pure integer function place_in(front, equation) result(place)
       type(front_type), intent(in) :: front
       integer, intent(in)          :: equation
-      integer :: low, high, middle
 
       place = 0
       if (equation == 0) return
       place = equation - front%first + 1
-      if (place <= front%p) return
-      low = 1
-      high = front%r
-      do while (low < high)
-         middle = (low + high)/2
-         if (front%rows(middle) < equation) then
-            low = middle + 1
-         else
-            high = middle
-         end if
-      end do
-      place = front%p + low
+      if (place > front%p) place = front%p + first_not_below(front%rows, equation)
    end function place_in
 
    !> Add to FRONT what the elimination of CHILD left, of it the columns FROM to UNTIL.

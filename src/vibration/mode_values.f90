@@ -146,20 +146,12 @@ contains
    !> The sign of a shape: that of its largest component, of as good as equal ones the first, is positive.
    pure subroutine settle_sign(participation, u)
       real(wp), intent(inout) :: participation(:), u(:, :)
-      real(wp) :: much
-      integer  :: d, i
+      integer :: at(2)
 
-      much = near*maxval(abs(u))
-      do i = 1, size(u, 2)
-         do d = 1, size(u, 1)
-            if (abs(u(d, i)) < much) cycle
-            if (u(d, i) < 0.0_wp) then
-               u = -u
-               participation = -participation
-            end if
-            return
-         end do
-      end do
+      at = first_large(reshape(u, [size(u, 1), size(u, 2), 1]))
+      if (u(at(1), at(2)) >= 0.0_wp) return
+      u = -u
+      participation = -participation
    end subroutine settle_sign
 
    !> The modes that PLAN wants, of SPECTRUM.
