@@ -49,7 +49,7 @@ module equation_solver
       integer, allocatable  :: equations(:)          !! that the increments solve for, ascending
       integer, allocatable  :: retained(:)           !! nodes that the increments see, ascending: those of the equations, and of
                                                      !! interface elements
-      integer, allocatable  :: place(:)              !! (n_nodes) where a node stands among the retained ones, 0: nowhere
+      integer, allocatable  :: retained_index(:)     !! (n_nodes) where a node stands among the retained ones, 0: nowhere
       integer, allocatable  :: locked(:)             !! equations whose unknowns have been held since they were numbered
       type(interface_element), allocatable :: interface(:) !! the model's, each NODE a place among the retained ones
       real(wp) :: stiffest = 0.0_wp                  !! largest diagonal entry of [k_b] [force/length]
@@ -195,7 +195,7 @@ contains
       held = self%number(:, self%retained) == 0
       do i = 1, size(self%locked)
          associate (k => self%locked(i))
-            held(self%direction(k), self%place(self%node(k))) = .true.
+            held(self%direction(k), self%retained_index(self%node(k))) = .true.
          end associate
       end do
    end function held_now

@@ -65,11 +65,11 @@ contains
       class(equation_system), intent(inout) :: system
       integer :: i
 
-      allocate (system%place(model%n_nodes), source=0)
-      system%place(system%retained) = [(i, i = 1, size(system%retained))]
+      allocate (system%retained_index(model%n_nodes), source=0)
+      system%retained_index(system%retained) = [(i, i = 1, size(system%retained))]
       call list_on_unknowns(model, system%interface)
       do i = 1, size(system%interface)
-         system%interface(i)%node = system%place(system%interface(i)%node)
+         system%interface(i)%node = system%retained_index(system%interface(i)%node)
       end do
       allocate (system%k_int(3, 3, size(system%interface)))
    end subroutine place_retained
@@ -244,7 +244,7 @@ contains
 
       do i = 1, size(system%equations)
          k = system%equations(i)
-         x(k) = array(system%direction(k), system%place(system%node(k)))
+         x(k) = array(system%direction(k), system%retained_index(system%node(k)))
       end do
    end subroutine gather
 
@@ -258,7 +258,7 @@ contains
       array = 0.0_wp
       do i = 1, size(system%equations)
          k = system%equations(i)
-         array(system%direction(k), system%place(system%node(k))) = x(k)
+         array(system%direction(k), system%retained_index(system%node(k))) = x(k)
       end do
    end subroutine put
 
