@@ -4,7 +4,7 @@ module id_table
    implicit none
    private
 
-   public :: sorted_order, distinct
+   public :: sorted_order, distinct, first_not_below
 
    !> A set of identification numbers in ascending order with the position of each.
    type, public :: id_table_type
@@ -46,7 +46,7 @@ contains
    pure integer function find(self, id) result(position)
       class(id_table_type), intent(in) :: self
       integer, intent(in)              :: id
-      integer :: low, high, middle
+      integer :: k
 
       position = 0
       if (.not. allocated(self%ids)) return
@@ -54,19 +54,27 @@ contains
          if (id >= lbound(self%direct, 1) .and. id <= ubound(self%direct, 1)) position = self%direct(id)
          return
       end if
+      if (size(self%ids) == 0) return
+      k = first_not_below(self%ids, id)
+      if (self%ids(k) == id) position = self%positions(k)
+   end function find
+
+   !> The first position of the ascending KEYS that does not hold less than KEY, the last where all do: by halving the range.
+   pure integer function first_not_below(keys, key) result(low)
+      integer, intent(in) :: keys(:), key
+      integer :: high, middle
+
       low = 1
-      high = size(self%ids)
+      high = size(keys)
       do while (low < high)
          middle = low + (high - low)/2
-         if (self%ids(middle) < id) then
+         if (keys(middle) < key) then
             low = middle + 1
          else
             high = middle
          end if
       end do
-      if (low > size(self%ids)) return
-      if (self%ids(low) == id) position = self%positions(low)
-   end function find
+   end function first_not_below
 
    !> The positions of all numbers that an earlier position holds already, in ascending order of the number.
    pure subroutine list_repeated(self, positions)

@@ -1,9 +1,8 @@
 !> A face of a joint and the plane that it is seen in: the plane through its centre at right angles to its normal there. What stands
 !! opposite is projected on that plane, along the normal; in space and, as a line, in the plane.
 module face_frames
-   use element_kinds, only: max_nodes, max_side_nodes, side_kind
+   use element_kinds, only: max_nodes, max_side_nodes, side_kind, centre_point
    use kinds, only: wp
-   use local_nodes, only: centre_point
    use shape_functions, only: shape_derivatives, shape_values
    use vector_product, only: cross
    implicit none

@@ -4,7 +4,10 @@
 !! the middle of its edges, in the order of the edges here.
 !! Source: MSC Nastran Quick Reference Guide, CTRIA3, CTRIA6, CQUAD4, CQUAD8, CTETRA, CPENTA, CHEXA; VTK file formats, linear and
 !! quadratic cell types.
+!! Local coordinates of edge, quadrilateral and hexahedron: each from -1 to 1. Triangle and tetrahedron: from 0 to 1, corner 1 at
+!! the origin. Wedge: a triangle in r, s, and t from -1 to 1. Nodes behind the corners lie at the middle of the edges.
 module element_kinds
+   use kinds, only: wp
    implicit none
    private
 
@@ -80,6 +83,38 @@ module element_kinds
       element_kind('CHEXA ', 3, 20, 8, kind_hexa8, 8, 6, 12, 25, upright_last_20, hexa, [4, 4, 4, 4, 4, 4], [8, 8, 8, 8, 8, 8], &
          reshape([1, 4, 3, 2, 12, 11, 10, 9, 5, 6, 7, 8, 17, 18, 19, 20, 1, 2, 6, 5, 9, 14, 17, 13, 2, 3, 7, 6, 10, 15, 18, 14, &
                   3, 4, 8, 7, 11, 16, 19, 15, 4, 1, 5, 8, 12, 13, 20, 16], [8, 6]))]
+
+   real(wp), parameter :: half = 0.5_wp, third = 1.0_wp/3.0_wp
+   real(wp), parameter :: none(3, max_nodes) = 0.0_wp
+
+   ! corners, and where edges begin and end, in this order
+   real(wp), parameter :: edge_at(3, 2) = reshape([real(wp) :: -1, 0, 0,  1, 0, 0], [3, 2])
+   real(wp), parameter :: tria_at(3, 3) = reshape([real(wp) :: 0, 0, 0,  1, 0, 0,  0, 1, 0], [3, 3])
+   real(wp), parameter :: quad_at(3, 4) = reshape([real(wp) :: -1, -1, 0,  1, -1, 0,  1, 1, 0,  -1, 1, 0], [3, 4])
+   real(wp), parameter :: tetra_at(3, 4) = reshape([real(wp) :: 0, 0, 0,  1, 0, 0,  0, 1, 0,  0, 0, 1], [3, 4])
+   real(wp), parameter :: penta_at(3, 6) = reshape([real(wp) :: &
+      0, 0, -1,  1, 0, -1,  0, 1, -1,  0, 0, 1,  1, 0, 1,  0, 1, 1], [3, 6])
+   real(wp), parameter :: hexa_at(3, 8) = reshape([real(wp) :: &
+      -1, -1, -1,  1, -1, -1,  1, 1, -1,  -1, 1, -1,  -1, -1, 1,  1, -1, 1,  1, 1, 1,  -1, 1, 1], [3, 8])
+   real(wp), parameter :: of_tria(3, 3) = half*(tria_at + tria_at(:, [2, 3, 1]))
+   real(wp), parameter :: of_quad(3, 4) = half*(quad_at + quad_at(:, [2, 3, 4, 1]))
+   real(wp), parameter :: of_tetra(3, 6) = half*(tetra_at(:, [1, 2, 3, 1, 2, 3]) + tetra_at(:, [2, 3, 1, 4, 4, 4]))
+   real(wp), parameter :: of_penta(3, 9) = &
+      half*(penta_at(:, [1, 2, 3, 1, 2, 3, 4, 5, 6]) + penta_at(:, [2, 3, 1, 4, 5, 6, 5, 6, 4]))
+   real(wp), parameter :: of_hexa(3, 12) = &
+      half*(hexa_at(:, [1, 2, 3, 4, 1, 2, 3, 4, 5, 6, 7, 8]) + hexa_at(:, [2, 3, 4, 1, 5, 6, 7, 8, 6, 7, 8, 5]))
+
+   !> Local coordinates of the nodes: (coordinate, node, kind), 0 beyond the nodes of the kind.
+   real(wp), parameter, public :: node_point(3, max_nodes, n_shapes) = reshape([ &
+      tria_at, none(:, 4:), quad_at, none(:, 5:), tetra_at, none(:, 5:), penta_at, none(:, 7:), hexa_at, none(:, 9:), &
+      tria_at, of_tria, none(:, 7:), quad_at, of_quad, none(:, 9:), tetra_at, of_tetra, none(:, 11:), &
+      penta_at, of_penta, none(:, 16:), &
+      hexa_at, of_hexa, edge_at, none(:, 3:), edge_at, none(:, 3:)], [3, max_nodes, n_shapes])
+
+   !> Local coordinates of the centre: (coordinate, kind).
+   real(wp), parameter, public :: centre_point(3, n_shapes) = reshape([real(wp) :: &
+      third, third, 0,  0, 0, 0,  0.25_wp, 0.25_wp, 0.25_wp,  third, third, 0,  0, 0, 0, &
+      third, third, 0,  0, 0, 0,  0.25_wp, 0.25_wp, 0.25_wp,  third, third, 0,  0, 0, 0,  0, 0, 0,  0, 0, 0], [3, n_shapes])
 
 contains
 

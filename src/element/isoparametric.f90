@@ -1,15 +1,19 @@
-!> Stiffness of the isoparametric elements: plane, axisymmetric and solid, linear ones with incompatible modes where asked for.
-!! Source: Zienkiewicz, Taylor, Zhu, The Finite Element Method, 6th ed., chapters 2, 5 and 6; Taylor, Beresford, Wilson 1976.
+!> Stiffness and mass of the isoparametric elements: plane, axisymmetric and solid, linear ones with incompatible modes where asked
+!! for. The mass is the integral of N_i N_j over the body, the same for every component of the displacements, or lumped at the nodes.
+!! Sources: Zienkiewicz, Taylor, Zhu, The Finite Element Method, 6th ed., chapters 2, 5 and 6; Taylor, Beresford, Wilson 1976;
+!! consistent mass: Archer, J. Struct. Div. ASCE 89 (1963) 161-178; lumped, positive for elements of second order too: Hinton, Rock,
+!! Zienkiewicz, Earthquake Engng Struct. Dyn. 4 (1976) 245-249.
 module isoparametric
    use elasticity, only: axisymmetric, solid
    use element_kinds, only: max_nodes
    use element_mapping, only: element_law, element_map, map_element, map_point, max_shapes
    use kinds, only: wp
-   use quadrature, only: body_rule, integration_rule
+   use quadrature, only: body_rule, integration_rule, mass_rule
+   use shape_functions, only: shape_values
    implicit none
    private
 
-   public :: stiffness, condensed_stiffness
+   public :: stiffness, condensed_stiffness, shape_products, lump
 
    integer, parameter, public :: max_unknowns = 3*max_shapes         !! components of nodes and parameters of modes
    integer, parameter         :: max_pairs = max_shapes*(max_shapes + 1)/2
@@ -148,5 +152,43 @@ contains
          end do
       end do
    end subroutine assemble
+
+   !> M(i, j) = integral of N_i N_j over the element, of an axisymmetric one over the whole ring [length^3].
+   pure subroutine shape_products(law, x, m)
+      type(element_law), intent(in) :: law
+      real(wp), intent(in)          :: x(:, :) !! nodes (dimension, nodes) [length]
+      real(wp), intent(inout)       :: m(:, :) !! (nodes, nodes), set here
+      type(element_map)      :: map
+      type(integration_rule) :: rule
+      real(wp) :: g(3, max_shapes), n(max_nodes), volume
+      integer  :: i, j
+
+      call map_element(law, x, map)
+      call mass_rule(law%kind, rule)
+      associate (nodes => map%n)
+         m(:nodes, :nodes) = 0.0_wp
+         do i = 1, rule%n
+            call map_point(law, map, rule%point(:, i), g, volume)
+            call shape_values(law%kind, rule%point(:, i), n)
+            do j = 1, nodes
+               m(:nodes, j) = m(:nodes, j) + n(:nodes)*(n(j)*(rule%weight(i)*volume))
+            end do
+         end do
+      end associate
+   end subroutine shape_products
+
+   !> The mass matrix M becomes diagonal: its own diagonal, scaled so that the mass remains.
+   pure subroutine lump(m)
+      real(wp), intent(inout) :: m(:, :)
+      real(wp) :: diagonal(size(m, 1)), total
+      integer  :: i
+
+      diagonal = [(m(i, i), i = 1, size(m, 1))]
+      total = sum(m)
+      m = 0.0_wp
+      do i = 1, size(m, 1)
+         m(i, i) = diagonal(i)*(total/sum(diagonal))
+      end do
+   end subroutine lump
 
 end module isoparametric

@@ -1,4 +1,4 @@
-!> Integration points and weights, in the local coordinates of local_nodes. The points of a rule with as many points as
+!> Integration points and weights, in the local coordinates of element_kinds. The points of a rule with as many points as
 !! corners stand in the order of the corners, each in the direction of its corner from the centre.
 !! Source: Zienkiewicz, Taylor, Zhu, The Finite Element Method, 6th ed., section 5.11; of the fifth degree in triangles and
 !! tetrahedra: Stroud, Approximate calculation of multiple integrals, 1971, T2:5-1 and T3:5-1; of the sixth degree in triangles:

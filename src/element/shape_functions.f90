@@ -1,23 +1,162 @@
 !> Shape functions of every kind of element and of the edges of plane ones, and their derivatives, in the local coordinates of
-!! local_nodes.
-!! Source: Zienkiewicz, Taylor, Zhu, The Finite Element Method, 6th ed., chapters 4 and 5.
+!! element_kinds. Those of second order are complete on the triangle and the tetrahedron, serendipity functions on the others.
+!! Source: Zienkiewicz, Taylor, Zhu, The Finite Element Method, 6th ed., chapters 4 and 5, sections 4.6 to 4.12.
 module shape_functions
-   use element_kinds, only: kind_edge2, kind_hexa8, kind_penta6, kind_quad4, kind_tetra4, kind_tria3, max_nodes
+   use element_kinds, only: element_table, kind_edge2, kind_edge3, kind_hexa20, kind_hexa8, kind_penta15, kind_penta6, &
+                            kind_quad4, kind_quad8, kind_tetra10, kind_tetra4, kind_tria3, kind_tria6, max_edges, max_nodes, &
+                            node_point
    use kinds, only: wp
-   use local_nodes, only: node_point
-   use quadratic_shapes, only: quadratic_derivatives, quadratic_values
    implicit none
    private
 
    public :: shape_values, shape_derivatives
 
+   ! d L_i/d(local j) in (j, i) of the barycentric coordinates, first that which is 1 at corner 1; its third row in space only
+   real(wp), parameter :: gradient(3, 4) = reshape([real(wp) :: -1, -1, -1,  1, 0, 0,  0, 1, 0,  0, 0, 1], [3, 4])
+
+   integer, parameter :: along(max_edges) = [1, 2, 1, 2, 3, 3, 3, 3, 1, 2, 1, 2] ! the coordinate that runs along an edge
+   integer, parameter :: next(3) = [2, 3, 1]
+
 contains
+
+   !> Derivatives of the shape functions with respect to the local coordinates; the rest of DN is left as it is.
+   pure subroutine quadratic_derivatives(kind, point, dn)
+      integer, intent(in)     :: kind                 !! kind_tria6 ... kind_hexa20, kind_edge3
+      real(wp), intent(in)    :: point(3)             !! local coordinates
+      real(wp), intent(inout) :: dn(3, max_nodes)     !! dN_i/d(local j) in dn(j, i) [-]
+      real(wp) :: l(4)
+      integer  :: d, i
+
+      select case (kind)
+      case (kind_edge3)
+         dn(1, :3) = [point(1) - 0.5_wp, point(1) + 0.5_wp, -2.0_wp*point(1)]
+      case (kind_tria6, kind_tetra10)
+         associate (corners => element_table(kind)%n_corners)
+            d = corners - 1
+            l = barycentric(corners, point)
+            do i = 1, corners
+               dn(:d, i) = (4.0_wp*l(i) - 1.0_wp)*gradient(:d, i)
+            end do
+            do i = corners + 1, element_table(kind)%n_nodes
+               associate (b => element_table(kind)%edges(1, i - corners), e => element_table(kind)%edges(2, i - corners))
+                  dn(:d, i) = 4.0_wp*(l(b)*gradient(:d, e) + l(e)*gradient(:d, b))
+               end associate
+            end do
+         end associate
+      case (kind_quad8, kind_hexa20)
+         call serendipity_derivatives(kind, point, dn)
+      case (kind_penta15)
+         call wedge_derivatives(point, dn)
+      end select
+   end subroutine quadratic_derivatives
+
+   !> Derivatives of the shape functions of the wedge: products of functions of L(r, s) and of t.
+   pure subroutine wedge_derivatives(point, dn)
+      real(wp), intent(in)    :: point(3)
+      real(wp), intent(inout) :: dn(3, max_nodes)
+      real(wp) :: bubble, dbubble, down, l(4), up
+      integer  :: i, k
+
+      l = barycentric(3, point)
+      down = 1.0_wp - point(3)
+      up = 1.0_wp + point(3)
+      bubble = down*up
+      dbubble = -2.0_wp*point(3)
+      do i = 1, 3
+         k = next(i)
+         dn(:2, i) = 0.5_wp*((4.0_wp*l(i) - 1.0_wp)*down - bubble)*gradient(:2, i)
+         dn(3, i) = 0.5_wp*l(i)*(1.0_wp - 2.0_wp*l(i) - dbubble)
+         dn(:2, i + 3) = 0.5_wp*((4.0_wp*l(i) - 1.0_wp)*up - bubble)*gradient(:2, i)
+         dn(3, i + 3) = 0.5_wp*l(i)*(2.0_wp*l(i) - 1.0_wp - dbubble)
+         dn(:2, i + 6) = 2.0_wp*down*(l(i)*gradient(:2, k) + l(k)*gradient(:2, i))
+         dn(3, i + 6) = -2.0_wp*l(i)*l(k)
+         dn(:2, i + 9) = bubble*gradient(:2, i)
+         dn(3, i + 9) = l(i)*dbubble
+         dn(:2, i + 12) = 2.0_wp*up*(l(i)*gradient(:2, k) + l(k)*gradient(:2, i))
+         dn(3, i + 12) = 2.0_wp*l(i)*l(k)
+      end do
+   end subroutine wedge_derivatives
+
+   !> Shape functions of the quadrilateral and the hexahedron: at a corner the product of the linear functions of all coordinates
+   !! and one that vanishes on the nodes of its edges; on an edge that of a parabola along it and linear functions of the others.
+   pure subroutine serendipity_values(kind, point, n)
+      integer, intent(in)     :: kind
+      real(wp), intent(in)    :: point(3)
+      real(wp), intent(inout) :: n(max_nodes)
+      real(wp) :: whole, x(3)
+      integer  :: a, b, c, corners, d, i
+
+      d = element_table(kind)%dimension
+      corners = element_table(kind)%n_corners
+      whole = merge(0.25_wp, 0.125_wp, d == 2)
+      x = 0.0_wp
+      x(:d) = point(:d)
+      associate (p => node_point(:, :, kind))
+         do i = 1, corners
+            n(i) = whole*(1.0_wp + x(1)*p(1, i))*(1.0_wp + x(2)*p(2, i))*(1.0_wp + x(3)*p(3, i))* &
+                   (x(1)*p(1, i) + x(2)*p(2, i) + x(3)*p(3, i) - (d - 1))
+         end do
+         do i = corners + 1, element_table(kind)%n_nodes
+            a = along(i - corners)
+            b = next(a)
+            c = next(b)
+            n(i) = 2.0_wp*whole*(1.0_wp - x(a))*(1.0_wp + x(a))*(1.0_wp + x(b)*p(b, i))*(1.0_wp + x(c)*p(c, i))
+         end do
+      end associate
+   end subroutine serendipity_values
+
+   !> The derivatives of serendipity_values.
+   pure subroutine serendipity_derivatives(kind, point, dn)
+      integer, intent(in)     :: kind
+      real(wp), intent(in)    :: point(3)
+      real(wp), intent(inout) :: dn(3, max_nodes)
+      real(wp) :: bubble, f(3), inner, whole, x(3)
+      integer  :: a, b, c, corners, d, i
+
+      d = element_table(kind)%dimension
+      corners = element_table(kind)%n_corners
+      whole = merge(0.25_wp, 0.125_wp, d == 2)
+      x = 0.0_wp
+      x(:d) = point(:d)
+      associate (p => node_point(:, :, kind))
+         do i = 1, corners
+            inner = x(1)*p(1, i) + x(2)*p(2, i) + x(3)*p(3, i) - (d - 1)
+            f = 1.0_wp + x*p(:, i)
+            dn(1, i) = whole*p(1, i)*f(2)*f(3)*(inner + f(1))
+            dn(2, i) = whole*p(2, i)*f(3)*f(1)*(inner + f(2))
+            if (d == 3) dn(3, i) = whole*p(3, i)*f(1)*f(2)*(inner + f(3))
+         end do
+         do i = corners + 1, element_table(kind)%n_nodes
+            a = along(i - corners)
+            b = next(a)
+            c = next(b)
+            bubble = 2.0_wp*whole*(1.0_wp - x(a))*(1.0_wp + x(a))
+            f(b) = 1.0_wp + x(b)*p(b, i)
+            f(c) = 1.0_wp + x(c)*p(c, i)
+            dn(a, i) = -4.0_wp*whole*x(a)*f(b)*f(c)
+            if (b <= d) dn(b, i) = bubble*p(b, i)*f(c)
+            if (c <= d) dn(c, i) = bubble*f(b)*p(c, i)
+         end do
+      end associate
+   end subroutine serendipity_derivatives
+
+   !> The barycentric coordinates of a triangle (3 corners; the fourth is 0) or a tetrahedron (4).
+   pure function barycentric(corners, point) result(l)
+      integer, intent(in)  :: corners
+      real(wp), intent(in) :: point(3)
+      real(wp) :: l(4)
+
+      l(2:corners) = point(:corners - 1)
+      l(1) = 1.0_wp - sum(point(:corners - 1))
+      l(corners + 1:) = 0.0_wp
+   end function barycentric
 
    !> The shape functions N at a point; zero beyond the nodes of the kind.
    pure subroutine shape_values(kind, point, n)
       integer, intent(in)   :: kind                   !! kind_tria3 ... kind_edge3
       real(wp), intent(in)  :: point(3)               !! local coordinates; those beyond the kind's dimension are not used
       real(wp), intent(out) :: n(max_nodes)           !! [-]
+      real(wp) :: l(4), bubble
       integer  :: i
 
       n = 0.0_wp
@@ -40,8 +179,30 @@ contains
             end do
          case (kind_edge2)
             n(:2) = [0.5_wp*(1.0_wp - r), 0.5_wp*(1.0_wp + r)]
-         case default
-            call quadratic_values(kind, point, n)
+         case (kind_edge3)
+            n(:3) = [0.5_wp*r*(r - 1.0_wp), 0.5_wp*r*(r + 1.0_wp), (1.0_wp - r)*(1.0_wp + r)]
+         case (kind_tria6, kind_tetra10)
+            associate (corners => element_table(kind)%n_corners)
+               l = barycentric(corners, point)
+               do i = 1, corners
+                  n(i) = l(i)*(2.0_wp*l(i) - 1.0_wp)
+               end do
+               do i = corners + 1, element_table(kind)%n_nodes
+                  n(i) = 4.0_wp*product(l(element_table(kind)%edges(:, i - corners)))
+               end do
+            end associate
+         case (kind_quad8, kind_hexa20)
+            call serendipity_values(kind, point, n)
+         case (kind_penta15)
+            l = barycentric(3, point)
+            bubble = (1.0_wp - t)*(1.0_wp + t)
+            do i = 1, 3
+               n(i) = 0.5_wp*l(i)*((2.0_wp*l(i) - 1.0_wp)*(1.0_wp - t) - bubble)
+               n(i + 3) = 0.5_wp*l(i)*((2.0_wp*l(i) - 1.0_wp)*(1.0_wp + t) - bubble)
+               n(i + 6) = 2.0_wp*l(i)*l(next(i))*(1.0_wp - t)
+               n(i + 9) = l(i)*bubble
+               n(i + 12) = 2.0_wp*l(i)*l(next(i))*(1.0_wp + t)
+            end do
          end select
       end associate
    end subroutine shape_values

@@ -3,14 +3,13 @@
 !! smoothing of discontinuous finite element functions, Int. J. Numer. Meth. Engng 8 (1974) 461-480.
 module stress_recovery
    use elasticity, only: axisymmetric, max_stresses, n_stresses, solid
-   use element_kinds, only: element_table, kind_penta6, kind_tetra4, kind_tria3, max_nodes
+   use element_kinds, only: centre_point, element_table, kind_penta6, kind_tetra4, kind_tria3, max_nodes, node_point
    use element_mapping, only: element_law, element_map, map_element, map_point, max_shapes
    use isoparametric, only: condensed_stiffness, max_unknowns
    use kinds, only: wp
-   use local_nodes, only: centre_point, node_point
    use quadrature, only: gauss, integration_rule, stress_rule, tetra_far, tetra_near
    use shape_functions, only: shape_values
-   use thermal_forces, only: condensed_thermal_forces
+   use element_loads, only: condensed_thermal_forces
    implicit none
    private
 

@@ -130,7 +130,7 @@ contains
       allocate (analysis%applied(model%dimension, model%n_nodes), source=0.0_wp)
       allocate (analysis%load_before, analysis%load_after, analysis%moved_before, analysis%moved_after, analysis%moved, &
                 analysis%all_u, analysis%all_unbalanced, source=analysis%applied)
-      allocate (analysis%place, source=system%place)
+      allocate (analysis%place, source=system%retained_index)
       allocate (analysis%held, source=system%held_now())
       allocate (analysis%u(model%dimension, size(system%retained)), source=0.0_wp)
       allocate (analysis%du, analysis%body, analysis%unbalanced, analysis%felt_before, analysis%felt_after, analysis%felt, &

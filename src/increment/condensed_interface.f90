@@ -126,7 +126,7 @@ contains
       real(wp) :: f(size(order))
       integer  :: i
 
-      f = [(load(system%direction(order(i)), system%place(system%node(order(i)))), i = 1, size(order))]
+      f = [(load(system%direction(order(i)), system%retained_index(system%node(order(i)))), i = 1, size(order))]
    end function loads_on
 
 end module condensed_interface

@@ -10,7 +10,7 @@ module finite_state
    use newton_method, only: no_balance
    use stage_plan, only: stage_plan_type, where_in_plan
    use text_tools, only: integer_text, real_text
-   use unknown_names, only: unknown_name
+   use unknowns, only: unknown_name
    implicit none
    private
 

@@ -1,8 +1,7 @@
 !> The direction of an iteration of METHOD = NEWTON, and what an attempt at an increment is.
 module newton_direction
    use analysis_state, only: analysis_type
-   use coupled_solution, only: solve_coupled
-   use equations, only: equation_system, form_structure_stiffness, solve_equations
+   use equations, only: solve_coupled, equation_system, form_structure_stiffness, solve_equations
    use failures, only: failure_type
    use joint_laws, only: element_state
    use kinds, only: wp

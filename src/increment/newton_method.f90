@@ -19,7 +19,7 @@ module newton_method
    use stage_plan, only: stage_plan_type, where_in_plan
    use straight_laws, only: first_laws, laws_at, next_laws, residual_of, straight_laws_type
    use text_tools, only: integer_text, real_text
-   use unknown_names, only: unknown_name
+   use unknowns, only: unknown_name
    implicit none
    private
 

@@ -1,19 +1,17 @@
 !> The elements of the bodies, each by its kind: stiffness, stresses, forces. The one place that knows which kinds there are.
 module body_elements
    use elasticity, only: max_stresses, n_stresses, plane_strain, solid
-   use element_kinds, only: element_table, max_felt_dofs, max_nodes
-   use element_loads, only: body_forces
+   use element_kinds, only: element_table, max_felt_dofs, max_nodes, centre_point
+   use element_loads, only: body_forces, nodal_thermal_forces
    use element_mapping, only: element_law, make_element_law
    use isoparametric, only: stiffness
    use kinds, only: wp
-   use local_nodes, only: centre_point
    use model_data, only: corners_of, model_type, temperature_type
    use node_coupling, only: onto_unknowns
    use section_coupling, only: add_section_share, corner_displacements, extend_stiffness, felt_nodes, section_node
    use shape_functions, only: shape_values
    use stress_recovery, only: centre_stress, nodal_stress
    use temperatures, only: element_rise
-   use thermal_forces, only: nodal_thermal_forces
    implicit none
    private
 

@@ -2,7 +2,7 @@
 module mass_elements
    use body_elements, only: coupled_stiffness, law_of
    use element_kinds, only: max_felt_dofs, max_nodes
-   use element_mass, only: lump, shape_products
+   use isoparametric, only: lump, shape_products
    use kinds, only: wp
    use model_data, only: bar_nodes, corners_of, model_type, point_mass_type
    use node_coupling, only: onto_unknowns, unknown_nodes

@@ -5,15 +5,15 @@ module distributed_matrix
    use body_elements, only: coupled_stiffness
    use kinds, only: wp
    use model_data, only: corners_of
+   use partition, only: subdomain_type
    use petsc_library
    use ranks, only: gather, give_up, largest_of_all, n_ranks, rank, scatter
-   use rigid_modes, only: own_modes
-   use shares, only: share_type
+   use unknowns, only: motions_at, n_motions
    implicit none
    private
 
    public :: start_matrix, reserve_touched, add_blocks, finish_matrix, keep_copy, drop_copy, read_touched, read_diagonal, &
-             write_touched, matrix_times_vector, free_matrix, put_vector, take_vector, check
+             write_touched, multiply_by_matrix, free_matrix, put_vector, take_vector, check
 
    type, public :: distributed_matrix_type
       type(c_ptr) :: matrix = c_null_ptr      !! row by row: what preconditioners are made of
@@ -29,36 +29,36 @@ module distributed_matrix
 contains
 
    !> The matrix of the own elements, not yet assembled: reserve_touched comes then, and rank 0 may add_blocks.
-   subroutine start_matrix(share, counts, stiffness)
-      type(share_type), intent(in)               :: share
+   subroutine start_matrix(subdomain, counts, stiffness)
+      type(subdomain_type), intent(in)               :: subdomain
       integer, intent(in)                        :: counts(:) !! (ranks) blocks of each
       type(distributed_matrix_type), intent(out) :: stiffness
       real(wp), allocatable :: k(:, :)
       integer  :: d, e, n
 
-      d = share%dimension
+      d = subdomain%dimension
       stiffness%counts = d*counts
-      call start_matrix_of_type('aij', share, share%inside, share%outside, stiffness%matrix)
+      call start_matrix_of_type('aij', subdomain, subdomain%inside, subdomain%outside, stiffness%matrix)
       call check(mat_set_option(stiffness%matrix, mat_spd, petsc_true))
       call check(mat_set_option(stiffness%matrix, mat_spd_eternal, petsc_true))
-      do e = 1, share%model%n_elements
-         call coupled_stiffness(share%model, e, k)
-         associate (nodes => corners_of(share%model, e))
+      do e = 1, subdomain%model%n_elements
+         call coupled_stiffness(subdomain%model, e, k)
+         associate (nodes => corners_of(subdomain%model, e))
             n = d*size(nodes)
-            call add_blocks(share%block(nodes), share%held(:, nodes), k(:n, :n), stiffness)
+            call add_blocks(subdomain%block(nodes), subdomain%held(:, nodes), k(:n, :n), stiffness)
          end associate
       end do
    end subroutine start_matrix
 
    !> A matrix of one of PETSc's types, with room for so many blocks in every own row of blocks, INSIDE the own columns and OUTSIDE.
-   subroutine start_matrix_of_type(type_name, share, inside, outside, matrix)
+   subroutine start_matrix_of_type(type_name, subdomain, inside, outside, matrix)
       character(*), intent(in)     :: type_name
-      type(share_type), intent(in) :: share
+      type(subdomain_type), intent(in) :: subdomain
       integer, intent(in)          :: inside(:), outside(:)
       type(c_ptr), intent(inout)   :: matrix
 
-      associate (d => share%dimension, own => int(share%dimension*share%n_own, c_int), &
-                 all => int(share%dimension*share%n_blocks, c_int))
+      associate (d => subdomain%dimension, own => int(subdomain%dimension*subdomain%n_own, c_int), &
+                 all => int(subdomain%dimension*subdomain%n_blocks, c_int))
          call check(mat_create(petsc_comm_world, matrix))
          call check(mat_set_sizes(matrix, own, own, all, all))
          call check(mat_set_type(matrix, type_name//char(0)))
@@ -68,10 +68,10 @@ contains
    end subroutine start_matrix_of_type
 
    !> Keep room for the touched blocks and the diagonal: what is empty when the matrix is assembled is given back.
-   subroutine reserve_touched(share, stiffness)
-      type(share_type), intent(in)              :: share
+   subroutine reserve_touched(subdomain, stiffness)
+      type(subdomain_type), intent(in)              :: subdomain
       type(distributed_matrix_type), intent(in) :: stiffness
-      real(wp) :: nothing(share%dimension, share%dimension)
+      real(wp) :: nothing(subdomain%dimension, subdomain%dimension)
       integer  :: i
 
       nothing = 0.0_wp
@@ -80,7 +80,7 @@ contains
             call check(mat_set_values_blocked(stiffness%matrix, 1, touched(1:1), 1, touched(2:2), nothing, add_values))
          end associate
       end do
-      do i = share%first, share%first + share%n_own - 1
+      do i = subdomain%first, subdomain%first + subdomain%n_own - 1
          call check(mat_set_values_blocked(stiffness%matrix, 1, [i], 1, [i], nothing, add_values))
       end do
    end subroutine reserve_touched
@@ -107,11 +107,11 @@ contains
 
    !> Assemble the matrix; held components get the identity, times the largest entry of the diagonal: STIFFEST, of all. Without an
    !! element that is zero, and any number will do.
-   subroutine finish_matrix(share, stiffness, stiffest)
-      type(share_type), intent(in)                 :: share
+   subroutine finish_matrix(subdomain, stiffness, stiffest)
+      type(subdomain_type), intent(in)                 :: subdomain
       type(distributed_matrix_type), intent(inout) :: stiffness
       real(wp), intent(out)                        :: stiffest !! [force/length]
-      real(wp) :: block(share%dimension, share%dimension), own
+      real(wp) :: block(subdomain%dimension, subdomain%dimension), own
       real(c_double), pointer :: diagonal(:)
       type(c_ptr) :: values
       integer :: b, c
@@ -127,23 +127,24 @@ contains
       call check(vec_restore_array(stiffness%r, values))
       stiffest = largest_of_all(own)
       stiffness%unit = merge(stiffest, 1.0_wp, stiffest > 0.0_wp)
-      do b = 1, share%n_own
-         if (.not. any(share%held_own(:, b))) cycle
+      do b = 1, subdomain%n_own
+         if (.not. any(subdomain%held_own(:, b))) cycle
          block = 0.0_wp
-         do c = 1, share%dimension
-            if (share%held_own(c, b)) block(c, c) = stiffness%unit
+         do c = 1, subdomain%dimension
+            if (subdomain%held_own(c, b)) block(c, c) = stiffness%unit
          end do
-         call check(mat_set_values_blocked(stiffness%matrix, 1, [share%first + b - 1], 1, [share%first + b - 1], block, add_values))
+         call check(mat_set_values_blocked(stiffness%matrix, 1, [subdomain%first + b - 1], 1, &
+                                           [subdomain%first + b - 1], block, add_values))
       end do
       call assemble(stiffness%matrix)
-      call give_near_null_space(share, stiffness)
+      call give_near_null_space(subdomain, stiffness)
       stiffness%products = stiffness%matrix
    end subroutine finish_matrix
 
    !> From now on the blocks on and above the diagonal are kept beside the matrix: they take half the memory that it takes, and
    !! multiply a vector in a quarter of the time.
-   subroutine keep_copy(share, stiffness)
-      type(share_type), intent(in)                 :: share
+   subroutine keep_copy(subdomain, stiffness)
+      type(subdomain_type), intent(in)                 :: subdomain
       type(distributed_matrix_type), intent(inout) :: stiffness
       integer(c_int), allocatable :: columns(:), own(:), others(:)
       real(wp), allocatable       :: values(:, :)
@@ -151,17 +152,17 @@ contains
 
       if (stiffness%has_copy) return
       stiffness%products = c_null_ptr
-      allocate (own(share%n_own), others(share%n_own))
-      do b = 1, share%n_own
-         call take_upper(share, stiffness, b, columns)
-         own(b) = count(columns < share%first + share%n_own)
+      allocate (own(subdomain%n_own), others(subdomain%n_own))
+      do b = 1, subdomain%n_own
+         call take_upper(subdomain, stiffness, b, columns)
+         own(b) = count(columns < subdomain%first + subdomain%n_own)
          others(b) = size(columns) - own(b)
       end do
-      call start_matrix_of_type('sbaij', share, own, others, stiffness%products)
+      call start_matrix_of_type('sbaij', subdomain, own, others, stiffness%products)
       call check(mat_set_option(stiffness%products, mat_ignore_lower, petsc_true))
-      do b = 1, share%n_own
-         call take_upper(share, stiffness, b, columns, values)
-         call check(mat_set_values_blocked(stiffness%products, 1, [share%first + b - 1], size(columns), columns, values, &
+      do b = 1, subdomain%n_own
+         call take_upper(subdomain, stiffness, b, columns, values)
+         call check(mat_set_values_blocked(stiffness%products, 1, [subdomain%first + b - 1], size(columns), columns, values, &
                                            insert_values))
       end do
       call assemble(stiffness%products)
@@ -178,8 +179,8 @@ contains
    end subroutine drop_copy
 
    !> Of the row of blocks of the own block B those on and above the diagonal: COLUMNS of blocks, and VALUES row after row.
-   subroutine take_upper(share, stiffness, b, columns, values)
-      type(share_type), intent(in)                          :: share
+   subroutine take_upper(subdomain, stiffness, b, columns, values)
+      type(subdomain_type), intent(in)                          :: subdomain
       type(distributed_matrix_type), intent(in)             :: stiffness
       integer, intent(in)                                   :: b
       integer(c_int), allocatable, intent(inout)            :: columns(:)   !! from 0 on
@@ -189,7 +190,7 @@ contains
       type(c_ptr) :: at_columns, at_values
       integer     :: c, first, n
 
-      associate (d => share%dimension, block => share%first + b - 1)
+      associate (d => subdomain%dimension, block => subdomain%first + b - 1)
          do c = 1, merge(d, 1, present(values))
             call check(mat_get_row(stiffness%matrix, d*block + c - 1, n, at_columns, at_values))
             call c_f_pointer(at_columns, all, [n])
@@ -218,20 +219,23 @@ contains
    end subroutine assemble
 
    !> The motions of a rigid body, which the coarse levels of the preconditioner have to represent.
-   subroutine give_near_null_space(share, stiffness)
-      type(share_type), intent(in)              :: share
+   subroutine give_near_null_space(subdomain, stiffness)
+      type(subdomain_type), intent(in)              :: subdomain
       type(distributed_matrix_type), intent(in) :: stiffness
-      real(wp), allocatable    :: modes(:, :)
-      type(c_ptr), allocatable :: vectors(:)
-      type(c_ptr) :: null_space
+      real(wp) :: modes(subdomain%dimension, subdomain%n_own, n_motions(subdomain%dimension)) ! [-], rotations [length]
+      type(c_ptr) :: null_space, vectors(size(modes, 3))
       real(wp)    :: product
-      integer     :: i, j
+      integer     :: b, i, j
 
-      call own_modes(share, modes)
-      allocate (vectors(size(modes, 2)))
+      do b = 1, subdomain%n_own
+         modes(:, b, :) = motions_at(subdomain%x(:, b))
+      end do
+      modes(:, subdomain%odd, :) = reshape(subdomain%odd_motions, [size(modes, 1), size(subdomain%odd), size(modes, 3)], &
+                                           order=[1, 3, 2])
       do i = 1, size(vectors)
+         where (subdomain%held_own) modes(:, :, i) = 0.0_wp
          call check(vec_duplicate(stiffness%b, vectors(i)))
-         call put_own(vectors(i), modes(:, i))
+         call put_own(vectors(i), reshape(modes(:, :, i), [size(modes, 1)*size(modes, 2)]))
          do j = 1, i - 1
             call check(vec_dot(vectors(i), vectors(j), product))
             call check(vec_axpy(vectors(i), -product, vectors(j)))
@@ -301,16 +305,15 @@ contains
 
    end subroutine write_touched
 
-   !> Y = matrix times X, both of rank 0, row after row.
-   subroutine matrix_times_vector(x, stiffness, y)
-      real(wp), intent(in)                      :: x(:)
+   !> X, of rank 0, row after row, becomes matrix times X.
+   subroutine multiply_by_matrix(stiffness, x)
       type(distributed_matrix_type), intent(in) :: stiffness
-      real(wp), intent(inout)                   :: y(:)
+      real(wp), intent(inout)                   :: x(:)
 
       call put_vector(x, stiffness, stiffness%r)
       call check(mat_mult(stiffness%products, stiffness%r, stiffness%b))
-      call take_vector(stiffness%b, stiffness, y)
-   end subroutine matrix_times_vector
+      call take_vector(stiffness%b, stiffness, x)
+   end subroutine multiply_by_matrix
 
    !> VALUES of rank 0 into VECTOR.
    subroutine put_vector(values, stiffness, vector)

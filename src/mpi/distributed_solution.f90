@@ -1,19 +1,28 @@
 !> The solution of the distributed equations by PETSc: conjugate gradients, preconditioned by smoothed aggregation (GAMG) with the
-!! motions of a rigid body, or by the factor of MUMPS. The preconditioner of an earlier stiffness is kept while that pays. All
+!! motions of a rigid body, or by the factor of MUMPS. The first guess is of earlier solutions the
+!! sum of least energy. The preconditioner of an earlier stiffness is kept while that pays. All
 !! processes call every routine in step.
 !! Source: Adams, Bayraktar, Keaveny, Papadopoulos, Proc. SC2004; Amestoy et al., SIAM J. Matrix Anal. Appl. 23 (2001) 15-41.
+!! First guess: Fischer, Comput. Methods Appl. Mech. Engrg. 163 (1998) 193-204.
 module distributed_solution
    use, intrinsic :: iso_c_binding, only: c_int, c_null_funptr, c_null_ptr, c_ptr
    use distributed_matrix, only: check, distributed_matrix_type, drop_copy, keep_copy, put_vector, take_vector
-   use earlier_vectors, only: earlier_vectors_type, forget_vectors, guess_vector, note_vector
+   use factor_reuse, only: find_least_energy
    use kinds, only: wp
+   use partition, only: subdomain_type
    use petsc_library
    use ranks, only: n_ranks
-   use shares, only: share_type
    implicit none
    private
 
-   public :: start_solution, renew_preconditioner, solve_distributed, free_solution, set_library_options
+   public :: forget_vectors, renew_preconditioner, solve_distributed, free_solution, set_library_options
+
+   integer, parameter :: most = 6                    !! that are kept
+
+   type, public :: earlier_vectors_type
+      integer :: n = 0                                ! kept, the last one first
+      type(c_ptr) :: u(most) = c_null_ptr
+   end type earlier_vectors_type
 
    integer, parameter, public :: by_gamg = 1, by_mumps = 2
 
@@ -23,7 +32,7 @@ module distributed_solution
       integer  :: way = by_gamg                !! or by_mumps
       type(earlier_vectors_type) :: earlier    !! solutions to begin with
       integer  :: steps = 0                    !! of the last solution
-      real(wp) :: residual = 0.0_wp            !! of that, as a share of the load
+      real(wp) :: residual = 0.0_wp            !! of that, as a fraction of the load
       real(wp) :: gained = 0.0_wp              !! digits of the residual that the steps took away
       logical  :: converged = .true.
       logical  :: has_memory = .true.          !! for the factor, MUMPS
@@ -37,6 +46,51 @@ module distributed_solution
    integer, parameter  :: most_solutions = 3     !! one after another, each from where the one before has come
 
 contains
+
+   !> The solution X is kept, the oldest one makes room.
+   subroutine note_vector(x, earlier)
+      type(c_ptr), intent(in)                   :: x
+      type(earlier_vectors_type), intent(inout) :: earlier
+      type(c_ptr) :: place
+
+      if (earlier%n < most) then
+         earlier%n = earlier%n + 1
+         call check(vec_duplicate(x, earlier%u(earlier%n)))
+      end if
+      place = earlier%u(earlier%n)
+      earlier%u(2:earlier%n) = earlier%u(:earlier%n - 1)
+      earlier%u(1) = place
+      call check(vec_copy(x, place))
+   end subroutine note_vector
+
+   !> X: of all sums of earlier solutions the one with the least energy x'[k] x/2 - b'x, [k] the STIFFNESS now, b its vector;
+   !! zero where there is none.
+   subroutine guess_vector(stiffness, earlier)
+      type(distributed_matrix_type), intent(in) :: stiffness
+      type(earlier_vectors_type), intent(in)    :: earlier
+      real(wp) :: energy(earlier%n, earlier%n), work(earlier%n), factor(earlier%n)
+      integer  :: i
+
+      call check(vec_scale(stiffness%x, 0.0_wp))
+      if (earlier%n == 0) return
+      do i = 1, earlier%n
+         call check(mat_mult(stiffness%products, earlier%u(i), stiffness%r))
+         call check(vec_many_dot(stiffness%r, earlier%n, earlier%u, energy(:, i)))
+      end do
+      call check(vec_many_dot(stiffness%b, earlier%n, earlier%u, work))
+      call find_least_energy(energy, work, factor)
+      call check(vec_many_axpy(stiffness%x, earlier%n, factor, earlier%u))
+   end subroutine guess_vector
+
+   subroutine forget_vectors(earlier)
+      type(earlier_vectors_type), intent(inout) :: earlier
+      integer :: i
+
+      do i = 1, earlier%n
+         call check(vec_destroy(earlier%u(i)))
+      end do
+      earlier%n = 0
+   end subroutine forget_vectors
 
    !> Options that have no function; before the library is started, so that the user's (PETSC_OPTIONS) come after them.
    subroutine set_library_options()
@@ -55,23 +109,15 @@ contains
       call check(petsc_options_set_value(c_null_ptr, name//char(0), value//char(0)))
    end subroutine set_option
 
-   !> The equations are to be solved in this WAY: by_gamg or by_mumps. There is no solver yet, see renew_preconditioner.
-   subroutine start_solution(way, solution)
-      integer, intent(in)                          :: way
-      type(distributed_solution_type), intent(out) :: solution
-
-      solution%way = way
-   end subroutine start_solution
-
    !> A solver with a preconditioner of the stiffness as it is now. The one there is, and the copy for products, make room first.
-   subroutine renew_preconditioner(share, stiffness, solution)
-      type(share_type), intent(in)                   :: share
+   subroutine renew_preconditioner(subdomain, stiffness, solution)
+      type(subdomain_type), intent(in)                   :: subdomain
       type(distributed_matrix_type), intent(inout)   :: stiffness
       type(distributed_solution_type), intent(inout) :: solution
       type(c_ptr)    :: preconditioner
       integer(c_int) :: reason
 
-      call drop_solver(solution)
+      if (solution%has_solver) call check(ksp_destroy(solution%solver))
       call drop_copy(stiffness)
       associate (ksp => solution%solver)
          call check(ksp_create(petsc_comm_world, ksp))
@@ -108,7 +154,7 @@ contains
 
          call check(pc_mg_get_levels(preconditioner, levels))
          if (levels < 2) return                 ! the finest level is the coarsest, a factor
-         call keep_copy(share, stiffness)
+         call keep_copy(subdomain, stiffness)
          call check(pc_mg_get_smoother(preconditioner, levels - 1, smoother))
          call check(ksp_set_operators(smoother, stiffness%products, stiffness%matrix))
          call check(pc_mg_set_residual(preconditioner, levels - 1, c_null_funptr, stiffness%products))
@@ -174,14 +220,8 @@ contains
       type(distributed_solution_type), intent(inout) :: solution
 
       call forget_vectors(solution%earlier)
-      call drop_solver(solution)
-   end subroutine free_solution
-
-   subroutine drop_solver(solution)
-      type(distributed_solution_type), intent(inout) :: solution
-
       if (solution%has_solver) call check(ksp_destroy(solution%solver))
       solution%has_solver = .false.
-   end subroutine drop_solver
+   end subroutine free_solution
 
 end module distributed_solution

@@ -1,15 +1,15 @@
 !> The solvers PETSC and MUMPS: the equations of all nodes over the processes of the run, solved by PETSc. As with SKYLINE nothing
-!! is condensed; the increments solve for all equations. What rank 0 does is here, what all do in engine.
+!! is condensed; the increments solve for all equations. What rank 0 does is here, what all do in worker_loop.
 module petsc_solver
    use body_elements, only: coupled_stiffness
    use condition_estimate, only: first_large
    use distributed_matrix, only: add_blocks
    use distributed_solution, only: by_gamg, by_mumps, no_limit
-   use engine, only: order, order_diagonal, order_finish, order_forget, order_multiply, order_read, order_renew, order_solve, &
-                     order_start, order_take, order_touched, order_way, order_write, share, solution, stiffness, &
-                     stiffest_of_all => stiffest
+   use worker_loop, only: broadcast_command, command_diagonal, command_finish, command_forget, command_multiply, command_read, &
+                          command_renew, command_solve, command_start, command_take, command_touched, command_way, command_write, &
+                          solution, stiffest_of_all => stiffest, stiffness, subdomain
    use equation_solver, only: equation_system, no_memory, no_solution, pivot_tolerance
-   use factor_reuse, only: factor_reuse_type, forget_factor, may_reuse, note_factor, note_failure, note_steps
+   use factor_reuse, only: factor_reuse_type, may_reuse, note_factor, note_failure, note_steps
    use failures, only: failure_type
    use interface_equations, only: interface_equations_type, list_interface_equations
    use interface_operator, only: interface_element
@@ -19,7 +19,7 @@ module petsc_solver
    use node_graph, only: node_graph_type
    use ranks, only: n_ranks
    use section_coupling, only: coupled_nodes
-   use shares, only: deal_blocks, deal_type, is_entangled, send_share, share_of, share_type
+   use partition, only: is_entangled, partition_nodes, partition_type, send_subdomain, subdomain_of, subdomain_type
    use text_tools, only: integer_text, real_text
    use touched_blocks, only: add_touched, list_touched, structure_values, touched_type
    implicit none
@@ -29,12 +29,13 @@ module petsc_solver
    integer, parameter :: few_steps = 10         ! more than expected: no reason to give an earlier preconditioner up
    integer, parameter :: many_steps = 150       ! with which GAMG is given up for the factor of MUMPS
    integer, parameter :: small = 100000         ! unknowns, for whose factor there is memory and time
+   real(wp), parameter :: enough_digits = 3.0_wp ! that steps have gained, to tell their pace
    integer, parameter :: digits_of_estimate = 6 ! for the condition, of which one would do
 
    type, extends(equation_system), public :: petsc_solver_type
       integer :: wanted = by_gamg                 !! or by_mumps
       integer :: way = by_gamg                    !! of the preconditioner now: MUMPS too where GAMG does not get there
-      type(deal_type) :: deal
+      type(partition_type) :: parts
       type(touched_type) :: touched
       type(interface_equations_type) :: joints
       type(factor_reuse_type) :: reuse            !! when to use an earlier preconditioner
@@ -65,28 +66,28 @@ contains
       type(node_graph_type), intent(in)       :: graph
       type(failure_type), intent(inout)       :: failure
       type(interface_element), allocatable :: elements(:)
-      type(share_type) :: other
+      type(subdomain_type) :: other
       integer :: i, r
       logical :: ok
 
-      call deal_blocks(model, graph, self%deal, ok)
+      call partition_nodes(model, graph, self%parts, ok)
       if (.not. ok) then
          call failure%raise('no memory to deal out '//integer_text(model%n_nodes)//' nodes')
          return
       end if
-      call self%number_unknowns(model, self%deal%order)
-      self%row = [(model%dimension*self%deal%block(self%node(i)) + self%direction(i), i = 1, self%n)]
-      call order(order_take)
+      call self%number_unknowns(model, self%parts%order)
+      self%row = [(model%dimension*self%parts%block(self%node(i)) + self%direction(i), i = 1, self%n)]
+      call broadcast_command(command_take)
       do r = 1, n_ranks - 1
-         call share_of(model, graph, self%deal, r, other)
-         call send_share(other, r)
+         call subdomain_of(model, graph, self%parts, r, other)
+         call send_subdomain(other, r)
       end do
-      call share_of(model, graph, self%deal, 0, share)
+      call subdomain_of(model, graph, self%parts, 0, subdomain)
       self%equations = [(i, i = 1, self%n)]
       self%retained = pack([(i, i = 1, model%n_nodes)], model%used)
       call list_on_unknowns(model, elements)
       call list_interface_equations(elements, self%number, self%joints)
-      call list_touched(model, graph, self%deal, elements, self%touched)
+      call list_touched(model, graph, self%parts, elements, self%touched)
       self%reuse%most_steps = steps_of_set_up
       associate (description => self%description)
          description%name = trim(merge('PETSC, CONJUGATE GRADIENTS WITH GAMG', 'PETSC, FACTOR BY MUMPS              ', &
@@ -101,35 +102,27 @@ contains
       class(petsc_solver_type), intent(inout) :: self
       type(model_type), intent(in)            :: model
       integer, intent(out)                    :: fault
-      real(wp), allocatable :: k(:, :)
+      real(wp), allocatable :: blocks(:), k(:, :)
       integer  :: e, n
 
       fault = 0
-      call order(order_start, self%deal%counts)
-      call order(order_touched, [self%touched%counts, self%touched%row, self%touched%column])
+      call broadcast_command(command_start, self%parts%counts)
+      call broadcast_command(command_touched, [self%touched%counts, self%touched%row, self%touched%column])
       do e = 1, model%n_elements
          if (.not. is_entangled(model, e)) cycle
          call coupled_stiffness(model, e, k)
          associate (nodes => coupled_nodes(model, e))
             n = model%dimension*size(nodes)
-            call add_blocks(self%deal%block(nodes), model%held(:, nodes), k(:n, :n), stiffness)
+            call add_blocks(self%parts%block(nodes), model%held(:, nodes), k(:n, :n), stiffness)
          end associate
       end do
       self%way = self%wanted
-      call order(order_finish, [self%way])
+      call broadcast_command(command_finish, [self%way])
       self%stiffest = stiffest_of_all
-      call read_bodies(self)
-   end subroutine form_bodies
-
-   !> What the elements leave in the touched blocks.
-   subroutine read_bodies(self)
-      class(petsc_solver_type), intent(inout) :: self
-      real(wp), allocatable :: blocks(:)
-
       allocate (blocks(size(self%touched%bodies)))
-      call order(order_read, values=blocks)
+      call broadcast_command(command_read, values=blocks) ! what the elements leave in the touched blocks
       self%touched%bodies = self%touched%bodies + reshape(blocks, shape(self%touched%bodies))
-   end subroutine read_bodies
+   end subroutine form_bodies
 
    subroutine add_to_bodies(self, rows, k)
       class(petsc_solver_type), intent(inout) :: self
@@ -141,7 +134,7 @@ contains
       components = 1
       do i = 1, size(rows)
          if (rows(i) == 0) cycle
-         blocks(i) = self%deal%block(self%node(rows(i)))
+         blocks(i) = self%parts%block(self%node(rows(i)))
          components(i) = self%direction(rows(i))
       end do
       call add_touched(self%touched, blocks, components, k)
@@ -158,12 +151,12 @@ contains
 
       fault = 0
       call structure_values(self%touched, self%joints, self%k_int, &
-                            reshape([(self%direction(self%locked(i)), self%deal%block(self%node(self%locked(i))), &
+                            reshape([(self%direction(self%locked(i)), self%parts%block(self%node(self%locked(i))), &
                                       i = 1, size(self%locked))], [2, size(self%locked)]), stiffness%unit, values)
       call find_loose(self, values, fault)
       if (fault > 0) return
       self%structure = reshape(values, [size(values)])
-      call order(order_write, values=self%structure)
+      call broadcast_command(command_write, values=self%structure)
       self%is_own = .false.
       call may_reuse(self%reuse, reuse)
       if (.not. reuse) call renew(self)
@@ -180,7 +173,7 @@ contains
       do k = 1, self%touched%n
          if (self%touched%row(k) /= self%touched%column(k)) cycle
          do c = 1, size(values, 1)
-            fault = self%number(c, self%deal%order(self%touched%row(k) + 1))
+            fault = self%number(c, self%parts%order(self%touched%row(k) + 1))
             if (fault > 0 .and. .not. values(c, c, k) > 0.0_wp) return
          end do
       end do
@@ -190,7 +183,7 @@ contains
    subroutine renew(self)
       class(petsc_solver_type), intent(inout) :: self
 
-      call order(order_renew)
+      call broadcast_command(command_renew)
       self%is_own = .true.
       call note_factor(self%reuse)
    end subroutine renew
@@ -212,7 +205,9 @@ contains
       if (.not. solution%converged) then
          call say_why(self, x, fault)
       else if (self%is_own) then
-         call note_pace(self)
+         ! few digits, where the first guess was good, say little
+         if (solution%gained >= enough_digits .or. self%pace <= 0.0_wp) &
+            self%pace = solution%steps/max(1.0_wp, solution%gained)
          if (solution%steps > many_steps .and. self%n <= small) call take_way(self, by_mumps)
       else
          call note_steps(self%reuse, max(0, solution%steps - nint(self%pace*solution%gained)))
@@ -229,8 +224,8 @@ contains
       real(wp) :: load(size(self%equations))
 
       load = x(self%equations)
-      call act_on(self, order_solve, x, &
-                  [self%digits, merge(no_limit, 2*nint(self%pace*self%digits) + few_steps, self%is_own), noted])
+      call act_on(self, command_solve, x, &
+                  [self%options%digits, merge(no_limit, 2*nint(self%pace*self%options%digits) + few_steps, self%is_own), noted])
       steps = solution%steps
       do while (.not. solution%converged)
          if (.not. self%is_own) then
@@ -242,7 +237,7 @@ contains
          end if
          call renew(self)
          x(self%equations) = load
-         call act_on(self, order_solve, x, [self%digits, no_limit, noted])
+         call act_on(self, command_solve, x, [self%options%digits, no_limit, noted])
          steps = steps + solution%steps
       end do
    end subroutine solve_somehow
@@ -256,21 +251,13 @@ contains
       self%way = way
       self%is_own = .false.
       self%pace = 0.0_wp
-      call forget_factor(self%reuse)
-      call order(order_way, [way])
+      self%reuse%has_factor = .false.
+      call broadcast_command(command_way, [way])
    end subroutine take_way
-
-   !> Few digits, where the first guess was good, say little.
-   subroutine note_pace(self)
-      class(petsc_solver_type), intent(inout) :: self
-      real(wp), parameter :: enough = 3.0_wp
-
-      if (solution%gained >= enough .or. self%pace <= 0.0_wp) self%pace = solution%steps/max(1.0_wp, solution%gained)
-   end subroutine note_pace
 
    !> Under a load that excites every motion it is seen what holds the structure hardly or not at all, which loads that do not
    !! move it that way would hide: FAULT is an equation of such a motion. The load of an equation is of the size of sqrt(k_ii), so
-   !! that units are of no account, and irregular. The inverse of the largest displacement, as a share of 1/sqrt(k_ii), stands for
+   !! that units are of no account, and irregular. The inverse of the largest displacement, as a fraction of 1/sqrt(k_ii), stands for
    !! the weakest pivot.
    subroutine probe(self, fault)
       class(petsc_solver_type), intent(inout) :: self
@@ -282,7 +269,7 @@ contains
       size_of = sqrt(self%diagonal_of_factor())
       x = size_of*(2.0_wp*modulo(golden*(size(self%number, 1)*self%node + self%direction), 1.0_wp) - 1.0_wp)
       x(self%locked) = 0.0_wp
-      call order(order_forget)
+      call broadcast_command(command_forget)
       call solve_somehow(self, 0, x, steps)
       self%is_probed = .true.
       if (solution%converged) then
@@ -290,7 +277,7 @@ contains
       else
          call say_why(self, x, fault)
       end if
-      call order(order_forget)
+      call broadcast_command(command_forget)
    end subroutine probe
 
    !> There is no solution, X is what the steps have come to: FAULT is an equation of a motion without stiffness, where X is one,
@@ -303,7 +290,7 @@ contains
       integer  :: direction, node
       character(:), allocatable :: words
 
-      call forget_factor(self%reuse)
+      self%reuse%has_factor = .false.
       fault = no_solution
       words = 'PETSc does not solve the '//integer_text(self%n)//' equations: '
       if (.not. solution%has_memory) then
@@ -333,21 +320,21 @@ contains
       real(wp), allocatable :: blocks(:)
 
       blocks = reshape(self%touched%bodies, [size(self%touched%bodies)])
-      call order(order_write, values=blocks)
+      call broadcast_command(command_write, values=blocks)
       y(self%equations) = x(self%equations)
-      call act_on(self, order_multiply, y)
+      call act_on(self, command_multiply, y)
       if (allocated(self%structure)) then
          blocks = self%structure
-         call order(order_write, values=blocks)
+         call broadcast_command(command_write, values=blocks)
       end if
    end subroutine multiply
 
    subroutine forget_past(self)
       class(petsc_solver_type), intent(inout) :: self
 
-      call order(order_forget)
-      call forget_factor(self%reuse)
-      self%one_solution = .false.
+      call broadcast_command(command_forget)
+      self%reuse%has_factor = .false.
+      self%options%one_solution = .false.
       self%weakest = 1.0_wp
       self%is_probed = .false.
       call take_way(self, self%wanted)
@@ -358,7 +345,7 @@ contains
       real(wp) :: diagonal(self%n)
 
       diagonal = 0.0_wp
-      call act_on(self, order_diagonal, diagonal)
+      call act_on(self, command_diagonal, diagonal)
    end function diagonal_of_factor
 
    subroutine solve_by_factor(self, x)
@@ -366,27 +353,27 @@ contains
       real(wp), contiguous, intent(inout)  :: x(:)
 
       x(self%locked) = 0.0_wp
-      call act_on(self, order_solve, x, [digits_of_estimate, no_limit, 0])
+      call act_on(self, command_solve, x, [digits_of_estimate, no_limit, 0])
    end subroutine solve_by_factor
 
    subroutine multiply_by_factor(self, x)
       class(petsc_solver_type), intent(in) :: self
       real(wp), contiguous, intent(inout)  :: x(:)
 
-      call act_on(self, order_multiply, x)
+      call act_on(self, command_multiply, x)
    end subroutine multiply_by_factor
 
    !> X, by equation, is what all processes do with it.
    subroutine act_on(self, what, x, words)
       class(petsc_solver_type), intent(in) :: self
-      integer, intent(in)                  :: what !! order_solve, order_multiply, order_diagonal
+      integer, intent(in)                  :: what !! command_solve, command_multiply, command_diagonal
       real(wp), intent(inout)              :: x(:)
       integer, intent(in), optional        :: words(:)
       real(wp), allocatable :: values(:)
 
-      allocate (values(size(self%deal%order)*size(self%number, 1)), source=0.0_wp)
+      allocate (values(size(self%parts%order)*size(self%number, 1)), source=0.0_wp)
       values(self%row) = x(self%equations)
-      call order(what, words, values)
+      call broadcast_command(what, words, values)
       x(self%equations) = values(self%row)
    end subroutine act_on
 

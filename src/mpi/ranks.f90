@@ -1,4 +1,4 @@
-!> The processes of a run, as MPI numbers them from 0 on. Rank 0 reads, steps and writes; the others wait for its orders.
+!> The processes of a run, as MPI numbers them from 0 on. Rank 0 reads, steps and writes; the others wait for its commands.
 module ranks
    use mpi_f08, only: mpi_abort, mpi_allreduce, mpi_bcast, mpi_character, mpi_comm_rank, mpi_comm_size, mpi_comm_world, &
                       mpi_double_precision, mpi_finalize, mpi_gatherv, mpi_init, mpi_integer, mpi_max, mpi_recv, mpi_scatterv, &

@@ -6,14 +6,14 @@
 !!
 !! and the processes that have them put them in their places.
 module touched_blocks
-   use id_table, only: sorted_order
+   use id_table, only: first_not_below, sorted_order
    use interface_equations, only: interface_equations_type
    use interface_operator, only: interface_element
    use kinds, only: wp
    use model_data, only: bar_nodes, model_type, n_bars, n_sections
    use node_coupling, only: unknown_nodes
    use node_graph, only: node_graph_type
-   use shares, only: deal_type
+   use partition, only: partition_type
    implicit none
    private
 
@@ -31,10 +31,10 @@ module touched_blocks
 contains
 
    !> The touched blocks of the interface ELEMENTS, on unknowns, of the bars and of the sections of MODEL.
-   subroutine list_touched(model, graph, deal, elements, touched)
+   subroutine list_touched(model, graph, parts, elements, touched)
       type(model_type), intent(in)        :: model
       type(node_graph_type), intent(in)   :: graph
-      type(deal_type), intent(in)         :: deal
+      type(partition_type), intent(in)         :: parts
       type(interface_element), intent(in) :: elements(:)
       type(touched_type), intent(out)     :: touched
       integer, allocatable :: pairs(:, :)
@@ -57,15 +57,15 @@ contains
          end do
          if (pass == 1) allocate (pairs(2, n))
       end do
-      call sort_once(size(deal%order), pairs, touched)
+      call sort_once(size(parts%order), pairs, touched)
       allocate (touched%bodies(model%dimension, model%dimension, touched%n), source=0.0_wp)
-      allocate (touched%counts(size(deal%counts)))
+      allocate (touched%counts(size(parts%counts)))
       n = 0
-      do i = 1, size(deal%counts)
-         touched%counts(i) = touched%first(n + deal%counts(i) + 1) - touched%first(n + 1)
-         n = n + deal%counts(i)
+      do i = 1, size(parts%counts)
+         touched%counts(i) = touched%first(n + parts%counts(i) + 1) - touched%first(n + 1)
+         n = n + parts%counts(i)
       end do
-      call place_joints(deal, elements, touched)
+      call place_joints(parts, elements, touched)
 
    contains
 
@@ -75,9 +75,9 @@ contains
 
          do b = 1, size(nodes)
             do a = 1, size(nodes)
-               if (deal%block(nodes(a)) < 0 .or. deal%block(nodes(b)) < 0) cycle
+               if (parts%block(nodes(a)) < 0 .or. parts%block(nodes(b)) < 0) cycle
                n = n + 1
-               if (pass == 2) pairs(:, n) = deal%block([nodes(a), nodes(b)])
+               if (pass == 2) pairs(:, n) = parts%block([nodes(a), nodes(b)])
             end do
          end do
       end subroutine pair
@@ -118,8 +118,8 @@ contains
    end subroutine sort_once
 
    !> Where the pairs of nodes of interface elements stand in the list; 0: a node without unknowns.
-   subroutine place_joints(deal, elements, touched)
-      type(deal_type), intent(in)         :: deal
+   subroutine place_joints(parts, elements, touched)
+      type(partition_type), intent(in)         :: parts
       type(interface_element), intent(in) :: elements(:)
       type(touched_type), intent(inout)   :: touched
       integer :: a, b, i, n
@@ -132,7 +132,7 @@ contains
       allocate (touched%joint_at(touched%joint_first(size(elements) + 1) - 1), source=0)
       do i = 1, size(elements)
          n = touched%joint_first(i)
-         associate (blocks => deal%block(elements(i)%node))
+         associate (blocks => parts%block(elements(i)%node))
             do b = 1, size(blocks)
                do a = 1, size(blocks)
                   if (blocks(a) >= 0 .and. blocks(b) >= 0) touched%joint_at(n) = place_of(touched, blocks(a), blocks(b))
@@ -147,18 +147,10 @@ contains
    pure integer function place_of(touched, row, column) result(place)
       type(touched_type), intent(in) :: touched
       integer, intent(in)            :: row, column
-      integer :: high, middle
 
-      place = touched%first(row + 1)
-      high = touched%first(row + 2) - 1
-      do while (place < high)
-         middle = (place + high)/2
-         if (touched%column(middle) < column) then
-            place = middle + 1
-         else
-            high = middle
-         end if
-      end do
+      associate (first => touched%first(row + 1), behind => touched%first(row + 2))
+         place = first - 1 + first_not_below(touched%column(first:behind - 1), column)
+      end associate
    end function place_of
 
    !> Add the symmetric matrix K between the components C(i) of the blocks B(i) to the bodies; a block below 0 is none.

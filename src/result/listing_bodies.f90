@@ -3,7 +3,7 @@ module listing_bodies
    use analysis_state, only: analysis_type, element_force
    use bolt_locking, only: bar_tension
    use body_elements, only: element_centre, element_stress, node_stresses, whole_stress
-   use elasticity, only: max_stresses, n_stresses
+   use elasticity, only: max_stresses, n_stresses, principal_stresses, von_mises
    use interface_operator, only: named_node
    use kinds, only: wp
    use listing_directions, only: add_directed, direction_columns, direction_words
@@ -12,7 +12,6 @@ module listing_bodies
    use model_data, only: has_ground_springs, has_second_order, model_type, n_bars, n_points, supported
    use node_coupling, only: held_forces
    use shown_rows, only: shows_element, shows_node
-   use stress_measures, only: principal_stresses, von_mises
    use text_tools, only: clean
    implicit none
    private

@@ -16,7 +16,7 @@ module range_watch
    use shear_stiffness, only: curve_deflection, shear_law, shear_slope
    use stage_plan, only: stage_plan_type, where_in_plan
    use text_tools, only: integer_text, plural, real_text, upper
-   use unknown_names, only: unknown_name
+   use unknowns, only: unknown_name
    implicit none
    private
 

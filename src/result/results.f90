@@ -4,9 +4,8 @@ module results
    use answer_block, only: print_answer
    use bolt_answer, only: n_bolts
    use c_library, only: close_file, lock_folder
-   use dealt_bodies, only: dealt_bodies_type
+   use distribution, only: subdomain_output_type, distribute_bodies
    use deck_input, only: deck_type
-   use distribution, only: deal_bodies
    use equation_solver, only: equation_system
    use failures, only: failure_type
    use incomplete_results, only: all_complete, give_up_parts, remove_old, what_is_in_the_way
@@ -65,7 +64,7 @@ contains
       class(equation_system), intent(in) :: system
       type(results_type), intent(inout) :: results
       logical, intent(out)              :: ok
-      class(dealt_bodies_type), allocatable :: dealt
+      class(subdomain_output_type), allocatable :: dealt
       integer :: i
 
       call all_complete()
@@ -74,7 +73,7 @@ contains
       allocate (results%bolts_before(n_bolts(model)), source=0.0_wp)
       if (base == '') call start_listing(results%listing, '', deck, model, plan, system)
       if (base /= '') call start_listing(results%listing, base//listing_ending, deck, model, plan, system)
-      if (base /= '' .and. any(plan%stages%vtu)) call deal_bodies(model, system, dealt)
+      if (base /= '' .and. any(plan%stages%vtu)) call distribute_bodies(model, system, dealt)
       call start_vtu(results%vtu, base, results%listing%page%labels, plan, dealt)
       ok = .not. results%listing%page%file%failed()
       if (base == '') return

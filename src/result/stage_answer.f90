@@ -4,7 +4,7 @@ module stage_answer
    use analysis_state, only: analysis_type
    use body_elements, only: element_centre, node_stresses, whole_stress
    use bolt_answer, only: bending_moment, bolt_type, find_bolts, load_along
-   use elasticity, only: max_stresses
+   use elasticity, only: max_stresses, von_mises
    use joint_motion, only: find_frame, find_resultant, joint_frame, joint_resultant, rigid_movement, stiffness_about
    use joint_tangents, only: tangents_now
    use kinds, only: wp
@@ -12,7 +12,6 @@ module stage_answer
    use measures, only: first_largest, is_measure
    use model_data, only: joint_type, model_type, n_points
    use normal_stiffness, only: branch_open, normal_state
-   use stress_measures, only: von_mises
    use text_tools, only: above, integer_text
    implicit none
    private

@@ -4,12 +4,11 @@ module vtu_bodies
    use body_elements, only: node_stresses, whole_stress
    use body_parts, only: all_shown, body_piece_type, shown_type
    use element_kinds, only: element_table
-   use elasticity, only: max_stresses
+   use elasticity, only: max_stresses, principal_stresses, von_mises
    use kinds, only: wp
    use listing_table, only: label_type
    use mode_values, only: modes_type
    use model_data, only: corners_of, model_type, n_points, temperature_type
-   use stress_measures, only: principal_stresses, von_mises
    use temperatures, only: node_temperatures
    use text_tools, only: integer_text, real_text
    use vtu_file, only: cell_data, named, point_data, vtu_file_type

@@ -6,7 +6,7 @@ module vtu_results
    use analysis_state, only: analysis_type
    use body_parts, only: all_shown
    use c_library, only: remove_file
-   use dealt_bodies, only: dealt_bodies_type
+   use distribution, only: subdomain_output_type
    use kinds, only: wp
    use listing_table, only: label_type
    use mode_values, only: modes_type
@@ -42,7 +42,7 @@ module vtu_results
       integer :: n = 0
       logical :: many = .false.                   ! more than one stage, or every increment of one
       logical :: is_listed = .false.              ! the list has its name
-      class(dealt_bodies_type), allocatable :: dealt ! where the bodies are written in pieces
+      class(subdomain_output_type), allocatable :: dealt ! where the bodies are written in pieces
    end type vtu_results_type
 
 contains
@@ -54,7 +54,7 @@ contains
       character(*), intent(in)              :: name
       type(label_type), intent(in)          :: labels
       type(stage_plan_type), intent(in)     :: plan
-      class(dealt_bodies_type), allocatable, intent(inout), optional :: dealt
+      class(subdomain_output_type), allocatable, intent(inout), optional :: dealt
       integer :: most, s
 
       results%name = name

@@ -1,15 +1,70 @@
 !> The seam to solvers that work on several processes. What is behind it is decided where the program is linked: src/serial, one
 !! process and no such solver, or src/mpi, PETSc on the processes that mpirun has started.
 module distribution
-   use dealt_bodies, only: dealt_bodies_type, piece_writer
+   use body_parts, only: body_piece_type
+   use case_control, only: solver_mumps, solver_petsc, solver_tree
    use equation_solver, only: equation_system
    use kinds, only: wp
-   use model_data, only: model_type
-   use solver_weighing, only: solver_work_type
+   use model_data, only: model_type, temperature_type
+   use text_tools, only: integer_text
    implicit none
    private
 
-   public :: join_processes, leave_processes, choose_distributed, weigh_distributed, deal_bodies, memory_of_all
+   public :: piece_writer, weigh_solvers, weighing_words, join_processes, leave_processes, choose_distributed, &
+             weigh_distributed, distribute_bodies, memory_of_all
+
+   type, abstract, public :: subdomain_output_type
+      integer :: n = 0 !! pieces
+   contains
+      procedure(write_pieces), deferred :: write
+   end type subdomain_output_type
+
+   abstract interface
+      !> Write all pieces under the displacements U at this TEMPERATURE, each into the file of its name, which is there and empty. OK is
+      !! false where one could not be written.
+      subroutine write_pieces(self, u, temperature, notes, files, ok)
+         import :: subdomain_output_type, temperature_type, wp
+         class(subdomain_output_type), intent(in) :: self
+         real(wp), intent(in)               :: u(:, :)  !! (dimension, n_nodes) [length]
+         type(temperature_type), intent(in) :: temperature
+         character(*), intent(in)           :: notes    !! for the piece_writer
+         character(*), intent(in)           :: files(:) !! (n) their names
+         logical, intent(out)               :: ok
+      end subroutine write_pieces
+   end interface
+
+   abstract interface
+      !> Write one PIECE into FILE, likewise: what every process is told to do with its own.
+      subroutine piece_writer(piece, u, temperature, notes, file, ok)
+         import :: body_piece_type, temperature_type, wp
+         type(body_piece_type), intent(in)  :: piece
+         real(wp), intent(in)               :: u(:, :)  !! (dimension, nodes of its model) [length]
+         type(temperature_type), intent(in) :: temperature !! at these nodes
+         character(*), intent(in)           :: notes, file
+         logical, intent(out)               :: ok
+      end subroutine piece_writer
+   end interface
+
+   !> What is to be done, and by how many.
+   type, public :: solver_work_type
+      real(wp) :: static_operations = 0.0_wp  !! of TREE, once
+      real(wp) :: refactored_operations = 0.0_wp !! of TREE, in every increment
+      real(wp) :: bytes = 0.0_wp             !! that TREE needs
+      real(wp) :: there = 0.0_wp             !! that there are, to the process that it runs in
+      real(wp) :: entries = 0.0_wp           !! of the stiffness matrix
+      integer  :: solutions = 20             !! with another stiffness of the joints each
+      integer  :: threads = 1, processes = 1
+   end type solver_work_type
+
+   integer, parameter, public :: weighed(3) = [solver_tree, solver_petsc, solver_mumps]
+
+   ! one core that multiplies matrices by 60 GFlop/s, blocks of 20 to 60 elements along each edge:
+   real(wp), parameter :: tree_rate = 4.0e10_wp        ! operations in fronts [1/s]
+   real(wp), parameter :: mumps_rate = 2.5e10_wp       ! likewise, all of them in every increment
+   real(wp), parameter :: set_up_time = 2.2e-7_wp      ! of GAMG, of an entry [s]
+   real(wp), parameter :: solution_time = 5.0e-8_wp    ! some ten steps, from the best sum of earlier solutions on [s]
+   integer, parameter  :: solutions_a_set_up = 4       ! that a preconditioner serves
+   real(wp), parameter :: gain = 0.8_wp                ! of each further thread or process
 
    interface
       !> At the start of the program: of several processes the first goes on, the others come back from here only at the end of
@@ -35,17 +90,60 @@ module distribution
          class(equation_system), allocatable, intent(out) :: system
       end subroutine weigh_distributed
 
-      !> DEALT: the bodies of MODEL as the processes of SYSTEM write them; left unallocated where the equations are those of one process.
-      module subroutine deal_bodies(model, system, dealt)
+      !> OUTPUT: the bodies of MODEL as the processes of SYSTEM write them; left unallocated where the equations are those of one process.
+      module subroutine distribute_bodies(model, system, output)
          type(model_type), intent(in)       :: model
          class(equation_system), intent(in) :: system
-         class(dealt_bodies_type), allocatable, intent(out) :: dealt
-      end subroutine deal_bodies
+         class(subdomain_output_type), allocatable, intent(out) :: output
+      end subroutine distribute_bodies
 
-      !> The most memory that each process has had, added up; the others wait for orders.
+      !> The most memory that each process has had, added up; the others serve.
       module subroutine memory_of_all(bytes)
          real(wp), intent(out) :: bytes
       end subroutine memory_of_all
    end interface
+
+contains
+
+   !> SECONDS of the solvers WEIGHED, and which is the BEST. Where a factor does not fit into the memory only PETSC is.
+   pure subroutine weigh_solvers(work, seconds, best)
+      type(solver_work_type), intent(in) :: work
+      real(wp), intent(out)              :: seconds(size(weighed))
+      integer, intent(out)               :: best !! solver_*
+
+      associate (n => work%solutions, hands => 1.0_wp + gain*(work%processes - 1))
+         seconds = [(work%static_operations + n*work%refactored_operations)/(tree_rate*(1.0_wp + gain*(work%threads - 1))), &
+                    work%entries*(n*solution_time + (1 + n/solutions_a_set_up)*set_up_time)/hands, &
+                    n*(work%static_operations + work%refactored_operations)/(mumps_rate*hands)]
+      end associate
+      best = weighed(minloc(seconds, dim=1, mask=[work%bytes <= work%there, .true., work%bytes <= work%there]))
+   end subroutine weigh_solvers
+
+   !> Why it is not TREE, for the listing.
+   pure function weighing_words(work) result(words)
+      type(solver_work_type), intent(in) :: work
+      character(:), allocatable :: words
+      real(wp) :: seconds(size(weighed))
+      integer  :: best
+
+      call weigh_solvers(work, seconds, best)
+      words = ''
+      if (best == solver_tree) return
+      if (work%bytes > work%there) then
+         words = 'AUTO: TREE WOULD NEED '//integer_text(nint(work%bytes/1048576.0_wp))//' MIB, MORE THAN THERE ARE'
+      else
+         words = 'AUTO: BY THE COUNT TREE TAKES '//quotient(seconds(1)/seconds(2))//' TIMES AS LONG AS PETSC, MUMPS '// &
+                 quotient(seconds(3)/seconds(2))
+      end if
+   end function weighing_words
+
+   pure function quotient(value) result(text)
+      real(wp), intent(in)      :: value
+      character(:), allocatable :: text
+      character(12) :: digits
+
+      write (digits, '(f12.1)') min(value, 1.0e6_wp)
+      text = trim(adjustl(digits))
+   end function quotient
 
 end module distribution

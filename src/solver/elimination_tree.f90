@@ -1,11 +1,34 @@
-!> The elimination tree of a symmetric matrix, from its graph alone: which column waits for which, how many rows each gets.
-!! Source: Liu, SIAM J. Matrix Anal. Appl. 11 (1990) 134-172.
+!> The elimination tree of a symmetric matrix, from its graph alone: which column waits for which, how many rows each gets; and
+!! supernodes, columns of the factor with the same rows, small ones merged into their parents.
+!! Sources: Liu, SIAM J. Matrix Anal. Appl. 11 (1990) 134-172; Ashcraft, Grimes, ACM Trans. Math. Softw. 15 (1989) 291-309
+!! (merging); Liu, SIAM Review 34 (1992) 82-109 (order of children).
 module elimination_tree
+   use front_kernel, only: touched_entries
+   use id_table, only: sorted_order
+   use kinds, only: wp
    use node_graph, only: node_graph_type
    implicit none
    private
 
-   public :: number_places, find_parents, number_depth_first, order_depth_first, count_rows
+   public :: number_places, find_parents, number_depth_first, order_depth_first, count_rows, find_supernodes, weigh_supernodes, &
+             merge_supernodes, sorted_places
+
+   !> Supernodes while they are merged. Columns and rows are places in the order of elimination.
+   type, public :: supernodes_type
+      integer :: n = 0
+      integer, allocatable :: first(:)                           ! (n + 1) columns
+      integer, allocatable :: first_row(:), rows(:)              ! rows below the columns
+      integer, allocatable :: parent(:), top(:)                  ! (n) top: the one it was merged into
+      integer, allocatable :: child(:), sibling(:)               ! (n) lists of what was not merged
+      integer, allocatable :: member(:), last_member(:), next(:) ! (n) lists of what was
+      logical, allocatable :: is_refactored(:)
+      real(wp), allocatable :: pivots(:), beyond(:), zeros(:)    ! (n) unknowns; entries that are stored for nothing
+      real(wp), allocatable :: peak(:)                           ! (n) entries of update matrices
+   end type supernodes_type
+
+   ! A child goes into its parent where no larger share of the front that results is zeros.
+   integer, parameter  :: merged_pivots(4) = [16, 48, 96, huge(1)]
+   real(wp), parameter :: merged_zeros(4) = [1.0_wp, 0.3_wp, 0.1_wp, 0.02_wp]
 
 contains
 
@@ -128,5 +151,232 @@ contains
          end do
       end do
    end subroutine count_rows
+
+   !> Columns with the same rows in one supernode each; what comes behind the columns of PARENT is one more.
+   subroutine find_supernodes(graph, order, place, parent, beyond, supers)
+      type(node_graph_type), intent(in)    :: graph
+      integer, intent(in)                  :: order(:), place(:), parent(:), beyond(:)
+      type(supernodes_type), intent(inout) :: supers
+      integer, allocatable :: of_column(:), mark(:), child(:), sibling(:)
+      integer :: c, i, j, k, last, n, n_columns, row, s
+
+      n_columns = size(parent)
+      allocate (supers%first(size(order) + 2), of_column(n_columns + 1))
+      n = 0
+      do j = 1, n_columns
+         if (.not. continues(j)) then
+            n = n + 1
+            supers%first(n) = j
+         end if
+         of_column(j) = n
+      end do
+      if (size(order) > n_columns) then
+         n = n + 1
+         supers%first(n) = n_columns + 1
+         of_column(n_columns + 1) = n
+      end if
+      supers%n = n
+      supers%first(n + 1) = size(order) + 1
+      supers%first = supers%first(:n + 1)
+      allocate (supers%first_row(n + 1), supers%parent(n), child(n), sibling(n), source=0)
+      supers%first_row(1) = 1
+      do s = 1, n
+         last = supers%first(s + 1) - 1
+         supers%first_row(s + 1) = supers%first_row(s)
+         if (last <= n_columns) supers%first_row(s + 1) = supers%first_row(s) + beyond(last)
+      end do
+      allocate (supers%rows(supers%first_row(n + 1) - 1))
+      allocate (mark(size(order)), source=0)
+      do s = 1, n
+         last = supers%first(s + 1) - 1
+         if (supers%first(s) > n_columns) cycle
+         i = supers%first_row(s)
+         do j = supers%first(s), last
+            do k = graph%first(order(j)), graph%first(order(j) + 1) - 1
+               row = place(graph%neighbours(k))
+               if (row > last) call take(row)
+            end do
+         end do
+         c = child(s)
+         do while (c /= 0)
+            do k = supers%first_row(c), supers%first_row(c + 1) - 1
+               if (supers%rows(k) > last) call take(supers%rows(k))
+            end do
+            c = sibling(c)
+         end do
+         associate (rows => supers%rows(supers%first_row(s):supers%first_row(s + 1) - 1))
+            if (size(rows) == 0) cycle
+            rows = rows(sorted_places(rows))
+            supers%parent(s) = of_column(min(rows(1), n_columns + 1))
+         end associate
+         sibling(s) = child(supers%parent(s))
+         child(supers%parent(s)) = s
+      end do
+
+   contains
+
+      !> Whether column J has the rows of the one before.
+      pure logical function continues(column)
+         integer, intent(in) :: column
+
+         continues = column > 1
+         if (continues) continues = parent(column - 1) == column .and. beyond(column - 1) == beyond(column) + 1
+      end function continues
+
+      subroutine take(new)
+         integer, intent(in) :: new
+
+         if (mark(new) == s) return
+         mark(new) = s
+         supers%rows(i) = new
+         i = i + 1
+      end subroutine take
+
+   end subroutine find_supernodes
+
+   !> The places of ROWS in ascending order.
+   function sorted_places(rows) result(places)
+      integer, intent(in)  :: rows(:)
+      integer, allocatable :: places(:)
+
+      call sorted_order(rows, places)
+   end function sorted_places
+
+   !> Unknowns of the supernodes, and which of them are refactored.
+   subroutine weigh_supernodes(order, weight, in_joint, supers)
+      integer, intent(in)                  :: order(:), weight(:)
+      logical, intent(in)                  :: in_joint(:)
+      type(supernodes_type), intent(inout) :: supers
+      integer :: s
+
+      allocate (supers%pivots(supers%n), supers%beyond(supers%n), supers%is_refactored(supers%n))
+      do s = 1, supers%n
+         associate (columns => order(supers%first(s):supers%first(s + 1) - 1), &
+                    rows => order(supers%rows(supers%first_row(s):supers%first_row(s + 1) - 1)))
+            supers%pivots(s) = sum(weight(columns))
+            supers%beyond(s) = sum(weight(rows))
+            supers%is_refactored(s) = any(in_joint(columns))
+         end associate
+      end do
+      do s = 1, supers%n
+         associate (up => supers%parent(s))
+            if (up > 0) supers%is_refactored(up) = supers%is_refactored(up) .or. supers%is_refactored(s)
+         end associate
+      end do
+   end subroutine weigh_supernodes
+
+   !> Merge small supernodes into their parents. With KEEP_LAST the last one stays as it is. The children that are left stand in
+   !! the order that needs least room: those first that need much for themselves and leave little behind.
+   subroutine merge_supernodes(supers, keep_last)
+      type(supernodes_type), intent(inout) :: supers
+      logical, intent(in)                  :: keep_last
+      integer, allocatable :: candidates(:), next_candidate(:)
+      real(wp) :: pivots, zeros, added
+      integer  :: c, next, s
+      logical  :: merge
+
+      allocate (supers%top(supers%n), source=[(s, s=1, supers%n)])
+      allocate (supers%member, supers%last_member, source=supers%top)
+      allocate (supers%child(supers%n), supers%sibling(supers%n), supers%next(supers%n), candidates(supers%n), &
+                next_candidate(supers%n), source=0)
+      allocate (supers%zeros(supers%n), supers%peak(supers%n), source=0.0_wp)
+      do s = 1, supers%n
+         c = candidates(s)
+         do while (c /= 0)
+            next = next_candidate(c)
+            pivots = supers%pivots(c) + supers%pivots(s)
+            added = entries(pivots, supers%beyond(s)) - entries(supers%pivots(s), supers%beyond(s)) &
+                    - entries(supers%pivots(c), supers%beyond(c))
+            zeros = supers%zeros(c) + supers%zeros(s) + added
+            merge = (supers%is_refactored(c) .eqv. supers%is_refactored(s)) .and. .not. (keep_last .and. s == supers%n)
+            if (merge) merge = zeros <= merged_zeros(findloc(pivots <= real(merged_pivots, wp), .true., dim=1)) &
+                                        *entries(pivots, supers%beyond(s))
+            if (merge) then
+               supers%pivots(s) = pivots
+               supers%zeros(s) = zeros
+               supers%top(c) = s
+               supers%next(supers%last_member(s)) = supers%member(c)
+               supers%last_member(s) = supers%last_member(c)
+               do while (supers%child(c) /= 0)
+                  call adopt(supers%child(c))
+               end do
+            else
+               call insert(c)
+            end if
+            c = next
+         end do
+         supers%peak(s) = peak_of(supers, s)
+         if (supers%parent(s) > 0) then
+            next_candidate(s) = candidates(supers%parent(s))
+            candidates(supers%parent(s)) = s
+         end if
+      end do
+
+   contains
+
+      !> The first child of C becomes one of S.
+      subroutine adopt(first)
+         integer, intent(in) :: first
+         integer :: grandchild
+
+         grandchild = first
+         supers%child(c) = supers%sibling(grandchild)
+         call insert(grandchild)
+      end subroutine adopt
+
+      !> Into the list of children of S, in descending order of peak less what is left.
+      subroutine insert(new)
+         integer, intent(in) :: new
+         integer :: before, at
+
+         before = 0
+         at = supers%child(s)
+         do while (at /= 0)
+            if (supers%peak(at) - update_entries(supers, at) < supers%peak(new) - update_entries(supers, new)) exit
+            before = at
+            at = supers%sibling(at)
+         end do
+         supers%sibling(new) = at
+         if (before == 0) then
+            supers%child(s) = new
+         else
+            supers%sibling(before) = new
+         end if
+      end subroutine insert
+
+   end subroutine merge_supernodes
+
+   !> Most entries that stand in update matrices while the subtree of S is eliminated, its children in their order.
+   pure real(wp) function peak_of(supers, s) result(peak)
+      type(supernodes_type), intent(in) :: supers
+      integer, intent(in)               :: s
+      real(wp) :: left ! by the children so far
+      integer  :: c
+
+      peak = 0.0_wp
+      left = 0.0_wp
+      c = supers%child(s)
+      do while (c /= 0)
+         peak = max(peak, left + supers%peak(c))
+         left = left + update_entries(supers, c)
+         c = supers%sibling(c)
+      end do
+      peak = max(peak, left + update_entries(supers, s))
+   end function peak_of
+
+   !> Entries of the update matrix that S leaves.
+   pure real(wp) function update_entries(supers, s)
+      type(supernodes_type), intent(in) :: supers
+      integer, intent(in)               :: s
+
+      update_entries = touched_entries(supers%beyond(s), supers%beyond(s))
+   end function update_entries
+
+   !> Entries of P columns of a lower triangle with R rows beyond them.
+   elemental real(wp) function entries(p, r)
+      real(wp), intent(in) :: p, r
+
+      entries = p*(0.5_wp*(p + 1.0_wp) + r)
+   end function entries
 
 end module elimination_tree

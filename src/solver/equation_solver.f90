@@ -12,7 +12,7 @@ module equation_solver
    use model_data, only: model_type
    use node_graph, only: node_graph_type
    use text_tools, only: integer_text
-   use unknown_names, only: what_is_loose
+   use unknowns, only: what_is_loose
    implicit none
    private
 
@@ -28,13 +28,19 @@ module equation_solver
       character(:), allocatable :: reason            !! why AUTO has taken it, where that is no matter of course
       character(40) :: words(3) = ''                 !! what NUMBERS count; '' behind the last
       integer(long) :: numbers(3) = 0
-      real(wp) :: fixed_operations  = 0.0_wp         !! multiplications and additions of what is factorised once
-      real(wp) :: moving_operations = 0.0_wp         !! of what is factorised in every increment
+      real(wp) :: static_operations  = 0.0_wp         !! multiplications and additions of what is factorised once
+      real(wp) :: refactored_operations = 0.0_wp         !! of what is factorised in every increment
       real(wp) :: assembly_time     = 0.0_wp         !! of the elements, all threads together [s]
       integer(long) :: solutions = 0                 !! so far, by steps of an iteration on several processes
       integer(long) :: steps = 0                     !! of all of them
       integer  :: most_steps = 0                     !! of one
    end type solver_description
+
+   !> What is asked of a solver with the stiffness that it has.
+   type, public :: solver_options
+      logical :: one_solution = .false.              !! with this k_int the increment solves but once
+      integer :: digits = exact_digits               !! that the next solution needs, where a solver iterates
+   end type solver_options
 
    type, abstract, public :: equation_system
       integer :: n = 0                               !! unknowns
@@ -43,22 +49,21 @@ module equation_solver
       integer, allocatable  :: equations(:)          !! that the increments solve for, ascending
       integer, allocatable  :: retained(:)           !! nodes that the increments see, ascending: those of the equations, and of
                                                      !! interface elements
-      integer, allocatable  :: place(:)              !! (n_nodes) where a node stands among the retained ones, 0: nowhere
+      integer, allocatable  :: retained_index(:)     !! (n_nodes) where a node stands among the retained ones, 0: nowhere
       integer, allocatable  :: locked(:)             !! equations whose unknowns have been held since they were numbered
       type(interface_element), allocatable :: interface(:) !! the model's, each NODE a place among the retained ones
       real(wp) :: stiffest = 0.0_wp                  !! largest diagonal entry of [k_b] [force/length]
       real(wp), allocatable :: k_int(:, :, :)        !! (3, 3, n) between the ends of interface elements now, global axes
                                                      !! [force/length]
-      logical :: one_solution = .false.              !! whether with this k_int the increment solves but once
       integer :: factorisations = 20                 !! that are to be expected
-      integer :: digits = exact_digits               !! that the next solution needs, where a solver iterates
+      type(solver_options) :: options                !! set anew with every k_int
       real(wp) :: shift = 0.0_wp                     !! sigma: in place of [k_b] there is [k_b] - sigma [m], set before it is formed
                                                      !! [1/time^2]; above zero the factor is one with signs, [l] [s] [l]^T
       integer :: n_negative = 0                      !! pivots below zero of the factor there is: so many eigenvalues of
                                                      !! [k] {x} = lambda [m] {x} are below sigma (Sylvester)
       real(wp) :: weakest = 1.0_wp                   !! least pivot of the factor there is, as a share of its diagonal entry
                                                      !! before any elimination; 1: there is no factor
-      character(:), allocatable :: where             !! stage and increment, for messages
+      character(:), allocatable :: formed_in         !! stage and increment of this k_int, for messages
       character(:), allocatable :: complaint         !! why there is no solution
       type(solver_description) :: description        !! of the solver, once it has started
    contains
@@ -106,7 +111,7 @@ module equation_solver
          real(wp), intent(in)                  :: k(:, :)
       end subroutine add_to_bodies
 
-      !> [k_s] = [k_b] + sum of K_INT, Eq. (8), ready to solve; where ONE_SOLUTION is all that is wanted an earlier factor may do
+      !> [k_s] = [k_b] + sum of K_INT, Eq. (8), ready to solve; where OPTIONS want one solution an earlier factor may do
       !! for that. The unknowns of LOCKED equations are held.
       subroutine form_structure(self, fault)
          import :: equation_system
@@ -190,7 +195,7 @@ contains
       held = self%number(:, self%retained) == 0
       do i = 1, size(self%locked)
          associate (k => self%locked(i))
-            held(self%direction(k), self%place(self%node(k))) = .true.
+            held(self%direction(k), self%retained_index(self%node(k))) = .true.
          end associate
       end do
    end function held_now
@@ -218,7 +223,7 @@ contains
    subroutine forget_past(self)
       class(equation_system), intent(inout) :: self
 
-      self%one_solution = .false.
+      self%options%one_solution = .false.
       self%weakest = 1.0_wp
    end subroutine forget_past
 

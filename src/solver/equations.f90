@@ -4,9 +4,10 @@
 module equations
    use bar_elements, only: coupled_bar_stiffness
    use case_control, only: solver_auto
-   use equation_solver, only: equation_system, exact_digits
+   use equation_solver, only: equation_system, exact_digits, solver_options
    use failures, only: failure_type
-   use interface_operator, only: add_global_force, global_stiffness, relative_movement
+   use interface_operator, only: add_force, add_global_force, global_stiffness, interface_element, joint_movement, &
+                                 relative_movement
    use kinds, only: wp
    use mass_elements, only: coupled_bar_mass, coupled_point_mass, mass_nodes, n_masses
    use measures, only: is_measure
@@ -15,12 +16,14 @@ module equations
    use node_graph, only: build_node_graph, node_graph_type
    use solver_choice, only: choose_solver
    use text_tools, only: real_text
-   use unknown_names, only: unknown_name
+   use unknowns, only: unknown_name
    implicit none
    private
 
    public :: equation_system, start_equations, form_body_stiffness, add_bar, lock_unknown, condense_load, &
-             form_structure_stiffness, solve_equations, forces_in_bodies, recover_displacements
+             form_structure_stiffness, solve_equations, forces_in_bodies, recover_displacements, solve_coupled
+
+   integer, parameter :: digits = 7 ! of a step, where it is iterated itself
 
 contains
 
@@ -62,11 +65,11 @@ contains
       class(equation_system), intent(inout) :: system
       integer :: i
 
-      allocate (system%place(model%n_nodes), source=0)
-      system%place(system%retained) = [(i, i = 1, size(system%retained))]
+      allocate (system%retained_index(model%n_nodes), source=0)
+      system%retained_index(system%retained) = [(i, i = 1, size(system%retained))]
       call list_on_unknowns(model, system%interface)
       do i = 1, size(system%interface)
-         system%interface(i)%node = system%place(system%interface(i)%node)
+         system%interface(i)%node = system%retained_index(system%interface(i)%node)
       end do
       allocate (system%k_int(3, 3, size(system%interface)))
    end subroutine place_retained
@@ -84,16 +87,8 @@ contains
       do i = 1, n_bars(model)
          if (model%bars(i)%bolt == 0) call add_bar(model, i, system)
       end do
-      if (abs(system%shift) > 0.0_wp) call subtract_masses(model, system)
-   end subroutine form_body_stiffness
-
-   !> - sigma [m] of bars, and of masses at nodes.
-   subroutine subtract_masses(model, system)
-      type(model_type), intent(in)          :: model
-      class(equation_system), intent(inout) :: system
-      integer :: i
-
-      do i = 1, n_bars(model)
+      if (.not. abs(system%shift) > 0.0_wp) return
+      do i = 1, n_bars(model) ! - sigma [m] of bars, and of masses at nodes
          if (.not. model%bars(i)%mass > 0.0_wp) cycle
          associate (nodes => unknown_nodes(model, bar_nodes(model%bars(i))))
             call system%add_to_bodies([system%number(:, nodes)], -system%shift*coupled_bar_mass(model, i))
@@ -104,7 +99,7 @@ contains
             call system%add_to_bodies([system%number(:, nodes)], -system%shift*coupled_point_mass(model, model%masses(i)))
          end associate
       end do
-   end subroutine subtract_masses
+   end subroutine form_body_stiffness
 
    !> Add bar I to the stiffness of the bodies.
    subroutine add_bar(model, i, system)
@@ -150,14 +145,14 @@ contains
       logical, intent(in), optional         :: one_solution   !! false
       integer :: fault, i
 
-      system%one_solution = .false.
-      if (present(one_solution)) system%one_solution = one_solution
-      system%where = where//': '
+      system%options = solver_options()
+      if (present(one_solution)) system%options%one_solution = one_solution
+      system%formed_in = where//': '
       do i = 1, size(system%interface)
          system%k_int(:, :, i) = global_stiffness(system%interface(i), k_int(:, :, i))
       end do
       call system%form_structure(fault)
-      call system%report_fault(model, fault, system%where, failure)
+      call system%report_fault(model, fault, system%formed_in, failure)
    end subroutine form_structure_stiffness
 
    !> Displacements U of retained nodes under the forces F on them; held components are MOVED, which the forces in the bodies count
@@ -190,16 +185,17 @@ contains
       else
          call gather(system, f, x)
       end if
-      if (present(digits)) system%digits = digits
+      system%options%digits = exact_digits
+      if (present(digits)) system%options%digits = digits
       call system%solve(x, fault)
-      system%digits = exact_digits
-      call system%report_fault(model, fault, system%where, failure)
+      call system%report_fault(model, fault, system%formed_in, failure)
       if (failure%raised) return
       do i = 1, size(system%equations)
          associate (k => system%equations(i))
             if (is_measure(x(k))) cycle
-            call failure%raise(system%where//'the displacement of '//unknown_name(model, system%node(k), system%direction(k))// &
-               ' is '//real_text(x(k))//', beyond all measure; are loads and stiffnesses in consistent units?')
+            call failure%raise(system%formed_in//'the displacement of '// &
+               unknown_name(model, system%node(k), system%direction(k))//' is '//real_text(x(k))// &
+               ', beyond all measure; are loads and stiffnesses in consistent units?')
             return
          end associate
       end do
@@ -248,7 +244,7 @@ contains
 
       do i = 1, size(system%equations)
          k = system%equations(i)
-         x(k) = array(system%direction(k), system%place(system%node(k)))
+         x(k) = array(system%direction(k), system%retained_index(system%node(k)))
       end do
    end subroutine gather
 
@@ -262,8 +258,89 @@ contains
       array = 0.0_wp
       do i = 1, size(system%equations)
          k = system%equations(i)
-         array(system%direction(k), system%place(system%node(k))) = x(k)
+         array(system%direction(k), system%retained_index(system%node(k))) = x(k)
       end do
    end subroutine put
+
+   !> Displacements U of the retained nodes with ([k] + [r]) U = F on the free components; [k] is the stiffness in SYSTEM. The
+   !! residual is brought below TOLERANCE times that of U = 0, or as far as MOST_STEPS steps go: the caller iterates anyway.
+   subroutine solve_coupled(model, system, rest, f, tolerance, most_steps, u, failure)
+      type(model_type), intent(in)      :: model
+      class(equation_system), intent(inout) :: system
+      real(wp), intent(in)              :: rest(:, :, :) !! (3, 3, n) of the interface elements, in their axes [force/length]
+      real(wp), intent(in)              :: f(:, :)   !! (dimension, retained) [force]
+      real(wp), intent(in)              :: tolerance
+      integer, intent(in)               :: most_steps
+      real(wp), intent(inout)           :: u(:, :)   !! likewise [length]
+      type(failure_type), intent(inout) :: failure
+      real(wp), allocatable :: basis(:, :, :), shifted(:, :), h(:, :), cosine(:), sine(:), g(:), y(:)
+      real(wp) :: rotated, size_of_f
+      integer  :: i, j, steps
+
+      if (failure%raised) return
+      associate (held => system%held_now())
+         allocate (basis(size(f, 1), size(f, 2), most_steps + 1), h(most_steps + 1, most_steps), source=0.0_wp)
+         allocate (shifted, source=f)
+         allocate (cosine(most_steps), sine(most_steps), g(most_steps + 1), source=0.0_wp)
+         basis(:, :, 1) = merge(0.0_wp, f, held)
+         size_of_f = norm2(basis(:, :, 1))
+         u = 0.0_wp
+         if (size_of_f <= 0.0_wp) return
+         basis(:, :, 1) = basis(:, :, 1)/size_of_f
+         g(1) = size_of_f
+         steps = 0
+         do j = 1, most_steps
+            steps = j
+            shifted = basis(:, :, j)
+            call solve_equations(model, system, shifted, u, failure, digits=digits)
+            if (failure%raised) return
+            call rest_times(system%interface, rest, u, shifted)
+            basis(:, :, j + 1) = basis(:, :, j) + merge(0.0_wp, shifted, held)
+            do i = 1, j
+               h(i, j) = sum(basis(:, :, i)*basis(:, :, j + 1))
+               basis(:, :, j + 1) = basis(:, :, j + 1) - h(i, j)*basis(:, :, i)
+            end do
+            h(j + 1, j) = norm2(basis(:, :, j + 1))
+            if (h(j + 1, j) > 0.0_wp) basis(:, :, j + 1) = basis(:, :, j + 1)/h(j + 1, j)
+            do i = 1, j - 1                                  ! Givens rotations keep h triangular
+               rotated = cosine(i)*h(i, j) + sine(i)*h(i + 1, j)
+               h(i + 1, j) = -sine(i)*h(i, j) + cosine(i)*h(i + 1, j)
+               h(i, j) = rotated
+            end do
+            rotated = hypot(h(j, j), h(j + 1, j))
+            if (rotated <= 0.0_wp) exit
+            cosine(j) = h(j, j)/rotated
+            sine(j) = h(j + 1, j)/rotated
+            h(j, j) = rotated
+            g(j + 1) = -sine(j)*g(j)
+            g(j) = cosine(j)*g(j)
+            if (abs(g(j + 1)) <= tolerance*size_of_f) exit
+         end do
+         allocate (y(steps), source=0.0_wp)
+         do i = steps, 1, -1
+            if (abs(h(i, i)) <= 0.0_wp) cycle
+            y(i) = (g(i) - dot_product(h(i, i + 1:steps), y(i + 1:)))/h(i, i)
+         end do
+         shifted = 0.0_wp
+         do i = 1, steps
+            shifted = shifted + y(i)*basis(:, :, i)
+         end do
+      end associate
+      call solve_equations(model, system, shifted, u, failure, digits=digits)
+   end subroutine solve_coupled
+
+   !> F = [r] {U}: forces of displacements of retained nodes, by the interface ELEMENTS.
+   pure subroutine rest_times(elements, rest, u, f)
+      type(interface_element), intent(in) :: elements(:)
+      real(wp), intent(in)                :: rest(:, :, :)
+      real(wp), intent(in)                :: u(:, :)
+      real(wp), intent(out)               :: f(:, :)
+      integer :: i
+
+      f = 0.0_wp
+      do i = 1, size(elements)
+         call add_force(elements(i), matmul(rest(:, :, i), joint_movement(elements(i), u)), f)
+      end do
+   end subroutine rest_times
 
 end module equations

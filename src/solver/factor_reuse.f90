@@ -1,24 +1,40 @@
-!> Whether an old factor may do as preconditioner of conjugate gradients, or a new one is cheaper: costs are counted, in steps.
+!> An increment with the factor of an earlier one as preconditioner of conjugate gradients, where the joints have changed little since
+!! and a few steps cost less than a factorisation: whether to, by costs counted in steps; the first guess, the sum of earlier
+!! solutions of least energy; the steps.
+!! Sources: Hestenes, Stiefel, J. Res. NBS 49 (1952) 409-436, preconditioned as in Golub, Van Loan, Matrix Computations, 11.5;
+!! Fischer, Comput. Methods Appl. Mech. Engrg. 163 (1998) 193-204 (the first guess).
 module factor_reuse
+   use front_solve, only: refactored_times_vector, solve_refactored
+   use front_tree, only: front_tree_type
+   use interface_equations, only: add_products
    use kinds, only: wp
    implicit none
    private
 
-   public :: may_reuse, note_factor, note_steps, note_failure, forget_factor, forget_steps
+   public :: may_reuse, note_factor, note_steps, note_failure, note_solution, guess_solution, find_least_energy, iterate_refactored
 
-   real(wp), parameter :: step_operations = 75.0_wp !! that a step costs for every entry of the fronts that move
+   real(wp), parameter :: step_operations = 75.0_wp !! that a step costs for every entry of the refactored fronts
    integer, parameter  :: first_wait = 4            !! solutions that are not tried after steps were in vain
    integer, parameter  :: fewest_steps = 8          !! a factorisation that costs less is not worth the trouble
+   integer, parameter  :: few = 3                   !! steps after which it can be told how many there will be
+   integer, parameter  :: most_kept = 5             !! earlier solutions
+   real(wp), parameter :: dependent = 1.0e-12_wp    !! energy, as a share, below which nothing new is left of a direction
 
    type, public :: factor_reuse_type
       integer :: most_steps = 0                     !! that cost what a factorisation does; 0: it is always cheaper
+      logical :: has_factor = .false.               !! that is of use
       integer, private :: spent = 0, solved = 0     ! since the last factorisation, that included
       integer, private :: last = 0                  ! steps of the last solution
       integer, private :: pause = 0, wait = first_wait ! how often not to try after steps were in vain
-      logical, private :: is_there = .false.        ! a factor
    contains
       procedure :: set_costs
    end type factor_reuse_type
+
+   type, public :: earlier_solutions_type
+      integer :: n = 0                              !! kept, the last one first
+      real(wp), allocatable, private :: u(:, :)     ! (refactored unknowns, most_kept)
+      real(wp), allocatable, private :: f(:, :)     ! [k_b] u
+   end type earlier_solutions_type
 
 contains
 
@@ -36,7 +52,7 @@ contains
       class(factor_reuse_type), intent(inout) :: self
       logical, intent(out)                    :: yes
 
-      yes = self%is_there .and. self%most_steps > 0 .and. self%pause == 0 .and. self%last*self%solved <= self%spent
+      yes = self%has_factor .and. self%most_steps > 0 .and. self%pause == 0 .and. self%last*self%solved <= self%spent
       self%pause = max(0, self%pause - 1)
    end subroutine may_reuse
 
@@ -44,7 +60,7 @@ contains
    subroutine note_factor(self)
       class(factor_reuse_type), intent(inout) :: self
 
-      self%is_there = .true.
+      self%has_factor = .true.
       self%spent = self%most_steps
       self%solved = 1
       self%last = 0
@@ -69,23 +85,143 @@ contains
       self%wait = min(64, 2*self%wait)
    end subroutine note_failure
 
-   !> The factor is of no use any more.
-   subroutine forget_factor(self)
-      class(factor_reuse_type), intent(inout) :: self
+   !> X solves ([k_b] + sum of [k_int]) x = b on the refactored equations.
+   subroutine note_solution(tree, k_int, b, x, earlier)
+      type(front_tree_type), intent(in)           :: tree
+      real(wp), intent(in)                        :: k_int(:, :, :) !! (3, 3, n) of interface elements [force/length]
+      real(wp), intent(in)                        :: b(:)           !! of the refactored equations [force]
+      real(wp), intent(in)                        :: x(:)           !! (tree%n) [length]
+      type(earlier_solutions_type), intent(inout) :: earlier
+      real(wp), allocatable :: of_joints(:)
+      integer :: i
 
-      self%is_there = .false.
-   end subroutine forget_factor
+      if (.not. allocated(earlier%u)) &
+         allocate (earlier%u(size(tree%equations), most_kept), earlier%f(size(tree%equations), most_kept))
+      earlier%n = min(most_kept, earlier%n + 1)
+      do i = earlier%n, 2, -1
+         earlier%u(:, i) = earlier%u(:, i - 1)
+         earlier%f(:, i) = earlier%f(:, i - 1)
+      end do
+      allocate (of_joints(tree%n))
+      of_joints(tree%equations) = 0.0_wp
+      call add_products(tree%joints, k_int, x, of_joints)
+      earlier%u(:, 1) = x(tree%equations)
+      earlier%f(:, 1) = b - of_joints(tree%equations)
+   end subroutine note_solution
 
-   !> What there was of factors and steps so far is nothing to go by: all begins anew, but for the costs.
-   subroutine forget_steps(self)
-      class(factor_reuse_type), intent(inout) :: self
+   !> X on the refactored equations, not touched elsewhere: with it the energy x'([k_b] + sum of [k_int]) x/2 - b'x is least of all
+   !! sums of earlier solutions; zero where there is none. With it comes RESIDUAL = b - ([k_b] + sum of [k_int]) x, and WORK =
+   !! x'([k_b] + sum of [k_int]) x.
+   subroutine guess_solution(tree, k_int, earlier, b, x, residual, work)
+      type(front_tree_type), intent(in)        :: tree
+      real(wp), intent(in)                     :: k_int(:, :, :) !! (3, 3, n) [force/length]
+      type(earlier_solutions_type), intent(in) :: earlier
+      real(wp), intent(in)                     :: b(:)           !! of the refactored equations [force]
+      real(wp), intent(inout)                  :: x(:)           !! (tree%n) [length]
+      real(wp), intent(inout)                  :: residual(:)    !! (tree%n) [force]
+      real(wp), intent(out)                    :: work           !! [force*length]
+      real(wp) :: energy(earlier%n, earlier%n), share(earlier%n)
+      real(wp), allocatable :: f(:)
+      integer :: j
 
-      self%spent = 0
-      self%solved = 0
-      self%last = 0
-      self%pause = 0
-      self%wait = first_wait
-      self%is_there = .false.
-   end subroutine forget_steps
+      x(tree%equations) = 0.0_wp
+      residual(tree%equations) = b
+      work = 0.0_wp
+      if (earlier%n == 0) return
+      allocate (f(tree%n))
+      associate (e => tree%equations, u => earlier%u(:, :earlier%n))
+         do j = 1, earlier%n
+            x(e) = u(:, j)
+            f(e) = earlier%f(:, j)
+            call add_products(tree%joints, k_int, x, f)
+            energy(:, j) = matmul(f(e), u)
+         end do
+         call find_least_energy(energy, matmul(b, u), share)
+         x(e) = matmul(u, share)
+         call refactored_times_vector(tree, x, f)
+         call add_products(tree%joints, k_int, x, f)
+         residual(e) = b - f(e)
+         work = dot_product(x(e), f(e))
+      end associate
+   end subroutine guess_solution
+
+   !> Of some directions the sum that comes nearest to a solution, in the energy of its matrix: SHARE c that makes c'ENERGY c/2 -
+   !! WORK'c least. Directions orthogonal in energy are made one after another, the first one first, and one of which nothing new is
+   !! left is left out.
+   pure subroutine find_least_energy(energy, work, share)
+      real(wp), intent(in)  :: energy(:, :) !! (n, n) symmetric, no eigenvalue below zero [force*length]
+      real(wp), intent(in)  :: work(:)      !! (n) [force*length]
+      real(wp), intent(out) :: share(:)     !! (n) [-]
+      real(wp) :: direction(size(work), size(work)), left
+      integer  :: i, j, n, pass
+
+      share = 0.0_wp
+      n = 0
+      do j = 1, size(work)
+         n = n + 1
+         direction(:, n) = 0.0_wp
+         direction(j, n) = 1.0_wp
+         do pass = 1, 2                               ! the second one takes away what rounding has left
+            do i = 1, n - 1
+               direction(:, n) = direction(:, n) - dot_product(direction(:, i), matmul(energy, direction(:, n)))*direction(:, i)
+            end do
+         end do
+         left = dot_product(direction(:, n), matmul(energy, direction(:, n)))
+         if (.not. left > dependent*energy(j, j)) then
+            n = n - 1
+            cycle
+         end if
+         direction(:, n) = direction(:, n)/sqrt(left)
+         share = share + dot_product(direction(:, n), work)*direction(:, n)
+      end do
+   end subroutine find_least_energy
+
+   !> Solve ([k] + sum of CHANGE) d = r on the refactored equations, [k] what the tree has the factor of, and add d to X. Beside
+   !! r = [k] z, the product p = [k] d goes along with the direction d: no step multiplies by a matrix other than CHANGE. STEPS
+   !! is how many it took, more than MOST_STEPS where that was not enough: X is of no use then. Enough is where d leaves of the
+   !! ENERGY, of what X had, and of d, no more than the square of TOLERANCE, a share of a length.
+   subroutine iterate_refactored(tree, change, energy, tolerance, most_steps, r, x, steps)
+      type(front_tree_type), intent(in) :: tree
+      real(wp), intent(in)              :: change(:, :, :) !! (3, 3, n) of interface elements since [k] [force/length]
+      real(wp), intent(in)              :: energy          !! [force*length], twice the work
+      real(wp), intent(in)              :: tolerance
+      integer, intent(in)               :: most_steps
+      real(wp), intent(inout)           :: r(:)            !! (n) [force], what is left of it on return
+      real(wp), intent(inout)           :: x(:)            !! (n) [length], not touched elsewhere
+      integer, intent(out)              :: steps
+      real(wp), allocatable :: z(:), direction(:), of_factor(:), product(:)
+      real(wp) :: alpha, before, enough, now, start
+
+      allocate (z(tree%n), direction(tree%n), of_factor(tree%n), product(tree%n))
+      associate (e => tree%equations)
+         z(e) = r(e)                ! what stands at locked equations meets zeros: solve_refactored leaves none else there
+         call solve_refactored(tree, z)
+         now = dot_product(r(e), z(e))
+         start = now
+         enough = tolerance**2*(energy + start)
+         steps = 0
+         if (now <= enough) return
+         direction(e) = z(e)
+         of_factor(e) = r(e)
+         do steps = 1, most_steps
+            product(e) = of_factor(e)
+            call add_products(tree%joints, change, direction, product)
+            alpha = dot_product(direction(e), product(e))
+            if (.not. alpha > 0.0_wp) exit
+            alpha = now/alpha
+            x(e) = x(e) + alpha*direction(e)
+            r(e) = r(e) - alpha*product(e)
+            z(e) = r(e)
+            call solve_refactored(tree, z)
+            before = now
+            now = dot_product(r(e), z(e))
+            if (now <= enough) return
+            if (steps >= few .and. log(start/enough)*steps > log(start/now)*most_steps) exit ! that will take too long
+            direction(e) = z(e) + now/before*direction(e)
+            of_factor(e) = r(e) + now/before*of_factor(e)
+         end do
+         steps = most_steps + 1
+      end associate
+   end subroutine iterate_refactored
 
 end module factor_reuse

@@ -1,28 +1,102 @@
-!> Factorisation in a tree of fronts: once for those that do not move, in every increment for the others. Independent subtrees
+!> Factorisation in a tree of fronts: once for static ones, in every increment for the others. Independent subtrees
 !! are tasks of OpenMP; every addition has its place in one order, whatever the number of threads.
 module front_factor
    use equation_solver, only: no_memory, pivot_tolerance
-   use front_assembly, only: add_elements, add_matrix, add_update, place_in
-   use front_blocks, only: add_to_block, keep_block, restore_block
+   use front_tree, only: add_to_block, begins, front_of, front_tree_type, front_type, keep_block, restore_block, task_work
    use front_kernel, only: eliminate, large, top_row
-   use front_tree, only: front_of, front_tree_type, front_type
+   use id_table, only: first_not_below
    use kinds, only: long, wp
    use machine, only: give_back
+   use mass_elements, only: coupled_dynamic_stiffness
    use model_data, only: model_type
    use omp_lib, only: omp_get_wtime
+   use section_coupling, only: coupled_nodes
    implicit none
    private
 
-   public :: factorise_fixed, factorise_moving, add_to_moving
+   public :: factorise_static, factorise_refactored, add_to_refactored
 
-   real(wp), parameter :: task_work = 2.0e6_wp         ! operations of a subtree that is worth a task
    integer, parameter  :: strip = 128                  ! columns that are given back together
 
 contains
 
-   !> Eliminate all fronts that do not move, and keep what the others begin with. FAULT is 0, no_memory, or the first equation
+   !> Add the symmetric matrix K of the EQUATIONS (0: held) to FRONT, of which all of them are rows.
+   pure subroutine add_matrix(front, equations, k)
+      type(front_type), intent(inout) :: front
+      integer, intent(in)             :: equations(:)
+      real(wp), intent(in)            :: k(:, :)
+      integer :: places(size(equations)), i, j, row, column
+
+      do i = 1, size(equations)
+         places(i) = place_in(front, equations(i))
+      end do
+      do j = 1, size(equations)
+         column = places(j)
+         if (column == 0) cycle
+         front%diagonal(column) = front%diagonal(column) + k(j, j)
+         if (column <= front%p) then
+            do i = 1, size(equations)
+               row = places(i)
+               if (row >= column) front%panel(row, column) = front%panel(row, column) + k(i, j)
+            end do
+         else
+            do i = 1, size(equations)
+               row = places(i)
+               if (row >= column) front%update(row - front%p, column - front%p) = &
+                  front%update(row - front%p, column - front%p) + k(i, j)
+            end do
+         end if
+      end do
+   end subroutine add_matrix
+
+   !> Row of EQUATION in FRONT, 0 for equation 0.
+   pure integer function place_in(front, equation) result(place)
+      type(front_type), intent(in) :: front
+      integer, intent(in)          :: equation
+
+      place = 0
+      if (equation == 0) return
+      place = equation - front%first + 1
+      if (place > front%p) place = front%p + first_not_below(front%rows, equation)
+   end function place_in
+
+   !> Add to FRONT what the elimination of CHILD left, of it the columns FROM to UNTIL.
+   pure subroutine add_update(child, front, from, until)
+      type(front_type), intent(in)    :: child
+      type(front_type), intent(inout) :: front
+      integer, intent(in)             :: from, until
+      integer :: column, first, i, j, k, last, row, this
+
+      this = 1                                       ! the run that column J is in
+      do j = from, until
+         do while (j >= child%run(this + 1))
+            this = this + 1
+         end do
+         column = child%in_parent(j)
+         front%diagonal(column) = front%diagonal(column) + child%diagonal(child%p + j)
+         do k = this, size(child%run) - 1
+            first = max(j, child%run(k))
+            last = child%run(k + 1) - 1
+            row = child%in_parent(first)
+            if (column <= front%p) then
+               !$omp simd
+               do i = 0, last - first
+                  front%panel(row + i, column) = front%panel(row + i, column) + child%update(first + i, j)
+               end do
+            else
+               row = row - front%p
+               !$omp simd
+               do i = 0, last - first
+                  front%update(row + i, column - front%p) = front%update(row + i, column - front%p) + child%update(first + i, j)
+               end do
+            end if
+         end do
+      end do
+   end subroutine add_update
+
+   !> Eliminate all static fronts, and keep what the others begin with. FAULT is 0, no_memory, or the first equation
    !! without stiffness.
-   subroutine factorise_fixed(model, tree, fault)
+   subroutine factorise_static(model, tree, fault)
       type(model_type), intent(in)         :: model
       type(front_tree_type), intent(inout) :: tree
       integer, intent(out)                 :: fault
@@ -34,12 +108,12 @@ contains
       fault = first_fault(faults)
       if (fault /= 0) return
       !$omp parallel do schedule(dynamic, 8) default(shared) if(tree%is_parallel)
-      do k = 1, size(tree%moving)
-         call keep_start(model, tree, tree%fronts(tree%moving(k)), faults(tree%moving(k)))
+      do k = 1, size(tree%refactored)
+         call keep_start(model, tree, tree%fronts(tree%refactored(k)), faults(tree%refactored(k)))
       end do
       !$omp end parallel do
       fault = first_fault(faults)
-   end subroutine factorise_fixed
+   end subroutine factorise_static
 
    !> What went wrong first in the order of elimination, 0: nothing.
    pure integer function first_fault(faults) result(fault)
@@ -53,13 +127,13 @@ contains
       end if
    end function first_fault
 
-   !> Eliminate all fronts that do not move, those of MODEL, or all that are MOVING, with the stiffnesses K. (An optional array would be
+   !> Eliminate all static fronts, those of MODEL, or all that are REFACTORED, with the stiffnesses K. (An optional array would be
    !! shared by the tasks with bounds that are not set where it is absent.)
-   subroutine eliminate_fronts(tree, faults, moving, k, model)
+   subroutine eliminate_fronts(tree, faults, refactored, k, model)
       type(front_tree_type), intent(inout)   :: tree
       integer, allocatable, intent(out)      :: faults(:)  !! (fronts)
-      logical, intent(in)                    :: moving
-      real(wp), intent(in)                   :: k(:, :, :) !! of no element where they do not move
+      logical, intent(in)                    :: refactored
+      real(wp), intent(in)                   :: k(:, :, :) !! of no element where they are static
       type(model_type), intent(in), optional :: model
       integer :: f
 
@@ -67,10 +141,7 @@ contains
       !$omp parallel default(shared) if(tree%is_parallel)
       !$omp single
       do f = 1, size(tree%fronts)
-         if (tree%fronts(f)%moves .neqv. moving) cycle
-         if (tree%fronts(f)%parent > 0) then
-            if (tree%fronts(tree%fronts(f)%parent)%moves .eqv. moving) cycle
-         end if
+         if (.not. begins(tree, f, refactored)) cycle
          !$omp task default(shared) firstprivate(f) if(tree%fronts(f)%work > task_work)
          call eliminate_subtree(tree, f, faults, k, model)
          !$omp end task
@@ -79,7 +150,7 @@ contains
       !$omp end parallel
    end subroutine eliminate_fronts
 
-   !> Eliminate front F after those of its subtree that move as it does, or do not.
+   !> Eliminate front F after those of its subtree that are refactored as it is, or static.
    recursive subroutine eliminate_subtree(tree, f, faults, k, model)
       type(front_tree_type), intent(inout)   :: tree
       integer, intent(in)                    :: f
@@ -90,7 +161,7 @@ contains
 
       do i = 1, size(tree%fronts(f)%children)
          c = tree%fronts(f)%children(i)
-         if (tree%fronts(c)%moves .neqv. tree%fronts(f)%moves) cycle
+         if (tree%fronts(c)%is_refactored .neqv. tree%fronts(f)%is_refactored) cycle
          !$omp task default(shared) firstprivate(c) if(tree%fronts(c)%work > task_work)
          call eliminate_subtree(tree, c, faults, k, model)
          !$omp end task
@@ -99,7 +170,7 @@ contains
       associate (front => tree%fronts(f), fault => faults(f))
          fault = first_fault(faults(front%children))
          if (fault /= 0) return
-         if (front%moves) then
+         if (front%is_refactored) then
             call restart_front(tree, front, k, fault)
          else
             call start_front(model, tree, front, fault)
@@ -120,21 +191,28 @@ contains
       end associate
    end subroutine eliminate_subtree
 
-   !> Add the elements of FRONT; the time that takes is kept.
+   !> Add the stiffness of the elements of FRONT; the time that takes is kept.
    subroutine assemble(model, tree, front)
       type(model_type), intent(in)         :: model
       type(front_tree_type), intent(inout) :: tree
       type(front_type), intent(inout)      :: front
+      real(wp), allocatable :: k(:, :)
       real(wp) :: time
+      integer  :: j
 
       time = omp_get_wtime()
-      call add_elements(model, tree, front)
+      do j = 1, size(front%elements)
+         call coupled_dynamic_stiffness(model, front%elements(j), tree%shift, k)
+         associate (rows => pack(tree%number(:, coupled_nodes(model, front%elements(j))), .true.))
+            call add_matrix(front, rows, k(:size(rows), :size(rows)))
+         end associate
+      end do
       time = omp_get_wtime() - time
       !$omp atomic
       tree%assembly_time = tree%assembly_time + time
    end subroutine assemble
 
-   !> What FRONT begins with: its elements, and what its children that do not move leave.
+   !> What FRONT begins with: its elements, and what its static children leave.
    subroutine start_front(model, tree, front, fault)
       type(model_type), intent(in)         :: model
       type(front_tree_type), intent(inout) :: tree
@@ -152,7 +230,7 @@ contains
       call assemble(model, tree, front)
       do k = 1, size(front%children)
          c = front%children(k)
-         if (tree%fronts(c)%moves) cycle
+         if (tree%fronts(c)%is_refactored) cycle
          call take_update(tree%fronts(c), front)
       end do
       fault = 0
@@ -208,7 +286,7 @@ contains
       a(last:) = 0.0_wp
    end subroutine set_ends_to_zero
 
-   !> Keep what moving FRONT begins with.
+   !> Keep what refactored FRONT begins with.
    subroutine keep_start(model, tree, front, fault)
       type(model_type), intent(in)         :: model
       type(front_tree_type), intent(inout) :: tree
@@ -227,8 +305,8 @@ contains
       deallocate (front%update)
    end subroutine keep_start
 
-   !> Eliminate all fronts that move, with the stiffnesses K of the interface elements. FAULT as above.
-   subroutine factorise_moving(tree, k, fault)
+   !> Eliminate all refactored fronts, with the stiffnesses K of the interface elements. FAULT as above.
+   subroutine factorise_refactored(tree, k, fault)
       type(front_tree_type), intent(inout) :: tree
       real(wp), intent(in)                 :: k(:, :, :) !! (3, 3, n) between their ends, global axes [force/length]
       integer, intent(out)                 :: fault
@@ -238,19 +316,19 @@ contains
       call eliminate_fronts(tree, faults, .true., k)
       fault = first_fault(faults)
       if (fault == 0) return
-      do i = 1, size(tree%moving)
-         f = tree%moving(i)
+      do i = 1, size(tree%refactored)
+         f = tree%refactored(i)
          if (allocated(tree%fronts(f)%update)) deallocate (tree%fronts(f)%update)
       end do
-   end subroutine factorise_moving
+   end subroutine factorise_refactored
 
-   !> What moving FRONT begins with in an increment: what was kept, its interface elements, and what its children that move leave.
+   !> What refactored FRONT begins with in an increment: what was kept, its interface elements, and what its refactored children leave.
    subroutine restart_front(tree, front, k, fault)
       type(front_tree_type), intent(inout) :: tree
       type(front_type), intent(inout)      :: front
       real(wp), intent(in)                 :: k(:, :, :)
       integer, intent(out)                 :: fault !! 0, or no_memory
-      integer :: c, i, status
+      integer :: c, i, j, status
 
       allocate (front%update(front%r, front%r), stat=status)
       fault = merge(0, no_memory, status == 0)
@@ -264,30 +342,21 @@ contains
       end do
       do i = 1, size(front%children)
          c = front%children(i)
-         if (.not. tree%fronts(c)%moves) cycle
+         if (.not. tree%fronts(c)%is_refactored) cycle
          call add_update(tree%fronts(c), front, 1, tree%fronts(c)%r)
          deallocate (tree%fronts(c)%update)
       end do
-      call lock(tree%locked(front%first:front%first + front%p - 1), front)
-   end subroutine restart_front
-
-   !> The rows and columns of LOCKED pivots become those of the identity.
-   subroutine lock(locked, front)
-      logical, intent(in)             :: locked(:) !! (p)
-      type(front_type), intent(inout) :: front
-      integer :: j
-
-      do j = 1, front%p
-         if (.not. locked(j)) cycle
+      do j = 1, front%p                    ! rows and columns of locked pivots become those of the identity
+         if (.not. tree%locked(front%first + j - 1)) cycle
          front%panel(j, :j - 1) = 0.0_wp
          front%panel(j:, j) = 0.0_wp
          front%panel(j, j) = 1.0_wp
          front%diagonal(j) = 1.0_wp
       end do
-   end subroutine lock
+   end subroutine restart_front
 
-   !> Add the symmetric matrix K of the EQUATIONS (0: held), all of fronts that move, for good.
-   subroutine add_to_moving(tree, equations, k)
+   !> Add the symmetric matrix K of the EQUATIONS (0: held), all of refactored fronts, for good.
+   subroutine add_to_refactored(tree, equations, k)
       type(front_tree_type), intent(inout) :: tree
       integer, intent(in)                  :: equations(:)
       real(wp), intent(in)                 :: k(:, :)
@@ -312,6 +381,6 @@ contains
             end do
          end do
       end associate
-   end subroutine add_to_moving
+   end subroutine add_to_refactored
 
 end module front_factor

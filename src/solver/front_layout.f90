@@ -2,11 +2,11 @@
 !! Everything here is symbolic and counts nodes; WEIGHT(node) is how many unknowns a node has.
 !! Source: Liu, SIAM Review 34 (1992) 82-109.
 module front_layout
-   use elimination_tree, only: count_rows, find_parents, number_depth_first, number_places, order_depth_first
+   use elimination_tree, only: count_rows, find_parents, find_supernodes, merge_supernodes, number_depth_first, number_places, &
+                               order_depth_first, sorted_places, supernodes_type, weigh_supernodes
    use front_kernel, only: large, touched_entries
    use kinds, only: wp
    use node_graph, only: node_graph_type
-   use supernodes, only: find_supernodes, merge_supernodes, sorted_places, supernodes_type, weigh_supernodes
    implicit none
    private
 
@@ -24,15 +24,15 @@ module front_layout
       integer, allocatable :: first_row(:)      !! (n + 1) and has the rows beyond
       integer, allocatable :: rows(:)           !! rows(first_row(f):first_row(f+1)-1), ascending places in order
       integer, allocatable :: parent(:)         !! (n) 0: none
-      logical, allocatable :: moves(:)          !! (n) whether a node of a joint is eliminated in its subtree
-      real(wp) :: fixed_operations  = 0.0_wp    !! of one factorisation of the fronts that do not move
-      real(wp) :: moving_operations = 0.0_wp    !! of the others
+      logical, allocatable :: is_refactored(:)          !! (n) whether a node of a joint is eliminated in its subtree
+      real(wp) :: static_operations  = 0.0_wp    !! of one factorisation of the static fronts
+      real(wp) :: refactored_operations = 0.0_wp    !! of the others
       real(wp) :: factor_entries = 0.0_wp       !! of all panels, whole
       real(wp) :: panel_entries  = 0.0_wp       !! of all panels, what takes memory
-      real(wp) :: moving_entries = 0.0_wp       !! entries of the moving fronts, whole lower triangles
-      real(wp) :: kept_entries   = 0.0_wp       !! lower triangles that fronts which do not move leave to those that do
+      real(wp) :: refactored_entries = 0.0_wp       !! entries of the refactored fronts, whole lower triangles
+      real(wp) :: kept_entries   = 0.0_wp       !! lower triangles that static fronts leave to those that do
       real(wp) :: peak_entries   = 0.0_wp       !! most that stand in update matrices at once, one subtree after the other
-      real(wp) :: most_entries   = 0.0_wp       !! most that stand in panels, update matrices and what moving fronts begin with
+      real(wp) :: most_entries   = 0.0_wp       !! most that stand in panels, update matrices and what refactored fronts begin with
    end type front_layout_type
 
 contains
@@ -77,11 +77,11 @@ contains
       type(front_layout_type), intent(in) :: layout
       integer, intent(in)                 :: factorisations
 
-      total_work = layout%fixed_operations &
-                   + factorisations*(layout%moving_operations + entry_operations*layout%moving_entries)
+      total_work = layout%static_operations &
+                   + factorisations*(layout%refactored_operations + entry_operations*layout%refactored_entries)
    end function total_work
 
-   !> What stands at once, and the elements of moving fronts, which are kept entry by entry and with two indices, those of a
+   !> What stands at once, and the elements of refactored fronts, which are kept entry by entry and with two indices, those of a
    !! regular mesh.
    pure real(wp) function bytes_needed(layout, n, dimension)
       type(front_layout_type), intent(in) :: layout
@@ -103,7 +103,7 @@ contains
       logical, intent(in)                  :: joints_last
       type(front_layout_type), intent(out) :: layout
       type(supernodes_type) :: supers
-      integer, allocatable  :: place(:), parent(:), beyond(:)
+      integer, allocatable  :: place(:), parent(:), beyond(:), number(:), sequence(:), new_place(:)
       integer :: n_inner ! places up to here have columns of their own
 
       allocate (layout%order, source=order)
@@ -121,7 +121,10 @@ contains
       call find_supernodes(graph, layout%order, place, parent, beyond, supers)
       call weigh_supernodes(layout%order, weight, in_joint, supers)
       call merge_supernodes(supers, joints_last)
-      call number_fronts(supers, layout)
+      call number_depth_first(supers%parent == 0, supers%child, supers%sibling, number, sequence) ! what is left of the supernodes
+      layout%n = size(sequence)
+      call number_columns(supers, sequence, new_place, layout)
+      call link_fronts(supers, number, sequence, new_place, layout)
    end subroutine lay_out_fronts
 
    !> In every subtree of at most LARGEST nodes the nodes with IN_JOINT go to the end of ORDER: what is behind them is condensed
@@ -161,18 +164,6 @@ contains
       operations = p*(p*p/3.0_wp + p*r + r*r)
    end function front_operations
 
-   !> Number what is left of the supernodes depth first, and their nodes along with them.
-   subroutine number_fronts(supers, layout)
-      type(supernodes_type), intent(inout)   :: supers
-      type(front_layout_type), intent(inout) :: layout
-      integer, allocatable :: number(:), sequence(:), new_place(:)
-
-      call number_depth_first(supers%parent == 0, supers%child, supers%sibling, number, sequence)
-      layout%n = size(sequence)
-      call number_columns(supers, sequence, new_place, layout)
-      call link_fronts(supers, number, sequence, new_place, layout)
-   end subroutine number_fronts
-
    !> The columns of every front in one run, in the order of the fronts; what the fronts are worth. NEW_PLACE(old place).
    subroutine number_columns(supers, sequence, new_place, layout)
       type(supernodes_type), intent(in)      :: supers
@@ -183,7 +174,7 @@ contains
       integer  :: f, i, k, member, s
       real(wp) :: rows
 
-      allocate (layout%first_pivot(layout%n + 1), layout%first_row(layout%n + 1), layout%moves(layout%n))
+      allocate (layout%first_pivot(layout%n + 1), layout%first_row(layout%n + 1), layout%is_refactored(layout%n))
       allocate (new_order(size(layout%order)), new_place(size(layout%order)), columns(size(layout%order)))
       layout%first_pivot(1) = 1
       layout%first_row(1) = 1
@@ -205,15 +196,15 @@ contains
             new_place(columns(:k)) = [(i, i=first, first + k - 1)]
          end associate
          layout%first_row(f + 1) = layout%first_row(f) + supers%first_row(s + 1) - supers%first_row(s)
-         layout%moves(f) = supers%moves(s)
+         layout%is_refactored(f) = supers%is_refactored(s)
          rows = supers%pivots(s) + supers%beyond(s)
          layout%factor_entries = layout%factor_entries + rows*supers%pivots(s)
          layout%panel_entries = layout%panel_entries + touched_entries(rows, supers%pivots(s))
-         if (layout%moves(f)) then
-            layout%moving_operations = layout%moving_operations + front_operations(supers%pivots(s), supers%beyond(s))
-            layout%moving_entries = layout%moving_entries + 0.5_wp*rows*(rows + 1.0_wp)
+         if (layout%is_refactored(f)) then
+            layout%refactored_operations = layout%refactored_operations + front_operations(supers%pivots(s), supers%beyond(s))
+            layout%refactored_entries = layout%refactored_entries + 0.5_wp*rows*(rows + 1.0_wp)
          else
-            layout%fixed_operations = layout%fixed_operations + front_operations(supers%pivots(s), supers%beyond(s))
+            layout%static_operations = layout%static_operations + front_operations(supers%pivots(s), supers%beyond(s))
          end if
       end do
       layout%order = new_order
@@ -227,7 +218,7 @@ contains
       integer  :: f, s
       real(wp) :: rows
       real(wp) :: panel(layout%n), update(layout%n) ! entries that take memory
-      real(wp) :: filled(layout%n), whole(layout%n) ! entries that moving fronts begin with, and of them in all
+      real(wp) :: filled(layout%n), whole(layout%n) ! entries that refactored fronts begin with, and of them in all
 
       allocate (layout%rows(layout%first_row(layout%n + 1) - 1), layout%parent(layout%n))
       layout%parent = 0
@@ -247,7 +238,7 @@ contains
          end do
          layout%parent(f) = number(s)
          rows = supers%beyond(sequence(f))
-         if (layout%moves(number(s)) .and. .not. layout%moves(f)) &
+         if (layout%is_refactored(number(s)) .and. .not. layout%is_refactored(f)) &
             filled(number(s)) = filled(number(s)) + 0.5_wp*rows*(rows + 1.0_wp)
       end do
       layout%kept_entries = sum(filled)
@@ -255,8 +246,8 @@ contains
       layout%most_entries = most_standing(layout, panel, update, sum(merge(panel + update, 2.0_wp*filled, filled > 0.25_wp*whole)))
    end subroutine link_fronts
 
-   !> Most entries that stand at once, with so many in the PANEL and in the UPDATE matrix of every front: those that do not move are
-   !! eliminated one after the other, and what they leave to moving ones is KEPT; then these are eliminated.
+   !> Most entries that stand at once, with so many in the PANEL and in the UPDATE matrix of every front: static ones are
+   !! eliminated one after the other, and what they leave to refactored ones is KEPT; then these are eliminated.
    pure real(wp) function most_standing(layout, panel, update, kept) result(most)
       type(front_layout_type), intent(in) :: layout
       real(wp), intent(in)                :: panel(:), update(:), kept
@@ -267,13 +258,13 @@ contains
 
       most = 0.0_wp
       now = 0.0_wp
-      do pass = 1, 2                       ! those that do not move, then the others
+      do pass = 1, 2                       ! static ones, then the others
          left = 0.0_wp
          of_large = 0.0_wp
          if (pass == 2) now = sum(panel) + kept
          most = max(most, now)
          do f = 1, layout%n
-            if (layout%moves(f) .neqv. pass == 2) cycle
+            if (layout%is_refactored(f) .neqv. pass == 2) cycle
             own = update(f) + merge(panel(f), 0.0_wp, pass == 1)
             now = now + own
             most = max(most, now - min(own, of_large(f)))
@@ -283,7 +274,7 @@ contains
                   now = now - update(f)
                   cycle
                end if
-               if (layout%moves(parent) .neqv. layout%moves(f)) cycle
+               if (layout%is_refactored(parent) .neqv. layout%is_refactored(f)) cycle
                left(parent) = left(parent) + update(f)
                if (update(f) >= real(large, wp)) of_large(parent) = of_large(parent) + update(f)
             end associate

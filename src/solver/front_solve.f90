@@ -1,141 +1,94 @@
 !> Right-hand sides and solutions in a tree of fronts, factorised by front_factor: L y = b, L^T x = y, in the two parts that the
-!! increments need, the fronts that do not move and those that do. A factor with signs, L S L^T, has S L^T x = y.
+!! increments need, the static fronts and those that do. A factor with signs, L S L^T, has S L^T x = y.
 !!
 !! Independent subtrees are tasks of OpenMP. On the way up every front keeps what it leaves for the rows beyond it until its parent
 !! takes that from all its children, in their order: no digit depends on the number of threads.
 module front_solve
    use blas_lapack, only: dgemv, dtrmv
-   use front_blocks, only: block_times_vector
-   use front_substitution, only: substitute, substitute_back
-   use front_tree, only: front_tree_type, front_type
+   use front_tree, only: begins, block_times_vector, front_tree_type, front_type, task_work
+   use front_kernel, only: substitute, substitute_back
    use kinds, only: wp
    implicit none
    private
 
-   public :: eliminate_fixed, recover_fixed, solve_moving, moving_times_vector, factor_times_vector
-
-   real(wp), parameter :: task_work = 2.0e6_wp ! operations of the factorisation of a subtree that is worth a task
+   public :: eliminate_static, recover_static, solve_refactored, refactored_times_vector, factor_times_vector
 
 contains
 
-   !> Carry X, loads on all equations, over to the equations that move: L y = x on the fronts that do not move. There X is y then.
-   subroutine eliminate_fixed(tree, x)
+   !> Carry X, loads on all equations, over to the refactored equations: L y = x on the static fronts. There X is y then.
+   subroutine eliminate_static(tree, x)
       type(front_tree_type), intent(in) :: tree
       real(wp), intent(inout)           :: x(tree%n)
 
-      call go_up(tree, .false., x)
-   end subroutine eliminate_fixed
+      call sweep(tree, .false., .true., x)
+   end subroutine eliminate_static
 
-   !> The other way: X holds y of eliminate_fixed on the fronts that do not move and the solution on those that do; it is the
+   !> The other way: X holds y of eliminate_static on the static fronts and the solution on those that do; it is the
    !! solution everywhere then.
-   subroutine recover_fixed(tree, x)
+   subroutine recover_static(tree, x)
       type(front_tree_type), intent(in) :: tree
       real(wp), intent(inout)           :: x(tree%n)
 
-      call go_down(tree, .false., x)
-   end subroutine recover_fixed
+      call sweep(tree, .false., .false., x)
+   end subroutine recover_static
 
-   !> Solve for the equations that move; X is not touched on the others.
-   subroutine solve_moving(tree, x)
+   !> Solve for the refactored equations; X is not touched on the others.
+   subroutine solve_refactored(tree, x)
       type(front_tree_type), intent(in) :: tree
       real(wp), intent(inout)           :: x(tree%n)
 
-      call go_up(tree, .true., x)
-      call go_down(tree, .true., x)
-   end subroutine solve_moving
+      call sweep(tree, .true., .true., x)
+      call sweep(tree, .true., .false., x)
+   end subroutine solve_refactored
 
-   !> L y = x in the fronts that MOVE, or those that do not; what they leave for fronts of the other kind is added to X there.
-   subroutine go_up(tree, moves, x)
+   !> L y = x (UP), or L^T x = y with X known beyond these, in the REFACTORED fronts, or the static ones; what is left by these for
+   !! fronts of the other kind is added to X there.
+   subroutine sweep(tree, refactored, up, x)
       type(front_tree_type), intent(in) :: tree
-      logical, intent(in)               :: moves
+      logical, intent(in)               :: refactored, up
       real(wp), intent(inout)           :: x(tree%n)
       real(wp), allocatable :: left(:) ! what fronts leave for the rows beyond
       integer :: f
 
-      allocate (left(tree%n_left))
+      allocate (left(merge(tree%n_left, 0, up)))
       !$omp parallel default(shared) if(tree%is_parallel)
       !$omp single
       do f = 1, size(tree%fronts)
-         if (.not. begins(tree, f, moves)) cycle
+         if (.not. begins(tree, f, refactored)) cycle
          !$omp task default(shared) firstprivate(f) if(tree%fronts(f)%work > task_work)
-         call go_up_subtree(tree, f, x, left)
+         call sweep_subtree(tree, f, up, x, left)
          !$omp end task
       end do
       !$omp end single
       !$omp end parallel
-      if (moves) return
+      if (refactored .or. .not. up) return
       do f = 1, size(tree%fronts)
-         if (.not. begins(tree, f, moves)) cycle
+         if (.not. begins(tree, f, refactored)) cycle
          associate (front => tree%fronts(f))
             x(front%rows) = x(front%rows) + left(front%left + 1:front%left + front%r)
          end associate
       end do
-   end subroutine go_up
+   end subroutine sweep
 
-   !> The subtree of front F, then F.
-   recursive subroutine go_up_subtree(tree, f, x, left)
+   !> UP: the subtree of front F, then F; else F, then its subtree.
+   recursive subroutine sweep_subtree(tree, f, up, x, left)
       type(front_tree_type), intent(in) :: tree
       integer, intent(in)               :: f
+      logical, intent(in)               :: up
       real(wp), intent(inout)           :: x(tree%n), left(:)
       integer :: c, i
 
+      if (.not. up) call backward(tree%fronts(f), x)
       do i = 1, size(tree%fronts(f)%children)
          c = tree%fronts(f)%children(i)
-         if (tree%fronts(c)%moves .neqv. tree%fronts(f)%moves) cycle
+         if (tree%fronts(c)%is_refactored .neqv. tree%fronts(f)%is_refactored) cycle
          !$omp task default(shared) firstprivate(c) if(tree%fronts(c)%work > task_work)
-         call go_up_subtree(tree, c, x, left)
+         call sweep_subtree(tree, c, up, x, left)
          !$omp end task
       end do
       !$omp taskwait
-      call forward(tree, f, x, left)
-   end subroutine go_up_subtree
-
-   !> L^T x = y in the fronts that MOVE, or those that do not, X known beyond these.
-   subroutine go_down(tree, moves, x)
-      type(front_tree_type), intent(in) :: tree
-      logical, intent(in)               :: moves
-      real(wp), intent(inout)           :: x(tree%n)
-      integer :: f
-
-      !$omp parallel default(shared) if(tree%is_parallel)
-      !$omp single
-      do f = size(tree%fronts), 1, -1
-         if (.not. begins(tree, f, moves)) cycle
-         !$omp task default(shared) firstprivate(f) if(tree%fronts(f)%work > task_work)
-         call go_down_subtree(tree, f, x)
-         !$omp end task
-      end do
-      !$omp end single
-      !$omp end parallel
-   end subroutine go_down
-
-   !> Front F, then those of its subtree.
-   recursive subroutine go_down_subtree(tree, f, x)
-      type(front_tree_type), intent(in) :: tree
-      integer, intent(in)               :: f
-      real(wp), intent(inout)           :: x(tree%n)
-      integer :: c, i
-
-      call backward(tree%fronts(f), x)
-      do i = 1, size(tree%fronts(f)%children)
-         c = tree%fronts(f)%children(i)
-         if (tree%fronts(c)%moves .neqv. tree%fronts(f)%moves) cycle
-         !$omp task default(shared) firstprivate(c) if(tree%fronts(c)%work > task_work)
-         call go_down_subtree(tree, c, x)
-         !$omp end task
-      end do
-      !$omp taskwait
-   end subroutine go_down_subtree
-
-   !> Whether front F MOVES, or does not, and its parent is none of these.
-   pure logical function begins(tree, f, moves)
-      type(front_tree_type), intent(in) :: tree
-      integer, intent(in)               :: f
-      logical, intent(in)               :: moves
-
-      begins = tree%fronts(f)%moves .eqv. moves
-      if (begins .and. tree%fronts(f)%parent > 0) begins = tree%fronts(tree%fronts(f)%parent)%moves .neqv. moves
-   end function begins
+      if (up) call forward(tree, f, x, left)
+   end subroutine sweep_subtree
 
    !> L y = x in front F, X and what the children LEFT together; what y does to the rows beyond is left likewise.
    subroutine forward(tree, f, x, left)
@@ -151,7 +104,7 @@ contains
          w(p + 1:) = 0.0_wp
          do i = 1, size(front%children)
             associate (child => tree%fronts(front%children(i)))
-               if (child%moves .eqv. front%moves) &
+               if (child%is_refactored .eqv. front%is_refactored) &
                   w(child%in_parent) = w(child%in_parent) + left(child%left + 1:child%left + child%r)
             end associate
          end do
@@ -189,21 +142,21 @@ contains
       end associate
    end subroutine apply_signs
 
-   !> Y = [k_b] X on the equations that move, the others condensed into it, interface elements left out; Y is not touched on them.
-   subroutine moving_times_vector(tree, x, y)
+   !> Y = [k_b] X on the refactored equations, the others condensed into it, interface elements left out; Y is not touched on them.
+   subroutine refactored_times_vector(tree, x, y)
       type(front_tree_type), intent(in) :: tree
       real(wp), intent(in)              :: x(tree%n)
       real(wp), intent(inout)           :: y(tree%n)
       real(wp) :: x_f(tree%most_rows), y_f(tree%most_rows)
       integer  :: i, k
 
-      do k = 1, size(tree%moving)
-         associate (front => tree%fronts(tree%moving(k)))
+      do k = 1, size(tree%refactored)
+         associate (front => tree%fronts(tree%refactored(k)))
             y(front%first:front%first + front%p - 1) = 0.0_wp
          end associate
       end do
-      do k = 1, size(tree%moving)
-         associate (front => tree%fronts(tree%moving(k)))
+      do k = 1, size(tree%refactored)
+         associate (front => tree%fronts(tree%refactored(k)))
             associate (p => front%p, last => front%first + front%p - 1)
                x_f(:p) = x(front%first:last)
                x_f(p + 1:p + front%r) = x(front%rows)
@@ -217,7 +170,7 @@ contains
             end associate
          end associate
       end do
-   end subroutine moving_times_vector
+   end subroutine refactored_times_vector
 
    !> X = L S L^T X on all equations, zero where they are locked: the product with the matrix that the factor is of.
    subroutine factor_times_vector(tree, x)

@@ -1,12 +1,13 @@
-!> The tree of dense fronts of a multifrontal factorisation. Fronts that do not move have no unknown of a joint in their subtree;
+!> The tree of dense fronts of a multifrontal factorisation. Static fronts have no unknown of a joint in their subtree;
 !! they are eliminated once. The others are assembled and eliminated again and again.
 !! Sources: Duff, Reid, ACM Trans. Math. Softw. 9 (1983) 302-325; Liu, SIAM Review 34 (1992) 82-109.
 module front_tree
-   use front_blocks, only: kept_block
+   use blas_lapack, only: dgemv, dsymv
+   use front_kernel, only: top_row
    use front_layout, only: front_layout_type, front_operations
    use interface_equations, only: interface_equations_type, list_interface_equations
    use interface_operator, only: interface_element
-   use kinds, only: wp
+   use kinds, only: long, wp
    use model_data, only: model_type
    use node_coupling, only: list_on_unknowns
    use reverse_lists, only: list_owners
@@ -14,11 +15,20 @@ module front_tree
    implicit none
    private
 
-   public :: start_front_tree, front_of, largest_diagonal
+   public :: begins, keep_block, restore_block, add_to_block, block_times_vector, start_front_tree, front_of, largest_diagonal
 
+   !> A block with N_ROWS rows; its first N_COLUMNS rows are a lower triangle.
+   type, public :: kept_block
+      integer :: n_rows = 0, n_columns = 0
+      real(wp), allocatable :: whole(:, :)            !! (n_rows, n_columns), or
+      real(wp), allocatable :: values(:)              !! entries, at
+      integer, allocatable  :: row(:), column(:)
+   end type kept_block
+
+   real(wp), parameter, public :: task_work = 2.0e6_wp !! operations of the factorisation of a subtree that is worth a task
    real(wp), parameter :: parallel_work = 5.0e7_wp  ! operations of a factorisation that is worth more than one thread
 
-   !> What a front that moves begins with in every increment: all that does not move.
+   !> What a refactored front begins with in every increment: all that stays the same.
    type :: front_start
       type(kept_block) :: panel, update
       real(wp), allocatable :: diagonal(:)        ! (p + r)
@@ -29,7 +39,7 @@ module front_tree
       integer :: p = 0, r = 0                     !! pivots, rows beyond them
       integer :: parent = 0                       !! 0: none
       integer :: left = 0                         !! behind which place what it leaves for the rows beyond stands in a solution
-      logical :: moves = .false.
+      logical :: is_refactored = .false.
       integer, allocatable  :: children(:)
       integer, allocatable  :: rows(:)            !! (r) equations beyond the pivots, ascending
       integer, allocatable  :: in_parent(:)       !! (r) their places in the front of the parent
@@ -42,7 +52,7 @@ module front_tree
                                                   !! gone likewise
       integer, allocatable :: negative(:)         !! of a factor with signs: the pivots of this front whose sign is -1
       real(wp) :: weakest = 1.0_wp                !! least pivot, as a share of its diagonal entry before any elimination
-      type(front_start), allocatable :: start     !! of a front that moves
+      type(front_start), allocatable :: start     !! of a refactored front
       real(wp) :: work = 0.0_wp                   !! operations of its subtree
    end type front_type
 
@@ -53,9 +63,9 @@ module front_tree
       integer, allocatable :: of_equation(:)      !! (n) front that eliminates it
       type(interface_equations_type) :: joints
       real(wp), allocatable :: diagonal(:)        !! (n) of the matrix that the factor is of
-      logical, allocatable :: locked(:)           !! (n) unknowns that do not change any more; of fronts that move
+      logical, allocatable :: locked(:)           !! (n) unknowns that do not change any more; of refactored fronts
       type(front_type), allocatable :: fronts(:)  !! children before parents
-      integer, allocatable :: moving(:)           !! those that move, ascending
+      integer, allocatable :: refactored(:)           !! refactored ones, ascending
       integer, allocatable :: equations(:)        !! that they eliminate, ascending
       integer :: most_rows = 0                    !! pivots and rows beyond them of the largest
       integer :: n_left = 0                       !! rows beyond the pivots of all fronts together
@@ -64,6 +74,117 @@ module front_tree
    end type front_tree_type
 
 contains
+
+   !> Keep A, set as the kernel wants it. OK is false where there is no memory for it.
+   subroutine keep_block(a, block, ok)
+      real(wp), intent(in)          :: a(:, :)
+      type(kept_block), intent(out) :: block
+      logical, intent(out)          :: ok
+      integer(long) :: k
+      integer :: i, j, status
+
+      block%n_rows = size(a, 1)
+      block%n_columns = size(a, 2)
+      k = 0
+      do j = 1, block%n_columns
+         k = k + count(abs(a(j:, j)) > 0.0_wp)
+      end do
+      if (2*k > int(block%n_rows, long)*block%n_columns/2) then
+         allocate (block%whole(block%n_rows, block%n_columns), stat=status)
+         ok = status == 0
+         if (.not. ok) return
+         do j = 1, block%n_columns
+            block%whole(top_row(j):, j) = a(top_row(j):, j)
+         end do
+         return
+      end if
+      allocate (block%values(k), block%row(k), block%column(k), stat=status)
+      ok = status == 0
+      if (.not. ok) return
+      k = 0
+      do j = 1, block%n_columns
+         do i = j, block%n_rows
+            if (.not. abs(a(i, j)) > 0.0_wp) cycle
+            k = k + 1
+            block%values(k) = a(i, j)
+            block%row(k) = i
+            block%column(k) = j
+         end do
+      end do
+   end subroutine keep_block
+
+   !> A = BLOCK, as far as the kernel touches it.
+   pure subroutine restore_block(block, a)
+      type(kept_block), intent(in) :: block
+      real(wp), intent(inout)      :: a(block%n_rows, block%n_columns)
+      integer(long) :: k
+      integer :: i, j
+
+      do j = 1, block%n_columns
+         if (allocated(block%whole)) then
+            !$omp simd
+            do i = top_row(j), block%n_rows
+               a(i, j) = block%whole(i, j)
+            end do
+         else
+            !$omp simd
+            do i = top_row(j), block%n_rows
+               a(i, j) = 0.0_wp
+            end do
+         end if
+      end do
+      if (allocated(block%whole)) return
+      do k = 1, size(block%values, kind=long)
+         a(block%row(k), block%column(k)) = block%values(k)
+      end do
+   end subroutine restore_block
+
+   !> Add VALUE at row I, column J of BLOCK.
+   subroutine add_to_block(block, i, j, value)
+      type(kept_block), intent(inout) :: block
+      integer, intent(in)             :: i, j
+      real(wp), intent(in)            :: value
+      integer(long) :: k
+
+      if (allocated(block%whole)) then
+         block%whole(i, j) = block%whole(i, j) + value
+         return
+      end if
+      do k = 1, size(block%values, kind=long)
+         if (block%row(k) /= i .or. block%column(k) /= j) cycle
+         block%values(k) = block%values(k) + value
+         return
+      end do
+      block%values = [block%values, value]
+      block%row = [block%row, i]
+      block%column = [block%column, j]
+   end subroutine add_to_block
+
+   !> Y = Y + BLOCK X, the block as part of a symmetric matrix over the unknowns of its rows.
+   subroutine block_times_vector(block, x, y)
+      type(kept_block), intent(in) :: block
+      real(wp), intent(in)         :: x(block%n_rows)
+      real(wp), intent(inout)      :: y(block%n_rows)
+      integer(long) :: k
+      integer :: m, n
+
+      m = block%n_rows
+      n = block%n_columns
+      if (allocated(block%whole)) then
+         if (n == 0) return
+         call dsymv('L', n, 1.0_wp, block%whole, m, x, 1, 1.0_wp, y, 1)
+         if (m == n) return
+         call dgemv('N', m - n, n, 1.0_wp, block%whole(n + 1, 1), m, x, 1, 1.0_wp, y(n + 1), 1)
+         call dgemv('T', m - n, n, 1.0_wp, block%whole(n + 1, 1), m, x(n + 1), 1, 1.0_wp, y, 1)
+      else
+         do k = 1, size(block%values, kind=long)
+            associate (i => block%row(k), j => block%column(k))
+               y(i) = y(i) + block%values(k)*x(j)
+               if (i /= j) y(j) = y(j) + block%values(k)*x(i)
+            end associate
+         end do
+      end if
+   end subroutine block_times_vector
 
    !> The tree of LAYOUT with the equations NUMBER: no matrix yet.
    subroutine start_front_tree(model, number, layout, tree)
@@ -74,7 +195,7 @@ contains
       integer, allocatable :: first(:), weight(:), first_child(:), children(:)
       integer :: d, f, i, k, node, n_rows
 
-      tree%is_parallel = layout%fixed_operations + layout%moving_operations > parallel_work
+      tree%is_parallel = layout%static_operations + layout%refactored_operations > parallel_work
       tree%number = number
       allocate (tree%fronts(layout%n))
       allocate (first(size(layout%order)), weight(size(layout%order)))
@@ -93,7 +214,7 @@ contains
                     rows => layout%rows(layout%first_row(f):layout%first_row(f + 1) - 1))
             front%first = first(low)
             front%p = sum(weight(low:high))
-            front%moves = layout%moves(f)
+            front%is_refactored = layout%is_refactored(f)
             front%parent = layout%parent(f)
             front%r = sum(weight(rows))
             allocate (front%rows(front%r))
@@ -143,8 +264,8 @@ contains
             if (front%parent > 0) tree%fronts(front%parent)%work = tree%fronts(front%parent)%work + front%work
          end associate
       end do
-      tree%moving = pack([(f, f = 1, layout%n)], layout%moves(:layout%n))
-      tree%equations = pack([(i, i = 1, tree%n)], tree%fronts(tree%of_equation)%moves)
+      tree%refactored = pack([(f, f = 1, layout%n)], layout%is_refactored(:layout%n))
+      tree%equations = pack([(i, i = 1, tree%n)], tree%fronts(tree%of_equation)%is_refactored)
       tree%most_rows = maxval(tree%fronts%p + tree%fronts%r)
    end subroutine start_front_tree
 
@@ -197,7 +318,17 @@ contains
       if (first <= tree%n) f = tree%of_equation(first)
    end function front_of
 
-   !> The largest diagonal entry of the matrix without what moves, when the fronts that do not move have been eliminated and those
+   !> Whether front F is REFACTORED, or static, and its parent is none of these.
+   pure logical function begins(tree, f, refactored)
+      type(front_tree_type), intent(in) :: tree
+      integer, intent(in)               :: f
+      logical, intent(in)               :: refactored
+
+      begins = tree%fronts(f)%is_refactored .eqv. refactored
+      if (begins .and. tree%fronts(f)%parent > 0) begins = tree%fronts(tree%fronts(f)%parent)%is_refactored .neqv. refactored
+   end function begins
+
+   !> The largest diagonal entry of the matrix without the joints, when the static fronts have been eliminated and those
    !! that do have not.
    pure real(wp) function largest_diagonal(tree) result(largest)
       type(front_tree_type), intent(in) :: tree
@@ -206,8 +337,8 @@ contains
 
       allocate (diagonal, source=tree%diagonal)
       diagonal(tree%equations) = 0.0_wp
-      do k = 1, size(tree%moving)
-         associate (front => tree%fronts(tree%moving(k)))
+      do k = 1, size(tree%refactored)
+         associate (front => tree%fronts(tree%refactored(k)))
             associate (first => front%first, last => front%first + front%p - 1)
                diagonal(first:last) = diagonal(first:last) + front%start%diagonal(:front%p)
                diagonal(front%rows) = diagonal(front%rows) + front%start%diagonal(front%p + 1:)

@@ -6,13 +6,12 @@ module skyline_solver
    use interface_equations, only: interface_equations_type, list_interface_equations
    use interface_operator, only: interface_element
    use kinds, only: long, wp
-   use mass_elements, only: coupled_dynamic_stiffness, mass_nodes, n_masses
+   use mass_elements, only: coupled_dynamic_stiffness
    use memory_need, only: shortage
-   use model_data, only: bar_nodes, model_type, n_bars
-   use node_coupling, only: list_on_unknowns, unknown_nodes
+   use model_data, only: model_type
+   use node_coupling, only: list_on_unknowns
    use section_coupling, only: coupled_nodes
-   use node_graph, only: node_graph_type
-   use profile_ordering, only: reverse_cuthill_mckee
+   use node_graph, only: list_joined, node_graph_type, reverse_cuthill_mckee
    use skyline, only: add_to_skyline, factor_times_vector, factorise_skyline, skyline_matrix, skyline_times_vector, solve_skyline, &
                       start_skyline
    use text_tools, only: integer_text
@@ -98,20 +97,16 @@ contains
       class(equation_system), intent(in)  :: numbers
       integer, allocatable, intent(out)   :: first_row(:)
       integer(long), intent(out)          :: profile
+      integer, allocatable :: joined(:, :)
       integer :: e, i
 
       allocate (first_row, source=[(i, i = 1, numbers%n)])
       do e = 1, model%n_elements
          call couple(coupled_nodes(model, e))
       end do
-      do i = 1, size(model%interface)
-         call couple(unknown_nodes(model, model%interface(i)%node))
-      end do
-      do i = 1, n_bars(model)
-         call couple(unknown_nodes(model, bar_nodes(model%bars(i))))
-      end do
-      do i = 1, merge(n_masses(model), 0, with_masses)
-         call couple(unknown_nodes(model, mass_nodes(model, model%masses(i))))
+      call list_joined(model, with_masses, .false., joined)
+      do i = 1, size(joined, 2)
+         call couple(pack(joined(:, i), joined(:, i) > 0))
       end do
       profile = 0
       do i = 1, numbers%n
@@ -205,8 +200,7 @@ contains
       integer, intent(out)                      :: fault
 
       fault = 0
-      x(self%locked) = 0.0_wp
-      call solve_skyline(self%structure, x)
+      call self%solve_by_factor(x)
    end subroutine solve
 
    subroutine multiply(self, x, y)

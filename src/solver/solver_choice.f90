@@ -1,14 +1,13 @@
 !> Which solver a structure gets. A new one is a line here, and a word of case control.
 module solver_choice
    use case_control, only: solver_auto, solver_skyline
-   use distribution, only: choose_distributed, weigh_distributed
+   use distribution, only: choose_distributed, solver_work_type, weigh_distributed
    use equation_solver, only: equation_system
    use kinds, only: long, wp
    use machine, only: memory_for
    use model_data, only: model_type
    use node_graph, only: node_graph_type
    use skyline_solver, only: skyline_solver_type
-   use solver_weighing, only: solver_work_type
    use tree_solver, only: tree_solver_type
    implicit none
    private
@@ -66,8 +65,8 @@ contains
       tree%factorisations = factorisations
       call tree%lay_out(model, graph)
       if (is_weighed .and. tree%is_laid_out) then
-         work%fixed_operations = tree%description%fixed_operations
-         work%moving_operations = tree%description%moving_operations
+         work%static_operations = tree%description%static_operations
+         work%refactored_operations = tree%description%refactored_operations
          work%bytes = tree%bytes
          work%there = real(memory_for(work%bytes), wp)
          work%entries = real(model%dimension, wp)**2*(size(graph%neighbours) + real(model%n_nodes, wp))

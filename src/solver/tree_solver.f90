@@ -1,4 +1,4 @@
-!> The solver TREE: the fronts of a nested dissection, of which only those on the way from the joints to the root move. The same
+!> The solver TREE: the fronts of a nested dissection, of which only those on the way from the joints to the root are refactored. The same
 !! dissection is laid out in up to three ways, and the one with least work over all increments is taken:
 !! joints last: the bodies are condensed onto the joints, one dense front with all their unknowns is left;
 !! joints inside: they stay where the dissection puts them;
@@ -6,20 +6,17 @@
 module tree_solver
    use equation_solver, only: equation_system
    use failures, only: failure_type
-   use conjugate_gradients, only: iterate_moving
-   use earlier_solutions, only: earlier_solutions_type, forget_solutions, guess_solution, note_solution
-   use factor_reuse, only: factor_reuse_type, forget_factor, forget_steps, may_reuse, note_factor, note_failure, note_steps
-   use front_factor, only: add_to_moving, factorise_fixed, factorise_moving
+   use factor_reuse, only: earlier_solutions_type, factor_reuse_type, guess_solution, iterate_refactored, may_reuse, note_factor, &
+                           note_failure, note_solution, note_steps
+   use front_factor, only: add_to_refactored, factorise_refactored, factorise_static
    use front_layout, only: bytes_needed, choose_layout, front_layout_type
-   use front_solve, only: eliminate_fixed, factor_times_vector, moving_times_vector, recover_fixed, solve_moving
+   use front_solve, only: eliminate_static, factor_times_vector, recover_static, refactored_times_vector, solve_refactored
    use front_tree, only: front_tree_type, largest_diagonal, start_front_tree
    use kinds, only: long, wp
-   use mass_elements, only: mass_nodes, n_masses
    use memory_need, only: check_memory
-   use model_data, only: bar_nodes, model_type, n_bars, n_sections
-   use node_coupling, only: unknown_nodes
+   use model_data, only: model_type, n_sections
    use nested_dissection, only: dissect
-   use node_graph, only: node_graph_type
+   use node_graph, only: list_joined, node_graph_type
    use text_tools, only: integer_text
    implicit none
    private
@@ -27,17 +24,17 @@ module tree_solver
    real(wp), parameter :: step_tolerance = 1.0e-13_wp !! of conjugate gradients: share of the energy of the solution, as a length
 
    !> What is known of the stiffness now, beside the factor in the fronts.
-   type :: moving_factor_type
+   type :: interface_factor_type
       logical :: is_own = .false.                     !! whether the factor is that of the stiffness now, not an earlier one
       logical :: is_awaited = .false.                 !! whether the one solution that is wanted is still to come
       real(wp), allocatable :: k_int(:, :, :)         !! (3, 3, n) of interface elements, that the factor is of [force/length]
       type(factor_reuse_type) :: reuse                !! when to use an earlier one
       type(earlier_solutions_type) :: earlier         !! with which conjugate gradients begin
-   end type moving_factor_type
+   end type interface_factor_type
 
    type, extends(equation_system), public :: tree_solver_type
       type(front_tree_type) :: fronts
-      type(moving_factor_type) :: factor          !! of the stiffness with the joints, and what is known of it
+      type(interface_factor_type) :: factor          !! of the stiffness with the joints, and what is known of it
       character(:), allocatable :: way            !! in which the joints are laid out
       real(wp) :: bytes = 0.0_wp                  !! that are needed
       logical  :: is_laid_out = .false.
@@ -80,11 +77,11 @@ contains
       call mark_joints(model, graph%with_masses, in_joint)
       call choose_layout(graph, order, weight, in_joint, self%factorisations, self%layout, self%way)
       self%bytes = bytes_needed(self%layout, sum(weight), model%dimension)
-      self%description%fixed_operations = self%layout%fixed_operations
-      self%description%moving_operations = self%layout%moving_operations
+      self%description%static_operations = self%layout%static_operations
+      self%description%refactored_operations = self%layout%refactored_operations
    end subroutine lay_out
 
-   !> Number the unknowns. The equations of the fronts that move are left to the increments.
+   !> Number the unknowns. The equations of the refactored fronts are left to the increments.
    subroutine start(self, model, graph, failure)
       class(tree_solver_type), intent(inout) :: self
       type(model_type), intent(in)           :: model
@@ -104,7 +101,7 @@ contains
          call check_memory(self%n, model%dimension, self%bytes, failure)
          if (failure%raised) return
          call start_front_tree(model, self%number, layout, self%fronts)
-         call self%factor%reuse%set_costs(layout%moving_operations, layout%moving_entries)
+         call self%factor%reuse%set_costs(layout%refactored_operations, layout%refactored_entries)
          self%equations = self%fronts%equations
          description%name = 'TREE, JOINTS '//self%way
          description%words = [character(40) :: 'FRONTS', 'ENTRIES OF THE FACTOR', 'UNKNOWNS LEFT AFTER CONDENSATION']
@@ -122,32 +119,22 @@ contains
       type(model_type), intent(in)      :: model
       logical, intent(in)               :: with_masses
       logical, allocatable, intent(out) :: in_joint(:) !! (n_nodes)
-      integer :: i
+      integer, allocatable :: joined(:, :)
 
+      call list_joined(model, with_masses, .false., joined)
       allocate (in_joint(model%n_nodes), source=.false.)
-      do i = 1, size(model%interface)
-         in_joint(unknown_nodes(model, model%interface(i)%node)) = .true.
-      end do
-      do i = 1, n_bars(model)
-         in_joint(unknown_nodes(model, bar_nodes(model%bars(i)))) = .true.
-      end do
-      do i = 1, n_sections(model)
-         in_joint(model%sections(i)%node) = .true.
-      end do
-      if (.not. with_masses) return
-      do i = 1, n_masses(model)
-         in_joint(unknown_nodes(model, mass_nodes(model, model%masses(i)))) = .true.
-      end do
+      in_joint(pack(joined, joined > 0)) = .true.
+      if (n_sections(model) > 0) in_joint(model%sections%node) = .true.
    end subroutine mark_joints
 
-   !> [k_b]; the fronts that do not move are eliminated.
+   !> [k_b]; the static fronts are eliminated.
    subroutine form_bodies(self, model, fault)
       class(tree_solver_type), intent(inout) :: self
       type(model_type), intent(in)           :: model
       integer, intent(out)                   :: fault
 
       self%fronts%shift = self%shift
-      call factorise_fixed(model, self%fronts, fault)
+      call factorise_static(model, self%fronts, fault)
       self%description%assembly_time = self%fronts%assembly_time
       if (fault == 0) self%stiffest = largest_diagonal(self%fronts)
    end subroutine form_bodies
@@ -157,7 +144,7 @@ contains
       integer, intent(in)                    :: rows(:)
       real(wp), intent(in)                   :: k(:, :)
 
-      call add_to_moving(self%fronts, rows, k)
+      call add_to_refactored(self%fronts, rows, k)
       call forget(self)
    end subroutine add_to_bodies
 
@@ -170,17 +157,17 @@ contains
       call forget(self)
    end subroutine lock
 
-   !> What the fronts that move feel of F; at the other equations L y = f, for recover.
+   !> What the refactored fronts feel of F; at the other equations L y = f, for recover.
    subroutine condense(self, f, x)
       class(tree_solver_type), intent(in) :: self
       real(wp), intent(in)                :: f(:)
       real(wp), intent(out)               :: x(:)
 
       x = f
-      call eliminate_fixed(self%fronts, x)
+      call eliminate_static(self%fronts, x)
    end subroutine condense
 
-   !> Factorise the fronts that move with the joints as they are now, unless an earlier factor may do.
+   !> Factorise the refactored fronts with the joints as they are now, unless an earlier factor may do.
    subroutine form_structure(self, fault)
       class(tree_solver_type), intent(inout) :: self
       integer, intent(out)                   :: fault
@@ -189,8 +176,8 @@ contains
       fault = 0
       reuse = .false.
       associate (factor => self%factor)
-         if (self%one_solution) call may_reuse(factor%reuse, reuse)
-         factor%is_awaited = self%one_solution .and. factor%reuse%most_steps > 0
+         if (self%options%one_solution) call may_reuse(factor%reuse, reuse)
+         factor%is_awaited = self%options%one_solution .and. factor%reuse%most_steps > 0
          factor%is_own = .false.
       end associate
       if (.not. reuse) call factorise(self, fault)
@@ -201,7 +188,7 @@ contains
       integer, intent(out)                   :: fault
       integer :: f
 
-      call factorise_moving(self%fronts, self%k_int, fault)
+      call factorise_refactored(self%fronts, self%k_int, fault)
       self%factor%is_own = fault == 0
       self%weakest = 1.0_wp
       if (fault == 0) self%weakest = minval(self%fronts%fronts%weakest)
@@ -211,7 +198,7 @@ contains
          self%factor%k_int = self%k_int
          call note_factor(self%factor%reuse)
       else
-         call forget_factor(self%factor%reuse)
+         self%factor%reuse%has_factor = .false.
       end if
    end subroutine factorise
 
@@ -234,7 +221,7 @@ contains
       if (.not. found) then
          x(self%equations) = b
          x(self%locked) = 0.0_wp
-         call solve_moving(self%fronts, x)
+         call solve_refactored(self%fronts, x)
       end if
       if (self%factor%is_awaited) call note_solution(self%fronts, self%k_int, b, x, self%factor%earlier)
       self%factor%is_awaited = .false.
@@ -251,8 +238,8 @@ contains
 
       associate (factor => self%factor)
          call guess_solution(self%fronts, self%k_int, factor%earlier, b, x, residual, work)
-         call iterate_moving(self%fronts, self%k_int - factor%k_int, work, step_tolerance, factor%reuse%most_steps, residual, x, &
-                             steps)
+         call iterate_refactored(self%fronts, self%k_int - factor%k_int, work, step_tolerance, factor%reuse%most_steps, &
+                                 residual, x, steps)
          found = steps <= factor%reuse%most_steps
          if (found) then
             call note_steps(factor%reuse, steps)
@@ -266,8 +253,8 @@ contains
    subroutine forget(self)
       class(tree_solver_type), intent(inout) :: self
 
-      call forget_factor(self%factor%reuse)
-      call forget_solutions(self%factor%earlier)
+      self%factor%reuse%has_factor = .false.
+      self%factor%earlier%n = 0
    end subroutine forget
 
    !> As at the start, the costs of a factorisation aside.
@@ -275,7 +262,7 @@ contains
       class(tree_solver_type), intent(inout) :: self
 
       call forget(self)
-      call forget_steps(self%factor%reuse)
+      self%factor%reuse = factor_reuse_type(most_steps=self%factor%reuse%most_steps)
       self%factor%is_own = .false.
       self%factor%is_awaited = .false.
    end subroutine forget_past
@@ -285,17 +272,17 @@ contains
       real(wp), intent(in)                :: x(:)
       real(wp), intent(inout)             :: y(:)
 
-      call moving_times_vector(self%fronts, x, y)
+      call refactored_times_vector(self%fronts, x, y)
    end subroutine multiply
 
-   !> L^T x = y in the fronts that do not move.
+   !> L^T x = y in the static fronts.
    subroutine recover(self, u, x)
       class(tree_solver_type), intent(in) :: self
       real(wp), intent(in)                :: u(:)
       real(wp), intent(inout)             :: x(:)
 
       x(self%equations) = u(self%equations)
-      call recover_fixed(self%fronts, x)
+      call recover_static(self%fronts, x)
    end subroutine recover
 
    pure function diagonal_of_factor(self) result(diagonal)
@@ -309,10 +296,10 @@ contains
       class(tree_solver_type), intent(in) :: self
       real(wp), contiguous, intent(inout) :: x(:)
 
-      call eliminate_fixed(self%fronts, x)
+      call eliminate_static(self%fronts, x)
       x(self%locked) = 0.0_wp
-      call solve_moving(self%fronts, x)
-      call recover_fixed(self%fronts, x)
+      call solve_refactored(self%fronts, x)
+      call recover_static(self%fronts, x)
    end subroutine solve_by_factor
 
    subroutine multiply_by_factor(self, x)

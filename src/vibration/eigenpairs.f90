@@ -3,7 +3,6 @@
 !! which the Lanczos method finds first. Small structures, and those of which most modes are wanted, are solved as a whole.
 !! Source: Ericsson, Ruhe, Math. Comp. 35 (1980) 1251-1268; Lehoucq, Sorensen, Yang, ARPACK Users' Guide, SIAM 1998, section 3.2.
 module eigenpairs
-   use arpack, only: dsaupd, dseupd
    use blas_lapack, only: dsygv
    use equation_solver, only: equation_system
    use failures, only: failure_type
@@ -16,6 +15,36 @@ module eigenpairs
    private
 
    public :: find_eigenpairs, needs_all, all_displacements, on_equations
+
+   interface
+
+      !> One step of the implicitly restarted Lanczos method.
+      subroutine dsaupd(ido, bmat, n, which, nev, tol, resid, ncv, v, ldv, iparam, ipntr, workd, workl, lworkl, info)
+         import :: wp
+         integer, intent(inout)      :: ido
+         character, intent(in)       :: bmat
+         integer, intent(in)         :: n, nev, ncv, ldv, lworkl
+         character(2), intent(in)    :: which
+         real(wp), intent(in)        :: tol
+         real(wp), intent(inout)     :: resid(n), v(ldv, ncv), workd(3*n), workl(lworkl)
+         integer, intent(inout)      :: iparam(11), ipntr(11), info
+      end subroutine dsaupd
+
+      !> The eigenvalues D and, where RVEC, eigenvectors Z that dsaupd has come to; what follows SIGMA is as dsaupd left it.
+      subroutine dseupd(rvec, howmny, select, d, z, ldz, sigma, bmat, n, which, nev, tol, resid, ncv, v, ldv, iparam, ipntr, &
+                        workd, workl, lworkl, info)
+         import :: wp
+         logical, intent(in)         :: rvec
+         character, intent(in)       :: howmny, bmat
+         integer, intent(in)         :: ldz, n, nev, ncv, ldv, lworkl
+         logical, intent(inout)      :: select(ncv)
+         real(wp), intent(inout)     :: d(nev), z(ldz, nev)
+         real(wp), intent(in)        :: sigma, tol
+         character(2), intent(in)    :: which
+         real(wp), intent(inout)     :: resid(n), v(ldv, ncv), workd(2*n), workl(lworkl)
+         integer, intent(inout)      :: iparam(7), ipntr(11), info
+      end subroutine dseupd
+   end interface
 
    integer, parameter  :: small = 150                !! unknowns of a structure that is solved as a whole
    integer, parameter  :: most_restarts = 500

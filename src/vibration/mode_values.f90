@@ -8,11 +8,14 @@
 !!                           and of joints sum of a_i W/(2 pi U): W the loss of their Masing loops at the amplitude asked for
 !! Source of the share by strain energy: C. D. Johnson, D. A. Kienholz, Finite element prediction of damping in structures with
 !! constrained viscoelastic layers, AIAA Journal 20 (1982) 1284-1290.
+!!
+!! Modes of equal frequency, of a square column those that bend either way, say: every combination of them is a mode; which one an
+!! algorithm finds is a matter of rounding. Here it is settled: the first has all the participation along x that they have, the next
+!! of what is left all along y, then z; what participates in nothing is told apart by the displacements of the nodes, in their order.
 module mode_values
    use analysis_state, only: analysis_type
    use eigenpairs, only: all_displacements, on_equations
    use element_mapping, only: two_pi
-   use equal_modes, only: settle_equal_modes, settle_sign
    use equation_solver, only: equation_system
    use interface_operator, only: joint_movement
    use joint_laws, only: friction_limit
@@ -28,7 +31,11 @@ module mode_values
    implicit none
    private
 
-   public :: evaluate_modes
+   public :: settle_equal_modes, settle_sign, evaluate_modes
+
+   real(wp), parameter :: equal = 1.0e-7_wp    ! of the larger eigenvalue: two that differ by less are one
+   real(wp), parameter :: weak = 1.0e-6_wp     ! of the largest: a row that is no more tells no mode apart
+   real(wp), parameter :: near = 0.9283_wp     ! of the largest component: it is not rounding that chooses between equals
 
    type, public :: mode_type
       real(wp) :: lambda = 0.0_wp                   !! omega^2 [1/time^2]
@@ -57,6 +64,95 @@ module mode_values
    end type modes_type
 
 contains
+
+   !> Turn the shapes of every group of equal LAMBDA among themselves.
+   subroutine settle_equal_modes(lambda, mass, participation, u)
+      real(wp), intent(in)    :: lambda(:)           !! ascending
+      real(wp), intent(in)    :: mass                !! of the structure
+      real(wp), intent(inout) :: participation(:, :) !! (directions, modes)
+      real(wp), intent(inout) :: u(:, :, :)          !! (dimension, n_nodes, modes), of generalised mass 1
+      integer :: first, last
+
+      first = 1
+      do while (first <= size(lambda))
+         last = first
+         do while (last < size(lambda))
+            if (lambda(last + 1) - lambda(last) > equal*abs(lambda(last + 1))) exit
+            last = last + 1
+         end do
+         if (last > first) call settle_group(weak*sqrt(mass), participation(:, first:last), u(:, :, first:last))
+         first = last + 1
+      end do
+   end subroutine settle_equal_modes
+
+   !> Turn the modes of one group: row after row of PARTICIPATION above LEAST, then of U, what is not yet settled goes to one mode.
+   subroutine settle_group(least, participation, u)
+      real(wp), intent(in)    :: least
+      real(wp), intent(inout) :: participation(:, :), u(:, :, :)
+      integer :: at(2), d, next
+
+      next = 1
+      do d = 1, size(participation, 1)
+         if (next == size(u, 3)) return
+         if (norm2(participation(d, next:)) > least) call give_to_one((participation(d, next:)))
+      end do
+      do while (next < size(u, 3))
+         at = first_large(u(:, :, next:))
+         call give_to_one((u(at(1), at(2), next:)))
+      end do
+
+   contains
+
+      !> Reflect the modes from NEXT on (Householder) so that the first of them has all of ROW, and go on behind it.
+      subroutine give_to_one(row)
+         real(wp), intent(in) :: row(:)
+         real(wp) :: v(size(row)), along
+         integer  :: c, n
+
+         v = row
+         v(1) = v(1) + sign(norm2(row), row(1))
+         v = v/norm2(v)
+         do n = 1, size(participation, 1)
+            along = dot_product(v, participation(n, next:))
+            participation(n, next:) = participation(n, next:) - 2.0_wp*along*v
+         end do
+         do n = 1, size(u, 2)
+            do c = 1, size(u, 1)
+               along = dot_product(v, u(c, n, next:))
+               u(c, n, next:) = u(c, n, next:) - 2.0_wp*along*v
+            end do
+         end do
+         next = next + 1
+      end subroutine give_to_one
+
+   end subroutine settle_group
+
+   !> The first component and node, in their order, where the displacements of all modes together are as good as largest.
+   pure function first_large(u) result(at)
+      real(wp), intent(in) :: u(:, :, :)
+      integer  :: at(2), d, i
+      real(wp) :: much
+
+      at = 1
+      much = near*sqrt(maxval(sum(u**2, dim=3)))
+      do i = 1, size(u, 2)
+         do d = 1, size(u, 1)
+            at = [d, i]
+            if (norm2(u(d, i, :)) >= much) return
+         end do
+      end do
+   end function first_large
+
+   !> The sign of a shape: that of its largest component, of as good as equal ones the first, is positive.
+   pure subroutine settle_sign(participation, u)
+      real(wp), intent(inout) :: participation(:), u(:, :)
+      integer :: at(2)
+
+      at = first_large(reshape(u, [size(u, 1), size(u, 2), 1]))
+      if (u(at(1), at(2)) >= 0.0_wp) return
+      u = -u
+      participation = -participation
+   end subroutine settle_sign
 
    !> The modes that PLAN wants, of SPECTRUM.
    subroutine evaluate_modes(model, analysis, structure, plan, spectrum, system, modes)

@@ -54,7 +54,7 @@ contains
    end function changed
 
 
-   !> Forces on the equations that move, UNTOUCHED on the others.
+   !> Forces on the refactored equations, UNTOUCHED on the others.
    subroutine load(model, system, x)
       type(model_type), intent(in)       :: model
       type(tree_solver_type), intent(in) :: system

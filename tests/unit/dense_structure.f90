@@ -3,7 +3,7 @@
 module dense_structure
    use body_elements, only: coupled_stiffness, law_of
    use element_kinds, only: max_dofs, max_nodes
-   use element_mass, only: lump, shape_products
+   use isoparametric, only: lump, shape_products
    use kinds, only: wp
    use model_data, only: corners_of, model_type, n_bars
    implicit none

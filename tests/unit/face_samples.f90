@@ -1,8 +1,7 @@
 !> Sides of elements of every kind, straight and curved, for the tests of joints between faces.
 module face_samples
-   use element_kinds, only: side_kind
+   use element_kinds, only: side_kind, node_point
    use kinds, only: wp
-   use local_nodes, only: node_point
    implicit none
    private
 

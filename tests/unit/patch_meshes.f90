@@ -4,11 +4,10 @@
 !! and Design 1 (1985) 3-20.
 module patch_meshes
    use blas_lapack, only: dpotrf, dtrsm
-   use element_kinds, only: element_table, kind_hexa8, kind_penta6, kind_quad4, kind_tetra4, kind_tria3, max_dofs
+   use element_kinds, only: element_table, kind_hexa8, kind_penta6, kind_quad4, kind_tetra4, kind_tria3, max_dofs, node_point
    use element_mapping, only: element_law
    use isoparametric, only: stiffness
    use kinds, only: wp
-   use local_nodes, only: node_point
    implicit none
    private
 

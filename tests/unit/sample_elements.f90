@@ -1,10 +1,9 @@
 !> Elements for tests of shapes, stiffnesses and loads.
 module sample_elements
    use elasticity, only: axisymmetric
-   use element_kinds, only: element_table, max_nodes
+   use element_kinds, only: element_table, max_nodes, node_point
    use element_mapping, only: element_law, element_map, map_element, map_point, max_shapes
    use kinds, only: wp
-   use local_nodes, only: node_point
    use quadrature, only: integration_rule, volume_rule
    implicit none
    private

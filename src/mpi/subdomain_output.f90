@@ -1,11 +1,11 @@
 !> The piece of the bodies that this process writes. Rank 0 sends it once, and for every file how its nodes have moved. Beside its own
-!! elements a piece has all that meet at its nodes, so that no process has to ask another for its share of a mean.
-module own_piece
+!! elements a piece has all that meet at its nodes, so that no process has to ask another for its part of a mean.
+module subdomain_output
    use body_parts, only: body_piece_type
-   use dealt_bodies, only: piece_writer
+   use distribution, only: piece_writer
    use kinds, only: wp
    use model_data, only: n_sections, temperature_type
-   use part_messages, only: receive_part, send_part
+   use partition, only: receive_part, send_part
    use ranks, only: receive, send, sum_of_all
    use reverse_lists, only: list_owners
    implicit none
@@ -144,4 +144,4 @@ contains
       if (allocated(piece)) deallocate (piece)
    end subroutine forget_piece
 
-end module own_piece
+end module subdomain_output

@@ -1,22 +1,32 @@
-!> The seam of distribution in the program for several processes: PETSc on all that mpirun has started.
-submodule(distribution) several_processes
+!> The seam of distribution in the program for several processes: PETSc on all that mpirun has started. Rank 0 cuts the bodies as the
+!! equations are dealt, and has every process write its own piece.
+submodule(distribution) mpi_backend
    use, intrinsic :: iso_c_binding, only: c_funloc, c_null_ptr
+   use body_parts, only: cut_piece
    use c_library, only: end_run
-   use case_control, only: offer_petsc, solver_mumps, solver_petsc
-   use dealt_pieces, only: deal_pieces, dealt_pieces_type
+   use case_control, only: offer_petsc
    use distributed_matrix, only: check
    use distributed_solution, only: by_gamg, by_mumps, set_library_options
-   use engine, only: end_engine, obey, order, order_end, order_memory
    use incomplete_results, only: watch_ends
-   use own_piece, only: writes_by
+   use omp_lib, only: omp_get_max_threads
    use petsc_library, only: petsc_finalize, petsc_initialize, petsc_pop_signal_handler, petsc_push_error_handler, &
                             petsc_return_error_handler
    use petsc_solver, only: petsc_solver_type
-   use omp_lib, only: omp_get_max_threads
-   use kinds, only: wp
    use ranks, only: find_ranks, leave_ranks, n_ranks, rank
-   use solver_weighing, only: solver_work_type, weigh_solvers, weighed, weighing_words
+   use subdomain_output, only: send_piece, send_state, write_own, writes_by
+   use worker_loop, only: broadcast_command, command_cut, command_end, command_memory, command_show, free_worker, serve
    implicit none
+
+   type :: list_type
+      integer, allocatable :: nodes(:)
+   end type list_type
+
+   type, extends(subdomain_output_type) :: pieces_type
+      type(list_type), allocatable :: lists(:)  ! (0:n - 1) the nodes of every piece
+      type(body_piece_type) :: own              ! that of rank 0
+   contains
+      procedure :: write => write_pieces_of_all
+   end type pieces_type
 
 contains
 
@@ -32,18 +42,18 @@ contains
       call writes_by(write_piece)
       if (rank == 0) return
       call watch_ends() ! rank 0 has its own watch, and files
-      call obey()
+      call serve()
       call leave()
       call end_run(0)
    end subroutine join_processes
 
    module subroutine leave_processes()
-      call order(order_end)
+      call broadcast_command(command_end)
       call leave()
    end subroutine leave_processes
 
    subroutine leave()
-      call end_engine()
+      call free_worker()
       call check(petsc_finalize())
       call leave_ranks()
    end subroutine leave
@@ -72,28 +82,52 @@ contains
       if (allocated(system)) system%description%reason = weighing_words(work)
    end subroutine weigh_distributed
 
-   module subroutine deal_bodies(model, system, dealt)
+   module subroutine distribute_bodies(model, system, output)
       type(model_type), intent(in)       :: model
       class(equation_system), intent(in) :: system
-      class(dealt_bodies_type), allocatable, intent(out) :: dealt
-      type(dealt_pieces_type), allocatable :: pieces
+      class(subdomain_output_type), allocatable, intent(out) :: output
+      type(pieces_type), allocatable :: pieces
+      type(body_piece_type) :: other
+      integer :: r
 
       if (n_ranks == 1) return
       select type (system)
       type is (petsc_solver_type)
          allocate (pieces)
-         call deal_pieces(model, system%deal%owner, pieces)
-         call move_alloc(pieces, dealt)
+         pieces%n = n_ranks
+         allocate (pieces%lists(0:n_ranks - 1))
+         call broadcast_command(command_cut)
+         do r = 1, n_ranks - 1
+            call cut_piece(model, system%parts%owner, r, other, pieces%lists(r)%nodes)
+            call send_piece(other, r)
+         end do
+         call cut_piece(model, system%parts%owner, 0, pieces%own, pieces%lists(0)%nodes)
+         call move_alloc(pieces, output)
       end select
-   end subroutine deal_bodies
+   end subroutine distribute_bodies
+
+   subroutine write_pieces_of_all(self, u, temperature, notes, files, ok)
+      class(pieces_type), intent(in)     :: self
+      real(wp), intent(in)               :: u(:, :)
+      type(temperature_type), intent(in) :: temperature
+      character(*), intent(in)           :: notes, files(:)
+      logical, intent(out)               :: ok
+      integer :: r
+
+      call broadcast_command(command_show)
+      do r = 1, self%n - 1
+         call send_state(r, self%lists(r)%nodes, u, temperature, notes, trim(files(r + 1)))
+      end do
+      call write_own(self%own, self%lists(0)%nodes, u, temperature, notes, trim(files(1)), ok)
+   end subroutine write_pieces_of_all
 
    module subroutine memory_of_all(bytes)
       real(wp), intent(out) :: bytes
       real(wp) :: values(1)
 
       values = 0.0_wp
-      call order(order_memory, values=values)
+      call broadcast_command(command_memory, values=values)
       bytes = values(1)
    end subroutine memory_of_all
 
-end submodule several_processes
+end submodule mpi_backend

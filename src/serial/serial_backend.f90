@@ -1,5 +1,5 @@
 !> The seam of distribution in the program that runs as one process: there are no solvers behind it.
-submodule(distribution) one_process
+submodule(distribution) serial_backend
    use machine, only: peak_memory
    implicit none
 
@@ -31,13 +31,13 @@ contains
       if (work%processes < 1) deallocate (system) ! never, likewise
    end subroutine weigh_distributed
 
-   module subroutine deal_bodies(model, system, dealt)
+   module subroutine distribute_bodies(model, system, output)
       type(model_type), intent(in)       :: model
       class(equation_system), intent(in) :: system
-      class(dealt_bodies_type), allocatable, intent(out) :: dealt
+      class(subdomain_output_type), allocatable, intent(out) :: output
 
-      if (model%n_nodes < 0 .and. system%n < 0) deallocate (dealt) ! never, likewise
-   end subroutine deal_bodies
+      if (model%n_nodes < 0 .and. system%n < 0) deallocate (output) ! never, likewise
+   end subroutine distribute_bodies
 
    module subroutine memory_of_all(bytes)
       real(wp), intent(out) :: bytes
@@ -45,4 +45,4 @@ contains
       bytes = real(peak_memory(), wp)
    end subroutine memory_of_all
 
-end submodule one_process
+end submodule serial_backend

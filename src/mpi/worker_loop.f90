@@ -1,0 +1,172 @@
+!> The loop that all processes work in: the subdomain of this process, its rows of the matrix, its part of the solution. Rank 0
+!! broadcasts a command and does its part of it; the others serve until the run ends. One structure at a time. What the rows of a
+!! process will need of memory is told before they are formed, and what BLAS takes is taken in time.
+module worker_loop
+   use blas_lapack, only: dpotrf
+   use distributed_matrix, only: distributed_matrix_type, finish_matrix, free_matrix, multiply_by_matrix, read_diagonal, &
+                                 read_touched, reserve_touched, start_matrix, write_touched
+   use distributed_solution, only: distributed_solution_type, forget_vectors, free_solution, renew_preconditioner, &
+                                   solve_distributed
+   use kinds, only: wp
+   use machine, only: available_memory, peak_memory, return_memory
+   use memory_need, only: shortage
+   use partition, only: forget_elements, receive_subdomain, subdomain_type
+   use ranks, only: give_up, rank, sum_of_all, tell
+   use subdomain_output, only: forget_piece, receive_piece, write_received
+   use text_tools, only: integer_text
+   implicit none
+   private
+
+   public :: broadcast_command, serve, free_worker
+
+   real(wp), parameter :: entry_bytes = 30.0_wp !! measured, of an entry of the matrix: itself, coarser levels, what makes these
+
+   integer, parameter, public :: command_end = 0, command_take = 1, command_start = 2, command_touched = 3, command_finish = 4, &
+                                 command_read = 5, command_write = 6, command_renew = 7, command_solve = 8, command_multiply = 9, &
+                                 command_diagonal = 10, command_forget = 11, command_way = 12, command_memory = 13, &
+                                 command_cut = 14, command_show = 15
+
+   type(subdomain_type), public                :: subdomain
+   type(distributed_matrix_type), public   :: stiffness
+   type(distributed_solution_type), public :: solution
+   logical, public, protected :: is_running = .false. !! there is a matrix
+   real(wp), public, protected :: stiffest = 0.0_wp   !! largest entry of its diagonal [force/length]
+
+contains
+
+   !> BLAS takes a buffer at its first call that needs one; where it cannot have that it tries for ever. So it has to be there now.
+   subroutine reserve_blas()
+      real(wp) :: one(1, 1)
+      integer  :: info
+
+      if (available_memory() <= 0) call give_up('the memory that is allowed does not suffice for BLAS')
+      one = 1.0_wp
+      call dpotrf('L', 1, one, 1, info)
+   end subroutine reserve_blas
+
+   !> Ends the run where the machine does not have what the rows of SUBDOMAIN need.
+   subroutine check_rows(subdomain)
+      type(subdomain_type), intent(in) :: subdomain
+      character(:), allocatable :: words
+      real(wp) :: part
+
+      call shortage('the equations of process '//integer_text(rank)//' need about', &
+                    entry_bytes*real(subdomain%dimension, wp)**2* &
+                    (sum(real(subdomain%inside, wp)) + sum(real(subdomain%outside, wp))), words, part)
+      if (words /= '') call give_up(words)
+   end subroutine check_rows
+
+   !> Rank 0: WHAT all are to do, with these WORDS to it; then it does its own part.
+   subroutine broadcast_command(what, words, values)
+      integer, intent(in)               :: what               !! order_*
+      integer, intent(in), optional     :: words(:)
+      real(wp), intent(inout), optional :: values(:)          !! of rank 0: load and solution, touched blocks
+      integer  :: head(2)
+      integer, allocatable  :: all_words(:)
+      real(wp), allocatable :: nothing(:)
+
+      allocate (all_words(0), nothing(0))
+      if (present(words)) all_words = words
+      head = [what, size(all_words)]
+      call tell(head)
+      call tell(all_words)
+      if (present(values)) then
+         call act(what, all_words, values)
+      else
+         call act(what, all_words, nothing)
+      end if
+   end subroutine broadcast_command
+
+   !> The other ranks: do what is ordered, until the end.
+   subroutine serve()
+      integer  :: head(2)
+      integer, allocatable :: words(:)
+      real(wp) :: nothing(0)
+
+      do
+         call tell(head)
+         allocate (words(head(2)))
+         call tell(words)
+         if (head(1) == command_end) exit
+         call act(head(1), words, nothing)
+         deallocate (words)
+      end do
+   end subroutine serve
+
+   !> The part of this process in a command.
+   subroutine act(what, words, values)
+      integer, intent(in)     :: what, words(:)
+      real(wp), intent(inout) :: values(:)
+      real(wp) :: bytes
+
+      select case (what)
+      case (command_take)
+         call free_worker()
+         call forget_piece()
+         call return_memory()
+         call reserve_blas()
+         if (rank /= 0) call receive_subdomain(subdomain)
+      case (command_start)                                     ! words: blocks of each rank
+         call check_rows(subdomain)
+         call start_matrix(subdomain, words, stiffness)
+         is_running = .true.
+      case (command_finish)                                    ! words: the preconditioner
+         call finish_matrix(subdomain, stiffness, stiffest)
+         solution = distributed_solution_type(way=words(1))
+         call forget_elements(subdomain)
+      case (command_touched)
+         call take_touched(words)
+      case (command_read)
+         call read_touched(subdomain%dimension, stiffness, values)
+      case (command_write)
+         call write_touched(subdomain%dimension, values, stiffness)
+      case (command_renew)
+         call renew_preconditioner(subdomain, stiffness, solution)
+      case (command_solve)                                     ! words: digits; steps at most; 1, that it is noted, or 0
+         call solve_distributed(words, stiffness, solution, values)
+      case (command_diagonal)
+         call read_diagonal(stiffness, values)
+      case (command_way)                                       ! words: the preconditioner
+         call free_solution(solution)
+         solution = distributed_solution_type(way=words(1))
+      case (command_forget)
+         call forget_vectors(solution%earlier)
+      case (command_memory)
+         bytes = sum_of_all(real(peak_memory(), wp))
+         if (rank == 0) values = bytes
+      case (command_multiply)
+         call multiply_by_matrix(stiffness, values)
+      case (command_cut)                                       ! rank 0 sends, see mpi_backend
+         if (rank /= 0) call receive_piece()
+      case (command_show)                                      ! likewise
+         if (rank /= 0) call write_received()
+      end select
+   end subroutine act
+
+   !> The touched blocks of the own rows out of WORDS: how many each rank has, then rows and columns of all.
+   subroutine take_touched(words)
+      integer, intent(in) :: words(:)
+      integer :: first, n, n_ranks
+
+      n_ranks = size(stiffness%counts)
+      n = (size(words) - n_ranks)/2
+      first = n_ranks + sum(words(:rank))
+      associate (own => words(rank + 1))
+         allocate (stiffness%touched(2, own))
+         stiffness%touched(1, :) = words(first + 1:first + own)
+         stiffness%touched(2, :) = words(first + n + 1:first + n + own)
+      end associate
+      stiffness%touched_counts = subdomain%dimension**2*words(:n_ranks)
+      call reserve_touched(subdomain, stiffness)
+   end subroutine take_touched
+
+   !> Give back what this process has of the structure.
+   subroutine free_worker()
+      if (is_running) then
+         call free_solution(solution)
+         call free_matrix(stiffness)
+      end if
+      is_running = .false.
+   end subroutine free_worker
+
+end module worker_loop

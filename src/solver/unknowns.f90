@@ -1,0 +1,150 @@
+!> The unknowns of a node: in words, for messages, and how they go when the structure moves as a rigid body. Those of a point are its
+!! displacements, along global axes or along its system CD; those of a node of rotations are the rotation times its arm; a section
+!! does not open.
+module unknowns
+   use kinds, only: wp
+   use model_data, only: model_type, n_points, n_rotations
+   use reference_nodes, only: node_axes, rotation_component
+   use text_tools, only: integer_text
+   use vector_product, only: cross
+   implicit none
+   private
+
+   public :: what_is_loose, unknown_name, n_motions, is_ordinary, motions_of, motions_at
+
+contains
+
+   !> That the unknown in direction D of NODE, which may be the rotations of a node or the section of a bolt, has no stiffness.
+   pure function what_is_loose(model, node, d) result(words)
+      type(model_type), intent(in) :: model
+      integer, intent(in)          :: node, d
+      character(:), allocatable    :: words
+
+      if (node > n_points(model) + n_rotations(model)) then
+         words = 'nothing holds BOLT '//bolt_number(model, node)//' together at its section'
+      else
+         words = 'node '//node_number(model, node)//' has no stiffness '//merge('against', 'in     ', node > n_points(model))
+         words = trim(words)//' '//direction_name(model, node, d)
+      end if
+   end function what_is_loose
+
+   !> The same unknown, as a place that something is at.
+   pure function unknown_name(model, node, d) result(words)
+      type(model_type), intent(in) :: model
+      integer, intent(in)          :: node, d
+      character(:), allocatable    :: words
+
+      if (node > n_points(model) + n_rotations(model)) then
+         words = 'the section of BOLT '//bolt_number(model, node)
+      else
+         words = 'node '//node_number(model, node)//' in '//direction_name(model, node, d)
+      end if
+   end function unknown_name
+
+   !> The point whose displacements or rotations stand in NODE.
+   pure integer function point_of(model, node) result(point)
+      type(model_type), intent(in) :: model
+      integer, intent(in)          :: node
+
+      point = node
+      if (node > n_points(model)) point = model%rotations(node - n_points(model))%point
+   end function point_of
+
+   pure function node_number(model, node) result(number)
+      type(model_type), intent(in) :: model
+      integer, intent(in)          :: node
+      character(:), allocatable    :: number
+
+      number = integer_text(model%node_id(point_of(model, node)))
+   end function node_number
+
+   pure function bolt_number(model, node) result(number)
+      type(model_type), intent(in) :: model
+      integer, intent(in)          :: node
+      character(:), allocatable    :: number
+
+      number = integer_text(model%sections(node - n_points(model) - n_rotations(model))%bolt)
+   end function bolt_number
+
+   !> 'direction X', or that of the system that the node has, 'direction 1 of its system 7'; of a node of rotations 'rotation about X',
+   !! in the plane about Z alone.
+   pure function direction_name(model, node, d) result(words)
+      type(model_type), intent(in) :: model
+      integer, intent(in)          :: node, d
+      character(:), allocatable    :: words
+      character(1), parameter :: letters(3) = ['X', 'Y', 'Z']
+      logical :: is_rotation
+
+      is_rotation = node > n_points(model)
+      words = letters(merge(3, d, is_rotation .and. model%dimension == 2))
+      if (.not. is_rotation) words = 'direction '//words
+      if (allocated(model%node_system)) then
+         associate (system => model%node_system(point_of(model, node)))
+            if (system > 0) words = 'direction '//integer_text(d)//' of its system '//integer_text(model%systems(system)%id)
+         end associate
+      end if
+      if (is_rotation) words = 'rotation about '//words
+   end function direction_name
+
+   !> Three in the plane, six in space: along the axes, then about them.
+   pure integer function n_motions(dimension)
+      integer, intent(in) :: dimension
+
+      n_motions = merge(6, 3, dimension == 3)
+   end function n_motions
+
+   !> Whether the unknowns of NODE are its displacements in global axes.
+   pure logical function is_ordinary(model, node)
+      type(model_type), intent(in) :: model
+      integer, intent(in)          :: node
+
+      is_ordinary = node <= n_points(model)
+      if (is_ordinary .and. allocated(model%node_system)) is_ordinary = model%node_system(node) == 0
+   end function is_ordinary
+
+   !> Displacements of a point at X: (dimension, motions).
+   pure function motions_at(x) result(u)
+      real(wp), intent(in) :: x(:) !! (dimension) [length]
+      real(wp) :: u(size(x), n_motions(size(x)))
+      integer  :: c, d
+
+      d = size(x)
+      u = 0.0_wp
+      do c = 1, d
+         u(c, c) = 1.0_wp
+      end do
+      if (d == 2) then
+         u(:, 3) = [-x(2), x(1)]
+      else
+         do c = 1, 3
+            u(:, 3 + c) = cross(u(:, c), x)
+         end do
+      end if
+   end function motions_at
+
+   !> Unknowns of NODE: (dimension, motions).
+   pure function motions_of(model, node) result(q)
+      type(model_type), intent(in) :: model
+      integer, intent(in)          :: node
+      real(wp) :: q(model%dimension, n_motions(model%dimension))
+      real(wp) :: axes(3, 3)
+      integer  :: d, r
+
+      d = model%dimension
+      q = 0.0_wp
+      if (node <= n_points(model)) then
+         axes = node_axes(model, node)
+         q = matmul(transpose(axes(:d, :d)), motions_at(model%x(:d, node)))
+      else if (node <= n_points(model) + n_rotations(model)) then
+         r = findloc(model%rotations%node, node, dim=1)
+         associate (point => model%rotations(r)%point, arm => model%rotations(r)%arm)
+            if (d == 2) then
+               q(rotation_component(model, 6), 3) = arm ! about z, whichever way the system CD has it
+            else
+               q(:, 4:) = arm*transpose(node_axes(model, point))
+            end if
+         end associate
+      end if
+   end function motions_of
+
+end module unknowns
