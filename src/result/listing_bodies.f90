@@ -6,12 +6,11 @@ module listing_bodies
    use elasticity, only: max_stresses, n_stresses, principal_stresses, von_mises
    use interface_operator, only: named_node
    use kinds, only: wp
-   use listing_directions, only: add_directed, direction_columns, direction_words
+   use listing_nodes, only: add_directed, direction_columns, direction_words, list_moments, list_rotations, &
+                            shows_element, shows_node
    use listing_table, only: axes, column, listing_table_type, noise, page_type, page_width
-   use listing_rotations, only: list_moments, list_rotations
    use model_data, only: has_ground_springs, has_second_order, model_type, n_bars, n_points, supported
    use node_coupling, only: held_forces
-   use shown_rows, only: shows_element, shows_node
    use text_tools, only: clean
    implicit none
    private

@@ -6,11 +6,11 @@ module listing_joints
    use joint_laws, only: friction_limit
    use joint_motion, only: find_frame, find_resultant, joint_frame, joint_resultant
    use kinds, only: wp
+   use listing_nodes, only: shows_interface
    use listing_table, only: axes, column, column_type, heading, listing_table_type, noise, page_type
    use model_data, only: has_gaps, joint_node_id, model_type
    use normal_curve, only: loading_deflection
    use normal_stiffness, only: branch_name, branch_open, force_reached
-   use shown_rows, only: shows_interface
    use text_tools, only: clean, integer_text
    implicit none
    private

@@ -3,11 +3,11 @@
 module listing_states
    use analysis_state, only: analysis_type
    use kinds, only: wp
+   use listing_nodes, only: shows_interface
    use listing_table, only: axes, column, heading, listing_table_type, noise, page_type
    use model_data, only: joint_node_id, model_type, n_rotations
    use normal_stiffness, only: branch_name, branch_reload, branch_unload
    use shear_stiffness, only: curve_deflection
-   use shown_rows, only: shows_interface
    use text_tools, only: clean, integer_text, upper
    use branch_starts, only: branch_shift
    implicit none

@@ -4,27 +4,26 @@ module results
    use answer_block, only: print_answer
    use bolt_answer, only: n_bolts
    use c_library, only: close_file, lock_folder
+   use csv_tables, only: bolt_table, energy_table, history_ending, joint_table, modes_table, response_table, stage_table, &
+                         table_endings, write_bolts, write_energies, write_headers, write_history, write_modes, write_response, &
+                         write_stage
    use distribution, only: subdomain_output_type, distribute_bodies
    use deck_input, only: deck_type
    use equation_solver, only: equation_system
    use failures, only: failure_type
    use incomplete_results, only: all_complete, give_up_parts, remove_old, what_is_in_the_way
-   use joint_history, only: write_history, write_history_header
    use kinds, only: wp
    use listing, only: finish_listing, list_increment, list_stage, listing_type, record_listing, start_listing
    use listing_modes, only: list_modes, list_response
    use modal_response, only: response_type
    use mode_values, only: modes_type
    use model_data, only: model_type
-   use modes_history, only: write_energies, write_energies_header, write_modes, write_modes_header
    use output_file, only: output_file_type
-   use response_file, only: write_response, write_response_header
    use restart_stream, only: restart_stream_type
    use stage_answer, only: bolt_answer_type, fault_of_answer, find_answer, find_bolt_answers, stage_answer_type
-   use stage_history, only: write_bolt_header, write_bolts, write_stage, write_stage_header
    use stage_plan, only: any_modes, any_response, stage_plan_type, where_in_plan
    use text_tools, only: real_text
-   use vtu_endings, only: is_vtu_ending, remove_old_vtu
+   use vtu_lists, only: is_vtu_ending, remove_old_vtu
    use vtu_results, only: discard_vtu, finish_vtu, record_vtu, start_vtu, vtu_names, vtu_results_type, &
                           write_modes_vtu => write_modes, write_vtu
    implicit none
@@ -33,13 +32,7 @@ module results
    public :: start_results, print_increment, print_stage, print_modes, print_response, finish_results, &
              discard_results, record_results, remove_old_results, show_answers, is_result_ending
 
-   character(*), parameter, public :: listing_ending = '.out', history_ending = '.joint.csv', restart_ending = '.restart'
-
-   ! the tables beside the listing, in the order of their endings
-   integer, parameter :: joint_file = 1, stage_file = 2, bolt_file = 3, modes_file = 4, energy_file = 5, &
-                         response_csv = 6
-   character(17), parameter :: table_endings(6) = [character(17) :: history_ending, '.stage.csv', '.bolt.csv', '.modes.csv', &
-                                                   '.modes.energy.csv', '.response.csv']
+   character(*), parameter, public :: listing_ending = '.out', restart_ending = '.restart'
 
    type, public :: results_type
       type(listing_type)     :: listing
@@ -79,21 +72,15 @@ contains
       if (base == '') return
       call results%screen%start('')
       do i = 1, size(table_endings)
-         if (i == bolt_file .and. n_bolts(model) == 0) cycle
-         if (any(i == [modes_file, energy_file]) .and. .not. any_modes(plan)) cycle
-         if (i == response_csv .and. .not. any_response(plan)) cycle
+         if (i == bolt_table .and. n_bolts(model) == 0) cycle
+         if (any(i == [modes_table, energy_table]) .and. .not. any_modes(plan)) cycle
+         if (i == response_table .and. .not. any_response(plan)) cycle
          call results%tables(i)%start(base//trim(table_endings(i)))
          results%has_table(i) = .true.
          ok = ok .and. .not. results%tables(i)%failed()
       end do
       if (.not. ok) return
-      call write_history_header(results%tables(joint_file), model)
-      call write_stage_header(results%tables(stage_file))
-      if (n_bolts(model) > 0) call write_bolt_header(results%tables(bolt_file))
-      if (.not. any_modes(plan)) return
-      call write_modes_header(results%tables(modes_file))
-      call write_energies_header(results%tables(energy_file))
-      if (any_response(plan)) call write_response_header(results%tables(response_csv))
+      call write_headers(results%tables, model)
    end subroutine start_results
 
    !> The increment just completed.
@@ -107,10 +94,10 @@ contains
       call list_increment(results%listing, model, plan, analysis)
       if (plan%stages(analysis%stage)%steps) call write_vtu(results%vtu, model, plan, analysis)
       if (results%base == '') return
-      call write_history(results%tables(joint_file), model, plan, analysis)
+      call write_history(results%tables(joint_table), model, plan, analysis)
       if (n_bolts(model) == 0) return
       call find_bolt_answers(model, analysis, results%listing%page%largest_force, results%bolts_before, bolts)
-      call write_bolts(results%tables(bolt_file), plan%stages(analysis%stage)%id, analysis%increment, analysis%fraction, model, &
+      call write_bolts(results%tables(bolt_table), plan%stages(analysis%stage)%id, analysis%increment, analysis%fraction, model, &
                        bolts)
    end subroutine print_increment
 
@@ -136,7 +123,7 @@ contains
          call print_answer(page%file, page%labels, title, model, answer)
          if (results%base /= '') then
             call print_answer(results%screen, page%labels, title, model, answer)
-            call write_stage(results%tables(stage_file), stage%id, model, answer)
+            call write_stage(results%tables(stage_table), stage%id, model, answer)
          end if
       end associate
       results%bolts_before = answer%bolts%force
@@ -154,8 +141,8 @@ contains
       associate (planned => plan%stages(stage))
          call list_modes(results%listing%page, model, planned%vibration, modes)
          if (results%base == '') return
-         call write_modes(results%tables(modes_file), planned%id, planned%vibration, modes)
-         call write_energies(results%tables(energy_file), planned%id, model, modes)
+         call write_modes(results%tables(modes_table), planned%id, planned%vibration, modes)
+         call write_energies(results%tables(energy_table), planned%id, model, modes)
          if (planned%vtu) call write_modes_vtu(results%vtu, model, planned%id, modes)
       end associate
    end subroutine print_modes
@@ -171,7 +158,7 @@ contains
       associate (watch => results%listing%watch)
          watch%n_warnings = watch%n_warnings + size(response%missed) + merge(1, 0, size(response%frequency) == 0)
       end associate
-      if (results%base /= '') call write_response(results%tables(response_csv), plan%stages(stage)%id, response)
+      if (results%base /= '') call write_response(results%tables(response_table), plan%stages(stage)%id, response)
    end subroutine print_response
 
    !> Give the files their names. All or none: OK is false where one could not be written. But for files for ParaView, the largest:
@@ -219,8 +206,8 @@ contains
       ok = .true.
       if (results%base == '') return ! the listing went there
       names = results%base//listing_ending//' (listing)'
-      names = names//', '//results%base//trim(table_endings(joint_file))
-      do i = joint_file + 1, size(table_endings)
+      names = names//', '//results%base//trim(table_endings(joint_table))
+      do i = joint_table + 1, size(table_endings)
          if (results%has_table(i)) names = names//', '//trim(table_endings(i))
       end do
       call results%screen%put('')

@@ -15,10 +15,9 @@ module vtu_results
    use stage_plan, only: stage_plan_type
    use text_tools, only: integer_text
    use vtu_bodies, only: notes_for_pieces, write_bodies, write_shapes
-   use vtu_endings, only: piece_ending
    use vtu_file, only: vtu_file_type
    use vtu_joints, only: write_joints
-   use vtu_lists, only: write_collection, write_index
+   use vtu_lists, only: piece_ending, write_collection, write_index
    implicit none
    private
 

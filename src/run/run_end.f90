@@ -5,16 +5,17 @@ module run_end
    use c_library, only: end_run, write_bytes
    use command_arguments, only: complain_of_input
    use command_line, only: is_result_of
+   use csv_tables, only: history_ending
    use deck_input, only: deck_type
    use distribution, only: leave_processes
    use error_report, only: print_errors
    use incomplete_results, only: what_is_in_the_way
    use listing_steps, only: distance_words
    use model_data, only: model_type, n_points
-   use model_warnings, only: tetra_words
    use progress, only: phase_write
+   use range_watch, only: tetra_words
    use restart_file, only: restart_name
-   use results, only: discard_results, finish_results, history_ending, listing_ending, show_answers
+   use results, only: discard_results, finish_results, listing_ending, show_answers
    use run_state, only: has_errors, is_over, is_refused, is_unreadable, is_unsolved, is_unwritten, run_type, status_of, &
                         was_checked, would_overwrite
    use stage_plan, only: stage_plan_type
