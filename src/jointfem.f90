@@ -12,12 +12,11 @@ program jointfem
    use load_path, only: start_increment, start_stage
    use model_data, only: model_type
    use newton_method, only: cross_gaps, newton_increment
+   use progress, only: run_type
    use restart_file, only: take_up, write_restart
-   use run_boxes, only: another_increment, another_stage, build_structure, form_bodies, print_increment, print_stage, read_data, &
-                        start_joints, start_program
+   use run_boxes, only: another_increment, another_stage, build_structure, form_bodies, print_increment, print_stage, &
+                        read_data, start_joints, start_program, find_modes
    use run_end, only: end_program, finish_run
-   use run_modes, only: find_modes
-   use run_state, only: run_type
    use stage_plan, only: stage_plan_type
    use step_method, only: accumulate, limit_friction, solve_increment, structure_stiffness
    implicit none

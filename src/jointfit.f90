@@ -7,9 +7,9 @@ program jointfit
    use fit_data, only: read_test_data, test_data_type
    use fit_plot, only: write_plot
    use fit_run, only: begin_output, end_fit, report_data_errors, report_fit, report_unreadable_data
+   use law_cards, only: check_slopes
    use machine, only: use_threads
    use output_file, only: output_file_type
-   use slope_check, only: check_slopes
    use surface_fit, only: fit_surface, surface_fit_type
    use test_branches, only: find_branches
    implicit none

@@ -1,13 +1,17 @@
 !> What the machine has, and what the program takes of it: memory and threads.
+!!
+!! Figures that Linux gives in small files of text, /proc and /sys, and what its control groups leave to this program: the limits
+!! of containers, batch systems and systemd.
+!! Source: Linux, Documentation/admin-guide/cgroup-v2.rst and cgroup-v1/memory.rst; man 7 cgroups for /proc/self/cgroup.
 module machine
    use, intrinsic :: iso_c_binding, only: c_int, c_intptr_t, c_loc, c_long, c_size_t
-   use kernel_figures, only: kernel_figure, memory_left_by_groups, no_figure
    use kinds, only: long, wp
    use omp_lib, only: omp_get_max_threads, omp_get_num_procs, omp_set_num_threads
    implicit none
    private
 
-   public :: available_memory, memory_for, peak_memory, keep_memory, return_memory, give_back, use_threads
+   public :: available_memory, memory_for, peak_memory, keep_memory, return_memory, give_back, use_threads, kernel_figure, &
+             memory_left_by_groups
 
    integer(c_int), parameter :: trim_threshold = -1, top_pad = -2, mmap_threshold = -3, mmap_max = -4, arena_max = -8 ! parameters of mallopt,
                                                                                              ! malloc.h of glibc
@@ -70,6 +74,13 @@ module machine
          integer(c_int), value :: n
       end subroutine openblas_set_num_threads
    end interface
+
+   integer(long), parameter, public :: no_figure = huge(1_long) !! it cannot be read, or is a word such as `max`
+
+   !> One version of the control groups: where its groups are, and the names of their files.
+   type :: hierarchy_type
+      character(:), allocatable :: folder, limit, used, reclaimable
+   end type hierarchy_type
 
 contains
 
@@ -179,5 +190,102 @@ contains
       status = pthread_attr_setstacksize(attributes, usual)
       if (status == 0) status = pthread_setattr_default_np(attributes)
    end subroutine widen_stacks
+
+   !> The figure that stands behind NAME (empty: alone in the first line) in the file PATH, there in units of so many bytes
+   !! [bytes]; huge where there is none.
+   function kernel_figure(path, name, unit_bytes) result(bytes)
+      character(*), intent(in) :: path, name
+      integer, intent(in)      :: unit_bytes
+      integer(long) :: bytes
+      character(80) :: line
+      integer :: unit, status
+
+      bytes = no_figure
+      open (newunit=unit, file=path, action='read', status='old', iostat=status)
+      if (status /= 0) return
+      do
+         read (unit, '(a)', iostat=status) line
+         if (status /= 0) exit
+         if (index(line, name) == 1) then
+            read (line(len(name) + 1:), *, iostat=status) bytes
+            bytes = merge(unit_bytes*bytes, no_figure, status == 0)
+            exit
+         end if
+      end do
+      close (unit)
+   end function kernel_figure
+
+   !> The least that any control group of this program leaves of its limit, from its own up to the root [bytes]; huge where none
+   !! has one. ROOT: what stands before /proc and /sys, empty but for tests.
+   function memory_left_by_groups(root) result(bytes)
+      character(*), intent(in) :: root
+      integer(long)   :: bytes
+      character(4096) :: line
+      integer :: unit, status
+
+      bytes = no_figure
+      open (newunit=unit, file=root//'/proc/self/cgroup', action='read', status='old', iostat=status)
+      if (status /= 0) return
+      do
+         read (unit, '(a)', iostat=status) line
+         if (status /= 0) exit
+         bytes = min(bytes, left_by_line(root, trim(line)))
+      end do
+      close (unit)
+   end function memory_left_by_groups
+
+   !> What the group of one LINE leaves, or a group above it. The line is `number:controllers:path`: version 2 has the number 0
+   !! and no controllers, version 1 names them.
+   function left_by_line(root, line) result(bytes)
+      character(*), intent(in) :: root, line
+      integer(long) :: bytes
+      type(hierarchy_type) :: hierarchy
+      character(:), allocatable :: path
+      integer :: first, second
+
+      bytes = no_figure
+      first = index(line, ':')
+      second = first + index(line(first + 1:), ':')
+      if (first == 0 .or. second == first) return
+      associate (controllers => line(first + 1:second - 1))
+         if (controllers == '') then
+            hierarchy%folder = root//'/sys/fs/cgroup'
+            hierarchy%limit = '/memory.max'
+            hierarchy%used = '/memory.current'
+            hierarchy%reclaimable = 'inactive_file '
+         else if (index(','//controllers//',', ',memory,') > 0) then
+            hierarchy%folder = root//'/sys/fs/cgroup/memory'
+            hierarchy%limit = '/memory.limit_in_bytes'
+            hierarchy%used = '/memory.usage_in_bytes'
+            hierarchy%reclaimable = 'total_inactive_file '
+         else
+            return
+         end if
+      end associate
+      path = line(second + 1:)
+      do ! in a container the groups above it, or its own path as the host sees it, may not be there: they say nothing
+         bytes = min(bytes, left_in_group(hierarchy, path))
+         if (path == '') exit
+         path = path(:index(path, '/', back=.true.) - 1)
+      end do
+   end function left_by_line
+
+   !> What one group leaves: its limit less what its members have; pages of files that nobody uses any more are given back when
+   !! memory is asked for.
+   function left_in_group(hierarchy, path) result(bytes)
+      type(hierarchy_type), intent(in) :: hierarchy
+      character(*), intent(in)         :: path
+      integer(long) :: bytes, used, reclaimable
+
+      bytes = kernel_figure(hierarchy%folder//path//hierarchy%limit, '', 1)
+      used = kernel_figure(hierarchy%folder//path//hierarchy%used, '', 1)
+      if (bytes == no_figure .or. used == no_figure) then
+         bytes = no_figure
+         return
+      end if
+      reclaimable = kernel_figure(hierarchy%folder//path//'/memory.stat', hierarchy%reclaimable, 1)
+      if (reclaimable == no_figure) reclaimable = 0
+      bytes = max(0_long, bytes - max(0_long, used - reclaimable))
+   end function left_in_group
 
 end module machine

@@ -19,9 +19,9 @@
 !! A file that is read is whole and of this layout and program: open_restart has looked at its sums. What it says of lengths is
 !! believed as far as there are bytes for it, and no further.
 module restart_stream
-   use, intrinsic :: iso_fortran_env, only: int32, int64
    use c_library, only: close_file, open_file, read_bytes, write_bytes
    use checksum, only: add_to_checksum, no_bytes
+   use, intrinsic :: iso_fortran_env, only: int32, int64
    use kinds, only: long, wp
    use text_tools, only: integer_text
    implicit none

@@ -1,15 +1,22 @@
 !> Joints that statics alone can speak of: where no other support or joint can take a share, the loads give the normal resultant.
+!!
+!! The pressure of the first increment of every joint, Eq. (9): given by the user, or by statics; a guess where that will do.
 module determinate_joints
-   use disjoint_sets, only: join, root_of
-   use id_table, only: distinct
+   use deck_errors, only: deck_error_list
    use interface_operator, only: nodes_of_end
    use kinds, only: wp
+   use lists, only: join, root_of, distinct
    use model_data, only: joint_type, model_type, n_bars, n_points, n_rotations, n_sections, stage_load_type, supported
    use node_coupling, only: is_coupled
+   use normal_curve, only: loading_pressure
+   use text_tools, only: integer_text, real_text
    implicit none
    private
 
-   public :: find_determinate_joints, carried_resultant
+   public :: find_determinate_joints, carried_resultant, find_first_pressures
+
+   real(wp), parameter :: nothing = 1.0e-12_wp ! of the load: no resultant but rounding
+   real(wp), parameter :: alike = 1.0e-9_wp ! of the range of the gaps: those that differ by less close together
 
 contains
 
@@ -186,5 +193,165 @@ contains
       end subroutine add
 
    end function carried_resultant
+
+   !> p_av of every joint: the user's P0, else the resultant of the first increment (the share FIRST_SHARE of the first
+   !! stage's load) over A_int. Where neither gives a compression it is guessed, or where a guess will not do the deck is in error.
+   subroutine find_first_pressures(first_share, guess_will_do, model, errors)
+      real(wp), intent(in)                 :: first_share
+      logical, intent(in)                  :: guess_will_do !! the method iterates to an answer that does not depend on it
+      type(model_type), intent(inout)      :: model
+      type(deck_error_list), intent(inout) :: errors
+      type(stage_load_type) :: loads
+      real(wp) :: resultant, total
+      integer  :: i, j
+
+      call first_loads(model, loads)
+      total = 0.0_wp
+      do i = 1, loads%n
+         total = total + norm2(loads%force(:, i))
+      end do
+      do j = 1, size(model%joints)
+         associate (joint => model%joints(j))
+            resultant = 0.0_wp
+            if (joint%determinate) then
+               resultant = first_share*carried_resultant(model, joint, loads)
+               if (.not. touches_body(model, joint)) then
+                  if (opens_first(model, joint, loads)) then
+                     call turn_round(model, joint)
+                     resultant = -resultant
+                  end if
+               end if
+            end if
+            if (joint%p0 > 0.0_wp) then
+               joint%p_av = joint%p0
+            else if (guess_will_do .and. (.not. joint%determinate .or. resultant <= nothing*first_share*total)) then
+               joint%p_av = guessed_pressure(model, joint)
+            else if (.not. joint%determinate) then
+               call errors%add(joint%line, 'joint '//integer_text(joint%id)//' does not carry all the load (supports or '// &
+                  'other joints take a share), so the pressure of the first increment is not known: give P0 on its PJOINT')
+            else if (resultant <= nothing*first_share*total) then
+               call errors%add(joint%line, 'the first increment does not press joint '//integer_text(joint%id)// &
+                  ' together (normal force '//real_text(resultant)//'), so its pressure is not known: give P0 on its PJOINT')
+            else
+               joint%p_av = resultant/closed_area(model, joint)
+            end if
+         end associate
+      end do
+   end subroutine find_first_pressures
+
+   !> A pressure of the order that JOINT may bear: all loads of the stage that has most of them over its area, or what its law says of
+   !! the largest movement of a support or interference; where nothing of these is there, little beside the modulus of the bodies.
+   pure real(wp) function guessed_pressure(model, joint) result(p)
+      type(model_type), intent(in) :: model
+      type(joint_type), intent(in) :: joint
+      real(wp) :: force, moved
+      integer  :: s
+
+      force = 0.0_wp
+      if (n_bars(model) > 0) force = force + sum(abs(model%bars%preload))
+      if (n_sections(model) > 0) force = force + sum(abs(model%sections%preload))
+      moved = max(0.0_wp, -minval(model%interface(joint%first:joint%last)%gap))
+      do s = 1, size(model%stage_loads)
+         associate (loads => model%stage_loads(s))
+            force = max(force, sum(norm2(loads%force(:, :loads%n), dim=1)))
+            if (allocated(loads%moved)) moved = max(moved, maxval(abs(loads%moved)))
+         end associate
+      end do
+      p = force/joint%area
+      if (p <= 0.0_wp) p = loading_pressure(joint%law%normal, moved)
+      if (p <= 0.0_wp) p = 1.0e-6_wp*maxval(model%properties%e)
+      if (p <= 0.0_wp) p = 1.0_wp ! nothing says in which units
+   end function guessed_pressure
+
+   !> The area of JOINT that takes the first increment: A_int, or where there are gaps the part that stands closed at first; where
+   !! none does, that which closes first [length^2].
+   pure real(wp) function closed_area(model, joint) result(area)
+      type(model_type), intent(in) :: model
+      type(joint_type), intent(in) :: joint
+
+      associate (elements => model%interface(joint%first:joint%last))
+         associate (first => minval(elements%gap), last => maxval(elements%gap))
+            area = joint%area
+            if (last > max(0.0_wp, first)) &
+               area = sum(elements%area, mask=elements%gap <= max(0.0_wp, first) + alike*(last - first))
+         end associate
+      end associate
+   end function closed_area
+
+   !> The load of the first stage with the preloads of the bolts that it tightens.
+   pure subroutine first_loads(model, loads)
+      type(model_type), intent(in)       :: model
+      type(stage_load_type), intent(out) :: loads
+      integer :: i, k, n
+
+      n = model%stage_loads(1)%n
+      allocate (loads%node(n + 2*n_bars(model) + n_sections(model)))
+      allocate (loads%force(3, size(loads%node)))
+      loads%node(:n) = model%stage_loads(1)%node(:n)
+      loads%force(:, :n) = model%stage_loads(1)%force(:, :n)
+      do i = 1, n_bars(model)
+         associate (bar => model%bars(i))
+            if (bar%stage /= 1) cycle
+            do k = 1, 2
+               n = n + 1
+               loads%node(n) = bar%nodes(k)
+               loads%force(:, n) = merge(1.0_wp, -1.0_wp, k == 1)*bar%preload*bar%direction(:, k)
+            end do
+         end associate
+      end do
+      do i = 1, n_sections(model)
+         if (model%sections(i)%stage /= 1) cycle
+         n = n + 1
+         loads%node(n) = model%sections(i)%node
+         loads%force(:, n) = [model%sections(i)%preload, 0.0_wp, 0.0_wp]
+      end do
+      loads%n = n
+   end subroutine first_loads
+
+   !> Whether the first stage that sends any load through JOINT pulls it open in the sense of its normal.
+   pure logical function opens_first(model, joint, loads)
+      type(model_type), intent(in) :: model
+      type(joint_type), intent(in) :: joint
+      type(stage_load_type), intent(in) :: loads !! of the first stage, with its bolts
+      real(wp) :: resultant
+      integer  :: s
+
+      opens_first = .false.
+      do s = 1, size(model%stage_loads)
+         resultant = carried_resultant(model, joint, model%stage_loads(s))
+         if (s == 1) resultant = carried_resultant(model, joint, loads)
+         if (abs(resultant) <= 0.0_wp) cycle
+         opens_first = resultant < 0.0_wp
+         return
+      end do
+   end function opens_first
+
+   !> Whether there is a body at any node of JOINT. If not, nothing but the load tells which sense of its normal closes it.
+   pure logical function touches_body(model, joint)
+      type(model_type), intent(in) :: model
+      type(joint_type), intent(in) :: joint
+      integer :: i, k, node
+
+      touches_body = .false.
+      do i = joint%first, joint%last
+         do k = 1, size(model%interface(i)%node)
+            node = model%interface(i)%node(k)
+            touches_body = touches_body .or. model%first_at(node + 1) > model%first_at(node)
+         end do
+      end do
+   end function touches_body
+
+   !> Reverse the normals of a joint (and y with them, so that the axes stay right-handed).
+   pure subroutine turn_round(model, joint)
+      type(model_type), intent(inout) :: model
+      type(joint_type), intent(inout) :: joint
+      integer :: i
+
+      joint%normal = -joint%normal
+      do i = joint%first, joint%last
+         model%interface(i)%axes(:, 2:3) = -model%interface(i)%axes(:, 2:3)
+         if (joint%gap_kind == 'TRUE') model%interface(i)%gap = -model%interface(i)%gap ! a distance along the normal
+      end do
+   end subroutine turn_round
 
 end module determinate_joints

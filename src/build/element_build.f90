@@ -7,11 +7,10 @@ module element_build
    use elasticity, only: axisymmetric, solid
    use element_kinds, only: element_table, kind_quad4, kind_quad8, kind_tria3, kind_tria6
    use element_mapping, only: smallest_jacobian
-   use id_table, only: id_table_type, sorted_order
    use kinds, only: wp
-   use mid_side_nodes, only: blank_node
+   use lists, only: id_table_type, sorted_order
    use model_data, only: corners_of, model_type, property_type
-   use node_build, only: find_nodes, raw_nodes
+   use node_build, only: blank_node, find_nodes, raw_nodes
    use text_tools, only: integer_text
    implicit none
    private

@@ -1,14 +1,38 @@
-!> Where two faces lie over one another, as seen in the frame of the first: the points over which to integrate. Faces are taken in
+!> A face of a joint and the plane that it is seen in: the plane through its centre at right angles to its normal there. What stands
+!! opposite is projected on that plane, along the normal; in space and, as a line, in the plane.
+!!
+!! Polygons in a plane: what two of them have in common, and how large it is.
+!!
+!! Where two faces lie over one another, as seen in the frame of the first: the points over which to integrate. Faces are taken in
 !! parts with straight rims; what two parts have in common is a polygon, of edges an interval.
 module face_overlap
-   use face_frames, only: seen_face
+   use element_kinds, only: centre_point, max_nodes, max_side_nodes, side_kind
    use kinds, only: wp
-   use polygon_clip, only: clip_polygon, drop_straight_corners, polygon_area, polygon_centroid
+   use numbers, only: cross
    use quadrature, only: integration_rule, side_product_rule
+   use shape_functions, only: shape_derivatives, shape_values
    implicit none
    private
 
-   public :: overlap_points, seen_area
+   public :: make_frame, in_frame, find_point, map_point, surface_vector, clip_polygon, drop_straight_corners, polygon_area, &
+             polygon_centroid, overlap_points, seen_area
+
+   !> Axes of a face: columns s and t in its plane, of an edge s along it, and its normal h out of the body.
+   type, public :: face_frame
+      real(wp) :: centre(3) = 0.0_wp
+      real(wp) :: axes(3, 3) = 0.0_wp
+   end type face_frame
+
+   !> A face as it is seen in a frame.
+   type, public :: seen_face
+      logical  :: is_edge = .false.
+      integer  :: kind = 0                    !! of its shape functions, from side_kind
+      integer  :: n = 0                       !! nodes
+      real(wp) :: x(3, max_side_nodes) = 0.0_wp !! s, t and h of each [length]
+   end type seen_face
+
+   integer, parameter  :: most_steps = 30     ! of Newton
+   real(wp), parameter :: still = 1.0e-14_wp  ! a step in local coordinates below which there is no further one
 
    !> Points in the plane of the first face, and what each of them stands for there.
    type, public :: plane_points
@@ -33,6 +57,198 @@ module face_overlap
       128.0_wp/225.0_wp, (322.0_wp + 13.0_wp*q)/900.0_wp, (322.0_wp - 13.0_wp*q)/900.0_wp]
 
 contains
+
+   !> The frame of a face with its nodes at X; no axes where it has no area.
+   pure subroutine make_frame(dimension, x, frame)
+      integer, intent(in)           :: dimension !! of the model: 2, edges, or 3, faces
+      real(wp), intent(in)          :: x(:, :)   !! (3, nodes) [length]
+      type(face_frame), intent(out) :: frame
+      real(wp) :: n(max_nodes), dn(3, max_nodes), a(3), b(3), normal(3)
+      integer  :: kind, nodes
+
+      nodes = size(x, 2)
+      kind = side_kind(dimension, nodes)
+      call shape_values(kind, centre_point(:, kind), n)
+      call shape_derivatives(kind, centre_point(:, kind), dn)
+      frame%centre = matmul(x, n(:nodes))
+      a = matmul(x, dn(1, :nodes))
+      b = [0.0_wp, 0.0_wp, 1.0_wp]               ! the body on the left of an edge, its right-hand normal
+      if (dimension == 3) b = matmul(x, dn(2, :nodes))
+      normal = cross(a, b)
+      if (norm2(normal) <= 0.0_wp) return
+      frame%axes(:, 1) = a/norm2(a)
+      frame%axes(:, 3) = normal/norm2(normal)
+      frame%axes(:, 2) = cross(frame%axes(:, 3), frame%axes(:, 1))
+   end subroutine make_frame
+
+   !> The face with its nodes at X as it is seen in FRAME.
+   pure function in_frame(dimension, x, frame) result(face)
+      integer, intent(in)          :: dimension
+      real(wp), intent(in)         :: x(:, :) !! (3, nodes) [length]
+      type(face_frame), intent(in) :: frame
+      type(seen_face) :: face
+      integer :: k
+
+      face%is_edge = dimension == 2
+      face%n = size(x, 2)
+      face%kind = side_kind(dimension, face%n)
+      do k = 1, face%n
+         face%x(:, k) = matmul(x(:, k) - frame%centre, frame%axes)
+      end do
+   end function in_frame
+
+   !> Local coordinates POINT of the place of FACE that is seen at PLACE, by Newton's method.
+   pure subroutine find_point(face, place, point, is_found)
+      type(seen_face), intent(in) :: face
+      real(wp), intent(in)        :: place(2)  !! s and t [length]
+      real(wp), intent(out)       :: point(3)
+      logical, intent(out)        :: is_found
+      real(wp) :: n(max_nodes), dn(3, max_nodes), miss(2), j(2, 2), determinant, step(2)
+      integer  :: i
+
+      point = centre_point(:, face%kind)
+      is_found = .false.
+      do i = 1, most_steps
+         call shape_values(face%kind, point, n)
+         call shape_derivatives(face%kind, point, dn)
+         miss = place - matmul(face%x(:2, :face%n), n(:face%n))
+         j(:, 1) = matmul(face%x(:2, :face%n), dn(1, :face%n))
+         j(:, 2) = [0.0_wp, 1.0_wp]
+         if (.not. face%is_edge) j(:, 2) = matmul(face%x(:2, :face%n), dn(2, :face%n))
+         determinant = j(1, 1)*j(2, 2) - j(1, 2)*j(2, 1)
+         if (abs(determinant) <= 0.0_wp) return
+         step = [j(2, 2)*miss(1) - j(1, 2)*miss(2), j(1, 1)*miss(2) - j(2, 1)*miss(1)]/determinant
+         if (face%is_edge) step(2) = 0.0_wp
+         point(:2) = point(:2) + step
+         is_found = maxval(abs(step)) <= still*(1.0_wp + maxval(abs(point)))
+         if (is_found .or. .not. maxval(abs(point)) < 1.0e3_wp) return
+      end do
+      is_found = maxval(abs(step)) <= 1.0e-9_wp ! it turns about the point, by rounding
+   end subroutine find_point
+
+   !> What FACE has at a POINT of it: its shape functions N, and where it is.
+   pure subroutine map_point(face, point, n, x)
+      type(seen_face), intent(in) :: face
+      real(wp), intent(in)        :: point(3)
+      real(wp), intent(out)       :: n(max_nodes)
+      real(wp), intent(out)       :: x(3)       !! s, t, h [length]
+
+      call shape_values(face%kind, point, n)
+      x = matmul(face%x(:, :face%n), n(:face%n))
+   end subroutine map_point
+
+   !> The outward vector of the surface of FACE at a POINT, in the frame: as long as the area, of an edge the length, that is seen
+   !! as one; 0 where the face is seen from the side there.
+   pure function surface_vector(face, point) result(vector)
+      type(seen_face), intent(in) :: face
+      real(wp), intent(in)        :: point(3)
+      real(wp) :: vector(3)
+      real(wp) :: dn(3, max_nodes), a(3), b(3)
+
+      call shape_derivatives(face%kind, point, dn)
+      a = matmul(face%x(:, :face%n), dn(1, :face%n))
+      b = [0.0_wp, 1.0_wp, 0.0_wp]
+      if (.not. face%is_edge) b = matmul(face%x(:, :face%n), dn(2, :face%n))
+      vector = cross(a, b)
+      if (abs(vector(3)) <= 1.0e-6_wp*norm2(vector)) then
+         vector = 0.0_wp
+      else
+         vector = vector/abs(vector(3))
+      end if
+   end function surface_vector
+
+   !> The part of SUBJECT that lies in the convex polygon WINDOW, in the sense of SUBJECT; a corner may stand there twice.
+   !! Source: Sutherland and Hodgman, Reentrant polygon clipping, Comm. ACM 17 (1974) 32-42.
+   pure subroutine clip_polygon(subject, window, n, common)
+      real(wp), intent(in)    :: subject(:, :) !! (2, corners)
+      real(wp), intent(in)    :: window(:, :)  !! (2, corners), counter-clockwise
+      integer, intent(out)    :: n             !! corners of COMMON; 0: they do not meet
+      real(wp), intent(inout) :: common(:, :)  !! (2, room for twice the corners of SUBJECT for each side of WINDOW), set here
+      real(wp) :: before(2, size(common, 2)), along(2), here, last
+      integer  :: i, k, m, previous
+
+      n = size(subject, 2)
+      common(:, :n) = subject
+      do k = 1, size(window, 2)
+         along = window(:, modulo(k, size(window, 2)) + 1) - window(:, k)
+         m = n
+         before(:, :m) = common(:, :m)
+         n = 0
+         do i = 1, m
+            previous = modulo(i - 2, m) + 1
+            here = left_of(before(:, i))
+            last = left_of(before(:, previous))
+            if ((here >= 0.0_wp) .neqv. (last >= 0.0_wp)) then
+               n = n + 1
+               common(:, n) = before(:, previous) + (last/(last - here))*(before(:, i) - before(:, previous))
+            end if
+            if (here < 0.0_wp) cycle
+            n = n + 1
+            common(:, n) = before(:, i)
+         end do
+      end do
+
+   contains
+
+      !> Positive on the left of side K of the window, zero on it.
+      pure real(wp) function left_of(point)
+         real(wp), intent(in) :: point(2)
+
+         left_of = along(1)*(point(2) - window(2, k)) - along(2)*(point(1) - window(1, k))
+      end function left_of
+
+   end subroutine clip_polygon
+
+   !> Drop the corners of POLYGON at which it does not turn: clipping leaves some, by rounding, where sides of both polygons lie on one
+   !! another. A corner goes with which the triangle between its neighbours has no more than the area LEAST.
+   pure subroutine drop_straight_corners(least, n, polygon)
+      real(wp), intent(in)    :: least         !! [length^2]
+      integer, intent(inout)  :: n             !! corners
+      real(wp), intent(inout) :: polygon(:, :) !! (2, room) [length]
+      real(wp) :: before(2), next(2)
+      integer  :: k, kept
+
+      if (n < 3) return
+      before = polygon(:, n)
+      kept = 0
+      do k = 1, n
+         next = polygon(:, merge(1, k + 1, k == n)) ! at the end the first that is kept
+         if (abs(polygon_area(reshape([before, polygon(:, k), next], [2, 3]))) <= least) cycle
+         kept = kept + 1
+         polygon(:, kept) = polygon(:, k)
+         before = polygon(:, k)
+      end do
+      n = kept
+   end subroutine drop_straight_corners
+
+   !> Centroid of POLYGON, whose area is not zero.
+   pure function polygon_centroid(polygon) result(centroid)
+      real(wp), intent(in) :: polygon(:, :) !! (2, corners) [length]
+      real(wp) :: centroid(2), area, all_area
+      integer :: i
+
+      centroid = 0.0_wp
+      all_area = 0.0_wp
+      do i = 3, size(polygon, 2)
+         area = polygon_area(polygon(:, [1, i - 1, i]))
+         centroid = centroid + area/3.0_wp*(polygon(:, i - 1) + polygon(:, i) - 2.0_wp*polygon(:, 1))
+         all_area = all_area + area
+      end do
+      centroid = polygon(:, 1) + centroid/all_area
+   end function polygon_centroid
+
+   !> Area of POLYGON, negative where its corners go round clockwise [length^2].
+   pure real(wp) function polygon_area(polygon) result(area)
+      real(wp), intent(in) :: polygon(:, :) !! (2, corners) [length]
+      integer :: i
+
+      area = 0.0_wp
+      do i = 3, size(polygon, 2)
+         associate (a => polygon(:, i - 1) - polygon(:, 1), b => polygon(:, i) - polygon(:, 1))
+            area = area + 0.5_wp*(a(1)*b(2) - a(2)*b(1))
+         end associate
+      end do
+   end function polygon_area
 
    !> The POINTS of the overlap of two faces.
    pure subroutine overlap_points(first, second, points)

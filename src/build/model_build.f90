@@ -1,38 +1,139 @@
-!> From a deck to the structure that is solved.
+!> The bodies of a model, and its parts: bodies and nodes that bars and bolts connect. Joints connect nothing here.
+!!
+!! From a deck to the structure that is solved.
 module model_build
-   use bar_build, only: build_bars
    use case_control, only: method_step
-   use connected_parts, only: find_parts
    use deck_check, only: checked_deck
    use deck_errors, only: deck_error_list
    use deck_input, only: deck_type
-   use determinate_joints, only: find_determinate_joints
-   use first_pressures, only: find_first_pressures
-   use gap_build, only: build_gaps
-   use frame_build, only: build_frames
+   use determinate_joints, only: find_determinate_joints, find_first_pressures
+   use displacement_systems, only: build_frames
    use joint_build, only: build_joints
-   use joint_split, only: split_shared_surfaces
+   use joint_gaps, only: build_gaps
+   use lists, only: join, root_of
    use load_build, only: build_loads
-   use mass_build, only: build_masses, check_mass
-   use mesh_build, only: build_mesh, marked_sides
-   use model_data, only: model_type, n_sections, stage_load_type
-   use named_nodes, only: check_named_nodes
-   use rigid_build, only: build_dependents
-   use rotation_build, only: build_rotations
-   use section_build, only: build_sections
-   use shown_nodes, only: find_shown_nodes
-   use spring_build, only: build_springs
+   use load_checks, only: build_temperatures
+   use mesh_build, only: build_mesh, marked_sides, check_named_nodes
+   use model_data, only: model_type, n_bars, n_rotations, n_sections, stage_load_type
+   use node_coupling, only: section_node
+   use pretension_section, only: build_sections
+   use rbe2, only: build_dependents, build_rotations
+   use spring_build, only: build_bars, build_masses, check_mass, build_springs
    use stage_plan, only: plan_stages, stage_plan_type
    use support_build, only: build_supports
    use surface_build, only: build_surfaces
-   use temperature_build, only: build_temperatures
-   use vibration_build, only: plan_vibrations
+   use surface_sides, only: split_shared_surfaces
+   use vibration_build, only: find_shown_nodes, plan_vibrations
    implicit none
    private
 
-   public :: build_model
+   public :: find_bodies, find_parts, build_model
 
 contains
+
+   !> Which BODY each element belongs to, in the order of their first elements: elements are of one body that nodes connect, and the
+   !! halves of a solid bolt.
+   pure subroutine find_bodies(model, body, n_bodies)
+      type(model_type), intent(in) :: model
+      integer, intent(out)         :: body(:) !! (n_elements)
+      integer, intent(out)         :: n_bodies
+      integer :: parent(model%n_nodes), number(model%n_nodes), e, k, root
+
+      parent = [(k, k = 1, model%n_nodes)]
+      call join_elements(model, parent)
+      do k = 1, n_sections(model)
+         call join(parent, model%sections(k)%node, model%sections(k)%point)
+      end do
+      number = 0
+      n_bodies = 0
+      do e = 1, model%n_elements
+         root = root_of(parent, uncut(model, e, 1))
+         if (number(root) == 0) then
+            n_bodies = n_bodies + 1
+            number(root) = n_bodies
+         end if
+         body(e) = number(root)
+      end do
+   end subroutine find_bodies
+
+   !> Number the connected bodies (a node without a body is a part of its own). What depends on others is one with them.
+   pure subroutine find_parts(model, with_bolts)
+      type(model_type), intent(inout) :: model
+      logical, intent(in)             :: with_bolts !! whether bolts connect bodies as other bars do
+      integer, allocatable :: parent(:)
+      integer :: k, node, root
+
+      allocate (parent(model%n_nodes))
+      parent = [(node, node = 1, model%n_nodes)]
+      call join_elements(model, parent)
+      do k = 1, n_bars(model)
+         if (model%bars(k)%nodes(2) == 0) cycle ! the ground
+         if (with_bolts .or. model%bars(k)%bolt == 0) call join(parent, model%bars(k)%nodes(1), model%bars(k)%nodes(2))
+      end do
+      if (allocated(model%coupling%of_node)) then
+         do node = 1, model%n_nodes
+            call join_coupled(model, node, parent)
+         end do
+      end if
+      do k = 1, n_rotations(model)
+         call join(parent, model%rotations(k)%point, model%rotations(k)%node)
+      end do
+      if (with_bolts) then
+         do k = 1, n_sections(model)
+            call join(parent, model%sections(k)%node, model%sections(k)%point)
+         end do
+      end if
+      if (allocated(model%part)) deallocate (model%part)
+      allocate (model%part(model%n_nodes), source=0)
+      model%n_parts = 0
+      do node = 1, model%n_nodes
+         root = root_of(parent, node)
+         if (model%part(root) == 0) then
+            model%n_parts = model%n_parts + 1
+            model%part(root) = model%n_parts
+         end if
+         model%part(node) = model%part(root)
+      end do
+   end subroutine find_parts
+
+   !> The nodes of every element are one part. Behind the section of a solid bolt the node of the section stands for those that it cuts.
+   pure subroutine join_elements(model, parent)
+      type(model_type), intent(in) :: model
+      integer, intent(inout)       :: parent(:)
+      integer :: e, first, k
+
+      do e = 1, model%n_elements
+         first = uncut(model, e, 1)
+         do k = 2, size(model%element_nodes, 1)
+            call join(parent, first, uncut(model, e, k))
+         end do
+      end do
+   end subroutine join_elements
+
+   !> Corner I of element E, or what stands for it behind a section.
+   pure integer function uncut(model, e, i) result(corner)
+      type(model_type), intent(in) :: model
+      integer, intent(in)          :: e, i
+
+      corner = model%element_nodes(i, e)
+      if (corner == 0 .or. section_node(model, e) == 0) return
+      if (model%node_section(corner) == model%element_section(e)) corner = section_node(model, e)
+   end function uncut
+
+   !> NODE and all those whose unknowns it moves with are one part.
+   pure subroutine join_coupled(model, node, parent)
+      type(model_type), intent(in) :: model
+      integer, intent(in)          :: node
+      integer, intent(inout)       :: parent(:)
+      integer :: k
+
+      associate (coupling => model%coupling, c => model%coupling%of_node(node))
+         if (c == 0) return
+         do k = coupling%first(c), coupling%first(c + 1) - 1
+            call join(parent, node, coupling%node(k))
+         end do
+      end associate
+   end subroutine join_coupled
 
    !> Build MODEL and the PLAN of its stages from DECK; what does not fit together goes to ERRORS, and then neither
    !! is fit to be solved. Of a faulty mesh nothing further is made: areas, fits and loads of it would be of numbers that nobody

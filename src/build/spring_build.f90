@@ -1,21 +1,133 @@
-!> Springs: CELAS1, CELAS2 and CBUSH as bars of the model, one a direction, behind the bars themselves.
+!> Bars and bolts: CROD elements with a PROD, CONROD elements, and the BOLT cards that tighten some of them.
+!!
+!! Springs: CELAS1, CELAS2 and CBUSH as bars of the model, one a direction, behind the bars themselves.
+!!
+!! Masses at nodes: CONM2, and whether there is any mass where the structure shall oscillate.
 module spring_build
-   use bulk_data, only: spring_card
+   use bulk_data, only: bolt_card, edge_crod, element_card, mass_card, prod_card, spring_card
    use coordinate_systems, only: directions_at
    use deck_check, only: checked_deck
+   use displacement_systems, only: find_system
    use kinds, only: wp
-   use model_data, only: bar_type, model_type
+   use model_data, only: bar_type, model_type, n_bars
    use node_build, only: find_nodes
-   use system_build, only: find_system
    use text_tools, only: integer_text
    implicit none
    private
 
-   public :: build_springs
+   public :: build_bars, is_bar, find_stage, build_springs, build_masses, check_mass
 
    character(2), parameter :: axis_names(3) = ['T1', 'T2', 'T3']
 
 contains
+
+   !> Whether an edge is a bar: a CROD with the id of a PROD.
+   pure logical function is_bar(deck, edge)
+      type(checked_deck), intent(in) :: deck
+      type(element_card), intent(in) :: edge
+
+      is_bar = edge%kind == edge_crod .and. edge%property > 0 .and. any(deck%bulk%prod%id == edge%property)
+   end function is_bar
+
+   !> Fill the bars of MODEL.
+   subroutine build_bars(deck, model)
+      type(checked_deck), intent(in)  :: deck
+      type(model_type), intent(inout) :: model
+      integer :: i, n, prod
+
+      allocate (model%bars(size(deck%bulk%edge) + size(deck%bulk%conrod)))
+      n = 0
+      do i = 1, size(deck%bulk%edge)
+         associate (edge => deck%bulk%edge(i))
+            if (.not. is_bar(deck, edge)) cycle
+            n = n + 1
+            prod = findloc(deck%bulk%prod%id, edge%property, dim=1)
+            model%bars(n)%id = edge%id
+            call find_nodes(deck, edge%line, edge%nodes(:2), model, model%bars(n)%nodes)
+            call build_bar(deck, edge%line, deck%bulk%prod(prod), model, model%bars(n))
+         end associate
+      end do
+      do i = 1, size(deck%bulk%conrod)
+         associate (rod => deck%bulk%conrod(i))
+            n = n + 1
+            model%bars(n)%id = rod%id
+            call find_nodes(deck, rod%line, rod%nodes, model, model%bars(n)%nodes, first=2)
+            call build_bar(deck, rod%line, prod_card(line=rod%line, material=rod%material, area=rod%area, &
+                           extra_mass=rod%extra_mass), model, model%bars(n))
+         end associate
+      end do
+      model%bars = model%bars(:n)
+      do i = 1, size(deck%bulk%bolt)
+         if (deck%bulk%bolt(i)%element > 0) call tighten(deck, deck%bulk%bolt(i), model) ! else a solid bolt
+      end do
+   end subroutine build_bars
+
+   !> The stiffness and mass of BAR, whose card is on LINE and whose nodes are known, with the section of PROD.
+   subroutine build_bar(deck, line, prod, model, bar)
+      type(checked_deck), intent(in) :: deck
+      integer, intent(in)            :: line
+      type(prod_card), intent(in)    :: prod
+      type(model_type), intent(in)   :: model
+      type(bar_type), intent(inout)  :: bar
+      integer  :: material
+      real(wp) :: along(3), length
+
+      material = findloc(deck%bulk%mat1%id, prod%material, dim=1)
+      if (material == 0) then
+         if (prod%material > 0) call deck%field_error(prod%line, 'MID', 'there is no MAT1 '//integer_text(prod%material))
+         return
+      end if
+      if (any(bar%nodes == 0)) return
+      along = model%x(:, bar%nodes(2)) - model%x(:, bar%nodes(1))
+      length = norm2(along)
+      if (length <= 0.0_wp) then
+         call deck%errors%add(line, 'bar '//integer_text(bar%id)//' has no length')
+         return
+      end if
+      bar%direction = spread(along/length, 2, 2)
+      bar%stiffness = deck%bulk%mat1(material)%e*prod%area/length
+      bar%mass = deck%bulk%parameters%mass_factor*(deck%bulk%mat1(material)%rho*prod%area + prod%extra_mass)*length
+      bar%expansion = deck%bulk%mat1(material)%alpha*length
+      bar%reference = deck%bulk%mat1(material)%reference
+      bar%damping = deck%bulk%mat1(material)%damping
+      if (model%axisymmetric .and. abs(bar%direction(1, 1)) > 1.0e-9_wp) call deck%errors%add(line, 'bar '// &
+         integer_text(bar%id)//': in an axisymmetric model bars stand along y; their area is that of all round the ring')
+   end subroutine build_bar
+
+   !> The BOLT of a bar: which one it is, and in which stage it is tightened.
+   subroutine tighten(deck, card, model)
+      type(checked_deck), intent(in)  :: deck
+      type(bolt_card), intent(in)     :: card
+      type(model_type), intent(inout) :: model
+      integer :: k, stage
+
+      k = findloc(model%bars%id, card%element, dim=1)
+      call find_stage(deck, card, stage)
+      if (k == 0) call deck%field_error(card%line, 'EID', 'there is no CROD '//integer_text(card%element)// &
+                                           ' with a PROD, nor a CONROD')
+      if (k == 0 .or. stage == 0) return
+      associate (bar => model%bars(k))
+         if (bar%bolt > 0) then
+            call deck%field_error(card%line, 'EID', 'CROD '//integer_text(card%element)//' is BOLT '//integer_text(bar%bolt)// &
+                                  ' already')
+            return
+         end if
+         bar%bolt = card%id
+         bar%preload = card%preload
+         bar%stage = stage
+      end associate
+   end subroutine tighten
+
+   !> Position of the STAGE in which the bolt of CARD is tightened; 0: it is not there.
+   subroutine find_stage(deck, card, stage)
+      type(checked_deck), intent(in) :: deck
+      type(bolt_card), intent(in)    :: card
+      integer, intent(out)           :: stage
+
+      stage = findloc(deck%control%stages%id, card%stage, dim=1)
+      if (stage == 0 .and. card%stage > 0) call deck%field_error(card%line, 'STAGE', &
+         'there is no SUBCASE '//integer_text(card%stage))
+   end subroutine find_stage
 
    !> Append the springs to the bars of MODEL.
    subroutine build_springs(deck, model)
@@ -169,5 +281,120 @@ contains
          direction(component) = 1.0_wp
       end if
    end function direction_of
+
+   !> Fill the masses of MODEL, PARAM WTMASS on them, and how elements have theirs. A CONM2 stands at a node that some element holds.
+   subroutine build_masses(deck, model)
+      type(checked_deck), intent(in)  :: deck
+      type(model_type), intent(inout) :: model
+      integer :: i, n
+
+      model%lumped = deck%control%lumped
+      associate (parameters => deck%bulk%parameters)
+         if (parameters%mass_line > 0 .and. .not. deck%control%mass_is_given) then
+            model%lumped = parameters%lumped
+         else if (parameters%mass_line > 0 .and. (parameters%lumped .neqv. model%lumped)) then
+            call deck%errors%add(parameters%mass_line, 'PARAM COUPMASS asks for '// &
+               trim(merge('lumped    ', 'consistent', parameters%lumped))//' mass, MASS in case control does not; '// &
+               'expected one of the two')
+         end if
+      end associate
+      allocate (model%masses(size(deck%bulk%mass)))
+      n = 0
+      do i = 1, size(deck%bulk%mass)
+         associate (card => deck%bulk%mass(i), node => model%node_table%find(deck%bulk%mass(i)%node))
+            if (node == 0) cycle
+            if (.not. model%used(node)) &
+               call deck%field_error(card%line, 'G', 'node '//integer_text(card%node)//' belongs to no element')
+            n = n + 1
+            model%masses(n)%node = node
+            model%masses(n)%mass = deck%bulk%parameters%mass_factor*card%mass
+            call find_inertia(deck, model, card, model%x(:, node), model%masses(n)%inertia)
+         end associate
+      end do
+      model%masses = model%masses(:n)
+   end subroutine build_masses
+
+   !> The INERTIA of CARD about its node, turned from its system into global axes [force x time^2 x length]: I11, I22, I33 on the
+   !! diagonal, -I21, -I31, -I32 beside it, I21 the integral of x_1 x_2 over the mass.
+   subroutine find_inertia(deck, model, card, x, inertia)
+      type(checked_deck), intent(in) :: deck
+      type(model_type), intent(in)   :: model
+      type(mass_card), intent(in)    :: card
+      real(wp), intent(in)           :: x(3)          !! of the node [length]
+      real(wp), intent(out)          :: inertia(3, 3)
+      real(wp) :: axes(3, 3)
+      integer  :: system
+      logical  :: ok
+
+      associate (i11 => card%inertia(1), i21 => card%inertia(2), i22 => card%inertia(3), i31 => card%inertia(4), &
+                 i32 => card%inertia(5), i33 => card%inertia(6))
+         inertia = deck%bulk%parameters%mass_factor*reshape([i11, -i21, -i31, -i21, i22, -i32, -i31, -i32, i33], [3, 3])
+      end associate
+      if (any(deck%control%stages%vibration%modes%id > 0) .and. .not. is_inertia(inertia)) call deck%field_error(card%line, &
+         'I11', 'these moments of inertia are of no body, whose kinetic energy is nowhere below zero')
+      if (card%system == 0) return
+      call find_system(deck, card%line, 'CID', card%system, model%systems, system)
+      if (system == 0 .or. all(abs(card%inertia) <= 0.0_wp)) return
+      call directions_at(model%systems(system), x, axes, ok)
+      if (ok) then
+         inertia = matmul(axes, matmul(inertia, transpose(axes)))
+      else
+         call deck%field_error(card%line, 'CID', 'the node lies on the axis of system '//integer_text(card%system)// &
+                               ', where its first two directions are not defined')
+      end if
+   end subroutine find_inertia
+
+   !> Whether no turning has an energy below zero: no minor on the diagonal is, rounding aside.
+   pure logical function is_inertia(a)
+      real(wp), intent(in) :: a(3, 3) !! symmetric
+      real(wp), parameter :: rounding = 1.0e-12_wp
+      real(wp) :: b(3, 3), size_of
+      integer  :: i, j
+
+      size_of = maxval(abs(a))
+      is_inertia = .true.
+      if (size_of <= 0.0_wp) return
+      b = a/size_of
+      do i = 1, 3
+         j = modulo(i, 3) + 1
+         is_inertia = is_inertia .and. b(i, i) >= 0.0_wp .and. b(i, i)*b(j, j) - b(i, j)**2 >= -rounding
+      end do
+      is_inertia = is_inertia .and. b(1, 1)*(b(2, 2)*b(3, 3) - b(2, 3)**2) - b(1, 2)*(b(1, 2)*b(3, 3) - b(2, 3)*b(1, 3)) &
+                   + b(1, 3)*(b(1, 2)*b(2, 3) - b(2, 2)*b(1, 3)) >= -rounding
+   end function is_inertia
+
+   !> Where the deck asks for MODES, every body has a mass, its own or at one of its nodes or in a bar on it.
+   subroutine check_mass(deck, model)
+      type(checked_deck), intent(in) :: deck
+      type(model_type), intent(in)   :: model !! its parts are found, bolts among what connects
+      logical, allocatable :: has_mass(:)     ! (parts)
+      integer :: e, i, line
+
+      i = findloc(deck%control%stages%vibration%modes%id > 0, .true., dim=1)
+      if (i == 0) return
+      line = deck%control%stages(i)%vibration%modes%line
+      allocate (has_mass(model%n_parts), source=.false.)
+      do e = 1, model%n_elements
+         if (model%properties(model%element_property(e))%rho > 0.0_wp) has_mass(model%part(model%element_nodes(1, e))) = .true.
+      end do
+      do i = 1, size(model%masses)
+         if (model%masses(i)%mass > 0.0_wp) has_mass(model%part(model%masses(i)%node)) = .true.
+      end do
+      do i = 1, n_bars(model)
+         if (model%bars(i)%mass > 0.0_wp) has_mass(model%part(model%bars(i)%nodes)) = .true. ! springs have none
+      end do
+      if (.not. any(has_mass)) then
+         call deck%errors%add(line, 'MODES: nothing has a mass; give RHO on MAT1, or CONM2')
+         return
+      end if
+      do e = 1, model%n_elements
+         associate (part => model%part(model%element_nodes(1, e)))
+            if (has_mass(part)) cycle
+            call deck%errors%add(line, 'MODES: the body of element '//integer_text(model%element_id(e))// &
+                                 ' has no mass; give RHO on its MAT1, or a CONM2 on it')
+            has_mass(part) = .true. ! said
+         end associate
+      end do
+   end subroutine check_mass
 
 end module spring_build

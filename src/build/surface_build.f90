@@ -3,11 +3,10 @@ module surface_build
    use deck_check, only: checked_deck
    use element_kinds, only: element_table, max_side_nodes
    use element_loads, only: side_areas, side_forces
-   use id_table, only: id_table_type, sorted_order
    use kinds, only: wp
+   use lists, only: id_table_type, sorted_order, list_owners
    use mesh_build, only: marked_sides
    use model_data, only: has_second_order, model_type, surface_type
-   use reverse_lists, only: list_owners
    use surface_sides, only: nodes_of
    use text_tools, only: integer_text
    implicit none

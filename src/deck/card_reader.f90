@@ -1,14 +1,13 @@
 !> The cards of a deck, array by array of the bulk data: which kinds of card there are, where their cards begin, and each of them
 !! decoded by the table of its kind.
 module card_reader
-   use, intrinsic :: iso_fortran_env, only: int8
    use bulk_data, only: bulk_data_type
-   use card_fields, only: card_values, decode_card
-   use card_lines, only: card_type
+   use card_lines, only: card_values, decode_card, card_type
    use deck_cards, only: read_card
    use deck_errors, only: deck_error_list
    use deck_text, only: deck_text_type
    use field_rules, only: field_rule
+   use, intrinsic :: iso_fortran_env, only: int8
    use kinds, only: wp
    implicit none
    private

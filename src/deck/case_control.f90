@@ -4,12 +4,11 @@ module case_control
                            stage_keys, value_error
    use case_sets, only: number_set, read_set
    use deck_errors, only: deck_error_list
-   use deck_numbers, only: parse_integer, parse_real
    use deck_text, only: deck_text_type
    use entry_tally, only: entry_tally_type
-   use habit_entries, only: read_echo, read_habit
+   use field_rules, only: parse_integer, parse_real
    use kinds, only: wp
-   use nastran_habits, only: parameters_type
+   use nastran_compatibility, only: read_echo, read_habit, parameters_type
    use stage_entries, only: read_stage_entry, stage_type
    use text_tools, only: integer_text, upper
    use vibration_entries, only: check_vibration

@@ -1,8 +1,7 @@
 !> One line of case control: its key, its value, and what a value may be.
 module case_entries
    use deck_errors, only: deck_error_list
-   use deck_numbers, only: parse_integer
-   use field_rules, only: list_of
+   use field_rules, only: parse_integer, list_of
    use text_tools, only: upper
    implicit none
    private

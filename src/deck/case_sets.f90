@@ -3,8 +3,8 @@
 module case_sets
    use case_entries, only: entry_type
    use deck_errors, only: deck_error_list
-   use deck_numbers, only: parse_integer
    use deck_text, only: deck_text_type
+   use field_rules, only: parse_integer
    use text_tools, only: integer_text, upper
    implicit none
    private

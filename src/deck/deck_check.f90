@@ -8,7 +8,7 @@ module deck_check
    use deck_errors, only: deck_error_list
    use deck_input, only: deck_type
    use deck_text, only: deck_text_type
-   use id_table, only: id_table_type, sorted_order
+   use lists, only: id_table_type, sorted_order
    use text_tools, only: integer_text
    implicit none
    private

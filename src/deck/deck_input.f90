@@ -7,20 +7,18 @@ module deck_input
    use deck_cards, only: card_name, check_first_field, is_continuation, read_card
    use deck_errors, only: deck_error_list
    use deck_text, only: deck_text_of_bytes, deck_text_type, read_deck_text
-   use gap_cards, only: read_jgap
-   use joint_cards, only: read_cjoint, read_jincr, read_jnorm, read_joint, read_jshear, read_pjoint
+   use joint_cards, only: read_jgap, read_cjoint, read_jincr, read_jnorm, read_joint, read_jshear, read_pjoint
    use kinds, only: long
    use line_scan, only: is_include
    use load_cards, only: read_bolt, read_force, read_gravity, read_load, read_pressure, read_surface_load
-   use mesh_cards, only: complete_remedy, read_block, read_edge, read_element, read_grid, read_pmark
-   use nastran_habits, only: is_idle_card
+   use mesh_cards, only: complete_remedy, read_block, read_edge, read_element, read_grid, read_pmark, fill_grid_defaults, &
+                         read_grid_defaults, read_system, system_names
+   use nastran_compatibility, only: is_idle_card
    use parameter_cards, only: read_parameter
-   use property_cards, only: read_conrod, read_mat1, read_paxis, read_prod, read_pshell, read_psolid
+   use property_cards, only: read_conrod, read_mat1, read_paxis, read_prod, read_pshell, read_psolid, read_temperature
    use rigid_cards, only: read_equation, read_rigid
    use spring_cards, only: read_mass, read_spring, read_spring_property
    use support_cards, only: read_displacement, read_equation_sum, read_support, read_support_sum
-   use system_cards, only: fill_grid_defaults, read_grid_defaults, read_system, system_names
-   use temperature_cards, only: read_temperature
    use unused_cards, only: count_unused
    use vibration_cards, only: read_eigrl, read_freq1, read_freq4, read_tabdmp1
    implicit none

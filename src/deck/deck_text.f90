@@ -1,11 +1,11 @@
 !> The lines of a deck in the order in which they count, INCLUDE files opened in their place.
 module deck_text
-   use checksum, only: add_to_checksum, no_bytes
-   use kinds, only: long
-   use line_scan, only: included_path, is_include, line_place, scan_line
    use c_library, only: is_regular_file, read_all_bytes, true_path
+   use checksum, only: add_to_checksum, no_bytes
    use command_arguments, only: standard_input
    use deck_errors, only: deck_error_list
+   use kinds, only: long
+   use line_scan, only: included_path, is_include, line_place, scan_line
    use text_tools, only: integer_text
    implicit none
    private

@@ -3,7 +3,7 @@
 module error_report
    use deck_errors, only: deck_error_list
    use deck_text, only: deck_text_type
-   use id_table, only: sorted_order
+   use lists, only: sorted_order
    use text_tools, only: integer_text, plural
    implicit none
    private

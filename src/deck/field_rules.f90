@@ -1,12 +1,23 @@
-!> The rules that the table of a card is made of: one a field, with what the field may hold, and the same in words. Of
+!> Numbers as NASTRAN writes them: 12, 1., -.5, 7.0E+1, 1.D-3, 1.5-3.
+!!
+!! The rules that the table of a card is made of: one a field, with what the field may hold, and the same in words. Of
 !! several names a rule makes as many fields alike.
 module field_rules
-   use kinds, only: wp
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+   use kinds, only: long, wp
    use text_tools, only: integer_text, real_text
    implicit none
    private
 
-   public :: integer_field, real_field, word_field, blank_field, any_field, component_field, in_range, expectation, list_of
+   public :: parse_integer, parse_real, integer_field, real_field, word_field, blank_field, any_field, component_field, &
+             in_range, expectation, list_of
+
+   integer, parameter :: quad = selected_real_kind(33)
+   integer, parameter :: most_digits = 15, max_exact = 22           ! so many digits and 10**22 are exact in real(wp),
+   integer, parameter :: most_digits_quad = 18, max_exact_quad = 48 ! these in integer(long) and real(quad)
+   integer :: k
+   real(wp), parameter :: power_of_ten(0:max_exact) = [(10.0_wp**k, k = 0, max_exact)]
+   real(quad), parameter :: power_of_ten_quad(0:max_exact_quad) = [(10.0_quad**k, k = 0, max_exact_quad)]
 
    integer, parameter, public :: kind_integer = 1, kind_real = 2, kind_word = 3, kind_blank = 4, kind_components = 5, kind_any = 6
 
@@ -25,6 +36,145 @@ module field_rules
    end type field_rule
 
 contains
+
+   !> The integer in TEXT (no blanks inside or in front). OK is false for anything else, and beyond 32 bits.
+   pure subroutine parse_integer(text, value, ok)
+      character(*), intent(in) :: text
+      integer, intent(out)     :: value
+      logical, intent(out)     :: ok
+      integer(long) :: total
+      integer :: i, digit, first, length
+
+      value = 0
+      ok = .false.
+      length = filled_length(text)
+      if (length == 0) return
+      first = 1
+      if (text(1:1) == '+' .or. text(1:1) == '-') first = 2
+      if (first > length) return
+      total = 0
+      do i = first, length
+         digit = iachar(text(i:i)) - iachar('0')
+         if (digit < 0 .or. digit > 9) return
+         total = 10*total + digit
+         if (total > huge(value)) return
+      end do
+      value = int(total)
+      if (text(1:1) == '-') value = -value
+      ok = .true.
+   end subroutine parse_integer
+
+   !> The real number in TEXT. It needs a decimal point or an E or D, as in NASTRAN: `12` is an integer.
+   !! OK is false for anything else, for a number too large for a real64, and for one so small that it would
+   !! turn into zero. The value is correctly rounded.
+   pure subroutine parse_real(text, value, ok)
+      character(*), intent(in) :: text
+      real(wp), intent(out)    :: value
+      logical, intent(out)     :: ok
+      integer(long) :: mantissa
+      integer :: i, length, digits, decimals, exponent, digit, status
+      logical :: point, any_digit
+      character(48) :: plain
+
+      value = 0.0_wp
+      ok = .false.
+      length = filled_length(text)
+      if (length == 0 .or. length > 32) return
+      i = 1
+      if (text(1:1) == '+' .or. text(1:1) == '-') i = 2
+      mantissa = 0; digits = 0; decimals = 0
+      point = .false.; any_digit = .false.
+      do while (i <= length)
+         digit = iachar(text(i:i)) - iachar('0')
+         if (digit >= 0 .and. digit <= 9) then
+            any_digit = .true.
+            if (digits > 0 .or. digit > 0) digits = digits + 1
+            if (digits <= most_digits_quad) mantissa = 10*mantissa + digit
+            if (point) decimals = decimals + 1
+         else if (text(i:i) == '.' .and. .not. point) then
+            point = .true.
+         else
+            exit
+         end if
+         i = i + 1
+      end do
+      if (.not. any_digit) return
+      exponent = 0
+      ok = point
+      if (i <= length) call parse_exponent(text(i:length), point, exponent, ok)
+      if (.not. ok) return
+      if (digits <= most_digits .and. abs(exponent - decimals) <= max_exact) then
+         if (exponent >= decimals) then
+            value = real(mantissa, wp)*power_of_ten(exponent - decimals)
+         else
+            value = real(mantissa, wp)/power_of_ten(decimals - exponent)
+         end if
+         if (text(1:1) == '-') value = -value
+         return
+      else if (digits <= most_digits_quad .and. abs(exponent - decimals) <= max_exact_quad) then
+         call round_once(mantissa, exponent - decimals, value, ok)
+         if (text(1:1) == '-') value = -value
+         if (ok) return
+      end if
+      if (digits > 0 .and. digits + exponent - decimals > range(value) + 2) then ! the library would overflow
+         ok = .false.
+         return
+      end if
+      plain = text(:i - 1)
+      write (plain(i:), '(a, i0)') 'E', exponent
+      read (plain, *, iostat=status) value
+      ok = status == 0
+      if (ok) ok = ieee_is_finite(value) .and. .not. (abs(value) < tiny(value) .and. digits > 0)
+   end subroutine parse_real
+
+   !> VALUE = MANTISSA*10**EXPONENT by one operation of quadruple precision on exact operands, which is then rounded again. The
+   !! second rounding errs only where the first ended in the middle between two reals: OK is false there.
+   pure subroutine round_once(mantissa, exponent, value, ok)
+      integer(long), intent(in) :: mantissa !! 0 to 10**18
+      integer, intent(in)       :: exponent !! -48 to 48
+      real(wp), intent(out)     :: value
+      logical, intent(out)      :: ok
+      real(quad) :: wide
+      real(wp)   :: off ! how far VALUE is from it
+
+      if (exponent >= 0) then
+         wide = real(mantissa, quad)*power_of_ten_quad(exponent)
+      else
+         wide = real(mantissa, quad)/power_of_ten_quad(-exponent)
+      end if
+      value = real(wide, wp)
+      off = abs(real(wide - real(value, quad), wp))
+      ok = abs(off - 0.5_wp*spacing(value)) > 0.0_wp .and. abs(off - 0.25_wp*spacing(value)) > 0.0_wp ! 1/4: below a power of two
+   end subroutine round_once
+
+   !> What stands behind the mantissa: E or D and an integer, or a signed integer alone.
+   pure subroutine parse_exponent(text, point, exponent, ok)
+      character(*), intent(in) :: text
+      logical, intent(in)      :: point !! whether the mantissa has a decimal point
+      integer, intent(out)     :: exponent
+      logical, intent(out)     :: ok
+
+      exponent = 0
+      ok = .false.
+      select case (text(1:1))
+      case ('E', 'D', 'e', 'd')
+         call parse_integer(text(2:), exponent, ok)
+      case ('+', '-')
+         if (point) call parse_integer(text, exponent, ok)
+      end select
+      ok = ok .and. abs(exponent) < 10000
+   end subroutine parse_exponent
+
+   !> len_trim(TEXT), without a call of the library: for a comparison with a blank the compiler would put one in.
+   pure integer function filled_length(text) result(length)
+      character(*), intent(in) :: text
+
+      length = len(text)
+      do while (length > 0)
+         if (iachar(text(length:length)) /= iachar(' ')) exit
+         length = length - 1
+      end do
+   end function filled_length
 
    !> Rule for an integer: an id by default (1 and up).
    elemental function integer_field(name, default, least, most) result(rule)

@@ -1,9 +1,11 @@
-!> The cards of loads: FORCE, FORCE1, FORCE2, MOMENT, PLOAD4, PLOADE, PLOAD, PLOADM, FORCEM, GRAV, LOAD, BOLT. A routine for each
+!> Shares of a stage's load change that go to its increments (section 5: arithmetic or geometric progression).
+!!
+!! The cards of loads: FORCE, FORCE1, FORCE2, MOMENT, PLOAD4, PLOADE, PLOAD, PLOADM, FORCEM, GRAV, LOAD, BOLT. A routine for each
 !! array of the bulk data, a table for each kind.
 module load_cards
    use bulk_data, only: bolt_card, bulk_data_type, force_card, gravity_card, of_edge, of_face, of_nodes, pressure_card, &
                         surface_load_card
-   use card_fields, only: card_values, decode_integer, decode_real
+   use card_lines, only: card_values, decode_integer, decode_real
    use card_reader, only: card_reader_type
    use field_rules, only: any_field, integer_field, real_field, word_field
    use kinds, only: wp
@@ -11,9 +13,80 @@ module load_cards
    implicit none
    private
 
-   public :: read_force, read_pressure, read_surface_load, read_gravity, read_load, read_bolt
+   public :: arithmetic_shares, geometric_shares, read_force, read_pressure, read_surface_load, read_gravity, read_load, &
+             read_bolt
 
 contains
+
+   !> N shares s_k = FIRST + (k - 1) d with sum 1: d = 2 (1 - N FIRST) / (N (N - 1)).
+   !! OK is false where the last share would not be positive (FIRST >= 2/N).
+   pure subroutine arithmetic_shares(n, first, shares, ok)
+      integer, intent(in)                :: n     !! increments, 1 or more
+      real(wp), intent(in)               :: first !! share of the first one, 0 < FIRST <= 1 (N = 1: not used)
+      real(wp), allocatable, intent(out) :: shares(:)
+      logical, intent(out)               :: ok
+      real(wp) :: step
+      integer  :: k
+
+      ok = .true.
+      allocate (shares(n), source=1.0_wp)
+      if (n == 1) return
+      step = 2.0_wp*(1.0_wp - n*first)/(real(n, wp)*(n - 1))
+      do k = 1, n
+         shares(k) = first + (k - 1)*step
+      end do
+      ok = shares(1) > 0.0_wp .and. shares(n) > 1.0e-12_wp
+   end subroutine arithmetic_shares
+
+   !> N shares s_k = FIRST r^(k - 1) with sum 1; the ratio r is found by bisection and closed by scaling.
+   !! OK is false where no such r exists (FIRST >= 1 with N > 1).
+   pure subroutine geometric_shares(n, first, shares, ok)
+      integer, intent(in)                :: n
+      real(wp), intent(in)               :: first !! 0 < FIRST < 1 (N = 1: not used)
+      real(wp), allocatable, intent(out) :: shares(:)
+      logical, intent(out)               :: ok
+      real(wp) :: low, high, ratio
+      integer  :: k
+
+      allocate (shares(n), source=1.0_wp)
+      ok = n == 1
+      if (ok) return
+      if (first <= 0.0_wp .or. first >= 1.0_wp) return
+      low = 0.0_wp
+      high = 1.0_wp
+      do while (geometric_sum(n, first, high) < 1.0_wp)
+         high = 2.0_wp*high
+      end do
+      do k = 1, 200
+         ratio = 0.5_wp*(low + high)
+         if (geometric_sum(n, first, ratio) < 1.0_wp) then
+            low = ratio
+         else
+            high = ratio
+         end if
+      end do
+      shares(1) = first
+      do k = 2, n
+         shares(k) = shares(k - 1)*ratio
+      end do
+      shares(2:) = shares(2:)*(1.0_wp - first)/sum(shares(2:))
+      ok = all(shares > 1.0e-12_wp)
+   end subroutine geometric_shares
+
+   pure real(wp) function geometric_sum(n, first, ratio) result(total)
+      integer, intent(in)  :: n
+      real(wp), intent(in) :: first, ratio
+      real(wp) :: term
+      integer  :: k
+
+      total = 0.0_wp
+      term = first
+      do k = 1, n
+         total = total + term
+         if (total > 2.0_wp) return
+         term = term*ratio
+      end do
+   end function geometric_sum
 
    !> FORCE: the vector F (N1, N2, N3) at one node, in system CID; the direction is not made a unit vector, as in NASTRAN. MOMENT:
    !! likewise. FORCE1: F along the line from G1 to G2; FORCE2: F along the vector product of the lines G1-G2 and G3-G4.

@@ -1,6 +1,6 @@
 !> Nodes that case control names: those of a SET, or those of a marked surface.
 module node_limits
-   use deck_numbers, only: parse_integer
+   use field_rules, only: parse_integer
    implicit none
    private
 

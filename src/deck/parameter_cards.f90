@@ -1,10 +1,10 @@
 !> PARAM: numbers that steer NASTRAN. Most have no effect here, some would change the answer.
 module parameter_cards
    use bulk_data, only: bulk_data_type
-   use card_fields, only: card_values
+   use card_lines, only: card_values
    use card_reader, only: card_reader_type
    use field_rules, only: any_field
-   use nastran_habits, only: take_parameter
+   use nastran_compatibility, only: take_parameter
    implicit none
    private
 

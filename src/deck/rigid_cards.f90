@@ -2,10 +2,10 @@
 !! MPC (an equation between components).
 module rigid_cards
    use bulk_data, only: bulk_data_type, equation_card, has_component, rigid_card
-   use card_fields, only: card_values, decode_integer, decode_real
+   use card_lines, only: card_values, decode_integer, decode_real
    use card_reader, only: card_reader_type
-   use deck_numbers, only: parse_integer
-   use field_rules, only: blank_field, component_field, expectation, field_rule, in_range, integer_field, real_field
+   use field_rules, only: parse_integer, blank_field, component_field, expectation, field_rule, in_range, integer_field, &
+                          real_field
    use kinds, only: wp
    use text_tools, only: integer_text
    implicit none

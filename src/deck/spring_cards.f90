@@ -2,7 +2,7 @@
 !! data, a table for each kind.
 module spring_cards
    use bulk_data, only: bulk_data_type, mass_card, spring_card, spring_property_card
-   use card_fields, only: card_values
+   use card_lines, only: card_values
    use card_reader, only: card_reader_type
    use field_rules, only: any_field, blank_field, integer_field, real_field, word_field
    use kinds, only: wp

@@ -2,7 +2,7 @@
 !! a table for each kind.
 module support_cards
    use bulk_data, only: bulk_data_type, displacement_card, support_card, set_sum_card
-   use card_fields, only: card_values, decode_integer
+   use card_lines, only: card_values, decode_integer
    use card_reader, only: card_reader_type
    use field_rules, only: component_field, integer_field, real_field
    use kinds, only: wp

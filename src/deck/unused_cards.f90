@@ -1,7 +1,7 @@
 !> Properties and coordinate systems that nothing uses: they count among the entries without effect.
 module unused_cards
    use bulk_data, only: bulk_data_type
-   use id_table, only: id_table_type
+   use lists, only: id_table_type
    implicit none
    private
 

@@ -1,7 +1,7 @@
 !> The cards of oscillation: EIGRL, FREQ1, FREQ4, TABDMP1. A table and a routine each.
 module vibration_cards
    use bulk_data, only: bulk_data_type, eigrl_card, freq1_card, freq4_card, tabdmp1_card
-   use card_fields, only: card_values, decode_real, smallest_size
+   use card_lines, only: card_values, decode_real, smallest_size
    use card_reader, only: card_reader_type
    use field_rules, only: any_field, blank_field, integer_field, real_field, word_field
    use kinds, only: wp

@@ -9,9 +9,9 @@ module element_loads
    use element_mapping, only: element_law, element_map, map_element, map_point, max_shapes, two_pi
    use isoparametric, only: condensed_stiffness, max_unknowns
    use kinds, only: wp
+   use numbers, only: cross
    use quadrature, only: body_rule, integration_rule, side_rule, volume_rule
    use shape_functions, only: shape_derivatives, shape_values
-   use vector_product, only: cross
    implicit none
    private
 

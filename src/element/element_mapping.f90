@@ -6,9 +6,9 @@ module element_mapping
    use elasticity, only: axisymmetric, elasticity_matrix, max_stresses, plane_strain, solid
    use element_kinds, only: centre_point, element_table, kind_hexa8, kind_penta6, kind_quad4, max_nodes, node_point, side_kind
    use kinds, only: wp
+   use numbers, only: cross
    use quadrature, only: body_rule, integration_rule, max_points, side_rule, volume_rule
    use shape_functions, only: shape_derivatives, shape_values
-   use vector_product, only: cross
    implicit none
    private
 

@@ -1,12 +1,34 @@
-!> One branch of the shear law, tau = sum over k of (a_k1 + a_k2 p) d^k (Eqs. 3b, 5, 6), from test points or published cubics.
+!> A record in the order of time: how much of it is noise, and where it turns back.
+!!
+!! The slope E_u of the lines on which a joint is unloaded and reloaded, from the loops of a normal test.
+!!
+!! One branch of the shear law, tau = sum over k of (a_k1 + a_k2 p) d^k (Eqs. 3b, 5, 6), from test points or published cubics.
 module branch_fit
+   use data_columns, only: fit_load
    use kinds, only: wp
-   use least_squares, only: fit_line, solve_least_squares
-   use pressure_groups, only: group_by_pressure
+   use least_squares, only: fit_line, solve_least_squares, group_by_pressure
    implicit none
    private
 
-   public :: fit_points, fit_lines_only, fit_cubic, fit_cubic_in_pressure
+   public :: scatter_of, find_turns, fit_loops, fit_points, fit_lines_only, fit_cubic, fit_cubic_in_pressure
+
+   !> One way down or up, lambda = LAMBDA + (p - P)/E_U about the middle of its points.
+   type, public :: loop_line
+      integer  :: branch = 0, n_points = 0
+      real(wp) :: p_low = 0.0_wp, p_high = 0.0_wp !! [pressure]
+      real(wp) :: lambda = 0.0_wp, p = 0.0_wp     !! means of its points [length], [pressure]
+      real(wp) :: set = 0.0_wp                    !! lambda at p = 0 [length]
+      real(wp) :: e_u = 0.0_wp                    !! [pressure/length], 0: no rising line
+   end type loop_line
+
+   type, public :: loop_fit_type
+      type(loop_line), allocatable :: lines(:)
+      integer  :: n_points = 0
+      real(wp) :: e_u   = 0.0_wp  !! of all lines together [pressure/length], 0: none
+      real(wp) :: error = 0.0_wp  !! standard error of E_U, as a share of it
+      real(wp) :: rms   = 0.0_wp  !! of lambda about lines of this slope [length]
+      integer, allocatable :: line_of(:) !! (points) 0: loading, -1: no line
+   end type loop_fit_type
 
    real(wp), parameter :: rounding = 1.0e-13_wp ! share of a coefficient in tau below which it is set to zero
 
@@ -50,6 +72,112 @@ module branch_fit
    end type branch_fit_type
 
 contains
+
+   !> How far a reading of a record, in which X and Y rise and fall together, may lie off by chance, as a share of the range of
+   !! each: the largest of N, sqrt(2 ln N) standard deviations; two of them may lie twice as far apart. The noise shows in the
+   !! distance of a reading from the chord between its neighbours, which is small on a smooth curve however unevenly it was read.
+   !! The median passes over the turns; for normal noise it is 0.6745 sqrt(3/2) standard deviations.
+   pure real(wp) function scatter_of(x, y) result(scatter)
+      real(wp), intent(in) :: x(:), y(:) !! (readings)
+      real(wp) :: distance(max(0, size(x) - 2)), a(2), chord(2), range(2)
+      integer  :: i, n
+
+      n = size(x)
+      scatter = 0.0_wp
+      range = [maxval(x) - minval(x), maxval(y) - minval(y)]
+      if (n < 5 .or. any(range <= 0.0_wp)) return
+      distance = 0.0_wp
+      do i = 2, n - 1
+         chord = [x(i + 1) - x(i - 1), y(i + 1) - y(i - 1)]/range
+         a = [x(i) - x(i - 1), y(i) - y(i - 1)]/range
+         if (norm2(chord) > 0.0_wp) distance(i - 1) = abs(chord(1)*a(2) - chord(2)*a(1))/norm2(chord)
+      end do
+      scatter = sqrt(2.0_wp*log(real(n, wp)))*median(distance)/(0.6745_wp*sqrt(1.5_wp))
+   end function scatter_of
+
+   !> The readings at which U turns back by more than BAND: the last before it does.
+   pure subroutine find_turns(u, band, turns)
+      real(wp), intent(in)              :: u(:)
+      real(wp), intent(in)              :: band     !! [u]
+      integer, allocatable, intent(out) :: turns(:) !! ascending; neither the first nor the last reading
+      integer :: high, i, low, way                  ! WAY: 1 rising, -1 falling, 0 not known yet
+
+      allocate (turns(0))
+      high = 1
+      low = 1
+      way = 0
+      do i = 2, size(u)
+         if (u(i) >= u(high)) high = i
+         if (u(i) <= u(low)) low = i
+         if (way >= 0 .and. u(high) - u(i) > band) then
+            if (way > 0 .or. u(high) - u(1) > band) turns = [turns, high]
+            way = -1
+            low = i
+         else if (way <= 0 .and. u(i) - u(low) > band) then
+            if (way < 0 .or. u(1) - u(low) > band) turns = [turns, low]
+            way = 1
+            high = i
+         end if
+      end do
+   end subroutine find_turns
+
+   !> The middle one of X in ascending order, the upper of two: by halving the range, the number below and above counted.
+   pure real(wp) function median(x)
+      real(wp), intent(in) :: x(:)
+      real(wp) :: high, low
+      integer  :: k
+
+      low = minval(x)
+      high = maxval(x)
+      do k = 1, 60
+         median = 0.5_wp*(low + high)
+         if (2*count(x <= median) < size(x)) then
+            low = median
+         else
+            high = median
+         end if
+      end do
+      median = high
+   end function median
+
+   !> Lay lines of one slope through the runs that are not loading, each at its own height: lambda over p, because the pressure is
+   !! what the test sets and the deflection what it reads. Of one run alone its own slope shows how far they scatter.
+   subroutine fit_loops(p, lambda, branch, run, joined, fit)
+      real(wp), intent(in) :: p(:), lambda(:)    !! (points) [pressure], [length]
+      integer, intent(in)  :: branch(:), run(:)  !! (points)
+      logical, intent(in)  :: joined(:)          !! (points) the point before is the one that the test came from
+      type(loop_fit_type), intent(out) :: fit
+      integer, allocatable :: points(:)
+      type(loop_line) :: line
+      real(wp) :: mean(2), sums(3), total(3)     ! of squares: p p, p lambda, lambda lambda about the means
+      integer  :: freedom, i, k
+
+      allocate (fit%lines(0))
+      fit%line_of = merge(0, -1, branch == fit_load)
+      total = 0.0_wp
+      do i = 1, size(p)
+         if (fit%line_of(i) >= 0) cycle
+         points = pack([(k, k = 1, size(p))], run == run(i) .and. branch == branch(i))
+         if (joined(i)) points = [i - 1, points]
+         mean = [sum(p(points)), sum(lambda(points))]/size(points)
+         sums = [sum((p(points) - mean(1))**2), sum((p(points) - mean(1))*(lambda(points) - mean(2))), &
+                 sum((lambda(points) - mean(2))**2)]
+         if (sums(1) <= 0.0_wp) cycle
+         line = loop_line(branch(i), size(points), minval(p(points)), maxval(p(points)), mean(2), mean(1), &
+                          mean(2) - mean(1)*sums(2)/sums(1))
+         if (sums(2) > 0.0_wp) line%e_u = sums(1)/sums(2)
+         fit%lines = [fit%lines, line]
+         where (run == run(i) .and. branch == branch(i)) fit%line_of = size(fit%lines)
+         total = total + sums
+      end do
+      if (size(fit%lines) == 0) return
+      fit%n_points = sum(fit%lines%n_points)
+      if (total(2) <= 0.0_wp) return
+      fit%e_u = total(1)/total(2)
+      fit%rms = sqrt(max(0.0_wp, total(3) - total(2)/fit%e_u)/fit%n_points)
+      freedom = fit%n_points - size(fit%lines) - 1
+      if (freedom > 0) fit%error = fit%rms*sqrt(fit%n_points/(freedom*total(1)))*fit%e_u
+   end subroutine fit_loops
 
    !> Fit a branch through test points: in two steps, a cubic for each pressure and then the lines of Fig. 2 through their
    !! coefficients, and for comparison all points in one step. What the two steps lack is a fault of FIT unless the other is

@@ -1,14 +1,34 @@
-!> The words of a data file: its columns, the units in its headings, the branches; and the header line that names the columns.
+!> Units of test data and of decks, by name: how many SI units one of them is.
+!!
+!! The words of a data file: its columns, the units in its headings, the branches; and the header line that names the columns.
+!!
+!! One line of a data file cut into its entries, and the numbers among them.
 module data_columns
-   use data_entries, only: entry_type, split_entries, split_unit
-   use data_units, only: has_force, unit_system, unit_value
    use deck_errors, only: deck_error_list
+   use field_rules, only: parse_real
    use kinds, only: wp
    use text_tools, only: upper
    implicit none
    private
 
-   public :: branch_number, read_header, set_factors, check_system
+   public :: read_system, unit_value, has_force, branch_number, read_header, set_factors, check_system, split_entries, &
+             data_part, split_unit, is_number, read_number
+
+   real(wp), parameter :: kgf = 9.80665_wp, inch = 0.0254_wp, lbf = 4.4482216152605_wp
+
+   character(6), parameter :: length_names(9) = [character(6) :: 'M', 'CM', 'MM', 'UM', 'MICRON', 'NM', 'IN', 'MIL', 'FT']
+   real(wp), parameter     :: lengths(9) = [1.0_wp, 1.0e-2_wp, 1.0e-3_wp, 1.0e-6_wp, 1.0e-6_wp, 1.0e-9_wp, inch, &
+                                            1.0e-3_wp*inch, 12.0_wp*inch]
+   character(6), parameter :: force_names(7) = [character(6) :: 'N', 'DAN', 'KN', 'KGF', 'KP', 'LBF', 'KIP']
+   real(wp), parameter     :: forces(7) = [1.0_wp, 10.0_wp, 1.0e3_wp, kgf, kgf, lbf, 1.0e3_wp*lbf]
+   character(6), parameter :: stress_names(7) = [character(6) :: 'PA', 'KPA', 'MPA', 'GPA', 'BAR', 'PSI', 'KSI']
+   real(wp), parameter     :: stresses(7) = [1.0_wp, 1.0e3_wp, 1.0e6_wp, 1.0e9_wp, 1.0e5_wp, lbf/inch**2, 1.0e3_wp*lbf/inch**2]
+
+   !> A unit of length and one of stress in SI units, and the words that the user has for them; values 0: none.
+   type, public :: unit_system
+      real(wp) :: length = 0.0_wp, stress = 0.0_wp
+      character(:), allocatable :: length_name, stress_name
+   end type unit_system
 
    !> The branches of the shear law.
    integer, parameter, public :: fit_load = 1, fit_unload = 2, fit_reload = 3
@@ -49,7 +69,97 @@ module data_columns
       real(wp)      :: factors(n_columns) = 1.0_wp !! from there to the units of the cards
    end type header_type
 
+   character(*), parameter :: blanks = ' '//achar(9)
+
+   !> Where an entry stands in its line; an entry left out between two separators has LAST < FIRST.
+   type, public :: entry_type
+      integer :: first = 0, last = 0
+   end type entry_type
+
 contains
+
+   !> `mm, kgf` or `um, MPa`: a unit of length, and one of force or stress; with a force the stress is force/length^2.
+   pure subroutine read_system(text, system, ok)
+      character(*), intent(in)       :: text
+      type(unit_system), intent(out) :: system
+      logical, intent(out)           :: ok
+      character(:), allocatable :: second
+      integer :: comma
+
+      comma = index(text//',', ',')
+      system%length_name = trim(adjustl(text(:comma - 1)))
+      second = trim(adjustl(text(min(comma, len(text)) + 1:)))
+      system%length = table_value(plain(system%length_name), length_names, lengths)
+      system%stress_name = second
+      system%stress = stress_value(plain(second))
+      if (table_value(plain(second), force_names, forces) > 0.0_wp) then
+         system%stress_name = second//'/'//system%length_name//'2'
+         if (system%length > 0.0_wp) system%stress = table_value(plain(second), force_names, forces)/system%length**2
+      end if
+      ok = system%length > 0.0_wp .and. system%stress > 0.0_wp
+   end subroutine read_system
+
+   !> What UNIT is in SI units, 0 where it is no unit of stress or, with STRESS 0, of length.
+   pure real(wp) function unit_value(unit, stress) result(value)
+      character(*), intent(in) :: unit
+      integer, intent(in)      :: stress
+
+      if (stress == 0) value = table_value(plain(unit), length_names, lengths)
+      if (stress /= 0) value = stress_value(plain(unit))
+   end function unit_value
+
+   !> Whether there is a unit of force with which LENGTH and STRESS [SI] are the units of a deck.
+   pure logical function has_force(length, stress)
+      real(wp), intent(in) :: length, stress
+
+      has_force = any(abs(forces - stress*length**2) <= 1.0e-9_wp*forces)
+   end function has_force
+
+   !> A name of stress, or force/length2.
+   pure real(wp) function stress_value(word) result(value)
+      character(*), intent(in) :: word
+      integer :: slash, last
+
+      value = table_value(word, stress_names, stresses)
+      slash = index(word, '/')
+      last = len(word)
+      if (slash == 0 .or. last < slash + 2) return
+      if (word(last:last) /= '2') return
+      associate (length => table_value(word(slash + 1:last - 1), length_names, lengths))
+         if (length > 0.0_wp) value = table_value(word(:slash - 1), force_names, forces)/length**2
+      end associate
+   end function stress_value
+
+   pure real(wp) function table_value(word, names, values) result(value)
+      character(*), intent(in) :: word, names(:)
+      real(wp), intent(in)     :: values(:)
+      integer :: k
+
+      k = findloc(names == word, .true., 1)
+      value = 0.0_wp
+      if (k > 0) value = values(k)
+   end function table_value
+
+   !> UNIT in capitals without blanks and ^, the Greek mu as U and raised figures as others.
+   pure function plain(unit) result(word)
+      character(*), intent(in)  :: unit
+      character(:), allocatable :: word
+      integer :: k
+
+      word = ''
+      do k = 1, len(unit)
+         select case (iachar(unit(k:k)))
+         case (178, 179)                  ! raised 2 and 3, the second byte of them in UTF-8
+            word = word//achar(iachar(unit(k:k)) - 128)
+         case (181, 188)                  ! the micro sign, and the second byte of the letter mu
+            word = word//'U'
+         case (194, 206, iachar(' '), iachar('^'), 9)
+            cycle
+         case default
+            word = word//upper(unit(k:k))
+         end select
+      end do
+   end function plain
 
    !> The number of the branch called WORD (in capitals), 0 for any other word.
    pure integer function branch_number(word) result(branch)
@@ -165,5 +275,114 @@ contains
       if (stress(1) /= stress(2)) length = stress(2)
       call warnings%add(0, trim(length)//' and '//trim(stress(1))//' are no units of one deck: --units mm,n converts both')
    end subroutine check_system
+
+   !> LINE up to its comment, which # or $ begins, without blanks and tabs at its end; double quotes, which spreadsheets put
+   !! around words, become blanks.
+   pure function data_part(line) result(words)
+      character(*), intent(in)  :: line
+      character(:), allocatable :: words
+      integer :: k
+
+      words = line(:scan(line//'#', '#$') - 1)
+      do k = 1, len(words)
+         if (words(k:k) == '"') words(k:k) = ' '
+      end do
+      words = words(:verify(words, blanks, back=.true.))
+   end function data_part
+
+   !> Cut LINE at blanks, tabs, commas and semicolons. Blanks around a separator go with it; nothing between two, or before the
+   !! first or behind the last, is an entry left out. What stands in brackets, and blanks before them, cuts nothing: `lambda [um]`
+   !! is one entry; nor does the DECIMAL_COMMA, one before a digit, which a line with semicolons has anyway.
+   pure subroutine split_entries(line, entries, decimal_comma)
+      character(*), intent(in)                   :: line
+      type(entry_type), allocatable, intent(out) :: entries(:)
+      logical, intent(in)                        :: decimal_comma
+      character(len(line)) :: open
+      integer :: at, k, last
+      logical :: waits  ! a separator has been read and waits for the entry behind it
+
+      open = without_brackets(line)
+      if (decimal_comma .or. index(open, ';') > 0) then
+         do k = 1, len(line) - 1
+            if (line(k:k) == ',' .and. scan(line(k + 1:k + 1), '0123456789') == 1) open(k:k) = 'x'
+         end do
+      end if
+      allocate (entries(0))
+      waits = .false.
+      at = next(1)
+      do while (at <= len(line))
+         last = at + scan(open(at:)//' ', blanks//',;') - 2
+         entries = [entries, entry_type(at, last)]
+         at = next(last + 1)
+         if (at > len(line)) return
+         waits = scan(open(at:at), ',;') == 1
+         if (waits) at = next(at + 1)
+      end do
+      if (waits) entries = [entries, entry_type(len(line) + 1, len(line))]
+
+   contains
+
+      !> The next place from FROM on that is not blank.
+      pure integer function next(from)
+         integer, intent(in) :: from
+
+         next = from + verify(open(from:)//',', blanks) - 1
+      end function next
+
+   end subroutine split_entries
+
+   !> LINE with x for all that stands in brackets and for the blanks between a name and its brackets.
+   pure function without_brackets(line) result(masked)
+      character(*), intent(in) :: line
+      character(len(line))     :: masked
+      integer :: first, last, name
+
+      masked = line
+      do
+         first = scan(masked, '[(')
+         if (first == 0) return
+         last = first + scan(masked(first:)//')', '])') - 1
+         last = min(last, len(line))
+         name = verify(masked(:first - 1), blanks, back=.true.)
+         if (name > 0) then
+            if (scan(line(name:name), ',;])') == 0) first = name + 1
+         end if
+         masked(first:last) = repeat('x', last - first + 1)
+      end do
+   end function without_brackets
+
+   !> The NAME and the UNIT in an entry of a header, `lambda [um]` or `lambda(um)`; no brackets: no unit.
+   pure subroutine split_unit(entry, name, unit)
+      character(*), intent(in)               :: entry
+      character(:), allocatable, intent(out) :: name, unit
+      integer :: first
+
+      first = scan(entry//'[', '[(')
+      name = entry(:verify(entry(:first - 1), blanks, back=.true.))
+      unit = ''
+      if (first < len(entry)) unit = trim(adjustl(entry(first + 1:first + scan(entry(first + 1:)//')', '])') - 1)))
+   end subroutine split_unit
+
+   !> Whether WORD begins like a number.
+   pure logical function is_number(word)
+      character(*), intent(in) :: word
+
+      is_number = scan(word, '0123456789+-.,') == 1
+   end function is_number
+
+   !> A number of the data or the command, which may do without the decimal point that cards need, or have a comma for it.
+   pure subroutine read_number(text, value, ok)
+      character(*), intent(in) :: text
+      real(wp), intent(out)    :: value
+      logical, intent(out)     :: ok
+      character(len(text)) :: number
+      integer :: comma
+
+      number = text
+      comma = index(text, ',')
+      if (comma > 0) number(comma:comma) = '.'
+      call parse_real(number, value, ok)
+      if (.not. ok) call parse_real(number//'.', value, ok)
+   end subroutine read_number
 
 end module data_columns

@@ -1,6 +1,5 @@
 !> The run of jointfit: what is said on the standard error, and the exit status.
 module fit_run
-   use, intrinsic :: iso_fortran_env, only: error_unit
    use c_library, only: end_run, tell_failed_writes
    use command_arguments, only: complain_of_input, input_argument
    use data_columns, only: branch_words, data_normal, fit_reload, fit_unload
@@ -9,6 +8,7 @@ module fit_run
    use error_report, only: print_errors
    use fit_command, only: fit_command_type
    use incomplete_results, only: all_complete, watch_ends, what_is_in_the_way
+   use, intrinsic :: iso_fortran_env, only: error_unit
    use output_file, only: output_file_type
    use surface_fit, only: surface_fit_type
    implicit none

@@ -1,9 +1,9 @@
 !> The power law of the normal deflection, lambda = c p^m (Eq. 1), from test points.
 module normal_fit
+   use branch_fit, only: loop_fit_type
    use deck_errors, only: deck_error_list
    use kinds, only: wp
    use least_squares, only: fit_line, solve_least_squares
-   use loop_fit, only: loop_fit_type
    use normal_curve, only: least_power
    use text_tools, only: real_text
    implicit none

@@ -2,17 +2,16 @@
 module surface_fit
    use branch_cubic, only: cubic
    use branch_fit, only: branch_fit_type, fault_dependent, fault_few_points, fault_none, fault_one_pressure, fit_lines_only, &
-                         fit_points
-   use card_fields, only: largest_size, smallest_size
+                         fit_points, fit_loops
+   use card_lines, only: largest_size, smallest_size
    use data_columns, only: branch_words, column_c, column_d, column_lambda, column_p, column_tau, data_normal, data_shear, &
                            fit_load, fit_reload, fit_unload
    use deck_errors, only: deck_error_list
    use fit_command, only: fit_command_type
    use fit_data, only: test_data_type
    use kinds, only: wp
-   use loop_fit, only: fit_loops
    use normal_fit, only: fit_normal, normal_fit_type
-   use shear_closure, only: loop_closure, wide_gap, worst_closure
+   use shear_loops, only: loop_closure, wide_gap, worst_closure
    use shear_stiffness, only: shear_law
    use text_tools, only: plural, real_text
    implicit none

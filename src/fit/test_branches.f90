@@ -1,17 +1,14 @@
 !> Which branch and which run each row of a test belongs to, found from the way that the test went.
 module test_branches
-   use branch_fit, only: fit_cubic
-   use data_columns, only: column_d, column_lambda, column_p, column_symbols, column_tau, data_cubics, data_normal, &
-                           data_shear, fit_load, fit_reload, fit_unload
+   use branch_fit, only: fit_cubic, find_turns, scatter_of
+   use data_columns, only: column_d, column_lambda, column_p, column_symbols, column_tau, data_cubics, data_normal, data_shear, &
+                           fit_load, fit_reload, fit_unload
    use deck_errors, only: deck_error_list
    use fit_command, only: fit_command_type
    use fit_data, only: test_data_type
    use kinds, only: wp
-   use least_squares, only: solve_least_squares
-   use pressure_groups, only: group_by_pressure
-   use reading_offset, only: check_signs, take_off_offset
+   use least_squares, only: solve_least_squares, group_by_pressure, check_signs, take_off_offset
    use text_tools, only: integer_text, plural, real_text
-   use turning_points, only: find_turns, scatter_of
    implicit none
    private
 

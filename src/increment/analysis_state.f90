@@ -1,5 +1,6 @@
 !> Everything that changes from increment to increment, and what all methods do with it alike.
 module analysis_state
+   use branch_starts, only: note_turns, turning_point
    use case_control, only: case_control_type, method_step, pressure_eq10
    use condensed_interface, only: condensed_type
    use condition_estimate, only: condition_type
@@ -8,11 +9,10 @@ module analysis_state
    use interface_operator, only: add_global_force, interface_element, joint_movement
    use joint_laws, only: element_state, element_stiffness_of, joint_law
    use kinds, only: wp
-   use measures, only: is_measure
    use model_data, only: model_type, n_bars, n_sections, temperature_type
    use normal_curve, only: normal_secant
    use normal_stiffness, only: at_rest, branch_load, branch_open, is_virgin
-   use branch_starts, only: note_turns, turning_point
+   use numbers, only: is_measure
    implicit none
    private
 

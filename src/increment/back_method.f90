@@ -16,10 +16,10 @@ module back_method
    use interface_operator, only: add_force, joint_movement
    use joint_laws, only: back_stiffness, exceeds_limit, loading_work, rest_margin, stand_at_limits
    use kinds, only: wp
-   use measures, only: first_largest
    use model_data, only: joint_node_id, model_type
    use normal_curve, only: loading_deflection, loading_pressure, normal_tangent, pressure_floor
    use normal_stiffness, only: branch_load, branch_open, has_come_to
+   use numbers, only: first_largest
    use stage_plan, only: stage_plan_type, where_in_plan
    use text_tools, only: integer_text, real_text
    implicit none

@@ -5,9 +5,9 @@ module finite_state
    use equations, only: equation_system
    use failures, only: failure_type
    use kinds, only: wp
-   use measures, only: is_measure
    use model_data, only: joint_node_id, model_type, n_bars
    use newton_method, only: no_balance
+   use numbers, only: is_measure
    use stage_plan, only: stage_plan_type, where_in_plan
    use text_tools, only: integer_text, real_text
    use unknowns, only: unknown_name

@@ -8,13 +8,13 @@ module newton_method
    use joint_laws, only: is_apart
    use kinds, only: wp
    use load_path, only: go_back, support_force
-   use measures, only: first_largest
    use model_data, only: joint_node_id, model_type
    use newton_direction, only: attempt_type, check_lifted, find_direction, loose_joint
    use newton_trial, only: commit, evaluate, search, start_trial, swap, take_step, trial_type
    use node_coupling, only: forces_on_unknowns
    use normal_curve, only: pressure_floor
    use normal_stiffness, only: at_rest, branch_name, branch_open
+   use numbers, only: first_largest
    use shear_stiffness, only: shear_state
    use stage_plan, only: stage_plan_type, where_in_plan
    use straight_laws, only: first_laws, laws_at, next_laws, residual_of, straight_laws_type

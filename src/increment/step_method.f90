@@ -6,9 +6,9 @@ module step_method
    use interface_operator, only: add_force, joint_movement
    use joint_laws, only: exceeds_limit, flag_margin, friction_excess, friction_limit
    use kinds, only: wp
-   use measures, only: first_largest
    use model_data, only: joint_node_id, model_type
    use normal_stiffness, only: pressure_reached
+   use numbers, only: first_largest
    use stage_entries, only: output_joint
    use stage_plan, only: stage_plan_type, where_in_plan
    use text_tools, only: integer_text, real_text

@@ -2,7 +2,7 @@
 !! Source: Edelugo, Eqs. (3)-(7) and Fig. 2: coefficients that are straight lines in the pressure.
 module branch_cubic
    use kinds, only: wp
-   use polynomial_zeros, only: enclosed_zero
+   use numbers, only: enclosed_zero
    implicit none
    private
 

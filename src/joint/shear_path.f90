@@ -3,10 +3,11 @@
 !! changing in proportion. At constant pressure this is the polynomial itself. Along such a way every curve is a polynomial in
 !! the fraction f of it, so that a piece ends exactly where a branch meets a loading curve.
 module shear_path
-   use branch_cubic, only: cubic, cubic_by_pressure, cubic_slope, cubic_slope_derivatives, cubic_value, slope_on_way, value_on_way
+   use branch_cubic, only: cubic, cubic_by_pressure, cubic_slope, cubic_slope_derivatives, cubic_value, slope_on_way, &
+                           value_on_way
    use kinds, only: wp
    use normal_stiffness, only: branch_load
-   use polynomial_zeros, only: derivative, enclosed_zero, find_zeros, polynomial, zero_list
+   use numbers, only: derivative, enclosed_zero, find_zeros, polynomial, zero_list
    use shear_stiffness, only: cubic_of, goal_sense, join_loading, least_movement, least_stress, leave_offset, shear_law, &
                               shear_slope, shear_state, turn
    implicit none

@@ -7,8 +7,7 @@ module body_elements
    use isoparametric, only: stiffness
    use kinds, only: wp
    use model_data, only: corners_of, model_type, temperature_type
-   use node_coupling, only: onto_unknowns
-   use section_coupling, only: add_section_share, corner_displacements, extend_stiffness, felt_nodes, section_node
+   use node_coupling, only: onto_unknowns, add_section_share, corner_displacements, extend_stiffness, felt_nodes, section_node
    use shape_functions, only: shape_values
    use stress_recovery, only: centre_stress, nodal_stress
    use temperatures, only: element_rise

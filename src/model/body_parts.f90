@@ -1,9 +1,9 @@
 !> Parts of the bodies: some elements as a model of its own, on nodes numbered anew; and the pieces in which the bodies are shown, every
 !! element in one of them.
 module body_parts
+   use lists, only: list_owners
    use model_data, only: corners_of, model_type, n_points, n_sections
-   use reverse_lists, only: list_owners
-   use section_coupling, only: felt_nodes
+   use node_coupling, only: felt_nodes
    use temperatures, only: has_temperatures
    implicit none
    private

@@ -3,7 +3,7 @@
 !! x), z, spherical ones r, theta (degrees from z), phi (degrees from x about z).
 module coordinate_systems
    use kinds, only: wp
-   use vector_product, only: cross
+   use numbers, only: cross
    implicit none
    private
 

@@ -5,9 +5,8 @@ module mass_elements
    use isoparametric, only: lump, shape_products
    use kinds, only: wp
    use model_data, only: bar_nodes, corners_of, model_type, point_mass_type
-   use node_coupling, only: onto_unknowns, unknown_nodes
+   use node_coupling, only: onto_unknowns, unknown_nodes, extend_stiffness, felt_nodes
    use reference_nodes, only: rotation_at
-   use section_coupling, only: extend_stiffness, felt_nodes
    implicit none
    private
 

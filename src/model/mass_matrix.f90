@@ -4,11 +4,11 @@
 module mass_matrix
    use element_kinds, only: max_nodes
    use kinds, only: wp
+   use lists, only: list_owners
    use mass_elements, only: bar_mass, inertia_at_rotation, n_masses, scalar_mass
    use model_data, only: corners_of, model_type, n_bars, n_points
+   use node_coupling, only: add_section_share, corner_displacements, section_node
    use reference_nodes, only: rotation_at
-   use reverse_lists, only: list_owners
-   use section_coupling, only: add_section_share, corner_displacements, section_node
    implicit none
    private
 

@@ -4,10 +4,10 @@ module model_data
    use coordinate_systems, only: coordinate_system
    use elasticity, only: plane_stress
    use element_kinds, only: element_table
-   use id_table, only: id_table_type
    use interface_operator, only: at_first_end, interface_element, named_node
    use joint_laws, only: joint_law
    use kinds, only: wp
+   use lists, only: id_table_type
    implicit none
    private
 
@@ -146,7 +146,7 @@ module model_data
       integer :: dimension = 2               !! degrees of freedom a node
       logical :: axisymmetric = .false.      !! about y; loads, areas and forces are those of the whole ring
       integer :: n_nodes = 0
-      integer :: n_filled = 0                !! of these put at the middle of edges, see mid_side_nodes
+      integer :: n_filled = 0                !! of these put at the middle of edges, see node_build
       integer :: first_filled = 0            !! position of the first of them
       integer, allocatable  :: node_id(:)    !! ascending; behind the last those of rotations, then those of sections, 0
       real(wp), allocatable :: x(:, :)       !! (3, n_nodes) [length]

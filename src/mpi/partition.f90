@@ -6,10 +6,9 @@ module partition
    use kinds, only: wp
    use model_data, only: corners_of, model_type
    use nested_dissection, only: part_by_metis
-   use node_coupling, only: is_coupled
+   use node_coupling, only: is_coupled, section_node
    use node_graph, only: node_graph_type
    use ranks, only: n_ranks, receive, send
-   use section_coupling, only: section_node
    use unknowns, only: is_ordinary, motions_of, n_motions
    implicit none
    private

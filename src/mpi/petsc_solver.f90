@@ -5,9 +5,6 @@ module petsc_solver
    use condition_estimate, only: first_large
    use distributed_matrix, only: add_blocks
    use distributed_solution, only: by_gamg, by_mumps, no_limit
-   use worker_loop, only: broadcast_command, command_diagonal, command_finish, command_forget, command_multiply, command_read, &
-                          command_renew, command_solve, command_start, command_take, command_touched, command_way, command_write, &
-                          solution, stiffest_of_all => stiffest, stiffness, subdomain
    use equation_solver, only: equation_system, no_memory, no_solution, pivot_tolerance
    use factor_reuse, only: factor_reuse_type, may_reuse, note_factor, note_failure, note_steps
    use failures, only: failure_type
@@ -15,13 +12,15 @@ module petsc_solver
    use interface_operator, only: interface_element
    use kinds, only: long, wp
    use model_data, only: model_type
-   use node_coupling, only: list_on_unknowns
+   use node_coupling, only: list_on_unknowns, coupled_nodes
    use node_graph, only: node_graph_type
-   use ranks, only: n_ranks
-   use section_coupling, only: coupled_nodes
    use partition, only: is_entangled, partition_nodes, partition_type, send_subdomain, subdomain_of, subdomain_type
+   use ranks, only: n_ranks
    use text_tools, only: integer_text, real_text
    use touched_blocks, only: add_touched, list_touched, structure_values, touched_type
+   use worker_loop, only: broadcast_command, command_diagonal, command_finish, command_forget, command_multiply, command_read, &
+                          command_renew, command_solve, command_start, command_take, command_touched, command_way, &
+                          command_write, solution, stiffest_of_all => stiffest, stiffness, subdomain
    implicit none
    private
 

@@ -4,10 +4,10 @@ module subdomain_output
    use body_parts, only: body_piece_type
    use distribution, only: piece_writer
    use kinds, only: wp
+   use lists, only: list_owners
    use model_data, only: n_sections, temperature_type
    use partition, only: receive_part, send_part
    use ranks, only: receive, send, sum_of_all
-   use reverse_lists, only: list_owners
    implicit none
    private
 

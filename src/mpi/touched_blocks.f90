@@ -6,10 +6,10 @@
 !!
 !! and the processes that have them put them in their places.
 module touched_blocks
-   use id_table, only: first_not_below, sorted_order
    use interface_equations, only: interface_equations_type
    use interface_operator, only: interface_element
    use kinds, only: wp
+   use lists, only: first_not_below, sorted_order
    use model_data, only: bar_nodes, model_type, n_bars, n_sections
    use node_coupling, only: unknown_nodes
    use node_graph, only: node_graph_type

@@ -4,7 +4,6 @@
 !! energy; NAME.response.csv: amplitude and phase of the nodes asked, over the frequency of a load that oscillates.
 module csv_tables
    use analysis_state, only: analysis_type
-   use csv_line, only: csv_line_type
    use interface_operator, only: at_first_end
    use kinds, only: wp
    use modal_response, only: response_type
@@ -13,9 +12,8 @@ module csv_tables
    use normal_stiffness, only: branch_name
    use output_file, only: output_file_type
    use stage_answer, only: bolt_answer_type, peak_type, stage_answer_type
-   use stage_plan, only: stage_plan_type
-   use text_tools, only: above, clean
-   use vibration_plan, only: vibration_plan_type
+   use stage_plan, only: stage_plan_type, vibration_plan_type
+   use text_tools, only: csv_line_type, above, clean
    implicit none
    private
 

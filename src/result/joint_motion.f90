@@ -2,12 +2,12 @@
 !! how stiffly. Six components in the joint's axes: forces (movements) along x, y and the normal z, moments (turns) about them.
 module joint_motion
    use analysis_state, only: analysis_type, element_force
-   use interface_axes, only: joint_axes
    use interface_operator, only: at_first_end
+   use joint_sides, only: joint_axes
    use kinds, only: wp
    use model_data, only: joint_centroid, joint_type, model_type
    use normal_stiffness, only: branch_open
-   use vector_product, only: cross
+   use numbers, only: cross
    implicit none
    private
 

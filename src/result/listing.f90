@@ -16,12 +16,12 @@ module listing
    use listing_states, only: list_condensed, list_states
    use listing_steps, only: farthest_type, note_distances, note_slips
    use listing_table, only: column, label_type, listing_table_type, noise, page_type
-   use measures, only: first_largest
    use model_data, only: joint_node_id, model_type, stage_load_type
    use node_coupling, only: held_forces
    use normal_stiffness, only: branch_open
-   use range_watch, only: note_condition, note_division, range_watch_type, record_watch, say_ranges, tetra_words, watch_balance, &
-                          watch_ranges, watch_shear_laws, watch_unloading
+   use numbers, only: first_largest
+   use range_watch, only: note_condition, note_division, range_watch_type, record_watch, say_ranges, tetra_words, &
+                          watch_balance, watch_ranges, watch_shear_laws, watch_unloading
    use restart_stream, only: restart_stream_type
    use stage_entries, only: output_all, output_joint, output_last
    use stage_plan, only: planned_stage, stage_plan_type

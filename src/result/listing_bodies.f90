@@ -1,13 +1,13 @@
 !> Tables of the bodies: displacements, stresses, reactions, and the balance of the outer forces.
 module listing_bodies
    use analysis_state, only: analysis_type, element_force
-   use bolt_locking, only: bar_tension
    use body_elements, only: element_centre, element_stress, node_stresses, whole_stress
+   use bolt_locking, only: bar_tension
    use elasticity, only: max_stresses, n_stresses, principal_stresses, von_mises
    use interface_operator, only: named_node
    use kinds, only: wp
-   use listing_nodes, only: add_directed, direction_columns, direction_words, list_moments, list_rotations, &
-                            shows_element, shows_node
+   use listing_nodes, only: add_directed, direction_columns, direction_words, list_moments, list_rotations, shows_element, &
+                            shows_node
    use listing_table, only: axes, column, listing_table_type, noise, page_type, page_width
    use model_data, only: has_ground_springs, has_second_order, model_type, n_bars, n_points, supported
    use node_coupling, only: held_forces

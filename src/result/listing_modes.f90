@@ -2,12 +2,12 @@
 module listing_modes
    use kinds, only: wp
    use listing_table, only: axes, column, column_type, listing_table_type, noise, page_type
-   use measures, only: first_largest
    use modal_response, only: missed_peak, response_type
    use mode_values, only: modes_type
    use model_data, only: model_type
+   use numbers, only: first_largest
+   use stage_plan, only: vibration_plan_type
    use text_tools, only: above, clean, integer_text, real_text
-   use vibration_plan, only: vibration_plan_type
    implicit none
    private
 

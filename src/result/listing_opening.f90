@@ -1,8 +1,8 @@
 !> The first pages of the listing: heading, deck echo, summary of the model, joints and stages.
 module listing_opening
    use branch_cubic, only: cubic
-   use command_arguments, only: standard_input, version
    use case_control, only: method_newton, method_step, pressure_eq10
+   use command_arguments, only: standard_input, version
    use deck_input, only: deck_type
    use element_kinds, only: element_table, n_kinds
    use element_mapping, only: has_modes
@@ -18,7 +18,7 @@ module listing_opening
    use normal_stiffness, only: branch_load, branch_name, branch_reload, branch_unload
    use output_file, only: output_file_type
    use range_watch, only: tetra_words
-   use shear_closure, only: loop_closure, worst_closure
+   use shear_loops, only: loop_closure, worst_closure
    use shear_stiffness, only: cubic_of
    use stage_plan, only: stage_plan_type
    use text_tools, only: clean, integer_text, plural, real_text, upper

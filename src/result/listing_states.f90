@@ -2,6 +2,7 @@
 !! done by hand.
 module listing_states
    use analysis_state, only: analysis_type
+   use branch_starts, only: branch_shift
    use kinds, only: wp
    use listing_nodes, only: shows_interface
    use listing_table, only: axes, column, heading, listing_table_type, noise, page_type
@@ -9,7 +10,6 @@ module listing_states
    use normal_stiffness, only: branch_name, branch_reload, branch_unload
    use shear_stiffness, only: curve_deflection
    use text_tools, only: clean, integer_text, upper
-   use branch_starts, only: branch_shift
    implicit none
    private
 

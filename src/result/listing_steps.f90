@@ -2,7 +2,7 @@
 module listing_steps
    use analysis_state, only: analysis_type
    use kinds, only: wp
-   use law_distance, only: distance_type, normal_distance, shear_distance
+   use law_error, only: distance_type, normal_distance, shear_distance
    use listing_table, only: axes, column, listing_table_type, noise, page_type
    use model_data, only: joint_node_id, model_type
    use stage_plan, only: stage_plan_type, where_in_plan

@@ -8,12 +8,12 @@ module range_watch
    use joint_laws, only: friction_excess, friction_limit
    use kinds, only: wp
    use listing_table, only: axes, listing_table_type, page_width
-   use measures, only: tie
    use model_data, only: joint_node_id, model_type
    use normal_curve, only: loading_deflection, normal_tangent
    use normal_stiffness, only: branch_load, branch_open, branch_unload
+   use numbers, only: tie
    use restart_stream, only: restart_stream_type
-   use shear_closure, only: loop_closure, wide_gap, worst_closure
+   use shear_loops, only: loop_closure, wide_gap, worst_closure
    use shear_stiffness, only: curve_deflection, shear_law, shear_slope
    use stage_plan, only: stage_plan_type, where_in_plan
    use text_tools, only: integer_text, plural, real_text, upper

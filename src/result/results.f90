@@ -2,13 +2,12 @@
 module results
    use analysis_state, only: analysis_type
    use answer_block, only: print_answer
-   use bolt_answer, only: n_bolts
    use c_library, only: close_file, lock_folder
    use csv_tables, only: bolt_table, energy_table, history_ending, joint_table, modes_table, response_table, stage_table, &
                          table_endings, write_bolts, write_energies, write_headers, write_history, write_modes, write_response, &
                          write_stage
-   use distribution, only: subdomain_output_type, distribute_bodies
    use deck_input, only: deck_type
+   use distribution, only: subdomain_output_type, distribute_bodies
    use equation_solver, only: equation_system
    use failures, only: failure_type
    use incomplete_results, only: all_complete, give_up_parts, remove_old, what_is_in_the_way
@@ -20,7 +19,7 @@ module results
    use model_data, only: model_type
    use output_file, only: output_file_type
    use restart_stream, only: restart_stream_type
-   use stage_answer, only: bolt_answer_type, fault_of_answer, find_answer, find_bolt_answers, stage_answer_type
+   use stage_answer, only: n_bolts, bolt_answer_type, fault_of_answer, find_answer, find_bolt_answers, stage_answer_type
    use stage_plan, only: any_modes, any_response, stage_plan_type, where_in_plan
    use text_tools, only: real_text
    use vtu_lists, only: is_vtu_ending, remove_old_vtu

@@ -1,10 +1,10 @@
 !> The bodies as ParaView shows them: with displacements and stresses, or in the shapes of natural modes.
 module vtu_bodies
-   use, intrinsic :: iso_fortran_env, only: int8
    use body_elements, only: node_stresses, whole_stress
    use body_parts, only: all_shown, body_piece_type, shown_type
-   use element_kinds, only: element_table
    use elasticity, only: max_stresses, principal_stresses, von_mises
+   use element_kinds, only: element_table
+   use, intrinsic :: iso_fortran_env, only: int8
    use kinds, only: wp
    use listing_table, only: label_type
    use mode_values, only: modes_type

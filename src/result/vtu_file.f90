@@ -26,10 +26,10 @@
 !! and FINISH leaves no file.
 !! Arrays that are not contiguous are copied by the compiler at the call.
 module vtu_file
-   use, intrinsic :: iso_c_binding, only: c_f_pointer, c_loc
-   use, intrinsic :: iso_fortran_env, only: int8, int32, int64, real64
    use c_library, only: close_file, remove_file
    use incomplete_results, only: create_part, name_part
+   use, intrinsic :: iso_c_binding, only: c_f_pointer, c_loc
+   use, intrinsic :: iso_fortran_env, only: int8, int32, int64, real64
    use restart_stream, only: restart_stream_type
    use text_tools, only: integer_text
    implicit none

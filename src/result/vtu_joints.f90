@@ -1,9 +1,9 @@
 !> The joints as ParaView shows them: the faces of their side 1 with what the interface elements have there, in the places of the
 !! nodes; joints of single elements (CJOINT) as points, and of several elements at one node all but the first.
 module vtu_joints
-   use, intrinsic :: iso_fortran_env, only: int8
    use analysis_state, only: analysis_type
    use interface_operator, only: at_first_end, nodes_of_end, weights_of_end
+   use, intrinsic :: iso_fortran_env, only: int8
    use kinds, only: wp
    use listing_table, only: label_type
    use model_data, only: joint_type, model_type, surface_type

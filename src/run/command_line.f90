@@ -4,7 +4,7 @@ module command_line
    use card_manual, only: manual_entry, manual_names
    use command_arguments, only: argument_text, complain, input_argument, is_option, say, set_input, standard_input, version
    use csv_tables, only: history_ending
-   use deck_numbers, only: parse_integer
+   use field_rules, only: parse_integer
    use results, only: is_result_ending, listing_ending
    use text_tools, only: upper
    use vtu_lists, only: is_vtu_ending

@@ -1,15 +1,24 @@
 !> Progress on the terminal: the phase of the run, increment of how many, time left. Nothing where the standard error is no
 !! terminal. With --times, at the end: the seconds that each phase took, operations, memory.
+!!
+!! The run of one deck: what its boxes hand on to each other, and how it may end.
 module progress
-   use, intrinsic :: iso_fortran_env, only: error_unit
    use c_library, only: is_terminal
+   use command_line, only: deck_argument
+   use deck_errors, only: deck_error_list
    use distribution, only: memory_of_all
    use equation_solver, only: solver_description
+   use failures, only: failure_type
+   use, intrinsic :: iso_fortran_env, only: error_unit
    use kinds, only: long, wp
+   use restart_stream, only: restart_stream_type
+   use results, only: results_type
    use stage_plan, only: stage_plan_type
    use text_tools, only: integer_text
    implicit none
    private
+
+   public :: is_over
 
    integer, parameter, public :: phase_read = 1, phase_build = 2, phase_order = 3, phase_factor = 4, phase_increments = 5, &
                                  phase_recover = 6, phase_write = 7, phase_modes = 8
@@ -34,6 +43,28 @@ module progress
       procedure :: clear
       procedure :: finish
    end type progress_type
+
+   ! how a run ended that did not come to its last increment, and the exit status that this is
+   integer, parameter, public :: goes_on = 0, is_unreadable = 1, would_overwrite = 2, has_errors = 3, was_checked = 4, &
+                                 is_unsolved = 5, is_unwritten = 6, is_refused = 7
+   integer, parameter, public :: status_of(0:7) = [0, 1, 1, 2, 0, 3, 4, 1]
+
+   !> The run of one deck.
+   type, public :: run_type
+      type(failure_type) :: failure            !! the structure cannot be solved
+      type(deck_argument) :: argument
+      logical :: check_only = .false., is_dated = .false.
+      type(deck_error_list) :: errors
+      type(results_type) :: results
+      type(progress_type) :: progress
+      integer :: ending = goes_on
+      logical :: keeps = .false.               !! it ended early, but what there was in equilibrium is a result
+      integer(long) :: deck_sum = 0            !! the checksum of the deck
+      type(restart_stream_type) :: restart     !! the restart file that is taken up, as long as there is any
+      logical :: resumes = .false.             !! there is
+      character(:), allocatable :: problem     !! why it cannot be taken up
+      logical :: misses_restart = .false.      !! one could not be written
+   end type run_type
 
 contains
 
@@ -153,5 +184,12 @@ contains
       call memory_of_all(bytes)
       write (error_unit, '(3a, i12, a)') self%deck, ': ', 'memory    ', nint(bytes/1048576.0_wp), ' MiB'
    end subroutine finish
+
+   !> Whether nothing more is to be done for this deck.
+   pure logical function is_over(run)
+      type(run_type), intent(in) :: run
+
+      is_over = run%failure%raised .or. run%ending /= goes_on
+   end function is_over
 
 end module progress

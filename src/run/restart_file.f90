@@ -4,7 +4,6 @@
 !! What an increment needs and no file could hold, the factors of the equations and earlier solutions, is made anew, and the run
 !! that wrote the file forgets it too: from the same point on both do the same, to the last digit. The model is built from the deck.
 module restart_file
-   use, intrinsic :: iso_fortran_env, only: error_unit
    use analysis_record, only: record_analysis
    use analysis_state, only: analysis_type
    use bolt_locking, only: lock_again
@@ -15,10 +14,11 @@ module restart_file
    use deck_text, only: checksum_of
    use equation_solver, only: equation_system
    use incomplete_results, only: create_part, name_part
+   use, intrinsic :: iso_fortran_env, only: error_unit
    use model_data, only: model_type
+   use progress, only: goes_on, is_over, is_refused, run_type
    use restart_stream, only: open_restart, restart_stream_type
    use results, only: record_results, restart_ending, results_type
-   use run_state, only: goes_on, is_over, is_refused, run_type
    use stage_plan, only: stage_plan_type
    use text_tools, only: integer_text
    implicit none

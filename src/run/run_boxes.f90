@@ -1,12 +1,14 @@
-!> The boxes of the flow chart that belong to no method: reading, building, printing, the end. Each says on the terminal where the
+!> The box of the flow chart for natural modes: once a stage has come to its end, how the structure oscillates about it.
+!!
+!! The boxes of the flow chart that belong to no method: reading, building, printing, the end. Each says on the terminal where the
 !! run is, and does nothing once one before it has ended the run; whatever ended it is said in one place, finish_run of run_end.
 module run_boxes
    use analysis_state, only: analysis_type, interface_stiffness, note_largest, start_analysis
    use c_library, only: open_standard_outputs, tell_failed_writes
    use case_control, only: method_back
+   use command_line, only: command_type, deck_argument, is_result_of, read_command_line
    use condensed_interface, only: condense_on_joints
    use condition_estimate, only: watch_condition
-   use command_line, only: command_type, deck_argument, is_result_of, read_command_line
    use deck_input, only: deck_type, read_deck
    use distribution, only: join_processes
    use equation_solver, only: equation_system
@@ -14,28 +16,83 @@ module run_boxes
    use failures, only: failure_type
    use finite_state, only: check_precision, check_state
    use incomplete_results, only: watch_ends
-   use law_distance, only: follow_laws
-   use load_path, only: recover_bodies
    use kinds, only: wp
+   use law_error, only: follow_laws
+   use load_path, only: recover_bodies
    use machine, only: keep_memory, use_threads
    use memory_need, only: check_model_size
+   use modal_response, only: find_response, response_type
+   use mode_values, only: evaluate_modes, modes_type
    use model_build, only: build_model
    use model_data, only: model_type
+   use natural_modes, only: find_natural_modes, spectrum_type
    use newton_method, only: seat_joints
-   use progress, only: phase_build, phase_factor, phase_increments, phase_order, phase_recover, phase_write
+   use oscillating_structure, only: let_go, oscillating_type, start_oscillation
+   use progress, only: phase_build, phase_factor, phase_increments, phase_modes, phase_order, phase_recover, phase_write, &
+                       goes_on, has_errors, is_over, is_unreadable, is_unwritten, run_type, was_checked, would_overwrite
    use restart_file, only: open_restart_file
-   use results, only: list_results => print_increment, print_stage_results => print_stage, remove_old_results, start_results
+   use results, only: list_results => print_increment, print_modes, print_response, print_stage_results => print_stage, &
+                      remove_old_results, start_results
    use run_end, only: end_program
-   use run_state, only: goes_on, has_errors, is_over, is_unreadable, is_unwritten, run_type, was_checked, would_overwrite
-   use stage_plan, only: factorisations_of, shows_bodies, stage_plan_type
+   use stage_plan, only: factorisations_of, shows_bodies, stage_plan_type, vibration_plan_type, where_in_plan
    use vtu_bodies, only: write_piece
    implicit none
    private
 
-   public :: start_program, read_data, build_structure, form_bodies, start_joints, another_stage, another_increment, &
-             print_increment, print_stage
+   public :: find_modes, start_program, read_data, build_structure, form_bodies, start_joints, another_stage, &
+             another_increment, print_increment, print_stage
 
 contains
+
+   !> Find and print the natural modes where the increment has completed a stage that asks for them. Nothing of the analysis changes.
+   subroutine find_modes(run, model, plan, system, analysis)
+      type(run_type), intent(inout)      :: run
+      type(model_type), intent(in)       :: model
+      type(stage_plan_type), intent(in)  :: plan
+      class(equation_system), intent(in) :: system
+      type(analysis_type), intent(in)    :: analysis
+      type(model_type), allocatable :: loose
+
+      if (is_over(run)) return
+      associate (stage => plan%stages(analysis%stage))
+         if (analysis%increment < size(stage%shares) .or. .not. allocated(stage%vibration)) return
+         call run%progress%enter(phase_modes)
+         if (stage%vibration%free) then
+            allocate (loose, source=model)
+            call let_go(loose)
+            call oscillate(run, loose, plan, stage%vibration, system, analysis)
+         else
+            call oscillate(run, model, plan, stage%vibration, system, analysis)
+         end if
+      end associate
+      call run%progress%enter(phase_increments)
+   end subroutine find_modes
+
+   subroutine oscillate(run, model, plan, wanted, system, analysis)
+      type(run_type), intent(inout)         :: run
+      type(model_type), intent(in)          :: model
+      type(stage_plan_type), intent(in)     :: plan
+      type(vibration_plan_type), intent(in) :: wanted
+      class(equation_system), intent(in)    :: system
+      type(analysis_type), intent(in)       :: analysis
+      type(oscillating_type) :: structure
+      type(spectrum_type)    :: spectrum
+      type(modes_type)       :: modes
+      type(response_type)    :: response
+      class(equation_system), allocatable :: shifted
+
+      call start_oscillation(model, analysis, system, wanted%on_loading, structure, run%failure)
+      call find_natural_modes(model, structure, wanted, spectrum, shifted, run%failure)
+      if (run%failure%raised) then
+         run%failure%message = where_in_plan(plan, analysis%stage, analysis%increment)//': '//run%failure%message
+         return
+      end if
+      call evaluate_modes(model, analysis, structure, wanted, spectrum, shifted, modes)
+      call print_modes(model, plan, analysis%stage, modes, run%results)
+      if (.not. allocated(wanted%response)) return
+      call find_response(model, structure, wanted%response, modes, shifted, response, run%failure)
+      if (.not. run%failure%raised) call print_response(plan, analysis%stage, response, run%results)
+   end subroutine oscillate
 
    !> The command line; where it leaves nothing to do the program ends. Threads, and a watch on the memory. Of several processes one
    !! goes on, the others work for it from here on.

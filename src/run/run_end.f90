@@ -1,7 +1,6 @@
 !> The end of a run: the results get their names, or what is wrong is said; and the end of the program with the highest status of
 !! all runs.
 module run_end
-   use, intrinsic :: iso_fortran_env, only: error_unit
    use c_library, only: end_run, write_bytes
    use command_arguments, only: complain_of_input
    use command_line, only: is_result_of
@@ -10,14 +9,14 @@ module run_end
    use distribution, only: leave_processes
    use error_report, only: print_errors
    use incomplete_results, only: what_is_in_the_way
+   use, intrinsic :: iso_fortran_env, only: error_unit
    use listing_steps, only: distance_words
    use model_data, only: model_type, n_points
-   use progress, only: phase_write
+   use progress, only: phase_write, has_errors, is_over, is_refused, is_unreadable, is_unsolved, is_unwritten, run_type, &
+                       status_of, was_checked, would_overwrite
    use range_watch, only: tetra_words
    use restart_file, only: restart_name
    use results, only: discard_results, finish_results, listing_ending, show_answers
-   use run_state, only: has_errors, is_over, is_refused, is_unreadable, is_unsolved, is_unwritten, run_type, status_of, &
-                        was_checked, would_overwrite
    use stage_plan, only: stage_plan_type
    use text_tools, only: plural
    implicit none

@@ -4,8 +4,8 @@
 !! (merging); Liu, SIAM Review 34 (1992) 82-109 (order of children).
 module elimination_tree
    use front_kernel, only: touched_entries
-   use id_table, only: sorted_order
    use kinds, only: wp
+   use lists, only: sorted_order
    use node_graph, only: node_graph_type
    implicit none
    private

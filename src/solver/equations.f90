@@ -10,10 +10,10 @@ module equations
                                  relative_movement
    use kinds, only: wp
    use mass_elements, only: coupled_bar_mass, coupled_point_mass, mass_nodes, n_masses
-   use measures, only: is_measure
    use model_data, only: bar_nodes, model_type, n_bars
    use node_coupling, only: list_on_unknowns, unknown_nodes
    use node_graph, only: build_node_graph, node_graph_type
+   use numbers, only: is_measure
    use solver_choice, only: choose_solver
    use text_tools, only: real_text
    use unknowns, only: unknown_name

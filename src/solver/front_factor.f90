@@ -2,15 +2,15 @@
 !! are tasks of OpenMP; every addition has its place in one order, whatever the number of threads.
 module front_factor
    use equation_solver, only: no_memory, pivot_tolerance
-   use front_tree, only: add_to_block, begins, front_of, front_tree_type, front_type, keep_block, restore_block, task_work
    use front_kernel, only: eliminate, large, top_row
-   use id_table, only: first_not_below
+   use front_tree, only: add_to_block, begins, front_of, front_tree_type, front_type, keep_block, restore_block, task_work
    use kinds, only: long, wp
+   use lists, only: first_not_below
    use machine, only: give_back
    use mass_elements, only: coupled_dynamic_stiffness
    use model_data, only: model_type
+   use node_coupling, only: coupled_nodes
    use omp_lib, only: omp_get_wtime
-   use section_coupling, only: coupled_nodes
    implicit none
    private
 

@@ -8,10 +8,9 @@ module front_tree
    use interface_equations, only: interface_equations_type, list_interface_equations
    use interface_operator, only: interface_element
    use kinds, only: long, wp
+   use lists, only: list_owners
    use model_data, only: model_type
-   use node_coupling, only: list_on_unknowns
-   use reverse_lists, only: list_owners
-   use section_coupling, only: coupled_nodes
+   use node_coupling, only: list_on_unknowns, coupled_nodes
    implicit none
    private
 

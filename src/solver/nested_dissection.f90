@@ -9,8 +9,8 @@
 !! METIS 5.1: Karypis, Kumar, SIAM J. Sci. Comput. 20 (1998) 359-392.
 module nested_dissection
    use, intrinsic :: iso_c_binding, only: c_int32_t, c_null_ptr, c_ptr
+   use lists, only: list_owners
    use node_graph, only: node_graph_type, part_of_graph
-   use reverse_lists, only: list_owners
    implicit none
    private
 

@@ -3,11 +3,10 @@
 !! Sources: Cuthill, McKee (Proc. 24th ACM Conf., 1969); George, Liu, Computer Solution of Large Sparse Positive
 !! Definite Systems, 1981, chapter 4 (the start node, and why reversed).
 module node_graph
+   use lists, only: list_owners
    use mass_elements, only: mass_nodes, n_masses
    use model_data, only: bar_nodes, model_type, n_bars
-   use node_coupling, only: unknown_nodes
-   use reverse_lists, only: list_owners
-   use section_coupling, only: coupled_nodes, felt_nodes, section_node
+   use node_coupling, only: unknown_nodes, coupled_nodes, felt_nodes, section_node
    implicit none
    private
 

@@ -9,11 +9,10 @@ module skyline_solver
    use mass_elements, only: coupled_dynamic_stiffness
    use memory_need, only: shortage
    use model_data, only: model_type
-   use node_coupling, only: list_on_unknowns
-   use section_coupling, only: coupled_nodes
+   use node_coupling, only: list_on_unknowns, coupled_nodes
    use node_graph, only: list_joined, node_graph_type, reverse_cuthill_mckee
-   use skyline, only: add_to_skyline, factor_times_vector, factorise_skyline, skyline_matrix, skyline_times_vector, solve_skyline, &
-                      start_skyline
+   use skyline, only: add_to_skyline, factor_times_vector, factorise_skyline, skyline_matrix, skyline_times_vector, &
+                      solve_skyline, start_skyline
    use text_tools, only: integer_text
    implicit none
    private

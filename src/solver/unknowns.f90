@@ -4,9 +4,9 @@
 module unknowns
    use kinds, only: wp
    use model_data, only: model_type, n_points, n_rotations
+   use numbers, only: cross
    use reference_nodes, only: node_axes, rotation_component
    use text_tools, only: integer_text
-   use vector_product, only: cross
    implicit none
    private
 

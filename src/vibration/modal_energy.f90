@@ -3,13 +3,13 @@
 module modal_energy
    use bar_elements, only: add_pull, bar_elongation
    use body_elements, only: felt_stiffness
-   use connected_parts, only: find_bodies
    use element_kinds, only: max_felt_dofs
    use interface_operator, only: add_force, joint_movement
    use kinds, only: wp
+   use model_build, only: find_bodies
    use model_data, only: bar_nodes, model_type, n_bars
+   use node_coupling, only: felt_nodes
    use oscillating_structure, only: oscillating_type
-   use section_coupling, only: felt_nodes
    implicit none
    private
 

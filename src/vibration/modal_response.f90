@@ -17,12 +17,12 @@ module modal_response
    use equation_solver, only: equation_system
    use failures, only: failure_type
    use kinds, only: wp
-   use measures, only: first_largest
    use mode_values, only: modes_type
    use model_data, only: model_type
+   use numbers, only: first_largest
    use oscillating_structure, only: factorise_at, oscillating_type
+   use stage_plan, only: asked_frequencies, loss_at, response_plan
    use text_tools, only: real_text
-   use vibration_plan, only: asked_frequencies, loss_at, response_plan
    implicit none
    private
 

@@ -20,14 +20,14 @@ module mode_values
    use interface_operator, only: joint_movement
    use joint_laws, only: friction_limit
    use kinds, only: wp
-   use masing_loop, only: loop_loss, no_limit
    use mass_matrix, only: mass_times, total_mass
    use modal_energy, only: energy_type, strain_energies
    use model_data, only: model_type, n_points
    use natural_modes, only: spectrum_type
    use normal_stiffness, only: touches
    use oscillating_structure, only: oscillating_type
-   use vibration_plan, only: vibration_plan_type
+   use shear_loops, only: loop_loss, no_limit
+   use stage_plan, only: vibration_plan_type
    implicit none
    private
 

@@ -12,8 +12,8 @@ module natural_modes
    use kinds, only: wp
    use model_data, only: model_type, n_points
    use oscillating_structure, only: factorise_at, hold_bolts, oscillating_type
+   use stage_plan, only: vibration_plan_type
    use text_tools, only: integer_text
-   use vibration_plan, only: vibration_plan_type
    implicit none
    private
 

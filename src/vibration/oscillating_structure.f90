@@ -9,7 +9,7 @@ module oscillating_structure
    use kinds, only: wp
    use mass_matrix, only: form_mass, mass_matrix_type
    use model_data, only: model_type, n_bars, n_sections, supported
-   use small_oscillation, only: oscillation_stiffness
+   use shear_loops, only: oscillation_stiffness
    implicit none
    private
 

@@ -1,0 +1,243 @@
+!> Numbers that users give to things (nodes, elements, properties), and where each thing is stored.
+!!
+!! Which lists hold a number: from the nodes of every element, say, to the elements of every node.
+!!
+!! Disjoint sets of 1 to n (union-find): PARENT(i) is another member of the set of i, or i itself, which then stands for the set.
+!! At the beginning PARENT = [1, ..., n]: every member alone.
+module lists
+   use kinds, only: long
+   implicit none
+   private
+
+   public :: sorted_order, distinct, first_not_below, list_owners, join, root_of
+
+   !> A set of identification numbers in ascending order with the position of each.
+   type, public :: id_table_type
+      private
+      integer, allocatable :: ids(:)       ! ascending
+      integer, allocatable :: positions(:) ! positions(k) is where ids(k) stood
+      integer, allocatable :: direct(:)    ! direct(id) is the position of id, 0: none; where the numbers lie close enough
+   contains
+      procedure :: build
+      procedure :: find
+      procedure :: list_repeated
+   end type id_table_type
+
+   integer, parameter :: sparsest = 8 ! numbers between the least and the largest for each in a table that is looked up directly
+
+   integer, parameter :: few = 48 ! keys that are sorted faster one by one than by their bytes
+
+contains
+
+   !> Take the numbers IDS(n); find(IDS(k)) is k from now on.
+   pure subroutine build(self, ids)
+      class(id_table_type), intent(inout) :: self
+      integer, intent(in)                 :: ids(:)
+      integer :: k, n
+
+      n = size(ids)
+      call sorted_order(ids, self%positions)
+      self%ids = ids(self%positions)
+      if (allocated(self%direct)) deallocate (self%direct)
+      if (n == 0) return
+      if (int(self%ids(n), long) - self%ids(1) >= int(sparsest, long)*n) return
+      allocate (self%direct(self%ids(1):self%ids(n)), source=0)
+      do k = n, 1, -1
+         self%direct(ids(k)) = k
+      end do
+   end subroutine build
+
+   !> The position of ID, 0 where it is not in the table. Of repeated ids the first.
+   pure integer function find(self, id) result(position)
+      class(id_table_type), intent(in) :: self
+      integer, intent(in)              :: id
+      integer :: k
+
+      position = 0
+      if (.not. allocated(self%ids)) return
+      if (allocated(self%direct)) then
+         if (id >= lbound(self%direct, 1) .and. id <= ubound(self%direct, 1)) position = self%direct(id)
+         return
+      end if
+      if (size(self%ids) == 0) return
+      k = first_not_below(self%ids, id)
+      if (self%ids(k) == id) position = self%positions(k)
+   end function find
+
+   !> The first position of the ascending KEYS that does not hold less than KEY, the last where all do: by halving the range.
+   pure integer function first_not_below(keys, key) result(low)
+      integer, intent(in) :: keys(:), key
+      integer :: high, middle
+
+      low = 1
+      high = size(keys)
+      do while (low < high)
+         middle = low + (high - low)/2
+         if (keys(middle) < key) then
+            low = middle + 1
+         else
+            high = middle
+         end if
+      end do
+   end function first_not_below
+
+   !> The positions of all numbers that an earlier position holds already, in ascending order of the number.
+   pure subroutine list_repeated(self, positions)
+      class(id_table_type), intent(in)  :: self
+      integer, allocatable, intent(out) :: positions(:)
+      integer :: k, n
+
+      allocate (positions(count(self%ids(2:) == self%ids(:size(self%ids) - 1))))
+      n = 0
+      do k = 2, size(self%ids)
+         if (self%ids(k) /= self%ids(k - 1)) cycle
+         n = n + 1
+         positions(n) = self%positions(k)
+      end do
+   end subroutine list_repeated
+
+   !> The permutation that puts KEYS(n) in ascending order; equal keys keep their order.
+   !! Source: radix sort by bytes, the least significant first; Knuth, The Art of Computer Programming 3, section 5.2.5.
+   pure subroutine sorted_order(keys, order)
+      integer, intent(in)               :: keys(:)
+      integer, allocatable, intent(out) :: order(:)
+      integer, allocatable :: before(:)
+      integer(long) :: above, least
+      integer :: byte, digit, first(0:256), i, n
+
+      n = size(keys)
+      allocate (order(n), before(n))
+      do i = 1, n
+         order(i) = i
+      end do
+      if (n < 2) return
+      if (all(keys(2:) >= keys(:n - 1))) return
+      if (n <= few) then
+         call insert_one_by_one(keys, order)
+         return
+      end if
+      least = minval(keys)
+      above = maxval(keys) - least
+      byte = 0
+      do while (shiftr(above, 8*byte) > 0)
+         call move_alloc(order, before)
+         allocate (order(n))
+         first = 0
+         do i = 1, n
+            digit = int(ibits(keys(i) - least, 8*byte, 8)) + 1
+            first(digit) = first(digit) + 1
+         end do
+         do digit = 1, 256
+            first(digit) = first(digit - 1) + first(digit) ! where the keys with this byte end
+         end do
+         do i = 1, n
+            digit = int(ibits(keys(before(i)) - least, 8*byte, 8))
+            first(digit) = first(digit) + 1
+            order(first(digit)) = before(i)
+         end do
+         byte = byte + 1
+      end do
+   end subroutine sorted_order
+
+   !> The same of few KEYS: no counting by bytes, every one goes in front of those that are larger.
+   pure subroutine insert_one_by_one(keys, order)
+      integer, intent(in)  :: keys(:)
+      integer, intent(out) :: order(:)
+      integer :: i, j
+
+      do i = 1, size(keys)
+         j = i
+         do while (j > 1)
+            if (keys(order(j - 1)) <= keys(i)) exit
+            order(j) = order(j - 1)
+            j = j - 1
+         end do
+         order(j) = i
+      end do
+   end subroutine insert_one_by_one
+
+   !> The numbers among KEYS, each once, in ascending order.
+   pure subroutine distinct(keys, values)
+      integer, intent(in)               :: keys(:)
+      integer, allocatable, intent(out) :: values(:)
+      integer, allocatable :: order(:)
+      logical, allocatable :: is_new(:)
+
+      call sorted_order(keys, order)
+      values = keys(order)
+      allocate (is_new(size(values)), source=.true.)
+      is_new(2:) = values(2:) /= values(:size(values) - 1)
+      values = pack(values, is_new)
+   end subroutine distinct
+
+   !> OWNERS(FIRST(i):FIRST(i + 1) - 1) are the columns of MEMBERS that hold the number i, in ascending order; a column that
+   !! holds it twice stands there twice.
+   pure subroutine list_owners(n, members, first, owners)
+      integer, intent(in)               :: n              !! numbers: 1 to N
+      integer, intent(in)               :: members(:, :)  !! (most of a list, lists); 0: none
+      integer, allocatable, intent(out) :: first(:)       !! (N + 1)
+      integer, allocatable, intent(out) :: owners(:)      !! (entries of MEMBERS that are not 0)
+      integer :: i, k, list
+
+      allocate (first(n + 1), source=0)
+      do list = 1, size(members, 2)
+         do k = 1, size(members, 1)
+            i = members(k, list)
+            if (i > 0) first(i) = first(i) + 1
+         end do
+      end do
+      first(n + 1) = 1 + sum(first(:n))
+      do i = n, 1, -1
+         first(i) = first(i + 1) - first(i)       ! where the owners of i begin
+      end do
+      allocate (owners(first(n + 1) - 1))
+      do list = 1, size(members, 2)
+         do k = 1, size(members, 1)
+            i = members(k, list)
+            if (i == 0) cycle
+            owners(first(i)) = list
+            first(i) = first(i) + 1               ! where the next owner of i goes: in the end where those of i + 1 begin
+         end do
+      end do
+      do i = n, 2, -1
+         first(i) = first(i - 1)
+      end do
+      if (n > 0) first(1) = 1
+   end subroutine list_owners
+
+   !> Union of the sets of A and B (union-find with path halving); a zero is nothing.
+   pure subroutine join(parent, a, b)
+      integer, intent(inout) :: parent(:)
+      integer, intent(in)    :: a, b
+      integer :: i, j
+
+      if (a == 0 .or. b == 0) return
+      call climb(parent, a, i)
+      call climb(parent, b, j)
+      parent(max(i, j)) = min(i, j)
+   end subroutine join
+
+   !> The ROOT of the set of MEMBER, the way there halved for the next time.
+   pure subroutine climb(parent, member, root)
+      integer, intent(inout) :: parent(:)
+      integer, intent(in)    :: member
+      integer, intent(out)   :: root
+
+      root = member
+      do while (parent(root) /= root)
+         parent(root) = parent(parent(root))
+         root = parent(root)
+      end do
+   end subroutine climb
+
+   !> The member that stands for the set of MEMBER.
+   pure integer function root_of(parent, member) result(root)
+      integer, intent(in) :: parent(:), member
+
+      root = member
+      do while (parent(root) /= root)
+         root = parent(root)
+      end do
+   end function root_of
+
+end module lists

@@ -1,0 +1,136 @@
+!> Which numbers can be the measure of anything: finite ones far enough below the largest real that squares and products of them, with
+!! stiffnesses and areas, are still numbers. And which of several numbers is the largest.
+!!
+!! The vector product.
+!!
+!! The real zeros of a polynomial of low degree in an interval, found between the zeros of its derivative: between neighbouring
+!! ones of these it is monotonic, so that each such stretch has one zero at the most.
+!! Source: Press et al., Numerical Recipes, 2nd ed., section 9.4, for Newton's method within a bracket.
+module numbers
+   use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+   use kinds, only: wp
+   implicit none
+   private
+
+   public :: is_measure, first_largest, cross, find_zeros, enclosed_zero, polynomial, derivative
+
+   real(wp), parameter, public :: largest_measure = 1.0e100_wp
+   real(wp), parameter, public :: tie = 1.0e-6_wp !! how far values may differ that a symmetric structure would have alike
+
+   integer, parameter, public :: highest_degree = 4
+
+   !> Some zeros, ascending.
+   type, public :: zero_list
+      integer  :: n = 0
+      real(wp) :: x(highest_degree) = 0.0_wp
+   end type zero_list
+
+contains
+
+   !> Whether VALUE is one. What is no number at all is never compared: that would be an exception.
+   elemental logical function is_measure(value)
+      real(wp), intent(in) :: value
+
+      is_measure = ieee_is_finite(value)
+      if (is_measure) is_measure = abs(value) <= largest_measure
+   end function is_measure
+
+   !> Where the largest of the VALUES that count is, the first of those that are as large but for what rounding may have made; 0
+   !! where none counts. Every node and element that is named for its largest value is found by this rule.
+   pure integer function first_largest(values, counts) result(at)
+      real(wp), intent(in)          :: values(:)
+      logical, intent(in), optional :: counts(:) !! default: all count
+      logical  :: counted(size(values))
+      real(wp) :: most
+
+      counted = .true.
+      if (present(counts)) counted = counts
+      at = 0
+      if (any(counted .and. .not. is_measure(values))) then
+         at = findloc(counted .and. .not. is_measure(values), .true., dim=1)
+      else if (any(counted)) then
+         most = maxval(values, mask=counted)
+         at = findloc(counted .and. values >= most - tie*abs(most), .true., dim=1)
+      end if
+   end function first_largest
+
+   !> a x b.
+   pure function cross(a, b) result(product_of_them)
+      real(wp), intent(in) :: a(3), b(3)
+      real(wp) :: product_of_them(3)
+
+      product_of_them = [a(2)*b(3) - a(3)*b(2), a(3)*b(1) - a(1)*b(3), a(1)*b(2) - a(2)*b(1)]
+   end function cross
+
+   !> The zeros in FROM < x < TO at which sum of c_k x**k changes its sign; what only touches zero has none there.
+   pure recursive subroutine find_zeros(c, from, to, zeros)
+      real(wp), intent(in)         :: c(0:)  !! up to the power highest_degree
+      real(wp), intent(in)         :: from, to
+      type(zero_list), intent(out) :: zeros
+      type(zero_list) :: turns
+      real(wp) :: bracket(2)
+      integer  :: i
+
+      if (ubound(c, 1) == 0) return
+      call find_zeros(derivative(c), from, to, turns)
+      bracket(2) = from
+      do i = 1, turns%n + 1
+         bracket(1) = bracket(2)
+         bracket(2) = to
+         if (i <= turns%n) bracket(2) = turns%x(i)
+         if (polynomial(c, bracket(1))*polynomial(c, bracket(2)) >= 0.0_wp) cycle
+         zeros%n = zeros%n + 1
+         zeros%x(zeros%n) = enclosed_zero(c, bracket)
+      end do
+   end subroutine find_zeros
+
+   !> The zero between the two ends of BRACKET, at which the polynomial has opposite signs, to rounding: Newton's method, bisection
+   !! where that would leave the bracket.
+   pure real(wp) function enclosed_zero(c, bracket) result(x)
+      real(wp), intent(in) :: c(0:), bracket(2)
+      real(wp) :: ends(2), value, slope, step, last_step
+      integer  :: pass
+
+      ends = bracket
+      if (polynomial(c, ends(1)) > 0.0_wp) ends = bracket([2, 1]) ! negative at ends(1)
+      x = 0.5_wp*sum(ends)
+      step = ends(2) - ends(1)
+      do pass = 1, 500
+         value = polynomial(c, x)
+         if (value < 0.0_wp) then
+            ends(1) = x
+         else
+            ends(2) = x
+         end if
+         slope = polynomial(derivative(c), x)
+         last_step = step
+         step = 0.5_wp*sum(ends) - x
+         if (abs(value) < 0.5_wp*abs(slope*last_step)) then ! Newton's method converges
+            if ((x - value/slope - ends(1))*(x - value/slope - ends(2)) < 0.0_wp) step = -value/slope
+         end if
+         x = x + step
+         if (abs(step) <= spacing(x)) exit
+      end do
+   end function enclosed_zero
+
+   !> Sum of c_k x**k.
+   pure real(wp) function polynomial(c, x) result(value)
+      real(wp), intent(in) :: c(0:), x
+      integer :: k
+
+      value = 0.0_wp
+      do k = ubound(c, 1), 0, -1
+         value = value*x + c(k)
+      end do
+   end function polynomial
+
+   !> Its derivative: the coefficients k c_k, one fewer.
+   pure function derivative(c) result(slope)
+      real(wp), intent(in) :: c(0:)
+      real(wp) :: slope(0:ubound(c, 1) - 1)
+      integer  :: k
+
+      slope = [(k*c(k), k = 1, ubound(c, 1))]
+   end function derivative
+
+end module numbers

@@ -1,0 +1,340 @@
+!> Components that depend on others: c = sum of factor c_k, as rigid elements and equations list them. What depends on what is checked,
+!! then the dependent ones are eliminated: their nodes move with the unknowns of the others.
+!!
+!! Equations between components, solved for others of them than those that they were written for.
+module constraint_equations
+   use deck_check, only: checked_deck
+   use kinds, only: wp
+   use model_data, only: model_type, supported
+   use node_coupling, only: couple_node
+   use reference_nodes, only: component_place, node_axes, rotation_at
+   use text_tools, only: integer_text
+   implicit none
+   private
+
+   public :: add_dependence, add_term, check_dependences, eliminate, solve_for
+
+   !> One component that depends on others. Components are those of unknowns, along the axes of their nodes.
+   type, public :: dependence_type
+      integer :: node = 0, d = 0             !! component D of NODE
+      integer :: line = 0, field = 0         !! of the card that says so, and the data field there that names the node
+      integer :: n = 0                       !! is the sum over so many
+      integer, allocatable  :: on(:), on_d(:)  !! (at least n) component ON_D(k) of node ON(k)
+      real(wp), allocatable :: factor(:)     !! (likewise) times this; one component may come several times
+   end type dependence_type
+
+   type, public :: dependence_list
+      integer :: n = 0
+      type(dependence_type), allocatable :: item(:)
+   end type dependence_list
+
+contains
+
+   !> Start a dependence of what stands at PLACE, named in data field FIELD of the card on LINE.
+   pure subroutine add_dependence(list, place, line, field)
+      type(dependence_list), intent(inout) :: list
+      type(component_place), intent(in)    :: place
+      integer, intent(in)                  :: line, field
+      type(dependence_type), allocatable :: longer(:)
+
+      if (.not. allocated(list%item)) allocate (list%item(8))
+      if (list%n == size(list%item)) then
+         allocate (longer(2*list%n))
+         longer(:list%n) = list%item
+         call move_alloc(longer, list%item)
+      end if
+      list%n = list%n + 1
+      list%item(list%n) = dependence_type(node=place%node, d=place%d, line=line, field=field)
+      allocate (list%item(list%n)%on(8), list%item(list%n)%on_d(8), list%item(list%n)%factor(8))
+   end subroutine add_dependence
+
+   !> Add FACTOR times what stands at PLACE to the dependence begun last; nothing where FACTOR is zero.
+   pure subroutine add_term(list, place, factor)
+      type(dependence_list), intent(inout) :: list
+      type(component_place), intent(in)    :: place
+      real(wp), intent(in)                 :: factor
+
+      if (abs(factor) <= 0.0_wp) return
+      associate (item => list%item(list%n))
+         if (item%n == size(item%on)) then
+            item%on = [item%on, item%on]
+            item%on_d = [item%on_d, item%on_d]
+            item%factor = [item%factor, item%factor]
+         end if
+         item%n = item%n + 1
+         item%on(item%n) = place%node
+         item%on_d(item%n) = place%d
+         item%factor(item%n) = factor
+      end associate
+   end subroutine add_term
+
+   !> Errors: a component that depends twice, is supported too, or depends on one that depends itself.
+   subroutine check_dependences(deck, model, list)
+      type(checked_deck), intent(in)    :: deck
+      type(model_type), intent(in)      :: model
+      type(dependence_list), intent(in) :: list
+      integer, allocatable :: of(:, :) ! (dimension, n_nodes) which item a component is, 0: none
+      character(:), allocatable :: words
+      logical, allocatable :: is_named(:)
+      integer :: i, k, other
+
+      allocate (of(model%dimension, model%n_nodes), source=0)
+      allocate (is_named(list%n), source=.false.)
+      do i = 1, list%n
+         associate (item => list%item(i))
+            words = ''
+            if (of(item%d, item%node) > 0) then
+               words = ' depends already on others by '//name_of(deck, list%item(of(item%d, item%node))%line)
+            else
+               of(item%d, item%node) = i
+               if (model%held(item%d, item%node)) words = ' is supported by an SPC or PS too; a component is either '// &
+                                                          'dependent or supported'
+            end if
+            if (words /= '') call name_once(i, component_text(model, item%node, item%d)//words)
+         end associate
+      end do
+      do i = 1, list%n
+         do k = 1, list%item(i)%n
+            other = of(list%item(i)%on_d(k), list%item(i)%on(k))
+            if (other == 0) cycle
+            call name_once(i, component_text(model, list%item(i)%on(k), list%item(i)%on_d(k))//', on which this depends, '// &
+               'is itself dependent by '//name_of(deck, list%item(other)%line)//'; expected one that is not: name its own '// &
+               'independent nodes')
+            exit
+         end do
+      end do
+
+   contains
+
+      !> One error a field of a card, though several components may be at fault.
+      subroutine name_once(this, message)
+         integer, intent(in)      :: this
+         character(*), intent(in) :: message
+         integer :: j
+
+         do j = this - 1, 1, -1
+            if (list%item(j)%line /= list%item(this)%line) exit
+            if (list%item(j)%field == list%item(this)%field .and. is_named(j)) return
+         end do
+         is_named(this) = .true.
+         call deck%field_error(list%item(this)%line, list%item(this)%field, message, called='G')
+      end subroutine name_once
+
+   end subroutine check_dependences
+
+   !> 'RBE2 7, deck.bdf, line 12': the card on LINE.
+   function name_of(deck, line) result(name)
+      type(checked_deck), intent(in) :: deck
+      integer, intent(in)            :: line
+      character(:), allocatable :: name
+      integer :: i
+
+      name = 'MPC'
+      i = findloc(deck%bulk%rigid%line, line, dim=1)
+      if (i > 0) name = trim(merge('RBE3 ', 'RBE2 ', deck%bulk%rigid(i)%is_mean))//' '//integer_text(deck%bulk%rigid(i)%id)
+      name = name//' ('//deck%text%place(line)//')'
+   end function name_of
+
+   !> 'component 3 of node 7': D of NODE, which may be that of rotations.
+   pure function component_text(model, node, d) result(words)
+      type(model_type), intent(in) :: model
+      integer, intent(in)          :: node, d
+      character(:), allocatable :: words
+      integer :: k
+
+      k = 0
+      if (allocated(model%rotations)) k = findloc(model%rotations%node, node, dim=1)
+      if (k == 0) then
+         words = 'component '//integer_text(d)//' of node '//integer_text(model%node_id(node))
+      else
+         words = 'component '//integer_text(merge(d + 3, 6, model%dimension == 3))//' of node '// &
+                 integer_text(model%node_id(model%rotations(k)%point))
+      end if
+   end function component_text
+
+   !> Couple the nodes of LIST, whose cards are right: their dependent components have no unknowns any more. Neither have components
+   !! that nothing feels of reference nodes WITHOUT elements, and rotations likewise.
+   subroutine eliminate(list, without, model)
+      type(dependence_list), intent(in) :: list
+      logical, intent(in)               :: without(:) !! (n_nodes) no element holds the node, a rigid one or an equation does
+      type(model_type), intent(inout)   :: model
+      logical, allocatable :: is_felt(:, :)
+      logical, allocatable :: depends(:)
+      integer, allocatable :: column(:)
+      integer :: i, k, node
+
+      allocate (model%left_out(model%dimension, model%n_nodes), is_felt(model%dimension, model%n_nodes), source=.false.)
+      allocate (depends(model%n_nodes), source=.false.)
+      allocate (column(model%n_nodes), source=0)
+      do i = 1, list%n
+         associate (item => list%item(i))
+            model%left_out(item%d, item%node) = .true.
+            depends(item%node) = .true.
+            do k = 1, item%n
+               is_felt(item%on_d(k), item%on(k)) = .true.
+            end do
+         end associate
+      end do
+      do i = 1, model%n_nodes
+         if (depends(i)) call couple_items(list, i, column, model)
+      end do
+      do node = 1, model%n_nodes
+         if (without(node)) model%left_out(:, node) = model%left_out(:, node) .or. &
+                                                      (.not. is_felt(:, node) .and. .not. model%held(:, node))
+      end do
+      model%held = model%held .or. model%left_out
+   end subroutine eliminate
+
+   !> Couple NODE: its own components that are left, and the sums of LIST for those that are not.
+   subroutine couple_items(list, node, column, model)
+      type(dependence_list), intent(in) :: list
+      integer, intent(in)               :: node
+      integer, intent(inout)            :: column(:) !! (n_nodes) zero, and left so
+      type(model_type), intent(inout)   :: model
+      real(wp), allocatable :: t(:, :, :)
+      integer, allocatable  :: masters(:)
+      integer :: d, i, k, n
+      real(wp) :: axes(3, 3)
+
+      d = model%dimension
+      axes = axes_at(model, node)
+      allocate (masters(model%n_nodes))
+      n = 0
+      if (.not. all(model%left_out(:, node))) call add_master(node)
+      do i = 1, list%n
+         if (list%item(i)%node /= node) cycle
+         do k = 1, list%item(i)%n
+            call add_master(list%item(i)%on(k))
+         end do
+      end do
+      allocate (t(d, d, n), source=0.0_wp)
+      do k = 1, d
+         if (.not. model%left_out(k, node)) t(:, k, 1) = axes(:d, k)
+      end do
+      do i = 1, list%n
+         associate (item => list%item(i))
+            if (item%node /= node) cycle
+            do k = 1, item%n
+               associate (part => t(:, item%on_d(k), column(item%on(k))))
+                  part = part + item%factor(k)*axes(:d, item%d)
+               end associate
+            end do
+         end associate
+      end do
+      call couple_node(model%coupling, model%n_nodes, node, masters(:n), t)
+      column(masters(:n)) = 0
+
+   contains
+
+      subroutine add_master(this)
+         integer, intent(in) :: this
+
+         if (column(this) > 0) return
+         n = n + 1
+         masters(n) = this
+         column(this) = n
+      end subroutine add_master
+
+   end subroutine couple_items
+
+   !> The axes of the components of NODE, columns; those of rotations are those of their point, in the plane z, kept as the first.
+   pure function axes_at(model, node) result(axes)
+      type(model_type), intent(in) :: model
+      integer, intent(in)          :: node
+      real(wp) :: axes(3, 3)
+      integer  :: k
+
+      k = 0
+      if (allocated(model%rotations)) k = findloc(model%rotations%node, node, dim=1)
+      if (k == 0) then
+         axes = node_axes(model, node)
+      else if (model%dimension == 3) then
+         axes = node_axes(model, model%rotations(k)%point)
+      else
+         axes = reshape([1.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 1.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 1.0_wp], [3, 3])
+      end if
+   end function axes_at
+
+   !> Of the items FIRST and on of LIST, each an equation c_j = sum of factor c_k, make such of the components at PLACES, as many, named in
+   !! data fields AT: with [A] their coefficients in c_j - sum of factor c_k = 0 they are -[A]^-1 times the rest. Not OK where [A] has
+   !! no inverse.
+   subroutine solve_for(list, first, places, at, ok)
+      type(dependence_list), intent(inout) :: list
+      integer, intent(in)                  :: first
+      type(component_place), intent(in)    :: places(:)
+      integer, intent(in)                  :: at(:) !! (places)
+      logical, intent(out)                 :: ok
+      type(dependence_list) :: solved
+      real(wp) :: a(size(places), 2*size(places))
+      integer  :: i, j, k, n
+
+      n = size(places)
+      a = 0.0_wp
+      do j = 1, n
+         a(j, n + j) = 1.0_wp
+         associate (item => list%item(first - 1 + j))
+            do i = 1, n
+               if (stands_at(i, item%node, item%d)) a(j, i) = a(j, i) + 1.0_wp
+               do k = 1, item%n
+                  if (stands_at(i, item%on(k), item%on_d(k))) a(j, i) = a(j, i) - item%factor(k)
+               end do
+            end do
+         end associate
+      end do
+      call reduce(a, ok)
+      if (.not. ok) return
+      do i = 1, n
+         call add_dependence(solved, places(i), list%item(first)%line, at(i))
+         do j = 1, n
+            associate (item => list%item(first - 1 + j), by => a(i, n + j))
+               call add_other(item%node, item%d, -by)
+               do k = 1, item%n
+                  call add_other(item%on(k), item%on_d(k), by*item%factor(k))
+               end do
+            end associate
+         end do
+      end do
+      list%item(first:list%n) = solved%item(:n)
+
+   contains
+
+      pure logical function stands_at(i, node, d)
+         integer, intent(in) :: i, node, d
+
+         stands_at = places(i)%node == node .and. places(i)%d == d
+      end function stands_at
+
+      subroutine add_other(node, d, factor)
+         integer, intent(in)  :: node, d
+         real(wp), intent(in) :: factor
+         integer :: m
+
+         if (.not. any([(stands_at(m, node, d), m = 1, n)])) call add_term(solved, component_place(node, d, 1.0_wp), factor)
+      end subroutine add_other
+
+   end subroutine solve_for
+
+   !> Bring A = [M 1] to [1 M^-1], by rows, with the largest pivot of each column. Not OK where M has no inverse, to rounding.
+   pure subroutine reduce(a, ok)
+      real(wp), intent(inout) :: a(:, :) !! (n, 2 n)
+      logical, intent(out)    :: ok
+      real(wp), parameter :: rounding = 1.0e-10_wp ! of the largest entry: a pivot that is none
+      real(wp) :: least, row(size(a, 2))
+      integer  :: i, j, p
+
+      least = rounding*maxval(abs(a(:, :size(a, 1))))
+      ok = .true.
+      do j = 1, size(a, 1)
+         p = j - 1 + maxloc(abs(a(j:, j)), dim=1)
+         ok = abs(a(p, j)) > least
+         if (.not. ok) return
+         row = a(p, :)/a(p, j)
+         a(p, :) = a(j, :)
+         do i = 1, size(a, 1)
+            a(i, :) = a(i, :) - a(i, j)*row
+         end do
+         a(j, :) = row
+      end do
+   end subroutine reduce
+
+end module constraint_equations

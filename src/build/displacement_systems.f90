@@ -1,0 +1,230 @@
+!> Coordinate systems from their cards, each in global axes, whatever stands on whatever; and the vectors and nodes that are given
+!! in them.
+!!
+!! Displacement systems: nodes with CD have their unknowns along the directions of that system, so that supports and prescribed
+!! displacements act along these.
+module displacement_systems
+   use bulk_data, only: system_card
+   use coordinate_systems, only: coordinate_system, directions_at, make_system, position_in, rectangular
+   use deck_check, only: checked_deck
+   use kinds, only: wp
+   use lists, only: id_table_type
+   use model_data, only: model_type
+   use node_coupling, only: couple_node
+   use text_tools, only: integer_text
+   implicit none
+   private
+
+   public :: build_systems, find_system, system_of_id, place_grids, to_global, build_frames
+
+contains
+
+   !> The SYSTEMS of all CORD cards, in their order. CORD2 may stand on any other system, CORD1 on nodes that are given in any
+   !! other; what stands on itself is an error.
+   subroutine build_systems(deck, systems)
+      type(checked_deck), intent(in)                    :: deck
+      type(coordinate_system), allocatable, intent(out) :: systems(:)
+      type(id_table_type)  :: ids, grids
+      logical, allocatable :: is_done(:)
+      integer :: i, n_done
+
+      associate (cards => deck%bulk%system)
+         allocate (systems(size(cards)), is_done(size(cards)))
+         if (size(cards) == 0) return
+         call deck%report_repeated('coordinate system', cards%id, cards%line)
+         call ids%build(cards%id)
+         if (any(cards%nodes(1) > 0)) call grids%build(deck%bulk%grid%id)
+         is_done = .false.
+         do
+            n_done = count(is_done)
+            do i = 1, size(cards)
+               if (.not. is_done(i)) call build_system(deck, i, ids, grids, systems, is_done)
+            end do
+            if (count(is_done) == n_done) exit
+         end do
+         do i = 1, size(cards)
+            if (.not. is_done(i)) call report_unplaced(deck, i, ids, grids)
+         end do
+      end associate
+   end subroutine build_systems
+
+   !> System I, where what it stands on is done.
+   subroutine build_system(deck, i, ids, grids, systems, is_done)
+      type(checked_deck), intent(in)         :: deck
+      integer, intent(in)                    :: i
+      type(id_table_type), intent(in)        :: ids, grids
+      type(coordinate_system), intent(inout) :: systems(:)
+      logical, intent(inout)                 :: is_done(:)
+      real(wp) :: points(3, 3)
+      integer  :: grid, k, other
+      logical  :: ok
+
+      associate (card => deck%bulk%system(i))
+         do k = 1, 3
+            points(:, k) = card%points(:, k)
+            other = card%reference
+            if (card%nodes(1) > 0) then
+               grid = grids%find(card%nodes(k))
+               if (grid == 0) return
+               points(:, k) = deck%bulk%grid(grid)%x
+               other = deck%bulk%grid(grid)%cp
+            end if
+            if (other == 0) cycle
+            other = ids%find(other)
+            if (other == 0) return
+            if (.not. is_done(other)) return
+            points(:, k) = position_in(systems(other), points(:, k))
+         end do
+         call make_system(card%id, card%kind, points(:, 1), points(:, 2), points(:, 3), systems(i), ok)
+         is_done(i) = .true.
+         if (.not. ok) call deck%errors%add(card%line, 'coordinate system '//integer_text(card%id)// &
+            ': its three points lie on a line; expected an origin, a point on z and one in the x-z plane')
+      end associate
+   end subroutine build_system
+
+   !> Why system I could not be placed.
+   subroutine report_unplaced(deck, i, ids, grids)
+      type(checked_deck), intent(in)  :: deck
+      integer, intent(in)             :: i
+      type(id_table_type), intent(in) :: ids, grids
+      integer :: k
+
+      associate (card => deck%bulk%system(i))
+         if (card%nodes(1) > 0) then
+            do k = 1, 3
+               if (card%nodes(k) > 0 .and. grids%find(card%nodes(k)) == 0) then
+                  call deck%field_error(card%line, card%field + k, 'there is no GRID '//integer_text(card%nodes(k)))
+                  return
+               end if
+            end do
+         else if (ids%find(card%reference) == 0) then
+            call deck%field_error(card%line, 'RID', 'there is no coordinate system '//integer_text(card%reference))
+            return
+         end if
+         call deck%errors%add(card%line, 'coordinate system '//integer_text(card%id)//' cannot be placed: it stands, '// &
+                              'over others or nodes that are given in them, on itself or on one with an error')
+      end associate
+   end subroutine report_unplaced
+
+   !> Position of the system that FIELD of the card on LINE calls ID; 0 for global axes, and, with an error, where there is none.
+   subroutine find_system(deck, line, field, id, systems, system)
+      type(checked_deck), intent(in)      :: deck
+      integer, intent(in)                 :: line
+      character(*), intent(in)            :: field
+      integer, intent(in)                 :: id
+      type(coordinate_system), intent(in) :: systems(:)
+      integer, intent(out)                :: system
+
+      system = system_of_id(deck, id)
+      if (system == 0 .and. id > 0) &
+         call deck%field_error(line, field, 'there is no CORD1R, CORD2R, CORD2C or CORD2S '//integer_text(id))
+      if (system > size(systems)) system = 0
+   end subroutine find_system
+
+   !> The same without an error.
+   pure integer function system_of_id(deck, id) result(system)
+      type(checked_deck), intent(in) :: deck
+      integer, intent(in)            :: id
+
+      system = 0
+      if (id > 0) system = findloc(deck%bulk%system%id, id, dim=1)
+   end function system_of_id
+
+   !> X of all GRID cards in global axes; each card once a system says so.
+   subroutine place_grids(deck, systems, x)
+      type(checked_deck), intent(in)      :: deck
+      type(coordinate_system), intent(in) :: systems(:)
+      real(wp), intent(inout)             :: x(:, :) !! (3, at least as many as GRID cards) set here [length]
+      integer :: i, system
+      real(wp), parameter :: rounding = 1.0e-12_wp ! of how far points and systems are: no distance from an axis
+
+      do i = 1, size(deck%bulk%grid)
+         associate (grid => deck%bulk%grid(i))
+            x(:, i) = grid%x
+            if (grid%cp <= 0) cycle
+            call find_system(deck, grid%line, 'CP', grid%cp, systems, system)
+            if (system == 0) cycle
+            x(:, i) = position_in(systems(system), grid%x)
+            where (abs(x(:, i)) <= rounding*(norm2(x(:, i)) + norm2(systems(system)%origin))) x(:, i) = 0.0_wp
+         end associate
+      end do
+   end subroutine place_grids
+
+   !> VECTOR, given in system CID at the point X, in global axes; the card on LINE has CID in FIELD.
+   !! Errors: no such system, on the axis of a cylindrical or spherical one.
+   subroutine to_global(deck, systems, line, cid, x, vector)
+      type(checked_deck), intent(in)      :: deck
+      type(coordinate_system), intent(in) :: systems(:)
+      integer, intent(in)                 :: line, cid
+      real(wp), intent(in)                :: x(3)      !! global axes [length]
+      real(wp), intent(inout)             :: vector(3)
+      real(wp) :: directions(3, 3)
+      integer  :: system
+      logical  :: ok
+
+      if (cid == 0) return
+      call find_system(deck, line, 'CID', cid, systems, system)
+      if (system == 0) return
+      call directions_at(systems(system), x, directions, ok)
+      if (ok) then
+         vector = matmul(directions, vector)
+      else
+         call deck%field_error(line, 'CID', 'the node lies on the axis of system '//integer_text(cid)// &
+                               ', where its first two directions are not defined')
+      end if
+   end subroutine to_global
+
+   !> Couple the nodes of MODEL that have a CD, and their twins of split surfaces, to unknowns along its directions.
+   !! Errors: no such system; a node on the axis of a cylindrical or spherical one; directions out of the plane of a plane
+   !! model.
+   subroutine build_frames(deck, model)
+      type(checked_deck), intent(in)  :: deck
+      type(model_type), intent(inout) :: model
+      real(wp) :: directions(3, 3)
+      integer  :: i, node, system
+      logical  :: ok
+
+      do i = 1, size(deck%bulk%grid)
+         associate (grid => deck%bulk%grid(i))
+            if (grid%cd <= 0) cycle
+            call find_system(deck, grid%line, 'CD', grid%cd, model%systems, system)
+            node = model%node_table%find(grid%id)
+            if (system == 0 .or. node == 0) cycle
+            call directions_at(model%systems(system), model%x(:, node), directions, ok)
+            if (.not. ok) call deck%field_error(grid%line, 'CD', 'the node lies on the axis of system '// &
+               integer_text(grid%cd)//', where its first two directions are not defined')
+            if (ok .and. model%dimension == 2) call check_plane_frame(deck, grid%line, directions, ok)
+            if (.not. ok) cycle
+            call turn_node(node)
+            if (model%twin(node) > 0) call turn_node(model%twin(node))
+         end associate
+      end do
+
+   contains
+
+      subroutine turn_node(k)
+         integer, intent(in) :: k
+
+         if (.not. allocated(model%node_system)) allocate (model%node_system(model%n_nodes), source=0)
+         if (model%node_system(k) > 0) return ! of a number given twice there is one node
+         model%node_system(k) = system
+         associate (d => model%dimension)
+            call couple_node(model%coupling, model%n_nodes, k, [k], reshape(directions(:d, :d), [d, d, 1]))
+         end associate
+      end subroutine turn_node
+
+   end subroutine build_frames
+
+   !> The first two DIRECTIONS of a node lie in the plane of a plane model.
+   subroutine check_plane_frame(deck, line, directions, ok)
+      type(checked_deck), intent(in) :: deck
+      integer, intent(in)            :: line
+      real(wp), intent(in)           :: directions(3, 3)
+      logical, intent(out)           :: ok
+
+      ok = all(abs(directions(3, :2)) <= 1.0e-10_wp)
+      if (.not. ok) call deck%field_error(line, 'CD', 'the first two directions of the system do not lie in the plane '// &
+                                          'of the model, x-y')
+   end subroutine check_plane_frame
+
+end module displacement_systems

@@ -1,0 +1,407 @@
+!> Values at scattered points of a plane, interpolated linearly between them: on the triangles of the points' Delaunay
+!! triangulation, or where all points lie on one line from point to point along it; outside, the value at the nearest place of the
+!! points' outline. Linear values are met exactly, and the interpolation is continuous.
+!!
+!! The triangle around a place is found without the triangulation: lifted onto the paraboloid z = x**2 + y**2, it is the lowest one
+!! above the place. So from any triangle around the place the point farthest below its plane is exchanged for one of the corners,
+!! until there is none (the simplex method). Points on a grid make squares, of which both diagonals are as low: the paraboloid is a
+!! little oblique, in no direction that a grid would have, and one of them is lower everywhere. Where that makes no difference, in
+!! squares turned by half a radian, points count as lower by next to nothing, the first by most, every other by much less than
+!! the one before it (simulation of simplicity: Edelsbrunner and Muecke, ACM Transactions on Graphics 9 (1990) 66).
+!!
+!! The initial gaps of the joints: from JGAP cards to the interface elements.
+module joint_gaps
+   use bulk_data, only: jgap_card
+   use deck_check, only: checked_deck
+   use interface_operator, only: at_first_end, joint_movement, nodes_of_end
+   use joint_sides, only: joint_axes
+   use kinds, only: wp
+   use model_data, only: joint_centroid, joint_type, model_type
+   use text_tools, only: integer_text
+   implicit none
+   private
+
+   public :: build_gaps
+
+   real(wp), parameter :: rounding = 1.0e-9_wp               ! of the extent of the points: nearer ones are at one place
+   real(wp), parameter :: flat = 1.0e-13_wp                  ! of its square: a height that is none
+   real(wp), parameter :: oblique(2) = 1.0e-3_wp*[0.54_wp, 0.84_wp] ! cos, sin of 1: steepest at an angle of half of that
+
+   type, public :: gap_table_type
+      private
+      real(wp), allocatable :: x(:, :)         ! (2, n) about the centre, by the extent
+      real(wp), allocatable :: height(:)       ! (n) on the paraboloid
+      real(wp), allocatable :: values(:)       ! (n)
+      integer, allocatable  :: outline(:)      ! corners of the convex hull, counter-clockwise; none: all on a line
+      real(wp) :: centre(2) = 0.0_wp, extent = 1.0_wp
+      real(wp) :: along(2) = 0.0_wp            ! the line, where they are on one; zero: a single point
+   contains
+      procedure :: build
+      procedure :: value_at
+   end type gap_table_type
+
+   real(wp), parameter :: touching = 1.0e-12_wp ! of the coordinates: what two faces are apart by less, they touch
+
+contains
+
+   !> The table of these VALUES at the points X(2, n). TWICE: two points at one place, 0: there are none; then it is not to be used.
+   pure subroutine build(self, x, values, twice)
+      class(gap_table_type), intent(inout) :: self
+      real(wp), intent(in)                 :: x(:, :), values(:)
+      integer, intent(out)                 :: twice(2)
+      integer :: far, i, k
+
+      self%centre = sum(x, dim=2)/size(x, 2)
+      self%extent = maxval(maxval(x, dim=2) - minval(x, dim=2))
+      if (self%extent <= 0.0_wp) self%extent = 1.0_wp
+      self%x = (x - spread(self%centre, 2, size(x, 2)))/self%extent
+      self%values = values
+      twice = 0
+      do i = 1, size(values)
+         do k = i + 1, size(values)
+            if (maxval(abs(self%x(:, i) - self%x(:, k))) > rounding) cycle
+            twice = [i, k]
+            return
+         end do
+      end do
+      self%height = sum(self%x**2, dim=1) + oblique(1)*(self%x(1, :)**2 - self%x(2, :)**2) &
+                    + 2.0_wp*oblique(2)*self%x(1, :)*self%x(2, :)
+      self%outline = [integer ::]
+      self%along = 0.0_wp
+      if (size(values) == 1) return
+      far = maxloc(sum((self%x - spread(self%x(:, 1), 2, size(values)))**2, dim=1), dim=1)
+      self%along = (self%x(:, far) - self%x(:, 1))/norm2(self%x(:, far) - self%x(:, 1))
+      if (any([(abs(cross(self%along, self%x(:, i) - self%x(:, 1))) > rounding, i = 1, size(values))])) &
+         call find_outline(self)
+   end subroutine build
+
+   !> The corners of the convex hull, from the leftmost on: the next one has no point on its right. Points within ROUNDING of a side are on
+   !! it, and no corners: triangles of three of them would be none.
+   pure subroutine find_outline(self)
+      class(gap_table_type), intent(inout) :: self
+      real(wp) :: right
+      integer  :: first, i, next, now
+
+      first = 1
+      do i = 2, size(self%values)
+         if (self%x(1, i) < self%x(1, first) - rounding .or. (abs(self%x(1, i) - self%x(1, first)) <= rounding &
+             .and. self%x(2, i) < self%x(2, first))) first = i
+      end do
+      now = first
+      do while (size(self%outline) < size(self%values))
+         self%outline = [self%outline, now]
+         next = merge(2, 1, now == 1)
+         do i = 1, size(self%values)
+            if (i == now .or. i == next) cycle
+            associate (here => self%x(:, i) - self%x(:, now), there => self%x(:, next) - self%x(:, now))
+               right = cross(here, there)/max(norm2(here), norm2(there))
+               if (right > rounding .or. (abs(right) <= rounding .and. norm2(here) > norm2(there))) next = i
+            end associate
+         end do
+         now = next
+         if (now == first) exit
+      end do
+   end subroutine find_outline
+
+   !> The value at the place X.
+   pure real(wp) function value_at(self, x) result(value)
+      class(gap_table_type), intent(in) :: self
+      real(wp), intent(in)              :: x(2)
+      real(wp) :: place(2), weights(3)
+      integer  :: corners(3)
+
+      place = (x - self%centre)/self%extent
+      if (size(self%outline) == 0) then
+         value = value_on_line(self, dot_product(place - self%x(:, 1), self%along))
+         return
+      end if
+      call move_inside(self, place)
+      call find_triangle(self, place, corners, weights)
+      value = dot_product(weights, self%values(corners))
+   end function value_at
+
+   !> The value at the distance T from the first point along the line of all points.
+   pure real(wp) function value_on_line(self, t) result(value)
+      class(gap_table_type), intent(in) :: self
+      real(wp), intent(in)              :: t
+      real(wp) :: at(size(self%values)), share
+      integer  :: before, behind, i
+
+      at = [(dot_product(self%along, self%x(:, i) - self%x(:, 1)), i = 1, size(at))]
+      before = maxloc(at, mask=at <= t, dim=1)
+      behind = minloc(at, mask=at > t, dim=1)
+      if (before == 0) before = behind
+      if (behind == 0) behind = before
+      share = 0.0_wp
+      if (behind /= before) share = (t - at(before))/(at(behind) - at(before))
+      value = (1.0_wp - share)*self%values(before) + share*self%values(behind)
+   end function value_on_line
+
+   !> A PLACE outside the outline moves to the nearest one on it.
+   pure subroutine move_inside(self, place)
+      class(gap_table_type), intent(in) :: self
+      real(wp), intent(inout)           :: place(2)
+      real(wp) :: side(2), on_side(2), nearest(2), least
+      integer  :: k, n
+      logical  :: outside
+
+      outside = .false.
+      nearest = place
+      least = huge(least)
+      n = size(self%outline)
+      do k = 1, n
+         associate (from => self%x(:, self%outline(k)), to => self%x(:, self%outline(modulo(k, n) + 1)))
+            side = to - from
+            if (cross(side, place - from) < 0.0_wp) outside = .true.
+            on_side = from + side*min(1.0_wp, max(0.0_wp, dot_product(place - from, side)/dot_product(side, side)))
+         end associate
+         if (norm2(on_side - place) >= least) cycle
+         least = norm2(on_side - place)
+         nearest = on_side
+      end do
+      if (outside) place = nearest
+   end subroutine move_inside
+
+   !> The Delaunay triangle around PLACE, which is inside the outline: its CORNERS, and the WEIGHTS of their values there.
+   pure subroutine find_triangle(self, place, corners, weights)
+      class(gap_table_type), intent(in) :: self
+      real(wp), intent(in)              :: place(2)
+      integer, intent(out)              :: corners(3)
+      real(wp), intent(out)             :: weights(3)
+      real(wp) :: found(3), best, lowest, above, share(3), ratio
+      integer  :: entering, exchanges, i, k, leaving
+
+      best = -huge(best)
+      do k = 2, size(self%outline) - 1
+         found = shares(self%x(:, self%outline([1, k, k + 1])), place)
+         if (minval(found) <= best) cycle
+         best = minval(found)
+         corners = self%outline([1, k, k + 1])
+      end do
+      do exchanges = 1, 10*size(self%values)
+         lowest = 0.0_wp
+         entering = 0
+         do i = 1, size(self%values)
+            if (any(corners == i)) cycle
+            share = shares(self%x(:, corners), self%x(:, i))
+            above = self%height(i) - dot_product(share, self%height(corners))
+            if (abs(above) <= flat) above = merge(-flat, 0.0_wp, counts_as_below(i, corners, share))
+            if (above >= lowest) cycle
+            lowest = above
+            entering = i
+         end do
+         if (entering == 0) exit
+         weights = max(0.0_wp, shares(self%x(:, corners), place))
+         share = shares(self%x(:, corners), self%x(:, entering))
+         leaving = maxloc(share, dim=1)
+         ratio = weights(leaving)/share(leaving)
+         do k = 1, 3
+            if (share(k) <= rounding) cycle
+            if (weights(k)/share(k) >= ratio) cycle
+            leaving = k
+            ratio = weights(k)/share(k)
+         end do
+         corners(leaving) = entering
+      end do
+      weights = max(0.0_wp, shares(self%x(:, corners), place))
+      weights = weights/sum(weights)
+   end subroutine find_triangle
+
+   !> Whether point I, in the plane of the lifted CORNERS, in which they have these SHAREs, counts as below it: what the first of the
+   !! four is lower by decides. It is I itself, or a corner, with which the plane at I falls or rises.
+   pure logical function counts_as_below(i, corners, share)
+      integer, intent(in)  :: i, corners(3)
+      real(wp), intent(in) :: share(3)
+      integer :: k
+
+      k = minloc(corners, mask=abs(share) > rounding, dim=1)
+      counts_as_below = i < corners(k) .or. share(k) < 0.0_wp
+   end function counts_as_below
+
+   !> The shares of three CORNERS(2, 3) in a PLACE: their weighted mean, with weights that add up to 1.
+   pure function shares(corners, place)
+      real(wp), intent(in) :: corners(:, :), place(2)
+      real(wp) :: shares(3), a(2), b(2), c(2)
+
+      a = corners(:, 2) - corners(:, 1)
+      b = corners(:, 3) - corners(:, 1)
+      c = place - corners(:, 1)
+      shares(2) = cross(c, b)/cross(a, b)
+      shares(3) = cross(a, c)/cross(a, b)
+      shares(1) = 1.0_wp - shares(2) - shares(3)
+   end function shares
+
+   pure real(wp) function cross(a, b)
+      real(wp), intent(in) :: a(2), b(2)
+
+      cross = a(1)*b(2) - a(2)*b(1)
+   end function cross
+
+   !> Give the interface elements of MODEL their gaps.
+   subroutine build_gaps(deck, model)
+      type(checked_deck), intent(in)  :: deck
+      type(model_type), intent(inout) :: model
+      integer :: i, j
+
+      do i = 1, size(deck%bulk%jgap)
+         associate (card => deck%bulk%jgap(i))
+            if (card%joint == 0) cycle ! a field that could not be read
+            j = findloc(model%joints%id, card%joint, dim=1)
+            if (j == 0) then
+               call deck%field_error(card%line, 'JID', 'there is no joint '//integer_text(card%joint))
+               cycle
+            end if
+            model%joints(j)%gap_kind = card%kind
+            select case (card%kind)
+            case ('CONST')
+               model%interface(model%joints(j)%first:model%joints(j)%last)%gap = card%g0
+            case ('PLANE', 'TABLE')
+               call gaps_by_place(deck, card, model%joints(j), model)
+            case ('NODES')
+               call gaps_by_node(deck, card, model%joints(j), model)
+            case ('TRUE')
+               call true_gaps(deck, card, model%joints(j), model)
+            end select
+         end associate
+      end do
+   end subroutine build_gaps
+
+   !> PLANE and TABLE: the gap follows from where in the joint an element is, x and y in the axes of the mean normal.
+   subroutine gaps_by_place(deck, card, joint, model)
+      type(checked_deck), intent(in)  :: deck
+      type(jgap_card), intent(in)     :: card
+      type(joint_type), intent(in)    :: joint
+      type(model_type), intent(inout) :: model
+      type(gap_table_type) :: table
+      real(wp) :: axes(3, 3), centroid(3), place(2)
+      integer  :: i
+      logical  :: ok
+
+      if (joint%last < joint%first) return ! said elsewhere
+      if (norm2(joint%normal) <= 0.0_wp) then
+         call deck%field_error(card%line, 'KIND', trim(card%kind)//', but the normals of joint '//integer_text(joint%id)// &
+                               ' point all round, and it has no plane: expected CONST, NODES or TRUE')
+         return
+      end if
+      axes = joint_axes(model, joint%normal)
+      centroid = joint_centroid(model, joint)
+      if (model%axisymmetric) centroid(1) = 0.0_wp ! that of rings lies on the axis
+      ok = .true.
+      if (card%kind == 'TABLE') call start_table(deck, card, axes, centroid, model%dimension == 2, table, ok)
+      if (card%kind == 'PLANE' .and. model%dimension == 2) call check_no_y(deck, card)
+      if (.not. ok) return
+      do i = joint%first, joint%last
+         associate (element => model%interface(i))
+            place = matmul(at_first_end(element, model%x) - centroid, axes(:, :2))
+            if (card%kind == 'TABLE') then
+               element%gap = table%value_at(place)
+            else
+               element%gap = card%g0 + sum(card%slope*place + card%crown*place**2)
+            end if
+         end associate
+      end do
+      associate (gaps => model%interface(joint%first:joint%last)%gap)
+         where (abs(gaps) <= touching*maxval(abs(gaps))) gaps = 0.0_wp
+      end associate
+   end subroutine gaps_by_place
+
+   !> A joint in the plane has no y.
+   subroutine check_no_y(deck, card)
+      type(checked_deck), intent(in) :: deck
+      type(jgap_card), intent(in)    :: card
+      character(*), parameter :: words = 'not zero, but a joint of a plane model has x alone'
+
+      if (abs(card%slope(2)) > 0.0_wp) call deck%field_error(card%line, 'SY', words)
+      if (abs(card%crown(2)) > 0.0_wp) call deck%field_error(card%line, 'CY', words)
+   end subroutine check_no_y
+
+   !> The points of a TABLE in the plane of the joint; not OK where two are at one place there.
+   subroutine start_table(deck, card, axes, centroid, is_plane, table, ok)
+      type(checked_deck), intent(in)      :: deck
+      type(jgap_card), intent(in)         :: card
+      real(wp), intent(in)                :: axes(3, 3), centroid(3)
+      logical, intent(in)                 :: is_plane !! x alone counts
+      type(gap_table_type), intent(inout) :: table
+      logical, intent(out)                :: ok
+      real(wp) :: x(2, size(card%gap))
+      integer  :: twice(2)
+
+      ok = size(card%gap) > 0
+      if (.not. ok) return ! said where the card is read
+      x = matmul(transpose(axes(:, :2)), card%x - spread(centroid, 2, size(card%gap)))
+      if (is_plane) x(2, :) = 0.0_wp
+      call table%build(x, card%gap, twice)
+      ok = twice(1) == 0
+      if (.not. ok) call deck%field_error(card%line, card%at(twice(2)), 'point '//integer_text(twice(2))// &
+         ' of the table is, seen along the normal of the joint, at the same place as point '//integer_text(twice(1)), called='X')
+   end subroutine start_table
+
+   !> NODES: by node of SIDE1, zero where none is given. An element that hangs on several has their mean. A node on which none hangs, as
+   !! a corner of a flat face of six nodes, is on SIDE1 all the same.
+   subroutine gaps_by_node(deck, card, joint, model)
+      type(checked_deck), intent(in)  :: deck
+      type(jgap_card), intent(in)     :: card
+      type(joint_type), intent(in)    :: joint
+      type(model_type), intent(inout) :: model
+      real(wp), allocatable :: gap(:, :)
+      integer, allocatable  :: given_at(:) ! 0: not on SIDE1, -1: not given
+      integer :: i, node
+      character(:), allocatable :: words
+
+      allocate (gap(1, model%n_nodes), source=0.0_wp)
+      allocate (given_at(model%n_nodes), source=0)
+      do i = joint%first, joint%last
+         given_at(nodes_of_end(model%interface(i), 1)) = -1
+      end do
+      if (joint%side_1 > 0) then
+         associate (side => model%surfaces(joint%side_1))
+            do i = 1, side%n
+               given_at(side%nodes(:side%n_nodes(i), i)) = -1
+            end do
+         end associate
+      end if
+      do i = 1, size(card%node)
+         if (card%node(i) == 0) cycle
+         words = ''
+         node = model%node_table%find(card%node(i))
+         if (node == 0) then
+            words = 'there is no GRID '//integer_text(card%node(i))
+         else if (given_at(node) == 0) then
+            words = 'node '//integer_text(card%node(i))//' is not on SIDE1 of joint '//integer_text(joint%id)
+         else if (given_at(node) > 0) then
+            words = 'node '//integer_text(card%node(i))//' is given twice'
+         else
+            given_at(node) = i
+            gap(1, node) = card%gap(i)
+         end if
+         if (words /= '' .and. joint%last >= joint%first) call deck%field_error(card%line, card%at(i), words, called='G')
+      end do
+      do i = joint%first, joint%last
+         model%interface(i)%gap = sum(at_first_end(model%interface(i), gap))
+      end do
+   end subroutine gaps_by_node
+
+   !> TRUE: the distance of the faces in the mesh along the normal, from end 1 to end 2.
+   subroutine true_gaps(deck, card, joint, model)
+      type(checked_deck), intent(in)  :: deck
+      type(jgap_card), intent(in)     :: card
+      type(joint_type), intent(in)    :: joint
+      type(model_type), intent(inout) :: model
+      real(wp) :: closing(3)
+      integer  :: i
+
+      do i = joint%first, joint%last
+         associate (element => model%interface(i))
+            if (size(nodes_of_end(element, 2)) == 0) then
+               call deck%field_error(card%line, 'KIND', 'TRUE, but joint '//integer_text(joint%id)// &
+                                     ' stands on a rigid base, which has no place: expected CONST, PLANE, TABLE or NODES')
+               return
+            end if
+            closing = joint_movement(element, model%x)
+            element%gap = 0.0_wp
+            if (abs(closing(3)) > touching*maxval(abs(model%x(:, element%node)))) element%gap = -closing(3)
+         end associate
+      end do
+   end subroutine true_gaps
+
+end module joint_gaps

@@ -1,0 +1,385 @@
+!> The face of a solid that has given corners.
+!!
+!! PLOAD4, PLOADE and PLOAD: which sides of which elements a card presses on, and the nodal forces.
+module pressure_loads
+   use bulk_data, only: of_edge, of_face, of_nodes, pressure_card
+   use coordinate_systems, only: rectangular
+   use deck_check, only: checked_deck
+   use displacement_systems, only: find_system
+   use element_build, only: is_face
+   use element_kinds, only: element_table, kind_hexa8, kind_penta6, kind_tetra4, max_side_nodes
+   use element_loads, only: side_forces, side_tractions
+   use kinds, only: wp
+   use lists, only: id_table_type
+   use model_data, only: corners_of, model_type
+   use node_coupling, only: add_section_share
+   use text_tools, only: integer_text
+   implicit none
+   private
+
+   public :: find_face, own_corner, find_pressed_sides, add_pressure
+
+   !> A face, and how corners that name it go round it.
+   type, public :: named_face
+      integer :: element = 0, side = 0       !! 0: there is no such face
+      integer :: first = 0                   !! position of the first corner on the side
+      logical :: outward = .false.           !! the right hand round the corners points out of the element
+   end type named_face
+
+   !> Where the pressure of a card acts.
+   type, public :: pressed_side
+      integer  :: card = 0                    !! among the pressure cards
+      integer  :: element = 0, side = 0
+      real(wp) :: p(4) = 0.0_wp               !! at the corners of the side, in its order; positive into the body [pressure]
+      real(wp) :: direction(3) = 0.0_wp       !! of a traction P, unit; zero: along the normal
+   end type pressed_side
+
+contains
+
+   !> The FACE whose corners have the numbers ID, in either sense; FIELD of the card on LINE names them. None, with an error, where
+   !! there is none, or where bodies lie on both sides and forces on their nodes would be those of both.
+   subroutine find_face(deck, model, line, field, id, face)
+      type(checked_deck), intent(in) :: deck
+      type(model_type), intent(in)   :: model
+      integer, intent(in)            :: line
+      character(*), intent(in)       :: field
+      integer, intent(in)            :: id(:)         !! 3 or 4 corners, going round
+      type(named_face), intent(out)  :: face
+      type(named_face) :: tried
+      integer :: found, i, node, s
+
+      found = 0
+      node = model%node_table%find(id(1))
+      do while (node > 0)
+         do i = model%first_at(node), model%first_at(node + 1) - 1
+            do s = 1, element_table(model%element_kind(model%elements_at(i)))%n_sides
+               call compare_corners(model, model%elements_at(i), s, id, tried)
+               if (tried%element == 0) cycle
+               found = found + 1
+               face = tried
+            end do
+         end do
+         if (node /= model%node_table%find(id(1))) exit
+         node = model%twin(node)
+      end do
+      if (found == 0) then
+         call deck%field_error(line, field, 'no body element has a face with the corners '//list_of_numbers(id))
+      else if (found > 1) then
+         call deck%field_error(line, field, 'bodies lie on both sides of the face with the corners '//list_of_numbers(id)// &
+                               ', so which one the pressure acts on is not known')
+         face = named_face()
+      end if
+   end subroutine find_face
+
+   !> Side S of element E where ID are its corners, else none.
+   pure subroutine compare_corners(model, e, s, id, face)
+      type(model_type), intent(in)  :: model
+      integer, intent(in)           :: e, s, id(:)
+      type(named_face), intent(out) :: face
+      integer :: k, place(size(id))
+      logical :: outward
+
+      associate (kind => element_table(model%element_kind(e)))
+         if (kind%dimension /= 3 .or. kind%side_corners(s) /= size(id)) return
+         do k = 1, size(id)
+            place(k) = findloc(kind%side_nodes(:size(id), s), own_corner(model, e, id(k)), dim=1)
+         end do
+      end associate
+      if (any(place == 0)) return
+      outward = all(place == cshift([(k, k = 1, size(id))], place(1) - 1))
+      if (.not. outward .and. any(place /= cshift([(k, k = size(id), 1, -1)], size(id) - place(1)))) return ! not going round
+      face = named_face(e, s, place(1), outward)
+   end subroutine compare_corners
+
+   !> Which corner of element E node ID is, the twin of a split node too; 0: none.
+   pure integer function own_corner(model, e, id) result(corner)
+      type(model_type), intent(in) :: model
+      integer, intent(in)          :: e, id
+      integer :: node
+
+      corner = 0
+      node = model%node_table%find(id)
+      if (node == 0) return
+      associate (corners => model%element_nodes(:element_table(model%element_kind(e))%n_corners, e))
+         corner = findloc(corners, node, dim=1)
+         if (corner == 0 .and. model%twin(node) > 0) corner = findloc(corners, model%twin(node), dim=1)
+      end associate
+   end function own_corner
+
+   pure function list_of_numbers(id) result(words)
+      integer, intent(in)       :: id(:)
+      character(:), allocatable :: words
+      integer :: k
+
+      words = integer_text(id(1))
+      do k = 2, size(id)
+         words = words//', '//integer_text(id(k))
+      end do
+   end function list_of_numbers
+
+   !> The sides that PLOAD4, PLOADE and PLOAD cards press on; none of a card in error.
+   subroutine find_pressed_sides(deck, model, pressed)
+      type(checked_deck), intent(in)               :: deck
+      type(model_type), intent(in)                 :: model
+      type(pressed_side), allocatable, intent(out) :: pressed(:)
+      type(id_table_type) :: elements, faces
+      integer :: e, i, n
+
+      allocate (pressed(size(deck%bulk%pressure)))
+      if (size(pressed) == 0) return
+      call elements%build(model%element_id)
+      call faces%build(pack(deck%bulk%element%id, is_face(model, deck%bulk%element)))
+      n = 0
+      do i = 1, size(deck%bulk%pressure)
+         associate (card => deck%bulk%pressure(i))
+            if (card%kind == of_nodes) then
+               call press_on_corners(deck, model, i, pressed, n)
+               cycle
+            end if
+            if (card%first == 0) cycle
+            e = elements%find(card%first)
+            if (card%kind == of_face .and. (card%last > card%first .or. faces%find(card%first) > 0)) then
+               call press_on_marked(deck, model, i, pressed, n)
+            else if (e == 0) then
+               call deck%field_error(card%line, 'EID', 'there is no body element '//integer_text(card%first))
+            else if (element_table(model%element_kind(e))%dimension /= merge(3, 2, card%kind == of_face)) then
+               call deck%field_error(card%line, 'EID', 'element '//integer_text(card%first)//' is a '// &
+                  trim(element_table(model%element_kind(e))%card)// &
+                  trim(merge(': PLOAD4 is for faces of solids', ': PLOADE is for plane edges    ', card%kind == of_face)))
+            else if (any(corners_of(model, e) == 0)) then
+               cycle ! said already
+            else if (card%corners(1) == 0) then
+               if (card%kind == of_face) call deck%field_error(card%line, 'G1', 'blank, expected a corner of the face')
+            else
+               call press_on_side(deck, model, i, e, pressed, n)
+            end if
+         end associate
+      end do
+      pressed = pressed(:n)
+   end subroutine find_pressed_sides
+
+   !> One more pressed side.
+   pure subroutine append(side, pressed, n)
+      type(pressed_side), intent(in)                 :: side
+      type(pressed_side), allocatable, intent(inout) :: pressed(:)
+      integer, intent(inout)                         :: n
+      type(pressed_side), allocatable :: longer(:)
+
+      if (n == size(pressed)) then
+         allocate (longer(2*n + 8))
+         longer(:n) = pressed
+         call move_alloc(longer, pressed)
+      end if
+      n = n + 1
+      pressed(n) = side
+   end subroutine append
+
+   !> Where the direction of the PLOAD4 I points; zero where it has none.
+   subroutine find_direction(deck, model, i, direction)
+      type(checked_deck), intent(in) :: deck
+      type(model_type), intent(in)   :: model
+      integer, intent(in)            :: i
+      real(wp), intent(out)          :: direction(3)
+      integer :: system
+
+      associate (card => deck%bulk%pressure(i))
+         direction = card%direction/max(norm2(card%direction), tiny(1.0_wp))
+         call find_system(deck, card%line, 'CID', card%system, model%systems, system)
+         if (system == 0) return
+         if (model%systems(system)%kind /= rectangular) call deck%field_error(card%line, 'CID', integer_text(card%system)// &
+            ' is not rectangular, but the pressure on a face has one direction all over it')
+         direction = matmul(model%systems(system)%axes, direction)
+      end associate
+   end subroutine find_direction
+
+   !> PLOAD4 I on faces that elements mark, from its EID to its EID2: along the normals of these elements, the right hand round
+   !! their corners, or along its direction.
+   subroutine press_on_marked(deck, model, i, pressed, n)
+      type(checked_deck), intent(in)                 :: deck
+      type(model_type), intent(in)                   :: model
+      integer, intent(in)                            :: i
+      type(pressed_side), allocatable, intent(inout) :: pressed(:)
+      integer, intent(inout)                         :: n
+      type(pressed_side) :: side
+      type(named_face)   :: found
+      integer :: f
+      logical :: any_face
+
+      any_face = .false.
+      associate (card => deck%bulk%pressure(i))
+         if (card%corners(1) > 0) then
+            call deck%field_error(card%line, 'G1', 'element '//integer_text(card%first)//' marks a face; expected a blank, or '// &
+                                  'in EID the solid that the face belongs to')
+            return
+         end if
+         side%card = i
+         call find_direction(deck, model, i, side%direction)
+         do f = 1, size(deck%bulk%element)
+            associate (face => deck%bulk%element(f))
+               if (face%id < card%first .or. face%id > card%last) cycle
+               if (.not. is_face(model, face)) cycle
+               any_face = .true.
+               call find_face(deck, model, card%line, 'EID', face%nodes(:element_table(face%kind)%n_corners), found)
+               if (found%element == 0) cycle
+               side%element = found%element
+               side%side = found%side
+               associate (c => element_table(face%kind)%n_corners)
+                  if (c == 3 .and. abs(card%pressure(4) - card%pressure(1)) > 0.0_wp) then
+                     call no_fourth_corner(deck, card)
+                     return
+                  end if
+                  if (found%outward) then
+                     side%p(:c) = cshift(card%pressure(:c), 1 - found%first)
+                  else
+                     side%p(:c) = cshift(card%pressure(c:1:-1), -found%first)
+                  end if
+                  if (found%outward .and. norm2(side%direction) <= 0.0_wp) side%p = -side%p
+                  call append(side, pressed, n)
+               end associate
+            end associate
+         end do
+         if (.not. any_face) call deck%field_error(card%line, 'EID', 'no element from '//integer_text(card%first)//' to '// &
+            integer_text(card%last)//' marks a face of a solid; THRU is for CTRIA3 and CQUAD4 with a PMARK')
+      end associate
+   end subroutine press_on_marked
+
+   !> PLOAD I, on the face with its corners.
+   subroutine press_on_corners(deck, model, i, pressed, n)
+      type(checked_deck), intent(in)                 :: deck
+      type(model_type), intent(in)                   :: model
+      integer, intent(in)                            :: i
+      type(pressed_side), allocatable, intent(inout) :: pressed(:)
+      integer, intent(inout)                         :: n
+      type(named_face) :: face
+
+      associate (card => deck%bulk%pressure(i))
+         if (any(card%corners(:3) == 0)) return ! said already
+         call find_face(deck, model, card%line, 'G1', card%corners(:merge(4, 3, card%corners(4) > 0)), face)
+         if (face%element == 0) return
+         call append(pressed_side(card=i, element=face%element, side=face%side, &
+                                  p=merge(-card%pressure, card%pressure, face%outward)), pressed, n)
+      end associate
+   end subroutine press_on_corners
+
+   subroutine no_fourth_corner(deck, card)
+      type(checked_deck), intent(in)  :: deck
+      type(pressure_card), intent(in) :: card
+
+      call deck%field_error(card%line, 'P4', 'a triangular face has no fourth corner, expected a blank or P1')
+   end subroutine no_fourth_corner
+
+   !> PLOAD4 or PLOADE I, on the side of element E that it names by corners.
+   subroutine press_on_side(deck, model, i, e, pressed, n)
+      type(checked_deck), intent(in)                 :: deck
+      type(model_type), intent(in)                   :: model
+      integer, intent(in)                            :: i, e
+      type(pressed_side), allocatable, intent(inout) :: pressed(:)
+      integer, intent(inout)                         :: n
+      type(pressed_side) :: new
+      integer :: c, first, side
+
+      associate (card => deck%bulk%pressure(i), kind => element_table(model%element_kind(e)))
+         call find_side(deck, model, card, e, side, first)
+         if (side == 0) return
+         c = kind%side_corners(side)
+         if (c == 3 .and. abs(card%pressure(4) - card%pressure(1)) > 0.0_wp) then
+            call no_fourth_corner(deck, card)
+            return
+         end if
+         new%card = i
+         new%element = e
+         new%side = side
+         new%p(:c) = cshift(card%pressure(:c), 1 - first)
+         if (card%kind == of_face) call find_direction(deck, model, i, new%direction)
+         call append(new, pressed, n)
+      end associate
+   end subroutine press_on_side
+
+   !> The SIDE of element E that the CARD names by its corners, 0 and an error for none; FIRST is the position of G1 on it.
+   subroutine find_side(deck, model, card, e, side, first)
+      type(checked_deck), intent(in)  :: deck
+      type(model_type), intent(in)    :: model
+      type(pressure_card), intent(in) :: card
+      integer, intent(in)             :: e
+      integer, intent(out)            :: side, first
+      character(:), allocatable :: expected
+      integer :: corner(2), k
+      logical :: fits, on_face
+
+      on_face = card%kind == of_face
+      first = 0
+      corner = 0
+      do k = 1, 2
+         if (card%corners(k) == 0) cycle
+         corner(k) = own_corner(model, e, card%corners(k))
+         if (corner(k) > 0) cycle
+         call deck%field_error(card%line, trim(merge('G1 ', merge('G34', 'G2 ', on_face), k == 1)), 'node '// &
+            integer_text(card%corners(k))//' is no corner of element '//integer_text(card%first))
+         side = 0
+         return
+      end do
+      associate (kind => element_table(model%element_kind(e)))
+         do side = 1, kind%n_sides
+            associate (own => kind%side_nodes(:kind%side_corners(side), side))
+               if (all(own /= corner(1))) cycle
+               select case (kind%linear)
+               case (kind_tetra4)            ! G4 is the corner that the face does not have
+                  fits = corner(2) > 0 .and. all(own /= corner(2))
+               case (kind_hexa8, kind_penta6)
+                  if (size(own) == 3) then
+                     fits = corner(2) == 0
+                  else                       ! G3 is opposite to G1
+                     fits = own(modulo(findloc(own, corner(1), dim=1) + 1, 4) + 1) == corner(2)
+                  end if
+               case default
+                  fits = any(own == corner(2)) .and. corner(1) /= corner(2)
+               end select
+               if (.not. fits) cycle
+            end associate
+            first = findloc(kind%side_nodes(:, side), corner(1), dim=1)
+            return
+         end do
+      end associate
+      side = 0
+      select case (element_table(model%element_kind(e))%linear)
+      case (kind_tetra4)
+         expected = 'expected in G1 a corner of the face and in G4 the corner that it does not have'
+      case (kind_hexa8)
+         expected = 'expected in G1 and G3 two opposite corners of a face'
+      case (kind_penta6)
+         expected = 'expected two opposite corners of a quadrilateral face, or in G1 alone a corner of a triangular one'
+      case default
+         expected = 'expected the two ends of an edge'
+      end select
+      call deck%field_error(card%line, 'G1', 'no side of element '//integer_text(card%first)//' has these corners; '//expected)
+   end subroutine find_side
+
+   !> Add to FORCE the nodal forces of FACTOR times the pressure on one side, in the middle between two corners their mean.
+   !! Errors: none. Source: side_forces, side_tractions.
+   pure subroutine add_pressure(model, pressed, factor, force)
+      type(model_type), intent(in)   :: model
+      type(pressed_side), intent(in) :: pressed
+      real(wp), intent(in)           :: factor
+      real(wp), intent(inout)        :: force(:, :)       !! (3, n_nodes) [force]
+      real(wp) :: f(model%dimension, max_side_nodes), at_nodes(max_side_nodes)
+
+      associate (kind => element_table(model%element_kind(pressed%element)), e => pressed%element, d => model%dimension)
+         associate (c => kind%side_corners(pressed%side))
+            at_nodes(:c) = factor*pressed%p(:c)
+            at_nodes(c + 1:2*c) = 0.5_wp*(at_nodes(:c) + cshift(at_nodes(:c), 1))
+         end associate
+         associate (nodes => model%element_nodes(kind%side_nodes(:kind%side_size(pressed%side), pressed%side), e), &
+                    property => model%properties(max(1, model%element_property(e))))
+            if (norm2(pressed%direction) > 0.0_wp) then
+               call side_tractions(property%state, property%thickness, model%x(:d, nodes), at_nodes(:size(nodes)), &
+                                   pressed%direction(:d), f)
+            else
+               call side_forces(property%state, property%thickness, model%x(:d, nodes), at_nodes(:size(nodes)), f)
+            end if
+            force(:d, nodes) = force(:d, nodes) + f(:, :size(nodes))
+            call add_section_share(model, e, nodes, f, force)
+         end associate
+      end associate
+   end subroutine add_pressure
+
+end module pressure_loads

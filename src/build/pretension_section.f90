@@ -1,0 +1,168 @@
+!> Solid bolts: BOLT cards that name a marked surface inside a body, the section at which it is cut.
+module pretension_section
+   use bulk_data, only: bolt_card
+   use deck_check, only: checked_deck
+   use element_kinds, only: max_side_nodes
+   use kinds, only: wp
+   use model_data, only: model_type, section_type
+   use node_build, only: append_node
+   use spring_build, only: find_stage
+   use surface_build, only: find_surface, side_influence, surface_node_list, surface_nodes
+   use surface_sides, only: elements_behind, list_sides, side_list, turn_side
+   use text_tools, only: integer_text
+   implicit none
+   private
+
+   public :: build_sections
+
+   real(wp), parameter :: even = 1.0e-3_wp  ! of its size: how far the nodes of a section may lie out of its plane
+
+contains
+
+   !> Fill the sections of MODEL and append their nodes.
+   subroutine build_sections(deck, model)
+      type(checked_deck), intent(in)  :: deck
+      type(model_type), intent(inout) :: model
+      integer :: i, k, n
+
+      n = count(deck%bulk%bolt%surface > 0)
+      if (n == 0) return
+      allocate (model%sections(n))
+      allocate (model%node_section(model%n_nodes), model%element_section(model%n_elements), source=0)
+      k = 0
+      do i = 1, size(deck%bulk%bolt)
+         if (deck%bulk%bolt(i)%surface <= 0) cycle
+         k = k + 1
+         call build_section(deck, deck%bulk%bolt(i), k, model)
+      end do
+      if (all(model%sections%point > 0)) call append_section_nodes(model) ! if not, there are errors
+   end subroutine build_sections
+
+   !> Section K from its CARD: which way it faces, and which elements are behind it.
+   subroutine build_section(deck, card, k, model)
+      type(checked_deck), intent(in)  :: deck
+      type(bolt_card), intent(in)     :: card
+      integer, intent(in)             :: k
+      type(model_type), intent(inout) :: model
+      type(surface_node_list) :: list
+      real(wp), allocatable   :: centroid(:)
+      character(:), allocatable :: fault
+      integer :: s
+
+      model%sections(k)%bolt = card%id
+      model%sections(k)%surface = card%surface
+      model%sections(k)%preload = card%preload
+      call find_stage(deck, card, model%sections(k)%stage)
+      call find_surface(deck, card%line, 'PMARK', card%surface, model, s)
+      if (s == 0) return
+      if (model%surfaces(s)%n == 0) return ! said already
+      fault = ''
+      if (model%surfaces(s)%was_split) then
+         fault = 'is split by a JOINT: a bolt is cut at a surface inside its body'
+      else if (any(model%surfaces(s)%other(:model%surfaces(s)%n) == 0)) then
+         fault = 'lies on the outside of a body: expected elements on both sides of it'
+      else
+         call face_as_the_first(model, s, model%sections(k))
+         if (model%sections(k)%area <= 0.0_wp) return ! a body without its property: said already
+         call surface_nodes(model, model%surfaces(s), list)
+         allocate (centroid, source=matmul(model%x(:, list%node), list%area)/sum(list%area))
+         fault = not_flat(model, model%sections(k), list, centroid)
+      end if
+      if (fault == '') call find_elements_behind(model, s, k, fault)
+      if (fault /= '') call deck%field_error(card%line, 'PMARK', 'surface '//integer_text(card%surface)//' '//fault)
+   end subroutine build_section
+
+   !> Turn the sides of surface S round that face against its first; their mean normal gives SECTION its direction and area.
+   pure subroutine face_as_the_first(model, s, section)
+      type(model_type), intent(inout)   :: model
+      integer, intent(in)               :: s
+      type(section_type), intent(inout) :: section
+      real(wp) :: area(max_side_nodes), normal(3, max_side_nodes), own(3), total(3)
+      integer  :: i
+
+      section%area = 0.0_wp
+      total = 0.0_wp
+      do i = 1, model%surfaces(s)%n
+         call side_influence(model, model%surfaces(s), i, area, normal)
+         own = sum(normal, dim=2)
+         associate (surface => model%surfaces(s))
+            if (dot_product(own, total) < 0.0_wp) then
+               call turn_side(surface, i)
+               own = -own
+            end if
+         end associate
+         total = total + own
+         section%area = section%area + sum(area)
+      end do
+      section%direction = -total/max(norm2(total), tiny(1.0_wp))
+   end subroutine face_as_the_first
+
+   !> Why a surface with the nodes of LIST is no plane section; empty where it is one.
+   pure function not_flat(model, section, list, centroid) result(fault)
+      type(model_type), intent(in)        :: model
+      type(section_type), intent(in)      :: section
+      type(surface_node_list), intent(in) :: list
+      real(wp), intent(in)                :: centroid(3)
+      character(:), allocatable           :: fault
+      real(wp) :: out, size_of_it
+      integer  :: i
+
+      fault = ''
+      if (model%axisymmetric .and. abs(section%direction(1)) > even) then
+         fault = 'is not across the axis: in an axisymmetric model a bolt is cut at a plane y = constant'
+         return
+      end if
+      size_of_it = maxval([(norm2(model%x(:, list%node(i)) - centroid), i = 1, list%n)])
+      do i = 1, list%n
+         out = abs(dot_product(model%x(:, list%node(i)) - centroid, section%direction))
+         if (out <= even*size_of_it) cycle
+         fault = 'is not plane: node '//integer_text(model%node_id(list%node(i)))//' lies out of its mean plane'
+         return
+      end do
+   end function not_flat
+
+   !> The elements behind section K, which is surface S: at each node those that hang together with the
+   !! back of a side without crossing the surface.
+   subroutine find_elements_behind(model, s, k, fault)
+      type(model_type), intent(inout)        :: model
+      integer, intent(in)                    :: s, k
+      character(:), allocatable, intent(out) :: fault !! empty: none
+      type(side_list)      :: at
+      integer, allocatable :: behind(:)
+      integer :: i
+
+      fault = ''
+      call list_sides(model%surfaces(s), at)
+      do i = 1, at%n
+         associate (node => at%node(i))
+            call elements_behind(model, s, at, i, behind)
+            if (size(behind) == 0) then
+               fault = 'ends inside the body at node '//integer_text(model%node_id(node))// &
+                       ': expected its border on the outside of the body, which is not cut through'
+            else if (model%node_section(node) > 0) then
+               fault = 'meets the section of BOLT '//integer_text(model%sections(model%node_section(node))%bolt)// &
+                       ' at node '//integer_text(model%node_id(node))
+            else if (any(model%element_section(behind) > 0 .and. model%element_section(behind) /= k)) then
+               fault = 'is as near to the section of another BOLT as one element, at node '//integer_text(model%node_id(node))
+            end if
+            if (fault /= '') return
+            model%node_section(node) = k
+            model%element_section(behind) = k
+         end associate
+      end do
+      model%sections(k)%point = at%node(1)
+   end subroutine find_elements_behind
+
+   !> Append a node for every section, behind all others: its first component free. Its elements are those behind the section.
+   subroutine append_section_nodes(model)
+      type(model_type), intent(inout) :: model
+      integer :: e, k
+
+      do k = 1, size(model%sections)
+         call append_node(model, model%x(:, model%sections(k)%point), [.true., spread(.false., 1, model%dimension - 1)], &
+                          pack([(e, e = 1, model%n_elements)], model%element_section == k))
+         model%sections(k)%node = model%n_nodes
+      end do
+   end subroutine append_section_nodes
+
+end module pretension_section

@@ -1,0 +1,194 @@
+!> What a deck written for NASTRAN holds besides: entries that ask for output, choose a way of solving or belong to what nothing
+!! uses. They are read and have no effect; what would change an answer is not among them.
+!!
+!! Lines of case control that are none of the program's own keys, but NASTRAN's; and ECHO, which it has in more words.
+module nastran_compatibility
+   use case_entries, only: choose, entry_type, value_error
+   use deck_errors, only: deck_error_list
+   use entry_tally, only: entry_tally_type
+   use field_rules, only: parse_integer, parse_real
+   use kinds, only: wp
+   use text_tools, only: upper
+   implicit none
+   private
+
+   public :: control_habit, is_idle_card, take_parameter, read_habit, read_echo
+
+   !> What the PARAMs of a deck ask for.
+   type, public :: parameters_type
+      real(wp) :: mass_factor = 1.0_wp        !! WTMASS: densities are multiplied by it
+      real(wp) :: damping = 0.0_wp            !! G: overall structural damping [-]
+      integer  :: mass_line = 0               !! of COUPMASS, 0: not given
+      logical  :: lumped = .false.            !! COUPMASS below 1
+      logical  :: is_structural = .false.     !! KDAMP = -1: damping of SDAMPING is structural
+   end type parameters_type
+
+   real(wp), parameter     :: all_frequencies = 1.0e30_wp ! HFREQ of NASTRAN where it is not given
+   character(*), parameter :: which_modes = 'expected none: V1, V2 and ND of EIGRL say which modes take part'
+
+   ! of the executive control and of the case control
+   character(12), parameter :: control_words(63) = [character(12) :: &
+      'ID', 'TIME', 'NASTRAN', 'INIT', 'ASSIGN', 'DIAG', 'GEOMCHECK', 'ECHOON', 'ECHOOFF', 'SUBTITLE', 'LINE', &
+      'MAXLINES', 'PAGE', 'POST', 'ELSUM', 'GROUNDCHECK', 'WEIGHTCHECK', 'AUTOSPC', 'NLPARM', 'NLSTRESS', 'DISPLACEMENT', &
+      'VECTOR', 'SVECTOR', 'VELOCITY', 'ACCELERATION', 'STRESS', 'ELSTRESS', 'STRAIN', 'ELSTRAIN', 'FORCE', 'ELFORCE', &
+      'SPCFORCES', 'MPCFORCES', 'OLOAD', 'GPFORCE', 'GPSTRESS', 'GPSTRAIN', 'GPSDCON', 'ELSDCON', 'GPKE', 'ESE', 'EKE', &
+      'EDE', 'STRFIELD', 'SURFACE', 'VOLUME', 'BOUTPUT', 'DATAREC', 'THERMAL', 'FLUX', 'HOUTPUT', 'ENTHALPY', 'MEFFMASS', &
+      'MODALKE', 'OTIME', 'OFREQUENCY', 'OMODES', 'PLOTID', 'SETP', 'XYPLOT', 'XYPRINT', 'SEALL', 'VUGRID']
+   ! of the bulk data: plots, and properties and materials of elements that there are none of
+   character(8), parameter :: card_names(42) = [character(8) :: &
+      'PLOTEL', 'PLOTEL3', 'PLOTEL4', 'PLOTEL6', 'PLOTEL8', 'ECHOON', 'ECHOOFF', 'NLPARM', 'PBAR', 'PBARL', 'PBEAM', &
+      'PBEAML', 'PBCOMP', 'PBEND', 'PBUSH1D', 'PCOMP', 'PCOMPG', 'PCOMPS', 'PDAMP', 'PFAST', 'PGAP', 'PLPLANE', 'PLSOLID', &
+      'PMASS', 'PRAC2D', 'PRAC3D', 'PSHEAR', 'PTUBE', 'PVISC', 'PWELD', 'BAROR', 'BEAMOR', 'MAT2', 'MAT3', 'MAT8', 'MAT9', &
+      'MAT10', 'MAT11', 'TABLEM1', 'MDLPRM', 'ABSNMVS', 'ABSTRCT']
+
+contains
+
+   !> The word of case control without effect that KEY is, four letters of it or more; empty: none.
+   pure function control_habit(key) result(word)
+      character(*), intent(in)  :: key !! in capitals
+      character(:), allocatable :: word
+      integer :: i
+
+      word = ''
+      do i = 1, size(control_words)
+         if (control_words(i) == key .or. (len(key) >= 4 .and. index(control_words(i), key) == 1)) exit
+      end do
+      if (i <= size(control_words)) word = trim(control_words(i))
+   end function control_habit
+
+   !> Whether a card of bulk data has no effect, by its NAME.
+   pure logical function is_idle_card(name)
+      character(*), intent(in) :: name
+
+      is_idle_card = any(card_names == name)
+   end function is_idle_card
+
+   !> Take the PARAM called NAME with this VALUE on LINE into PARAMETERS, or among the entries without effect, IDLE. Where it asks for
+   !! another answer, or its value is wrong, EXPECTED says what of it would be understood.
+   pure subroutine take_parameter(name, value, line, parameters, idle, expected)
+      character(*), intent(in)               :: name, value !! in capitals, no blanks in front
+      integer, intent(in)                    :: line
+      type(parameters_type), intent(inout)   :: parameters
+      type(entry_tally_type), intent(inout)  :: idle
+      character(:), allocatable, intent(out) :: expected
+      real(wp) :: x
+      integer  :: number
+      logical  :: is_integer, is_real
+
+      expected = ''
+      call parse_integer(value, number, is_integer)
+      call parse_real(value, x, is_real)
+      if (is_integer) x = real(number, wp)
+      select case (name)
+      case ('WTMASS')
+         if (is_real) is_real = x > 0.0_wp
+         if (is_real) parameters%mass_factor = x
+         if (.not. is_real) expected = 'a real number above 0: densities are multiplied by it'
+      case ('G')
+         if (is_real) is_real = x >= 0.0_wp
+         if (is_real) parameters%damping = x
+         if (.not. is_real) expected = 'a real number of at least 0, the structural damping of everything'
+         call idle%wait('PARAM G', line, needs_response=.false.)
+      case ('COUPMASS')
+         parameters%lumped = number < 1
+         parameters%mass_line = line
+         if (.not. is_integer) expected = 'an integer: above 0 consistent mass, else lumped mass'
+         call idle%wait('PARAM COUPMASS', line, needs_response=.false.)
+      case ('KDAMP')
+         parameters%is_structural = number == -1
+         if (.not. is_integer .or. abs(number) /= 1) expected = '1, SDAMPING is viscous, or -1, it is structural'
+         call idle%wait('PARAM KDAMP', line, needs_response=.true.)
+      case ('ALPHA1', 'ALPHA2')
+         call idle%wait('PARAM '//name, line, needs_response=.true., refusal=refusal(abs(x) <= 0.0_wp, &
+            'expected 0.0: damping is SDAMPING, AMPLITUDE, PARAM G and GE of MAT1'))
+      case ('LMODES', 'LFREQ')
+         call idle%wait('PARAM '//name, line, needs_response=.true., refusal=refusal(abs(x) <= 0.0_wp, which_modes))
+      case ('HFREQ')
+         call idle%wait('PARAM '//name, line, needs_response=.true., refusal=refusal(x >= all_frequencies, which_modes))
+      case default
+         if (name == 'INREL' .and. (.not. is_integer .or. number /= 0)) then
+            expected = '0: bodies without supports are not held by their inertia here'
+         else if (name == 'LGDISP' .and. (.not. is_integer .or. number > 0)) then
+            expected = '-1 or 0: displacements are small here'
+         else
+            call idle%add('PARAM '//name)
+         end if
+      end select
+
+   contains
+
+      !> Why the value is refused, empty where it is that of a PARAM that is not given.
+      pure function refusal(is_default, words)
+         logical, intent(in)       :: is_default
+         character(*), intent(in)  :: words
+         character(:), allocatable :: refusal
+
+         refusal = ''
+         if (.not. is_default .or. .not. (is_integer .or. is_real)) refusal = words
+      end function refusal
+
+   end subroutine take_parameter
+
+   !> What a line says that is none of the program's own keys: it has no effect, or is not known.
+   subroutine read_habit(entry, parameters, idle, errors)
+      type(entry_type), intent(in)           :: entry
+      type(parameters_type), intent(inout)   :: parameters
+      type(entry_tally_type), intent(inout)  :: idle        !! entries without effect
+      type(deck_error_list), intent(inout)   :: errors
+      integer :: choice
+
+      choice = 0
+      select case (entry%key)
+      case ('INCLUDE', 'CEND') ! lines of an INCLUDE file follow in the deck text; CEND is the end of NASTRAN's executive control
+      case ('APP', 'ANALYSIS')
+         call choose(entry, '|STATICS|STATIC|DISP|DISPLACEMENT|', choice, errors)
+         call idle%add(entry%key)
+      case ('PARAM')
+         call read_parameter(entry, parameters, idle, errors)
+      case default
+         if (control_habit(entry%key) /= '') then
+            call idle%add(control_habit(entry%key))
+         else
+            call errors%add(entry%line, ''''//entry%key(:min(40, len(entry%key)))//''' is no key of case control; '// &
+                            'expected TITLE, UNITS, METHOD, TOL, PRESSURE, CARRY, AVERAGE, SOLVER, MASS, RESTART, ECHO, SPC, '// &
+                            'MPC, SUBCASE, LABEL, LOAD, TEMPERATURE(LOAD), INCR, OUTPUT, MODES, STIFFNESS, AMPLITUDE, '// &
+                            'FREQUENCY, DLOAD, SDAMPING, RESPONSE or BEGIN BULK')
+         end if
+      end select
+   end subroutine read_habit
+
+   !> 'PARAM,POST,-1' in case control.
+   subroutine read_parameter(entry, parameters, idle, errors)
+      type(entry_type), intent(in)           :: entry
+      type(parameters_type), intent(inout)   :: parameters
+      type(entry_tally_type), intent(inout)  :: idle        !! entries without effect
+      type(deck_error_list), intent(inout)   :: errors
+      character(:), allocatable :: expected, name, value
+      integer :: comma
+
+      value = upper(adjustl(entry%value))
+      if (index(value, ',') == 1) value = adjustl(value(2:))
+      comma = scan(value//',', ', ')
+      name = value(:comma - 1)
+      value = trim(adjustl(value(min(comma + 1, len(value) + 1):)))
+      call take_parameter(name, value, entry%line, parameters, idle, expected)
+      if (expected /= '') then
+         call errors%add(entry%line, 'PARAM '//name//': '''//value//''', expected '//expected, entry%first, entry%last)
+      end if
+   end subroutine read_parameter
+
+   !> ECHO = NO or NONE, or any of the words by which NASTRAN prints the deck, in whatever order, to whatever file.
+   subroutine read_echo(entry, is_on, errors)
+      type(entry_type), intent(in)         :: entry
+      logical, intent(out)                 :: is_on
+      type(deck_error_list), intent(inout) :: errors
+      character(*), parameter :: off = '|NO|NONE|', on = '|YES|BOTH|SORT|UNSORT|PUNCH|FILE|'
+      character(:), allocatable :: word
+
+      word = '|'//upper(entry%value(:scan(entry%value//',', ' ,(') - 1))//'|'
+      if (word == '||' .or. index(off//on, word) == 0) call value_error(entry, 'YES or NO, or NASTRAN''s BOTH, SORT, UNSORT, '// &
+                                                                        'PUNCH or NONE', errors)
+      is_on = index(off, word) == 0
+   end subroutine read_echo
+
+end module nastran_compatibility

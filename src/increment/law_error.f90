@@ -1,0 +1,145 @@
+!> How far STEP is from its own laws: beside its states the exact laws are followed along the same movements, increment by increment.
+!! In the normal direction it is A_i B_i of Fig. 3, the distance of the deflections at one pressure; in shear that of the stresses at
+!! one deflection.
+!!
+!! Tangent stiffness of the interface elements in the state that the last increment has left, whatever the method.
+module law_error
+   use analysis_state, only: analysis_type
+   use case_control, only: method_back, method_newton
+   use joint_laws, only: element_state, element_stiffness_of, follow_element, rest_when_open
+   use kinds, only: wp
+   use model_data, only: model_type
+   use normal_stiffness, only: law_deflection
+   implicit none
+   private
+
+   public :: follow_laws, normal_distance, shear_distance, tangents_now
+
+   real(wp), parameter :: noise = 1.0e-9_wp !! of the largest value so far: nothing is measured by less
+
+   !> The element of a joint that is farthest from its law.
+   type, public :: distance_type
+      logical  :: is_there = .false.           !! whether the joint has any such deflection or stress
+      integer  :: element = 0, direction = 3
+      real(wp) :: share = 0.0_wp               !! |actual - by_law| of the largest one of the joint
+      real(wp) :: actual = 0.0_wp, by_law = 0.0_wp !! lambda [length] or tau [pressure]
+   end type distance_type
+
+contains
+
+   !> Follow the laws along the increment just completed; nothing where the method is not STEP.
+   pure subroutine follow_laws(model, analysis)
+      type(model_type), intent(in)       :: model
+      type(analysis_type), intent(inout) :: analysis
+      type(element_state) :: after
+      real(wp) :: tangent(3, 3), work(3)
+      integer  :: i
+
+      if (.not. allocated(analysis%exact)) return
+      do i = 1, size(model%interface)
+         call follow_element(model%joints(model%interface(i)%joint)%law, model%interface(i)%area, analysis%exact(i), &
+                             analysis%movement(:, i), after, tangent, work)
+         call rest_when_open(after, analysis%movement(:, i))
+         analysis%exact(i) = after
+      end do
+   end subroutine follow_laws
+
+   !> Where joint J is farthest from its normal law: lambda from that of the law at the same pressure.
+   pure type(distance_type) function normal_distance(model, analysis, j) result(farthest)
+      type(model_type), intent(in)    :: model
+      type(analysis_type), intent(in) :: analysis
+      integer, intent(in)             :: j
+
+      real(wp), allocatable :: by_law(:)
+      integer :: i
+
+      associate (first => model%joints(j)%first, last => model%joints(j)%last, lambda => analysis%states%normal%lambda)
+         allocate (by_law(last - first + 1))
+         do i = first, last
+            by_law(i - first + 1) = deflection_of_law(model, analysis, i)
+         end do
+         farthest = distance_of(lambda(first:last), by_law, maxval(lambda(first:last)), noise*analysis%largest_lambda)
+         farthest%element = first + farthest%element - 1
+      end associate
+   end function normal_distance
+
+   !> lambda of the law of interface element I at its computed pressure. Where that is zero, the law has none at any lambda below the
+   !! one at which its branch ends [length].
+   pure real(wp) function deflection_of_law(model, analysis, i) result(by_law)
+      type(model_type), intent(in)    :: model
+      type(analysis_type), intent(in) :: analysis
+      integer, intent(in)             :: i
+      real(wp) :: p
+
+      p = analysis%states(i)%normal%pressure
+      if (p <= noise*analysis%largest_p) p = 0.0_wp
+      by_law = law_deflection(model%joints(model%interface(i)%joint)%law%normal, analysis%exact(i)%normal, p)
+      if (.not. p > 0.0_wp) by_law = min(by_law, analysis%states(i)%normal%lambda)
+   end function deflection_of_law
+
+   !> Likewise from its shear laws, tau from that of the law at the same deflection, in the direction where that is most.
+   pure type(distance_type) function shear_distance(model, analysis, j) result(farthest)
+      type(model_type), intent(in)    :: model
+      type(analysis_type), intent(in) :: analysis
+      integer, intent(in)             :: j
+      type(distance_type) :: found
+      integer :: k
+
+      associate (first => model%joints(j)%first, last => model%joints(j)%last)
+         do k = 1, 2
+            if (.not. model%joints(j)%law%shear(k)%given) cycle
+            found = distance_of(analysis%states(first:last)%shear(k)%tau, analysis%exact(first:last)%shear(k)%tau, &
+                                maxval(abs(analysis%states(first:last)%shear(k)%tau)), noise*analysis%largest_p)
+            if (.not. found%is_there .or. (farthest%is_there .and. found%share <= farthest%share)) cycle
+            farthest = found
+            farthest%direction = k
+            farthest%element = first + found%element - 1
+         end do
+      end associate
+   end function shear_distance
+
+   !> The largest difference between ACTUAL and BY_LAW, measured by LARGEST if that is above FLOOR; of values that rounding alone
+   !! tells apart the first counts.
+   pure type(distance_type) function distance_of(actual, by_law, largest, floor) result(farthest)
+      real(wp), intent(in) :: actual(:), by_law(:), largest, floor
+      integer  :: i
+
+      farthest%element = 1
+      farthest%is_there = largest > floor
+      if (.not. farthest%is_there) return
+      do i = 1, size(actual)
+         if (abs(actual(i) - by_law(i)) > (farthest%share + noise)*largest) then
+            farthest%element = i
+            farthest%share = abs(actual(i) - by_law(i))/largest
+         end if
+      end do
+      farthest%actual = actual(farthest%element)
+      farthest%by_law = by_law(farthest%element)
+   end function distance_of
+
+   !> (3, n): k_sx, k_sy, k_n of every interface element [force/length]. STEP: those of its next increment; NEWTON: those of the
+   !! equilibrium; BACK: the slopes of the loading curves where its secants end. None along the joint where the element slips.
+   pure function tangents_now(model, analysis, method) result(k)
+      type(model_type), intent(in)    :: model
+      type(analysis_type), intent(in) :: analysis
+      integer, intent(in)             :: method !! of case control
+      real(wp) :: k(3, size(model%interface))
+      type(element_state) :: state
+      integer :: i
+
+      do i = 1, size(model%interface)
+         state = analysis%states(i)
+         select case (method)
+         case (method_newton)
+            k(:, i) = [state%shear%k_s, state%normal%k_n]
+         case (method_back)
+            call element_stiffness_of(model%joints(model%interface(i)%joint)%law, model%interface(i)%area, .false., &
+                                      analysis%movement(:, i), state, k(:, i))
+         case default
+            k(:, i) = analysis%k(:, i)
+         end select
+         if (state%slips) k(:2, i) = 0.0_wp
+      end do
+   end function tangents_now
+
+end module law_error

@@ -1,0 +1,166 @@
+!> Whether the branches of a shear law close a loop: loaded to d under a constant pressure, unloaded until tau is gone and reloaded
+!! to d, how far the stress then is from the one that was left. Cycles under one load creep by what is missing.
+!!
+!! What a joint loses in shear when it oscillates about the state that it is in, one direction of one interface element.
+!!
+!! The skeleton curve is the loading curve from rest at the present pressure, up to its peak, where its slope is zero, or to the Coulomb
+!! limit, whichever comes first; from there on it is constant:
+!!
+!!    tau(d) = a_1 d + a_2 d**2 + a_3 d**3   d <= d_e,      tau(d) = tau(d_e)   beyond
+!!
+!! Masing's rule: both branches of the loop of amplitude d are the skeleton doubled in both directions, begun at the turning point:
+!!
+!!    tau = -+ tau(d) +- 2 tau((d +- x)/2)
+!!
+!! Between them lies 8 W(d) - 4 tau(d) d, W the integral of the skeleton from 0 to d: what one cycle loses. For the cubic alone that is
+!! -(4/3) a_2 d**3 - 2 a_3 d**4, nothing for a law that is a line; where the skeleton is constant from d_e on, that of d_e and
+!! 4 tau(d_e) (d - d_e).
+!!
+!! A curve that hardens (a_2 > 0) has its doubled branches on the wrong side of each other, the one of loading below the one of
+!! relief: the rule gives a loss below zero, work that the joint would do for ever. No joint does; the rule does not hold for such a
+!! curve, and the loss is taken as zero. A curve that hardens first and softens later loses from the amplitude on at which the softening
+!! outweighs.
+!! Source: G. Masing, Proc. 2nd Int. Congress of Applied Mechanics, Zurich 1926, p. 332.
+!!
+!! What an interface element resists small oscillation about its present state with. Oscillation turns back all the time: where the
+!! joint has been loaded it unloads first, and goes to and fro on its unloading branches, stiffer than it was on the way there. So the
+!! joint of a structure that shakes is that of unloading, E_u and the slope that the shear unloading branch begins with; the tangent
+!! of loading is what a slowly growing load sees. An element that stands apart has neither.
+module shear_loops
+   use branch_cubic, only: cubic, cubic_loop, cubic_secant, cubic_slope, cubic_value, slope_on_way, value_on_way
+   use joint_laws, only: element_state, joint_law
+   use kinds, only: wp
+   use normal_curve, only: normal_tangent
+   use normal_stiffness, only: touches
+   use numbers, only: find_zeros, zero_list
+   use shear_stiffness, only: curve_deflection, shear_law
+   implicit none
+   private
+
+   public :: closure_at, worst_closure, loop_loss, skeleton_end, oscillation_stiffness
+
+   real(wp), parameter, public :: wide_gap = 0.05_wp !! that is warned of
+
+   integer, parameter  :: divisions = 20        ! of the tested range
+   real(wp), parameter :: alike = 1.0e-9_wp     ! gaps of loops that rounding alone tells apart: the first counts
+
+   !> The gap of a loop and where it is.
+   type, public :: loop_closure
+      logical  :: is_known = .false.            !! whether any loop is unloaded to tau = 0 on B
+      real(wp) :: share = 0.0_wp                !! |tau of C at d_r - tau_r|/tau_r
+      real(wp) :: p = 0.0_wp, d = 0.0_wp        !! [pressure], [length]; D = 0: of the smallest loops
+   end type loop_closure
+
+   real(wp), parameter, public :: no_limit = huge(1.0_wp) !! of a joint without friction
+
+contains
+
+   !> The widest gap over the tested range; without a largest pressure at P_AV, without a largest deflection of the smallest loops.
+   pure type(loop_closure) function worst_closure(law, p_av) result(worst)
+      type(shear_law), intent(in) :: law
+      real(wp), intent(in)        :: p_av !! [pressure]
+      type(loop_closure) :: here
+      real(wp) :: p, d
+      integer  :: i, k
+
+      do i = 1, divisions
+         p = p_av
+         if (law%p_max < huge(1.0_wp)) p = law%p_max*i/divisions
+         do k = 1, divisions
+            d = 0.0_wp
+            if (law%d_max < huge(1.0_wp)) d = law%d_max*k/divisions
+            here = closure_at(law, p, d)
+            if (.not. here%is_known) cycle
+            if (.not. worst%is_known .or. here%share > worst%share + alike) worst = here
+         end do
+      end do
+   end function worst_closure
+
+   !> The gap of the loop to D under the pressure P; of the smallest loops, D = 0, it is that of the first slopes: |c_1/b_1 - 1|.
+   pure type(loop_closure) function closure_at(law, p, d) result(closure)
+      type(shear_law), intent(in) :: law
+      real(wp), intent(in)        :: p    !! [pressure]
+      real(wp), intent(in)        :: d    !! [length]
+      type(zero_list) :: zeros
+      real(wp) :: stress, unloading(0:4), slopes(2)
+
+      closure%p = p
+      closure%d = d
+      if (d <= 0.0_wp) then
+         slopes = [cubic_slope(law%unload, 0.0_wp, p), cubic_slope(law%reload, 0.0_wp, p)]
+         closure%is_known = slopes(1) > 0.0_wp
+         if (closure%is_known) closure%share = abs(slopes(2)/slopes(1) - 1.0_wp)
+         return
+      end if
+      stress = d*cubic_secant(law%load, d, p)
+      if (stress <= 0.0_wp) return
+      unloading = value_on_way(law%unload, [d, -d], [p, 0.0_wp]) ! over f, d falling from d to -d
+      unloading(0) = stress
+      call find_zeros(unloading, 0.0_wp, 2.0_wp, zeros)
+      closure%is_known = zeros%n > 0
+      if (closure%is_known) closure%share = abs((cubic_value(law%reload, d, p) &
+                                                 - cubic_value(law%reload, d*(1.0_wp - zeros%x(1)), p))/stress - 1.0_wp)
+   end function closure_at
+
+   !> What one cycle of shear loses by area of the joint [pressure x length], not below zero.
+   pure real(wp) function loop_loss(loading, p, limit, amplitude) result(loss)
+      type(cubic), intent(in) :: loading   !! curve A of the law
+      real(wp), intent(in)    :: p         !! present pressure, >= 0 [pressure]
+      real(wp), intent(in)    :: limit     !! Coulomb limit mu p, >= 0, or no_limit [pressure]
+      real(wp), intent(in)    :: amplitude !! d of the shear deflection, its sign does not matter [length]
+      real(wp) :: d, reach
+
+      d = abs(amplitude)
+      reach = skeleton_end(loading, p, limit, d)
+      loss = max(0.0_wp, cubic_loop(loading, reach, p) + 4.0_wp*cubic_value(loading, reach, p)*(d - reach))
+   end function loop_loss
+
+   !> d_e up to which the skeleton curve is the loading curve, no more than FAR [length].
+   pure real(wp) function skeleton_end(loading, p, limit, far) result(d)
+      type(cubic), intent(in) :: loading
+      real(wp), intent(in)    :: p, limit !! as above
+      real(wp), intent(in)    :: far      !! >= 0 [length]
+      type(zero_list) :: peaks, meetings
+      real(wp) :: c(0:4)
+
+      d = 0.0_wp
+      if (cubic_slope(loading, 0.0_wp, p) <= 0.0_wp .or. limit <= 0.0_wp) return
+      ! as polynomials in d/far
+      d = far
+      c = slope_on_way(loading, [0.0_wp, far], [p, 0.0_wp])
+      call find_zeros(c(:2), 0.0_wp, 1.0_wp, peaks)
+      if (peaks%n > 0) d = peaks%x(1)*far
+      if (cubic_value(loading, d, p) <= limit) return ! rises as far as that
+      c = value_on_way(loading, [0.0_wp, far], [p, 0.0_wp])
+      c(0) = -limit
+      call find_zeros(c(:3), 0.0_wp, d/far, meetings)
+      if (meetings%n > 0) d = meetings%x(1)*far
+   end function skeleton_end
+
+   !> K = (k_sx, k_sy, k_n) under the present pressure p and shear deflections d [force/length]: E_u a_i and a_i B'(d; p), the slope of
+   !! the unloading cubic; ON_LOADING dp/dlambda a_i and a_i A'(d; p) of the loading curves.
+   pure function oscillation_stiffness(law, area, state, on_loading) result(k)
+      type(joint_law), intent(in)     :: law
+      real(wp), intent(in)            :: area       !! a_i [length^2]
+      type(element_state), intent(in) :: state
+      logical, intent(in)             :: on_loading
+      real(wp) :: k(3)
+      integer  :: i
+
+      k = 0.0_wp
+      if (.not. touches(state%normal)) return
+      associate (p => max(0.0_wp, state%normal%pressure))
+         k(3) = law%normal%e_u*area
+         if (on_loading) k(3) = normal_tangent(law%normal, area, p, state%normal%p_av)
+         do i = 1, 2
+            if (.not. law%shear(i)%given) cycle
+            if (on_loading) then
+               k(i) = area*cubic_slope(law%shear(i)%load, abs(curve_deflection(state%shear(i))), p)
+            else
+               k(i) = area*cubic_slope(law%shear(i)%unload, curve_deflection(state%shear(i)), p)
+            end if
+         end do
+      end associate
+   end function oscillation_stiffness
+
+end module shear_loops
