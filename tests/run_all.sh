@@ -79,6 +79,19 @@ files_for_paraview() {
       "$build/check/column_tetra10.pvd"
 }
 
+# Decks of the fuzzer that have shown an error once, as seed:number
+pairs_once_wrong() {
+   local deck passed=0 failed=0
+   for deck in 1:102 1:3740 1:4498 1:4529; do
+      if tests/pairs/run.sh -s "${deck%:*}" -f "${deck#*:}" -n 1 "$program" "$build/test/pairs-once-wrong" > "$build/test/pairs-once-wrong.log" 2>&1
+      then passed=$((passed + 1))
+      else failed=$((failed + 1)); cat "$build/test/pairs-once-wrong.log"
+      fi
+   done
+   echo "$passed passed, $failed failed"
+   [ $failed -eq 0 ]
+}
+
 part 'decks against their references' tests/check.sh "$program" "$compare" "$build/check"
 everything_so_far
 part 'unit tests' ${MAKE:-make} --no-print-directory -s unit-test
@@ -92,6 +105,7 @@ part 'runs that are killed and go on' tests/restart/run.sh "$program" "$build/re
 part 'decks made at random' tests/fuzz/run.sh -s 1984 -n 2000 -j 1 "$build/test/fuzz" checked="$checked"
 part 'the fuzzer itself' tests/fuzz/selftest.sh
 part 'decks in which every pair of features meets' tests/pairs/run.sh -s 1984 -n 100 "$program" "$build/test/pairs"
+part 'decks of pairs that showed an error once' pairs_once_wrong
 part 'the fuzzer of pairs itself' tests/pairs/selftest.sh "$program" "$build/test/pairs-selftest"
 part 'decks on other processors, built otherwise' tests/processors.sh "$program" "$compare" "$build"
 part 'listings that are the same bytes on other processors' tests/same_bytes.sh "$program" "$build/same-bytes" 47

@@ -6,7 +6,7 @@ module finite_state
    use failures, only: failure_type
    use kinds, only: wp
    use model_data, only: joint_node_id, model_type, n_bars
-   use newton_method, only: no_balance
+   use newton_method, only: idle, no_balance
    use numbers, only: is_measure
    use stage_plan, only: stage_plan_type, where_in_plan
    use text_tools, only: integer_text, real_text
@@ -108,6 +108,7 @@ contains
       if (size(model%interface) == 0) return
       noise = force_noise(system, analysis%u)
       if (noise <= precise*analysis%largest_load) return
+      if (analysis%is_loose .and. analysis%largest_load <= 10.0_wp*idle*analysis%loose_force) return
       if (noise >= analysis%largest_load .and. (analysis%is_moved .or. any(model%interface%gap < 0.0_wp))) return
       call failure%raise(where_in_plan(plan, analysis%stage, analysis%increment)//': '//no_balance//', '//real_text(noise)// &
                          ' of force where '//real_text(analysis%largest_load)//' act: see CONDITION OF THE STIFFNESS in the manual')

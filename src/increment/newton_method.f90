@@ -33,7 +33,7 @@ module newton_method
    integer, parameter  :: most_halvings = 12
    real(wp), parameter :: far_below = 1.0e-3_wp        ! TOL: what is left there is not worth another iteration
    real(wp), parameter :: away = 100.0_wp              ! times what was unbalanced at first: iterations lead away
-   real(wp), parameter :: idle = 10.0_wp*pressure_floor ! of p_av: what interference presses by less, it does not press
+   real(wp), parameter, public :: idle = 10.0_wp*pressure_floor !! of p_av: what interference presses by less, it does not press
 
    !> How the iterations of an attempt go.
    type :: progress_type
@@ -61,6 +61,10 @@ contains
       type(attempt_type) :: attempt
       integer :: before(size(analysis%states))
 
+      if (analysis%is_loose .and. .not. (analysis%moves .or. any(abs(analysis%felt) > 0.0_wp))) then
+         call press_apart(model, analysis, system, failure)
+         return
+      end if
       before = analysis%states%normal%branch
       analysis%tolerance = max(analysis%tolerance, analysis%load_tolerance*free_norm(forces_on_unknowns(model, &
                                analysis%applied), all_held(model, analysis)), tiny(1.0_wp))
@@ -92,23 +96,42 @@ contains
    end subroutine cross_gaps
 
    !> Interference presses before any load: the equilibrium of the structure at rest without load becomes the state that STEP and
-   !! NEWTON start from. Nothing where no joint has a negative gap.
+   !! NEWTON start from. Nothing where no joint has a negative gap. Where nothing presses in it, bodies have been pushed away from all that
+   !! held them, and how far is chance: then the structure stays at rest, and the interference comes with the first load.
    subroutine seat_joints(model, analysis, system, failure)
       type(model_type), intent(in)         :: model
       type(analysis_type), intent(inout)   :: analysis !! at rest
       class(equation_system), intent(inout) :: system
       type(failure_type), intent(inout)    :: failure
-      type(attempt_type) :: attempt
+      type(analysis_type), allocatable :: rest
+      integer :: j
 
       if (failure%raised .or. .not. any(model%interface%gap < 0.0_wp)) return
+      allocate (rest, source=analysis)
+      call press_apart(model, analysis, system, failure)
+      if (analysis%is_loose .and. all([(is_idle(model, analysis, j), j = 1, size(model%joints))])) then
+         rest%is_loose = .true.
+         rest%loose_force = analysis%loose_force
+         analysis = rest
+      end if
+      if (allocated(analysis%exact)) analysis%exact = analysis%states
+   end subroutine seat_joints
+
+   !> The equilibrium of the structure under nothing but interference.
+   subroutine press_apart(model, analysis, system, failure)
+      type(model_type), intent(in)         :: model
+      type(analysis_type), intent(inout)   :: analysis
+      class(equation_system), intent(inout) :: system
+      type(failure_type), intent(inout)    :: failure
+      type(attempt_type) :: attempt
+
       analysis%tolerance = tiny(1.0_wp)
       attempt%seats = .true.
       attempt%seat_force = norm2(pack(analysis%states%normal%p_av*model%interface%area, model%interface%gap < 0.0_wp))
       attempt%where = 'interference (JGAP), before the first load'
       call find_equilibrium(model, analysis, system, attempt, failure)
       call free_idle_joints(model, analysis)
-      if (allocated(analysis%exact)) analysis%exact = analysis%states
-   end subroutine seat_joints
+   end subroutine press_apart
 
    !> Where interference has pushed a body away until it presses no more, its joint has never been pressed, and the body is loose.
    subroutine free_idle_joints(model, analysis)
@@ -119,9 +142,9 @@ contains
       analysis%is_loose = .false.
       analysis%loose_force = 0.0_wp
       do j = 1, size(model%joints)
+         if (.not. is_idle(model, analysis, j)) cycle
          associate (elements => model%interface(model%joints(j)%first:model%joints(j)%last), &
                     states => analysis%states(model%joints(j)%first:model%joints(j)%last)%normal)
-            if (norm2(max(states%pressure, states%p_a)*elements%area) > 10.0_wp*idle*norm2(states%p_av*elements%area)) cycle
             do i = model%joints(j)%first, model%joints(j)%last ! how far they have slid under next to no pressure is chance
                analysis%states(i)%shear = shear_state()
                analysis%states(i)%origin = analysis%movement(:2, i)
@@ -134,6 +157,18 @@ contains
          end associate
       end do
    end subroutine free_idle_joints
+
+   !> Whether JOINT has never borne a force worth the name.
+   pure logical function is_idle(model, analysis, joint)
+      type(model_type), intent(in)    :: model
+      type(analysis_type), intent(in) :: analysis
+      integer, intent(in)             :: joint
+
+      associate (area => model%interface(model%joints(joint)%first:model%joints(joint)%last)%area, &
+                 states => analysis%states(model%joints(joint)%first:model%joints(joint)%last)%normal)
+         is_idle = norm2(max(states%pressure, states%p_a)*area) <= 10.0_wp*idle*norm2(states%p_av*area)
+      end associate
+   end function is_idle
 
    !> Go from equilibrium to equilibrium by ATTEMPTs, each committed where it converges and divided where it does not.
    subroutine find_equilibrium(model, analysis, system, attempt, failure)

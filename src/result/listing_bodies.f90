@@ -19,6 +19,7 @@ module listing_bodies
 
    ! Long tables are written by all threads: blocks of rows that are printed together, of them a piece is the work of one.
    integer, parameter :: block_rows = 16384, piece = 512, few = 4096
+   real(wp), parameter :: of_a_sum = 1.0e-14_wp ! of the sum of the sizes: what rounding leaves of a sum
 
 contains
 
@@ -260,17 +261,18 @@ contains
                        [column('', 'a35'), column(axes(first:model%dimension), 'es13.5'), &
                         column(merge('  (THE RADIAL FORCES BALANCE ROUND THE RING)', repeat(' ', 44), model%axisymmetric), 'a')])
       call table%print_head(page%file)
-      call balance_line('LOADS', loads(first:))
-      call balance_line('SUPPORTS', supports(first:))
-      call balance_line('RIGID BASES, THROUGH THE JOINTS', base(first:))
-      if (has_ground_springs(model)) call balance_line('GROUND, THROUGH SPRINGS', ground(first:))
-      call balance_line('SUM: LEFT UNBALANCED', loads(first:) + supports(first:) + base(first:) + ground(first:))
+      call balance_line('LOADS', loads(first:), min(floor, of_a_sum*sum(abs(analysis%applied))))
+      call balance_line('SUPPORTS', supports(first:), floor)
+      call balance_line('RIGID BASES, THROUGH THE JOINTS', base(first:), floor)
+      if (has_ground_springs(model)) call balance_line('GROUND, THROUGH SPRINGS', ground(first:), floor)
+      call balance_line('SUM: LEFT UNBALANCED', loads(first:) + supports(first:) + base(first:) + ground(first:), floor)
 
    contains
 
-      subroutine balance_line(words, resultant)
+      subroutine balance_line(words, resultant, floor)
          character(*), intent(in) :: words
          real(wp), intent(in)     :: resultant(:)
+         real(wp), intent(in)     :: floor !! what is below it is rounding [force]
          character(33) :: name
 
          name = words
