@@ -4,18 +4,16 @@
 program jointfem
    use analysis_state, only: analysis_type, interface_stiffness
    use back_method, only: back_increment
-   use bolt_locking, only: lock_bolts
-   use case_control, only: method_back, method_newton
+   use case_control, only: method_back, method_newton, method_step
    use command_line, only: command_type, deck_argument
    use deck_input, only: deck_type
    use equation_solver, only: equation_system
    use load_path, only: start_increment, start_stage
    use model_data, only: model_type
-   use newton_method, only: cross_gaps, newton_increment
+   use newton_method, only: newton_increment
    use progress, only: run_type
-   use restart_file, only: take_up, write_restart
-   use run_boxes, only: another_increment, another_stage, build_structure, form_bodies, print_increment, print_stage, &
-                        read_data, start_joints, start_program, find_modes
+   use run_boxes, only: another_increment, another_stage, build_structure, form_bodies, go_on, print_increment, read_data, &
+                        start_joints, start_program
    use run_end, only: end_program, finish_run
    use stage_plan, only: stage_plan_type
    use step_method, only: accumulate, limit_friction, solve_increment, structure_stiffness
@@ -52,13 +50,7 @@ contains
       ! ------------------------------------------------------------------ NORM, SHEAR: FIRST STIFFNESS OF THE JOINTS
       call start_joints(run, deck, model, plan, system, analysis)
 
-      ! ------------------------------------------------------------------ TAKE UP FROM THE RESTART FILE
-      call take_up(run, model, plan, system, analysis)
-
       do while (another_stage(run, plan, analysis))
-         ! --------------------------------------------------------------- BOLTS OF THE STAGE BEFORE LOCKED
-         call lock_bolts(model, system, analysis)
-
          ! --------------------------------------------------------------- NEXT STAGE
          call start_stage(model, system, analysis)
 
@@ -67,20 +59,12 @@ contains
             call start_increment(plan, system, analysis)
 
             select case (deck%control%method)
-            case (method_newton)
-               ! --------------------------------------------------------- ITERATE TO EQUILIBRIUM
-               call newton_increment(model, plan, analysis, system, run%failure)
-
-            case (method_back)
-               ! --------------------------------------------------------- SECANTS UNTIL THE PRESSURES SETTLE
-               call back_increment(model, plan, analysis, system, run%failure)
-
-            case default
+            case (method_step)
                ! --------------------------------------------------------- [k_s] = SUM [k_b] + SUM [k_int]
                call structure_stiffness(model, plan, analysis, system, run%failure)
 
                ! --------------------------------------------------------- SOLVE [k_s] {du} = {dF}
-               call solve_increment(model, system, analysis, run%failure)
+               call solve_increment(model, plan, system, analysis, run%failure)
 
                ! --------------------------------------------------------- ACCUMULATE {u}, DEFLECTIONS, FORCES
                call accumulate(model, system, analysis, run%failure)
@@ -88,22 +72,23 @@ contains
                ! --------------------------------------------------------- COULOMB LIMIT EXCEEDED: RE-ANALYSE
                call limit_friction(model, plan, system, analysis, run%failure)
 
-               ! --------------------------------------------------------- A BODY THAT GAPS LEAVE LOOSE: ITERATE INSTEAD
-               call cross_gaps(model, plan, analysis, system, run%failure)
-
                ! --------------------------------------------------------- NORM, SHEAR: BRANCHES, NEXT STIFFNESS
                call interface_stiffness(model, system, analysis, run%failure)
+
+            case (method_newton)
+               ! --------------------------------------------------------- ITERATE TO EQUILIBRIUM
+               call newton_increment(model, plan, analysis, system, run%failure)
+
+            case (method_back)
+               ! --------------------------------------------------------- SECANTS UNTIL THE PRESSURES SETTLE
+               call back_increment(model, plan, analysis, system, run%failure)
             end select
 
             ! ------------------------------------------------------------ PRINT
             call print_increment(run, model, plan, system, analysis)
-            call print_stage(run, model, plan, analysis)
 
-            ! ------------------------------------------------------------ NATURAL MODES AT THE END OF THE STAGE
-            call find_modes(run, model, plan, system, analysis)
-
-            ! ------------------------------------------------------------ WRITE THE RESTART FILE
-            call write_restart(run, deck, plan, system, analysis)
+            ! ------------------------------------------------------------ NOT IN THE CHART: NATURAL MODES, RESTART FILE
+            call go_on(run, deck, model, plan, system, analysis)
          end do
       end do
       call finish_run(run, deck, model, plan)

@@ -7,12 +7,13 @@ module analysis_state
    use equation_solver, only: equation_system
    use failures, only: failure_type
    use interface_operator, only: add_global_force, interface_element, joint_movement
-   use joint_laws, only: element_state, element_stiffness_of, joint_law
+   use joint_laws, only: element_state, is_apart, joint_law, open_or_close, shear_pressure
    use kinds, only: wp
    use model_data, only: model_type, n_bars, n_sections, temperature_type
    use normal_curve, only: normal_secant
-   use normal_stiffness, only: at_rest, branch_load, branch_open, is_virgin
+   use normal_stiffness, only: at_rest, branch_load, branch_open, is_virgin, norm
    use numbers, only: is_measure
+   use shear_stiffness, only: shear
    implicit none
    private
 
@@ -55,6 +56,7 @@ module analysis_state
       logical  :: carry = .false.
       logical  :: eq10 = .false.                    !! STEP: p on the loading curve by Eq. (10) as printed
       logical  :: average = .true.                  !! BACK: of two consecutive sets of results
+      logical  :: crosses_gaps = .false.            !! STEP: this increment is iterated, for gaps leave a body loose
       logical  :: is_loose = .false.                !! interference has pushed a body away until nothing presses it any more
       real(wp) :: loose_force = 0.0_wp              !! then p_av a_i of its joints: little of that is no force [force]
       logical  :: is_settled = .true.               !! BACK: whether the last secants agree with what they led to
@@ -166,18 +168,28 @@ contains
       class(equation_system), intent(in) :: system
       type(analysis_type), intent(inout) :: analysis
       type(failure_type), intent(in)     :: failure
-      integer :: before, i
+      integer :: before, d, i
+      logical :: was_apart
 
       if (failure%raised) return
       analysis%n_removed = 0
       do i = 1, size(model%interface)
-         before = analysis%states(i)%normal%branch
-         call element_stiffness_of(model%joints(model%interface(i)%joint)%law, model%interface(i)%area, &
-                                   analysis%eq10, analysis%movement(:, i), analysis%states(i), analysis%k(:, i))
-         analysis%next_kind(i) = kind_of_next(model%joints(model%interface(i)%joint)%law, model%interface(i)%area, &
-                                              analysis%states(i), analysis%k(3, i))
-         if (analysis%states(i)%normal%branch == branch_open .and. before /= branch_open) &
-            analysis%n_removed = analysis%n_removed + 1
+         associate (area => model%interface(i)%area, law => model%joints(model%interface(i)%joint)%law, &
+                    state => analysis%states(i), k => analysis%k(:, i))
+            before = state%normal%branch
+            was_apart = is_apart(state)
+            call norm(law%normal, area, analysis%eq10, state%normal, k(3))
+            call open_or_close(law, was_apart, analysis%movement(:, i), state)
+            k(:2) = 0.0_wp
+            if (state%normal%branch /= branch_open) then
+               do d = 1, 2
+                  call shear(law%shear(d), area, shear_pressure(area, state%normal), state%shear(d), k(d))
+               end do
+            else if (before /= branch_open) then
+               analysis%n_removed = analysis%n_removed + 1
+            end if
+            analysis%next_kind(i) = kind_of_next(law, area, state, k(3))
+         end associate
       end do
       call note_turns(analysis%states, analysis%turns)
       call find_unbalanced(system, analysis)

@@ -23,7 +23,6 @@ contains
       type(analysis_type), intent(inout)    :: analysis
       integer :: i
 
-      if (analysis%goes_on) return
       do i = 1, n_bars(model)
          associate (bar => model%bars(i))
             if (bar%bolt == 0 .or. bar%stage /= analysis%stage) cycle

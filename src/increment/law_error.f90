@@ -6,10 +6,11 @@
 module law_error
    use analysis_state, only: analysis_type
    use case_control, only: method_back, method_newton
-   use joint_laws, only: element_state, element_stiffness_of, follow_element, rest_when_open
+   use joint_laws, only: element_state, follow_element, rest_when_open, shear_pressure
    use kinds, only: wp
    use model_data, only: model_type
-   use normal_stiffness, only: law_deflection
+   use normal_stiffness, only: branch_open, law_deflection, norm
+   use shear_stiffness, only: shear
    implicit none
    private
 
@@ -125,7 +126,7 @@ contains
       integer, intent(in)             :: method !! of case control
       real(wp) :: k(3, size(model%interface))
       type(element_state) :: state
-      integer :: i
+      integer :: d, i
 
       do i = 1, size(model%interface)
          state = analysis%states(i)
@@ -133,8 +134,14 @@ contains
          case (method_newton)
             k(:, i) = [state%shear%k_s, state%normal%k_n]
          case (method_back)
-            call element_stiffness_of(model%joints(model%interface(i)%joint)%law, model%interface(i)%area, .false., &
-                                      analysis%movement(:, i), state, k(:, i))
+            associate (area => model%interface(i)%area, law => model%joints(model%interface(i)%joint)%law)
+               call norm(law%normal, area, .false., state%normal, k(3, i))
+               k(:2, i) = 0.0_wp
+               do d = 1, 2
+                  if (state%normal%branch /= branch_open) call shear(law%shear(d), area, shear_pressure(area, state%normal), &
+                                                                     state%shear(d), k(d, i))
+               end do
+            end associate
          case default
             k(:, i) = analysis%k(:, i)
          end select

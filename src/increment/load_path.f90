@@ -3,6 +3,7 @@ module load_path
    use analysis_state, only: all_held, analysis_type, joint_energy, subtract_joint_forces
    use bar_elements, only: add_bar_forces, add_pull, add_thermal_pulls
    use body_elements, only: add_thermal_forces, internal_forces
+   use bolt_locking, only: lock_bolts
    use equations, only: condense_load, equation_system, forces_in_bodies, recover_displacements
    use kinds, only: wp
    use model_data, only: model_type, n_bars, n_sections
@@ -16,10 +17,11 @@ module load_path
 
 contains
 
-   !> The next stage begins where the last one ended; the joint remembers. One that is taken up in its midst just goes on.
+   !> The next stage begins where the last one ended; the joint remembers, and bolts that the last one has tightened are locked. A stage
+   !! that is taken up in its midst just goes on.
    subroutine start_stage(model, system, analysis)
       type(model_type), intent(in)       :: model
-      class(equation_system), intent(in) :: system
+      class(equation_system), intent(inout) :: system
       type(analysis_type), intent(inout) :: analysis
       integer :: i, stage
 
@@ -27,6 +29,7 @@ contains
          analysis%goes_on = .false.
          return
       end if
+      call lock_bolts(model, system, analysis)
       stage = analysis%stage + 1
       analysis%stage = stage
       analysis%increment = 0

@@ -5,7 +5,6 @@ module newton_method
    use analysis_state, only: all_held, analysis_type, force_noise, free_norm, pass_record, precise, record_pass
    use equations, only: equation_system, forces_in_bodies
    use failures, only: failure_type
-   use joint_laws, only: is_apart
    use kinds, only: wp
    use load_path, only: go_back, support_force
    use model_data, only: joint_node_id, model_type
@@ -79,17 +78,14 @@ contains
          real_text(anint(1.0e4_wp*analysis%fraction)*1.0e-4_wp)//' of stage '//integer_text(plan%stages(analysis%stage)%id)
    end subroutine newton_increment
 
-   !> STEP cannot make an increment of which FAILURE says that gaps leave a body loose: this one is iterated to equilibrium.
+   !> An increment of STEP in which gaps leave a body loose, iterated to equilibrium.
    subroutine cross_gaps(model, plan, analysis, system, failure)
       type(model_type), intent(in)         :: model
       type(stage_plan_type), intent(in)    :: plan
       type(analysis_type), intent(inout)   :: analysis
       class(equation_system), intent(inout) :: system
       type(failure_type), intent(inout)    :: failure
-      type(failure_type) :: none
 
-      if (.not. failure%raised .or. .not. (analysis%is_loose .or. any(is_apart(analysis%states)))) return
-      failure = none
       call newton_increment(model, plan, analysis, system, failure)
       call free_idle_joints(model, analysis)
       analysis%n_passes = 0 ! these are no re-analyses

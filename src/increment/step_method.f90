@@ -4,9 +4,10 @@ module step_method
    use equations, only: equation_system, forces_in_bodies, form_structure_stiffness, solve_equations
    use failures, only: failure_type
    use interface_operator, only: add_force, joint_movement
-   use joint_laws, only: exceeds_limit, flag_margin, friction_excess, friction_limit
+   use joint_laws, only: exceeds_limit, flag_margin, friction_excess, friction_limit, is_apart
    use kinds, only: wp
    use model_data, only: joint_node_id, model_type
+   use newton_method, only: cross_gaps
    use normal_stiffness, only: pressure_reached
    use numbers, only: first_largest
    use stage_entries, only: output_joint
@@ -26,16 +27,28 @@ contains
    subroutine structure_stiffness(model, plan, analysis, system, failure)
       type(model_type), intent(in)         :: model
       type(stage_plan_type), intent(in)    :: plan
-      type(analysis_type), intent(in)      :: analysis
+      type(analysis_type), intent(inout)   :: analysis !! crosses_gaps: there is none
       class(equation_system), intent(inout) :: system
       type(failure_type), intent(inout)    :: failure
+      type(failure_type) :: trouble
 
-      if (analysis%is_loose) call failure%raise(where_in_plan(plan, analysis%stage, analysis%increment)// &
-         ': the structure is a mechanism: interference has pushed a body away from all that held it')
       if (failure%raised) return
+      analysis%crosses_gaps = analysis%is_loose
+      if (analysis%crosses_gaps) return
       call form_structure_stiffness(model, diagonal(analysis%k), where_in_plan(plan, analysis%stage, analysis%increment), &
-                                    system, failure, one_solution=.not. any(model%joints%law%has_friction))
+                                    system, trouble, one_solution=.not. any(model%joints%law%has_friction))
+      call decide_on(trouble, analysis, failure)
    end subroutine structure_stiffness
+
+   !> TROUBLE with the stiffness is a failure, unless open gaps leave bodies loose: then this increment goes across them.
+   subroutine decide_on(trouble, analysis, failure)
+      type(failure_type), intent(in)     :: trouble
+      type(analysis_type), intent(inout) :: analysis
+      type(failure_type), intent(inout)  :: failure
+
+      analysis%crosses_gaps = trouble%raised .and. any(is_apart(analysis%states))
+      if (trouble%raised .and. .not. analysis%crosses_gaps) failure = trouble
+   end subroutine decide_on
 
    !> The stiffnesses K(3, n) of interface elements as matrices.
    pure function diagonal(k) result(k_int)
@@ -49,14 +62,21 @@ contains
       end do
    end function diagonal
 
-   !> {du} from [k_s] {du} = {dF}.
-   subroutine solve_increment(model, system, analysis, failure)
+   !> {du} from [k_s] {du} = {dF}; across gaps, to equilibrium by NEWTON, which leaves nothing to accumulate.
+   subroutine solve_increment(model, plan, system, analysis, failure)
       type(model_type), intent(in)       :: model
+      type(stage_plan_type), intent(in)  :: plan
       class(equation_system), intent(inout) :: system
       type(analysis_type), intent(inout) :: analysis
       type(failure_type), intent(inout)  :: failure
+      type(failure_type) :: trouble
 
-      call solve_equations(model, system, analysis%change, analysis%du, failure, moved=analysis%move)
+      if (failure%raised) return
+      if (.not. analysis%crosses_gaps) then
+         call solve_equations(model, system, analysis%change, analysis%du, trouble, moved=analysis%move)
+         call decide_on(trouble, analysis, failure)
+      end if
+      if (analysis%crosses_gaps) call cross_gaps(model, plan, analysis, system, failure)
    end subroutine solve_increment
 
    !> Add the increment's displacements, deflections and forces to their sums.
@@ -67,7 +87,7 @@ contains
       type(failure_type), intent(in)     :: failure
       integer :: i, k
 
-      if (failure%raised) return
+      if (failure%raised .or. analysis%crosses_gaps) return
       analysis%kind = analysis%next_kind
       do i = 1, size(model%interface)
          associate (state => analysis%states(i))
@@ -133,7 +153,7 @@ contains
       integer  :: pass, worst
       logical  :: again, is_listed
 
-      if (failure%raised .or. .not. any(model%joints%law%has_friction)) return
+      if (failure%raised .or. analysis%crosses_gaps .or. .not. any(model%joints%law%has_friction)) return
       allocate (excess(2, size(model%interface)))
       allocate (relief, mold=analysis%u)
       is_listed = plan%stages(analysis%stage)%output >= output_joint

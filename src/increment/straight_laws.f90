@@ -9,7 +9,7 @@ module straight_laws
    use analysis_state, only: analysis_type
    use equation_solver, only: equation_system
    use interface_operator, only: add_force, joint_movement
-   use joint_laws, only: element_state, element_stiffness_of, follow_element, friction_limit, is_apart, joint_law
+   use joint_laws, only: element_state, follow_element, friction_limit, is_apart, joint_law, rest_stiffness => stiffness_at_rest
    use kinds, only: wp
    use model_data, only: model_type
    use newton_trial, only: trial_type
@@ -168,12 +168,8 @@ contains
       type(analysis_type), intent(in) :: analysis
       integer, intent(in)             :: i
       real(wp) :: k(3)
-      type(element_state) :: at_rest
 
-      at_rest%normal%p_av = analysis%states(i)%normal%p_av
-      associate (element => model%interface(i))
-         call element_stiffness_of(model%joints(element%joint)%law, element%area, .false., [0.0_wp, 0.0_wp, 0.0_wp], at_rest, k)
-      end associate
+      k = rest_stiffness(model%joints(model%interface(i)%joint)%law, model%interface(i)%area, analysis%states(i)%normal%p_av)
    end function stiffness_at_rest
 
    !> The movement at which an element would come to rest: that of the point of its graph, from the state BEFORE, on the line of slope -RHO

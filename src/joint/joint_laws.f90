@@ -10,7 +10,7 @@ module joint_laws
    implicit none
    private
 
-   public :: element_stiffness_of, follow_element, rest_when_open, is_apart
+   public :: stiffness_at_rest, shear_pressure, open_or_close, follow_element, rest_when_open, is_apart
    public :: friction_limit, friction_excess, exceeds_limit, stand_at_limits
    public :: back_stiffness, loading_work
 
@@ -35,34 +35,47 @@ module joint_laws
 
 contains
 
-   !> NORM, and SHEAR once a direction: stiffness K = (k_sx, k_sy, k_n) of one element for the next increment.
-   pure subroutine element_stiffness_of(law, area, eq10, movement, state, k)
+   !> The stiffness (k_sx, k_sy, k_n) of an element that nothing has pressed yet [force/length].
+   pure function stiffness_at_rest(law, area, p_av) result(k)
+      type(joint_law), intent(in) :: law
+      real(wp), intent(in)        :: area !! a_i [length^2]
+      real(wp), intent(in)        :: p_av !! [pressure]
+      real(wp) :: k(3)
+      type(element_state) :: state
+      integer :: d
+
+      state%normal%p_av = p_av
+      call norm(law%normal, area, .false., state%normal, k(3))
+      do d = 1, 2
+         call shear(law%shear(d), area, p_av, state%shear(d), k(d))
+      end do
+   end function stiffness_at_rest
+
+   !> The pressure under which SHEAR finds the stiffness of an element in this STATE.
+   pure real(wp) function shear_pressure(area, state) result(p)
+      real(wp), intent(in)           :: area
+      type(normal_state), intent(in) :: state
+
+      p = max(0.0_wp, state%pressure)
+      if (is_virgin(area, state)) p = state%p_av
+   end function shear_pressure
+
+   !> What NORM has found for the next increment, an element open or closed, tells its shear where to begin; one that slips stands at the
+   !! limits.
+   pure subroutine open_or_close(law, was_apart, movement, state)
       type(joint_law), intent(in)        :: law
-      real(wp), intent(in)               :: area        !! a_i [length^2]
-      logical, intent(in)                :: eq10        !! p by Eq. (10) as printed
+      logical, intent(in)                :: was_apart   !! before NORM
       real(wp), intent(in)               :: movement(3) !! of end 1 against end 2, in all [length]
       type(element_state), intent(inout) :: state
-      real(wp), intent(out)              :: k(3)        !! [force/length]
-      real(wp) :: pressure
-      integer  :: i
-      logical  :: was_apart
 
-      was_apart = is_apart(state)
-      call norm(law%normal, area, eq10, state%normal, k(3))
       call rest_when_open(state, movement)
-      if (was_apart .and. state%normal%branch /= branch_open) then
+      if (state%normal%branch == branch_open) return
+      if (was_apart) then
          call begin_at_closing(movement, state)
          state%shear%delta = movement(:2) - state%origin
       end if
-      pressure = state%normal%pressure
-      if (is_virgin(area, state%normal)) pressure = state%normal%p_av
-      k(:2) = 0.0_wp
-      if (state%normal%branch == branch_open) return
       if (state%slips) call stand_at_limits(law, state)
-      do i = 1, 2
-         call shear(law%shear(i), area, max(0.0_wp, pressure), state%shear(i), k(i))
-      end do
-   end subroutine element_stiffness_of
+   end subroutine open_or_close
 
    !> An open element transmits no shear, and when it closes it begins anew from where it is.
    pure subroutine rest_when_open(state, movement)

@@ -1,7 +1,5 @@
-!> The box of the flow chart for natural modes: once a stage has come to its end, how the structure oscillates about it.
-!!
-!! The boxes of the flow chart that belong to no method: reading, building, printing, the end. Each says on the terminal where the
-!! run is, and does nothing once one before it has ended the run; whatever ended it is said in one place, finish_run of run_end.
+!> The boxes of the flow chart that belong to no method: reading, building, printing. Each says on the terminal where the run is, and
+!! does nothing once one before it has ended the run; whatever ended it is said in one place, finish_run of run_end.
 module run_boxes
    use analysis_state, only: analysis_type, interface_stiffness, note_largest, start_analysis
    use c_library, only: open_standard_outputs, tell_failed_writes
@@ -30,7 +28,7 @@ module run_boxes
    use oscillating_structure, only: let_go, oscillating_type, start_oscillation
    use progress, only: phase_build, phase_factor, phase_increments, phase_modes, phase_order, phase_recover, phase_write, &
                        goes_on, has_errors, is_over, is_unreadable, is_unwritten, run_type, was_checked, would_overwrite
-   use restart_file, only: open_restart_file
+   use restart_file, only: open_restart_file, take_up, write_restart
    use results, only: list_results => print_increment, print_modes, print_response, print_stage_results => print_stage, &
                       remove_old_results, start_results
    use run_end, only: end_program
@@ -39,10 +37,23 @@ module run_boxes
    implicit none
    private
 
-   public :: find_modes, start_program, read_data, build_structure, form_bodies, start_joints, another_stage, &
-             another_increment, print_increment, print_stage
+   public :: start_program, read_data, build_structure, form_bodies, start_joints, another_stage, another_increment, &
+             print_increment, go_on
 
 contains
+
+   !> What the chart of the paper does not have, between two increments: natural modes at the end of a stage, and the restart file.
+   subroutine go_on(run, deck, model, plan, system, analysis)
+      type(run_type), intent(inout)      :: run
+      type(deck_type), intent(in)        :: deck
+      type(model_type), intent(in)       :: model
+      type(stage_plan_type), intent(in)  :: plan
+      class(equation_system), allocatable, intent(inout) :: system
+      type(analysis_type), intent(inout) :: analysis
+
+      call find_modes(run, model, plan, system, analysis)
+      call write_restart(run, deck, plan, system, analysis)
+   end subroutine go_on
 
    !> Find and print the natural modes where the increment has completed a stage that asks for them. Nothing of the analysis changes.
    subroutine find_modes(run, model, plan, system, analysis)
@@ -189,7 +200,7 @@ contains
    end function date_and_hour
 
    !> NORM and SHEAR for a structure at rest, its interference in equilibrium (BACK takes all at once); a restart file that is to be
-   !! taken up has better.
+   !! taken up has better, and is.
    subroutine start_joints(run, deck, model, plan, system, analysis)
       type(run_type), intent(inout)      :: run
       type(deck_type), intent(in)        :: deck
@@ -206,6 +217,7 @@ contains
       end if
       call run%progress%expect(plan)
       call run%progress%enter(phase_increments)
+      call take_up(run, model, plan, system, analysis)
    end subroutine start_joints
 
    !> Whether a stage is left, or some of one that has been taken up.
@@ -228,8 +240,20 @@ contains
       if (another_increment) another_increment = analysis%increment < size(plan%stages(analysis%stage)%shares)
    end function another_increment
 
-   !> Print the increment just completed, and recover for that what the bodies do where it is shown.
+   !> Print the increment just completed, and the stage that it completes.
    subroutine print_increment(run, model, plan, system, analysis)
+      type(run_type), intent(inout)      :: run
+      type(model_type), intent(in)       :: model
+      type(stage_plan_type), intent(in)  :: plan
+      class(equation_system), intent(in) :: system
+      type(analysis_type), intent(inout) :: analysis
+
+      call list_increment(run, model, plan, system, analysis)
+      call print_stage(run, model, plan, analysis)
+   end subroutine print_increment
+
+   !> The increment, and for that what the bodies do where it is shown.
+   subroutine list_increment(run, model, plan, system, analysis)
       type(run_type), intent(inout)      :: run
       type(model_type), intent(in)       :: model
       type(stage_plan_type), intent(in)  :: plan
@@ -271,9 +295,9 @@ contains
       call list_results(model, plan, analysis, run%results)
       call run%progress%advance(analysis%stage, analysis%increment, size(plan%stages(analysis%stage)%shares))
       call run%progress%enter(phase_increments)
-   end subroutine print_increment
+   end subroutine list_increment
 
-   !> Print the stage that the increment has completed, or the part of it up to where the run ends.
+   !> The stage that the increment has completed, or the part of it up to where the run ends.
    subroutine print_stage(run, model, plan, analysis)
       type(run_type), intent(inout)     :: run
       type(model_type), intent(in)      :: model

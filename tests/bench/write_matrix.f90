@@ -20,7 +20,7 @@ program write_matrix
    use deck_errors, only: deck_error_list
    use deck_input, only: deck_type, read_deck
    use element_kinds, only: max_dofs
-   use joint_laws, only: element_state, element_stiffness_of
+   use joint_laws, only: stiffness_at_rest
    use kinds, only: wp
    use model_build, only: build_model
    use model_data, only: corners_of, model_type, n_bars, n_sections
@@ -105,7 +105,6 @@ contains
       real(wp), intent(inout), optional :: values(:)
       real(wp), allocatable :: k(:, :)
       real(wp) :: k_int(3), k_global(3, 3)
-      type(element_state) :: state
       integer :: d, e, i
 
       d = model%dimension
@@ -116,10 +115,7 @@ contains
       end do
       do i = 1, size(model%interface)
          associate (element => model%interface(i))
-            state = element_state()
-            state%normal%p_av = model%joints(element%joint)%p_av
-            call element_stiffness_of(model%joints(element%joint)%law, element%area, .false., [0.0_wp, 0.0_wp, 0.0_wp], state, &
-                                      k_int)
+            k_int = stiffness_at_rest(model%joints(element%joint)%law, element%area, model%joints(element%joint)%p_av)
             k_global = matmul(element%axes*spread(k_int, 1, 3), transpose(element%axes))
             k(:d, :d) = k_global(:d, :d)
             k(d + 1:2*d, d + 1:2*d) = k_global(:d, :d)

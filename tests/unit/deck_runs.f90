@@ -1,7 +1,6 @@
 !> Decks solved as the main program does, by STEP or by NEWTON, without any output.
 module deck_runs
    use analysis_state, only: analysis_type, interface_stiffness, start_analysis
-   use bolt_locking, only: lock_bolts
    use case_control, only: case_control_type, method_newton
    use deck_errors, only: deck_error_list
    use deck_input, only: deck_type, read_deck
@@ -11,7 +10,7 @@ module deck_runs
    use load_path, only: recover_bodies, start_increment, start_stage
    use model_build, only: build_model
    use model_data, only: model_type
-   use newton_method, only: cross_gaps, newton_increment, seat_joints
+   use newton_method, only: newton_increment, seat_joints
    use stage_plan, only: stage_plan_type
    use step_method, only: accumulate, limit_friction, solve_increment, structure_stiffness
    implicit none
@@ -99,7 +98,6 @@ contains
       call interface_stiffness(run%model, run%system, run%analysis, run%failure)
       allocate (run%states(0))
       do s = 1, stages
-         call lock_bolts(run%model, run%system, run%analysis)
          call start_stage(run%model, run%system, run%analysis)
          do i = 1, size(run%plan%stages(s)%shares)
             call start_increment(run%plan, run%system, run%analysis)
@@ -121,10 +119,9 @@ contains
       type(run_type), intent(inout) :: run
 
       call structure_stiffness(run%model, run%plan, run%analysis, run%system, run%failure)
-      call solve_increment(run%model, run%system, run%analysis, run%failure)
+      call solve_increment(run%model, run%plan, run%system, run%analysis, run%failure)
       call accumulate(run%model, run%system, run%analysis, run%failure)
       call limit_friction(run%model, run%plan, run%system, run%analysis, run%failure)
-      call cross_gaps(run%model, run%plan, run%analysis, run%system, run%failure)
       call interface_stiffness(run%model, run%system, run%analysis, run%failure)
    end subroutine step
 
