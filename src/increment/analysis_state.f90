@@ -7,7 +7,7 @@ module analysis_state
    use equation_solver, only: equation_system
    use failures, only: failure_type
    use interface_operator, only: add_global_force, interface_element, joint_movement
-   use joint_laws, only: element_state, is_apart, joint_law, open_or_close, shear_pressure
+   use joint_laws, only: element_state, is_apart, open_or_close, shear_pressure
    use kinds, only: wp
    use model_data, only: model_type, n_bars, n_sections, temperature_type
    use normal_curve, only: normal_secant
@@ -188,24 +188,14 @@ contains
             else if (before /= branch_open) then
                analysis%n_removed = analysis%n_removed + 1
             end if
-            analysis%next_kind(i) = kind_of_next(law, area, state, k(3))
+            analysis%next_kind(i) = kind_on_branch(state%normal%branch)
+            if (is_virgin(area, state%normal) .and. k(3) <= normal_secant(law%normal, area, state%normal%p_av)) &
+               analysis%next_kind(i) = secant_stiffness
          end associate
       end do
       call note_turns(analysis%states, analysis%turns)
       call find_unbalanced(system, analysis)
    end subroutine interface_stiffness
-
-   !> What kind of stiffness K_N is that NORM has given an element in this STATE.
-   pure integer function kind_of_next(law, area, state, k_n) result(kind)
-      type(joint_law), intent(in)     :: law
-      real(wp), intent(in)            :: area, k_n
-      type(element_state), intent(in) :: state
-
-      kind = kind_on_branch(state%normal%branch)
-      if (is_virgin(area, state%normal)) then
-         if (k_n <= normal_secant(law%normal, area, state%normal%p_av)) kind = secant_stiffness
-      end if
-   end function kind_of_next
 
    !> The kind of the normal stiffness on a BRANCH.
    pure integer function kind_on_branch(branch) result(kind)

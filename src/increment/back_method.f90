@@ -51,14 +51,21 @@ contains
       type(failure_type), intent(inout)    :: failure
       type(iterate_type) :: now
       real(wp), allocatable :: u(:, :), body(:, :)
-      real(wp) :: largest_p
-      integer  :: iteration, n
+      real(wp) :: k(3), largest_p
+      integer  :: d, i, iteration, n, worst
 
       n = size(model%interface)
       allocate (now%taken(3, n), now%deflection(3, n), now%change(n), now%k_int(3, 3, n), source=0.0_wp)
       now%taken(3, :) = loading_deflection(model%joints(model%interface%joint)%law%normal, analysis%states%normal%p_av)
       do iteration = 1, merge(most_averages, most_shown, analysis%average)
-         call take_secants(model, analysis, now)
+         do i = 1, n
+            associate (element => model%interface(i), p_av => analysis%states(i)%normal%p_av)
+               k = back_stiffness(model%joints(element%joint)%law, element%area, p_av, now%taken(:, i))
+            end associate
+            do d = 1, 3
+               now%k_int(d, d, i) = k(d)
+            end do
+         end do
          call form_structure_stiffness(model, now%k_int, where_in_plan(plan, analysis%stage, analysis%increment), system, &
                                        failure, one_solution=.true.)
          call solve_equations(model, system, load_of_secants(system, analysis%felt, now), analysis%u, failure, &
@@ -73,7 +80,10 @@ contains
          now%taken = merge(0.5_wp*(now%taken + now%deflection), now%deflection, analysis%average)
       end do
       if (analysis%average .and. .not. analysis%is_settled) then
-         call give_up(model, plan, analysis, now, failure)
+         worst = first_largest(now%change)
+         call failure%raise(where_in_plan(plan, analysis%stage, analysis%increment)//': the pressures have not settled after '// &
+            integer_text(analysis%n_passes)//' iterations; the one of node '//integer_text(joint_node_id(model, worst, 1))// &
+            ' still changes by '//real_text(now%change(worst))//'; METHOD = NEWTON follows such laws')
          return
       end if
       call store(model, now, analysis)
@@ -82,24 +92,6 @@ contains
       call reach(system, u, body, analysis)
       call find_unbalanced(system, analysis)
    end subroutine back_increment
-
-   !> Secants of the laws at the deflections TAKEN.
-   pure subroutine take_secants(model, analysis, now)
-      type(model_type), intent(in)      :: model
-      type(analysis_type), intent(in)   :: analysis
-      type(iterate_type), intent(inout) :: now
-      real(wp) :: k(3)
-      integer  :: d, i
-
-      do i = 1, size(model%interface)
-         associate (element => model%interface(i), p_av => analysis%states(i)%normal%p_av)
-            k = back_stiffness(model%joints(element%joint)%law, element%area, p_av, now%taken(:, i))
-         end associate
-         do d = 1, 3
-            now%k_int(d, d, i) = k(d)
-         end do
-      end do
-   end subroutine take_secants
 
    !> The load FELT and what the secants pull at gaps: they begin where these are closed, k_n (closing - g).
    pure function load_of_secants(system, felt, now) result(load)
@@ -163,21 +155,6 @@ contains
       left = max(left, 0.1_wp*force_noise(system, analysis%u)/model%interface%area)
       has_settled = all(now%change <= left)
    end function has_settled
-
-   !> The averages have not settled: say which element changes most.
-   subroutine give_up(model, plan, analysis, now, failure)
-      type(model_type), intent(in)      :: model
-      type(stage_plan_type), intent(in) :: plan
-      type(analysis_type), intent(in)   :: analysis
-      type(iterate_type), intent(in)    :: now
-      type(failure_type), intent(inout) :: failure
-      integer :: worst
-
-      worst = first_largest(now%change)
-      call failure%raise(where_in_plan(plan, analysis%stage, analysis%increment)//': the pressures have not settled after '// &
-         integer_text(analysis%n_passes)//' iterations; the one of node '//integer_text(joint_node_id(model, worst, 1))// &
-         ' still changes by '//real_text(now%change(worst))//'; METHOD = NEWTON follows such laws')
-   end subroutine give_up
 
    !> The states of the elements as the last solution has them.
    subroutine store(model, now, analysis)

@@ -282,13 +282,14 @@ contains
       type(analysis_type), intent(inout)    :: analysis
       type(attempt_type), intent(inout)     :: attempt
       real(wp), intent(in), optional        :: from(:, :) !! the first trial, where it is not the committed state
-      type(trial_type)         :: now, next
+      type(trial_type), allocatable :: now, next
       type(straight_laws_type) :: laws
       type(progress_type)      :: way
       real(wp), allocatable :: direction(:, :), residual(:, :)
       real(wp) :: step
       integer  :: iteration
 
+      allocate (now, next)
       allocate (direction, mold=analysis%u)
       way%moves = analysis%moves .and. .not. present(from)
       way%travel = max(maxval(abs(analysis%moved)), maxval(abs(analysis%u)))
@@ -471,7 +472,7 @@ contains
       class(equation_system), intent(inout) :: system
       type(analysis_type), intent(inout)    :: analysis
       type(attempt_type), intent(inout)     :: attempt !! whose trouble, if this iteration has any, does not count
-      type(trial_type), intent(inout)       :: now, next
+      type(trial_type), allocatable, intent(inout) :: now, next
       real(wp), allocatable    :: direction(:, :)
       type(straight_laws_type) :: laws
 

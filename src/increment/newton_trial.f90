@@ -43,25 +43,13 @@ contains
 
    !> Exchange two trials.
    subroutine swap(a, b)
-      type(trial_type), intent(inout) :: a, b
-      type(trial_type) :: c
+      type(trial_type), allocatable, intent(inout) :: a, b
+      type(trial_type), allocatable :: c
 
-      call hand_over(a, c)
-      call hand_over(b, a)
-      call hand_over(c, b)
+      call move_alloc(a, c)
+      call move_alloc(b, a)
+      call move_alloc(c, b)
    end subroutine swap
-
-   subroutine hand_over(from, to)
-      type(trial_type), intent(inout) :: from, to
-
-      call move_alloc(from%u, to%u)
-      call move_alloc(from%body, to%body)
-      call move_alloc(from%states, to%states)
-      call move_alloc(from%tangent, to%tangent)
-      call move_alloc(from%work, to%work)
-      call move_alloc(from%residual, to%residual)
-      to%size = from%size
-   end subroutine hand_over
 
    !> Joints and residual of TRIAL, whose displacements and body forces are set.
    subroutine evaluate(model, system, load, analysis, trial)

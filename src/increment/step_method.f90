@@ -31,12 +31,18 @@ contains
       class(equation_system), intent(inout) :: system
       type(failure_type), intent(inout)    :: failure
       type(failure_type) :: trouble
+      real(wp), allocatable :: k_int(:, :, :)
+      integer :: d
 
       if (failure%raised) return
       analysis%crosses_gaps = analysis%is_loose
       if (analysis%crosses_gaps) return
-      call form_structure_stiffness(model, diagonal(analysis%k), where_in_plan(plan, analysis%stage, analysis%increment), &
-                                    system, trouble, one_solution=.not. any(model%joints%law%has_friction))
+      allocate (k_int(3, 3, size(model%interface)), source=0.0_wp)
+      do d = 1, 3
+         k_int(d, d, :) = analysis%k(d, :)
+      end do
+      call form_structure_stiffness(model, k_int, where_in_plan(plan, analysis%stage, analysis%increment), system, trouble, &
+                                    one_solution=.not. any(model%joints%law%has_friction))
       call decide_on(trouble, analysis, failure)
    end subroutine structure_stiffness
 
@@ -49,18 +55,6 @@ contains
       analysis%crosses_gaps = trouble%raised .and. any(is_apart(analysis%states))
       if (trouble%raised .and. .not. analysis%crosses_gaps) failure = trouble
    end subroutine decide_on
-
-   !> The stiffnesses K(3, n) of interface elements as matrices.
-   pure function diagonal(k) result(k_int)
-      real(wp), intent(in) :: k(:, :)
-      real(wp) :: k_int(3, 3, size(k, 2))
-      integer  :: d
-
-      k_int = 0.0_wp
-      do d = 1, 3
-         k_int(d, d, :) = k(d, :)
-      end do
-   end function diagonal
 
    !> {du} from [k_s] {du} = {dF}; across gaps, to equilibrium by NEWTON, which leaves nothing to accumulate.
    subroutine solve_increment(model, plan, system, analysis, failure)
@@ -171,7 +165,7 @@ contains
          call record_pass(analysis, pass_record(before=total, after=total_after, changes=count(analysis%states%slips)))
          total = total_after
       end do
-      worst = first_largest(maxval(abs(excess), dim=1), is_endless(model))
+      worst = first_largest(maxval(abs(excess), dim=1), model%joints(model%interface%joint)%n_reanalyses < 0)
       call failure%raise(where_in_plan(plan, analysis%stage, analysis%increment)//': after '//integer_text(most_passes)// &
          ' re-analyses the friction of joint '//integer_text(model%joints(model%interface(worst)%joint)%id)// &
          ' is still exceeded, by '//real_text(total)//' in all, most at node '// &
@@ -243,17 +237,6 @@ contains
             analysis%states(i)%slips = .true.
       end do
    end subroutine find_excess
-
-   !> Which interface elements are analysed again until the excess is gone, NREAN = -1.
-   pure function is_endless(model)
-      type(model_type), intent(in) :: model
-      logical :: is_endless(size(model%interface))
-      integer :: i
-
-      do i = 1, size(model%interface)
-         is_endless(i) = model%joints(model%interface(i)%joint)%n_reanalyses < 0
-      end do
-   end function is_endless
 
    !> Relieve the elements whose joints ask for re-analysis number PASS of their excess; RELIEF are the nodal forces that it
    !! becomes, AGAIN whether there are any. NREAN = -1 goes on as long as any excess is left.
