@@ -101,11 +101,11 @@ contains
       end do
       coupled = any(abs(rest(:2, 3, :)) > 0.0_wp) .and. all(abs(attempt%move) <= 0.0_wp)
       associate (failure => attempt%trouble)
-         call form_structure_stiffness(model, matrix, attempt%where, system, failure, one_solution=.not. coupled)
          if (coupled) then
-            call solve_coupled(model, system, rest, residual, 1.0e-4_wp, 25, direction, failure)
+            call solve_coupled(model, matrix, rest, residual, attempt%where, system, direction, failure)
             tangent = matrix + rest
          else
+            call form_structure_stiffness(model, matrix, attempt%where, system, failure, one_solution=.true.)
             call solve_equations(model, system, residual, direction, failure, moved=attempt%move, digits=digits)
             tangent = matrix
          end if

@@ -42,6 +42,17 @@ module equation_solver
       integer :: digits = exact_digits               !! that the next solution needs, where a solver iterates
    end type solver_options
 
+   !> Coupled systems that have been solved with the factor there is as preconditioner, in steps of GMRES.
+   type, public :: coupled_tally
+      real(wp) :: tolerance = 1.0e-4_wp              !! of the residual
+      integer :: most_steps = 25                     !! with a new factor
+      integer :: price = 0                           !! steps that cost what a factorisation does; 0: it is always cheaper
+      logical :: serves = .false.                    !! whether there is a factor of the bodies as they are
+      integer :: own = 0                             !! steps with the factor of the system's own symmetric part
+      integer :: extra = 0                           !! above these, in the last system
+      integer :: spent = 0, solved = 0               !! in all since the factorisation, that included, for so many systems
+   end type coupled_tally
+
    type, abstract, public :: equation_system
       integer :: n = 0                               !! unknowns
       integer, allocatable  :: number(:, :)          !! (dimension, n_nodes) equation, 0: held or without element
@@ -57,6 +68,7 @@ module equation_solver
                                                      !! [force/length]
       integer :: factorisations = 20                 !! that are to be expected
       type(solver_options) :: options                !! set anew with every k_int
+      type(coupled_tally) :: coupled                 !! how solve_coupled has fared
       real(wp) :: shift = 0.0_wp                     !! sigma: in place of [k_b] there is [k_b] - sigma [m], set before it is formed
                                                      !! [1/time^2]; above zero the factor is one with signs, [l] [s] [l]^T
       integer :: n_negative = 0                      !! pivots below zero of the factor there is: so many eigenvalues of
@@ -184,6 +196,7 @@ contains
       integer, intent(in)                   :: equation
 
       self%locked = [self%locked, equation]
+      self%coupled%serves = .false.
    end subroutine lock
 
    !> Which components of retained nodes no solution moves: (dimension, retained).
@@ -224,6 +237,7 @@ contains
       class(equation_system), intent(inout) :: self
 
       self%options%one_solution = .false.
+      self%coupled%serves = .false.
       self%weakest = 1.0_wp
    end subroutine forget_past
 

@@ -111,6 +111,7 @@ contains
          call system%add_to_bodies([system%number(:, nodes)], coupled_bar_stiffness(model, i))
       end associate
       system%stiffest = max(system%stiffest, model%bars(i)%stiffness)
+      system%coupled%serves = .false.
    end subroutine add_bar
 
    !> Hold component D of NODE, a retained one, from now on: it keeps its equation, and every solution has zero there.
@@ -152,6 +153,7 @@ contains
          system%k_int(:, :, i) = global_stiffness(system%interface(i), k_int(:, :, i))
       end do
       call system%form_structure(fault)
+      system%coupled%serves = fault == 0 .and. .not. system%options%one_solution
       call system%report_fault(model, fault, system%formed_in, failure)
    end subroutine form_structure_stiffness
 
@@ -262,21 +264,65 @@ contains
       end do
    end subroutine put
 
-   !> Displacements U of the retained nodes with ([k] + [r]) U = F on the free components; [k] is the stiffness in SYSTEM. The
-   !! residual is brought below TOLERANCE times that of U = 0, or as far as MOST_STEPS steps go: the caller iterates anyway.
-   subroutine solve_coupled(model, system, rest, f, tolerance, most_steps, u, failure)
-      type(model_type), intent(in)      :: model
+   !> Displacements U of the retained nodes with ([k_b] + sum of (K_INT + REST)) U = F on the free components, K_INT being symmetric:
+   !! by GMRES with a factor as preconditioner. That is the one there is while its steps beyond those of a new one cost less than
+   !! a factorisation, and no more each time than on the average since it was made; else that of [k_b] + sum of K_INT. The
+   !! residual is brought below the tolerance of the system's tally times that of U = 0, or as far as its most steps go: the caller
+   !! iterates anyway.
+   subroutine solve_coupled(model, k_int, rest, f, where, system, u, failure)
+      type(model_type), intent(in)          :: model
+      real(wp), intent(in)                  :: k_int(:, :, :), rest(:, :, :) !! (3, 3, n) of elements, in their axes [force/length]
+      real(wp), intent(in)                  :: f(:, :)     !! (dimension, retained) [force]
+      character(*), intent(in)              :: where       !! for messages
       class(equation_system), intent(inout) :: system
-      real(wp), intent(in)              :: rest(:, :, :) !! (3, 3, n) of the interface elements, in their axes [force/length]
-      real(wp), intent(in)              :: f(:, :)   !! (dimension, retained) [force]
-      real(wp), intent(in)              :: tolerance
-      integer, intent(in)               :: most_steps
-      real(wp), intent(inout)           :: u(:, :)   !! likewise [length]
-      type(failure_type), intent(inout) :: failure
+      real(wp), intent(inout)               :: u(:, :)     !! likewise [length]
+      type(failure_type), intent(inout)     :: failure
+      real(wp) :: change(3, 3, size(rest, 3))
+      integer  :: i, steps
+
+      if (failure%raised) return
+      associate (tally => system%coupled)
+         if (tally%serves .and. tally%price > 0 .and. tally%extra*tally%solved <= tally%spent) then
+            do i = 1, size(rest, 3)
+               change(:, :, i) = global_stiffness(system%interface(i), k_int(:, :, i) + rest(:, :, i)) - system%k_int(:, :, i)
+            end do
+            call iterate_coupled(model, system, change, f, tally%own + tally%price, u, steps, failure)
+            if (failure%raised) return
+            tally%extra = max(0, steps - tally%own)
+            tally%spent = tally%spent + tally%extra
+            tally%solved = tally%solved + 1
+            if (steps <= tally%own + tally%price) return
+         end if
+         call form_structure_stiffness(model, k_int, where, system, failure)
+         do i = 1, size(rest, 3)
+            change(:, :, i) = global_stiffness(system%interface(i), rest(:, :, i))
+         end do
+         call iterate_coupled(model, system, change, f, tally%most_steps, u, steps, failure)
+         tally%own = steps
+         tally%extra = 0
+         tally%spent = tally%price
+         tally%solved = 1
+      end associate
+   end subroutine solve_coupled
+
+   !> U with ([k] + sum of CHANGE) U = F by GMRES, [k] being the stiffness in SYSTEM, in so many STEPS; more than MOST_STEPS where these
+   !! have not brought the residual below the tolerance of the tally times that of U = 0.
+   !! Source: Saad, Schultz, SIAM J. Sci. Stat. Comput. 7 (1986) 856-869, preconditioned from the right.
+   subroutine iterate_coupled(model, system, change, f, most_steps, u, steps, failure)
+      type(model_type), intent(in)          :: model
+      class(equation_system), intent(inout) :: system
+      real(wp), intent(in)                  :: change(:, :, :) !! (3, 3, n) of interface elements, global axes [force/length]
+      real(wp), intent(in)                  :: f(:, :)
+      integer, intent(in)                   :: most_steps
+      real(wp), intent(inout)               :: u(:, :)
+      integer, intent(out)                  :: steps
+      type(failure_type), intent(inout)     :: failure
       real(wp), allocatable :: basis(:, :, :), shifted(:, :), h(:, :), cosine(:), sine(:), g(:), y(:)
       real(wp) :: rotated, size_of_f
-      integer  :: i, j, steps
+      integer  :: i, j, last
 
+      steps = 0
+      last = 0
       if (failure%raised) return
       associate (held => system%held_now())
          allocate (basis(size(f, 1), size(f, 2), most_steps + 1), h(most_steps + 1, most_steps), source=0.0_wp)
@@ -288,13 +334,17 @@ contains
          if (size_of_f <= 0.0_wp) return
          basis(:, :, 1) = basis(:, :, 1)/size_of_f
          g(1) = size_of_f
-         steps = 0
          do j = 1, most_steps
-            steps = j
+            last = j
             shifted = basis(:, :, j)
             call solve_equations(model, system, shifted, u, failure, digits=digits)
             if (failure%raised) return
-            call rest_times(system%interface, rest, u, shifted)
+            shifted = 0.0_wp
+            do i = 1, size(system%interface)
+               associate (element => system%interface(i))
+                  call add_global_force(element, matmul(change(:, :, i), relative_movement(element, u)), shifted)
+               end associate
+            end do
             basis(:, :, j + 1) = basis(:, :, j) + merge(0.0_wp, shifted, held)
             do i = 1, j
                h(i, j) = sum(basis(:, :, i)*basis(:, :, j + 1))
@@ -314,33 +364,20 @@ contains
             h(j, j) = rotated
             g(j + 1) = -sine(j)*g(j)
             g(j) = cosine(j)*g(j)
-            if (abs(g(j + 1)) <= tolerance*size_of_f) exit
+            if (abs(g(j + 1)) <= system%coupled%tolerance*size_of_f) exit
          end do
-         allocate (y(steps), source=0.0_wp)
-         do i = steps, 1, -1
+         steps = j
+         allocate (y(last), source=0.0_wp)
+         do i = last, 1, -1
             if (abs(h(i, i)) <= 0.0_wp) cycle
-            y(i) = (g(i) - dot_product(h(i, i + 1:steps), y(i + 1:)))/h(i, i)
+            y(i) = (g(i) - dot_product(h(i, i + 1:last), y(i + 1:)))/h(i, i)
          end do
          shifted = 0.0_wp
-         do i = 1, steps
+         do i = 1, last
             shifted = shifted + y(i)*basis(:, :, i)
          end do
       end associate
       call solve_equations(model, system, shifted, u, failure, digits=digits)
-   end subroutine solve_coupled
-
-   !> F = [r] {U}: forces of displacements of retained nodes, by the interface ELEMENTS.
-   pure subroutine rest_times(elements, rest, u, f)
-      type(interface_element), intent(in) :: elements(:)
-      real(wp), intent(in)                :: rest(:, :, :)
-      real(wp), intent(in)                :: u(:, :)
-      real(wp), intent(out)               :: f(:, :)
-      integer :: i
-
-      f = 0.0_wp
-      do i = 1, size(elements)
-         call add_force(elements(i), matmul(rest(:, :, i), joint_movement(elements(i), u)), f)
-      end do
-   end subroutine rest_times
+   end subroutine iterate_coupled
 
 end module equations

@@ -11,7 +11,8 @@ module factor_reuse
    implicit none
    private
 
-   public :: may_reuse, note_factor, note_steps, note_failure, note_solution, guess_solution, find_least_energy, iterate_refactored
+   public :: may_reuse, note_factor, note_steps, note_failure, note_solution, guess_solution, find_least_energy, &
+             iterate_refactored, price_in_steps
 
    real(wp), parameter :: step_operations = 75.0_wp !! that a step costs for every entry of the refactored fronts
    integer, parameter  :: first_wait = 4            !! solutions that are not tried after steps were in vain
@@ -43,9 +44,16 @@ contains
       class(factor_reuse_type), intent(inout) :: self
       real(wp), intent(in)                    :: operations, entries
 
-      self%most_steps = int(min(1.0e3_wp, operations/(step_operations*max(1.0_wp, entries))))
-      if (self%most_steps < fewest_steps) self%most_steps = 0
+      self%most_steps = price_in_steps(operations, entries)
    end subroutine set_costs
+
+   !> Steps that cost what a factorisation of so many OPERATIONS does, each going through so many ENTRIES; 0: it is always cheaper.
+   pure integer function price_in_steps(operations, entries) result(price)
+      real(wp), intent(in) :: operations, entries
+
+      price = int(min(1.0e3_wp, operations/(step_operations*max(1.0_wp, entries))))
+      if (price < fewest_steps) price = 0
+   end function price_in_steps
 
    !> Whether to go on with the factor: until a solution takes more steps than have been spent on each since the factorisation.
    subroutine may_reuse(self, yes)

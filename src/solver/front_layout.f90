@@ -30,6 +30,7 @@ module front_layout
       real(wp) :: factor_entries = 0.0_wp       !! of all panels, whole
       real(wp) :: panel_entries  = 0.0_wp       !! of all panels, what takes memory
       real(wp) :: refactored_entries = 0.0_wp       !! entries of the refactored fronts, whole lower triangles
+      real(wp) :: solved_entries = 0.0_wp           !! of these, those of the factor, which a solution goes through
       real(wp) :: kept_entries   = 0.0_wp       !! lower triangles that static fronts leave to those that do
       real(wp) :: peak_entries   = 0.0_wp       !! most that stand in update matrices at once, one subtree after the other
       real(wp) :: most_entries   = 0.0_wp       !! most that stand in panels, update matrices and what refactored fronts begin with
@@ -203,6 +204,8 @@ contains
          if (layout%is_refactored(f)) then
             layout%refactored_operations = layout%refactored_operations + front_operations(supers%pivots(s), supers%beyond(s))
             layout%refactored_entries = layout%refactored_entries + 0.5_wp*rows*(rows + 1.0_wp)
+            layout%solved_entries = layout%solved_entries + &
+               supers%pivots(s)*(rows - 0.5_wp*(supers%pivots(s) - 1.0_wp))
          else
             layout%static_operations = layout%static_operations + front_operations(supers%pivots(s), supers%beyond(s))
          end if

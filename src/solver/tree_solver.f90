@@ -6,7 +6,7 @@
 module tree_solver
    use equation_solver, only: equation_system
    use factor_reuse, only: earlier_solutions_type, factor_reuse_type, guess_solution, iterate_refactored, may_reuse, &
-                           note_factor, note_failure, note_solution, note_steps
+                           note_factor, note_failure, note_solution, note_steps, price_in_steps
    use failures, only: failure_type
    use front_factor, only: add_to_refactored, factorise_refactored, factorise_static
    use front_layout, only: bytes_needed, choose_layout, front_layout_type
@@ -102,6 +102,7 @@ contains
          if (failure%raised) return
          call start_front_tree(model, self%number, layout, self%fronts)
          call self%factor%reuse%set_costs(layout%refactored_operations, layout%refactored_entries)
+         self%coupled%price = price_in_steps(layout%refactored_operations, layout%solved_entries)
          self%equations = self%fronts%equations
          description%name = 'TREE, JOINTS '//self%way
          description%words = [character(40) :: 'FRONTS', 'ENTRIES OF THE FACTOR', 'UNKNOWNS LEFT AFTER CONDENSATION']
@@ -153,6 +154,7 @@ contains
       integer, intent(in)                    :: equation
 
       self%locked = [self%locked, equation]
+      self%coupled%serves = .false.
       self%fronts%locked(equation) = .true.
       call forget(self)
    end subroutine lock
@@ -262,6 +264,7 @@ contains
       class(tree_solver_type), intent(inout) :: self
 
       call forget(self)
+      self%coupled%serves = .false.
       self%factor%reuse = factor_reuse_type(most_steps=self%factor%reuse%most_steps)
       self%factor%is_own = .false.
       self%factor%is_awaited = .false.
