@@ -137,7 +137,7 @@ everything_so_far
 distributed=${6:-none}
 together=1
 part 'on several processes: decks against TREE' tests/mpi/run.sh "$program" "$distributed" "$query" "$build/mpi-test" \
-   input/{prism_history,friction_once,gib,flange_warm,bolted_cantilever,bracket_spiders,flange_sector,solid_bolt,pin_in_bore}.bdf \
+   input/{prism_history,friction_once,gib,flange_warm,bracket_spiders,solid_bolt}.bdf \
    input/{meshed_apart,column_tetra10,one_element,normal_loop}.bdf tests/solver/{boxes,moved_newton}.bdf
 part 'on several processes: their number' tests/mpi/ranks.sh "$program" "$distributed" "$query" "$build/mpi-ranks"
 part 'on several processes: bodies in pieces' tests/mpi/pieces.sh "$program" "$distributed" "$build/mpi-pieces"
