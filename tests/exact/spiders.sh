@@ -87,3 +87,29 @@ MPC,5,9,3,1.,18,3,-1.'
    run "mpc_${sets:3:1}"
 done
 same_rows 'MPCADD' mpc_A mpc_, 1e-12 $resultant
+
+# one element of 20 nodes, the load on a middle of an edge: its eight corners rigid by RBE2 and held there, or held themselves; and with all
+# three components of six middles and one of the loaded node in one MPC of 19 terms, whose sum of displacements is 0
+one_hexa() { # NAME CARDS
+   { printf "SPC = 1\n${3:-}SUBCASE 1\n LOAD = 1\nBEGIN BULK\n"
+     awk 'BEGIN {
+        split("0 10 10 0 0 10 10 0 5 10 5 0 0 10 10 0 5 10 5 0", x); split("0 0 10 10 0 0 10 10 0 5 10 5 0 0 10 10 0 5 10 5", y)
+        split("0 0 0 0 10 10 10 10 0 0 0 0 5 5 5 5 10 10 10 10", z)
+        for (i = 1; i <= 20; i++) printf "GRID,%d,,%g,%g,%g\n", i, x[i], y[i], z[i]
+        print "CHEXA,1,1,1,2,3,4,5,6\n,7,8,9,10,11,12,13,14\n,15,16,17,18,19,20\nPSOLID,1,1\nMAT1,1,21000.,,.3\nFORCE,1,17,0,100.,1.,2.,-3." }'
+     printf "$2"'ENDDATA\n'; } > "$work/$1.bdf"
+}
+one_hexa hexa_rbe2 'GRID,900,,3.,4.,5.\nRBE2,50,900,123456,1,2,3,4,5\n,6,7,8\nSPC1,1,123456,900\n'
+one_hexa hexa_held 'SPC1,1,123,1,2,3,4,5,6\n,7,8\n'
+run hexa_rbe2 && run hexa_held && {
+   for d in 1 2 3; do near "corners by RBE2: component $d" "$(moved hexa_rbe2 17 $d)" "$(moved hexa_held 17 $d)" 1e-5; done
+   near 'corners by RBE2: the support takes the load' "$(total hexa_rbe2 SUPPORTS 3)" "$(total hexa_held SUPPORTS 3)" 1e-9
+}
+terms=$(for n in 10 11 12 13 14 15; do for d in 1 2 3; do echo "$n,$d,1."; done; done |
+   awk '{ t = t (NR == 1 ? "" : NR % 2 == 0 ? "\\n,," : ",") $0 } END { print t }')
+for solver in SKYLINE TREE; do
+   one_hexa hexa_mpc_$solver "MPC,7,17,3,1.,$terms\nSPC1,1,123,1,2,3,4,5,6\n,7,8\n" "SOLVER = $solver\nMPC = 7\n"
+   run hexa_mpc_$solver && judge "MPC of 19 terms by $solver" '/^ DISPLACEMENTS OF NODES/ { on = 1; next } /^ [A-Z]/ { on = 0 }
+      on && $1 == 17 { sum += $7; size += ($7 > 0 ? $7 : -$7) } on && $1 >= 10 && $1 <= 15 { sum += $5 + $6 + $7; size += ($5 > 0 ? $5 : -$5) }
+      END { if (!(sum*sum < 1e-10*size*size)) print "sum " sum " of " size; print "checked 1" }' "$work/hexa_mpc_$solver.out"
+done
