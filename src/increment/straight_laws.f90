@@ -3,7 +3,8 @@
 !! is a thousand times that of the straight law. So the next point is not the one above m. It is where the element would come to
 !! rest if the structure around it had the stiffness rho: where the line f + rho m = constant through (m, f) of the straight law
 !! meets the graph. With a large rho that is the point of the same movement, with a small one that of the same force; whichever side a kink
-!! is come to from, it is not overshot. The answer does not depend on rho. Source: resolvent of a monotone graph (Rockafellar, SIAM J. Control
+!! is come to from, it is not overshot. An element that comes to rest on the same side of the movement twice running is held by too large
+!! a rho: it gets a smaller one until it turns back. The answer does not depend on rho. Source: resolvent of a monotone graph (Rockafellar, SIAM J. Control
 !! Optim. 14 (1976) 877-898), used on rigid joints by Alart, Curnier, Comput. Methods Appl. Mech. Eng. 92 (1991) 353-375.
 module straight_laws
    use analysis_state, only: analysis_type
@@ -25,6 +26,7 @@ module straight_laws
    integer, parameter  :: most_steps = 40
    real(wp), parameter :: near  = 1.0e-6_wp !! of the force: a point on the graph
    real(wp), parameter :: right = 0.1_wp    !! of it: how far a straight law may be wrong to have crossed no kink
+   real(wp), parameter :: least_rho = 1.0e-3_wp !! of what it is at first
    real(wp), parameter :: most  = 3.0_wp    !! times what was unbalanced: the force that a movement may become
 
    !> The straight laws of all interface elements, in their axes: f = force + tangent (m - point).
@@ -33,6 +35,8 @@ module straight_laws
       real(wp), allocatable :: force(:, :)          !! (3, n) there [force]
       real(wp), allocatable :: tangent(:, :, :)     !! (3, 3, n) [force/length]
       type(element_state), allocatable :: states(:) !! (n) there
+      real(wp), allocatable :: shift(:, :)          !! (3, n) from the last movement to the point [length]
+      real(wp), allocatable :: rho(:)               !! (n) as a multiple of what it is at first
    end type straight_laws_type
 
 contains
@@ -81,6 +85,8 @@ contains
       integer :: i
 
       allocate (laws%point(3, size(now%states)), laws%force(3, size(now%states)))
+      allocate (laws%shift(3, size(now%states)), source=0.0_wp)
+      allocate (laws%rho(size(now%states)), source=1.0_wp)
       laws%tangent = now%tangent
       laws%states = now%states
       do i = 1, size(now%states)
@@ -100,7 +106,7 @@ contains
       real(wp), intent(in)                    :: softer
       type(straight_laws_type), intent(inout) :: laws
       integer, intent(out)                    :: flips
-      real(wp) :: force(3), movement(3), rho(3), true_force(3), work(3)
+      real(wp) :: force(3), movement(3), rho(3), shift(3), true_force(3), work(3)
       integer  :: i
       logical  :: slipped
 
@@ -111,9 +117,15 @@ contains
             force = laws%force(:, i) + matmul(laws%tangent(:, :, i), movement - laws%point(:, i))
             true_force = force_of(element%area, now%states(i))
             if (norm2(true_force - force) > right*norm2(true_force)) then
-               rho = softer*stiffness_at_rest(model, analysis, i)
+               rho = laws%rho(i)*softer*stiffness_at_rest(model, analysis, i)
                rho = max(min(rho, most*unbalanced/max(abs(movement - laws%point(:, i)), tiny(1.0_wp))), tiny(1.0_wp))
-               movement = point_of_rest(law, element%area, analysis%states(i), movement, force, rho)
+               shift = point_of_rest(law, element%area, analysis%states(i), movement, force, rho) - movement
+               if (dot_product(shift, laws%shift(:, i)) > 0.0_wp) laws%rho(i) = max(0.25_wp*laws%rho(i), least_rho)
+               if (dot_product(shift, laws%shift(:, i)) < 0.0_wp) laws%rho(i) = min(4.0_wp*laws%rho(i), 1.0_wp)
+               movement = movement + shift
+               laws%shift(:, i) = shift
+            else
+               laws%shift(:, i) = 0.0_wp
             end if
             slipped = laws%states(i)%slips
             call follow_element(law, element%area, analysis%states(i), movement, laws%states(i), laws%tangent(:, :, i), work)
