@@ -14,6 +14,7 @@ module branch_starts
    !> One direction of one element.
    type, public :: turning_point
       integer  :: branch = branch_load          !! that began there
+      integer, private :: filler = 0            ! as in normal_state
       real(wp) :: delta = 0.0_wp, tau = 0.0_wp  !! where it began [length], [pressure]
    end type turning_point
 
@@ -30,7 +31,7 @@ contains
          do k = 1, 2
             associate (state => states(i)%shear(k))
                if (turns(k, i)%branch /= state%branch) &
-                  turns(k, i) = turning_point(state%branch, state%delta_before, state%tau_before)
+                  turns(k, i) = turning_point(branch=state%branch, delta=state%delta_before, tau=state%tau_before)
             end associate
          end do
       end do

@@ -30,6 +30,7 @@ module joint_laws
       type(normal_state) :: normal
       type(shear_state)  :: shear(2)
       logical  :: slips = .false.            !! the limit was exceeded in the last increment
+      integer, private :: filler = 0         ! as in normal_state
       real(wp) :: origin(2) = 0.0_wp         !! tangential movement at which delta = 0: where it closed last
    end type element_state
 

@@ -20,7 +20,7 @@ module listing
    use node_coupling, only: held_forces
    use normal_stiffness, only: branch_open
    use numbers, only: first_largest
-   use range_watch, only: note_condition, note_division, range_watch_type, record_watch, say_ranges, tetra_words, &
+   use range_watch, only: note_condition, note_division, range_watch_type, record_watch, say_ranges, start_watch, &
                           watch_balance, watch_ranges, watch_shear_laws, watch_unloading
    use restart_stream, only: restart_stream_type
    use stage_entries, only: output_all, output_joint, output_last
@@ -60,7 +60,7 @@ contains
       if (deck%control%length_unit /= '') call set_labels(trim(deck%control%length_unit), trim(deck%control%force_unit), &
                                                           listing%page%labels)
       call write_opening(listing%page, deck, model, plan, system)
-      if (tetra_words(model) /= '') listing%watch%n_warnings = 1
+      call start_watch(model, listing%watch)
    end subroutine start_listing
 
    !> The units that stand over the columns, of those of LENGTH and FORCE.
@@ -275,12 +275,17 @@ contains
       type(restart_stream_type), intent(inout) :: stream
       type(listing_type), intent(inout)        :: listing
 
-      call stream%mark('LISTING')
-      call listing%page%file%record(stream)
-      call stream%list(listing%page%stage)
-      call stream%list(listing%page%now)
-      call stream%item(listing%page%largest_force)
-      call stream%list(listing%page%shown)
+      associate (page => listing%page, farthest => listing%farthest)
+         call page%file%record(stream)
+         call stream%list(page%stage)
+         call stream%list(page%now)
+         call stream%list(page%shown)
+         call stream%list(farthest%quantity)
+         call stream%list(farthest%place)
+         call stream%list(listing%poor_condition)
+         call stream%list(listing%divided)
+         call stream%item(page%largest_force, farthest%share, farthest%node, listing%n_increments, listing%n_removed)
+      end associate
       call listing%increments%record(stream)
       call listing%distances%record(stream)
       call listing%resultants%record(stream)
@@ -289,14 +294,6 @@ contains
       call listing%bars%record(stream)
       call listing%springs%record(stream)
       call listing%sections%record(stream)
-      call stream%item(listing%farthest%share)
-      call stream%item(listing%farthest%node)
-      call stream%list(listing%farthest%quantity)
-      call stream%list(listing%farthest%place)
-      call stream%list(listing%poor_condition)
-      call stream%list(listing%divided)
-      call stream%item(listing%n_increments)
-      call stream%item(listing%n_removed)
       call record_watch(stream, listing%watch)
    end subroutine record_listing
 

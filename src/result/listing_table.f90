@@ -43,7 +43,7 @@ module listing_table
    type, public :: column_type
       private
       character(48) :: heading = ''
-      character(10) :: form = ''
+      character(12) :: form = ''      ! as long as leaves no undefined bytes behind: columns are copied to restart files as they are
       character(20) :: unit = ''
       integer :: width = 0            ! 0: text from here on
       integer :: last = 0             ! character of the row that its values end at
@@ -296,45 +296,26 @@ contains
       class(listing_table_type), intent(inout) :: self
       type(restart_stream_type), intent(inout) :: stream
       integer :: i, n
-      logical :: is_there
 
       call stream%list(self%title)
-      is_there = allocated(self%columns)
-      call stream%item(is_there)
-      n = 0
-      if (is_there .and. stream%writes) n = size(self%columns)
-      call stream%count(n, 91)
-      if (is_there .and. .not. stream%writes) then
+      n = -1
+      if (allocated(self%columns)) n = size(self%columns)
+      call stream%extent(n, 100)
+      if (.not. stream%writes) then
          if (allocated(self%columns)) deallocate (self%columns)
-         allocate (self%columns(n))
+         if (n >= 0) allocate (self%columns(n))
       end if
-      do i = 1, n
-         call record_column(stream, self%columns(i))
-      end do
-      call stream%count(self%n_kept, page_width)
+      if (n >= 0) call stream%item(self%columns)
+      call stream%extent(self%n_kept, page_width)
       if (.not. allocated(self%kept)) allocate (self%kept(max(64, self%n_kept)))
       if (size(self%kept) < self%n_kept) then
          deallocate (self%kept)
          allocate (self%kept(self%n_kept))
       end if
       do i = 1, self%n_kept
-         call stream%item(self%kept(i))
+         call stream%text(self%kept(i))
       end do
    end subroutine record
-
-   subroutine record_column(stream, column)
-      type(restart_stream_type), intent(inout) :: stream
-      type(column_type), intent(inout)         :: column
-
-      call stream%item(column%heading)
-      call stream%item(column%form)
-      call stream%item(column%unit)
-      call stream%item(column%width)
-      call stream%item(column%last)
-      call stream%item(column%heading_shift)
-      call stream%item(column%unit_shift)
-      call stream%item(column%is_short)
-   end subroutine record_column
 
    !> A heading of a table, with an empty line before it.
    subroutine heading(file, words)

@@ -140,7 +140,6 @@ contains
       character(:), allocatable :: text
       logical :: ok
 
-      call stream%mark('OUTPUT')
       if (self%path == '') then
          if (stream%writes) text = self%buffer(:self%used)
          call stream%list(text)

@@ -21,8 +21,8 @@ module range_watch
    implicit none
    private
 
-   public :: watch_shear_laws, watch_ranges, say_ranges, watch_unloading, watch_balance, note_condition, note_division, &
-             record_watch, tetra_words
+   public :: start_watch, watch_shear_laws, watch_ranges, say_ranges, watch_unloading, watch_balance, note_condition, &
+             note_division, record_watch, tetra_words
 
    real(wp), parameter :: much = 0.01_wp ! of the largest load, or of the friction limits: what may be left without a warning
    real(wp), parameter :: rounding = 1.0e-9_wp
@@ -45,11 +45,23 @@ module range_watch
       integer, allocatable, private :: stage(:, :)   ! (bounds, n) in which an element was last found beyond one
       type(tally_type), allocatable, private :: tallies(:, :) ! (bounds, joints)
       logical, allocatable, private :: soft_line(:)  ! whether a joint was warned of its E_u
-      integer, allocatable, private :: first_of(:, :)  ! (2, joints) the first direction of the model with the same shear law
+      integer, allocatable, private :: first_of(:, :)  ! (2, joints) the first direction of the model with the same shear law, 0: no law
       logical, allocatable, private :: soft_unloading(:) ! whether that direction, counted through, was warned of soft unloading
    end type range_watch_type
 
 contains
+
+   !> Nothing has been warned of yet, but of bodies that are too stiff.
+   subroutine start_watch(model, watch)
+      type(model_type), intent(in)        :: model
+      type(range_watch_type), intent(out) :: watch
+
+      allocate (watch%stage(no_slope, size(model%interface)), source=0)
+      allocate (watch%tallies(no_slope, size(model%joints)))
+      allocate (watch%soft_line(size(model%joints)), watch%soft_unloading(2*size(model%joints)), source=.false.)
+      allocate (watch%first_of(2, size(model%joints)), source=-1)
+      if (tetra_words(model) /= '') watch%n_warnings = 1
+   end subroutine start_watch
 
    !> What to say of a model whose bodies are of linear tetrahedra alone; empty of any other.
    pure function tetra_words(model) result(words)
@@ -70,7 +82,7 @@ contains
       type(range_watch_type), intent(inout) :: watch
       integer :: i, k, law
 
-      if (.not. allocated(watch%first_of)) call watch_closures(model, watch)
+      if (any(watch%first_of < 0)) call watch_closures(model, watch)
       do i = 1, size(model%interface)
          do k = 1, model%dimension - 1
             law = watch%first_of(k, model%interface(i)%joint)
@@ -98,8 +110,7 @@ contains
       type(loop_closure) :: closure
       integer :: i, j, k
 
-      allocate (watch%first_of(2, size(model%joints)), source=0)
-      allocate (watch%soft_unloading(2*size(model%joints)), source=.false.)
+      watch%first_of = 0
       do j = 1, size(model%joints)
          do k = 1, model%dimension - 1
             associate (law => model%joints(j)%law%shear(k))
@@ -137,10 +148,6 @@ contains
       real(wp) :: p, d
       integer  :: i, k
 
-      if (.not. allocated(watch%stage)) then
-         allocate (watch%stage(no_slope, size(model%interface)), source=0)
-         allocate (watch%tallies(no_slope, size(model%joints)))
-      end if
       do i = 1, size(model%interface)
          if (analysis%states(i)%normal%branch == branch_open) cycle
          do k = 1, model%dimension - 1
@@ -238,7 +245,6 @@ contains
       real(wp) :: slope
       integer  :: i
 
-      if (.not. allocated(watch%soft_line)) allocate (watch%soft_line(size(model%joints)), source=.false.)
       do i = 1, size(model%interface)
          associate (j => model%interface(i)%joint, state => analysis%states(i)%normal)
             if (watch%soft_line(j) .or. state%branch /= branch_load) cycle
@@ -339,41 +345,9 @@ contains
    subroutine record_watch(stream, watch)
       type(restart_stream_type), intent(inout) :: stream
       type(range_watch_type), intent(inout)    :: watch
-      integer :: j, n, which
-      logical :: is_there
 
-      call stream%mark('WARNINGS')
-      call stream%item(watch%n_warnings)
       call watch%rows%record(stream)
-      call stream%list(watch%stage)
-      call stream%list(watch%soft_line)
-      call stream%list(watch%first_of)
-      call stream%list(watch%soft_unloading)
-      is_there = allocated(watch%tallies)
-      call stream%item(is_there)
-      n = 0
-      if (is_there .and. stream%writes) n = size(watch%tallies, 2)
-      call stream%count(n, 48*no_slope)
-      if (is_there .and. .not. stream%writes) allocate (watch%tallies(no_slope, n))
-      do j = 1, n
-         do which = 1, no_slope
-            call record_tally(stream, watch%tallies(which, j))
-         end do
-      end do
+      call stream%item(watch%n_warnings, watch%stage, watch%tallies, watch%soft_line, watch%first_of, watch%soft_unloading)
    end subroutine record_watch
-
-   subroutine record_tally(stream, tally)
-      type(restart_stream_type), intent(inout) :: stream
-      type(tally_type), intent(inout)          :: tally
-
-      call stream%item(tally%n)
-      call stream%item(tally%node)
-      call stream%item(tally%increment)
-      call stream%item(tally%worst_node)
-      call stream%item(tally%p)
-      call stream%item(tally%d)
-      call stream%item(tally%excess)
-      call stream%item(tally%bound)
-   end subroutine record_tally
 
 end module range_watch

@@ -284,20 +284,17 @@ contains
       integer :: i, k, n, n_files
       logical :: is_index
 
-      call stream%mark('PARAVIEW')
       n = results%n
-      call stream%count(n, 73)
+      call stream%extent(n, 64)
       n = min(n, size(results%parts))
       do i = 1, n
          associate (part => results%parts(i))
-            call stream%item(part%ending)
-            call stream%item(part%time)
-            call stream%item(part%part)
             is_index = part%is_index
-            call stream%item(is_index)
+            call stream%text(part%ending)
+            call stream%item(part%time, part%part, is_index)
             n_files = 1
             if (allocated(part%files)) n_files = size(part%files)
-            call stream%count(n_files, 8)
+            call stream%extent(n_files, 8)
             if (.not. stream%writes) call make_room(part, n_files, is_index)
             do k = 1, n_files
                call part%files(k)%record(path_of(results, i, k), stream)

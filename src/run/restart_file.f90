@@ -4,7 +4,6 @@
 !! What an increment needs and no file could hold, the factors of the equations and earlier solutions, is made anew, and the run
 !! that wrote the file forgets it too: from the same point on both do the same, to the last digit. The model is built from the deck.
 module restart_file
-   use analysis_record, only: record_analysis
    use analysis_state, only: analysis_type
    use bolt_locking, only: lock_again
    use c_library, only: close_file, is_regular_file, keep_on_disk, read_all_bytes, remove_file
@@ -15,7 +14,7 @@ module restart_file
    use equation_solver, only: equation_system
    use incomplete_results, only: create_part, name_part
    use, intrinsic :: iso_fortran_env, only: error_unit
-   use model_data, only: model_type
+   use model_data, only: model_type, temperature_type
    use progress, only: goes_on, is_over, is_refused, run_type
    use restart_stream, only: open_restart, restart_stream_type
    use results, only: record_results, restart_ending, results_type
@@ -24,7 +23,7 @@ module restart_file
    implicit none
    private
 
-   public :: open_restart_file, take_up, write_restart, restart_name
+   public :: open_restart_file, take_up, write_restart, restart_name, record_analysis
 
 contains
 
@@ -167,7 +166,54 @@ contains
 
       call record_analysis(stream, analysis)
       call record_results(stream, results)
-      call stream%mark('END')
    end subroutine record_state
+
+   !> Write A, or read it into one that start_analysis has made for the same model: everything in it but what stands still in
+   !! an increment (condensed, which its first one prints) and what is so only while it is taken up (goes_on).
+   subroutine record_analysis(stream, a)
+      type(restart_stream_type), intent(inout) :: stream
+      type(analysis_type), intent(inout)       :: a
+      integer :: n_slips
+
+      call stream%item(a%stage, a%increment, a%share, a%fraction, a%carry, a%eq10)
+      call stream%item(a%average, a%is_loose, a%loose_force, a%is_settled, a%load_tolerance, a%tolerance)
+      ! of all nodes
+      call stream%item(a%load_before, a%load_after, a%applied)
+      call record_temperature(stream, a%temperature_before)
+      call record_temperature(stream, a%temperature_after)
+      call record_temperature(stream, a%temperature)
+      call stream%list(a%loaded)
+      call stream%item(a%is_moved, a%moves, a%moved_before, a%moved_after, a%moved)
+      call stream%item(a%all_u, a%all_unbalanced, a%place)
+      ! of retained nodes, bars and sections
+      call stream%item(a%held, a%felt_before, a%felt_after, a%felt, a%change, a%move)
+      call stream%item(a%body, a%u, a%du, a%unbalanced)
+      call stream%item(a%is_elastic, a%pull, a%is_locked)
+      ! of interface elements and joints
+      call stream%item(a%states, a%movement, a%k, a%turns, a%kind, a%next_kind)
+      if (allocated(a%exact)) call stream%item(a%exact)
+      call stream%item(a%condition, a%energy, a%largest_p, a%largest_lambda, a%largest_load)
+      call stream%item(a%n_removed, a%ends_early, a%is_partial, a%n_parts)
+      call stream%extent(a%n_passes, 32)
+      n_slips = size(a%slips)
+      call stream%extent(n_slips, 88)
+      if (a%n_passes > size(a%passes)) then
+         deallocate (a%passes)
+         allocate (a%passes(a%n_passes))
+      end if
+      if (n_slips /= size(a%slips)) then
+         deallocate (a%slips)
+         allocate (a%slips(n_slips))
+      end if
+      call stream%item(a%passes(:a%n_passes), a%slips)
+   end subroutine record_analysis
+
+   subroutine record_temperature(stream, temperature)
+      type(restart_stream_type), intent(inout) :: stream
+      type(temperature_type), intent(inout)    :: temperature
+
+      call stream%list(temperature%at)
+      call stream%item(temperature%reference_share)
+   end subroutine record_temperature
 
 end module restart_file

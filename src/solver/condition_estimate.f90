@@ -25,6 +25,7 @@ module condition_estimate
       integer  :: node = 0, direction = 0  !! of the largest component of the displacement that [k] resists least
       real(wp) :: weakest = 1.0_wp         !! pivot that has been looked at, as equation_system has it
       logical  :: is_new = .false.         !! it is poor, and has not been told
+      integer, private :: filler = 0       ! no undefined bytes: it is copied to restart files as it is
    end type condition_type
 
 contains

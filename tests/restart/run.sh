@@ -220,6 +220,8 @@ for n in 0 1 15 16 17 47 48 49 63 64 65 $((size/2)) $((size - 17)) $((size - 16)
 done
 { cat sound; printf '\0'; } > hand.now/hand.restart;           refused 'a byte too many' 'not as long as it says'
 { head -c $((size/2)) sound; cat sound; } > hand.now/hand.restart; refused 'a half and a whole' 'not as long as it says'
+{ head -c 20 sound; printf '\1\2\3\4'; tail -c +25 sound; } > hand.now/hand.restart # written by a processor such as SPARC
+cmp -s sound hand.now/hand.restart || refused 'the other order of bytes' 'in the other order'
 cp decks/hand.bdf hand.now/hand.restart;                       refused 'a deck' 'it is no restart file'
 cp step.whole/step.restart hand.now/hand.restart;              refused 'the file of another deck' 'it belongs to another deck'
 cp sound hand.now/hand.restart
