@@ -186,7 +186,7 @@ contains
       if (n > self%last - self%used) n = -1
    end function next_size
 
-   !> N things of BYTES_EACH follow, -1: what holds them is not there. When it is read 0 where that many cannot be there.
+   !> N things of at least BYTES_EACH follow, -1: what holds them is not there. When it is read 0 where that many cannot be there.
    subroutine extent(self, n, bytes_each)
       class(restart_stream_type), intent(inout) :: self
       integer, intent(inout)                    :: n
@@ -194,7 +194,8 @@ contains
 
       call self%item(n)
       if (self%writes) return
-      if (n < -1 .or. n > (self%last - self%used)/bytes_each) call fail(self, 'more is to follow than there is')
+      if (n < -1 .or. (n > 0 .and. int(n, long)*bytes_each + 8 > self%last - self%used)) &
+         call fail(self, 'more is to follow than there is')
       if (allocated(self%fault)) n = 0
    end subroutine extent
 

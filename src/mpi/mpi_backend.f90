@@ -13,7 +13,7 @@ submodule(distribution) mpi_backend
                             petsc_return_error_handler
    use petsc_solver, only: petsc_solver_type
    use ranks, only: find_ranks, leave_ranks, n_ranks, rank
-   use subdomain_output, only: send_piece, send_state, write_own, writes_by
+   use subdomain_output, only: pass_piece, send_state, write_own, writes_by
    use worker_loop, only: broadcast_command, command_cut, command_end, command_memory, command_show, free_worker, serve
    implicit none
 
@@ -99,7 +99,7 @@ contains
          call broadcast_command(command_cut)
          do r = 1, n_ranks - 1
             call cut_piece(model, system%parts%owner, r, other, pieces%lists(r)%nodes)
-            call send_piece(other, r)
+            call pass_piece(r, other)
          end do
          call cut_piece(model, system%parts%owner, 0, pieces%own, pieces%lists(0)%nodes)
          call move_alloc(pieces, output)

@@ -8,13 +8,12 @@ module partition
    use nested_dissection, only: part_by_metis
    use node_coupling, only: is_coupled, section_node
    use node_graph, only: node_graph_type
-   use ranks, only: n_ranks, receive, send
+   use ranks, only: n_ranks, pass, rank
    use unknowns, only: is_ordinary, motions_of, n_motions
    implicit none
    private
 
-   public :: partition_nodes, subdomain_of, is_entangled, send_subdomain, receive_subdomain, forget_elements, send_part, &
-             receive_part
+   public :: partition_nodes, subdomain_of, is_entangled, pass_subdomain, forget_elements, pass_part
 
    !> How rank 0 has dealt the nodes.
    type, public :: partition_type
@@ -39,8 +38,6 @@ module partition
       integer, allocatable  :: odd(:)         !! own blocks whose unknowns are no displacements in global axes
       real(wp), allocatable :: odd_motions(:, :, :) !! (dimension, motions, of these) as motions_of has them
    end type subdomain_type
-
-   integer, parameter :: words_each = 3, values_each = 5 !! of a property
 
 contains
 
@@ -151,106 +148,43 @@ contains
       deallocate (subdomain%block, subdomain%held, subdomain%held_own, subdomain%inside, subdomain%outside, subdomain%x)
    end subroutine forget_elements
 
-   !> Send SUBDOMAIN to process R.
-   subroutine send_subdomain(subdomain, r)
-      type(subdomain_type), intent(in) :: subdomain
-      integer, intent(in)          :: r
+   !> SUBDOMAIN gets from rank 0 to process R.
+   subroutine pass_subdomain(r, subdomain)
+      integer, intent(in)                 :: r
+      type(subdomain_type), intent(inout) :: subdomain
+      integer :: n_odd
 
-      call send(r, [subdomain%dimension, subdomain%n_blocks, subdomain%n_own, subdomain%first])
-      call send_part(subdomain%model, r)
-      call send(r, subdomain%block)
-      call send(r, reshape(merge(1, 0, subdomain%held), [size(subdomain%held)]))
-      call send(r, reshape(merge(1, 0, subdomain%held_own), [size(subdomain%held_own)]))
-      call send(r, subdomain%inside)
-      call send(r, subdomain%outside)
-      call send(r, reshape(subdomain%x, [size(subdomain%x)]))
-      call send(r, subdomain%odd)
-      call send(r, reshape(subdomain%odd_motions, [size(subdomain%odd_motions)]))
-   end subroutine send_subdomain
-
-   !> The SUBDOMAIN that rank 0 has sent.
-   subroutine receive_subdomain(subdomain)
-      type(subdomain_type), intent(out) :: subdomain
-      integer, allocatable  :: words(:), sizes(:)
-      real(wp), allocatable :: values(:)
-
-      call receive(sizes)
-      subdomain%dimension = sizes(1)
-      subdomain%n_blocks = sizes(2)
-      subdomain%n_own = sizes(3)
-      subdomain%first = sizes(4)
-      call receive_part(subdomain%model)
-      associate (piece => subdomain%model, d => subdomain%dimension)
-         call receive(subdomain%block)
-         call receive(words)
-         subdomain%held = reshape(words == 1, [d, piece%n_nodes])
-         call receive(words)
-         subdomain%held_own = reshape(words == 1, [d, subdomain%n_own])
-         call receive(subdomain%inside)
-         call receive(subdomain%outside)
-         call receive(values)
-         subdomain%x = reshape(values, [d, subdomain%n_own])
-         call receive(subdomain%odd)
-         call receive(values)
-         subdomain%odd_motions = reshape(values, [d, n_motions(d), size(subdomain%odd)])
+      n_odd = 0
+      if (rank == 0) n_odd = size(subdomain%odd)
+      call pass(r, subdomain%dimension, subdomain%n_blocks, subdomain%n_own, subdomain%first, n_odd)
+      call pass_part(r, subdomain%model)
+      associate (d => subdomain%dimension, nodes => subdomain%model%n_nodes, own => subdomain%n_own)
+         if (rank /= 0) then
+            allocate (subdomain%block(nodes), subdomain%held(d, nodes), subdomain%held_own(d, own), subdomain%inside(own), &
+                      subdomain%outside(own), subdomain%x(d, own), subdomain%odd(n_odd), &
+                      subdomain%odd_motions(d, n_motions(d), n_odd))
+         end if
       end associate
-   end subroutine receive_subdomain
+      call pass(r, subdomain%block, subdomain%held, subdomain%held_own, subdomain%inside, subdomain%outside)
+      call pass(r, subdomain%x, subdomain%odd, subdomain%odd_motions)
+   end subroutine pass_subdomain
 
-   !> Send to process R what extract of body_parts has set of PART.
-   subroutine send_part(part, r)
-      type(model_type), intent(in) :: part
-      integer, intent(in)          :: r
-      integer  :: words(words_each, size(part%properties))
-      real(wp) :: values(values_each, size(part%properties))
-      integer  :: i
+   !> What extract of body_parts has set of PART gets from rank 0 to process R.
+   subroutine pass_part(r, part)
+      integer, intent(in)             :: r
+      type(model_type), intent(inout) :: part
+      integer :: n_corners, n_properties
 
-      do i = 1, size(part%properties)
-         associate (property => part%properties(i))
-            words(:, i) = [property%id, property%state, merge(1, 0, property%incompatible)]
-            values(:, i) = [property%e, property%nu, property%thickness, property%alpha, property%reference]
-         end associate
-      end do
-      call send(r, [part%dimension, part%n_elements, part%n_nodes, size(part%element_nodes, 1), size(part%properties)])
-      call send(r, part%element_kind)
-      call send(r, part%element_property)
-      call send(r, reshape(part%element_nodes, [size(part%element_nodes)]))
-      call send(r, reshape(part%x, [size(part%x)]))
-      call send(r, reshape(words, [size(words)]))
-      call send(r, reshape(values, [size(values)]))
-   end subroutine send_part
-
-   !> The PART that rank 0 has sent.
-   subroutine receive_part(part)
-      type(model_type), intent(out) :: part
-      integer, allocatable  :: sizes(:), words(:)
-      real(wp), allocatable :: values(:)
-      integer :: i
-
-      call receive(sizes)
-      part%dimension = sizes(1)
-      part%n_elements = sizes(2)
-      part%n_nodes = sizes(3)
-      call receive(part%element_kind)
-      call receive(part%element_property)
-      call receive(words)
-      part%element_nodes = reshape(words, [sizes(4), part%n_elements])
-      call receive(values)
-      part%x = reshape(values, [3, part%n_nodes])
-      allocate (part%properties(sizes(5)))
-      call receive(words)
-      call receive(values)
-      do i = 1, size(part%properties)
-         associate (property => part%properties(i), word => words_each*(i - 1), value => values_each*(i - 1))
-            property%id = words(word + 1)
-            property%state = words(word + 2)
-            property%incompatible = words(word + 3) == 1
-            property%e = values(value + 1)
-            property%nu = values(value + 2)
-            property%thickness = values(value + 3)
-            property%alpha = values(value + 4)
-            property%reference = values(value + 5)
-         end associate
-      end do
-   end subroutine receive_part
+      if (rank == 0) then
+         n_corners = size(part%element_nodes, 1)
+         n_properties = size(part%properties)
+      end if
+      call pass(r, part%dimension, part%n_elements, part%n_nodes, n_corners, n_properties)
+      if (rank /= 0) then
+         allocate (part%element_kind(part%n_elements), part%element_property(part%n_elements), part%x(3, part%n_nodes), &
+                   part%element_nodes(n_corners, part%n_elements), part%properties(n_properties))
+      end if
+      call pass(r, part%element_kind, part%element_property, part%element_nodes, part%x, part%properties)
+   end subroutine pass_part
 
 end module partition

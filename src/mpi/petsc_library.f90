@@ -6,15 +6,12 @@ module petsc_library
    implicit none
    public
 
-   integer, parameter :: petsc_int = c_int, petsc_scalar = c_double
-
    integer(c_int), parameter :: insert_values = 1, add_values = 2            ! InsertMode
    integer(c_int), parameter :: final_assembly = 0                           ! MatAssemblyType
    integer(c_int), parameter :: petsc_false = 0, petsc_true = 1              ! PetscBool
    integer(c_int), parameter :: norm_2 = 1                                   ! NormType
    integer(c_int), parameter :: mat_ignore_lower = 12, mat_spd = 15, mat_spd_eternal = 26 ! MatOption
    integer(c_int), parameter :: unpreconditioned = 2                         ! KSPNormType
-   integer(c_int), parameter :: petsc_decide = -1, petsc_default = -2
    integer(c_int), parameter :: out_of_memory = 55                           ! PETSC_ERR_MEM
    integer(c_int), parameter :: no_memory_for_factor = 3                     ! PC_FACTOR_OUTMEMORY of PCFailedReason
 

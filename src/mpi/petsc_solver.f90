@@ -14,7 +14,7 @@ module petsc_solver
    use model_data, only: model_type
    use node_coupling, only: list_on_unknowns, coupled_nodes
    use node_graph, only: node_graph_type
-   use partition, only: is_entangled, partition_nodes, partition_type, send_subdomain, subdomain_of, subdomain_type
+   use partition, only: is_entangled, partition_nodes, partition_type, pass_subdomain, subdomain_of, subdomain_type
    use ranks, only: n_ranks
    use text_tools, only: integer_text, real_text
    use touched_blocks, only: add_touched, list_touched, structure_values, touched_type
@@ -79,7 +79,7 @@ contains
       call broadcast_command(command_take)
       do r = 1, n_ranks - 1
          call subdomain_of(model, graph, self%parts, r, other)
-         call send_subdomain(other, r)
+         call pass_subdomain(r, other)
       end do
       call subdomain_of(model, graph, self%parts, 0, subdomain)
       self%equations = [(i, i = 1, self%n)]

@@ -1,25 +1,17 @@
 !> The processes of a run, as MPI numbers them from 0 on. Rank 0 reads, steps and writes; the others wait for its commands.
 module ranks
-   use mpi_f08, only: mpi_abort, mpi_allreduce, mpi_bcast, mpi_character, mpi_comm_rank, mpi_comm_size, mpi_comm_world, &
+   use mpi_f08, only: mpi_abort, mpi_allreduce, mpi_bcast, mpi_byte, mpi_comm_rank, mpi_comm_size, mpi_comm_world, &
                       mpi_double_precision, mpi_finalize, mpi_gatherv, mpi_init, mpi_integer, mpi_max, mpi_recv, mpi_scatterv, &
                       mpi_send, mpi_status_ignore, mpi_sum
    use incomplete_results, only: remove_incomplete
-   use kinds, only: wp
+   use kinds, only: long, wp
    use, intrinsic :: iso_fortran_env, only: error_unit
    implicit none
    private
 
-   public :: find_ranks, leave_ranks, tell, send, receive, scatter, gather, largest_of_all, sum_of_all, give_up
+   public :: find_ranks, leave_ranks, tell, pass, pass_text, scatter, gather, largest_of_all, sum_of_all, give_up
 
    integer, public, protected :: rank = 0, n_ranks = 1
-
-   interface send
-      module procedure :: send_integers, send_reals, send_text
-   end interface send
-
-   interface receive
-      module procedure :: receive_integers, receive_reals, receive_text
-   end interface receive
 
 contains
 
@@ -41,56 +33,47 @@ contains
       call mpi_bcast(words, size(words), mpi_integer, 0, mpi_comm_world)
    end subroutine tell
 
-   subroutine send_integers(to, values)
-      integer, intent(in) :: to, values(:)
+   !> What stands on rank 0 in up to six variables or contiguous arrays of any plain type but character gets to process R: both call
+   !! this, with the same sizes.
+   subroutine pass(r, a, b, c, d, e, f)
+      integer, intent(in)               :: r
+      class(*), intent(inout)           :: a(..)
+      class(*), intent(inout), optional :: b(..), c(..), d(..), e(..), f(..)
 
-      call mpi_send([size(values)], 1, mpi_integer, to, 1, mpi_comm_world)
-      call mpi_send(values, size(values), mpi_integer, to, 2, mpi_comm_world)
-   end subroutine send_integers
+      call pass_bytes(r, storage_size(a)/8*size(a, kind=long), a)
+      if (present(b)) call pass_bytes(r, storage_size(b)/8*size(b, kind=long), b)
+      if (present(c)) call pass_bytes(r, storage_size(c)/8*size(c, kind=long), c)
+      if (present(d)) call pass_bytes(r, storage_size(d)/8*size(d, kind=long), d)
+      if (present(e)) call pass_bytes(r, storage_size(e)/8*size(e, kind=long), e)
+      if (present(f)) call pass_bytes(r, storage_size(f)/8*size(f, kind=long), f)
+   end subroutine pass
 
-   subroutine send_reals(to, values)
-      integer, intent(in)  :: to
-      real(wp), intent(in) :: values(:)
-
-      call mpi_send([size(values)], 1, mpi_integer, to, 1, mpi_comm_world)
-      call mpi_send(values, size(values), mpi_double_precision, to, 3, mpi_comm_world)
-   end subroutine send_reals
-
-   subroutine send_text(to, text)
-      integer, intent(in)      :: to
-      character(*), intent(in) :: text
-
-      call mpi_send([len(text)], 1, mpi_integer, to, 1, mpi_comm_world)
-      call mpi_send(text, len(text), mpi_character, to, 4, mpi_comm_world)
-   end subroutine send_text
-
-   !> What rank 0 has sent.
-   subroutine receive_integers(values)
-      integer, allocatable, intent(out) :: values(:)
+   !> The same with a text of any length.
+   subroutine pass_text(r, text)
+      integer, intent(in)                      :: r
+      character(:), allocatable, intent(inout) :: text
       integer :: n
 
-      call mpi_recv(n, 1, mpi_integer, 0, 1, mpi_comm_world, mpi_status_ignore)
-      allocate (values(n))
-      call mpi_recv(values, n, mpi_integer, 0, 2, mpi_comm_world, mpi_status_ignore)
-   end subroutine receive_integers
+      n = 0
+      if (rank == 0) n = len(text)
+      call pass(r, n)
+      if (rank /= 0) allocate (character(n) :: text)
+      call pass_bytes(r, int(n, long), text)
+   end subroutine pass_text
 
-   subroutine receive_reals(values)
-      real(wp), allocatable, intent(out) :: values(:)
-      integer :: n
+   !> The N bytes of VALUES.
+   subroutine pass_bytes(r, n, values)
+      integer, intent(in)       :: r
+      integer(long), intent(in) :: n
+      type(*), intent(inout)    :: values(..)
 
-      call mpi_recv(n, 1, mpi_integer, 0, 1, mpi_comm_world, mpi_status_ignore)
-      allocate (values(n))
-      call mpi_recv(values, n, mpi_double_precision, 0, 3, mpi_comm_world, mpi_status_ignore)
-   end subroutine receive_reals
-
-   subroutine receive_text(text)
-      character(:), allocatable, intent(out) :: text
-      integer :: n
-
-      call mpi_recv(n, 1, mpi_integer, 0, 1, mpi_comm_world, mpi_status_ignore)
-      allocate (character(n) :: text)
-      call mpi_recv(text, n, mpi_character, 0, 4, mpi_comm_world, mpi_status_ignore)
-   end subroutine receive_text
+      if (n > huge(0)) call give_up('a part of the structure is too large to be sent; more processes have smaller ones')
+      if (rank == 0) then
+         call mpi_send(values, int(n), mpi_byte, r, 1, mpi_comm_world)
+      else
+         call mpi_recv(values, int(n), mpi_byte, 0, 1, mpi_comm_world, mpi_status_ignore)
+      end if
+   end subroutine pass_bytes
 
    !> OWN: the next COUNTS(rank) of ALL, which rank 0 has, and COUNTS with it.
    subroutine scatter(all, counts, own)

@@ -6,12 +6,12 @@ module subdomain_output
    use kinds, only: wp
    use lists, only: list_owners
    use model_data, only: n_sections, temperature_type
-   use partition, only: receive_part, send_part
-   use ranks, only: receive, send, sum_of_all
+   use partition, only: pass_part
+   use ranks, only: pass, pass_text, rank, sum_of_all
    implicit none
    private
 
-   public :: writes_by, send_piece, receive_piece, send_state, write_received, write_own, forget_piece
+   public :: writes_by, pass_piece, receive_piece, send_state, write_received, write_own, forget_piece
 
    type(body_piece_type), allocatable :: piece !! of the other ranks
    procedure(piece_writer), pointer :: write_piece => null()
@@ -25,54 +25,34 @@ contains
       write_piece => writer
    end subroutine writes_by
 
-   !> Send process R its OWN piece.
-   subroutine send_piece(own, r)
-      type(body_piece_type), intent(in) :: own
-      integer, intent(in)               :: r
-      integer :: i
+   !> OWN gets from rank 0 to process R, whose piece it is.
+   subroutine pass_piece(r, own)
+      integer, intent(in)                  :: r
+      type(body_piece_type), intent(inout) :: own
+      integer :: n, n_shown
 
-      associate (part => own%model)
-         call send_part(part, r)
-         call send(r, [own%shown%n_points, merge(1, 0, own%shown%is_warm), n_sections(part)])
-         call send(r, own%shown%elements)
-         call send(r, part%node_id)
-         call send(r, part%element_id)
-         if (n_sections(part) == 0) return
-         call send(r, part%element_section)
-         call send(r, part%node_section)
-         call send(r, part%sections%node)
-         call send(r, [(part%sections(i)%direction, i = 1, n_sections(part))])
+      call pass_part(r, own%model)
+      associate (part => own%model, shown => own%shown)
+         if (rank == 0) then
+            n = n_sections(part)
+            n_shown = size(shown%elements)
+         end if
+         call pass(r, shown%n_points, shown%is_warm, n_shown, n)
+         if (rank /= 0) then
+            allocate (shown%elements(n_shown), part%node_id(part%n_nodes), part%element_id(part%n_elements))
+            call list_owners(part%n_nodes, part%element_nodes, part%first_at, part%elements_at)
+            if (n > 0) allocate (part%element_section(part%n_elements), part%node_section(part%n_nodes), part%sections(n))
+         end if
+         call pass(r, shown%elements, part%node_id, part%element_id)
+         if (n > 0) call pass(r, part%element_section, part%node_section, part%sections)
       end associate
-   end subroutine send_piece
+   end subroutine pass_piece
 
    !> The piece that rank 0 has sent.
    subroutine receive_piece()
-      integer, allocatable  :: sizes(:), words(:)
-      real(wp), allocatable :: values(:)
-      integer :: i
-
       call forget_piece()
       allocate (piece)
-      associate (part => piece%model)
-         call receive_part(part)
-         call receive(sizes)
-         piece%shown%n_points = sizes(1)
-         piece%shown%is_warm = sizes(2) == 1
-         call receive(piece%shown%elements)
-         call receive(part%node_id)
-         call receive(part%element_id)
-         call list_owners(part%n_nodes, part%element_nodes, part%first_at, part%elements_at)
-         if (sizes(3) == 0) return
-         call receive(part%element_section)
-         call receive(part%node_section)
-         call receive(words)
-         call receive(values)
-         allocate (part%sections(sizes(3)))
-         do i = 1, size(part%sections)
-            part%sections(i)%node = words(i)
-            part%sections(i)%direction = values(3*i - 2:3*i)
-         end do
-      end associate
+      call pass_piece(rank, piece)
    end subroutine receive_piece
 
    !> Send process R the displacements U and the TEMPERATURE of the NODES of its piece, and what it has to know of its FILE.
@@ -81,35 +61,46 @@ contains
       real(wp), intent(in)               :: u(:, :) !! (dimension, n_nodes) [length]
       type(temperature_type), intent(in) :: temperature
       character(*), intent(in)           :: notes, file
-      type(temperature_type) :: own
+      type(temperature_type)    :: own
+      real(wp), allocatable     :: own_u(:, :)
+      character(:), allocatable :: own_notes, own_file
 
       own = at_nodes(temperature, nodes)
-      call send(r, reshape(u(:, nodes), [size(u, 1)*size(nodes)]))
-      call send(r, [merge(1, 0, allocated(own%at))])
-      call send(r, [own%reference_share])
-      if (allocated(own%at)) call send(r, own%at)
-      call send(r, notes)
-      call send(r, file)
+      own_u = u(:, nodes)
+      own_notes = notes
+      own_file = file
+      call pass_state(r, own_u, own, own_notes, own_file)
    end subroutine send_state
 
    !> Write the own piece in the state that rank 0 has sent.
    subroutine write_received()
       type(temperature_type) :: temperature
-      integer, allocatable      :: has(:)
-      real(wp), allocatable     :: u(:), reference_share(:)
+      real(wp), allocatable  :: u(:, :)
       character(:), allocatable :: file, notes
       logical :: ok
 
-      call receive(u)
-      call receive(has)
-      call receive(reference_share)
-      temperature%reference_share = reference_share(1)
-      if (has(1) == 1) call receive(temperature%at)
-      call receive(notes)
-      call receive(file)
-      call write_piece(piece, reshape(u, [piece%model%dimension, piece%model%n_nodes]), temperature, notes, file, ok)
+      allocate (u(piece%model%dimension, piece%model%n_nodes))
+      call pass_state(rank, u, temperature, notes, file)
+      call write_piece(piece, u, temperature, notes, file, ok)
       call agree(ok)
    end subroutine write_received
+
+   !> What a piece is written from gets from rank 0 to process R.
+   subroutine pass_state(r, u, temperature, notes, file)
+      integer, intent(in)                      :: r
+      real(wp), contiguous, intent(inout)      :: u(:, :)
+      type(temperature_type), intent(inout)    :: temperature
+      character(:), allocatable, intent(inout) :: notes, file
+      integer :: n
+
+      n = -1
+      if (allocated(temperature%at)) n = size(temperature%at)
+      call pass(r, u, temperature%reference_share, n)
+      if (n >= 0 .and. rank /= 0) allocate (temperature%at(n))
+      if (n >= 0) call pass(r, temperature%at)
+      call pass_text(r, notes)
+      call pass_text(r, file)
+   end subroutine pass_state
 
    !> Rank 0: write its OWN piece likewise. OK is false where any process could not write its own.
    subroutine write_own(own, nodes, u, temperature, notes, file, ok)

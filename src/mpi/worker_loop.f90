@@ -10,7 +10,7 @@ module worker_loop
    use kinds, only: wp
    use machine, only: available_memory, peak_memory, return_memory
    use memory_need, only: shortage
-   use partition, only: forget_elements, receive_subdomain, subdomain_type
+   use partition, only: forget_elements, pass_subdomain, subdomain_type
    use ranks, only: give_up, rank, sum_of_all, tell
    use subdomain_output, only: forget_piece, receive_piece, write_received
    use text_tools, only: integer_text
@@ -105,7 +105,10 @@ contains
          call forget_piece()
          call return_memory()
          call reserve_blas()
-         if (rank /= 0) call receive_subdomain(subdomain)
+         if (rank /= 0) then
+            subdomain = subdomain_type()
+            call pass_subdomain(rank, subdomain)
+         end if
       case (command_start)                                     ! words: blocks of each rank
          call check_rows(subdomain)
          call start_matrix(subdomain, words, stiffness)
