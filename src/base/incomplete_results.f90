@@ -13,8 +13,7 @@ module incomplete_results
    implicit none
    private
 
-   public :: create_part, name_part, remove_incomplete, give_up_parts, remove_old, all_complete, watch_ends, &
-             what_is_in_the_way
+   public :: create_part, name_part, remove_incomplete, give_up_parts, remove_old, all_complete, watch_ends, what_is_in_the_way
 
    character(*), parameter, public :: suffix = '.part' !! that a file has until it is complete
 

@@ -1,9 +1,9 @@
 !> Numbers as text, character by character what the edit descriptors es13.5, es24.16e3 and i0 give, many times faster: tables of
 !! a million lines and histories in full precision are written at the speed of the disk.
 !!
-!! A real is scaled by a power of ten to an integer of 6 or 17 digits. Where what is cut off lies near to one half, an exact
-!! product decides how it is rounded (coordinates are often such ties); where there is none, the run-time library, which is
-!! exact too, writes the number.
+!! A real is scaled by a power of ten to an integer of 6 or 17 digits by an exact product, which tells how it is rounded (coordinates
+!! are often ties). Where the power of ten is no real and what is cut off lies near to one half, the run-time library, which is exact
+!! too, writes the number.
 !! Source of the exact product: Dekker, A floating-point technique for extending the available precision, Numer. Math. 18
 !! (1971) 224-242.
 module number_text
@@ -35,36 +35,18 @@ contains
    pure subroutine write_short(value, text)
       real(wp), intent(in)                :: value
       character(short_width), intent(out) :: text
-      real(wp), parameter :: safe = 1.0e-8_wp !! above the error of a scaled number below 1E6: two roundings, 3E-10
-      real(wp) :: scaled
-      integer  :: exponent10, n
+      integer(long) :: digits
+      integer :: exponent10, n
+      logical :: certain
 
-      if (is_zero(value)) then
-         text = '  0.00000E+00'
-         if (sign(1.0_wp, value) < 0.0_wp) text(2:2) = '-'
-         return
-      end if
-      n = 0
-      if (abs(value) >= least .and. abs(value) <= most) then
-         exponent10 = decimal_exponent(abs(value))
-         scaled = abs(value)*ten(5 - exponent10)
-         n = int(scaled)
-         if (abs(scaled - n - 0.5_wp) < safe) then
-            call round_tie(abs(value), 5 - exponent10, n)
-         else if (scaled - n > 0.5_wp) then
-            n = n + 1
-         end if
-      end if
-      if (n == 0) then
+      call round_digits(value, 6, digits, exponent10, certain)
+      if (.not. certain) then
          write (text, '(es13.5)') value
          return
       end if
-      if (n >= 1000000) then
-         n = 100000
-         exponent10 = exponent10 + 1
-      end if
+      n = int(digits)
       text(1:1) = ' '
-      text(2:2) = merge('-', ' ', value < 0.0_wp)
+      text(2:2) = merge('-', ' ', sign(1.0_wp, value) < 0.0_wp)
       text(3:3) = achar(48 + n/100000)
       text(4:4) = '.'
       text(5:6) = pairs(mod(n/1000, 100))
@@ -79,23 +61,6 @@ contains
       text(11:11) = achar(48 + n/100)
    end subroutine write_short
 
-   !> Round VALUE 10**K, which lies between N and N + 1 near the middle, to the nearest N, of a tie to the even one; 0 where the
-   !! power of ten is not exact.
-   pure subroutine round_tie(value, k, n)
-      real(wp), intent(in)   :: value
-      integer, intent(in)    :: k
-      integer, intent(inout) :: n
-      real(wp) :: product, error, above
-
-      if (k < 0 .or. k > last_exact) then
-         n = 0
-         return
-      end if
-      call exact_product(value, k, product, error)
-      above = (product - n - 0.5_wp) + error
-      if (above > 0.0_wp .or. (above >= 0.0_wp .and. modulo(n, 2) == 1)) n = n + 1
-   end subroutine round_tie
-
    !> VALUE as es24.16e3 without the blanks before it: the 17 digits that make it come back the same.
    pure subroutine write_full(value, text, length)
       real(wp), intent(in)               :: value
@@ -103,72 +68,75 @@ contains
       integer, intent(out)               :: length !! of what was written
       integer(long) :: digits
       integer :: exponent10, k, n
+      logical :: certain
 
-      if (is_zero(value)) then
-         text = merge('-', ' ', sign(1.0_wp, value) < 0.0_wp)//'0.0000000000000000E+000'
+      call round_digits(value, 17, digits, exponent10, certain)
+      if (.not. certain) then
+         write (text, '(es24.16e3)') value
       else
-         digits = 0
-         if (abs(value) >= least .and. abs(value) <= most) call scale_to_17(abs(value), digits, exponent10)
-         if (digits == 0) then
-            write (text, '(es24.16e3)') value
-         else
-            text(1:1) = merge('-', ' ', value < 0.0_wp)
-            do k = 18, 4, -2
-               text(k:k + 1) = pairs(int(mod(digits, 100_long)))
-               digits = digits/100
-            end do
-            text(2:2) = achar(48 + int(digits))
-            text(3:3) = '.'
-            n = abs(exponent10)
-            text(20:20) = 'E'
-            text(21:21) = merge('-', '+', exponent10 < 0)
-            text(22:22) = achar(48 + n/100)
-            text(23:24) = pairs(mod(n, 100))
-         end if
+         text(1:1) = merge('-', ' ', sign(1.0_wp, value) < 0.0_wp)
+         do k = 18, 4, -2
+            text(k:k + 1) = pairs(int(mod(digits, 100_long)))
+            digits = digits/100
+         end do
+         text(2:2) = achar(48 + int(digits))
+         text(3:3) = '.'
+         n = abs(exponent10)
+         text(20:20) = 'E'
+         text(21:21) = merge('-', '+', exponent10 < 0)
+         text(22:22) = achar(48 + n/100)
+         text(23:24) = pairs(mod(n, 100))
       end if
       text = adjustl(text)
       length = len_trim(text)
    end subroutine write_full
 
-   !> The 17 DIGITS of a positive VALUE rounded to the nearest, digits 10**(exponent10 - 16); 0 where it is not certain which is.
-   pure subroutine scale_to_17(value, digits, exponent10)
+   !> So many PLACES of VALUE without its sign, digits 10**(exponent10 - places + 1), rounded to the nearest, of a tie to the even one;
+   !! whether that is CERTAIN.
+   pure subroutine round_digits(value, places, digits, exponent10, certain)
       real(wp), intent(in)       :: value
+      integer, intent(in)        :: places     !! at most 17
       integer(long), intent(out) :: digits
       integer, intent(out)       :: exponent10
-      integer(long), parameter :: lowest = 10_long**16, highest = 10_long**17
-      real(wp), parameter      :: safe = 1.0e-6_wp !! above the error of a number below 1E17 scaled with 106 bits, 1E-14
-      integer(long) :: whole
-      real(wp) :: rest
+      logical, intent(out)       :: certain
+      real(wp), parameter :: safe = 1.0e-6_wp  !! above the error of a number below 1E17 scaled with 106 bits, 1E-14
+      integer(long) :: lowest
+      real(wp) :: above
 
-      exponent10 = decimal_exponent(value)
-      call multiply(value, 16 - exponent10, whole, rest)
-      if (whole < lowest) then ! by rounding of the power of ten
-         exponent10 = exponent10 - 1
-         call multiply(value, 16 - exponent10, whole, rest)
-      end if
       digits = 0
-      if (abs(rest - 0.5_wp) < safe) return
-      digits = whole
-      if (rest > 0.5_wp) digits = digits + 1
-      if (digits < highest) return
+      exponent10 = 0
+      certain = abs(value) <= 0.0_wp
+      if (.not. (abs(value) >= least .and. abs(value) <= most)) return
+      lowest = 10_long**(places - 1)
+      exponent10 = decimal_exponent(abs(value))
+      call multiply(abs(value), places - 1 - exponent10, digits, above)
+      if (digits < lowest) then ! by rounding of the power of ten
+         exponent10 = exponent10 - 1
+         call multiply(abs(value), places - 1 - exponent10, digits, above)
+      end if
+      certain = abs(above) >= safe .or. (exponent10 < places .and. exponent10 >= places - 1 - last_exact)
+      if (above > 0.0_wp .or. (above >= 0.0_wp .and. modulo(digits, 2_long) == 1)) digits = digits + 1
+      if (digits < 10*lowest) return
       digits = lowest
       exponent10 = exponent10 + 1
-   end subroutine scale_to_17
+   end subroutine round_digits
 
-   !> VALUE 10**K = WHOLE + REST, 0 <= REST < 1, with 106 bits.
-   pure subroutine multiply(value, k, whole, rest)
+   !> VALUE 10**K = WHOLE + 1/2 + ABOVE, -1/2 <= ABOVE < 1/2, with 106 bits; exactly where 10**K is a real.
+   pure subroutine multiply(value, k, whole, above)
       real(wp), intent(in)       :: value  !! > 0
       integer, intent(in)        :: k
       integer(long), intent(out) :: whole
-      real(wp), intent(out)      :: rest
-      real(wp) :: product
+      real(wp), intent(out)      :: above
+      real(wp) :: product, rest
+      integer  :: carry
 
       call exact_product(value, k, product, rest)
       rest = rest + value*ten_rest(k)
       whole = int(product, long)
-      rest = rest + (product - real(whole, wp))
-      whole = whole + floor(rest, long)
-      rest = rest - real(floor(rest, long), wp)
+      product = product - real(whole, wp)
+      carry = floor(product + rest)
+      whole = whole + carry
+      above = (product - carry - 0.5_wp) + rest
    end subroutine multiply
 
    !> VALUE ten(K) = PRODUCT + ERROR, exactly (Dekker).
@@ -195,12 +163,6 @@ contains
       e = floor((exponent(value) - 1)*log10_of_2)
       if (value >= ten(e + 1)) e = e + 1
    end function decimal_exponent
-
-   pure logical function is_zero(value)
-      real(wp), intent(in) :: value
-
-      is_zero = abs(value) <= 0.0_wp
-   end function is_zero
 
    !> VALUE as i0.
    pure subroutine write_integer(value, text, length)

@@ -20,7 +20,7 @@ module restart_stream
    use c_library, only: close_file, open_file, read_bytes, write_bytes
    use checksum, only: add_to_checksum, no_bytes
    use, intrinsic :: iso_fortran_env, only: int32, int64
-   use kinds, only: long, wp
+   use kinds, only: long
    use text_tools, only: integer_text
    implicit none
    private
@@ -48,10 +48,9 @@ module restart_stream
       procedure :: is_at_end
       procedure :: item
       procedure :: text
+      procedure :: any_text
       procedure :: extent
       procedure :: file
-      generic   :: list => text_list, integer_list, real_list, logical_list
-      procedure, private :: text_list, integer_list, real_list, logical_list
    end type restart_stream_type
 
 contains
@@ -245,9 +244,8 @@ contains
       if (descriptor < 0 .or. left /= 0) call fail(self, path//' cannot be read')
    end subroutine copy_file
 
-   ! ---- values of any number, or none ----
-
-   subroutine text_list(self, value)
+   !> A text of any length, or none.
+   subroutine any_text(self, value)
       class(restart_stream_type), intent(inout) :: self
       character(:), allocatable, intent(inout)  :: value
       integer :: n
@@ -260,54 +258,7 @@ contains
          if (n >= 0) allocate (character(n) :: value)
       end if
       if (n >= 0) call self%text(value)
-   end subroutine text_list
-
-   subroutine integer_list(self, values)
-      class(restart_stream_type), intent(inout) :: self
-      integer, allocatable, intent(inout)       :: values(:)
-      integer :: n
-
-      n = -1
-      if (allocated(values)) n = size(values)
-      call self%extent(n, 4)
-      if (.not. self%writes) then
-         if (allocated(values)) deallocate (values)
-         if (n >= 0) allocate (values(n))
-      end if
-      if (n >= 0) call self%item(values)
-   end subroutine integer_list
-
-   subroutine real_list(self, values)
-      class(restart_stream_type), intent(inout) :: self
-      real(wp), allocatable, intent(inout)      :: values(:)
-      integer :: n
-
-      n = -1
-      if (allocated(values)) n = size(values)
-      call self%extent(n, 8)
-      if (.not. self%writes) then
-         if (allocated(values)) deallocate (values)
-         if (n >= 0) allocate (values(n))
-      end if
-      if (n >= 0) call self%item(values)
-   end subroutine real_list
-
-   subroutine logical_list(self, values)
-      class(restart_stream_type), intent(inout) :: self
-      logical, allocatable, intent(inout)       :: values(:)
-      integer :: n
-
-      n = -1
-      if (allocated(values)) n = size(values)
-      call self%extent(n, 4)
-      if (.not. self%writes) then
-         if (allocated(values)) deallocate (values)
-         if (n >= 0) allocate (values(n))
-      end if
-      if (n >= 0) call self%item(values)
-   end subroutine logical_list
-
-   ! ---- bytes ----
+   end subroutine any_text
 
    subroutine put(self, bytes)
       class(restart_stream_type), intent(inout) :: self

@@ -49,8 +49,7 @@ contains
    pure function element_centre(model, e) result(x)
       type(model_type), intent(in) :: model
       integer, intent(in)          :: e
-      real(wp) :: x(model%dimension)
-      real(wp) :: n(max_nodes)
+      real(wp) :: x(model%dimension), n(max_nodes)
 
       associate (nodes => corners_of(model, e), kind => element_table(model%element_kind(e)))
          if (kind%n_nodes == kind%n_corners) then

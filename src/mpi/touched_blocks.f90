@@ -86,8 +86,7 @@ contains
 
    !> The PAIRS, each once, in their order: sorted by column and then by row.
    subroutine sort_once(n_blocks, pairs, touched)
-      integer, intent(in)               :: n_blocks
-      integer, intent(in)               :: pairs(:, :)
+      integer, intent(in)               :: n_blocks, pairs(:, :)
       type(touched_type), intent(inout) :: touched
       integer, allocatable :: by_column(:), by_row(:)
       integer :: i, k

@@ -5,8 +5,7 @@ module worker_loop
    use blas_lapack, only: dpotrf
    use distributed_matrix, only: distributed_matrix_type, finish_matrix, free_matrix, multiply_by_matrix, read_diagonal, &
                                  read_touched, reserve_touched, start_matrix, write_touched
-   use distributed_solution, only: distributed_solution_type, forget_vectors, free_solution, renew_preconditioner, &
-                                   solve_distributed
+   use distributed_solution, only: distributed_solution_type, forget_vectors, free_solution, renew_preconditioner, solve_distributed
    use kinds, only: wp
    use machine, only: available_memory, peak_memory, return_memory
    use memory_need, only: shortage

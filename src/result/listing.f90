@@ -274,16 +274,24 @@ contains
    subroutine record_listing(stream, listing)
       type(restart_stream_type), intent(inout) :: stream
       type(listing_type), intent(inout)        :: listing
+      integer :: n_shown
 
       associate (page => listing%page, farthest => listing%farthest)
          call page%file%record(stream)
-         call stream%list(page%stage)
-         call stream%list(page%now)
-         call stream%list(page%shown)
-         call stream%list(farthest%quantity)
-         call stream%list(farthest%place)
-         call stream%list(listing%poor_condition)
-         call stream%list(listing%divided)
+         n_shown = -1
+         if (allocated(page%shown)) n_shown = size(page%shown)
+         call stream%extent(n_shown, 4)
+         if (.not. stream%writes) then
+            if (allocated(page%shown)) deallocate (page%shown)
+            if (n_shown >= 0) allocate (page%shown(n_shown))
+         end if
+         if (n_shown >= 0) call stream%item(page%shown)
+         call stream%any_text(page%stage)
+         call stream%any_text(page%now)
+         call stream%any_text(farthest%quantity)
+         call stream%any_text(farthest%place)
+         call stream%any_text(listing%poor_condition)
+         call stream%any_text(listing%divided)
          call stream%item(page%largest_force, farthest%share, farthest%node, listing%n_increments, listing%n_removed)
       end associate
       call listing%increments%record(stream)

@@ -297,7 +297,7 @@ contains
       type(restart_stream_type), intent(inout) :: stream
       integer :: i, n
 
-      call stream%list(self%title)
+      call stream%any_text(self%title)
       n = -1
       if (allocated(self%columns)) n = size(self%columns)
       call stream%extent(n, 100)

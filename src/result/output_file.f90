@@ -142,7 +142,7 @@ contains
 
       if (self%path == '') then
          if (stream%writes) text = self%buffer(:self%used)
-         call stream%list(text)
+         call stream%any_text(text)
          if (stream%writes .or. .not. allocated(text)) return
          self%used = 0
          call make_room(self, len(text))

@@ -168,12 +168,12 @@ contains
       call record_results(stream, results)
    end subroutine record_state
 
-   !> Write A, or read it into one that start_analysis has made for the same model: everything in it but what stands still in
+   !> Write A, or read it into one that start_analysis has just made for the same model: everything in it but what stands still in
    !! an increment (condensed, which its first one prints) and what is so only while it is taken up (goes_on).
    subroutine record_analysis(stream, a)
       type(restart_stream_type), intent(inout) :: stream
       type(analysis_type), intent(inout)       :: a
-      integer :: n_slips
+      integer :: n_loaded, n_slips
 
       call stream%item(a%stage, a%increment, a%share, a%fraction, a%carry, a%eq10)
       call stream%item(a%average, a%is_loose, a%loose_force, a%is_settled, a%load_tolerance, a%tolerance)
@@ -182,8 +182,11 @@ contains
       call record_temperature(stream, a%temperature_before)
       call record_temperature(stream, a%temperature_after)
       call record_temperature(stream, a%temperature)
-      call stream%list(a%loaded)
-      call stream%item(a%is_moved, a%moves, a%moved_before, a%moved_after, a%moved)
+      n_loaded = 0
+      if (stream%writes) n_loaded = size(a%loaded)
+      call stream%extent(n_loaded, 4)
+      if (.not. stream%writes) allocate (a%loaded(n_loaded))
+      call stream%item(a%loaded, a%is_moved, a%moves, a%moved_before, a%moved_after, a%moved)
       call stream%item(a%all_u, a%all_unbalanced, a%place)
       ! of retained nodes, bars and sections
       call stream%item(a%held, a%felt_before, a%felt_after, a%felt, a%change, a%move)
@@ -211,8 +214,16 @@ contains
    subroutine record_temperature(stream, temperature)
       type(restart_stream_type), intent(inout) :: stream
       type(temperature_type), intent(inout)    :: temperature
+      integer :: n
 
-      call stream%list(temperature%at)
+      n = -1
+      if (allocated(temperature%at)) n = size(temperature%at)
+      call stream%extent(n, 8)
+      if (.not. stream%writes) then
+         if (allocated(temperature%at)) deallocate (temperature%at)
+         if (n >= 0) allocate (temperature%at(n))
+      end if
+      if (n >= 0) call stream%item(temperature%at)
       call stream%item(temperature%reference_share)
    end subroutine record_temperature
 
