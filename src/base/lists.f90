@@ -1,9 +1,6 @@
-!> Numbers that users give to things (nodes, elements, properties), and where each thing is stored.
-!!
-!! Which lists hold a number: from the nodes of every element, say, to the elements of every node.
-!!
-!! Disjoint sets of 1 to n (union-find): PARENT(i) is another member of the set of i, or i itself, which then stands for the set.
-!! At the beginning PARENT = [1, ..., n]: every member alone.
+!> Lists of whole numbers: the numbers that users give to things (nodes, elements, properties) and where each thing is stored; sorting;
+!! which lists hold a number (from the nodes of every element, say, to the elements of every node); disjoint sets of 1 to n
+!! (union-find): PARENT(i) is another member of the set of i, or i itself, which then stands for the set, at first all do.
 module lists
    use kinds, only: long
    implicit none

@@ -1,7 +1,5 @@
-!> What the machine has, and what the program takes of it: memory and threads.
-!!
-!! Figures that Linux gives in small files of text, /proc and /sys, and what its control groups leave to this program: the limits
-!! of containers, batch systems and systemd.
+!> What the machine has, and what the program takes of it: memory and threads. Linux gives the figures in small files of text, /proc
+!! and /sys; its control groups leave so much to this program: the limits of containers, batch systems and systemd.
 !! Source: Linux, Documentation/admin-guide/cgroup-v2.rst and cgroup-v1/memory.rst; man 7 cgroups for /proc/self/cgroup.
 module machine
    use, intrinsic :: iso_c_binding, only: c_int, c_intptr_t, c_loc, c_long, c_size_t

@@ -1,10 +1,7 @@
-!> Which numbers can be the measure of anything: finite ones far enough below the largest real that squares and products of them, with
-!! stiffnesses and areas, are still numbers. And which of several numbers is the largest.
-!!
-!! The vector product.
-!!
-!! The real zeros of a polynomial of low degree in an interval, found between the zeros of its derivative: between neighbouring
-!! ones of these it is monotonic, so that each such stretch has one zero at the most.
+!> Small services for numbers. Which can be the measure of anything: finite ones far enough below the largest real that squares and
+!! products of them, with stiffnesses and areas, are still numbers; which of several is the largest; the vector product; the real
+!! zeros of a polynomial of low degree in an interval, found between the zeros of its derivative: between neighbouring ones of these
+!! it is monotonic, so that each such stretch has one zero at the most.
 !! Source: Press et al., Numerical Recipes, 2nd ed., section 9.4, for Newton's method within a bracket.
 module numbers
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite

@@ -1,7 +1,5 @@
-!> Small services for text: case, numbers as words, clean zeros.
-!!
-!! A line of comma-separated values put together field by field: without formats, which cost more than all else where the lines
-!! are many.
+!> Small services for text: case, numbers as words, clean zeros; a line of comma-separated values put together field by field, without
+!! formats, which cost more than all else where the lines are many.
 module text_tools
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use kinds, only: wp

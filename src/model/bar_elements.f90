@@ -3,7 +3,7 @@
 module bar_elements
    use kinds, only: wp
    use model_data, only: bar_nodes, bar_type, model_type, temperature_type
-   use node_coupling, only: onto_unknowns, unknown_nodes
+   use node_coupling, only: between_unknowns
    use temperatures, only: bar_rise
    implicit none
    private
@@ -96,14 +96,8 @@ contains
       type(model_type), intent(in) :: model
       integer, intent(in)          :: i
       real(wp), allocatable :: k(:, :)
-      integer :: n, m
 
-      n = 2*model%dimension
-      m = model%dimension*size(unknown_nodes(model, bar_nodes(model%bars(i))))
-      allocate (k(max(n, m), max(n, m)), source=0.0_wp)
-      k(:n, :n) = bar_stiffness(model, i)
-      call onto_unknowns(model, bar_nodes(model%bars(i)), k)
-      k = k(:m, :m)
+      k = between_unknowns(model, bar_nodes(model%bars(i)), bar_stiffness(model, i))
    end function coupled_bar_stiffness
 
 end module bar_elements

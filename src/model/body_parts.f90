@@ -33,8 +33,7 @@ contains
       integer :: e
 
       shown%n_points = n_points(model)
-      allocate (shown%elements(model%n_elements))
-      shown%elements = [(e, e = 1, model%n_elements)]
+      allocate (shown%elements, source=[(e, e = 1, model%n_elements)])
       shown%is_warm = has_temperatures(model)
    end function all_shown
 
@@ -115,26 +114,18 @@ contains
          part%node_id = model%node_id(nodes)
          part%element_id = model%element_id(elements)
          call list_owners(part%n_nodes, part%element_nodes, part%first_at, part%elements_at)
-         if (n_sections(model) > 0) call take_sections(model, elements, nodes, part)
+         if (n_sections(model) > 0) then
+            part%element_section = model%element_section(elements)
+            part%node_section = model%node_section(nodes)
+            part%sections = model%sections
+            do i = 1, size(part%sections) ! one that PART does not have has no node there
+               part%sections(i)%node = findloc(nodes, model%sections(i)%node, dim=1)
+            end do
+         end if
       end associate
       piece%shown%n_points = count(is_shown)
       piece%shown%elements = pack([(e, e = 1, size(elements))], is_own(elements))
       piece%shown%is_warm = has_temperatures(model)
    end subroutine cut_piece
-
-   !> Which of these ELEMENTS and NODES are at sections; a section that PART does not have has no node there.
-   pure subroutine take_sections(model, elements, nodes, part)
-      type(model_type), intent(in)    :: model
-      integer, intent(in)             :: elements(:), nodes(:)
-      type(model_type), intent(inout) :: part
-      integer :: s
-
-      part%element_section = model%element_section(elements)
-      part%node_section = model%node_section(nodes)
-      part%sections = model%sections
-      do s = 1, size(part%sections)
-         part%sections(s)%node = findloc(nodes, model%sections(s)%node, dim=1)
-      end do
-   end subroutine take_sections
 
 end module body_parts

@@ -5,7 +5,7 @@ module mass_elements
    use isoparametric, only: lump, shape_products
    use kinds, only: wp
    use model_data, only: bar_nodes, corners_of, model_type, point_mass_type
-   use node_coupling, only: onto_unknowns, unknown_nodes, extend_stiffness, felt_nodes
+   use node_coupling, only: between_unknowns, onto_unknowns, unknown_nodes, extend_stiffness, felt_nodes
    use reference_nodes, only: rotation_at
    implicit none
    private
@@ -79,21 +79,15 @@ contains
       type(model_type), intent(in) :: model
       integer, intent(in)          :: i
       real(wp), allocatable :: m(:, :)
-      real(wp) :: of_nodes(2, 2)
-      integer  :: c, d, n, rows
+      real(wp) :: of_components(2*model%dimension, 2*model%dimension)
+      integer  :: c, d
 
       d = model%dimension
-      associate (nodes => bar_nodes(model%bars(i)))
-         n = size(nodes)
-         rows = d*size(unknown_nodes(model, nodes))
-         allocate (m(max(d*n, rows), max(d*n, rows)), source=0.0_wp)
-         of_nodes = bar_mass(model, i)
-         do c = 1, d
-            m(c:d*n:d, c:d*n:d) = of_nodes(:n, :n)
-         end do
-         call onto_unknowns(model, nodes, m)
-         m = m(:rows, :rows)
-      end associate
+      of_components = 0.0_wp
+      do c = 1, d
+         of_components(c::d, c::d) = bar_mass(model, i)
+      end do
+      m = between_unknowns(model, bar_nodes(model%bars(i)), of_components)
    end function coupled_bar_mass
 
    !> The nodes that MASS moves with: its own, and that of its rotations where there is one.
@@ -128,19 +122,17 @@ contains
       type(model_type), intent(in)      :: model
       type(point_mass_type), intent(in) :: mass
       real(wp), allocatable :: m(:, :)
-      integer :: c, d, n, rows
+      real(wp) :: of_components(2*model%dimension, 2*model%dimension)
+      integer  :: c, d
 
       d = model%dimension
+      of_components = 0.0_wp
+      do c = 1, d
+         of_components(c, c) = mass%mass
+      end do
       associate (nodes => mass_nodes(model, mass))
-         n = d*size(nodes)
-         rows = d*size(unknown_nodes(model, nodes))
-         allocate (m(max(n, rows), max(n, rows)), source=0.0_wp)
-         do c = 1, d
-            m(c, c) = mass%mass
-         end do
-         if (n > d) m(d + 1:n, d + 1:n) = inertia_at_rotation(model, mass)
-         call onto_unknowns(model, nodes, m)
-         m = m(:rows, :rows)
+         if (size(nodes) == 2) of_components(d + 1:, d + 1:) = inertia_at_rotation(model, mass)
+         m = between_unknowns(model, nodes, of_components)
       end associate
    end function coupled_point_mass
 

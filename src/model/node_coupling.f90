@@ -15,9 +15,9 @@ module node_coupling
    implicit none
    private
 
-   public :: is_coupled, couple_node, unknown_nodes, onto_unknowns, displacements, displacements_at, forces_on_unknowns, &
-             held_forces, list_on_unknowns, section_node, felt_nodes, coupled_nodes, corner_displacements, extend_stiffness, &
-             add_section_share
+   public :: is_coupled, couple_node, unknown_nodes, onto_unknowns, between_unknowns, displacements, displacements_at, &
+             forces_on_unknowns, held_forces, list_on_unknowns, section_node, felt_nodes, coupled_nodes, corner_displacements, &
+             extend_stiffness, add_section_share
 
 contains
 
@@ -134,6 +134,20 @@ contains
          where (abs(k(:m, :m)) <= rounding*maxval(abs(k(:m, :m)))) k(:m, :m) = 0.0_wp
       end associate
    end subroutine onto_unknowns
+
+   !> The same of a K that has just as many rows and columns as it needs.
+   pure function between_unknowns(model, nodes, k) result(q)
+      type(model_type), intent(in) :: model
+      integer, intent(in)          :: nodes(:)
+      real(wp), intent(in)         :: k(:, :) !! between the components of NODES, what is behind them is left out [force/length]
+      real(wp), allocatable :: q(:, :)
+      integer :: n
+
+      q = k
+      call onto_unknowns(model, nodes, q)
+      n = model%dimension*size(unknown_nodes(model, nodes))
+      q = q(:n, :n)
+   end function between_unknowns
 
    !> Displacements U of all nodes from their unknowns Q.
    pure function displacements(model, q) result(u)

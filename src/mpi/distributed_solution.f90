@@ -1,7 +1,6 @@
 !> The solution of the distributed equations by PETSc: conjugate gradients, preconditioned by smoothed aggregation (GAMG) with the
-!! motions of a rigid body, or by the factor of MUMPS. The first guess is of earlier solutions the
-!! sum of least energy. The preconditioner of an earlier stiffness is kept while that pays. All
-!! processes call every routine in step.
+!! motions of a rigid body, or by the factor of MUMPS. The first guess is of earlier solutions the sum of least energy. The
+!! preconditioner of an earlier stiffness is kept while that pays. All processes call every routine in step.
 !! Source: Adams, Bayraktar, Keaveny, Papadopoulos, Proc. SC2004; Amestoy et al., SIAM J. Matrix Anal. Appl. 23 (2001) 15-41.
 !! First guess: Fischer, Comput. Methods Appl. Mech. Engrg. 163 (1998) 193-204.
 module distributed_solution
@@ -46,22 +45,6 @@ module distributed_solution
    integer, parameter  :: most_solutions = 3     !! one after another, each from where the one before has come
 
 contains
-
-   !> The solution X is kept, the oldest one makes room.
-   subroutine note_vector(x, earlier)
-      type(c_ptr), intent(in)                   :: x
-      type(earlier_vectors_type), intent(inout) :: earlier
-      type(c_ptr) :: place
-
-      if (earlier%n < most) then
-         earlier%n = earlier%n + 1
-         call check(vec_duplicate(x, earlier%u(earlier%n)))
-      end if
-      place = earlier%u(earlier%n)
-      earlier%u(2:earlier%n) = earlier%u(:earlier%n - 1)
-      earlier%u(1) = place
-      call check(vec_copy(x, place))
-   end subroutine note_vector
 
    !> X: of all sums of earlier solutions the one with the least energy x'[k] x/2 - b'x, [k] the STIFFNESS now, b its vector;
    !! zero where there is none.
@@ -200,10 +183,25 @@ contains
          end do
          if (left > 0.0_wp .and. first > left) solution%gained = log10(first/left)
          solution%converged = solution%residual <= max(loosest, 10.0_wp*tolerance)
-         if (solution%converged .and. how(3) == 1) call note_vector(stiffness%x, solution%earlier)
+         if (solution%converged .and. how(3) == 1) call note_vector()
       end if
       call check(ksp_set_tolerances(solution%solver, relative, absolute, divergence, usual))
       call take_vector(stiffness%x, stiffness, x)
+
+   contains
+
+      !> The solution is kept, the oldest one makes room.
+      subroutine note_vector()
+         associate (earlier => solution%earlier)
+            if (earlier%n < most) then
+               earlier%n = earlier%n + 1
+               call check(vec_duplicate(stiffness%x, earlier%u(earlier%n)))
+            end if
+            earlier%u(:earlier%n) = cshift(earlier%u(:earlier%n), -1)
+            call check(vec_copy(stiffness%x, earlier%u(1)))
+         end associate
+      end subroutine note_vector
+
    end subroutine solve_distributed
 
    !> LEFT: the norm of b - [k] x.

@@ -73,62 +73,40 @@ contains
       type(partition_type), intent(in)       :: parts
       integer, intent(in)               :: r
       type(subdomain_type), intent(out)     :: subdomain
-      integer :: b, i, k, node
+      integer, allocatable :: mine(:), nodes(:)
       logical, allocatable :: is_odd(:)
+      integer :: b, e, node
 
       subdomain%dimension = model%dimension
       subdomain%n_blocks = size(parts%order)
       subdomain%n_own = parts%counts(r + 1)
       subdomain%first = sum(parts%counts(:r))
-      allocate (subdomain%held_own(model%dimension, subdomain%n_own), subdomain%x(model%dimension, subdomain%n_own))
-      allocate (subdomain%inside(subdomain%n_own), source=1)
-      allocate (subdomain%outside(subdomain%n_own), source=0)
+      associate (d => model%dimension, n => subdomain%n_own)
+         allocate (subdomain%held_own(d, n), subdomain%x(d, n), subdomain%inside(n), subdomain%outside(n), is_odd(n))
+      end associate
       do b = 1, subdomain%n_own
          node = parts%order(subdomain%first + b)
          subdomain%held_own(:, b) = model%held(:, node)
          subdomain%x(:, b) = model%x(:model%dimension, node)
-         do k = graph%first(node), graph%first(node + 1) - 1
-            i = parts%owner(graph%neighbours(k))
-            if (i == r) then
-               subdomain%inside(b) = subdomain%inside(b) + 1
-            else if (i >= 0) then
-               subdomain%outside(b) = subdomain%outside(b) + 1
-            end if
-         end do
-      end do
-      allocate (is_odd(subdomain%n_own))
-      do b = 1, subdomain%n_own
-         is_odd(b) = .not. is_ordinary(model, parts%order(subdomain%first + b))
+         is_odd(b) = .not. is_ordinary(model, node)
+         associate (owners => parts%owner(graph%neighbours(graph%first(node):graph%first(node + 1) - 1)))
+            subdomain%inside(b) = 1 + count(owners == r)
+            subdomain%outside(b) = count(owners >= 0 .and. owners /= r)
+         end associate
       end do
       subdomain%odd = pack([(b, b = 1, subdomain%n_own)], is_odd)
       allocate (subdomain%odd_motions(model%dimension, n_motions(model%dimension), size(subdomain%odd)))
       do b = 1, size(subdomain%odd)
          subdomain%odd_motions(:, :, b) = motions_of(model, parts%order(subdomain%first + subdomain%odd(b)))
       end do
-      call take_elements(model, parts, r, subdomain)
-   end subroutine subdomain_of
-
-   !> The elements of process R whose nodes have unknowns of their own, in global axes; rank 0 forms the others itself.
-   subroutine take_elements(model, parts, r, subdomain)
-      type(model_type), intent(in)    :: model
-      type(partition_type), intent(in)     :: parts
-      integer, intent(in)             :: r
-      type(subdomain_type), intent(inout) :: subdomain
-      integer, allocatable :: mine(:), nodes(:)
-      integer :: e, n
-
-      allocate (mine(model%n_elements))
-      n = 0
-      do e = 1, model%n_elements
-         if (parts%owner(model%element_nodes(1, e)) /= r .or. is_entangled(model, e)) cycle
-         n = n + 1
-         mine(n) = e
-      end do
-      nodes = nodes_of_elements(model, mine(:n))
-      call extract(model, mine(:n), nodes, subdomain%model)
+      ! elements whose nodes have unknowns of their own, in global axes; rank 0 forms the others itself
+      mine = pack([(e, e = 1, model%n_elements)], [(parts%owner(model%element_nodes(1, e)) == r .and. .not. is_entangled(model, e), &
+                                                    e = 1, model%n_elements)])
+      nodes = nodes_of_elements(model, mine)
+      call extract(model, mine, nodes, subdomain%model)
       subdomain%block = parts%block(nodes)
       subdomain%held = model%held(:, nodes)
-   end subroutine take_elements
+   end subroutine subdomain_of
 
    !> Whether element E has nodes that move with the unknowns of others, in axes of their own, or at the section of a bolt.
    pure logical function is_entangled(model, e)

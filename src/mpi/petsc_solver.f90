@@ -145,15 +145,20 @@ contains
       class(petsc_solver_type), intent(inout) :: self
       integer, intent(out)                    :: fault
       real(wp), allocatable :: values(:, :, :)
-      integer :: i
+      integer :: c, i, k
       logical :: reuse
 
-      fault = 0
       call structure_values(self%touched, self%joints, self%k_int, &
                             reshape([(self%direction(self%locked(i)), self%parts%block(self%node(self%locked(i))), &
                                       i = 1, size(self%locked))], [2, size(self%locked)]), stiffness%unit, values)
-      call find_loose(self, values, fault)
-      if (fault > 0) return
+      do k = 1, self%touched%n
+         if (self%touched%row(k) /= self%touched%column(k)) cycle
+         do c = 1, size(values, 1)
+            fault = self%number(c, self%parts%order(self%touched%row(k) + 1))
+            if (fault > 0 .and. .not. values(c, c, k) > 0.0_wp) return ! nothing on the diagonal
+         end do
+      end do
+      fault = 0
       self%structure = reshape(values, [size(values)])
       call broadcast_command(command_write, values=self%structure)
       self%is_own = .false.
@@ -161,23 +166,6 @@ contains
       if (.not. reuse) call renew(self)
       if (.not. self%is_probed) call probe(self, fault)
    end subroutine form_structure
-
-   !> FAULT is the first equation that has nothing on the diagonal of the touched blocks, VALUES.
-   subroutine find_loose(self, values, fault)
-      class(petsc_solver_type), intent(in) :: self
-      real(wp), intent(in)                 :: values(:, :, :) !! (dimension, dimension, touched%n) [force/length]
-      integer, intent(inout)               :: fault
-      integer :: c, k
-
-      do k = 1, self%touched%n
-         if (self%touched%row(k) /= self%touched%column(k)) cycle
-         do c = 1, size(values, 1)
-            fault = self%number(c, self%parts%order(self%touched%row(k) + 1))
-            if (fault > 0 .and. .not. values(c, c, k) > 0.0_wp) return
-         end do
-      end do
-      fault = 0
-   end subroutine find_loose
 
    subroutine renew(self)
       class(petsc_solver_type), intent(inout) :: self

@@ -1,7 +1,6 @@
-!> Progress on the terminal: the phase of the run, increment of how many, time left. Nothing where the standard error is no
-!! terminal. With --times, at the end: the seconds that each phase took, operations, memory.
-!!
-!! The run of one deck: what its boxes hand on to each other, and how it may end.
+!> The run of one deck: what its boxes hand on to each other, and how it may end; its progress on the terminal: phase, increment of how
+!! many, time left. Nothing where the standard error is no terminal. With --times, at the end: the seconds that each phase took,
+!! operations, memory.
 module progress
    use c_library, only: is_terminal
    use command_line, only: deck_argument
@@ -126,6 +125,7 @@ contains
       integer, intent(in)                 :: stage, increment, increments
       integer(long) :: now
       real(wp) :: left
+      character(:), allocatable :: words
 
       self%done = self%done + 1
       if (.not. self%shown) return
@@ -133,18 +133,12 @@ contains
       if (5*(now - self%last) < self%rate) return
       self%last = now
       left = real(now - self%increments_began, wp)/self%rate*(self%total - self%done)/(self%done - self%before)
-      call show(self, 'stage '//integer_text(stage)//', increment '//integer_text(increment)//' of '//integer_text(increments)// &
-                ', '//integer_text(nint(left))//' s left'//steps_so_far(self))
+      words = 'stage '//integer_text(stage)//', increment '//integer_text(increment)//' of '//integer_text(increments)// &
+              ', '//integer_text(nint(left))//' s left'
+      if (self%solver%solutions > 0) words = words//', '//integer_text(int(self%solver%steps/self%solver%solutions))// &
+                                             ' steps a solution'
+      call show(self, words)
    end subroutine advance
-
-   !> Of a solver that iterates the mean of its steps.
-   pure function steps_so_far(self) result(words)
-      class(progress_type), intent(in) :: self
-      character(:), allocatable :: words
-
-      words = ''
-      if (self%solver%solutions > 0) words = ', '//integer_text(int(self%solver%steps/self%solver%solutions))//' steps a solution'
-   end function steps_so_far
 
    !> WORDS behind the name of the deck, over what stood there.
    subroutine show(self, words)

@@ -114,8 +114,11 @@ contains
       type(analysis_type), intent(inout)    :: analysis
       logical :: ok
 
-      if (is_over(run) .or. run%argument%base == '') return
-      if (.not. is_due(deck%control%restart, analysis%increment, size(plan%stages(analysis%stage)%shares))) return
+      if (is_over(run) .or. run%argument%base == '' .or. deck%control%restart == no_restart) return
+      if (analysis%increment < size(plan%stages(analysis%stage)%shares)) then
+         if (deck%control%restart == restart_stages) return
+         if (modulo(analysis%increment, deck%control%restart) /= 0) return
+      end if
       if (run%deck_sum == 0) run%deck_sum = checksum_of(deck%text)
       call write_state(run, analysis, ok)
       if (.not. (ok .or. run%misses_restart)) write (error_unit, '(4a)') run%argument%name, ': the restart file ', &
@@ -123,14 +126,6 @@ contains
       run%misses_restart = run%misses_restart .or. .not. ok
       call system%forget_past()
    end subroutine write_restart
-
-   !> Whether a file is due behind INCREMENT, the last of a stage being number LAST, where RESTART is as in case control.
-   pure logical function is_due(restart, increment, last)
-      integer, intent(in) :: restart, increment, last
-
-      is_due = restart /= no_restart .and. increment == last
-      if (restart > restart_stages) is_due = is_due .or. modulo(increment, restart) == 0
-   end function is_due
 
    !> Write a file beside the older one, and put it in its place once it is whole.
    subroutine write_state(run, analysis, ok)

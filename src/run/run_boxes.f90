@@ -174,6 +174,7 @@ contains
       type(model_type), intent(in)      :: model
       type(stage_plan_type), intent(in) :: plan
       class(equation_system), allocatable, intent(out) :: system
+      character(10) :: date, time
       logical :: ok
 
       if (is_over(run)) return
@@ -184,20 +185,11 @@ contains
       if (run%failure%raised) return
       call run%progress%enter(phase_write)
       run%progress%solver = system%description
-      if (run%is_dated) run%results%listing%page%date = date_and_hour()
+      call date_and_time(date, time)
+      if (run%is_dated) run%results%listing%page%date = date(:4)//'-'//date(5:6)//'-'//date(7:8)//' '//time(:2)//':'//time(3:4)
       call start_results(run%argument%base, deck, model, plan, system, run%results, ok)
       if (.not. ok) run%ending = is_unwritten
    end subroutine form_bodies
-
-   !> Now, as 2026-11-22 09:30.
-   function date_and_hour() result(words)
-      character(16) :: words
-      character(8)  :: date
-      character(10) :: time
-
-      call date_and_time(date, time)
-      words = date(:4)//'-'//date(5:6)//'-'//date(7:)//' '//time(:2)//':'//time(3:4)
-   end function date_and_hour
 
    !> NORM and SHEAR for a structure at rest, its interference in equilibrium (BACK takes all at once); a restart file that is to be
    !! taken up has better, and is.
