@@ -75,8 +75,11 @@ contains
       earlier%n = 0
    end subroutine forget_vectors
 
-   !> Options that have no function; before the library is started, so that the user's (PETSC_OPTIONS) come after them.
+   !> Options of the solver; before the library is started, so that the user's (PETSC_OPTIONS) come after them.
    subroutine set_library_options()
+      call set_option('-jointfem_ksp_type', 'cg')
+      call set_option('-jointfem_ksp_norm_type', 'unpreconditioned')
+      call set_option('-jointfem_ksp_initial_guess_nonzero', '1')
       call set_option('-jointfem_pc_gamg_threshold', '0.01')
       call set_option('-jointfem_mg_levels_ksp_type', 'chebyshev')
       call set_option('-jointfem_mg_levels_pc_type', 'jacobi')
@@ -106,9 +109,6 @@ contains
          call check(ksp_create(petsc_comm_world, ksp))
          solution%has_solver = .true.
          call check(ksp_set_options_prefix(ksp, 'jointfem_'//char(0)))
-         call check(ksp_set_type(ksp, 'cg'//char(0)))
-         call check(ksp_set_norm_type(ksp, unpreconditioned))
-         call check(ksp_set_initial_guess_nonzero(ksp, petsc_true))
          call check(ksp_set_operators(ksp, stiffness%matrix, stiffness%matrix))
          call check(ksp_get_pc(ksp, preconditioner))
          if (solution%way == by_gamg) then

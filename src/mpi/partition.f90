@@ -100,8 +100,8 @@ contains
          subdomain%odd_motions(:, :, b) = motions_of(model, parts%order(subdomain%first + subdomain%odd(b)))
       end do
       ! elements whose nodes have unknowns of their own, in global axes; rank 0 forms the others itself
-      mine = pack([(e, e = 1, model%n_elements)], [(parts%owner(model%element_nodes(1, e)) == r .and. .not. is_entangled(model, e), &
-                                                    e = 1, model%n_elements)])
+      mine = pack([(e, e = 1, model%n_elements)], parts%owner(model%element_nodes(1, :)) == r)
+      mine = pack(mine, [(.not. is_entangled(model, mine(e)), e = 1, size(mine))])
       nodes = nodes_of_elements(model, mine)
       call extract(model, mine, nodes, subdomain%model)
       subdomain%block = parts%block(nodes)

@@ -11,7 +11,6 @@ module petsc_library
    integer(c_int), parameter :: petsc_false = 0, petsc_true = 1              ! PetscBool
    integer(c_int), parameter :: norm_2 = 1                                   ! NormType
    integer(c_int), parameter :: mat_ignore_lower = 12, mat_spd = 15, mat_spd_eternal = 26 ! MatOption
-   integer(c_int), parameter :: unpreconditioned = 2                         ! KSPNormType
    integer(c_int), parameter :: out_of_memory = 55                           ! PETSC_ERR_MEM
    integer(c_int), parameter :: no_memory_for_factor = 3                     ! PC_FACTOR_OUTMEMORY of PCFailedReason
 
@@ -272,18 +271,6 @@ module petsc_library
          character(kind=c_char), intent(in) :: prefix(*)
       end function ksp_set_options_prefix
 
-      integer(c_int) function ksp_set_type(solver, type) bind(c, name='KSPSetType')
-         import :: c_char, c_int, c_ptr
-         type(c_ptr), value                 :: solver
-         character(kind=c_char), intent(in) :: type(*)
-      end function ksp_set_type
-
-      integer(c_int) function ksp_set_norm_type(solver, norm_type) bind(c, name='KSPSetNormType')
-         import :: c_int, c_ptr
-         type(c_ptr), value    :: solver
-         integer(c_int), value :: norm_type
-      end function ksp_set_norm_type
-
       integer(c_int) function ksp_set_tolerances(solver, relative, absolute, divergence, most_steps) &
          bind(c, name='KSPSetTolerances')
          import :: c_double, c_int, c_ptr
@@ -299,12 +286,6 @@ module petsc_library
          real(c_double), intent(out) :: relative, absolute, divergence
          integer(c_int), intent(out) :: most_steps
       end function ksp_get_tolerances
-
-      integer(c_int) function ksp_set_initial_guess_nonzero(solver, yes) bind(c, name='KSPSetInitialGuessNonzero')
-         import :: c_int, c_ptr
-         type(c_ptr), value    :: solver
-         integer(c_int), value :: yes
-      end function ksp_set_initial_guess_nonzero
 
       integer(c_int) function ksp_set_operators(solver, matrix, preconditioned) bind(c, name='KSPSetOperators')
          import :: c_int, c_ptr

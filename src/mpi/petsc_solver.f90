@@ -39,7 +39,8 @@ module petsc_solver
       type(interface_equations_type) :: joints
       type(factor_reuse_type) :: reuse            !! when to use an earlier preconditioner
       real(wp) :: pace = 0.0_wp                   !! steps that a digit takes with the preconditioner of the own stiffness
-      integer, allocatable  :: row(:)             !! (n) of the matrix, from 1 on
+      integer, allocatable  :: row(:)             !! (0:n) of the matrix, from 1 on; of 0: 0
+      real(wp), allocatable :: bodies(:, :, :)    !! (dimension, dimension, touched blocks) what they leave there [force/length]
       logical :: is_own = .false.                 !! whether the preconditioner is that of the stiffness now
       logical :: is_probed = .false.              !! whether a stiffness has been looked at since the run, or its past, began
       real(wp), allocatable :: structure(:)       !! touched blocks with the joints
@@ -75,7 +76,8 @@ contains
          return
       end if
       call self%number_unknowns(model, self%parts%order)
-      self%row = [(model%dimension*self%parts%block(self%node(i)) + self%direction(i), i = 1, self%n)]
+      allocate (self%row(0:self%n), source=0)
+      self%row(1:) = [(model%dimension*self%parts%block(self%node(i)) + self%direction(i), i = 1, self%n)]
       call broadcast_command(command_take)
       do r = 1, n_ranks - 1
          call subdomain_of(model, graph, self%parts, r, other)
@@ -87,6 +89,7 @@ contains
       call list_on_unknowns(model, elements)
       call list_interface_equations(elements, self%number, self%joints)
       call list_touched(model, graph, self%parts, elements, self%touched)
+      allocate (self%bodies(model%dimension, model%dimension, self%touched%n), source=0.0_wp)
       self%reuse%most_steps = steps_of_set_up
       associate (description => self%description)
          description%name = trim(merge('PETSC, CONJUGATE GRADIENTS WITH GAMG', 'PETSC, FACTOR BY MUMPS              ', &
@@ -118,25 +121,17 @@ contains
       self%way = self%wanted
       call broadcast_command(command_finish, [self%way])
       self%stiffest = stiffest_of_all
-      allocate (blocks(size(self%touched%bodies)))
+      allocate (blocks(size(self%bodies)))
       call broadcast_command(command_read, values=blocks) ! what the elements leave in the touched blocks
-      self%touched%bodies = self%touched%bodies + reshape(blocks, shape(self%touched%bodies))
+      self%bodies = self%bodies + reshape(blocks, shape(self%bodies))
    end subroutine form_bodies
 
    subroutine add_to_bodies(self, rows, k)
       class(petsc_solver_type), intent(inout) :: self
       integer, intent(in)                     :: rows(:)
       real(wp), intent(in)                    :: k(:, :)
-      integer :: blocks(size(rows)), components(size(rows)), i
 
-      blocks = -1
-      components = 1
-      do i = 1, size(rows)
-         if (rows(i) == 0) cycle
-         blocks(i) = self%parts%block(self%node(rows(i)))
-         components(i) = self%direction(rows(i))
-      end do
-      call add_touched(self%touched, blocks, components, k)
+      call add_touched(self%touched, self%row(rows), k, self%bodies)
       self%is_own = .false.
    end subroutine add_to_bodies
 
@@ -145,12 +140,11 @@ contains
       class(petsc_solver_type), intent(inout) :: self
       integer, intent(out)                    :: fault
       real(wp), allocatable :: values(:, :, :)
-      integer :: c, i, k
+      integer :: c, k
       logical :: reuse
 
-      call structure_values(self%touched, self%joints, self%k_int, &
-                            reshape([(self%direction(self%locked(i)), self%parts%block(self%node(self%locked(i))), &
-                                      i = 1, size(self%locked))], [2, size(self%locked)]), stiffness%unit, values)
+      allocate (values, source=self%bodies)
+      call structure_values(self%touched, self%joints, self%k_int, self%row, self%locked, stiffness%unit, values)
       do k = 1, self%touched%n
          if (self%touched%row(k) /= self%touched%column(k)) cycle
          do c = 1, size(values, 1)
@@ -306,7 +300,7 @@ contains
       real(wp), intent(inout)              :: y(:)
       real(wp), allocatable :: blocks(:)
 
-      blocks = reshape(self%touched%bodies, [size(self%touched%bodies)])
+      blocks = reshape(self%bodies, [size(self%bodies)])
       call broadcast_command(command_write, values=blocks)
       y(self%equations) = x(self%equations)
       call act_on(self, command_multiply, y)
@@ -359,9 +353,9 @@ contains
       real(wp), allocatable :: values(:)
 
       allocate (values(size(self%parts%order)*size(self%number, 1)), source=0.0_wp)
-      values(self%row) = x(self%equations)
+      values(self%row(1:)) = x(self%equations)
       call broadcast_command(what, words, values)
-      x(self%equations) = values(self%row)
+      x(self%equations) = values(self%row(1:))
    end subroutine act_on
 
 end module petsc_solver

@@ -21,11 +21,9 @@ module touched_blocks
 
    type, public :: touched_type
       integer :: n = 0
-      integer, allocatable  :: row(:), column(:)   !! (n) blocks from 0 on, ascending by row, then by column
-      integer, allocatable  :: first(:)            !! (blocks + 1) rows first(b + 1) to first(b + 2) - 1 are of block b
-      integer, allocatable  :: counts(:)           !! (ranks) of the rows of each
-      integer, allocatable  :: joint_first(:), joint_at(:) !! element i: its pairs of nodes stand at joint_at(joint_first(i) + ...)
-      real(wp), allocatable :: bodies(:, :, :)     !! (dimension, dimension, n) [force/length]
+      integer, allocatable :: row(:), column(:)   !! (n) blocks from 0 on, ascending by row, then by column
+      integer, allocatable :: first(:)             !! (blocks + 1) rows first(b + 1) to first(b + 2) - 1 are of block b
+      integer, allocatable :: counts(:)            !! (ranks) of the rows of each
    end type touched_type
 
 contains
@@ -58,14 +56,12 @@ contains
          if (pass == 1) allocate (pairs(2, n))
       end do
       call sort_once(size(parts%order), pairs, touched)
-      allocate (touched%bodies(model%dimension, model%dimension, touched%n), source=0.0_wp)
       allocate (touched%counts(size(parts%counts)))
       n = 0
       do i = 1, size(parts%counts)
          touched%counts(i) = touched%first(n + parts%counts(i) + 1) - touched%first(n + 1)
          n = n + parts%counts(i)
       end do
-      call place_joints(parts, elements, touched)
 
    contains
 
@@ -116,32 +112,6 @@ contains
       end do
    end subroutine sort_once
 
-   !> Where the pairs of nodes of interface elements stand in the list; 0: a node without unknowns.
-   subroutine place_joints(parts, elements, touched)
-      type(partition_type), intent(in)         :: parts
-      type(interface_element), intent(in) :: elements(:)
-      type(touched_type), intent(inout)   :: touched
-      integer :: a, b, i, n
-
-      allocate (touched%joint_first(size(elements) + 1))
-      touched%joint_first(1) = 1
-      do i = 1, size(elements)
-         touched%joint_first(i + 1) = touched%joint_first(i) + size(elements(i)%node)**2
-      end do
-      allocate (touched%joint_at(touched%joint_first(size(elements) + 1) - 1), source=0)
-      do i = 1, size(elements)
-         n = touched%joint_first(i)
-         associate (blocks => parts%block(elements(i)%node))
-            do b = 1, size(blocks)
-               do a = 1, size(blocks)
-                  if (blocks(a) >= 0 .and. blocks(b) >= 0) touched%joint_at(n) = place_of(touched, blocks(a), blocks(b))
-                  n = n + 1
-               end do
-            end do
-         end associate
-      end do
-   end subroutine place_joints
-
    !> Where the block of ROW and COLUMN stands; it is there.
    pure integer function place_of(touched, row, column) result(place)
       type(touched_type), intent(in) :: touched
@@ -152,72 +122,51 @@ contains
       end associate
    end function place_of
 
-   !> Add the symmetric matrix K between the components C(i) of the blocks B(i) to the bodies; a block below 0 is none.
-   pure subroutine add_touched(touched, b, c, k)
-      type(touched_type), intent(inout) :: touched
-      integer, intent(in)               :: b(:), c(:)
-      real(wp), intent(in)              :: k(:, :) !! [force/length]
-      integer :: i, j
+   !> Add the symmetric matrix K between ROWS of the matrix to VALUES of the touched blocks.
+   pure subroutine add_touched(touched, rows, k, values)
+      type(touched_type), intent(in) :: touched
+      integer, intent(in)            :: rows(:)         !! from 1 on; 0: none
+      real(wp), intent(in)           :: k(:, :)         !! [force/length]
+      real(wp), intent(inout)        :: values(:, :, :) !! (dimension, dimension, n) [force/length]
+      integer :: b(size(rows)), c(size(rows)), i, j
 
-      do j = 1, size(b)
-         if (b(j) < 0) cycle
-         do i = 1, size(b)
-            if (b(i) < 0) cycle
+      b = (rows - 1)/size(values, 1)
+      c = rows - size(values, 1)*b
+      do j = 1, size(rows)
+         if (rows(j) == 0) cycle
+         do i = 1, size(rows)
+            if (rows(i) == 0) cycle
             associate (place => place_of(touched, b(i), b(j)))
-               touched%bodies(c(i), c(j), place) = touched%bodies(c(i), c(j), place) + k(i, j)
+               values(c(i), c(j), place) = values(c(i), c(j), place) + k(i, j)
             end associate
          end do
       end do
    end subroutine add_touched
 
-   !> The values with the joints K_INT; LOCKED are components (1, i) of blocks (2, i), which get the diagonal UNIT.
-   subroutine structure_values(touched, joints, k_int, locked, unit, values)
+   !> VALUES, of the bodies, become those with the joints K_INT, whose equation i is ROW(i) of the matrix; the equations LOCKED get the
+   !! diagonal UNIT.
+   subroutine structure_values(touched, joints, k_int, row, locked, unit, values)
       type(touched_type), intent(in)             :: touched
       type(interface_equations_type), intent(in) :: joints
-      real(wp), intent(in)                       :: k_int(:, :, :) !! (3, 3, joints%n) [force/length]
-      integer, intent(in)                        :: locked(:, :)   !! (2, n)
-      real(wp), intent(in)                       :: unit           !! [force/length]
-      real(wp), allocatable, intent(out)         :: values(:, :, :)
-      integer :: a, at, b, d, i, k, n
+      real(wp), intent(in)                       :: k_int(:, :, :)  !! (3, 3, joints%n) [force/length]
+      integer, intent(in)                        :: row(0:)         !! from 1 on; of 0: 0
+      integer, intent(in)                        :: locked(:)
+      real(wp), intent(in)                       :: unit            !! [force/length]
+      real(wp), intent(inout)                    :: values(:, :, :) !! (dimension, dimension, n) [force/length]
+      integer :: block, c, i, k
 
-      allocate (values, source=touched%bodies)
-      d = size(values, 1)
       do i = 1, joints%n
-         associate (matrix => joints%matrix_of(i, k_int(:, :, i)), rows => joints%rows_of(i))
-            n = size(rows)/d
-            do b = 1, n
-               do a = 1, n
-                  at = touched%joint_at(touched%joint_first(i) + a - 1 + n*(b - 1))
-                  if (at == 0) cycle
-                  call add_free(rows(d*(a - 1) + 1:d*a), rows(d*(b - 1) + 1:d*b), &
-                                matrix(d*(a - 1) + 1:d*a, d*(b - 1) + 1:d*b), values(:, :, at))
-               end do
-            end do
-         end associate
+         call add_touched(touched, row(joints%rows_of(i)), joints%matrix_of(i, k_int(:, :, i)), values)
       end do
-      do i = 1, size(locked, 2)
-         associate (c => locked(1, i), block => locked(2, i))
-            do k = 1, touched%n
-               if (touched%row(k) == block) values(c, :, k) = 0.0_wp
-               if (touched%column(k) == block) values(:, c, k) = 0.0_wp
-               if (touched%row(k) == block .and. touched%column(k) == block) values(c, c, k) = unit
-            end do
-         end associate
-      end do
-   end subroutine structure_values
-
-   !> Add to the block VALUE what of K is between components with equations.
-   pure subroutine add_free(rows, columns, k, value)
-      integer, intent(in)     :: rows(:), columns(:) !! (dimension) 0: held
-      real(wp), intent(in)    :: k(:, :)
-      real(wp), intent(inout) :: value(:, :)
-      integer :: c, d
-
-      do d = 1, size(columns)
-         do c = 1, size(rows)
-            if (rows(c) > 0 .and. columns(d) > 0) value(c, d) = value(c, d) + k(c, d)
+      do i = 1, size(locked)
+         block = (row(locked(i)) - 1)/size(values, 1)
+         c = row(locked(i)) - size(values, 1)*block
+         do k = 1, touched%n
+            if (touched%row(k) == block) values(c, :, k) = 0.0_wp
+            if (touched%column(k) == block) values(:, c, k) = 0.0_wp
+            if (touched%row(k) == block .and. touched%column(k) == block) values(c, c, k) = unit
          end do
       end do
-   end subroutine add_free
+   end subroutine structure_values
 
 end module touched_blocks
