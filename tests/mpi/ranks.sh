@@ -12,7 +12,7 @@ compare_within 1e-9
 mkdir -p "$work"/{petsc1,petsc2,petsc3,mumps1,mumps3,auto,serial,limited}
 folders_of_decks "$work/decks"
 
-for name in ${DECKS:-prism_history flange_sector solid_bolt meshed_apart column_tetra10 one_element}; do
+for name in ${DECKS:-prism_history flange_sector solid_bolt column_tetra10 one_element}; do
    for way in 'PETSC 1' 'PETSC 2' 'PETSC 3' 'MUMPS 1' 'MUMPS 3'; do
       read -r solver n <<< "$way"
       folder=$work/${solver,,}$n
