@@ -2,9 +2,8 @@
 !! element_kinds. Those of second order are complete on the triangle and the tetrahedron, serendipity functions on the others.
 !! Source: Zienkiewicz, Taylor, Zhu, The Finite Element Method, 6th ed., chapters 4 and 5, sections 4.6 to 4.12.
 module shape_functions
-   use element_kinds, only: element_table, kind_edge2, kind_edge3, kind_hexa20, kind_hexa8, kind_penta15, kind_penta6, &
-                            kind_quad4, kind_quad8, kind_tetra10, kind_tetra4, kind_tria3, kind_tria6, max_edges, max_nodes, &
-                            node_point
+   use element_kinds, only: element_table, kind_edge2, kind_edge3, kind_hexa20, kind_hexa8, kind_penta15, kind_penta6, kind_quad4, &
+                            kind_quad8, kind_tetra10, kind_tetra4, kind_tria3, kind_tria6, max_edges, max_nodes, node_point
    use kinds, only: wp
    implicit none
    private

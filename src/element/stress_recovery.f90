@@ -49,8 +49,7 @@ contains
       real(wp), intent(in), optional :: rise(:)  !! (nodes) T - TREF, 0 [temperature]
       type(element_map)      :: map
       type(integration_rule) :: rule
-      real(wp) :: g(3, max_shapes), q(3, max_shapes), strain(max_stresses), at_point(max_stresses, max_nodes)
-      real(wp) :: n(max_nodes), volume
+      real(wp) :: g(3, max_shapes), q(3, max_shapes), strain(max_stresses), at_point(max_stresses, max_nodes), n(max_nodes), volume
       integer  :: i, k, linear, m
 
       m = n_stresses(law%state)

@@ -196,9 +196,8 @@ contains
                call errors%add(at, 'column '''//name//''' a second time', first, last)
             else if (unit /= '') then
                associate (known => header%units(columns(k)))
-                  if (known /= '' .and. unit /= known .and. reading%deck%length <= 0.0_wp) &
-                     call errors%add(at, name//' in '//unit//', but above in '//trim(known)//': --units mm,n converts both', &
-                                     first, last)
+                  if (known /= '' .and. unit /= known .and. reading%deck%length <= 0.0_wp) call errors%add(at, name//' in '// &
+                     unit//', but above in '//trim(known)//': --units mm,n converts both', first, last)
                   known = unit
                end associate
             end if

@@ -128,8 +128,7 @@ contains
             if (b /= fit_load .and. fit%has_loading) call comment(out, branch_words(b), 'no data: left blank, as loading')
             cycle
          end if
-         if (fit%source(b) /= b) call comment(out, branch_words(b), 'taken from the '// &
-                                              trim(branch_words(fit%source(b)))//' data')
+         if (fit%source(b) /= b) call comment(out, branch_words(b), 'taken from the '//trim(branch_words(fit%source(b)))//' data')
          call describe_branch(data, fit, b, command%fit%one_step, out)
       end do
       if (fit%has_loading) then
@@ -231,8 +230,7 @@ contains
          if (i > 0) then
             associate (at => branch%curve_at(i), own => branch%curve == i)
                cells = [character(14) :: integer_text(run(at)), real_text(branch%group_p(branch%group(at))), &
-                        real_text(branch%start(i)), real_text(minval(d, own)), real_text(maxval(d, own)), &
-                        integer_text(count(own))]
+                        real_text(branch%start(i)), real_text(minval(d, own)), real_text(maxval(d, own)), integer_text(count(own))]
             end associate
          end if
          call comment_row(out, cells)

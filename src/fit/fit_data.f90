@@ -1,9 +1,8 @@
 !> The data file of jointfit: test points, or published cubics, as plain text.
 module fit_data
    use data_columns, only: branch_number, check_system, column_branch, column_d, column_lambda, column_names, column_p, &
-                           column_run, column_tau, data_cubics, header_type, known_headers, n_columns, read_header, &
-                           reading_type, set_factors, data_part, entry_type, is_number, read_number, split_entries, &
-                           read_system, unit_system
+                           column_run, column_tau, data_cubics, header_type, known_headers, n_columns, read_header, reading_type, &
+                           set_factors, data_part, entry_type, is_number, read_number, split_entries, read_system, unit_system
    use deck_errors, only: deck_error_list
    use deck_text, only: deck_text_type, read_deck_text
    use kinds, only: wp

@@ -175,9 +175,8 @@ contains
          i = findloc(fit%group, fit%fault_at, 1)
          call errors%add(data%line(rows(i)), name//', p = '//real_text(fit%group_p(fit%fault_at))//': '// &
                          plural(count(fit%group == fit%fault_at), 'point')//' that fix no cubic, expected '// &
-                         trim(merge('four different d or more             ', &
-                                    'three different d or more, not zero  ', fit%constant))// &
-                         '; --joint-fit needs no cubic of each pressure'//tolerance_help(fit))
+                         trim(merge('four different d or more             ', 'three different d or more, not zero  ', &
+                         fit%constant))//'; --joint-fit needs no cubic of each pressure'//tolerance_help(fit))
       case (fault_dependent)
          call errors%add(data%line(rows(1)), name//': '//plural(size(rows), 'point')// &
                          ' that do not fix the coefficients: expected more different d and p'//tolerance_help(fit))

@@ -119,8 +119,7 @@ contains
       real(wp), intent(in)            :: margin
 
       exceeds_limit = .false.
-      if (law%has_friction) &
-         exceeds_limit = norm2(state%shear%tau) > friction_limit(law, state%normal%pressure)*(1.0_wp + margin)
+      if (law%has_friction) exceeds_limit = norm2(state%shear%tau) > friction_limit(law, state%normal%pressure)*(1.0_wp + margin)
    end function exceeds_limit
 
    !> By how much the shear force exceeds the limit: a vector in the direction of tau, zero within the limit [force].
@@ -191,8 +190,7 @@ contains
       along = after%shear%tau/size_of_tau
       tangent(:2, :2) = limit/size_of_tau*(tangent(:2, :2) - matmul(spread(along, 2, 1), &
                                            matmul(spread(along, 1, 1), tangent(:2, :2))))
-      tangent(:2, 3) = limit/size_of_tau*(tangent(:2, 3) - along*dot_product(along, tangent(:2, 3))) &
-                       + law%mu*slope*area*along
+      tangent(:2, 3) = limit/size_of_tau*(tangent(:2, 3) - along*dot_product(along, tangent(:2, 3))) + law%mu*slope*area*along
       do i = 1, 2
          slid(i) = slid_from(law%shear(i), after%normal%pressure, after%shear(i), limit*along(i))
       end do

@@ -172,8 +172,7 @@ contains
       real(wp), intent(in)           :: area
       type(normal_state), intent(in) :: state
 
-      is_virgin = state%branch == branch_load .and. &
-                  max(abs(state%sumf), abs(state%sigmaf)) <= rounding*state%p_av*area
+      is_virgin = state%branch == branch_load .and. max(abs(state%sumf), abs(state%sigmaf)) <= rounding*state%p_av*area
    end function is_virgin
 
    !> Stiffness on the loading curve of an element that nothing is on: the secant of Eq. (9); where it has closed past A, the

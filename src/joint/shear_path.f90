@@ -3,8 +3,7 @@
 !! changing in proportion. At constant pressure this is the polynomial itself. Along such a way every curve is a polynomial in
 !! the fraction f of it, so that a piece ends exactly where a branch meets a loading curve.
 module shear_path
-   use branch_cubic, only: cubic, cubic_by_pressure, cubic_slope, cubic_slope_derivatives, cubic_value, slope_on_way, &
-                           value_on_way
+   use branch_cubic, only: cubic, cubic_by_pressure, cubic_slope, cubic_slope_derivatives, cubic_value, slope_on_way, value_on_way
    use kinds, only: wp
    use normal_stiffness, only: branch_load
    use numbers, only: derivative, enclosed_zero, find_zeros, polynomial, zero_list
@@ -155,8 +154,7 @@ contains
       goal = goal_sense(state)
       d = goal*[way%start(1), way%change(1)]
       excess = 0.0_wp
-      if (polynomial(slope, 0.5_wp*(piece%from + piece%to)) > 0.0_wp) &
-         excess(1:) = d(2)*slope(:3)/[1.0_wp, 2.0_wp, 3.0_wp, 4.0_wp]
+      if (polynomial(slope, 0.5_wp*(piece%from + piece%to)) > 0.0_wp) excess(1:) = d(2)*slope(:3)/[1.0_wp, 2.0_wp, 3.0_wp, 4.0_wp]
       excess(0) = goal*state%tau - state%offset - polynomial(excess, piece%from)
       excess = excess - value_on_way(law%load, d, [way%start(2), way%change(2)])
    end function excess_over_goal

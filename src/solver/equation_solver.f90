@@ -254,9 +254,8 @@ contains
       else if (fault == no_solution) then
          call failure%raise(where//self%complaint)
       else if (fault > 0) then
-         call failure%raise(where//'the structure is a mechanism: '// &
-            what_is_loose(model, self%node(fault), self%direction(fault))// &
-            ' (not supported there, or every joint that held it is open)')
+         call failure%raise(where//'the structure is a mechanism: '//what_is_loose(model, self%node(fault), &
+            self%direction(fault))//' (not supported there, or every joint that held it is open)')
       end if
    end subroutine report_fault
 

@@ -6,8 +6,7 @@ module equations
    use case_control, only: solver_auto
    use equation_solver, only: equation_system, exact_digits, solver_options
    use failures, only: failure_type
-   use interface_operator, only: add_force, add_global_force, global_stiffness, interface_element, joint_movement, &
-                                 relative_movement
+   use interface_operator, only: add_force, add_global_force, global_stiffness, interface_element, joint_movement, relative_movement
    use kinds, only: wp
    use mass_elements, only: coupled_bar_mass, coupled_point_mass, mass_nodes, n_masses
    use model_data, only: bar_nodes, model_type, n_bars

@@ -37,8 +37,7 @@ contains
    !! Where NEGATIVE is there a pivot may be below zero: the factor has signs then, and these are the columns of -1.
    subroutine eliminate(p, r, panel, update, diagonal, tolerance, fault, negative)
       integer, intent(in)     :: p, r
-      real(wp), intent(inout) :: panel(p + r, p)
-      real(wp), intent(inout) :: update(r, r)
+      real(wp), intent(inout) :: panel(p + r, p), update(r, r)
       real(wp), intent(in)    :: diagonal(p)     !! of the matrix before any elimination
       real(wp), intent(in)    :: tolerance
       integer, intent(out)    :: fault
@@ -272,8 +271,7 @@ contains
    !> Y = Y - A X.
    pure subroutine subtract_columns(n, m, columns, a, x, y)
       integer, intent(in)     :: n, m, columns
-      real(wp), intent(in)    :: a(n, *)
-      real(wp), intent(in)    :: x(columns)
+      real(wp), intent(in)    :: a(n, *), x(columns)
       real(wp), intent(inout) :: y(m)
       integer :: i, j
 
@@ -294,8 +292,7 @@ contains
    !> Y = Y - A^T X.
    pure subroutine subtract_rows(n, m, columns, a, x, y)
       integer, intent(in)     :: n, m, columns
-      real(wp), intent(in)    :: a(n, *)
-      real(wp), intent(in)    :: x(m)
+      real(wp), intent(in)    :: a(n, *), x(m)
       real(wp), intent(inout) :: y(columns)
       real(wp) :: s1, s2, s3, s4
       integer  :: i, j

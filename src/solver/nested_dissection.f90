@@ -30,20 +30,18 @@ module nested_dissection
       integer(c_int32_t) function metis_node_nd(n, first, neighbours, weights, options, old_of_new, new_of_old) &
          bind(c, name='METIS_NodeND')
          import :: c_int32_t, c_ptr
-         integer(c_int32_t), intent(in)    :: n
+         integer(c_int32_t), intent(in)    :: n, options(*)
          integer(c_int32_t), intent(in)    :: first(*), neighbours(*)  !! from 0 on
          type(c_ptr), value                :: weights
-         integer(c_int32_t), intent(in)    :: options(*)
          integer(c_int32_t), intent(out)   :: old_of_new(*), new_of_old(*)
       end function metis_node_nd
 
       integer(c_int32_t) function metis_node_ndp(n, first, neighbours, weights, parts, options, old_of_new, new_of_old, sizes) &
          bind(c, name='METIS_NodeNDP')
          import :: c_int32_t, c_ptr
-         integer(c_int32_t), value         :: n
+         integer(c_int32_t), value         :: n, parts
          integer(c_int32_t), intent(in)    :: first(*), neighbours(*)  !! from 0 on
          type(c_ptr), value                :: weights
-         integer(c_int32_t), value         :: parts
          integer(c_int32_t), intent(in)    :: options(*)
          integer(c_int32_t), intent(out)   :: old_of_new(*), new_of_old(*)
          integer(c_int32_t), intent(inout) :: sizes(*)   !! (2 parts - 1) of leaves and separators, the root last
@@ -52,11 +50,9 @@ module nested_dissection
       integer(c_int32_t) function metis_part_kway(n, constraints, first, neighbours, weights, sizes, link_weights, parts, shares, &
                                                   imbalance, options, cut, part) bind(c, name='METIS_PartGraphKway')
          import :: c_int32_t, c_ptr
-         integer(c_int32_t), intent(in)  :: n, constraints
+         integer(c_int32_t), intent(in)  :: n, constraints, parts, options(*)
          integer(c_int32_t), intent(in)  :: first(*), neighbours(*)  !! from 0 on
          type(c_ptr), value              :: weights, sizes, link_weights, shares, imbalance
-         integer(c_int32_t), intent(in)  :: parts
-         integer(c_int32_t), intent(in)  :: options(*)
          integer(c_int32_t), intent(out) :: cut, part(*)
       end function metis_part_kway
    end interface
@@ -78,8 +74,7 @@ contains
       ok = .true.
       if (graph%n > 1) then
          status = metis_set_default_options(options)
-         ok = metis_node_nd(graph%n, graph%first - 1, graph%neighbours - 1, c_null_ptr, options, old_of_new, &
-                            new_of_old) == metis_ok
+         ok = metis_node_nd(graph%n, graph%first - 1, graph%neighbours - 1, c_null_ptr, options, old_of_new, new_of_old) == metis_ok
       else
          old_of_new = 0
       end if
@@ -187,8 +182,7 @@ contains
       integer, allocatable, intent(out) :: order(:)
       logical, intent(out)              :: ok
       type(node_graph_type) :: pairs, fours
-      integer, allocatable  :: weight(:), pair_weight(:), four_weight(:), pair(:), four(:)
-      integer, allocatable  :: place(:), first(:), nodes(:), number(:)
+      integer, allocatable  :: weight(:), pair_weight(:), four_weight(:), pair(:), four(:), place(:), first(:), nodes(:), number(:)
       integer :: n, n_parts
 
       n_parts = 1

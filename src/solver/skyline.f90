@@ -15,8 +15,7 @@ module skyline
    implicit none
    private
 
-   public :: start_skyline, add_to_skyline, skyline_times_vector, factorise_skyline, solve_skyline, &
-             factor_times_vector
+   public :: start_skyline, add_to_skyline, skyline_times_vector, factorise_skyline, solve_skyline, factor_times_vector
 
    type, public :: skyline_matrix
       integer :: n = 0                              !! order

@@ -26,9 +26,8 @@ contains
    subroutine choose_solver(model, graph, n, wanted, factorisations, system)
       type(model_type), intent(in)      :: model
       type(node_graph_type), intent(in) :: graph
-      integer, intent(in)               :: n
+      integer, intent(in)               :: n, factorisations
       integer, intent(in)               :: wanted !! solver_* of case_control
-      integer, intent(in)               :: factorisations
       class(equation_system), allocatable, intent(out) :: system
       type(skyline_solver_type), allocatable :: candidate
       logical :: is_skyline

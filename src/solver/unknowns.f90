@@ -126,8 +126,7 @@ contains
    pure function motions_of(model, node) result(q)
       type(model_type), intent(in) :: model
       integer, intent(in)          :: node
-      real(wp) :: q(model%dimension, n_motions(model%dimension))
-      real(wp) :: axes(3, 3)
+      real(wp) :: q(model%dimension, n_motions(model%dimension)), axes(3, 3)
       integer  :: d, r
 
       d = model%dimension

@@ -92,8 +92,7 @@ contains
       real(wp), intent(in)             :: u(:, :, :)
       type(energy_type), intent(inout) :: energies(:)
       real(wp), intent(inout)          :: f(:, :, :)
-      real(wp) :: k(max_felt_dofs, max_felt_dofs), q(max_felt_dofs, size(energies)), p(max_felt_dofs, size(energies))
-      real(wp) :: own
+      real(wp) :: k(max_felt_dofs, max_felt_dofs), q(max_felt_dofs, size(energies)), p(max_felt_dofs, size(energies)), own
       integer  :: d, e, i, m, n
 
       d = model%dimension

@@ -223,8 +223,7 @@ contains
 
       d = model%dimension
       n = size(modes%modes)
-      allocate (superposed%shape(d*size(plan%nodes), n), superposed%force(n), superposed%loss(n), &
-                superposed%viscous(n))
+      allocate (superposed%shape(d*size(plan%nodes), n), superposed%force(n), superposed%loss(n), superposed%viscous(n))
       superposed%lambda = modes%modes%lambda
       superposed%mass = modes%modes%mass
       superposed%viscous = 0.0_wp

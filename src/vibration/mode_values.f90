@@ -233,9 +233,8 @@ contains
    real(wp) function residual_of(model, system, lambda, is_rigid, f, of_mass) result(residual)
       type(model_type), intent(in)       :: model
       class(equation_system), intent(in) :: system
-      real(wp), intent(in)               :: lambda
+      real(wp), intent(in)               :: lambda, f(:, :), of_mass(:, :)
       logical, intent(in)                :: is_rigid
-      real(wp), intent(in)               :: f(:, :), of_mass(:, :)
       real(wp) :: felt(system%n), inertia(system%n)
 
       felt = on_equations(model, system, f)

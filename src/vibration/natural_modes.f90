@@ -93,8 +93,7 @@ contains
          spectrum%n_wanted = 0
          allocate (spectrum%lambda(0), spectrum%x(structure%started%n, 0))
       else
-         if (.not. plan%has_lowest) &
-            call search_from_below(model, structure, spectrum%n_wanted + beyond, spectrum, system, failure)
+         if (.not. plan%has_lowest) call search_from_below(model, structure, spectrum%n_wanted + beyond, spectrum, system, failure)
          call find_and_count(model, structure, below_end, spectrum, system, failure)
       end if
    end subroutine find_some
@@ -286,8 +285,7 @@ contains
       end associate
       scale = 0.0_wp
       do i = 1, size(model%properties)
-         if (model%properties(i)%rho > 0.0_wp) &
-            scale = max(scale, model%properties(i)%e/(model%properties(i)%rho*size_of_it**2))
+         if (model%properties(i)%rho > 0.0_wp) scale = max(scale, model%properties(i)%e/(model%properties(i)%rho*size_of_it**2))
       end do
       if (scale > 0.0_wp) return
       scale = 1.0_wp ! masses at nodes alone: the search finds its own
