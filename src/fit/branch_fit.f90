@@ -1,8 +1,6 @@
-!> A record in the order of time: how much of it is noise, and where it turns back.
-!!
-!! The slope E_u of the lines on which a joint is unloaded and reloaded, from the loops of a normal test.
-!!
-!! One branch of the shear law, tau = sum over k of (a_k1 + a_k2 p) d^k (Eqs. 3b, 5, 6), from test points or published cubics.
+!> What is fitted to test points: a branch of the shear law, tau = sum over k of (a_k1 + a_k2 p) d^k (Eqs. 3b, 5, 6), from points
+!! or published cubics; the slope E_u on which a joint is unloaded and reloaded, from the loops of a normal test. And of a record
+!! in the order of time: how much of it is noise, and where it turns back.
 module branch_fit
    use data_columns, only: fit_load
    use kinds, only: wp
@@ -79,7 +77,7 @@ contains
    !! The median passes over the turns; for normal noise it is 0.6745 sqrt(3/2) standard deviations.
    pure real(wp) function scatter_of(x, y) result(scatter)
       real(wp), intent(in) :: x(:), y(:) !! (readings)
-      real(wp) :: distance(max(0, size(x) - 2)), a(2), chord(2), range(2)
+      real(wp) :: distance(max(0, size(x) - 2)), a(2), chord(2), range(2), high, low, median
       integer  :: i, n
 
       n = size(x)
@@ -92,7 +90,17 @@ contains
          a = [x(i) - x(i - 1), y(i) - y(i - 1)]/range
          if (norm2(chord) > 0.0_wp) distance(i - 1) = abs(chord(1)*a(2) - chord(2)*a(1))/norm2(chord)
       end do
-      scatter = sqrt(2.0_wp*log(real(n, wp)))*median(distance)/(0.6745_wp*sqrt(1.5_wp))
+      low = minval(distance)
+      high = maxval(distance)
+      do i = 1, 60            ! to the median, of two the upper one: the number below is counted
+         median = 0.5_wp*(low + high)
+         if (2*count(distance <= median) < n - 2) then
+            low = median
+         else
+            high = median
+         end if
+      end do
+      scatter = sqrt(2.0_wp*log(real(n, wp)))*high/(0.6745_wp*sqrt(1.5_wp))
    end function scatter_of
 
    !> The readings at which U turns back by more than BAND: the last before it does.
@@ -120,25 +128,6 @@ contains
          end if
       end do
    end subroutine find_turns
-
-   !> The middle one of X in ascending order, the upper of two: by halving the range, the number below and above counted.
-   pure real(wp) function median(x)
-      real(wp), intent(in) :: x(:)
-      real(wp) :: high, low
-      integer  :: k
-
-      low = minval(x)
-      high = maxval(x)
-      do k = 1, 60
-         median = 0.5_wp*(low + high)
-         if (2*count(x <= median) < size(x)) then
-            low = median
-         else
-            high = median
-         end if
-      end do
-      median = high
-   end function median
 
    !> Lay lines of one slope through the runs that are not loading, each at its own height: lambda over p, because the pressure is
    !! what the test sets and the deflection what it reads. Of one run alone its own slope shows how far they scatter.
@@ -189,7 +178,7 @@ contains
       type(fit_choice), intent(in)       :: chosen
       type(branch_fit_type), intent(out) :: fit
       logical :: ok
-      integer :: k
+      integer :: i, k
 
       fit%n_points = size(d)
       fit%from_points = .true.
@@ -199,7 +188,14 @@ contains
       fit%d_low = minval(d)
       fit%d_high = maxval(d)
       call group_by_pressure(p, chosen%p_tolerance, fit%group, fit%group_p)
-      call separate_curves(run, fit)
+      allocate (fit%curve(size(run)), source=0)
+      fit%curve_at = [integer ::]
+      do i = 1, size(run)              ! the runs of each pressure, in the order of their first points
+         if (fit%curve(i) > 0) cycle
+         fit%curve_at = [fit%curve_at, i]
+         where (run == run(i) .and. fit%group == fit%group(i)) fit%curve = size(fit%curve_at)
+      end do
+      allocate (fit%start(size(fit%curve_at)), source=0.0_wp)
       call fit_two_steps(d, tau, chosen%one_pressure, fit)
       if (.not. (fit%two_step .or. chosen%one_step)) return
       fit%joint = fit%lines                ! of one pressure they are the same
@@ -219,22 +215,6 @@ contains
          fit%of_cubics = residual_of(tau - (fit%start(fit%curve) + d*(c(1, :) + d*(c(2, :) + d*c(3, :)))))
       end associate
    end subroutine fit_points
-
-   !> Number the runs of each pressure, in the order of their first points.
-   subroutine separate_curves(run, fit)
-      integer, intent(in)                  :: run(:)
-      type(branch_fit_type), intent(inout) :: fit
-      integer :: i
-
-      allocate (fit%curve(size(run)), source=0)
-      allocate (fit%curve_at(0))
-      do i = 1, size(run)
-         if (fit%curve(i) > 0) cycle
-         fit%curve_at = [fit%curve_at, i]
-         where (run == run(i) .and. fit%group == fit%group(i)) fit%curve = size(fit%curve_at)
-      end do
-      allocate (fit%start(size(fit%curve_at)), source=0.0_wp)
-   end subroutine separate_curves
 
    !> A cubic for each pressure, then a line through each of their coefficients.
    subroutine fit_two_steps(d, tau, one_pressure, fit)
@@ -358,9 +338,7 @@ contains
       real(wp), intent(in) :: d(:)
       real(wp) :: terms(size(d), 3)
 
-      terms(:, 1) = d
-      terms(:, 2) = d*d
-      terms(:, 3) = d*terms(:, 2)
+      terms = reshape([d, d*d, d*(d*d)], [size(d), 3])
    end function cubic_terms
 
    !> Set to zero what of a line (a_k1, a_k2) is rounding: a share of the stress far below its last digit.

@@ -1,8 +1,5 @@
-!> Units of test data and of decks, by name: how many SI units one of them is.
-!!
-!! The words of a data file: its columns, the units in its headings, the branches; and the header line that names the columns.
-!!
-!! One line of a data file cut into its entries, and the numbers among them.
+!> What a line of a data file says: cut into entries, and the numbers among them; the header that names the columns; the words for
+!! columns, branches, and units of data and decks, how many SI units one of them is.
 module data_columns
    use deck_errors, only: deck_error_list
    use field_rules, only: parse_real
@@ -136,8 +133,7 @@ contains
       integer :: k
 
       k = findloc(names == word, .true., 1)
-      value = 0.0_wp
-      if (k > 0) value = values(k)
+      value = merge(values(max(1, k)), 0.0_wp, k > 0)
    end function table_value
 
    !> UNIT in capitals without blanks and ^, the Greek mu as U and raised figures as others.

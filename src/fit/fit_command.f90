@@ -1,6 +1,4 @@
-!> What `jointfit --help` prints.
-!!
-!! The command line of jointfit: options and data files.
+!> The command line of jointfit: options and data files, and what `jointfit --help` prints.
 module fit_command
    use branch_fit, only: fit_choice
    use c_library, only: is_same_file
@@ -102,6 +100,7 @@ contains
       type(fit_command_type), intent(out) :: command
       logical, intent(out)                :: finished
       integer, intent(out)                :: status
+      type(input_argument), allocatable :: more(:)
       character(:), allocatable :: argument
       integer :: i
       logical :: ok, options
@@ -117,7 +116,10 @@ contains
          i = i + 1
          argument = argument_text(i)
          if (.not. is_option(argument, options)) then
-            call add_file(command%files, argument)
+            allocate (more(size(command%files) + 1)) ! (an array constructor would leak its names in gfortran 12)
+            more(:size(command%files)) = command%files
+            call set_input(more(size(more)), argument)
+            call move_alloc(more, command%files)
             cycle
          end if
          select case (argument)
@@ -172,35 +174,20 @@ contains
       type(fit_command_type), intent(in) :: command
       integer :: i
 
-      overwrites = .true.
       do i = 1, size(command%files)
          associate (file => command%files(i))
-            if (command%plot /= '') then
-               if (is_same_file(command%plot, file%path)) then
-                  call complain(program, '--plot '//command%plot//' would overwrite the data file '//file%name)
-                  return
-               end if
-            end if
-            if (is_same_file(standard_output, file%path)) then
+            overwrites = command%plot /= ''
+            if (overwrites) overwrites = is_same_file(command%plot, file%path)
+            if (overwrites) then
+               call complain(program, '--plot '//command%plot//' would overwrite the data file '//file%name)
+            else if (is_same_file(standard_output, file%path)) then
+               overwrites = .true.
                call complain(program, 'the cards would be written to the data file '//file%name)
-               return
             end if
          end associate
+         if (overwrites) return
       end do
-      overwrites = .false.
    end function overwrites_data
-
-   !> One more of FILES, the one that ARGUMENT means. (An array constructor would leak its names in gfortran 12.)
-   subroutine add_file(files, argument)
-      type(input_argument), allocatable, intent(inout) :: files(:)
-      character(*), intent(in) :: argument
-      type(input_argument), allocatable :: more(:)
-
-      allocate (more(size(files) + 1))
-      more(:size(files)) = files
-      call set_input(more(size(more)), argument)
-      call move_alloc(more, files)
-   end subroutine add_file
 
    !> The VALUE behind an OPTION; empty where the command ends.
    subroutine read_value(option, value, command, ok)
@@ -208,19 +195,18 @@ contains
       type(fit_command_type), intent(inout) :: command
       logical, intent(out)                  :: ok
       character(:), allocatable :: expected
+      integer :: branch
 
       select case (option)
       case ('--id')
          call parse_integer(value, command%id, ok)
          ok = ok .and. command%id > 0
          expected = 'a number of 1 or more'
-      case ('--branch')
-         command%only = branch_number(upper(value))
-         ok = command%only > 0
-         expected = 'LOAD, UNLOAD or RELOAD'
-      case ('--as')
-         command%as = branch_number(upper(value))
-         ok = command%as > 0
+      case ('--branch', '--as')
+         branch = branch_number(upper(value))
+         if (option == '--as') command%as = branch
+         if (option /= '--as') command%only = branch
+         ok = branch > 0
          expected = 'LOAD, UNLOAD or RELOAD'
       case ('--p-tolerance')
          call read_number(value, command%fit%p_tolerance, ok)

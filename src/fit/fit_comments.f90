@@ -1,6 +1,6 @@
 !> What stands above the fitted cards: data, residuals, range, coefficients, warnings.
 module fit_comments
-   use branch_fit, only: branch_fit_type, residual_type, loop_fit_type
+   use branch_fit, only: branch_fit_type, residual_type
    use command_arguments, only: version
    use data_columns, only: branch_letters, branch_words, column_d, column_p, column_symbols, data_normal, fit_load, fit_reload, &
                            fit_unload, n_columns
@@ -27,10 +27,21 @@ contains
       integer, intent(in)                   :: id
       type(surface_fit_type), intent(in)    :: fit
       type(output_file_type), intent(inout) :: out
+      character(:), allocatable :: words
       integer :: k
 
       call comment(out, '', 'fitted by jointfit '//version//' to '//name)
-      call describe_units(data, command%reading%deck%length > 0.0_wp, out)
+      if (data%units /= '') call comment(out, 'units', data%units)
+      words = ''
+      do k = 1, n_columns
+         if (data%unit_read(k) /= '') words = words//', '//trim(column_symbols(k))//' ['//trim(data%unit_read(k))//']'
+      end do
+      if (command%reading%deck%length > 0.0_wp) then ! the cards are in units of their own
+         if (words /= '') words = ', converted from'//words(2:)
+         call comment(out, 'units', trim(data%unit(column_d))//', '//trim(data%unit(column_p))//words)
+      else if (words /= '') then
+         call comment(out, 'units', words(3:))
+      end if
       do k = 1, data%notes%n
          call comment(out, 'record', data%notes%items(k)%message)
       end do
@@ -56,31 +67,12 @@ contains
       end if
    end subroutine write_cards
 
-   !> What the file says of units, and in which the cards are where these are CONVERTED.
-   subroutine describe_units(data, converted, out)
-      type(test_data_type), intent(in)      :: data
-      logical, intent(in)                   :: converted
-      type(output_file_type), intent(inout) :: out
-      character(:), allocatable :: words
-      integer :: k
-
-      if (data%units /= '') call comment(out, 'units', data%units)
-      words = ''
-      do k = 1, n_columns
-         if (data%unit_read(k) /= '') words = words//', '//trim(column_symbols(k))//' ['//trim(data%unit_read(k))//']'
-      end do
-      if (converted) then
-         if (words /= '') words = ', converted from'//words(2:)
-         call comment(out, 'units', trim(data%unit(column_d))//', '//trim(data%unit(column_p))//words)
-      else if (words /= '') then
-         call comment(out, 'units', words(3:))
-      end if
-   end subroutine describe_units
-
    subroutine describe_normal(fit, out)
       type(normal_fit_type), intent(in)     :: fit
       type(output_file_type), intent(inout) :: out
       character(:), allocatable :: points
+      character(14) :: cells(6)
+      integer :: k
 
       points = plural(fit%n_points, 'point')
       if (size(fit%loops%lines) > 0) points = points//' of loading'
@@ -88,37 +80,29 @@ contains
       call comment(out, 'data', points//', p '//range_text(fit%p_low, fit%p_high)//', lambda to '//real_text(fit%lambda_high))
       call comment(out, 'residual', 'of lambda: rms '//real_text(fit%rms)//', largest '//real_text(fit%largest)// &
                    ' at p = '//real_text(fit%p_largest))
-      if (size(fit%loops%lines) > 0) call describe_loops(fit%loops, out)
-   end subroutine describe_normal
-
-   !> The lines of unloading and reloading, none of which is part of c and m.
-   subroutine describe_loops(loops, out)
-      type(loop_fit_type), intent(in)       :: loops
-      type(output_file_type), intent(inout) :: out
-      character(14) :: cells(6)
-      integer :: k
-
-      call comment(out, 'unload', 'E_u = '//real_text(loops%e_u)//', standard error '// &
-                   real_text(0.01_wp*nint(1.0e4_wp*min(loops%error, 1.0e4_wp)))//' %, from '// &
-                   plural(size(loops%lines), 'line')//' through '//plural(loops%n_points, 'point')//' apart from loading')
-      call comment(out, '', 'residual of lambda about lines of this slope: rms '//real_text(loops%rms))
-      cells = [character(14) :: 'line', 'p from', 'to', 'lambda, p = 0', 'E_u', 'points']
-      do k = 0, size(loops%lines)
-         if (k > 0) then
+      associate (loops => fit%loops) ! the lines of unloading and reloading, none of which is part of c and m
+         if (size(loops%lines) == 0) return
+         call comment(out, 'unload', 'E_u = '//real_text(loops%e_u)//', standard error '// &
+                      real_text(0.01_wp*nint(1.0e4_wp*min(loops%error, 1.0e4_wp)))//' %, from '// &
+                      plural(size(loops%lines), 'line')//' through '//plural(loops%n_points, 'point')//' apart from loading')
+         call comment(out, '', 'residual of lambda about lines of this slope: rms '//real_text(loops%rms))
+         call comment_row(out, [character(14) :: 'line', 'p from', 'to', 'lambda, p = 0', 'E_u', 'points'])
+         do k = 1, size(loops%lines)
             associate (line => loops%lines(k))
                cells = [character(14) :: branch_words(line%branch), real_text(line%p_low), real_text(line%p_high), &
                         real_text(line%set), real_text(line%e_u), integer_text(line%n_points)]
             end associate
-         end if
-         call comment_row(out, cells)
-      end do
-   end subroutine describe_loops
+            call comment_row(out, cells)
+         end do
+      end associate
+   end subroutine describe_normal
 
    subroutine describe_shear(data, command, fit, out)
       type(test_data_type), intent(in)      :: data
       type(fit_command_type), intent(in)    :: command
       type(surface_fit_type), intent(in)    :: fit
       type(output_file_type), intent(inout) :: out
+      character(:), allocatable :: words
       logical :: is_used(data%n)
       integer :: b
 
@@ -133,13 +117,11 @@ contains
       end do
       if (fit%has_loading) then
          associate (closure => fit%closure)
-            if (.not. closure%is_known) then
-               call comment(out, 'closure', 'unloading does not come to tau = 0')
-            else
-               call comment(out, 'closure', real_text(0.01_wp*nint(1.0e4_wp*min(closure%share, 1.0e4_wp)))//' % of tau_r, '// &
-                            trim(merge('widest at                              ', 'of the smallest loops, DMAX unknown, at', &
-                                       closure%d > 0.0_wp))//' p = '//real_text(closure%p)//', d = '//real_text(closure%d))
-            end if
+            words = 'unloading does not come to tau = 0'
+            if (closure%is_known) words = real_text(0.01_wp*nint(1.0e4_wp*min(closure%share, 1.0e4_wp)))//' % of tau_r, '// &
+               trim(merge('widest at                              ', 'of the smallest loops, DMAX unknown, at', &
+                          closure%d > 0.0_wp))//' p = '//real_text(closure%p)//', d = '//real_text(closure%d)
+            call comment(out, 'closure', words)
          end associate
       end if
       is_used = data%branch(:data%n) == 0      ! these were told as left out
@@ -207,10 +189,11 @@ contains
       last = merge(6, 5, branch%from_points)
       associate (letter => branch_letters(b), c => branch%cubic)
          cells = [character(14) :: 'p', letter//'0', letter//'1', letter//'2', letter//'3', 'points']
-         do i = 0, size(branch%group_p)
-            if (i > 0) cells = [character(14) :: real_text(branch%group_p(i)), '', real_text(c(1, i)), real_text(c(2, i)), &
-                                real_text(c(3, i)), integer_text(count(branch%group == i))]
-            if (i > 0 .and. first == 2) cells(2) = real_text(branch%start(branch%curve(findloc(branch%group, i, 1))))
+         call comment_row(out, [cells(1), cells(first:last)])
+         do i = 1, size(branch%group_p)
+            cells = [character(14) :: real_text(branch%group_p(i)), '', real_text(c(1, i)), real_text(c(2, i)), &
+                     real_text(c(3, i)), integer_text(count(branch%group == i))]
+            if (first == 2) cells(2) = real_text(branch%start(branch%curve(findloc(branch%group, i, 1))))
             call comment_row(out, [cells(1), cells(first:last)])
          end do
       end associate
@@ -225,14 +208,12 @@ contains
       character(14) :: cells(6)
       integer :: i
 
-      cells = [character(14) :: 'run', 'p', branch_letters(b)//'0', 'd from', 'to', 'points']
-      do i = 0, size(branch%start)
-         if (i > 0) then
-            associate (at => branch%curve_at(i), own => branch%curve == i)
-               cells = [character(14) :: integer_text(run(at)), real_text(branch%group_p(branch%group(at))), &
-                        real_text(branch%start(i)), real_text(minval(d, own)), real_text(maxval(d, own)), integer_text(count(own))]
-            end associate
-         end if
+      call comment_row(out, [character(14) :: 'run', 'p', branch_letters(b)//'0', 'd from', 'to', 'points'])
+      do i = 1, size(branch%start)
+         associate (at => branch%curve_at(i), own => branch%curve == i)
+            cells = [character(14) :: integer_text(run(at)), real_text(branch%group_p(branch%group(at))), &
+                     real_text(branch%start(i)), real_text(minval(d, own)), real_text(maxval(d, own)), integer_text(count(own))]
+         end associate
          call comment_row(out, cells)
       end do
    end subroutine table_of_runs

@@ -48,7 +48,7 @@ contains
       type(unit_system) :: system                ! of the line UNITS =
       character(:), allocatable :: line
       integer :: i, k
-      logical :: above                           ! a header stands above, and no row yet below it
+      logical :: ok, above                       ! a header stands above, and no row yet below it
 
       call read_deck_text(path, data%text, errors, readable)
       if (.not. readable) return
@@ -70,7 +70,11 @@ contains
          call split_entries(line, entries, header%decimal_comma .or. reading%decimal_comma)
          if (size(entries) == 0) cycle
          if (index(upper(adjustl(line)), 'UNITS') == 1 .and. index(line, '=') > 0) then
-            call read_units(line, i, data, system, errors)
+            line = trim(adjustl(line(index(line, '=') + 1:))) ! anything, for the comments of the cards; for --units a SYSTEM
+            if (data%units /= '' .and. line /= data%units) &
+               call errors%add(i, 'UNITS: '''//line//''', but above it was '''//data%units//'''')
+            data%units = line
+            call read_system(line, system, ok)
          else if (.not. any([(is_number(line(entries(k)%first:entries(k)%last)), k = 1, size(entries))])) then
             if (reading%columns == '') call read_header(line, i, reading, header, errors)
             above = .true.
@@ -115,23 +119,6 @@ contains
          call check_system(header, data%warnings)
       end if
    end subroutine keep_header
-
-   !> UNITS = anything: for the comments of the cards, and for --units where it names a SYSTEM. A second one must say the same.
-   subroutine read_units(line, at, data, system, errors)
-      character(*), intent(in)             :: line
-      integer, intent(in)                  :: at
-      type(test_data_type), intent(inout)  :: data
-      type(unit_system), intent(inout)     :: system
-      type(deck_error_list), intent(inout) :: errors
-      character(:), allocatable :: units
-      logical :: ok
-
-      units = trim(adjustl(line(index(line, '=') + 1:)))
-      if (data%units /= '' .and. units /= data%units) &
-         call errors%add(at, 'UNITS: '''//units//''', but above it was '''//data%units//'''')
-      data%units = units
-      call read_system(units, system, ok)
-   end subroutine read_units
 
    !> One row of data.
    subroutine read_row(line, at, entries, header, data, errors)

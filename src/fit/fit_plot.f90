@@ -25,7 +25,8 @@ contains
       type(surface_fit_type), intent(in)    :: fit
       type(output_file_type), intent(inout) :: out
       character(:), allocatable :: picture, plots
-      integer :: b, k
+      character(32) :: label
+      integer :: axes(2), b, k
 
       picture = command%plot
       k = index(picture, '.', back=.true.)
@@ -51,36 +52,17 @@ contains
       call out%put('set terminal svg size 900,600 noenhanced background "white"')
       call out%put('set output '//quoted(picture//'.svg'))
       call out%put('set title '//quoted(command%files(number)%name))
-      select case (fit%kind)
-      case (data_normal)
-         call put_labels(column_lambda, column_p)
-      case (data_shear)
-         call put_labels(column_d, column_tau)
-      case default
-         call put_labels(column_p, 0)
-      end select
+      axes = [column_p, 0] ! 0: coefficients
+      if (fit%kind == data_normal) axes = [column_lambda, column_p]
+      if (fit%kind == data_shear) axes = [column_d, column_tau]
+      do k = 1, count(axes > 0)
+         label = column_symbols(axes(k))
+         if (data%unit(axes(k)) /= '') label = trim(label)//' ['//trim(data%unit(axes(k)))//']'
+         call out%put('set '//merge('x', 'y', k == 1)//'label '//quoted(label))
+      end do
       call out%put('set key outside right')
       call out%put('set grid')
       call out%put('plot '//plots(3:))
-
-   contains
-
-      subroutine put_labels(x, y)
-         integer, intent(in) :: x, y !! columns, 0: coefficients
-
-         call put_label('x', x)
-         if (y > 0) call put_label('y', y)
-      end subroutine put_labels
-
-      subroutine put_label(axis, column)
-         character, intent(in) :: axis
-         integer, intent(in)   :: column
-
-         k = len_trim(data%unit(column))
-         call out%put('set '//axis//'label '//quoted(trim(column_symbols(column))// &
-                                                     merge(' ['//trim(data%unit(column))//']', repeat(' ', k + 3), k > 0)))
-      end subroutine put_label
-
    end subroutine write_plot
 
    !> The points of loading and the power law, those of each way down or up and its line of slope E_u.

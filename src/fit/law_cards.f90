@@ -1,6 +1,5 @@
-!> Warnings about fitted cubics whose slope turns negative where the card may be used: a joint has no negative stiffness.
-!!
-!! JNORM and JSHEAR as lines of a deck, their numbers with the most digits that the columns hold.
+!> JNORM and JSHEAR as lines of a deck, their numbers with the most digits that the columns hold; and warnings about fitted cubics
+!! whose slope turns negative where the card may be used: a joint has no negative stiffness.
 module law_cards
    use data_columns, only: branch_words, fit_load, fit_reload, fit_unload
    use field_rules, only: parse_real
@@ -219,17 +218,26 @@ contains
       integer, intent(in)       :: width !! 7 to 16
       character(:), allocatable :: text
       character(40) :: entry, best
+      character(16) :: layout
       real(wp) :: error, least, read_back
       logical  :: ok
-      integer  :: k
+      integer  :: e, k
 
       best = '0.0'
       least = huge(least)
       do k = 1, 2*width - 1
-         if (k <= width) then
-            entry = plain_form(value, modulo(k, width), width)
-         else
-            entry = short_form(value, k - width - 1)
+         if (k <= width) then                ! a zero before the point where there is room, none where not
+            if (abs(value) >= 1.0e16_wp) cycle
+            write (layout, '(a, i0, a)') '(f0.', modulo(k, width), ')'
+            write (entry, layout) value
+            if (len_trim(entry) < width .and. entry(1:1) == '.') entry = '0'//trim(entry)
+            if (len_trim(entry) < width .and. entry(1:2) == '-.') entry = '-0'//trim(entry(2:))
+         else                                ! one digit before the point, and an exponent without E: -1.25+7
+            write (layout, '(a, i0, a)') '(es40.', k - width - 1, 'e3)'
+            write (entry, layout) value
+            entry = adjustl(entry)
+            e = index(entry, 'E')
+            entry = entry(:e - 1)//entry(e + 1:e + 1)//entry(min(verify(entry(e + 2:), '0'), 3) + e + 1:)
          end if
          if (len_trim(entry) > width) cycle
          call parse_real(trim(entry), read_back, ok)
@@ -241,37 +249,5 @@ contains
       end do
       text = trim(best)
    end function real_field_text
-
-   !> VALUE with DECIMALS digits behind the point; a zero before the point where there is room, none where not.
-   function plain_form(value, decimals, width) result(entry)
-      real(wp), intent(in) :: value
-      integer, intent(in)  :: decimals, width
-      character(40) :: entry
-      character(12) :: layout
-
-      entry = repeat('*', len(entry))
-      if (abs(value) >= 1.0e16_wp) return
-      write (layout, '(a, i0, a)') '(f0.', decimals, ')'
-      write (entry, layout) value
-      if (len_trim(entry) >= width) return
-      if (entry(1:1) == '.') entry = '0'//trim(entry)
-      if (entry(1:2) == '-.') entry = '-0'//trim(entry(2:))
-   end function plain_form
-
-   !> VALUE with one digit before the point, DECIMALS behind it and an exponent without E: -1.25+7.
-   function short_form(value, decimals) result(entry)
-      real(wp), intent(in) :: value
-      integer, intent(in)  :: decimals
-      character(40) :: entry
-      character(16) :: layout
-      integer :: e, first
-
-      write (layout, '(a, i0, a)') '(es40.', decimals, 'e3)'
-      write (entry, layout) value
-      entry = adjustl(entry)
-      e = index(entry, 'E')
-      first = min(verify(entry(e + 2:), '0'), 3) + e + 1
-      entry = entry(:e - 1)//entry(e + 1:e + 1)//entry(first:)
-   end function short_form
 
 end module law_cards

@@ -1,8 +1,5 @@
-!> Linear least squares by LAPACK.
-!!
-!! Test points that were taken at one pressure.
-!!
-!! Readings below zero: an offset of the first one, noise, or an error.
+!> What comes before a fit: readings below zero, an offset of the first one, noise or an error; points that were taken at one
+!! pressure. Linear least squares by LAPACK.
 module least_squares
    use data_columns, only: column_d, column_p, column_symbols, data_normal, data_shear, fit_load
    use deck_errors, only: deck_error_list

@@ -32,7 +32,7 @@ contains
       real(wp), intent(in)                 :: lambda(:) !! [length]
       type(normal_fit_type), intent(inout) :: fit
       type(deck_error_list), intent(inout) :: errors, warnings
-      real(wp) :: off(size(p))
+      real(wp) :: off(size(p)), slope
       integer  :: at
       logical  :: ok
 
@@ -59,24 +59,15 @@ contains
       fit%rms = norm2(off)/sqrt(real(size(p), wp))
       fit%largest = off(at)
       fit%p_largest = p(at)
-      call check_unloading(fit, warnings)
-   end subroutine fit_normal
-
-   !> A joint that is unloaded less steeply than it was loaded would come back to less than nothing.
-   subroutine check_unloading(fit, warnings)
-      type(normal_fit_type), intent(in)    :: fit
-      type(deck_error_list), intent(inout) :: warnings
-      real(wp) :: slope
-
       if (size(fit%loops%lines) == 0) return
       slope = fit%p_high**(1.0_wp - fit%m)/(fit%m*fit%c)
       if (fit%loops%e_u <= 0.0_wp) then
          call warnings%add(0, 'lambda does not fall with p where the test is unloaded: EU is left blank')
-      else if (fit%loops%e_u < slope) then
+      else if (fit%loops%e_u < slope) then ! unloaded less steeply than loaded
          call warnings%add(0, 'E_u = '//real_text(fit%loops%e_u)//' is below the slope of the loading curve at p = '// &
                            real_text(fit%p_high)//', '//real_text(slope)//': the set would be negative')
       end if
-   end subroutine check_unloading
+   end subroutine fit_normal
 
    !> The c and m that make the sum of (c p^m - lambda)^2 least. The straight line through ln lambda over ln p is the start;
    !! then Gauss-Newton in lambda itself, a step that makes the sum larger being halved. Points with p <= 0 or lambda <= 0

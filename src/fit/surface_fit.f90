@@ -42,7 +42,7 @@ contains
       type(fit_command_type), intent(in)   :: command
       type(surface_fit_type), intent(out)  :: fit
       type(deck_error_list), intent(inout) :: errors
-
+      type(shear_law) :: law
       real(wp) :: largest, smallest, positive(4)
 
       fit%kind = data%kind
@@ -67,7 +67,15 @@ contains
       smallest = minval(positive, mask=positive > 0.0_wp)
       if (smallest < smallest_size) call errors%add(0, 'the law that fits these data has a number of '//real_text(smallest)// &
          ', and a deck takes none below '//real_text(smallest_size)//': are the units right?')
-      if (fit%has_loading .and. .not. errors%any()) call check_closure(fit)
+      if (errors%any() .or. .not. fit%has_loading) return
+      law = shear_law(given=.true., load=cubic(fit%card(:, :, fit_load)), unload=cubic(fit%card(:, :, fit_load)), &
+                      reload=cubic(fit%card(:, :, fit_load)), p_max=fit%p_max)
+      if (fit%branch(fit_unload)%n_points > 0) law%unload = cubic(fit%card(:, :, fit_unload))
+      if (fit%branch(fit_reload)%n_points > 0) law%reload = cubic(fit%card(:, :, fit_reload))
+      if (fit%d_max > 0.0_wp) law%d_max = fit%d_max
+      fit%closure = worst_closure(law, fit%p_max)
+      if (fit%closure%is_known .and. fit%closure%share > wide_gap) &
+         call fit%warnings%add(0, 'reloading misses point A by more than 5 % of tau_r: cycles under one load creep')
    end subroutine fit_surface
 
    !> The branches of the shear law.
@@ -111,21 +119,6 @@ contains
          call fit%warnings%add(0, 'the cubics are given, there are no points for --joint-fit: the lines are on the card')
       if (command%d_max > 0.0_wp) fit%d_max = command%d_max
    end subroutine fit_shear
-
-   !> Whether the loops of the law on the card close: cycles under one load creep by what is missing.
-   subroutine check_closure(fit)
-      type(surface_fit_type), intent(inout) :: fit
-      type(shear_law) :: law
-
-      law = shear_law(given=.true., load=cubic(fit%card(:, :, fit_load)), unload=cubic(fit%card(:, :, fit_load)), &
-                      reload=cubic(fit%card(:, :, fit_load)), p_max=fit%p_max)
-      if (fit%branch(fit_unload)%n_points > 0) law%unload = cubic(fit%card(:, :, fit_unload))
-      if (fit%branch(fit_reload)%n_points > 0) law%reload = cubic(fit%card(:, :, fit_reload))
-      if (fit%d_max > 0.0_wp) law%d_max = fit%d_max
-      fit%closure = worst_closure(law, fit%p_max)
-      if (fit%closure%is_known .and. fit%closure%share > wide_gap) &
-         call fit%warnings%add(0, 'reloading misses point A by more than 5 % of tau_r: cycles under one load creep')
-   end subroutine check_closure
 
    !> Warn of a fit with readings that lie far off it.
    subroutine check_residual(branch, reading, residual, largest, warnings)

@@ -94,8 +94,9 @@ contains
       integer, allocatable, intent(out) :: test(:)
       integer, allocatable  :: group(:)
       real(wp), allocatable :: group_p(:)
-      integer :: first(data%n), last(data%n), i, k, n, t
-      logical :: fresh
+      integer  :: first(data%n), last(data%n), i, k, n, t
+      real(wp) :: away(2)
+      logical  :: fresh
 
       allocate (group(data%n), source=1)
       if (data%kind == data_shear .and. .not. data%has_branch) &
@@ -106,7 +107,11 @@ contains
          t = findloc([(data%part(first(k)) == data%part(i) .and. group(first(k)) == group(i), k = 1, n)], .true., 1, back=.true.)
          if (data%is_record .and. t < n) t = 0
          fresh = t == 0
-         if (data%in_order .and. .not. fresh) fresh = away(last(t), first(t)) > far .and. away(i, first(t)) <= band
+         if (data%in_order .and. .not. fresh) then ! how far the row before, and this one, lie from the first: shares of the range
+            away = [maxval(abs(data%value(columns, last(t)) - data%value(columns, first(t)))/range), &
+                    maxval(abs(data%value(columns, i) - data%value(columns, first(t)))/range)]
+            fresh = away(1) > far .and. away(2) <= band
+         end if
          if (fresh) then
             n = n + 1
             first(n) = i
@@ -115,16 +120,6 @@ contains
          last(t) = i
          test(i) = t
       end do
-
-   contains
-
-      !> How far row A lies from row B, as a share of the range.
-      pure real(wp) function away(a, b)
-         integer, intent(in) :: a, b
-
-         away = maxval(abs(data%value(columns, a) - data%value(columns, b))/range)
-      end function away
-
    end subroutine separate_tests
 
    !> The ROWS of one test, in order, take their branches from the way U that it went, straight from START to START; of shear
@@ -210,34 +205,27 @@ contains
 
    contains
 
-      !> The loading curve as the first N points show it.
+      !> The loading curve tau = a1 d + a2 d^2 + a3 d^3 as the first N points show it.
       type(curve_type) function loading_curve(n) result(curve)
          integer, intent(in) :: n
-         integer :: points(n), m
+         integer :: points(n)
+         logical :: belongs(n, 0)
+         real(wp), allocatable :: starts(:)
 
-         m = count(branch(:n) == fit_load)
-         points(:m) = pack([(i, i = 1, n)], branch(:n) == fit_load)
-         associate (own => points(:m))
-            call lay_curve(sense(own)*forward(own), sense(own)*tau(own), curve)
+         curve%n = count(branch(:n) == fit_load)
+         if (curve%n < few) return
+         points(:curve%n) = pack([(i, i = 1, n)], branch(:n) == fit_load)
+         associate (own => points(:curve%n))
+            associate (d => sense(own)*forward(own), stress => sense(own)*tau(own))
+               call fit_cubic(d, stress, belongs(:curve%n, :), curve%a, starts, curve%is_known)
+               curve%d = maxval(d)
+               curve%scatter = norm2(stress - cubic_at(curve, d))/sqrt(real(max(1, curve%n - 3), wp))
+               curve%least = exact*maxval(abs(stress))
+            end associate
          end associate
       end function loading_curve
 
    end subroutine follow
-
-   !> The loading curve tau = a1 d + a2 d^2 + a3 d^3 through the points of loading.
-   subroutine lay_curve(d, tau, curve)
-      real(wp), intent(in)          :: d(:), tau(:)
-      type(curve_type), intent(out) :: curve
-      real(wp), allocatable :: starts(:)
-      logical :: belongs(size(d), 0)
-
-      curve%n = size(d)
-      if (curve%n < few) return
-      call fit_cubic(d, tau, belongs, curve%a, starts, curve%is_known)
-      curve%d = maxval(d)
-      curve%scatter = norm2(tau - cubic_at(curve, d))/sqrt(real(max(1, curve%n - 3), wp))
-      curve%least = exact*maxval(abs(tau))
-   end subroutine lay_curve
 
    elemental real(wp) function cubic_at(curve, d) result(tau)
       type(curve_type), intent(in) :: curve
@@ -283,8 +271,8 @@ contains
 
    contains
 
-      !> The first point behind LAST, before END, that is on the curve: of points in doubt, the first behind where the parabola through
-      !! what is off before them comes to it.
+      !> The first point behind LAST, before END, that is on the curve: of points in doubt, the first behind where the parabola
+      !! through what is off before them comes to it.
       integer function behind(last, end)
          integer, intent(in) :: last, end
          integer  :: points(last - first + 1), k
@@ -320,7 +308,8 @@ contains
       real(wp), intent(in)                :: p_tolerance
       real(wp), intent(in)                :: noise !! share of the range, 0: to be found
       real(wp) :: band, scatter
-      integer  :: column, i, stretch(data%n)
+      integer  :: column, first, i, last, n, parted(data%n), stretch(data%n)
+      integer, allocatable :: turns(:)
       logical  :: new
 
       stretch = 1
@@ -336,34 +325,25 @@ contains
          scatter = scatter_of(x, y)
          band = max(least_band, 2.0_wp*scatter)
          if (noise > 0.0_wp) band = noise
-         if (band <= most_band .or. noise > 0.0_wp) call part_stretches(x, band*(maxval(x) - minval(x)), stretch)
+         first = 1
+         if (band > most_band .and. noise <= 0.0_wp) first = data%n + 1
+         n = 0
+         do while (first <= data%n)       ! parted where x turns back, and numbered anew
+            last = first
+            do while (last < data%n)
+               if (stretch(last + 1) /= stretch(first)) exit
+               last = last + 1
+            end do
+            call find_turns(x(first:last), band*(maxval(x) - minval(x)), turns)
+            if (size(turns) > 0) last = first + turns(1) - 1
+            n = n + 1
+            parted(first:last) = n
+            first = last + 1
+         end do
+         if (n > 0) stretch = parted
       end associate
       if (data%kind == data_normal .or. data%n >= few*stretch(data%n)) data%run(:data%n) = stretch
    end subroutine number_stretches
-
-   !> Part each STRETCH where X turns back by more than BAND, and number them anew.
-   pure subroutine part_stretches(x, band, stretch)
-      real(wp), intent(in)   :: x(:), band
-      integer, intent(inout) :: stretch(:)
-      integer, allocatable :: turns(:)
-      integer :: first, last, n, parted(size(x))
-
-      n = 0
-      first = 1
-      do while (first <= size(x))
-         last = first
-         do while (last < size(x))
-            if (stretch(last + 1) /= stretch(first)) exit
-            last = last + 1
-         end do
-         call find_turns(x(first:last), band, turns)
-         if (size(turns) > 0) last = first + turns(1) - 1
-         n = n + 1
-         parted(first:last) = n
-         first = last + 1
-      end do
-      stretch = parted
-   end subroutine part_stretches
 
    !> Note how the record was cut, and say where it is hardly a record.
    subroutine report_record(data, p_tolerance, columns, share, band, counts, errors)
