@@ -146,7 +146,8 @@ contains
          call failure%raise('MODES: no memory for '//integer_text(columns)//' vectors of '//integer_text(system%n)//' unknowns')
          return
       end if
-      residual = start_vector(system)
+      residual = 1.0_wp + 0.5_wp*sin(12.9898_wp*system%node + 78.233_wp*system%direction) ! no symmetry, whatever the numbering
+      residual(system%locked) = 0.0_wp
       parameters = 0
       parameters([1, 3, 7]) = [1, most_restarts, 3]
       ido = 0
@@ -156,18 +157,9 @@ contains
                      size(small_work), info)
          if (ido == 99) exit
          associate (from => places(1), to => places(2), of_mass => places(3))
-            select case (ido)
-            case (-1)
-               x(:, 1) = work(from:from + system%n - 1)
-               call times_mass(model, mass, system, x(:, 1))
-               call system%solve_by_factor(x(:, 1))
-            case (1)
-               x(:, 1) = work(of_mass:of_mass + system%n - 1)
-               call system%solve_by_factor(x(:, 1))
-            case default
-               x(:, 1) = work(from:from + system%n - 1)
-               call times_mass(model, mass, system, x(:, 1))
-            end select
+            x(:, 1) = work(merge(of_mass, from, ido == 1):merge(of_mass, from, ido == 1) + system%n - 1)
+            if (ido /= 1) call times_mass(model, mass, system, x(:, 1))
+            if (abs(ido) == 1) call system%solve_by_factor(x(:, 1))
             x(system%locked, 1) = 0.0_wp
             work(to:to + system%n - 1) = x(:, 1)
          end associate
@@ -227,18 +219,6 @@ contains
       lambda = system%shift + 1.0_wp/nu(n:n - i + 1:-1)
       x = matmul(v, t(:, n:n - i + 1:-1))
    end subroutine solve_in_subspace
-
-   !> A vector without any symmetry, the same for every numbering of the equations.
-   pure function start_vector(system) result(x)
-      class(equation_system), intent(in) :: system
-      real(wp) :: x(system%n)
-      integer  :: i
-
-      do i = 1, system%n
-         x(i) = 1.0_wp + 0.5_wp*sin(12.9898_wp*system%node(i) + 78.233_wp*system%direction(i))
-      end do
-      x(system%locked) = 0.0_wp
-   end function start_vector
 
    !> X becomes [m] X on the equations; locked ones take no part.
    subroutine times_mass(model, mass, system, x)

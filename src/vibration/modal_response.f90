@@ -41,8 +41,7 @@ module modal_response
       real(wp), allocatable :: rest(:)    !! (components) u_rest, zero where there is none [length]
    end type modal_system
 
-   real(wp), parameter :: nothing = 1.0e-10_wp !! of the largest amplitude at a frequency: rounding, which has no phase
-
+   real(wp), parameter :: nothing = 1.0e-10_wp    ! of the largest amplitude at a frequency: rounding, which has no phase
    real(wp), parameter :: missed_share = 0.05_wp  ! by which a peak is above what is asked for beside it: then it is missed
    real(wp), parameter :: small_share = 0.01_wp   ! of the largest amplitude of a component: its peaks below are not looked for
    real(wp), parameter :: untouched = 1.0e-9_wp   ! of a mode: a load that does not move it, a component that it does not move
@@ -137,17 +136,28 @@ contains
       class(equation_system), intent(in)  :: system
       type(response_type), intent(out)    :: response
       type(failure_type), intent(inout)   :: failure
+      class(equation_system), allocatable :: unshifted
       type(modal_system) :: superposed
-      real(wp), allocatable :: at_rest(:)
+      type(failure_type) :: loose
+      real(wp), allocatable :: at_rest(:, :), x(:)
       complex(wp) :: u(model%dimension*size(plan%nodes))
       real(wp) :: large(size(u))
       integer  :: f
       logical  :: ok
 
       call put_together(model, plan, modes, superposed)
-      call static_answer(model, structure, plan, system, at_rest)
-      response%is_complete = allocated(at_rest)
-      if (response%is_complete) superposed%rest = at_rest - static_share(superposed)
+      if (system%shift >= 0.0_wp) then        ! the load at rest, of a structure that is held
+         call factorise_at(model, structure, 0.0_wp, unshifted, loose)
+         response%is_complete = .not. loose%raised
+      end if
+      if (response%is_complete) then
+         allocate (x, source=on_equations(model, system, plan%force(:model%dimension, :)))
+         call unshifted%solve_by_factor(x)
+         x(system%locked) = 0.0_wp
+         allocate (at_rest, source=all_displacements(model, system, x))
+         superposed%rest = pack(at_rest(:, plan%nodes), .true.) - static_share(superposed)
+         deallocate (unshifted)
+      end if
       response%node = model%node_id(plan%nodes)
       response%frequency = asked_frequencies(plan, modes%modes%frequency)
       associate (d => model%dimension, n => size(plan%nodes), frequencies => response%frequency)
@@ -223,16 +233,15 @@ contains
 
       d = model%dimension
       n = size(modes%modes)
-      allocate (superposed%shape(d*size(plan%nodes), n), superposed%force(n), superposed%loss(n), superposed%viscous(n))
+      allocate (superposed%shape(d*size(plan%nodes), n), superposed%force(n), superposed%viscous(n), source=0.0_wp)
       superposed%lambda = modes%modes%lambda
       superposed%mass = modes%modes%mass
-      superposed%viscous = 0.0_wp
+      superposed%loss = modes%modes%loss
       superposed%rest = [(0.0_wp, m = 1, size(superposed%shape, 1))]
       do m = 1, n
          associate (mode => modes%modes(m))
             superposed%shape(:, m) = pack(mode%u(:, plan%nodes), .true.)
             superposed%force(m) = sum(mode%u*plan%force(:d, :))
-            superposed%loss(m) = mode%loss
             if (.not. allocated(plan%damping)) cycle
             superposed%loss(m) = mode%material_loss
             if (plan%is_structural) then
@@ -243,26 +252,5 @@ contains
          end associate
       end do
    end subroutine put_together
-
-   !> Displacements at the nodes under the load at rest. Not allocated of a structure that is not held.
-   subroutine static_answer(model, structure, plan, system, at_rest)
-      type(model_type), intent(in)       :: model
-      type(oscillating_type), intent(in) :: structure
-      type(response_plan), intent(in)    :: plan
-      class(equation_system), intent(in) :: system
-      real(wp), allocatable, intent(out) :: at_rest(:)
-      class(equation_system), allocatable :: unshifted
-      type(failure_type) :: loose
-      real(wp), allocatable :: u(:, :), x(:)
-
-      if (system%shift < 0.0_wp) return
-      call factorise_at(model, structure, 0.0_wp, unshifted, loose)
-      if (loose%raised) return
-      allocate (x, source=on_equations(model, system, plan%force(:model%dimension, :)))
-      call unshifted%solve_by_factor(x)
-      x(system%locked) = 0.0_wp
-      allocate (u, source=all_displacements(model, system, x))
-      at_rest = pack(u(:, plan%nodes), .true.)
-   end subroutine static_answer
 
 end module modal_response

@@ -163,9 +163,9 @@ contains
       type(spectrum_type), intent(in)       :: spectrum
       class(equation_system), intent(in)    :: system
       type(modes_type), intent(out)         :: modes
-      real(wp), allocatable :: u(:, :, :), of_mass(:, :), f(:, :, :), g(:, :)
+      real(wp), allocatable :: u(:, :, :), of_mass(:, :), e(:, :), f(:, :, :), g(:, :)
       type(energy_type), allocatable :: energies(:)
-      integer :: m, n
+      integer :: d, m, n
 
       modes%n_before = spectrum%n_before
       modes%n_counted = spectrum%n_counted
@@ -174,86 +174,63 @@ contains
       call total_mass(model, structure%mass, modes%mass, modes%centre, modes%inertia)
       n = size(spectrum%lambda)
       allocate (u(model%dimension, model%n_nodes, n), g(model%dimension, n))
+      allocate (e(model%dimension, model%n_nodes), of_mass(model%dimension, model%n_nodes))
       do m = 1, n
          u(:, :, m) = all_displacements(model, system, spectrum%x(:, m))
       end do
-      call find_participation(model, structure, u, g)
+      do d = 1, model%dimension                                       ! g(d, m) = u^T [m] e_d
+         e = 0.0_wp
+         e(d, :n_points(model)) = 1.0_wp
+         call mass_times(model, structure%mass, e, of_mass)
+         do m = 1, n
+            g(d, m) = sum(u(:, :, m)*of_mass)
+         end do
+      end do
+      if (model%axisymmetric) g(1, :) = 0.0_wp ! a ring moves as a whole along its axis only
       call settle_equal_modes(spectrum%lambda, modes%mass, g, u)
       n = spectrum%n_wanted
       do m = 1, n
          call settle_sign(g(:, m), u(:, :, m))
       end do
-      allocate (energies(n), f(model%dimension, model%n_nodes, n), of_mass(model%dimension, model%n_nodes), modes%modes(n))
+      allocate (energies(n), f(model%dimension, model%n_nodes, n), modes%modes(n))
       call strain_energies(model, structure, u(:, :, :n), energies, f)
       do m = 1, n
          call mass_times(model, structure%mass, u(:, :, m), of_mass)
          associate (mode => modes%modes(m))
             mode%lambda = spectrum%lambda(m)
-            mode%omega = sqrt(max(0.0_wp, mode%lambda))
-            mode%frequency = mode%omega/two_pi
             mode%is_rigid = m <= spectrum%n_rigid
-            mode%residual = residual_of(model, system, mode%lambda, mode%is_rigid, f(:, :, m), of_mass)
-            mode%mass = sum(u(:, :, m)*of_mass)
-            mode%participation(:model%dimension) = g(:, m)/mode%mass
-            mode%effective(:model%dimension) = g(:, m)**2/mode%mass
+            mode%participation(:model%dimension) = g(:, m)
             allocate (mode%u, source=u(:, :, m))
             mode%energy = energies(m)
-            call normalise(model, plan, mode)
-            if (.not. mode%is_rigid) then
-               mode%material_loss = plan%damping + mode%energy%damped/mode%energy%total()
-               mode%loss = mode%material_loss
-               if (plan%amplitude > 0.0_wp) mode%loss = mode%loss + loss_of_joints(model, analysis, plan, mode)
-            end if
-            call share_energy(mode)
+            call evaluate_mode(model, analysis, plan, system, f(:, :, m), of_mass, mode)
          end associate
       end do
    end subroutine evaluate_modes
 
-   !> G(d, m) = u^T [m] e_d. Of a ring only the axis is a direction that it can move along as a whole.
-   subroutine find_participation(model, structure, u, g)
-      type(model_type), intent(in)       :: model
-      type(oscillating_type), intent(in) :: structure
-      real(wp), intent(in)               :: u(:, :, :)
-      real(wp), intent(out)              :: g(:, :)
-      real(wp) :: e(size(u, 1), size(u, 2)), f(size(u, 1), size(u, 2))
-      integer  :: d, m
+   !> The values of MODE, of which there are lambda, u as it was found, u^T [m] e_d as its participation and its energies, from
+   !! F = [k] u and OF_MASS = [m] u. By NORM = MAX the largest component of its shape, at a point of the structure, becomes 1; its sign
+   !! remains.
+   subroutine evaluate_mode(model, analysis, plan, system, f, of_mass, mode)
+      type(model_type), intent(in)          :: model
+      type(analysis_type), intent(in)       :: analysis
+      type(vibration_plan_type), intent(in) :: plan
+      class(equation_system), intent(in)    :: system
+      real(wp), intent(in)                  :: f(:, :), of_mass(:, :)
+      type(mode_type), intent(inout)        :: mode
+      real(wp) :: felt(system%n), inertia(system%n), factor, share
 
-      do d = 1, size(g, 1)
-         e = 0.0_wp
-         e(d, :n_points(model)) = 1.0_wp
-         call mass_times(model, structure%mass, e, f)
-         do m = 1, size(g, 2)
-            g(d, m) = sum(u(:, :, m)*f)
-         end do
-      end do
-      if (model%axisymmetric) g(1, :) = 0.0_wp
-   end subroutine find_participation
-
-   !> How far the mode with the forces F = [k] u and OF_MASS = [m] u is from equilibrium.
-   real(wp) function residual_of(model, system, lambda, is_rigid, f, of_mass) result(residual)
-      type(model_type), intent(in)       :: model
-      class(equation_system), intent(in) :: system
-      real(wp), intent(in)               :: lambda, f(:, :), of_mass(:, :)
-      logical, intent(in)                :: is_rigid
-      real(wp) :: felt(system%n), inertia(system%n)
-
+      mode%omega = sqrt(max(0.0_wp, mode%lambda))
+      mode%frequency = mode%omega/two_pi
       felt = on_equations(model, system, f)
       inertia = on_equations(model, system, of_mass)
-      if (is_rigid) then
-         residual = norm2(felt)/norm2(system%shift*inertia)
+      if (mode%is_rigid) then
+         mode%residual = norm2(felt)/norm2(system%shift*inertia)
       else
-         residual = norm2(felt - lambda*inertia)/norm2(felt)
+         mode%residual = norm2(felt - mode%lambda*inertia)/norm2(felt)
       end if
-
-   end function residual_of
-
-   !> NORM = MAX: the largest component of the shape, at a point of the structure, becomes 1; its sign remains.
-   pure subroutine normalise(model, plan, mode)
-      type(model_type), intent(in)          :: model
-      type(vibration_plan_type), intent(in) :: plan
-      type(mode_type), intent(inout)        :: mode
-      real(wp) :: factor
-
+      mode%mass = sum(mode%u*of_mass)
+      mode%effective = mode%participation**2/mode%mass
+      mode%participation = mode%participation/mode%mass
       if (plan%unit_mass) then
          factor = 1.0_wp/sqrt(mode%mass)
       else
@@ -263,7 +240,16 @@ contains
       mode%mass = factor**2*mode%mass
       mode%participation = mode%participation/factor
       call mode%energy%scale(factor**2)
-   end subroutine normalise
+      share = 0.0_wp
+      if (.not. mode%is_rigid) then
+         mode%material_loss = plan%damping + mode%energy%damped/mode%energy%total()
+         mode%loss = mode%material_loss
+         if (plan%amplitude > 0.0_wp) mode%loss = mode%loss + loss_of_joints(model, analysis, plan, mode)
+         share = 1.0_wp/mode%energy%total()
+      end if
+      call mode%energy%scale(share)            ! the energies become shares of all
+      mode%energy%body = abs(mode%energy%body) ! below zero it is but rounding
+   end subroutine evaluate_mode
 
    !> What the joints have in the loss factor of MODE where its largest displacement is the amplitude that PLAN gives.
    pure real(wp) function loss_of_joints(model, analysis, plan, mode) result(loss)
@@ -291,16 +277,5 @@ contains
       end do
       loss = lost/(two_pi*factor**2*mode%energy%total())
    end function loss_of_joints
-
-   !> The energies become shares of all.
-   pure subroutine share_energy(mode)
-      type(mode_type), intent(inout) :: mode
-      real(wp) :: share
-
-      share = 0.0_wp
-      if (.not. mode%is_rigid) share = 1.0_wp/mode%energy%total()
-      call mode%energy%scale(share)
-      mode%energy%body = abs(mode%energy%body) ! below zero it is but rounding
-   end subroutine share_energy
 
 end module mode_values

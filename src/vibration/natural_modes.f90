@@ -239,7 +239,7 @@ contains
       type(failure_type), intent(inout)  :: failure
       type(failure_type) :: loose
       real(wp) :: first, least
-      integer  :: trial
+      integer  :: i, trial
 
       spectrum%shift = 0.0_wp
       call factorise_at(model, structure, spectrum%shift, system, loose)
@@ -255,24 +255,19 @@ contains
          call find_eigenpairs(model, structure%mass, system, n, spectrum%lambda, spectrum%x, failure)
          if (failure%raised) return
          least = noise*stiffest(model, structure, system)
-         call count_rigid(spectrum%lambda, max(least, 1.0e-9_wp*abs(spectrum%shift)), spectrum%n_rigid)
-         if (spectrum%n_rigid == size(spectrum%lambda)) exit
-         first = spectrum%lambda(spectrum%n_rigid + 1)
+         associate (lambda => spectrum%lambda) ! zero but for rounding: below the least, and far below the next one
+            do i = count(lambda < max(least, 1.0e-9_wp*abs(spectrum%shift))), 1, -1
+               if (i == size(lambda)) exit
+               if (lambda(i) < no_mode*lambda(i + 1)) exit
+            end do
+            spectrum%n_rigid = i
+            if (i == size(lambda)) exit
+            first = lambda(i + 1)
+         end associate
          if (first > 1.0e-2_wp*abs(spectrum%shift) .and. first < 1.0e3_wp*abs(spectrum%shift)) exit
          spectrum%shift = -first
       end do
    end subroutine search_from_below
-
-   !> How many of the ascending LAMBDA are zero but for rounding: below LEAST, and far below the next one.
-   pure subroutine count_rigid(lambda, least, n_rigid)
-      real(wp), intent(in) :: lambda(:), least
-      integer, intent(out) :: n_rigid
-
-      do n_rigid = count(lambda < least), 1, -1
-         if (n_rigid == size(lambda)) return
-         if (lambda(n_rigid) < no_mode*lambda(n_rigid + 1)) return
-      end do
-   end subroutine count_rigid
 
    !> The square of the frequency at which a wave runs through the whole structure and back once a radian: E/rho over its size^2.
    pure real(wp) function wave_scale(model) result(scale)
@@ -287,8 +282,7 @@ contains
       do i = 1, size(model%properties)
          if (model%properties(i)%rho > 0.0_wp) scale = max(scale, model%properties(i)%e/(model%properties(i)%rho*size_of_it**2))
       end do
-      if (scale > 0.0_wp) return
-      scale = 1.0_wp ! masses at nodes alone: the search finds its own
+      if (.not. scale > 0.0_wp) scale = 1.0_wp ! masses at nodes alone: the search finds its own
    end function wave_scale
 
    !> About the largest eigenvalue: the largest k_ii/m_ii.

@@ -54,13 +54,8 @@ contains
          structure%k(:, i) = oscillation_stiffness(model%joints(model%interface(i)%joint)%law, model%interface(i)%area, &
                                                    analysis%states(i), on_loading)
       end do
-      allocate (structure%is_elastic(n_bars(model)), structure%is_locked(n_sections(model)))
-      do i = 1, n_bars(model)
-         structure%is_elastic(i) = model%bars(i)%bolt == 0 .or. model%bars(i)%stage <= analysis%stage
-      end do
-      do i = 1, n_sections(model)
-         structure%is_locked(i) = model%sections(i)%stage <= analysis%stage
-      end do
+      structure%is_elastic = [(model%bars(i)%bolt == 0 .or. model%bars(i)%stage <= analysis%stage, i = 1, n_bars(model))]
+      structure%is_locked = [(model%sections(i)%stage <= analysis%stage, i = 1, n_sections(model))]
       call form_mass(model, structure%mass)
       call start_equations(model, structure%started, failure, &
                            merge(solver_skyline, solver_tree, system%description%name == 'SKYLINE'), factorisations=1, shift=0.0_wp)
