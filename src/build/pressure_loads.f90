@@ -8,7 +8,7 @@ module pressure_loads
    use displacement_systems, only: find_system
    use element_build, only: is_face
    use element_kinds, only: element_table, kind_hexa8, kind_penta6, kind_tetra4, max_side_nodes
-   use element_loads, only: side_forces, side_tractions
+   use element_loads, only: side_forces
    use kinds, only: wp
    use lists, only: id_table_type
    use model_data, only: corners_of, model_type
@@ -355,7 +355,7 @@ contains
    end subroutine find_side
 
    !> Add to FORCE the nodal forces of FACTOR times the pressure on one side, in the middle between two corners their mean.
-   !! Errors: none. Source: side_forces, side_tractions.
+   !! Errors: none. Source: side_forces.
    pure subroutine add_pressure(model, pressed, factor, force)
       type(model_type), intent(in)   :: model
       type(pressed_side), intent(in) :: pressed
@@ -371,8 +371,8 @@ contains
          associate (nodes => model%element_nodes(kind%side_nodes(:kind%side_size(pressed%side), pressed%side), e), &
                     property => model%properties(max(1, model%element_property(e))))
             if (norm2(pressed%direction) > 0.0_wp) then
-               call side_tractions(property%state, property%thickness, model%x(:d, nodes), at_nodes(:size(nodes)), &
-                                   pressed%direction(:d), f)
+               call side_forces(property%state, property%thickness, model%x(:d, nodes), at_nodes(:size(nodes)), f, &
+                                pressed%direction(:d))
             else
                call side_forces(property%state, property%thickness, model%x(:d, nodes), at_nodes(:size(nodes)), f)
             end if

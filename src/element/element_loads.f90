@@ -15,7 +15,7 @@ module element_loads
    implicit none
    private
 
-   public :: body_forces, side_areas, side_forces, side_tractions, nodal_thermal_forces, condensed_thermal_forces
+   public :: body_forces, side_areas, side_forces, nodal_thermal_forces, condensed_thermal_forces
 
 contains
 
@@ -63,15 +63,16 @@ contains
       end do
    end subroutine side_areas
 
-   !> Nodal forces of a pressure on one side, positive when it presses on the body: against the normal that points out. It
-   !! varies as the shape functions between its values at the nodes. With -1 at all nodes the result is the integral of
-   !! N_i times the outward normal.
-   pure subroutine side_forces(state, thickness, x, pressure, f)
+   !> Nodal forces of a pressure on one side, positive when it presses on the body: against the normal that points out; or of a
+   !! traction along a DIRECTION. It varies as the shape functions between its values at the nodes. With a pressure of -1 at all nodes
+   !! the result is the integral of N_i times the outward normal.
+   pure subroutine side_forces(state, thickness, x, pressure, f, direction)
       integer, intent(in)     :: state        !! plane_stress ... solid
       real(wp), intent(in)    :: thickness    !! of a plane body [length]
       real(wp), intent(in)    :: x(:, :)      !! nodes of the side (dimension, 2 to 8), in the order of element_kinds
       real(wp), intent(in)    :: pressure(:)  !! (nodes of the side) [pressure]
       real(wp), intent(inout) :: f(:, :)      !! (dimension, nodes of the side) [force], set here
+      real(wp), intent(in), optional :: direction(:) !! (dimension) unit
       type(integration_rule) :: rule
       real(wp) :: n(max_side_nodes), normal(3), p
       integer  :: d, i, k, nodes
@@ -83,36 +84,15 @@ contains
       do i = 1, rule%n
          call map_side(state, thickness, x, rule%point(:, i), n, normal)
          p = rule%weight(i)*dot_product(n(:nodes), pressure(:nodes))
+         if (present(direction)) then
+            p = rule%weight(i)*norm2(normal)*dot_product(n(:nodes), pressure(:nodes))
+            normal(:d) = -direction
+         end if
          do k = 1, nodes
             f(:d, k) = f(:d, k) - (p*n(k))*normal(:d)
          end do
       end do
    end subroutine side_forces
-
-   !> Nodal forces of a traction on one side along DIRECTION, a force per area that varies as the shape functions between its values
-   !! at the nodes: F(:, k) is DIRECTION times the integral of N_k times it.
-   pure subroutine side_tractions(state, thickness, x, traction, direction, f)
-      integer, intent(in)     :: state        !! plane_stress ... solid
-      real(wp), intent(in)    :: thickness    !! of a plane body [length]
-      real(wp), intent(in)    :: x(:, :)      !! nodes of the side (dimension, 2 to 8), in the order of element_kinds
-      real(wp), intent(in)    :: traction(:)  !! (nodes of the side) [pressure]
-      real(wp), intent(in)    :: direction(:) !! (dimension) unit
-      real(wp), intent(inout) :: f(:, :)      !! (dimension, nodes of the side) [force], set here
-      type(integration_rule) :: rule
-      real(wp) :: n(max_side_nodes), normal(3), force
-      integer  :: i, k, nodes
-
-      nodes = size(x, 2)
-      call side_rule(side_kind(size(x, 1), nodes), rule)
-      f(:size(x, 1), :nodes) = 0.0_wp
-      do i = 1, rule%n
-         call map_side(state, thickness, x, rule%point(:, i), n, normal)
-         force = rule%weight(i)*norm2(normal)*dot_product(n(:nodes), traction(:nodes))
-         do k = 1, nodes
-            f(:size(x, 1), k) = f(:size(x, 1), k) + force*n(k)*direction
-         end do
-      end do
-   end subroutine side_tractions
 
    !> Shape functions at a point of a side, and the outward normal there, as long as the area that a unit of weight stands
    !! for.

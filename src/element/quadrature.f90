@@ -166,11 +166,7 @@ contains
       logical, intent(in) :: axisymmetric    !! a triangle then has three points
       type(integration_rule), intent(out) :: rule
 
-      if (kind == kind_tria3 .and. axisymmetric) then
-         call take(triangle_3, rule)
-      else
-         call take(of_stress(kind), rule)
-      end if
+      call take(of_stress(merge(kind_tria6, kind, kind == kind_tria3 .and. axisymmetric)), rule)
    end subroutine stress_rule
 
    !> The rule over a side: exact for the forces of a pressure that varies as the shape functions, on edges of rings too, and of a
@@ -188,11 +184,8 @@ contains
       integer, intent(in) :: most_nodes
       type(integration_rule), intent(out) :: rule
 
-      if (most_nodes == 8) then
-         call take(triangle_12, rule)
-      else
-         call take(triangle_7, rule)
-      end if
+      if (most_nodes == 8) call take(triangle_12, rule)
+      if (most_nodes /= 8) call take(triangle_7, rule)
    end subroutine side_product_rule
 
 end module quadrature

@@ -18,36 +18,27 @@ module shape_functions
 
 contains
 
-   !> Derivatives of the shape functions with respect to the local coordinates; the rest of DN is left as it is.
-   pure subroutine quadratic_derivatives(kind, point, dn)
-      integer, intent(in)     :: kind                 !! kind_tria6 ... kind_hexa20, kind_edge3
-      real(wp), intent(in)    :: point(3)             !! local coordinates
-      real(wp), intent(inout) :: dn(3, max_nodes)     !! dN_i/d(local j) in dn(j, i) [-]
+   !> Derivatives of the shape functions of the triangle and the tetrahedron.
+   pure subroutine simplex_derivatives(kind, point, dn)
+      integer, intent(in)     :: kind
+      real(wp), intent(in)    :: point(3)
+      real(wp), intent(inout) :: dn(3, max_nodes)
       real(wp) :: l(4)
       integer  :: d, i
 
-      select case (kind)
-      case (kind_edge3)
-         dn(1, :3) = [point(1) - 0.5_wp, point(1) + 0.5_wp, -2.0_wp*point(1)]
-      case (kind_tria6, kind_tetra10)
-         associate (corners => element_table(kind)%n_corners)
-            d = corners - 1
-            l = barycentric(corners, point)
-            do i = 1, corners
-               dn(:d, i) = (4.0_wp*l(i) - 1.0_wp)*gradient(:d, i)
-            end do
-            do i = corners + 1, element_table(kind)%n_nodes
-               associate (b => element_table(kind)%edges(1, i - corners), e => element_table(kind)%edges(2, i - corners))
-                  dn(:d, i) = 4.0_wp*(l(b)*gradient(:d, e) + l(e)*gradient(:d, b))
-               end associate
-            end do
-         end associate
-      case (kind_quad8, kind_hexa20)
-         call serendipity_derivatives(kind, point, dn)
-      case (kind_penta15)
-         call wedge_derivatives(point, dn)
-      end select
-   end subroutine quadratic_derivatives
+      associate (corners => element_table(kind)%n_corners)
+         d = corners - 1
+         l = barycentric(corners, point)
+         do i = 1, corners
+            dn(:d, i) = (4.0_wp*l(i) - 1.0_wp)*gradient(:d, i)
+         end do
+         do i = corners + 1, element_table(kind)%n_nodes
+            associate (b => element_table(kind)%edges(1, i - corners), e => element_table(kind)%edges(2, i - corners))
+               dn(:d, i) = 4.0_wp*(l(b)*gradient(:d, e) + l(e)*gradient(:d, b))
+            end associate
+         end do
+      end associate
+   end subroutine simplex_derivatives
 
    !> Derivatives of the shape functions of the wedge: products of functions of L(r, s) and of t.
    pure subroutine wedge_derivatives(point, dn)
@@ -218,19 +209,14 @@ contains
       associate (r => point(1), s => point(2), t => point(3))
          select case (kind)
          case (kind_tria3)
-            dn(:2, 1) = [-1.0_wp, -1.0_wp]
-            dn(:2, 2) = [1.0_wp, 0.0_wp]
-            dn(:2, 3) = [0.0_wp, 1.0_wp]
+            dn(:2, :3) = gradient(:2, :3)
          case (kind_quad4)
             do i = 1, 4
                dn(1, i) = 0.25_wp*node_point(1, i, kind_quad4)*(1.0_wp + s*node_point(2, i, kind_quad4))
                dn(2, i) = 0.25_wp*node_point(2, i, kind_quad4)*(1.0_wp + r*node_point(1, i, kind_quad4))
             end do
          case (kind_tetra4)
-            dn(:, 1) = [-1.0_wp, -1.0_wp, -1.0_wp]
-            dn(:, 2) = [1.0_wp, 0.0_wp, 0.0_wp]
-            dn(:, 3) = [0.0_wp, 1.0_wp, 0.0_wp]
-            dn(:, 4) = [0.0_wp, 0.0_wp, 1.0_wp]
+            dn(:, :4) = gradient
          case (kind_penta6)
             a = 0.5_wp*(1.0_wp - t)
             b = 0.5_wp*(1.0_wp + t)
@@ -251,8 +237,14 @@ contains
             end do
          case (kind_edge2)
             dn(1, :2) = [-0.5_wp, 0.5_wp]
-         case default
-            call quadratic_derivatives(kind, point, dn)
+         case (kind_edge3)
+            dn(1, :3) = [r - 0.5_wp, r + 0.5_wp, -2.0_wp*r]
+         case (kind_tria6, kind_tetra10)
+            call simplex_derivatives(kind, point, dn)
+         case (kind_quad8, kind_hexa20)
+            call serendipity_derivatives(kind, point, dn)
+         case (kind_penta15)
+            call wedge_derivatives(point, dn)
          end select
       end associate
    end subroutine shape_derivatives

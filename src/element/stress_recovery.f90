@@ -49,7 +49,8 @@ contains
       real(wp), intent(in), optional :: rise(:)  !! (nodes) T - TREF, 0 [temperature]
       type(element_map)      :: map
       type(integration_rule) :: rule
-      real(wp) :: g(3, max_shapes), q(3, max_shapes), strain(max_stresses), at_point(max_stresses, max_nodes), n(max_nodes), volume
+      real(wp) :: g(3, max_shapes), q(3, max_shapes), strain(max_stresses), at_point(max_stresses, max_nodes), n(max_nodes)
+      real(wp) :: scaled(3), volume
       integer  :: i, k, linear, m
 
       m = n_stresses(law%state)
@@ -69,22 +70,16 @@ contains
          if (rule%n == 1) then
             stress(:m, i) = at_point(:m, 1)
          else
-            call shape_values(linear, in_points(linear, node_point(:, i, law%kind)), n)
+            associate (node => node_point(:, i, law%kind)) ! in the element whose corners are the points of stress
+               scaled = node/gauss
+               if (linear == kind_tria3 .or. linear == kind_penta6) scaled(:2) = 2.0_wp*node(:2) - 1.0_wp/3.0_wp
+               if (linear == kind_tetra4) scaled = (node - tetra_far)/(tetra_near - tetra_far)
+            end associate
+            call shape_values(linear, scaled, n)
             stress(:m, i) = matmul(at_point(:m, :rule%n), n(:rule%n))
          end if
       end do
    end subroutine nodal_stress
-
-   !> A point in the local coordinates of the linear element whose corners are the points of stress.
-   pure function in_points(kind, point) result(scaled)
-      integer, intent(in)  :: kind
-      real(wp), intent(in) :: point(3)
-      real(wp) :: scaled(3)
-
-      scaled = point/gauss
-      if (kind == kind_tria3 .or. kind == kind_penta6) scaled(:2) = 2.0_wp*point(:2) - 1.0_wp/3.0_wp
-      if (kind == kind_tetra4) scaled = (point - tetra_far)/(tetra_near - tetra_far)
-   end function in_points
 
    !> Take from the STRAIN at a point what is free expansion.
    pure subroutine take_expansion(law, point, rise, strain)
