@@ -72,8 +72,13 @@ contains
       if (state%branch == branch_open) state%pressure = 0.0_wp
       select case (state%branch)
       case (branch_load)
-         k_n = normal_tangent(law, area, state%pressure, state%p_av)
-         if (is_virgin(area, state)) k_n = first_stiffness(law, area, state)
+         if (.not. is_virgin(area, state)) then
+            k_n = normal_tangent(law, area, state%pressure, state%p_av)
+         else if (state%lambda_a > 0.0_wp .and. state%lambda > 0.0_wp) then ! it has closed past A
+            k_n = normal_tangent(law, area, loading_pressure(law, state%lambda), state%p_av)
+         else
+            k_n = normal_secant(law, area, state%p_av)
+         end if
       case (branch_open)
          k_n = 0.0_wp
       case default
@@ -174,20 +179,6 @@ contains
 
       is_virgin = state%branch == branch_load .and. max(abs(state%sumf), abs(state%sigmaf)) <= rounding*state%p_av*area
    end function is_virgin
-
-   !> Stiffness on the loading curve of an element that nothing is on: the secant of Eq. (9); where it has closed past A, the
-   !! tangent of the curve at its deflection [force/length].
-   pure real(wp) function first_stiffness(law, area, state) result(k_n)
-      type(normal_law), intent(in)   :: law
-      real(wp), intent(in)           :: area
-      type(normal_state), intent(in) :: state
-
-      if (state%lambda_a > 0.0_wp .and. state%lambda > 0.0_wp) then
-         k_n = normal_tangent(law, area, loading_pressure(law, state%lambda), state%p_av)
-      else
-         k_n = normal_secant(law, area, state%p_av)
-      end if
-   end function first_stiffness
 
    !> The exact law over one step, for methods that iterate to equilibrium, from the state BEFORE to the deflection LAMBDA: the
    !! loading curve beyond point A, the line below it, and nothing once that line has come down to zero. What is at A but for

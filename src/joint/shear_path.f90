@@ -102,11 +102,7 @@ contains
       type(piece_type), intent(inout) :: piece
       real(wp) :: d(2), p(2), goal, at_a, slope(0:4), goal_slope(0:4), excess(0:4)
 
-      piece%to = 1.0_wp
-      piece%meets = .false.
-      piece%ends_at_a = .false.
-      piece%curve = cubic_of(law, state%branch)
-      piece%sense = state%sense
+      piece = piece_type(from=piece%from, curve=cubic_of(law, state%branch), sense=state%sense)
       p = [way%start(2), way%change(2)]
       slope = slope_on_way(piece%curve, piece%sense*[way%start(1), way%change(1)], p)
       call end_at_zeros(slope, piece)

@@ -80,14 +80,25 @@ contains
       type(shear_law), intent(in)      :: law
       real(wp), intent(in)             :: pressure
       type(shear_state), intent(inout) :: state
-      real(wp) :: change, least
+      real(wp) :: change, d(2), tau(2), excess(2), least
 
       least = least_movement(law, state, pressure)
       change = state%sense*(state%delta - state%delta_before)
       if (abs(change) > least) call turn(change < 0.0_wp, state)
       if (state%branch == branch_load) return
       if (goal_sense(state)*(state%delta - state%delta_0) < 0.0_wp) return
-      call find_side(law, pressure, state)
+      ! on which side of the curve that the branch goes to, behind its beginning at d = 0; 0: met on the straight way
+      d = goal_sense(state)*([state%delta_before, state%delta] - state%delta_0)
+      tau = goal_sense(state)*[state%tau_before, state%tau]
+      if (d(1) < 0.0_wp) then
+         tau(1) = tau(1) - (tau(2) - tau(1))*d(1)/(d(2) - d(1))
+         d(1) = 0.0_wp
+      end if
+      excess = tau - cubic_value(law%load, d, pressure) - state%offset
+      least = least_stress(state, pressure)
+      if (abs(state%side) > 0.0_wp) excess(1) = sign(huge(1.0_wp), state%side) ! under the pressure that was
+      state%side = sign(1.0_wp, excess(2))
+      if (minval(abs(excess)) <= least .or. (excess(1) > 0.0_wp .neqv. excess(2) > 0.0_wp)) state%side = 0.0_wp
       if (.not. abs(state%side) > 0.0_wp .or. (is_past_a(state) .and. state%side > 0.0_wp)) call join_loading(state)
    end subroutine ask_diamonds
 
@@ -122,8 +133,7 @@ contains
       else if (branch == branch_unload) then
          state%branch = branch_reload
       end if
-      if (state%branch == branch) return
-      state%side = 0.0_wp
+      if (state%branch /= branch) state%side = 0.0_wp
    end subroutine turn
 
    !> The sense of the loading curve that an unloading or reloading branch goes to: the other one, its own.
@@ -132,27 +142,6 @@ contains
 
       sense = merge(-state%sense, state%sense, state%branch == branch_unload)
    end function goal_sense
-
-   !> On which side of the curve that the branch goes to the increment has ended, behind the beginning of that curve at d = 0: SIDE,
-   !! 0 where it has met that curve on its straight way.
-   pure subroutine find_side(law, pressure, state)
-      type(shear_law), intent(in)      :: law
-      real(wp), intent(in)             :: pressure
-      type(shear_state), intent(inout) :: state
-      real(wp) :: d(2), tau(2), excess(2), least
-
-      d = goal_sense(state)*([state%delta_before, state%delta] - state%delta_0)
-      tau = goal_sense(state)*[state%tau_before, state%tau]
-      if (d(1) < 0.0_wp) then
-         tau(1) = tau(1) - (tau(2) - tau(1))*d(1)/(d(2) - d(1))
-         d(1) = 0.0_wp
-      end if
-      excess = tau - cubic_value(law%load, d, pressure) - state%offset
-      least = least_stress(state, pressure)
-      if (abs(state%side) > 0.0_wp) excess(1) = sign(huge(1.0_wp), state%side) ! under the pressure that was
-      state%side = sign(1.0_wp, excess(2))
-      if (minval(abs(excess)) <= least .or. (excess(1) > 0.0_wp .neqv. excess(2) > 0.0_wp)) state%side = 0.0_wp
-   end subroutine find_side
 
    !> The branch has come to its end: loading, after unloading of the other sense.
    pure subroutine join_loading(state)

@@ -10,7 +10,7 @@ module elimination_tree
    implicit none
    private
 
-   public :: number_places, find_parents, number_depth_first, order_depth_first, count_rows, find_supernodes, weigh_supernodes, &
+   public :: find_parents, number_depth_first, order_depth_first, count_rows, find_supernodes, weigh_supernodes, &
              merge_supernodes, sorted_places
 
    !> Supernodes while they are merged. Columns and rows are places in the order of elimination.
@@ -31,19 +31,6 @@ module elimination_tree
    real(wp), parameter :: merged_zeros(4) = [1.0_wp, 0.3_wp, 0.1_wp, 0.02_wp]
 
 contains
-
-   !> PLACE(ORDER(k)) = k, 0 for other nodes.
-   subroutine number_places(graph, order, place)
-      type(node_graph_type), intent(in)   :: graph
-      integer, intent(in)                 :: order(:)
-      integer, allocatable, intent(inout) :: place(:)
-      integer :: k
-
-      if (.not. allocated(place)) allocate (place(graph%n), source=0)
-      do k = 1, size(order)
-         place(order(k)) = k
-      end do
-   end subroutine number_places
 
    !> The elimination tree of the first N_INNER places; what comes behind them is taken as one, number N_INNER + 1.
    subroutine find_parents(graph, order, place, n_inner, parent)
@@ -158,13 +145,14 @@ contains
       integer, intent(in)                  :: order(:), place(:), parent(:), beyond(:)
       type(supernodes_type), intent(inout) :: supers
       integer, allocatable :: of_column(:), mark(:), child(:), sibling(:)
-      integer :: c, i, j, k, last, n, n_columns, row, s
+      integer :: before, c, i, j, k, last, n, n_columns, row, s
 
       n_columns = size(parent)
       allocate (supers%first(size(order) + 2), of_column(n_columns + 1))
       n = 0
       do j = 1, n_columns
-         if (.not. continues(j)) then
+         before = max(1, j - 1)
+         if (j == 1 .or. parent(before) /= j .or. beyond(before) /= beyond(j) + 1) then ! its rows are not those of the one before
             n = n + 1
             supers%first(n) = j
          end if
@@ -215,14 +203,6 @@ contains
 
    contains
 
-      !> Whether column J has the rows of the one before.
-      pure logical function continues(column)
-         integer, intent(in) :: column
-
-         continues = column > 1
-         if (continues) continues = parent(column - 1) == column .and. beyond(column - 1) == beyond(column) + 1
-      end function continues
-
       subroutine take(new)
          integer, intent(in) :: new
 
@@ -272,7 +252,7 @@ contains
       logical, intent(in)                  :: keep_last
       integer, allocatable :: candidates(:), next_candidate(:)
       real(wp) :: pivots, zeros, added
-      integer  :: c, next, s
+      integer  :: c, grandchild, next, s
       logical  :: merge
 
       allocate (supers%top(supers%n), source=[(s, s=1, supers%n)])
@@ -298,7 +278,9 @@ contains
                supers%next(supers%last_member(s)) = supers%member(c)
                supers%last_member(s) = supers%last_member(c)
                do while (supers%child(c) /= 0)
-                  call adopt(supers%child(c))
+                  grandchild = supers%child(c)
+                  supers%child(c) = supers%sibling(grandchild)
+                  call insert(grandchild)
                end do
             else
                call insert(c)
@@ -313,16 +295,6 @@ contains
       end do
 
    contains
-
-      !> The first child of C becomes one of S.
-      subroutine adopt(first)
-         integer, intent(in) :: first
-         integer :: grandchild
-
-         grandchild = first
-         supers%child(c) = supers%sibling(grandchild)
-         call insert(grandchild)
-      end subroutine adopt
 
       !> Into the list of children of S, in descending order of peak less what is left.
       subroutine insert(new)

@@ -55,23 +55,15 @@ contains
       if (present(shift)) system%shift = shift
       allocate (system%locked(0))
       call system%start(model, graph, failure)
-      if (.not. failure%raised) call place_retained(model, system)
-   end subroutine start_equations
-
-   !> Where the retained nodes stand among themselves, and the interface elements on them.
-   subroutine place_retained(model, system)
-      type(model_type), intent(in)          :: model
-      class(equation_system), intent(inout) :: system
-      integer :: i
-
-      allocate (system%retained_index(model%n_nodes), source=0)
+      if (failure%raised) return
+      allocate (system%retained_index(model%n_nodes), source=0) ! where they stand among themselves, and the interface elements on them
       system%retained_index(system%retained) = [(i, i = 1, size(system%retained))]
       call list_on_unknowns(model, system%interface)
       do i = 1, size(system%interface)
          system%interface(i)%node = system%retained_index(system%interface(i)%node)
       end do
       allocate (system%k_int(3, 3, size(system%interface)))
-   end subroutine place_retained
+   end subroutine start_equations
 
    !> [k_b] of all bodies, bars included; what no joint moves is eliminated where the solver does so.
    subroutine form_body_stiffness(model, system, failure)

@@ -191,34 +191,15 @@ contains
       end associate
    end subroutine eliminate_subtree
 
-   !> Add the stiffness of the elements of FRONT; the time that takes is kept.
-   subroutine assemble(model, tree, front)
-      type(model_type), intent(in)         :: model
-      type(front_tree_type), intent(inout) :: tree
-      type(front_type), intent(inout)      :: front
-      real(wp), allocatable :: k(:, :)
-      real(wp) :: time
-      integer  :: j
-
-      time = omp_get_wtime()
-      do j = 1, size(front%elements)
-         call coupled_dynamic_stiffness(model, front%elements(j), tree%shift, k)
-         associate (rows => pack(tree%number(:, coupled_nodes(model, front%elements(j))), .true.))
-            call add_matrix(front, rows, k(:size(rows), :size(rows)))
-         end associate
-      end do
-      time = omp_get_wtime() - time
-      !$omp atomic
-      tree%assembly_time = tree%assembly_time + time
-   end subroutine assemble
-
    !> What FRONT begins with: its elements, and what its static children leave.
    subroutine start_front(model, tree, front, fault)
       type(model_type), intent(in)         :: model
       type(front_tree_type), intent(inout) :: tree
       type(front_type), intent(inout)      :: front
       integer, intent(out)                 :: fault !! 0, or no_memory
-      integer :: c, k, status
+      real(wp), allocatable :: stiffness(:, :)
+      real(wp) :: time
+      integer  :: c, k, status
 
       fault = no_memory
       allocate (front%panel(front%p + front%r, front%p), front%update(front%r, front%r), &
@@ -227,11 +208,19 @@ contains
       call set_to_zero(front%p + front%r, front%p, front%panel)
       call set_to_zero(front%r, front%r, front%update)
       front%diagonal = 0.0_wp
-      call assemble(model, tree, front)
+      time = omp_get_wtime()
+      do k = 1, size(front%elements)
+         call coupled_dynamic_stiffness(model, front%elements(k), tree%shift, stiffness)
+         associate (rows => pack(tree%number(:, coupled_nodes(model, front%elements(k))), .true.))
+            call add_matrix(front, rows, stiffness(:size(rows), :size(rows)))
+         end associate
+      end do
+      time = omp_get_wtime() - time
+      !$omp atomic
+      tree%assembly_time = tree%assembly_time + time
       do k = 1, size(front%children)
          c = front%children(k)
-         if (tree%fronts(c)%is_refactored) cycle
-         call take_update(tree%fronts(c), front)
+         if (.not. tree%fronts(c)%is_refactored) call take_update(tree%fronts(c), front)
       end do
       fault = 0
    end subroutine start_front

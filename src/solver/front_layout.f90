@@ -2,8 +2,8 @@
 !! Everything here is symbolic and counts nodes; WEIGHT(node) is how many unknowns a node has.
 !! Source: Liu, SIAM Review 34 (1992) 82-109.
 module front_layout
-   use elimination_tree, only: count_rows, find_parents, find_supernodes, merge_supernodes, number_depth_first, number_places, &
-                               order_depth_first, sorted_places, supernodes_type, weigh_supernodes
+   use elimination_tree, only: count_rows, find_parents, find_supernodes, merge_supernodes, number_depth_first, order_depth_first, &
+                               sorted_places, supernodes_type, weigh_supernodes
    use front_kernel, only: large, touched_entries
    use kinds, only: wp
    use node_graph, only: node_graph_type
@@ -105,7 +105,7 @@ contains
       type(front_layout_type), intent(out) :: layout
       type(supernodes_type) :: supers
       integer, allocatable  :: place(:), parent(:), beyond(:), number(:), sequence(:), new_place(:)
-      integer :: n_inner ! places up to here have columns of their own
+      integer :: i, n_inner ! places up to here have columns of their own
 
       allocate (layout%order, source=order)
       n_inner = size(order)
@@ -114,10 +114,11 @@ contains
          layout%order(:n_inner) = pack(order, .not. in_joint(order))
          layout%order(n_inner + 1:) = pack(order, in_joint(order))
       end if
-      call number_places(graph, layout%order, place)
+      allocate (place(graph%n), source=0)
+      place(layout%order) = [(i, i = 1, size(order))]
       call find_parents(graph, layout%order, place, n_inner, parent)
       call order_depth_first(parent, layout%order(:n_inner))
-      call number_places(graph, layout%order, place)
+      place(layout%order) = [(i, i = 1, size(order))]
       call count_rows(graph, layout%order, place, parent, beyond)
       call find_supernodes(graph, layout%order, place, parent, beyond, supers)
       call weigh_supernodes(layout%order, weight, in_joint, supers)
@@ -138,7 +139,8 @@ contains
       integer, allocatable :: place(:), parent(:), nodes(:)
       integer :: first, j, root
 
-      call number_places(graph, order, place)
+      allocate (place(graph%n), source=0)
+      place(order) = [(j, j = 1, size(order))]
       call find_parents(graph, order, place, size(order), parent)
       call order_depth_first(parent, order)
       allocate (nodes(size(order)), source=1)      ! of the subtree

@@ -252,7 +252,10 @@ contains
                   front%in_parent(i) = parent%p + k
                end if
             end do
-            front%run = [pack([(i, i=1, front%r)], [(is_gap(front, parent%p, i), i=1, front%r)]), front%r + 1]
+            ! a run begins where the place in the parent is not right behind the one before, or is the first beyond its pivots
+            associate (at => front%in_parent)
+               front%run = [pack([(i, i=1, front%r)], at /= [0, at(:front%r - 1) + 1] .or. at == parent%p + 1), front%r + 1]
+            end associate
          end associate
       end do
       !$omp end parallel do
@@ -267,15 +270,6 @@ contains
       tree%equations = pack([(i, i = 1, tree%n)], tree%fronts(tree%of_equation)%is_refactored)
       tree%most_rows = maxval(tree%fronts%p + tree%fronts%r)
    end subroutine start_front_tree
-
-   !> Whether row I has its place in the parent's front not right behind that of the row before, or not in the same part of it.
-   pure logical function is_gap(front, parent_pivots, i)
-      type(front_type), intent(in) :: front
-      integer, intent(in)          :: parent_pivots, i
-
-      is_gap = i == 1
-      if (.not. is_gap) is_gap = front%in_parent(i) /= front%in_parent(i - 1) + 1 .or. front%in_parent(i) == parent_pivots + 1
-   end function is_gap
 
    !> Every element, and every interface element, to the front that eliminates its first equation: the others are rows there.
    subroutine hand_out_elements(model, tree)

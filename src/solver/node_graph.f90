@@ -95,21 +95,13 @@ contains
       end do
       if (.not. (with_bodies .and. allocated(model%coupling%of_node))) return
       do e = 1, model%n_elements
-         if (moves_with_others(e)) call join(coupled_nodes(model, e))
+         associate (felt => felt_nodes(model, e), unknown => coupled_nodes(model, e)) ! some of which it does not touch?
+            if (any([(all(felt /= unknown(i)), i = 1, size(unknown))])) call join(unknown)
+         end associate
       end do
       joined = joined(:, :n)
 
    contains
-
-      !> Whether element E couples the unknowns of nodes that it does not touch.
-      logical function moves_with_others(this)
-         integer, intent(in) :: this
-         integer :: k
-
-         associate (felt => felt_nodes(model, this), unknown => coupled_nodes(model, this))
-            moves_with_others = any([(all(felt /= unknown(k)), k = 1, size(unknown))])
-         end associate
-      end function moves_with_others
 
       subroutine join(nodes)
          integer, intent(in) :: nodes(:)
@@ -165,7 +157,7 @@ contains
       do node = 1, graph%n
          if (level(node) /= 0) cycle
          start = peripheral_node(graph, node, level)
-         call number_piece(graph, start, level, order, n)
+         call reach(graph, start, .true., level, order, n)
       end do
       order = order(graph%n:1:-1)
    end subroutine reverse_cuthill_mckee
@@ -183,7 +175,9 @@ contains
       start = node
       deepest = -1
       do
-         call level_structure(graph, start, level, queue, n, depth)
+         n = 0
+         call reach(graph, start, .false., level, queue, n)
+         depth = level(queue(n))
          candidate = queue(n)
          do i = n, 1, -1
             if (level(queue(i)) /= depth) exit
@@ -196,60 +190,37 @@ contains
       end do
    end function peripheral_node
 
-   !> Breadth-first levels 1, 2, ... from START; QUEUE(:N) are the nodes reached.
-   subroutine level_structure(graph, start, level, queue, n, depth)
+   !> Breadth first from START: the nodes that it reaches, with LEVEL 0 so far, stand in QUEUE behind the first N, and get levels 1, 2,
+   !! ...; the neighbours of each node BY_DEGREE, in ascending order.
+   subroutine reach(graph, start, by_degree, level, queue, n)
       type(node_graph_type), intent(in) :: graph
-      integer, intent(in)          :: start
-      integer, intent(inout)       :: level(:), queue(:)
-      integer, intent(out)         :: n, depth
-      integer :: i, k, other
+      integer, intent(in)    :: start
+      logical, intent(in)    :: by_degree
+      integer, intent(inout) :: level(:), queue(:), n
+      integer :: first, i, k, m, other
 
-      n = 1
-      queue(1) = start
+      i = n
+      n = n + 1
+      queue(n) = start
       level(start) = 1
-      i = 0
       do while (i < n)
          i = i + 1
+         first = n + 1
          do k = graph%first(queue(i)), graph%first(queue(i) + 1) - 1
             other = graph%neighbours(k)
             if (level(other) /= 0) cycle
             level(other) = level(queue(i)) + 1
             n = n + 1
-            queue(n) = other
-         end do
-      end do
-      depth = level(queue(n))
-   end subroutine level_structure
-
-   !> Number the piece of START: the neighbours of each node in ascending order of degree.
-   subroutine number_piece(graph, start, level, order, n)
-      type(node_graph_type), intent(in) :: graph
-      integer, intent(in)          :: start
-      integer, intent(inout)       :: level(:), order(:), n
-      integer :: i, k, m, first, other
-
-      i = n
-      n = n + 1
-      order(n) = start
-      level(start) = 1
-      do while (i < n)
-         i = i + 1
-         first = n + 1
-         do k = graph%first(order(i)), graph%first(order(i) + 1) - 1
-            other = graph%neighbours(k)
-            if (level(other) /= 0) cycle
-            level(other) = 1
-            n = n + 1
             m = n          ! insertion sort: few neighbours
-            do while (m > first)
-               if (degree(graph, order(m - 1)) <= degree(graph, other)) exit
-               order(m) = order(m - 1)
+            do while (by_degree .and. m > first)
+               if (degree(graph, queue(m - 1)) <= degree(graph, other)) exit
+               queue(m) = queue(m - 1)
                m = m - 1
             end do
-            order(m) = other
+            queue(m) = other
          end do
       end do
-   end subroutine number_piece
+   end subroutine reach
 
    pure integer function degree(graph, node)
       type(node_graph_type), intent(in) :: graph

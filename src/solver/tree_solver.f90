@@ -209,14 +209,23 @@ contains
       class(tree_solver_type), intent(inout) :: self
       real(wp), intent(inout)                :: x(:)
       integer, intent(out)                   :: fault
-      real(wp) :: b(size(self%equations))
+      real(wp), allocatable :: residual(:)
+      real(wp) :: b(size(self%equations)), work
+      integer  :: steps
       logical  :: found
 
       fault = 0
       b = x(self%equations)
       found = .false.
       if (.not. self%factor%is_own) then
-         call iterate(self, b, x, found)
+         allocate (residual(self%n))
+         associate (factor => self%factor, most_steps => self%factor%reuse%most_steps)
+            call guess_solution(self%fronts, self%k_int, factor%earlier, b, x, residual, work)
+            call iterate_refactored(self%fronts, self%k_int - factor%k_int, work, step_tolerance, most_steps, residual, x, steps)
+            found = steps <= most_steps
+            if (found) call note_steps(factor%reuse, steps)
+            if (.not. found) call note_failure(factor%reuse)
+         end associate
          if (.not. found) call factorise(self, fault)
          if (fault /= 0) return
       end if
@@ -228,28 +237,6 @@ contains
       if (self%factor%is_awaited) call note_solution(self%fronts, self%k_int, b, x, self%factor%earlier)
       self%factor%is_awaited = .false.
    end subroutine solve
-
-   !> Conjugate gradients with the factor there is; whether the solution is FOUND in time.
-   subroutine iterate(self, b, x, found)
-      class(tree_solver_type), intent(inout) :: self
-      real(wp), intent(in)                   :: b(:)
-      real(wp), intent(inout)                :: x(:)
-      logical, intent(out)                   :: found
-      real(wp) :: residual(self%n), work
-      integer  :: steps
-
-      associate (factor => self%factor)
-         call guess_solution(self%fronts, self%k_int, factor%earlier, b, x, residual, work)
-         call iterate_refactored(self%fronts, self%k_int - factor%k_int, work, step_tolerance, factor%reuse%most_steps, &
-                                 residual, x, steps)
-         found = steps <= factor%reuse%most_steps
-         if (found) then
-            call note_steps(factor%reuse, steps)
-         else
-            call note_failure(factor%reuse)
-         end if
-      end associate
-   end subroutine iterate
 
    !> The bodies, or what is held, are others now: neither the factor nor solutions are of use any more.
    subroutine forget(self)

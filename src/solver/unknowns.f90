@@ -21,10 +21,10 @@ contains
       character(:), allocatable    :: words
 
       if (node > n_points(model) + n_rotations(model)) then
-         words = 'nothing holds BOLT '//bolt_number(model, node)//' together at its section'
+         words = 'nothing holds '//owner_name(model, node)//' together at its section'
       else
-         words = 'node '//node_number(model, node)//' has no stiffness '//merge('against', 'in     ', node > n_points(model))
-         words = trim(words)//' '//direction_name(model, node, d)
+         words = owner_name(model, node)//' has no stiffness '//trim(merge('against', 'in     ', node > n_points(model)))//' '// &
+                 direction_name(model, node, d)
       end if
    end function what_is_loose
 
@@ -35,9 +35,9 @@ contains
       character(:), allocatable    :: words
 
       if (node > n_points(model) + n_rotations(model)) then
-         words = 'the section of BOLT '//bolt_number(model, node)
+         words = 'the section of '//owner_name(model, node)
       else
-         words = 'node '//node_number(model, node)//' in '//direction_name(model, node, d)
+         words = owner_name(model, node)//' in '//direction_name(model, node, d)
       end if
    end function unknown_name
 
@@ -50,21 +50,20 @@ contains
       if (node > n_points(model)) point = model%rotations(node - n_points(model))%point
    end function point_of
 
-   pure function node_number(model, node) result(number)
+   !> 'node 7', or of a section 'BOLT 3'.
+   pure function owner_name(model, node) result(name)
       type(model_type), intent(in) :: model
       integer, intent(in)          :: node
-      character(:), allocatable    :: number
+      character(:), allocatable    :: name
 
-      number = integer_text(model%node_id(point_of(model, node)))
-   end function node_number
-
-   pure function bolt_number(model, node) result(number)
-      type(model_type), intent(in) :: model
-      integer, intent(in)          :: node
-      character(:), allocatable    :: number
-
-      number = integer_text(model%sections(node - n_points(model) - n_rotations(model))%bolt)
-   end function bolt_number
+      associate (section => node - n_points(model) - n_rotations(model))
+         if (section > 0) then
+            name = 'BOLT '//integer_text(model%sections(section)%bolt)
+         else
+            name = 'node '//integer_text(model%node_id(point_of(model, node)))
+         end if
+      end associate
+   end function owner_name
 
    !> 'direction X', or that of the system that the node has, 'direction 1 of its system 7'; of a node of rotations 'rotation about X',
    !! in the plane about Z alone.
