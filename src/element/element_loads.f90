@@ -94,8 +94,7 @@ contains
       end do
    end subroutine side_forces
 
-   !> Shape functions at a point of a side, and the outward normal there, as long as the area that a unit of weight stands
-   !! for.
+   !> Shape functions at a point of a side, and the outward normal there, as long as the area that a unit of weight stands for.
    pure subroutine map_side(state, thickness, x, point, n, normal)
       integer, intent(in)   :: state
       real(wp), intent(in)  :: thickness, x(:, :)

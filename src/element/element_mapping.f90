@@ -96,7 +96,7 @@ contains
       real(wp), intent(in)    :: point(3)                 !! local coordinates
       real(wp), intent(inout) :: g(3, max_shapes)         !! of nodes, then modes [1/length]; in the plane two rows are set
       real(wp), intent(out)   :: volume                   !! [length^3]; det J times thickness, 2 pi r or 1
-      real(wp) :: dn(3, max_nodes), dm(3, 4), n(max_nodes), inverse(3, 3), jacobian, radius
+      real(wp) :: dn(3, max_nodes), dm(3, 4), n(max_nodes), inverse(3, 3), jacobian, radius, from_mean(2)
       integer  :: d, i, k
 
       call shape_derivatives(law%kind, point, dn)
@@ -124,37 +124,26 @@ contains
       end if
       if (map%n_modes == 0) return
       d = element_table(law%kind)%dimension
-      call mode_derivatives(law%kind, point, dm)
-      do i = 1, map%n_modes
-         do k = 1, d
-            g(k, map%n + i) = sum(map%inverse(k, :d)*dm(:d, i))*(map%jacobian/jacobian)
-         end do
-      end do
-   end subroutine map_point
-
-   !> Derivatives of the incompatible modes with respect to the local coordinates; their integrals over the element are zero, and so
-   !! are they at its centre. Quadrilateral and hexahedron: 1 - r**2, 1 - s**2, 1 - t**2. Wedge: 1 - t**2, and of the triangle the
-   !! three quadratic functions less what is linear of them on the mean; all of them, so that no corner is preferred.
-   pure subroutine mode_derivatives(kind, point, dm)
-      integer, intent(in)   :: kind
-      real(wp), intent(in)  :: point(3)
-      real(wp), intent(out) :: dm(3, 4)                   !! d(mode i)/d(local j) in dm(j, i)
-      real(wp), parameter   :: third = 1.0_wp/3.0_wp
-      integer :: i
-
+      ! dm(j, i), the derivatives of mode i; their integrals over the element are zero, and so are they at its centre. Quadrilateral and
+      ! hexahedron: 1 - r**2, 1 - s**2, 1 - t**2. Wedge: 1 - t**2, and of the triangle the three quadratic functions less what is linear
+      ! of them on the mean; all of them, so that no corner is preferred
       dm = 0.0_wp
-      if (kind == kind_penta6) then
-         dm(1, 1) = 2.0_wp*(point(1) - third)
-         dm(2, 2) = 2.0_wp*(point(2) - third)
-         dm(1, 3) = point(2) - third
-         dm(2, 3) = point(1) - third
+      if (law%kind == kind_penta6) then
+         from_mean = point(:2) - 1.0_wp/3.0_wp
+         dm(:, :3) = reshape([2.0_wp*from_mean(1), 0.0_wp, 0.0_wp, 0.0_wp, 2.0_wp*from_mean(2), 0.0_wp, &
+                              from_mean(2), from_mean(1), 0.0_wp], [3, 3])
          dm(3, 4) = -2.0_wp*point(3)
       else
          do i = 1, 3
             dm(i, i) = -2.0_wp*point(i)
          end do
       end if
-   end subroutine mode_derivatives
+      do i = 1, map%n_modes
+         do k = 1, d
+            g(k, map%n + i) = sum(map%inverse(k, :d)*dm(:d, i))*(map%jacobian/jacobian)
+         end do
+      end do
+   end subroutine map_point
 
    !> The derivatives of the local coordinates, and det J: d/dx_b = sum over a of inverse(b, a) d/d(local a).
    pure subroutine invert_jacobian(dimension, n, x, dn, inverse, jacobian)

@@ -169,8 +169,7 @@ contains
    end subroutine fit_loops
 
    !> Fit a branch through test points: in two steps, a cubic for each pressure and then the lines of Fig. 2 through their
-   !! coefficients, and for comparison all points in one step. What the two steps lack is a fault of FIT unless the other is
-   !! CHOSEN.
+   !! coefficients, and for comparison all points in one step. What the two steps lack is a fault of FIT unless the other is CHOSEN.
    subroutine fit_points(d, tau, p, run, constant, chosen, fit)
       real(wp), intent(in)               :: d(:), tau(:), p(:) !! (points) [length], [stress], [pressure]
       integer, intent(in)                :: run(:)             !! (points) each of a pressure starts at a point of its own
@@ -311,9 +310,8 @@ contains
       start = x(:n)
    end subroutine fit_cubic
 
-   !> All points of a branch at once: tau = sum over k of (LINES(1,k) + LINES(2,k) p) d^k, and a constant for every curve,
-   !! because every run of an unloading or reloading starts at a point of its own. OK is false where the points do not fix the
-   !! coefficients.
+   !> All points of a branch at once: tau = sum over k of (LINES(1,k) + LINES(2,k) p) d^k, and a constant for every curve, because
+   !! every run of an unloading or reloading starts at a point of its own. OK is false where the points do not fix the coefficients.
    subroutine fit_cubic_in_pressure(d, tau, p, belongs, lines, ok)
       real(wp), intent(in)  :: d(:), tau(:), p(:) !! (points) [length], [stress], [pressure]
       logical, intent(in)   :: belongs(:, :)      !! (points, curves)

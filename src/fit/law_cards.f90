@@ -54,9 +54,8 @@ contains
                                       real_text(p_lost)//', d = '//real_text(d_lost)//', '//range)
    end function loses_slope
 
-   !> On the way from d = FROM to d = TO, the first d at which dP/dd = sum over k of k (a_k1 + a_k2 p) d^(k-1) is no longer
-   !! positive for some p between P_LOW and P_HIGH. The slope is linear in p, so it is least at one end: two quadratics
-   !! in d tell all.
+   !> On the way from d = FROM to d = TO, the first d at which dP/dd = sum over k of k (a_k1 + a_k2 p) d^(k-1) is no longer positive
+   !! for some p between P_LOW and P_HIGH. The slope is linear in p, so it is least at one end: two quadratics in d tell all.
    pure subroutine find_slope_loss(lines, p_low, p_high, from, to, found, p, d)
       real(wp), intent(in)  :: lines(2, 3)   !! a_k1 and a_k2 for k = 1, 2, 3
       real(wp), intent(in)  :: p_low, p_high !! [pressure]

@@ -241,8 +241,7 @@ contains
       call join_loading(state)
    end subroutine pass_corner
 
-   !> Along one piece: stress, its derivatives, work.
-   !! tau = integral of g d delta, g the slope; with f the fraction of the way,
+   !> Along one piece: stress, its derivatives, work. tau = integral of g d delta, g the slope; with f the fraction of the way,
    !!    d tau/d delta_end = integral of (g + f D dg/d delta) d f,   d tau/d p_end = integral of f D dg/dp d f,
    !! D being the change of delta.
    pure subroutine follow_piece(piece, way, state, gain)

@@ -82,19 +82,12 @@ module equation_solver
       procedure(start_solver), deferred     :: start
       procedure(form_bodies), deferred      :: form_bodies
       procedure(add_to_bodies), deferred    :: add_to_bodies
-      procedure :: number_unknowns
-      procedure :: report_fault
-      procedure :: lock
-      procedure :: held_now
-      procedure :: condense
+      procedure :: number_unknowns, report_fault, lock, held_now, condense, recover, forget_past
       procedure(form_structure), deferred   :: form_structure
       procedure(solve_vector), deferred     :: solve
       procedure(multiply_vector), deferred  :: multiply
-      procedure :: recover
-      procedure :: forget_past
       procedure(diagonal_of_matrix), deferred :: diagonal_of_factor
-      procedure(use_of_factor), deferred      :: solve_by_factor
-      procedure(use_of_factor), deferred      :: multiply_by_factor
+      procedure(use_of_factor), deferred      :: solve_by_factor, multiply_by_factor
    end type equation_system
 
    abstract interface

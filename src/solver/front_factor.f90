@@ -120,11 +120,8 @@ contains
       integer, intent(in) :: faults(:)
 
       fault = 0
-      if (any(faults == no_memory)) then
-         fault = no_memory
-      else if (any(faults > 0)) then
-         fault = minval(faults, mask=faults > 0)
-      end if
+      if (any(faults > 0)) fault = minval(faults, mask=faults > 0)
+      if (any(faults == no_memory)) fault = no_memory
    end function first_fault
 
    !> Eliminate all static fronts, those of MODEL, or all that are REFACTORED, with the stiffnesses K. (An optional array would be

@@ -16,8 +16,7 @@ module interface_equations
       logical, allocatable, private  :: is_mapped(:) ! (n) by map, not by weight
       real(wp), allocatable, private :: map(:, :, :) ! (dimension, dimension, all nodes of all elements), where any is
    contains
-      procedure :: rows_of
-      procedure :: matrix_of
+      procedure :: rows_of, matrix_of
    end type interface_equations_type
 
 contains

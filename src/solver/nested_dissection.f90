@@ -30,9 +30,8 @@ module nested_dissection
       integer(c_int32_t) function metis_node_nd(n, first, neighbours, weights, options, old_of_new, new_of_old) &
          bind(c, name='METIS_NodeND')
          import :: c_int32_t, c_ptr
-         integer(c_int32_t), intent(in)    :: n, options(*)
-         integer(c_int32_t), intent(in)    :: first(*), neighbours(*)  !! from 0 on
-         type(c_ptr), value                :: weights
+         integer(c_int32_t), intent(in)    :: n, first(*), neighbours(*)  !! from 0 on
+         type(c_ptr), value                :: weights, options            !! null: as METIS has them by itself
          integer(c_int32_t), intent(out)   :: old_of_new(*), new_of_old(*)
       end function metis_node_nd
 
@@ -40,9 +39,8 @@ module nested_dissection
          bind(c, name='METIS_NodeNDP')
          import :: c_int32_t, c_ptr
          integer(c_int32_t), value         :: n, parts
-         integer(c_int32_t), intent(in)    :: first(*), neighbours(*)  !! from 0 on
+         integer(c_int32_t), intent(in)    :: first(*), neighbours(*), options(*)
          type(c_ptr), value                :: weights
-         integer(c_int32_t), intent(in)    :: options(*)
          integer(c_int32_t), intent(out)   :: old_of_new(*), new_of_old(*)
          integer(c_int32_t), intent(inout) :: sizes(*)   !! (2 parts - 1) of leaves and separators, the root last
       end function metis_node_ndp
@@ -50,9 +48,8 @@ module nested_dissection
       integer(c_int32_t) function metis_part_kway(n, constraints, first, neighbours, weights, sizes, link_weights, parts, shares, &
                                                   imbalance, options, cut, part) bind(c, name='METIS_PartGraphKway')
          import :: c_int32_t, c_ptr
-         integer(c_int32_t), intent(in)  :: n, constraints, parts, options(*)
-         integer(c_int32_t), intent(in)  :: first(*), neighbours(*)  !! from 0 on
-         type(c_ptr), value              :: weights, sizes, link_weights, shares, imbalance
+         integer(c_int32_t), intent(in)  :: n, constraints, first(*), neighbours(*), parts
+         type(c_ptr), value              :: weights, sizes, link_weights, shares, imbalance, options
          integer(c_int32_t), intent(out) :: cut, part(*)
       end function metis_part_kway
    end interface
@@ -68,16 +65,12 @@ contains
       type(node_graph_type), intent(in) :: graph
       integer, allocatable, intent(out) :: order(:)
       logical, intent(out)              :: ok
-      integer(c_int32_t) :: old_of_new(graph%n), new_of_old(graph%n), options(n_options)
-      integer :: status
+      integer(c_int32_t) :: old_of_new(graph%n), new_of_old(graph%n)
 
       ok = .true.
-      if (graph%n > 1) then
-         status = metis_set_default_options(options)
-         ok = metis_node_nd(graph%n, graph%first - 1, graph%neighbours - 1, c_null_ptr, options, old_of_new, new_of_old) == metis_ok
-      else
-         old_of_new = 0
-      end if
+      old_of_new = 0
+      if (graph%n > 1) ok = metis_node_nd(graph%n, graph%first - 1, graph%neighbours - 1, c_null_ptr, c_null_ptr, old_of_new, &
+                                          new_of_old) == metis_ok
       if (ok) order = old_of_new + 1
    end subroutine order_by_metis
 
@@ -91,9 +84,8 @@ contains
       has_room = status == 0
    end function has_room
 
-   !> Cut GRAPH by separators into N_PARTS, a power of 2: PLACE of every node in the tree of nested_dissection; all in place 1
-   !! where METIS does not say which nodes the separators are. OK is false where there is not the memory: METIS would end the
-   !! program.
+   !> Cut GRAPH by separators into N_PARTS, a power of 2: PLACE of every node in the tree of nested_dissection; all in place 1 where
+   !! METIS does not say which nodes the separators are. OK is false where there is not the memory: METIS would end the program.
    subroutine separate_by_metis(graph, n_parts, place, ok)
       type(node_graph_type), intent(in) :: graph
       integer, intent(in)               :: n_parts
@@ -139,17 +131,15 @@ contains
       integer, intent(in)               :: n_parts
       integer, allocatable, intent(out) :: part(:) !! (graph%n)
       logical, intent(out)              :: ok
-      integer(c_int32_t) :: cut, options(n_options)
-      integer :: status
+      integer(c_int32_t) :: cut
 
       allocate (part(graph%n), source=0)
       ok = .true.
       if (n_parts == 1 .or. graph%n < n_parts) return
       ok = has_room(graph)
       if (.not. ok) return
-      status = metis_set_default_options(options)
       ok = metis_part_kway(graph%n, 1, graph%first - 1, graph%neighbours - 1, c_null_ptr, c_null_ptr, c_null_ptr, n_parts, &
-                           c_null_ptr, c_null_ptr, options, cut, part) == metis_ok
+                           c_null_ptr, c_null_ptr, c_null_ptr, cut, part) == metis_ok
    end subroutine part_by_metis
 
    !> ORDER(k) is the k-th node to be eliminated, of those with TAKEN(node): the others are left out of the graph.

@@ -26,16 +26,8 @@ module skyline_solver
       type(skyline_matrix) :: structure             !! [k_s], then its factor
       real(wp), allocatable :: diagonal(:)          !! (n) of [k_s]
    contains
-      procedure :: lay_out
-      procedure :: start
-      procedure :: form_bodies
-      procedure :: add_to_bodies
-      procedure :: form_structure
-      procedure :: solve
-      procedure :: multiply
-      procedure :: diagonal_of_factor
-      procedure :: solve_by_factor
-      procedure :: multiply_by_factor
+      procedure :: lay_out, start, form_bodies, add_to_bodies, form_structure, solve, multiply
+      procedure :: diagonal_of_factor, solve_by_factor, multiply_by_factor
    end type skyline_solver_type
 
 contains
@@ -107,30 +99,16 @@ contains
       do i = 1, size(joined, 2)
          call couple(pack(joined(:, i), joined(:, i) > 0))
       end do
-      profile = 0
-      do i = 1, numbers%n
-         profile = profile + i - first_row(i) + 1
-      end do
+      profile = sum([(int(i - first_row(i) + 1, long), i = 1, numbers%n)])
 
    contains
 
       subroutine couple(nodes)
          integer, intent(in) :: nodes(:)
-         integer :: d, k, equation, lowest
 
-         lowest = huge(lowest)
-         do k = 1, size(nodes)
-            do d = 1, model%dimension
-               equation = numbers%number(d, nodes(k))
-               if (equation > 0) lowest = min(lowest, equation)
-            end do
-         end do
-         do k = 1, size(nodes)
-            do d = 1, model%dimension
-               equation = numbers%number(d, nodes(k))
-               if (equation > 0) first_row(equation) = min(first_row(equation), lowest)
-            end do
-         end do
+         associate (rows => pack(numbers%number(:, nodes), numbers%number(:, nodes) > 0))
+            first_row(rows) = min(first_row(rows), minval(rows))
+         end associate
       end subroutine couple
 
    end subroutine lay_out_profile

@@ -40,20 +40,8 @@ module tree_solver
       logical  :: is_laid_out = .false.
       type(front_layout_type), private :: layout  !! until start
    contains
-      procedure :: lay_out
-      procedure :: start
-      procedure :: form_bodies
-      procedure :: add_to_bodies
-      procedure :: lock
-      procedure :: condense
-      procedure :: form_structure
-      procedure :: solve
-      procedure :: multiply
-      procedure :: recover
-      procedure :: forget_past
-      procedure :: diagonal_of_factor
-      procedure :: solve_by_factor
-      procedure :: multiply_by_factor
+      procedure :: lay_out, start, form_bodies, add_to_bodies, lock, condense, form_structure, solve, multiply, recover, forget_past
+      procedure :: diagonal_of_factor, solve_by_factor, multiply_by_factor
    end type tree_solver_type
 
 contains
