@@ -228,12 +228,8 @@ contains
          if (rule%n > n) elsewhere = min(elsewhere, least_at(kind, nodes, rule%point(:, :rule%n)))
       end if
       smallest = element_table(kind)%jacobian_scale*min(smallest, elsewhere)
-      if (smallest > flat*longest**d .and. longest**d >= tiny(longest)) then
-         smallest = smallest/longest**d
-      else
-         smallest = min(smallest, 0.0_wp)
-         if (longest**d >= tiny(longest)) smallest = smallest/longest**d
-      end if
+      if (.not. (smallest > flat*longest**d .and. longest**d >= tiny(longest))) smallest = min(smallest, 0.0_wp)
+      if (longest**d >= tiny(longest)) smallest = smallest/longest**d
    end function smallest_jacobian
 
    !> The smallest det J at these POINTS [length^dimension].
@@ -274,9 +270,7 @@ contains
          end associate
       end do
       do i = 2, element_table(kind)%n_nodes
-         do k = 1, i - 1
-            if (sum((nodes(:, i) - nodes(:, k))**2) <= (flat*longest)**2) smallest = min(smallest, 0.0_wp)
-         end do
+         if (any([(sum((nodes(:, i) - nodes(:, k))**2) <= (flat*longest)**2, k = 1, i - 1)])) smallest = min(smallest, 0.0_wp)
       end do
    end function least_on_sides
 

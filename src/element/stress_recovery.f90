@@ -50,14 +50,24 @@ contains
       type(element_map)      :: map
       type(integration_rule) :: rule
       real(wp) :: g(3, max_shapes), q(3, max_shapes), strain(max_stresses), at_point(max_stresses, max_nodes), n(max_nodes)
-      real(wp) :: scaled(3), volume
-      integer  :: i, k, linear, m
+      real(wp) :: full(max_unknowns, max_unknowns), thermal(max_unknowns), values(max_unknowns), scaled(3), volume
+      integer  :: d, i, k, linear, m, n_all, n_nodal
 
       m = n_stresses(law%state)
       call map_element(law, x, map)
       q = 0.0_wp ! of the modes, and the third component in the plane
       q(:size(u, 1), :map%n) = u(:, :map%n)
-      if (map%n_modes > 0) call recover_modes(law, x, q, rise)
+      if (map%n_modes > 0) then  ! their parameters, which the condensation has left behind: no force but that of warmth works on them
+         d = size(u, 1)
+         call condensed_stiffness(law, x, full, n_nodal, n_all)
+         thermal = 0.0_wp
+         if (present(rise)) call condensed_thermal_forces(law, x, rise, full, thermal)
+         values(:n_nodal) = pack(u(:, :map%n), .true.)
+         do i = n_nodal + 1, n_all
+            values(i) = (thermal(i) - dot_product(full(:i - 1, i), values(:i - 1)))/full(i, i)
+         end do
+         q(:d, map%n + 1:n_all/d) = reshape(values(n_nodal + 1:n_all), [d, map%n_modes])
+      end if
       call stress_rule(law%kind, law%state == axisymmetric, rule)
       do k = 1, rule%n
          call map_point(law, map, rule%point(:, k), g, volume)
@@ -93,30 +103,6 @@ contains
       direct = merge(3, 2, law%state == solid .or. law%state == axisymmetric)
       strain(:direct) = strain(:direct) - law%expansion(:direct)*dot_product(n(:size(rise)), rise)
    end subroutine take_expansion
-
-   !> Parameters of the incompatible modes, which the condensation has left behind: no force but that of warmth works on them.
-   pure subroutine recover_modes(law, x, q, rise)
-      type(element_law), intent(in)  :: law
-      real(wp), intent(in)           :: x(:, :)
-      real(wp), intent(inout)        :: q(3, max_shapes)
-      real(wp), intent(in), optional :: rise(:)
-      real(wp) :: full(max_unknowns, max_unknowns), thermal(max_unknowns), values(max_unknowns)
-      integer  :: d, i, n, n_all, p
-
-      d = element_table(law%kind)%dimension
-      call condensed_stiffness(law, x, full, n, n_all)
-      thermal = 0.0_wp
-      if (present(rise)) call condensed_thermal_forces(law, x, rise, full, thermal)
-      do i = 1, n/d
-         values(d*(i - 1) + 1:d*i) = q(:d, i)
-      end do
-      do p = n + 1, n_all
-         values(p) = (thermal(p) - dot_product(full(:p - 1, p), values(:p - 1)))/full(p, p)
-      end do
-      do i = n/d + 1, n_all/d
-         q(:d, i) = values(d*(i - 1) + 1:d*i)
-      end do
-   end subroutine recover_modes
 
    !> Strain at a point from the gradients of N shape functions there.
    pure subroutine strain_at(law, n, g, q, strain)

@@ -4,11 +4,11 @@
 module branch_fit
    use data_columns, only: fit_load
    use kinds, only: wp
-   use least_squares, only: fit_line, solve_least_squares, group_by_pressure
+   use least_squares, only: fit_line, solve_least_squares
    implicit none
    private
 
-   public :: scatter_of, find_turns, fit_loops, fit_points, fit_lines_only, fit_cubic, fit_cubic_in_pressure
+   public :: scatter_of, find_turns, group_by_pressure, fit_loops, fit_points, fit_lines_only, fit_cubic, fit_cubic_in_pressure
 
    !> One way down or up, lambda = LAMBDA + (p - P)/E_U about the middle of its points.
    type, public :: loop_line
@@ -214,6 +214,26 @@ contains
          fit%of_cubics = residual_of(tau - (fit%start(fit%curve) + d*(c(1, :) + d*(c(2, :) + d*c(3, :)))))
       end associate
    end subroutine fit_points
+
+   !> Put points into groups of equal pressure. In ascending order of p a group reaches from its lowest p to
+   !! (1 + TOLERANCE) times that; its pressure is the mean of its points. Groups are numbered in ascending order of p.
+   pure subroutine group_by_pressure(p, tolerance, group, group_p)
+      real(wp), intent(in)               :: p(:)       !! [pressure]; one below 0, an error elsewhere, stands for itself
+      real(wp), intent(in)               :: tolerance  !! >= 0 [-]
+      integer, allocatable, intent(out)  :: group(:)   !! (points) the group of each point
+      real(wp), allocatable, intent(out) :: group_p(:) !! (groups) [pressure]
+      real(wp) :: lowest
+      integer  :: n
+
+      allocate (group(size(p)), source=0)
+      allocate (group_p(0))
+      do while (any(group == 0))
+         n = size(group_p) + 1
+         lowest = minval(p, group == 0)
+         where (group == 0 .and. p <= max(lowest, lowest*(1.0_wp + tolerance))) group = n
+         group_p = [group_p, sum(p, group == n)/count(group == n)]
+      end do
+   end subroutine group_by_pressure
 
    !> A cubic for each pressure, then a line through each of their coefficients.
    subroutine fit_two_steps(d, tau, one_pressure, fit)

@@ -1,7 +1,6 @@
-!> Whether the branches of a shear law close a loop: loaded to d under a constant pressure, unloaded until tau is gone and reloaded
-!! to d, how far the stress then is from the one that was left. Cycles under one load creep by what is missing.
-!!
-!! What a joint loses in shear when it oscillates about the state that it is in, one direction of one interface element.
+!> Closed loops of shear. Whether the branches of a law close one: loaded to d under a constant pressure, unloaded until tau is gone and
+!! reloaded to d, how far the stress then is from the one that was left; cycles under one load creep by what is missing. What a joint
+!! loses in shear when it oscillates about the state that it is in, one direction of one interface element.
 !!
 !! The skeleton curve is the loading curve from rest at the present pressure, up to its peak, where its slope is zero, or to the Coulomb
 !! limit, whichever comes first; from there on it is constant:

@@ -40,10 +40,7 @@ contains
 
       wanted = solver_auto
       if (present(solver)) wanted = solver
-      n = 0
-      do i = 1, model%n_nodes
-         if (model%used(i)) n = n + count(.not. model%held(:, i))
-      end do
+      n = sum(merge(count(.not. model%held, dim=1), 0, model%used))
       if (n == 0) then
          call failure%raise('nothing to solve: all components of all nodes are supported')
          return

@@ -30,6 +30,8 @@ contains
       integer, intent(in)               :: wanted !! solver_* of case_control
       class(equation_system), allocatable, intent(out) :: system
       type(skyline_solver_type), allocatable :: candidate
+      type(tree_solver_type), allocatable :: tree
+      type(solver_work_type) :: work
       logical :: is_skyline
 
       call choose_distributed(wanted, system)
@@ -44,35 +46,22 @@ contains
          call move_alloc(candidate, system)
       else if (is_skyline) then
          allocate (skyline_solver_type :: system)
-      else
-         call weigh_tree(model, graph, wanted == solver_auto, factorisations, system)
+      else                        ! TREE, its fronts laid out; for AUTO one that its operations and its memory speak for
+         allocate (tree)
+         tree%factorisations = factorisations
+         call tree%lay_out(model, graph)
+         if (wanted == solver_auto .and. tree%is_laid_out) then
+            work%static_operations = tree%description%static_operations
+            work%refactored_operations = tree%description%refactored_operations
+            work%bytes = tree%bytes
+            work%there = real(memory_for(work%bytes), wp)
+            work%entries = real(model%dimension, wp)**2*(size(graph%neighbours) + real(model%n_nodes, wp))
+            work%solutions = factorisations
+            call weigh_distributed(work, system)
+         end if
+         if (.not. allocated(system)) call move_alloc(tree, system)
       end if
       system%factorisations = factorisations
    end subroutine choose_solver
-
-   !> TREE, its fronts laid out; or where it IS_WEIGHED one that its operations and its memory speak for.
-   subroutine weigh_tree(model, graph, is_weighed, factorisations, system)
-      type(model_type), intent(in)      :: model
-      type(node_graph_type), intent(in) :: graph
-      logical, intent(in)               :: is_weighed
-      integer, intent(in)               :: factorisations
-      class(equation_system), allocatable, intent(out) :: system
-      type(tree_solver_type), allocatable :: tree
-      type(solver_work_type) :: work
-
-      allocate (tree)
-      tree%factorisations = factorisations
-      call tree%lay_out(model, graph)
-      if (is_weighed .and. tree%is_laid_out) then
-         work%static_operations = tree%description%static_operations
-         work%refactored_operations = tree%description%refactored_operations
-         work%bytes = tree%bytes
-         work%there = real(memory_for(work%bytes), wp)
-         work%entries = real(model%dimension, wp)**2*(size(graph%neighbours) + real(model%n_nodes, wp))
-         work%solutions = factorisations
-         call weigh_distributed(work, system)
-      end if
-      if (.not. allocated(system)) call move_alloc(tree, system)
-   end subroutine weigh_tree
 
 end module solver_choice

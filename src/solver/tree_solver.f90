@@ -54,12 +54,8 @@ contains
       type(node_graph_type), intent(in)      :: graph
       integer, allocatable :: order(:), weight(:)
       logical, allocatable :: in_joint(:)
-      integer :: i
 
-      allocate (weight(model%n_nodes))
-      do i = 1, model%n_nodes
-         weight(i) = merge(count(.not. model%held(:, i)), 0, model%used(i))
-      end do
+      allocate (weight, source=merge(count(.not. model%held, dim=1), 0, model%used))
       call dissect(graph, weight > 0, order, self%is_laid_out)
       if (.not. self%is_laid_out) return
       call mark_joints(model, graph%with_masses, in_joint)
@@ -180,16 +176,15 @@ contains
 
       call factorise_refactored(self%fronts, self%k_int, fault)
       self%factor%is_own = fault == 0
+      self%factor%reuse%has_factor = .false.
       self%weakest = 1.0_wp
-      if (fault == 0) self%weakest = minval(self%fronts%fronts%weakest)
-      if (fault == 0 .and. self%shift > 0.0_wp) self%n_negative = &
-         sum([(size(self%fronts%fronts(f)%negative), f = 1, size(self%fronts%fronts))])
-      if (fault == 0) then
-         self%factor%k_int = self%k_int
-         call note_factor(self%factor%reuse)
-      else
-         self%factor%reuse%has_factor = .false.
-      end if
+      if (fault /= 0) return
+      associate (fronts => self%fronts%fronts)
+         self%weakest = minval(fronts%weakest)
+         if (self%shift > 0.0_wp) self%n_negative = sum([(size(fronts(f)%negative), f = 1, size(fronts))])
+      end associate
+      self%factor%k_int = self%k_int
+      call note_factor(self%factor%reuse)
    end subroutine factorise
 
    !> By the factor; where that is an earlier one by conjugate gradients, and only where these do not get there by a new factor.

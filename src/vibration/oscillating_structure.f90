@@ -82,10 +82,8 @@ contains
       end do
       call hold_bolts(model, structure, system)
       k = 0.0_wp
-      do i = 1, size(k, 3)
-         do c = 1, 3
-            k(c, c, i) = structure%k(c, i)
-         end do
+      do c = 1, 3
+         k(c, c, :) = structure%k(c, :)
       end do
       call form_structure_stiffness(model, k, 'natural modes', system, failure)
    end subroutine factorise_at
