@@ -38,9 +38,7 @@ contains
          call shape_values(law%kind, rule%point(:, i), n)
          share = share + n*(rule%weight(i)*volume)
       end do
-      do i = 1, map%n
-         f(:size(b), i) = b*share(i)
-      end do
+      f(:size(b), :map%n) = spread(b, 2, map%n)*spread(share(:map%n), 1, size(b))
    end subroutine body_forces
 
    !> Areas of influence of one side, a_i = integral of N_i: an edge of a plane or axisymmetric body, a triangle or a
@@ -136,7 +134,7 @@ contains
       real(wp), intent(inout) :: f(:, :)      !! (dimension, nodes) [force], set here
       type(element_map) :: map
       real(wp) :: full(max_unknowns, max_unknowns), unknown(max_unknowns)
-      integer  :: d, i, n, n_all
+      integer  :: d, n, n_all
 
       call map_element(law, x, map)
       if (map%n_modes > 0) then
@@ -146,9 +144,7 @@ contains
          call integrate(law, map, rise, unknown)
       end if
       d = merge(3, 2, law%state == solid)
-      do i = 1, map%n
-         f(:d, i) = unknown(d*(i - 1) + 1:d*i)
-      end do
+      f(:d, :map%n) = reshape(unknown(:d*map%n), [d, map%n])
    end subroutine nodal_thermal_forces
 
    !> The forces on all unknowns, of nodes and of modes: those of mode p as the condensation of the stiffness met them, the modes
@@ -177,7 +173,7 @@ contains
       real(wp), intent(out) :: f(max_unknowns)
       type(integration_rule) :: rule
       real(wp) :: g(3, max_shapes), n(max_nodes), stress(3), volume, warmth
-      integer  :: c, d, i, k
+      integer  :: d, i, k
 
       d = merge(3, 2, law%state == solid)
       stress = matmul(law%d(:3, :3), law%expansion)
@@ -188,9 +184,7 @@ contains
          call shape_values(law%kind, rule%point(:, k), n)
          warmth = rule%weight(k)*volume*dot_product(n(:map%n), rise(:map%n))
          do i = 1, map%n + map%n_modes
-            do c = 1, d
-               f(d*(i - 1) + c) = f(d*(i - 1) + c) + g(c, i)*(stress(c)*warmth)
-            end do
+            f(d*(i - 1) + 1:d*i) = f(d*(i - 1) + 1:d*i) + g(:d, i)*(stress(:d)*warmth)
             if (law%state == axisymmetric) f(2*i - 1) = f(2*i - 1) + g(3, i)*(stress(3)*warmth) ! the hoop
          end do
       end do

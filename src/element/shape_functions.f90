@@ -155,9 +155,7 @@ contains
          case (kind_tria3)
             n(:3) = [1.0_wp - r - s, r, s]
          case (kind_quad4)
-            do i = 1, 4
-               n(i) = 0.25_wp*(1.0_wp + r*corner(1, i))*(1.0_wp + s*corner(2, i))
-            end do
+            n(:4) = 0.25_wp*(1.0_wp + r*corner(1, :4))*(1.0_wp + s*corner(2, :4))
          case (kind_tetra4)
             n(:4) = [1.0_wp - r - s - t, r, s, t]
          case (kind_penta6)
@@ -174,9 +172,7 @@ contains
          case (kind_tria6, kind_tetra10)
             associate (corners => element_table(kind)%n_corners)
                l = barycentric(corners, point)
-               do i = 1, corners
-                  n(i) = l(i)*(2.0_wp*l(i) - 1.0_wp)
-               end do
+               n(:corners) = l(:corners)*(2.0_wp*l(:corners) - 1.0_wp)
                do i = corners + 1, element_table(kind)%n_nodes
                   n(i) = 4.0_wp*product(l(element_table(kind)%edges(:, i - corners)))
                end do

@@ -38,9 +38,7 @@ contains
       x = 0.0_wp
       ok = .false.
       if (m < n) return
-      do k = 1, n
-         length(k) = norm2(matrix(:, k))
-      end do
+      length = [(norm2(matrix(:, k)), k = 1, n)]
       if (any(length <= 0.0_wp)) return
       a = matrix/spread(length, 1, m)
       b = reshape(rhs, [m, 1])

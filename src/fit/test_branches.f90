@@ -199,9 +199,7 @@ contains
          end if
          branch(joins:last) = fit_load
          sense(joins:last) = s
-         do i = joins, last
-            reached = max(reached, s*forward(i))
-         end do
+         reached = max(reached, maxval(s*forward(joins:last)))
       end do
 
    contains

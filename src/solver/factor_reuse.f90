@@ -101,15 +101,12 @@ contains
       real(wp), intent(in)                        :: x(:)           !! (tree%n) [length]
       type(earlier_solutions_type), intent(inout) :: earlier
       real(wp), allocatable :: of_joints(:)
-      integer :: i
 
       if (.not. allocated(earlier%u)) &
          allocate (earlier%u(size(tree%equations), most_kept), earlier%f(size(tree%equations), most_kept))
       earlier%n = min(most_kept, earlier%n + 1)
-      do i = earlier%n, 2, -1
-         earlier%u(:, i) = earlier%u(:, i - 1)
-         earlier%f(:, i) = earlier%f(:, i - 1)
-      end do
+      earlier%u(:, 2:earlier%n) = earlier%u(:, :earlier%n - 1)
+      earlier%f(:, 2:earlier%n) = earlier%f(:, :earlier%n - 1)
       allocate (of_joints(tree%n))
       of_joints(tree%equations) = 0.0_wp
       call add_products(tree%joints, k_int, x, of_joints)

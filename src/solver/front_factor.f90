@@ -27,9 +27,7 @@ contains
       real(wp), intent(in)            :: k(:, :)
       integer :: places(size(equations)), i, j, row, column
 
-      do i = 1, size(equations)
-         places(i) = place_in(front, equations(i))
-      end do
+      places = place_in(front, equations)
       do j = 1, size(equations)
          column = places(j)
          if (column == 0) cycle
@@ -50,7 +48,7 @@ contains
    end subroutine add_matrix
 
    !> Row of EQUATION in FRONT, 0 for equation 0.
-   pure integer function place_in(front, equation) result(place)
+   elemental integer function place_in(front, equation) result(place)
       type(front_type), intent(in) :: front
       integer, intent(in)          :: equation
 
@@ -350,10 +348,8 @@ contains
 
       f = front_of(tree, equations)
       if (f == 0) return
-      do i = 1, size(equations)
-         places(i) = place_in(tree%fronts(f), equations(i))
-      end do
       associate (front => tree%fronts(f))
+         places = place_in(front, equations)
          do j = 1, size(equations)
             if (places(j) == 0) cycle
             front%start%diagonal(places(j)) = front%start%diagonal(places(j)) + k(j, j)

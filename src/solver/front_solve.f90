@@ -148,7 +148,7 @@ contains
       real(wp), intent(in)              :: x(tree%n)
       real(wp), intent(inout)           :: y(tree%n)
       real(wp) :: x_f(tree%most_rows), y_f(tree%most_rows)
-      integer  :: i, k
+      integer  :: k
 
       do k = 1, size(tree%refactored)
          associate (front => tree%fronts(tree%refactored(k)))
@@ -164,9 +164,7 @@ contains
                call block_times_vector(front%start%panel, x_f, y_f)
                call block_times_vector(front%start%update, x_f(p + 1:), y_f(p + 1:))
                y(front%first:last) = y(front%first:last) + y_f(:p)
-               do i = 1, front%r
-                  y(front%rows(i)) = y(front%rows(i)) + y_f(p + i)
-               end do
+               y(front%rows) = y(front%rows) + y_f(p + 1:p + front%r)
             end associate
          end associate
       end do
@@ -177,7 +175,7 @@ contains
       type(front_tree_type), intent(in) :: tree
       real(wp), intent(inout)           :: x(tree%n)
       real(wp) :: work(tree%most_rows)
-      integer  :: f, i
+      integer  :: f
 
       where (tree%locked) x = 0.0_wp
       do f = 1, size(tree%fronts) ! L^T x: the rows beyond are those of fronts that follow
@@ -191,9 +189,7 @@ contains
       do f = size(tree%fronts), 1, -1
          associate (front => tree%fronts(f), p => tree%fronts(f)%p, r => tree%fronts(f)%r, first => tree%fronts(f)%first)
             if (r > 0) call dgemv('N', r, p, 1.0_wp, front%panel(p + 1, 1), p + r, x(first), 1, 0.0_wp, work, 1)
-            do i = 1, r
-               x(front%rows(i)) = x(front%rows(i)) + work(i)
-            end do
+            x(front%rows) = x(front%rows) + work(:r)
             call dtrmv('L', 'N', 'N', p, front%panel, p + r, x(first), 1)
          end associate
       end do

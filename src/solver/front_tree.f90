@@ -291,10 +291,8 @@ contains
       end do
       call list_on_unknowns(model, elements)
       call list_interface_equations(elements, tree%number, tree%joints)
-      do e = 1, size(model%interface)
-         front(1, e) = front_of(tree, tree%joints%rows_of(e))
-      end do
-      call list_owners(size(tree%fronts), front(:, :size(model%interface)), first, list)
+      front(1, :size(elements)) = [(front_of(tree, tree%joints%rows_of(e)), e = 1, size(elements))]
+      call list_owners(size(tree%fronts), front(:, :size(elements)), first, list)
       do f = 1, size(tree%fronts)
          tree%fronts(f)%springs = list(first(f):first(f + 1) - 1)
       end do

@@ -22,30 +22,22 @@ contains
       type(failure_type), intent(inout) :: failure
       character(:), allocatable :: words
       real(wp) :: nodes, share
-      integer  :: b
 
-      associate (bulk => deck%bulk)
-         nodes = size(bulk%grid)
-         do b = 1, size(bulk%block)
-            nodes = nodes + nodes_of_block(bulk%block(b))
-         end do
-      end associate
+      nodes = size(deck%bulk%grid) + sum(nodes_of_block(deck%bulk%block))
       call shortage('the nodes of the model need at least', node_bytes*nodes, words, share)
       if (words /= '') call failure%raise(words)
    end subroutine check_model_size
 
    !> Nodes of the block of CARD, of second order with those at the middle of its edges.
-   pure real(wp) function nodes_of_block(card) result(nodes)
+   elemental real(wp) function nodes_of_block(card) result(nodes)
       type(block_card), intent(in) :: card
       real(wp) :: along(3) ! nodes along x, y, z
-      integer  :: k
 
       along = card%divisions + 1.0_wp
       nodes = product(along)
-      if (card%order == 1) return
-      do k = 1, card%dimension
-         nodes = nodes + product(along)/along(k)*card%divisions(k)
-      end do
+      associate (d => card%dimension)
+         if (card%order /= 1) nodes = nodes + sum(product(along)/along(:d)*card%divisions(:d))
+      end associate
    end function nodes_of_block
 
    !> A failure where so many BYTES for the factor of N equations are more than can be had; its message says what would fit.

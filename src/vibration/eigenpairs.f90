@@ -120,10 +120,7 @@ contains
       first = findloc(nu > finite*nu(system%n), .true., dim=1)
       if (first == 0) first = system%n + 1
       lambda = [(system%shift + 1.0_wp/nu(i), i = system%n, first, -1)]
-      allocate (x(system%n, size(lambda)))
-      do i = 1, size(lambda)
-         x(:, i) = m(:, system%n + 1 - i)/sqrt(nu(system%n + 1 - i)) ! x^T ([k] - sigma [m]) x was 1
-      end do
+      x = m(:, system%n:first:-1)/spread(sqrt(nu(system%n:first:-1)), 1, system%n) ! x^T ([k] - sigma [m]) x was 1
    end subroutine solve_whole
 
    !> The N next above the shift by ARPACK; where fewer vectors have mass it says so, and has found a basis of all of these.
