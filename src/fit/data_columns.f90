@@ -296,7 +296,17 @@ contains
       integer :: at, k, last
       logical :: waits  ! a separator has been read and waits for the entry behind it
 
-      open = without_brackets(line)
+      open = line
+      do          ! an x for all that stands in brackets and for the blanks between a name and its brackets
+         at = scan(open, '[(')
+         if (at == 0) exit
+         last = min(at + scan(open(at:)//')', '])') - 1, len(line))
+         k = verify(open(:at - 1), blanks, back=.true.)
+         if (k > 0) then
+            if (scan(line(k:k), ',;])') == 0) at = k + 1
+         end if
+         open(at:last) = repeat('x', last - at + 1)
+      end do
       if (decimal_comma .or. index(open, ';') > 0) then
          do k = 1, len(line) - 1
             if (line(k:k) == ',' .and. scan(line(k + 1:k + 1), '0123456789') == 1) open(k:k) = 'x'
@@ -325,26 +335,6 @@ contains
       end function next
 
    end subroutine split_entries
-
-   !> LINE with x for all that stands in brackets and for the blanks between a name and its brackets.
-   pure function without_brackets(line) result(masked)
-      character(*), intent(in) :: line
-      character(len(line))     :: masked
-      integer :: first, last, name
-
-      masked = line
-      do
-         first = scan(masked, '[(')
-         if (first == 0) return
-         last = first + scan(masked(first:)//')', '])') - 1
-         last = min(last, len(line))
-         name = verify(masked(:first - 1), blanks, back=.true.)
-         if (name > 0) then
-            if (scan(line(name:name), ',;])') == 0) first = name + 1
-         end if
-         masked(first:last) = repeat('x', last - first + 1)
-      end do
-   end function without_brackets
 
    !> The NAME and the UNIT in an entry of a header, `lambda [um]` or `lambda(um)`; no brackets: no unit.
    pure subroutine split_unit(entry, name, unit)

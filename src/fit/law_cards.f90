@@ -201,13 +201,10 @@ contains
       character(16), intent(in) :: fields(:)
       integer, intent(in)       :: width
       character(80) :: line
-      integer :: first, k
+      character(8)  :: name
 
-      line = head
-      do k = 1, size(fields)
-         first = 9 + (k - 1)*width
-         line(first:first + width - 1) = fields(k)
-      end do
+      name = head
+      write (line, '(9a)') name, fields(:)(:width)
    end function joined
 
    !> VALUE in at most WIDTH columns, as NASTRAN writes it: the nearest number that fits, as 0.0125, 260.8628 or, where that

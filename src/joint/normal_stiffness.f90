@@ -235,8 +235,7 @@ contains
    pure real(wp) function closed_share(state) result(share)
       type(normal_state), intent(in) :: state
 
-      share = (state%lambda - state%lambda_b)/max(state%lambda - state%lambda_before, tiny(1.0_wp))
-      share = min(1.0_wp, max(0.0_wp, share))
+      share = min(1.0_wp, max(0.0_wp, (state%lambda - state%lambda_b)/max(state%lambda - state%lambda_before, tiny(1.0_wp))))
    end function closed_share
 
    !> p at LAMBDA on the line of slope E_u through the point A = (LAMBDA_A, P_A) [pressure]; below zero it is open.

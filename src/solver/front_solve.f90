@@ -150,22 +150,16 @@ contains
       real(wp) :: x_f(tree%most_rows), y_f(tree%most_rows)
       integer  :: k
 
+      y(tree%equations) = 0.0_wp
       do k = 1, size(tree%refactored)
-         associate (front => tree%fronts(tree%refactored(k)))
-            y(front%first:front%first + front%p - 1) = 0.0_wp
-         end associate
-      end do
-      do k = 1, size(tree%refactored)
-         associate (front => tree%fronts(tree%refactored(k)))
-            associate (p => front%p, last => front%first + front%p - 1)
-               x_f(:p) = x(front%first:last)
-               x_f(p + 1:p + front%r) = x(front%rows)
-               y_f(:p + front%r) = 0.0_wp
-               call block_times_vector(front%start%panel, x_f, y_f)
-               call block_times_vector(front%start%update, x_f(p + 1:), y_f(p + 1:))
-               y(front%first:last) = y(front%first:last) + y_f(:p)
-               y(front%rows) = y(front%rows) + y_f(p + 1:p + front%r)
-            end associate
+         associate (front => tree%fronts(tree%refactored(k)), p => tree%fronts(tree%refactored(k))%p)
+            x_f(:p) = x(front%first:front%first + p - 1)
+            x_f(p + 1:p + front%r) = x(front%rows)
+            y_f(:p + front%r) = 0.0_wp
+            call block_times_vector(front%start%panel, x_f, y_f)
+            call block_times_vector(front%start%update, x_f(p + 1:), y_f(p + 1:))
+            y(front%first:front%first + p - 1) = y(front%first:front%first + p - 1) + y_f(:p)
+            y(front%rows) = y(front%rows) + y_f(p + 1:p + front%r)
          end associate
       end do
    end subroutine refactored_times_vector

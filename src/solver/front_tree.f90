@@ -84,10 +84,7 @@ contains
 
       block%n_rows = size(a, 1)
       block%n_columns = size(a, 2)
-      k = 0
-      do j = 1, block%n_columns
-         k = k + count(abs(a(j:, j)) > 0.0_wp)
-      end do
+      k = sum([(int(count(abs(a(j:, j)) > 0.0_wp), long), j = 1, block%n_columns)])
       if (2*k > int(block%n_rows, long)*block%n_columns/2) then
          allocate (block%whole(block%n_rows, block%n_columns), stat=status)
          ok = status == 0
@@ -302,11 +299,9 @@ contains
    pure integer function front_of(tree, equations) result(f)
       type(front_tree_type), intent(in) :: tree
       integer, intent(in)               :: equations(:)
-      integer :: first
 
-      first = minval(equations, mask=equations > 0)
-      f = 0
-      if (first <= tree%n) f = tree%of_equation(first)
+      f = minval(equations, mask=equations > 0)
+      f = merge(0, tree%of_equation(min(f, tree%n)), f > tree%n)
    end function front_of
 
    !> Whether front F is REFACTORED, or static, and its parent is none of these.
@@ -329,11 +324,9 @@ contains
       allocate (diagonal, source=tree%diagonal)
       diagonal(tree%equations) = 0.0_wp
       do k = 1, size(tree%refactored)
-         associate (front => tree%fronts(tree%refactored(k)))
-            associate (first => front%first, last => front%first + front%p - 1)
-               diagonal(first:last) = diagonal(first:last) + front%start%diagonal(:front%p)
-               diagonal(front%rows) = diagonal(front%rows) + front%start%diagonal(front%p + 1:)
-            end associate
+         associate (front => tree%fronts(tree%refactored(k)), first => tree%fronts(tree%refactored(k))%first)
+            diagonal(first:first + front%p - 1) = diagonal(first:first + front%p - 1) + front%start%diagonal(:front%p)
+            diagonal(front%rows) = diagonal(front%rows) + front%start%diagonal(front%p + 1:)
          end associate
       end do
       largest = maxval(diagonal)

@@ -111,8 +111,10 @@ contains
          if (next == size(u, 3)) return
          if (norm2(participation(d, next:)) > least) call give_to_one((participation(d, next:)))
       end do
-      do while (next < size(u, 3))
-         at = first_large(u(:, :, next:))
+      do while (next < size(u, 3)) ! the first component and node, in their order, where all modes together move as good as most
+         associate (squares => sum(u(:, :, next:)**2, dim=3))
+            at = findloc(squares >= near**2*maxval(squares), .true.)
+         end associate
          call give_to_one((u(at(1), at(2), next:)))
       end do
 
@@ -142,28 +144,12 @@ contains
 
    end subroutine settle_group
 
-   !> The first component and node, in their order, where the displacements of all modes together are as good as largest.
-   pure function first_large(u) result(at)
-      real(wp), intent(in) :: u(:, :, :)
-      integer  :: at(2), d, i
-      real(wp) :: much
-
-      at = 1
-      much = near*sqrt(maxval(sum(u**2, dim=3)))
-      do i = 1, size(u, 2)
-         do d = 1, size(u, 1)
-            at = [d, i]
-            if (norm2(u(d, i, :)) >= much) return
-         end do
-      end do
-   end function first_large
-
    !> The sign of a shape: that of its largest component, of as good as equal ones the first, is positive.
    pure subroutine settle_sign(participation, u)
       real(wp), intent(inout) :: participation(:), u(:, :)
       integer :: at(2)
 
-      at = first_large(reshape(u, [size(u, 1), size(u, 2), 1]))
+      at = findloc(abs(u) >= near*maxval(abs(u)), .true.)
       if (u(at(1), at(2)) >= 0.0_wp) return
       u = -u
       participation = -participation
