@@ -14,6 +14,8 @@ module analysis_state
    use normal_stiffness, only: at_rest, branch_load, branch_open, is_virgin, norm
    use numbers, only: is_measure
    use shear_stiffness, only: shear
+   use terminal_line, only: show_line
+   use text_tools, only: integer_text, real_text
    implicit none
    private
 
@@ -311,7 +313,7 @@ contains
       end do
    end subroutine note_largest
 
-   !> Note a pass for the listing.
+   !> Note a pass for the listing, and tell of it on the terminal.
    subroutine record_pass(analysis, pass)
       type(analysis_type), intent(inout) :: analysis
       type(pass_record), intent(in)      :: pass
@@ -319,6 +321,9 @@ contains
       if (analysis%n_passes == size(analysis%passes)) analysis%passes = [analysis%passes, analysis%passes]
       analysis%n_passes = analysis%n_passes + 1
       analysis%passes(analysis%n_passes) = pass
+      call show_line('stage '//integer_text(analysis%stage)//', increment '//integer_text(analysis%increment)//', iteration '// &
+                     integer_text(analysis%n_passes)//': '//real_text(pass%after)//' left, changes of branch: '// &
+                     integer_text(pass%changes), at_once=.false.)
    end subroutine record_pass
 
 end module analysis_state

@@ -2,7 +2,6 @@
 !! many, time left. Nothing where the standard error is no terminal. With --times, at the end: the seconds that each phase took,
 !! operations, memory.
 module progress
-   use c_library, only: is_terminal
    use command_line, only: deck_argument
    use deck_errors, only: deck_error_list
    use distribution, only: memory_of_all
@@ -13,6 +12,7 @@ module progress
    use restart_stream, only: restart_stream_type
    use results, only: results_type
    use stage_plan, only: stage_plan_type
+   use terminal_line, only: clear_line, open_line, show_line
    use text_tools, only: integer_text
    implicit none
    private
@@ -26,10 +26,10 @@ module progress
 
    type, public :: progress_type
       private
-      logical :: shown = .false., timed = .false.
+      logical :: timed = .false.
       integer :: phase = 0
       integer :: done  = 0, total = 0, before = 0 ! increments; those before this run
-      integer(long) :: entered = 0, increments_began = 0, last = 0, rate = 1
+      integer(long) :: entered = 0, increments_began = 0, rate = 1
       integer(long) :: ticks(size(phase_name)) = 0
       character(:), allocatable :: deck
       type(solver_description), public :: solver !! its operations, for the end
@@ -39,7 +39,6 @@ module progress
       procedure :: expect
       procedure :: skip
       procedure :: advance
-      procedure :: clear
       procedure :: finish
    end type progress_type
 
@@ -74,13 +73,11 @@ contains
       logical, intent(in)                 :: quiet
       logical, intent(in)                 :: timed !! print the seconds of the phases at the end
 
-      self%shown = .false.
-      if (.not. quiet) self%shown = is_terminal(2)
+      call open_line(deck, quiet)
       self%timed = timed
       self%deck = deck
       self%ticks = 0
       call system_clock(self%entered, self%rate)
-      self%last = self%entered
       self%phase = phase_read
    end subroutine start
 
@@ -94,7 +91,7 @@ contains
       self%ticks(self%phase) = self%ticks(self%phase) + now - self%entered
       self%entered = now
       self%phase = phase
-      if (self%shown .and. (phase < phase_increments .or. phase == phase_modes)) call show(self, trim(phase_name(phase)))
+      if (phase < phase_increments .or. phase == phase_modes) call show_line(trim(phase_name(phase)), at_once=.true.)
    end subroutine enter
 
    !> From now on increments are counted, those of PLAN.
@@ -107,7 +104,6 @@ contains
       self%before = 0
       self%total = sum([(size(plan%stages(s)%shares), s = 1, size(plan%stages))])
       call system_clock(self%increments_began)
-      self%last = self%increments_began - self%rate ! the first one is shown
    end subroutine expect
 
    !> N increments were done by an earlier run.
@@ -119,7 +115,7 @@ contains
       self%done = n
    end subroutine skip
 
-   !> One more increment is done; say so five times a second at most.
+   !> One more increment is done.
    subroutine advance(self, stage, increment, increments)
       class(progress_type), intent(inout) :: self
       integer, intent(in)                 :: stage, increment, increments
@@ -128,35 +124,14 @@ contains
       character(:), allocatable :: words
 
       self%done = self%done + 1
-      if (.not. self%shown) return
       call system_clock(now)
-      if (5*(now - self%last) < self%rate) return
-      self%last = now
       left = real(now - self%increments_began, wp)/self%rate*(self%total - self%done)/(self%done - self%before)
       words = 'stage '//integer_text(stage)//', increment '//integer_text(increment)//' of '//integer_text(increments)// &
               ', '//integer_text(nint(left))//' s left'
       if (self%solver%solutions > 0) words = words//', '//integer_text(int(self%solver%steps/self%solver%solutions))// &
                                              ' steps a solution'
-      call show(self, words)
+      call show_line(words, at_once=.false.)
    end subroutine advance
-
-   !> WORDS behind the name of the deck, over what stood there.
-   subroutine show(self, words)
-      class(progress_type), intent(in) :: self
-      character(*), intent(in)         :: words
-      integer, parameter :: room = 60
-
-      write (error_unit, '(a)', advance='no') achar(13)//self%deck//': '//words//repeat(' ', max(0, room - len(words)))
-      flush (error_unit)
-   end subroutine show
-
-   !> Clear the line; nothing more is shown.
-   subroutine clear(self)
-      class(progress_type), intent(inout) :: self
-
-      if (self%shown) write (error_unit, '(a)', advance='no') achar(13)//repeat(' ', len(self%deck) + 62)//achar(13)
-      self%shown = .false.
-   end subroutine clear
 
    !> The run is over: clear the line, print the times.
    subroutine finish(self)
@@ -165,7 +140,7 @@ contains
       integer  :: i
 
       call self%enter(phase_write)
-      call self%clear()
+      call clear_line()
       if (.not. self%timed) return
       do i = 1, size(phase_name)
          write (error_unit, '(3a, f12.4, a)') self%deck, ': ', phase_name(i), real(self%ticks(i), wp)/self%rate, ' s'

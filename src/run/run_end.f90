@@ -18,6 +18,7 @@ module run_end
    use restart_file, only: restart_name
    use results, only: discard_results, finish_results, listing_ending, show_answers
    use stage_plan, only: stage_plan_type
+   use terminal_line, only: clear_line
    use text_tools, only: plural
    implicit none
    private
@@ -66,7 +67,7 @@ contains
       end if
       if (run%failure%raised) run%ending = is_unsolved
       if (run%misses_restart) exit_status = max(exit_status, status_of(is_unwritten))
-      call run%progress%clear()
+      call clear_line()
       call say_how_it_ended(run, deck, model, plan)
       exit_status = max(exit_status, status_of(run%ending))
    end subroutine finish_run
