@@ -174,10 +174,10 @@ contains
       type(fit_command_type), intent(in) :: command
       integer :: i
 
+      overwrites = .false.
       do i = 1, size(command%files)
          associate (file => command%files(i))
-            overwrites = command%plot /= ''
-            if (overwrites) overwrites = is_same_file(command%plot, file%path)
+            if (command%plot /= '') overwrites = is_same_file(command%plot, file%path)
             if (overwrites) then
                call complain(program, '--plot '//command%plot//' would overwrite the data file '//file%name)
             else if (is_same_file(standard_output, file%path)) then

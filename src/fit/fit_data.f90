@@ -60,8 +60,7 @@ contains
       end if
       associate (rows => data%text%n)
          allocate (data%value(n_columns, rows), source=0.0_wp)
-         allocate (data%branch(rows), data%run(rows), data%part(rows), data%line(rows), source=0)
-         allocate (data%place(2, n_columns, rows), source=0)
+         allocate (data%branch(rows), data%run(rows), data%part(rows), data%line(rows), data%place(2, n_columns, rows), source=0)
          allocate (data%joined(rows), source=.false.)
       end associate
       above = reading%columns /= ''

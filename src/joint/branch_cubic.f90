@@ -58,9 +58,7 @@ contains
       type(cubic), intent(in) :: curve
       real(wp), intent(in)    :: d
 
-      associate (a => curve%coefficients(2, :))
-         slope = d*(a(1) + d*(a(2) + d*a(3)))
-      end associate
+      slope = d*(curve%coefficients(2, 1) + d*(curve%coefficients(2, 2) + d*curve%coefficients(2, 3)))
    end function cubic_by_pressure
 
    !> P as a polynomial in the fraction f of a way on which d = D(1) + f D(2), p = P(1) + f P(2): sum of c_k f**k [pressure].

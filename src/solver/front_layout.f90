@@ -186,10 +186,10 @@ contains
          k = 0
          member = supers%member(s)
          do while (member /= 0)
-            associate (first => supers%first(member), last => supers%first(member + 1) - 1)
-               columns(k + 1:k + last - first + 1) = [(i, i=first, last)]
-               k = k + last - first + 1
-            end associate
+            do i = supers%first(member), supers%first(member + 1) - 1
+               k = k + 1
+               columns(k) = i
+            end do
             member = supers%next(member)
          end do
          columns(:k) = columns(sorted_places(columns(:k)))

@@ -30,12 +30,11 @@ contains
 
       equations%n = size(elements)
       allocate (equations%first(equations%n + 1))
-      n = 0
+      equations%first(1) = 1
       do i = 1, equations%n
-         equations%first(i) = n + 1
-         n = n + size(elements(i)%node)
+         equations%first(i + 1) = equations%first(i) + size(elements(i)%node)
       end do
-      equations%first(equations%n + 1) = n + 1
+      n = equations%first(equations%n + 1) - 1
       allocate (equations%equation(size(number, 1), n), equations%weight(n), equations%is_mapped(equations%n))
       equations%is_mapped = [(allocated(elements(i)%map), i = 1, equations%n)]
       if (any(equations%is_mapped)) allocate (equations%map(size(number, 1), size(number, 1), n), source=0.0_wp)

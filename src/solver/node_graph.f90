@@ -127,10 +127,7 @@ contains
 
       part%n = size(nodes)
       number(nodes) = [(i, i = 1, part%n)]
-      m = 0
-      do i = 1, part%n
-         m = m + count(number(graph%neighbours(graph%first(nodes(i)):graph%first(nodes(i) + 1) - 1)) > 0)
-      end do
+      m = sum([(count(number(graph%neighbours(graph%first(nodes(i)):graph%first(nodes(i) + 1) - 1)) > 0), i = 1, part%n)])
       allocate (part%first(part%n + 1), part%neighbours(m))
       m = 0
       do i = 1, part%n

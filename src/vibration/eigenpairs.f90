@@ -176,7 +176,6 @@ contains
          return
       end if
       above = pack([(i, i = 1, parameters(5))], lambda(:parameters(5)) > system%shift)
-      if (size(above) == n) return
       lambda = lambda(above)
       x = x(:, above)
    end subroutine iterate

@@ -87,10 +87,8 @@ contains
          associate (lambda => system%lambda(r))
             resistance = cmplx(lambda - omega**2, system%loss(r)*lambda + system%viscous(r)*omega*sqrt(max(0.0_wp, lambda)), wp)
          end associate
-         if (abs(resistance) <= 0.0_wp) then
-            ok = .false.
-            return
-         end if
+         ok = abs(resistance) > 0.0_wp
+         if (.not. ok) return
          u = u + system%shape(:, r)*system%force(r)/(system%mass(r)*resistance)
       end do
    end subroutine response_at
@@ -121,8 +119,7 @@ contains
       complex(wp), intent(in) :: u
 
       phase = 0.0_wp
-      if (abs(u) <= 0.0_wp) return
-      phase = atan2(aimag(u), real(u))*180.0_wp/pi
+      if (abs(u) > 0.0_wp) phase = atan2(aimag(u), real(u))*180.0_wp/pi
       if (phase <= -180.0_wp) phase = 180.0_wp ! where the imaginary part is -0.0
    end function phase_of
 
