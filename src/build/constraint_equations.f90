@@ -1,7 +1,6 @@
-!> Components that depend on others: c = sum of factor c_k, as rigid elements and equations list them. What depends on what is checked,
-!! then the dependent ones are eliminated: their nodes move with the unknowns of the others.
-!!
-!! Equations between components, solved for others of them than those that they were written for.
+!> Equations between components: c = sum of factor c_k, as rigid elements and MPC list them, checked for what depends on what;
+!! the dependent components are eliminated, and their nodes move with the unknowns of the others. UM of RBE3 solves such
+!! equations for other components.
 module constraint_equations
    use deck_check, only: checked_deck
    use kinds, only: wp

@@ -1,6 +1,5 @@
-!> Joints that statics alone can speak of: where no other support or joint can take a share, the loads give the normal resultant.
-!!
-!! The pressure of the first increment of every joint, Eq. (9): given by the user, or by statics; a guess where that will do.
+!> The pressure of the first increment of every joint, Eq. (9): given by the user, or by statics where no other support or
+!! joint can take a share of the load; else a guess where that will do.
 module determinate_joints
    use deck_errors, only: deck_error_list
    use interface_operator, only: nodes_of_end

@@ -1,7 +1,5 @@
-!> Coordinate systems from their cards, each in global axes, whatever stands on whatever; and the vectors and nodes that are given
-!! in them.
-!!
-!! Displacement systems: nodes with CD have their unknowns along the directions of that system, so that supports and prescribed
+!> Coordinate systems from their cards, each in global axes, whatever stands on whatever, and the vectors and nodes that are
+!! given in them. Nodes with CD have their unknowns along the directions of their system, so that supports and prescribed
 !! displacements act along these.
 module displacement_systems
    use bulk_data, only: system_card

@@ -1,10 +1,6 @@
-!> A face of a joint and the plane that it is seen in: the plane through its centre at right angles to its normal there. What stands
-!! opposite is projected on that plane, along the normal; in space and, as a line, in the plane.
-!!
-!! Polygons in a plane: what two of them have in common, and how large it is.
-!!
-!! Where two faces lie over one another, as seen in the frame of the first: the points over which to integrate. Faces are taken in
-!! parts with straight rims; what two parts have in common is a polygon, of edges an interval.
+!> Where two faces of a joint lie over one another: the points over which to integrate. The first face is seen in the plane
+!! through its centre at right angles to its normal there; what stands opposite is projected on that plane along the normal.
+!! Faces are taken in parts with straight rims; what two parts have in common is a polygon, of edges an interval.
 module face_overlap
    use element_kinds, only: centre_point, max_nodes, max_side_nodes, side_kind
    use kinds, only: wp

@@ -1,6 +1,5 @@
-!> The laws of the joints: from PJOINT, JNORM and JSHEAR cards to the joints that name them.
-!!
-!! Interface elements: between two facing surfaces, between a surface and a rigid base, or given outright.
+!> Joints: their laws from PJOINT, JNORM and JSHEAR cards, and their interface elements, between two facing surfaces, between a
+!! surface and a rigid base, or given outright.
 module joint_build
    use bulk_data, only: cjoint_card
    use deck_check, only: checked_deck

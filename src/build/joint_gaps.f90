@@ -1,6 +1,7 @@
-!> Values at scattered points of a plane, interpolated linearly between them: on the triangles of the points' Delaunay
-!! triangulation, or where all points lie on one line from point to point along it; outside, the value at the nearest place of the
-!! points' outline. Linear values are met exactly, and the interpolation is continuous.
+!> The initial gaps of the joints, from JGAP cards to the interface elements. Gaps given at scattered points of a plane are
+!! interpolated linearly: on the triangles of the points' Delaunay triangulation, or where all points lie on one line along it;
+!! outside, the value at the nearest place of the points' outline. Linear values are met exactly, and the interpolation is
+!! continuous.
 !!
 !! The triangle around a place is found without the triangulation: lifted onto the paraboloid z = x**2 + y**2, it is the lowest one
 !! above the place. So from any triangle around the place the point farthest below its plane is exchanged for one of the corners,
@@ -8,8 +9,6 @@
 !! little oblique, in no direction that a grid would have, and one of them is lower everywhere. Where that makes no difference, in
 !! squares turned by half a radian, points count as lower by next to nothing, the first by most, every other by much less than
 !! the one before it (simulation of simplicity: Edelsbrunner and Muecke, ACM Transactions on Graphics 9 (1990) 66).
-!!
-!! The initial gaps of the joints: from JGAP cards to the interface elements.
 module joint_gaps
    use bulk_data, only: jgap_card
    use deck_check, only: checked_deck

@@ -1,7 +1,6 @@
-!> The interface elements of a JOINT card: between two sides that match, by pairs of nodes; between sides that do not, by lists of
-!! nodes; between a surface and its twin or a rigid base.
-!!
-!! The axes of interface elements: along the joint, and across it from node 1 to node 2.
+!> The interface elements of a JOINT card and their axes, along the joint and across it from node 1 to node 2: between two
+!! sides that match, by pairs of nodes; between sides that do not, by lists of nodes; between a surface and its twin or a rigid
+!! base.
 module joint_sides
    use bulk_data, only: fit_no, fit_yes
    use deck_check, only: checked_deck

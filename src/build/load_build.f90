@@ -1,6 +1,5 @@
-!> Forces on single nodes: FORCE, FORCE1 and FORCE2 as vectors in global axes; MOMENT on the rotations of reference nodes.
-!!
-!! Loads: which forces act, and which displacements are prescribed, at the end of every stage.
+!> Loads: which forces act, and which displacements are prescribed, at the end of every stage. FORCE, FORCE1 and FORCE2 are
+!! vectors in global axes; MOMENT acts on the rotations of reference nodes.
 module load_build
    use body_elements, only: element_weight
    use bulk_data, only: force_card

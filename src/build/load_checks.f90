@@ -1,6 +1,5 @@
-!> Load cards against the model: nodes, surfaces, sets and masses that are there, directions that the model has.
-!!
-!! Temperatures: how warm the nodes are at the end of every stage.
+!> Load cards against the model: nodes, surfaces, sets and masses that are there, directions that the model has. Temperatures:
+!! how warm the nodes are at the end of every stage.
 module load_checks
    use bulk_data, only: bulk_data_type, has_component
    use coordinate_systems, only: rectangular

@@ -1,7 +1,6 @@
-!> Nodes, bodies and marked sides: from the mesh cards and the block generators to positions in the model.
-!!
-!! Whether the nodes that cards of loads, supports and masses name are there. It is asked before anything else is made of these
-!! cards, so that it is said of a deck whose mesh is faulty too.
+!> The mesh of the model: nodes, bodies and marked sides, from the mesh cards and the block generators to positions. Whether
+!! the nodes that cards of loads, supports and masses name are there is asked before anything else is made of these cards, so
+!! that it is said of a deck whose mesh is faulty too.
 module mesh_build
    use block_mesh, only: block_type, generate_block
    use bulk_data, only: element_card

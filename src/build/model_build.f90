@@ -1,6 +1,5 @@
-!> The bodies of a model, and its parts: bodies and nodes that bars and bolts connect. Joints connect nothing here.
-!!
-!! From a deck to the structure that is solved.
+!> From a deck to the structure that is solved: the order of all that is built. The bodies of a model and its parts, bodies and
+!! nodes that bars and bolts connect, are found here; joints connect nothing.
 module model_build
    use case_control, only: method_step
    use deck_check, only: checked_deck

@@ -1,16 +1,9 @@
-!> Integrals of shape functions over the part of one face of SIDE1 that faces of SIDE2 cover: what the interface elements of the
-!! face are made of. The points have no state: they serve the integrals alone.
-!!
-!! The interface elements of one face of SIDE1: what each has of the face, and on which nodes of both sides it hangs, all times its
-!! area, so that the faces at a node add up.
-!!
-!! Which nodes of a face carry interface elements, and what each has of the face: the areas of influence of its nodes, the integrals
-!! of the N_k, are shared out among the elements. Shares of a node add up to 1, so that the areas add up to that of the face.
-!! Edges and linear faces: an element at every node. Faces with mid-side nodes: elements at these alone, because the areas of the
-!! corners are zero or negative (0 and 1/3 of the triangle with 6 nodes; -1/12 and 1/3 of the quadrilateral with 8).
-!!
-!! Interface elements added up from faces: areas, normals and the lists of nodes of their two ends, each face with its area as
-!! weight.
+!> The interface elements of faces that do not match: what each has of the area of a face of SIDE1, and on which nodes of both
+!! sides it hangs. They come from integrals of shape functions over what faces of SIDE2 cover of the face, and are added up
+!! over the faces at a node, each with its area as weight. The areas of influence of a face's nodes, the integrals of the N_k,
+!! are shared out among its elements. Edges and linear faces have an element at every node. Faces with mid-side nodes have
+!! elements at these alone, because the areas of the corners are zero or negative (0 and 1/3 of the triangle with 6 nodes;
+!! -1/12 and 1/3 of the quadrilateral with 8).
 module mortar_integrals
    use element_kinds, only: max_nodes, max_side_nodes
    use element_mapping, only: two_pi

@@ -1,9 +1,7 @@
-!> Nodes: GRID cards and those of generated blocks, in the order of their numbers.
-!!
-!! Mid-side nodes of second-order elements: those that cards leave blank are put at the middle of their edge, one for all elements
-!! that share it; and all elements at an edge must have the same node there, or none.
-!!
-!! Nodes that no card gives, behind those of the deck: they keep unknowns that are no displacements of points.
+!> Nodes: GRID cards and those of generated blocks, in the order of their numbers. Mid-side nodes of second-order elements that
+!! cards leave blank are put at the middle of their edge, one for all elements that share it; all elements at an edge must have
+!! the same node there, or none. Nodes that no card gives stand behind those of the deck: they keep unknowns that are no
+!! displacements of points.
 module node_build
    use block_mesh, only: block_type
    use coordinate_systems, only: coordinate_system

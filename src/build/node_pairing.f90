@@ -1,7 +1,5 @@
-!> Which nodes of the two sides of a joint face each other.
-!!
-!! A joint between sides that do not match: for every face of SIDE1 the faces of SIDE2 that cover it are found, and what the
-!! interface elements at its nodes hang on is fitted.
+!> Which nodes of the two sides of a joint face each other. Of sides that do not match, the faces of SIDE2 that cover a face of
+!! SIDE1 are found, and what the interface elements at its nodes hang on is fitted.
 module node_pairing
    use element_kinds, only: max_side_nodes
    use face_overlap, only: face_frame, in_frame, make_frame, plane_points, seen_area

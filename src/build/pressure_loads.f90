@@ -1,6 +1,4 @@
-!> The face of a solid that has given corners.
-!!
-!! PLOAD4, PLOADE and PLOAD: which sides of which elements a card presses on, and the nodal forces.
+!> PLOAD4, PLOADE and PLOAD: which sides of which elements a card presses on, found by their corners, and the nodal forces.
 module pressure_loads
    use bulk_data, only: of_edge, of_face, of_nodes, pressure_card
    use coordinate_systems, only: rectangular

@@ -1,7 +1,6 @@
 !> Dependent nodes: RBE2, RBE3 and the MPC of the case control as sums over components of other nodes, which take their place.
-!!
-!! Which nodes have rotations: the reference nodes of RBE2, and those of RBE3 whose rotations the card asks for. A model of revolution
-!! has none: a ring that stays one moves along its axis alone.
+!! Reference nodes of RBE2 have rotations, and those of RBE3 whose rotations the card asks for. A model of revolution has none:
+!! a ring that stays one moves along its axis alone.
 module rbe2
    use bulk_data, only: equation_card, has_component, rigid_card
    use constraint_equations, only: add_dependence, add_term, check_dependences, dependence_list, eliminate

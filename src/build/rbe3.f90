@@ -1,10 +1,6 @@
-!> What the cards of rigid elements and equations name: nodes and components.
-!!
-!! What a rigid body does: how its points move with displacement and rotation of one of them, and the rigid motion that comes nearest
-!! to given displacements of points.
-!!
-!! RBE3: the components of a reference node as the weighted mean of those of other nodes, or with UM others of these components by the
-!! same equations.
+!> RBE3: the components of a reference node as the weighted mean of those of other nodes, or with UM others of these components
+!! by the same equations; the rigid motion that comes nearest to given displacements of points. The nodes and components that
+!! cards of rigid elements and equations name are looked up here.
 module rbe3
    use bulk_data, only: has_component, rigid_card
    use constraint_equations, only: solve_for, add_dependence, add_term, dependence_list

@@ -1,8 +1,6 @@
-!> Bars and bolts: CROD elements with a PROD, CONROD elements, and the BOLT cards that tighten some of them.
-!!
-!! Springs: CELAS1, CELAS2 and CBUSH as bars of the model, one a direction, behind the bars themselves.
-!!
-!! Masses at nodes: CONM2, and whether there is any mass where the structure shall oscillate.
+!> Bars, springs and masses: CROD with PROD, CONROD, and the BOLT cards that tighten some of them; CELAS1, CELAS2 and CBUSH as
+!! bars of the model, one a direction, behind the bars themselves; CONM2, and whether there is any mass where the structure
+!! shall oscillate.
 module spring_build
    use bulk_data, only: bolt_card, edge_crod, element_card, mass_card, prod_card, spring_card
    use coordinate_systems, only: directions_at

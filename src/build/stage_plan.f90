@@ -1,7 +1,6 @@
-!> What is asked about the natural oscillation of the structure after a stage: which modes, and the response to a load that
-!! oscillates. Types, and the damping that a table gives.
-!!
-!! The stages of the load history and the shares of their increments, as case control and JINCR cards give them.
+!> The stages of the load history and the fractions of their increments, as case control and JINCR cards give them; and what is
+!! asked about the oscillation of the structure after a stage: which modes, the response to a load that oscillates, the damping
+!! that a table gives.
 module stage_plan
    use case_control, only: method_back, method_newton
    use deck_errors, only: deck_error_list

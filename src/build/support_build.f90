@@ -1,9 +1,5 @@
-!> Supports: which components of which nodes are held.
-!!
-!! Supports that are moved: by SPCD, a total at the end of a stage among its loads, and by D of SPC, which stays from the end of the
-!! first stage on.
-!!
-!! Sets that SPCADD and MPCADD sum up.
+!> Supports: which components of which nodes are held, and which are moved: by SPCD, a total at the end of a stage among its
+!! loads, and by D of SPC, which stays from the end of the first stage on. SPCADD and MPCADD sum up sets.
 module support_build
    use bulk_data, only: has_component, set_sum_card, support_card
    use deck_check, only: checked_deck

@@ -1,8 +1,6 @@
-!> The sides of a marked surface as neighbours: which stand at a node, turned so that all face the same way, and which body elements
-!! lie behind them.
-!!
-!! A joint on one shared surface: where bodies lie on both sides of a marked surface and share its nodes, the nodes are
-!! doubled, so that interface elements can stand between them.
+!> The sides of a marked surface as neighbours: which stand at a node, turned so that all face the same way, and which body
+!! elements lie behind them. Where bodies lie on both sides of a surface that carries a joint and share its nodes, the nodes
+!! are doubled, so that interface elements can stand between them.
 module surface_sides
    use deck_check, only: checked_deck
    use element_kinds, only: element_table

@@ -1,7 +1,6 @@
-!> What case control asks of the oscillation after each stage, put together: the range of EIGRL, the frequencies of FREQ1 and FREQ4, the load, the
-!! damping, the nodes.
-!!
-!! The nodes that the tables of a stage are limited to, where OUTPUT names sets or marked surfaces; likewise those of RESPONSE.
+!> What case control asks of the oscillation after each stage, put together: the range of EIGRL, the frequencies of FREQ1 and
+!! FREQ4, the load, the damping, the nodes; and the nodes that the tables of a stage are limited to, where OUTPUT names sets or
+!! marked surfaces.
 module vibration_build
    use bulk_data, only: freq1_card, freq4_card
    use case_sets, only: find_set, number_set, numbers_in_set

@@ -1,7 +1,6 @@
-!> What a bolt bears after an increment, and of which load: of bars and of solid bolts alike.
-!!
-!! The answer at the end of a stage: the numbers that an engineer asks for, of the bodies, of each joint and of each bolt. What only
-!! rounding makes of them is zero, what means nothing is absent.
+!> The answer at the end of a stage: the numbers that an engineer asks for, of the bodies, of each joint, and of each bolt, be
+!! it a bar or of solids: what it bears, and of which load. What only rounding makes of them is zero, what means nothing is
+!! absent.
 module stage_answer
    use analysis_state, only: analysis_type
    use body_elements, only: element_centre, element_thermal_forces, felt_stiffness, node_stresses, whole_stress
