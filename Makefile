@@ -39,10 +39,12 @@ help:
 	@echo 'make mpi        the program on several processes, bin/jointfem_mpi; needs PETSc'
 	@echo 'make run        the worked example: the prism with 3, 5, 10 and 15 increments'
 	@echo 'make test       unit tests, every deck of input against reference_output, bad decks'
+	@echo 'make unit-test  only the unit tests; ONLY=test_joint_gaps: of that file'
 	@echo 'make check      only the decks against reference_output'
 	@echo 'make sanitize   decks under the address, undefined and thread sanitizers, and valgrind: minutes'
 	@echo 'make install PREFIX=dir  programs, manual pages, documents; default /usr/local'
 	@echo 'make accept CASE=name    take the results of input/name.bdf as the new reference; TABLES="stage bolt": of these too'
+	@echo 'make accept ACCEPT=failed   those of all decks that failed the last make check'
 	@echo 'make manual     the verification manual, reference_output/README.md, from runs'
 	@echo 'make bench      speed and memory, MODELS=small: only of small models'
 	@echo 'make coverage   which lines of src no test runs'
@@ -152,7 +154,7 @@ install: bin/jointfem bin/jointfit $(MAN_PAGES)
 run: bin/jointfem bin/jointfit
 	@mkdir -p $(BUILD)/run
 	bin/jointfem -o $(BUILD)/run input/prism03.bdf input/prism05.bdf input/prism10.bdf input/prism15.bdf
-	@awk -f tests/prism_table.awk $(BUILD)/run/prism03.joint.csv $(BUILD)/run/prism05.joint.csv \
+	@awk -f tests/exact/prism_table.awk $(BUILD)/run/prism03.joint.csv $(BUILD)/run/prism05.joint.csv \
 	   $(BUILD)/run/prism10.joint.csv $(BUILD)/run/prism15.joint.csv
 	@echo 'listings and joint histories: $(BUILD)/run'
 
@@ -181,26 +183,17 @@ test: bin/jointfem $(BUILD)/checked/jointfem $(BUILD)/checked/jointfit $(COMPARE
 
 .PHONY: check
 check: bin/jointfem $(COMPARE)
-	@tests/check.sh bin/jointfem $(COMPARE) $(BUILD)/check
+	@tests/compare/check.sh bin/jointfem $(COMPARE) $(BUILD)/check
 
 # PART=threads: only that part
 .PHONY: sanitize
 sanitize: bin/jointfem
-	@MAKE='$(MAKE)' FC='$(FC)' LIBRARIES='$(LIBRARIES)' tests/sanitize/run.sh $(BUILD)/sanitize $(PART)
+	@MAKE='$(MAKE)' FC='$(FC)' LIBRARIES='$(LIBRARIES)' tests/source/sanitize.sh $(BUILD)/sanitize $(PART)
 
-# The results of one deck become its reference: make accept CASE=prism05; its tables of stages, bolts, modes, their energy, response where
-# there are references of them, or where TABLES='stage bolt modes modes.energy response' asks for them
+# CASE=prism05: the results of this deck become its reference; ACCEPT=failed: those of all that failed the last `make check`
 .PHONY: accept
 accept: bin/jointfem
-	@test -n '$(CASE)' || { echo 'usage: make accept CASE=name, for input/name.bdf'; exit 1; }
-	@test -f 'input/$(CASE).bdf' || { echo 'there is no deck input/$(CASE).bdf'; exit 1; }
-	@mkdir -p $(BUILD)/accept
-	bin/jointfem -q -o $(BUILD)/accept 'input/$(CASE).bdf'
-	cp '$(BUILD)/accept/$(CASE).out' '$(BUILD)/accept/$(CASE).joint.csv' reference_output
-	for table in stage bolt modes modes.energy response; do test ! -f 'reference_output/$(CASE)'.$$table.csv || \
-	   cp '$(BUILD)/accept/$(CASE)'.$$table.csv reference_output; done
-	for table in $(TABLES); do cp '$(BUILD)/accept/$(CASE)'.$$table.csv reference_output || exit 1; done
-	@echo 'say in the commit message why the reference changed'
+	@TABLES='$(TABLES)' tests/compare/accept.sh bin/jointfem $(BUILD)/accept $(if $(filter failed,$(ACCEPT)),--failed $(BUILD)/check,'$(CASE)')
 
 # The verification manual, its numbers from runs
 .PHONY: manual
@@ -209,10 +202,10 @@ manual: bin/jointfem $(QUERY)
 
 # Speed and pictures ----------------------------------------------------------------------------------------------
 
-include tests/fuzz/fuzz.mk
+include tests/random/fuzz.mk
 include tests/bench/bench.mk
-include tests/coverage/coverage.mk
-include tests/mutants/mutants.mk
+include tests/source/coverage.mk
+include tests/source/mutants.mk
 
 # The figures of the paper; with DECK=path those of one deck, with DATA=file those of test data
 .PHONY: figures

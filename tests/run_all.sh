@@ -65,83 +65,43 @@ judge() {
    [ "$status" -ne 0 ] && [ "$3" -eq 0 ] && { echo "$title: status $status"; failed=$((failed + 1)); }
 }
 
-# A history of several stages as files for ParaView
-files_for_paraview() {
-   mkdir -p "$build/vtu-deck"
-   sed -E 's/^( *INCR = .*)/\1\n  OUTPUT = LAST, VTU/; /OUTPUT = (ALL|JOINT|LAST|NONE)$/d' input/prism_history.bdf > "$build/vtu-deck/history.bdf"
-   "$program" -q -o "$build/vtu-deck" "$build/vtu-deck/history.bdf" 2> /dev/null
-   sed -e '/^ *TEMPERATURE(LOAD) = 20/d' -e 's/^OUTPUT = .*/OUTPUT = LAST, STEPS/' input/flange_warm.bdf > "$build/vtu-deck/warm.bdf"
-   "$program" -q -o "$build/vtu-deck" "$build/vtu-deck/warm.bdf" > /dev/null 2>&1
-   mkdir -p "$build/vtu-deck/vibration" && cp input/vibration/beams.inc "$build/vtu-deck/vibration"
-   sed 's/^OUTPUT = NONE/OUTPUT = VTU/' input/lap_beams.bdf > "$build/vtu-deck/lap_beams.bdf"
-   "$program" -q -o "$build/vtu-deck" "$build/vtu-deck/lap_beams.bdf" > /dev/null 2>&1
-   tests/vtu/run.sh "$build/vtu" "$build/vtu-deck/history.pvd" "$build/vtu-deck/lap_beams.pvd" "$build/vtu-deck/warm.pvd@20:20:50:20" "$build/check/post_on_plate.pvd" \
-      "$build/check/column_tetra10.pvd"
-}
-
-# Decks of the fuzzer that have shown an error once, as seed:number
-pairs_once_wrong() {
-   local deck passed=0 failed=0
-   for deck in 1:102 1:3740 1:4498 1:4529; do
-      if tests/pairs/run.sh -s "${deck%:*}" -f "${deck#*:}" -n 1 "$program" "$build/test/pairs-once-wrong" > "$build/test/pairs-once-wrong.log" 2>&1
-      then passed=$((passed + 1))
-      else failed=$((failed + 1)); cat "$build/test/pairs-once-wrong.log"
-      fi
-   done
-   echo "$passed passed, $failed failed"
-   [ $failed -eq 0 ]
-}
-
-part 'decks against their references' tests/check.sh "$program" "$compare" "$build/check"
+part 'decks against their references' tests/compare/check.sh "$program" "$compare" "$build/check"
 everything_so_far
 part 'unit tests' ${MAKE:-make} --no-print-directory -s unit-test
-part 'modules use what stands to the left' tests/folders.sh README.md src
-part 'the tour of the source' tests/tour/readme.sh src/README.md src
+part 'modules use what stands to the left' tests/source/folders.sh README.md src
+part 'the tour of the source' tests/source/readme.sh src/README.md src
 part 'the test runner itself' env -u MAKELEVEL tests/runner/selftest.sh
-part 'the tools of make mutants and make coverage' tests/mutants/selftest.sh
+part 'the tools of make mutants and make coverage' tests/source/selftest.sh
 # the long ones first
 part 'bad decks and command lines' tests/bad/run.sh "$PWD/$checked"
-part 'runs that are killed and go on' tests/restart/run.sh "$program" "$build/restart"
-part 'decks made at random' tests/fuzz/run.sh -s 1984 -n 2000 -j 1 "$build/test/fuzz" checked="$checked"
-part 'the fuzzer itself' tests/fuzz/selftest.sh
-part 'decks in which every pair of features meets' tests/pairs/run.sh -s 1984 -n 100 "$program" "$build/test/pairs"
-part 'decks of pairs that showed an error once' pairs_once_wrong
-part 'the fuzzer of pairs itself' tests/pairs/selftest.sh "$program" "$build/test/pairs-selftest"
-part 'decks on other processors, built otherwise' tests/processors.sh "$program" "$compare" "$build" 46
-part 'worked examples of the tour' tests/tour/run.sh "$query" "$build/tour"
-part 'decks through the program with run-time checks' tests/check.sh "$checked" "$compare" "$build/check-checked"
-part 'what the paper says of the prism' tests/prism_findings.sh "$query" "$build/check"
+part 'runs that are killed and go on' tests/solver/restart.sh "$program" "$build/restart"
+part 'decks made at random' tests/random/fuzz.sh -s 1984 -n 2000 -j 1 "$build/test/fuzz" checked="$checked"
+part 'decks in which every pair of features meets' tests/random/pairs.sh -s 1984 -n 100 "$program" "$build/test/pairs"
+part 'decks of pairs that showed an error once' tests/random/pairs.sh -s 1 -f 102,3740,4498,4529 -n 1 "$program" "$build/test/pairs-again"
+part 'the two fuzzers themselves' tests/random/selftest.sh "$program" "$build/test/random-selftest"
+part 'decks on other processors, built otherwise' tests/compare/processors.sh "$program" "$compare" "$build" 46
+part 'worked examples of the tour' tests/source/tour.sh "$query" "$build/tour"
+part 'decks through the program with run-time checks' tests/compare/check.sh "$checked" "$compare" "$build/check-checked"
 part 'exact answers and independent computations' tests/exact/run.sh "$program" "$query" "$build/exact"
 part 'the verification manual as it stands' tests/manual/check.sh "$program" "$query" "$build/manual-check"
-part 'TREE and SKYLINE, one thread and several' tests/solver/run.sh "$program" "$query" "$build/solver"
-part 'models that do not fit into the memory' tests/memory.sh "$program" "$build/memory"
-part 'linear decks against CalculiX' tests/calculix/run.sh "$program" "$build/calculix"
-part 'natural frequencies against CalculiX' tests/calculix/frequencies.sh "$program" "$build/calculix-frequencies"
-part 'block, law and load over all decades' tests/sweep/run.sh "$program" "$build/sweep"
-part 'the same problems in 13 systems of units' tests/sweep/units.sh "$program" "$build/units"
-part 'the largest numbers, and what overflows' tests/sweep/widths.sh "$program" "$build/widths"
-part 'errors of elements as the manual has them' tests/elements.sh "$program" "$build/elements"
-part 'STEP tends to NEWTON' tests/convergence.sh "$program" "$query" "$build/convergence"
+part 'TREE and SKYLINE, one thread and several' tests/solver/tree_skyline.sh "$program" "$query" "$build/solver"
+part 'models that do not fit into the memory' tests/solver/memory.sh "$program" "$build/memory"
+part 'linear decks and their frequencies against CalculiX' tests/programs/calculix.sh "$program" "$build/calculix"
+part 'numbers of any size, systems of units' tests/exact/sweep.sh "$program" "$build/sweep"
+part 'errors of elements as the manual has them' tests/exact/run.sh "$program" "$query" "$build/elements" elements
+part 'STEP tends to NEWTON' tests/exact/run.sh "$program" "$query" "$build/convergence" convergence
 part 'the comparison itself' tests/compare/test_compare.sh "$compare" reference_output tests/compare/tolerances.txt
 part 'the queries of histories' tests/compare/test_query.sh "$query"
 part 'from test data to cards' tests/fit/run.sh "$build/checked/jointfit" "$program"
 part 'published surfaces' tests/fit/surfaces.sh "$program"
-part 'files for ParaView' files_for_paraview
-part 'meshes from Gmsh' tests/gmsh.sh "$program" "$query" "$build/gmsh"
-part 'decks to and from pyNastran' tests/pynastran/run.sh "$program" "$build/pynastran"
-part 'pictures of a deck, flow charts' tests/figures.sh "$program" "$build/test/figures"
+part 'files for ParaView' tests/programs/vtu.sh "$program" "$build/vtu" "$build"/check/{post_on_plate,column_tetra10}.pvd
+part 'meshes from Gmsh' tests/programs/gmsh.sh "$program" "$query" "$build/gmsh"
+part 'decks to and from pyNastran' tests/programs/pynastran.sh "$program" "$build/pynastran"
+part 'pictures of a deck, flow charts' tests/programs/figures.sh "$program" "$build/test/figures"
 part 'the benchmark, without measuring' tests/bench/test_bench.sh "$program" "$build/test/bench"
 everything_so_far
-# on several processes, one after another: they use all cores themselves
-distributed=${6:-none}
-together=1
-part 'on several processes: decks against TREE' tests/mpi/run.sh "$program" "$distributed" "$query" "$build/mpi-test" \
-   input/{prism_history,friction_once,gib,flange_warm,bracket_spiders,solid_bolt}.bdf \
-   input/{meshed_apart,column_tetra10,one_element,normal_loop}.bdf tests/solver/{boxes,moved_newton}.bdf
-part 'on several processes: their number' tests/mpi/ranks.sh "$program" "$distributed" "$query" "$build/mpi-ranks"
-part 'on several processes: bodies in pieces' tests/mpi/pieces.sh "$program" "$distributed" "$build/mpi-pieces"
-part 'on several processes: runs that fail' tests/mpi/failures.sh "$distributed" "$build/mpi-failures"
-part 'on several processes: steps' tests/mpi/iterations.sh "$distributed" "$build/mpi-steps"
+# several processes use all cores themselves
+part 'on several processes' tests/solver/mpi.sh "$program" "${6:-none}" "$query" "$build/mpi-test"
 everything_so_far
 echo '---- seconds of each part, in the order of their end'
 ls -tr "$build"/test/logs/*.seconds | while read -r seconds; do

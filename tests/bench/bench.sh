@@ -289,9 +289,9 @@ run_processes() {
 # ------------------------------------------------------------------ meshes from Gmsh: two blocks of linear tetrahedra, a column of second order
 measure_gmsh() {
    command -v gmsh > /dev/null || { echo 'bench: gmsh is not installed, its meshes are left out' >&2; return; }
-   "$here/../gmsh_fine.sh" "$work" || fail 'no mesh from gmsh'
+   "$here/../programs/gmsh_fine.sh" "$work" || fail 'no mesh from gmsh'
    measure_mesh two_blocks "$work/two_blocks_fine.bdf" "$work/gmsh/two_blocks_fine_mesh.bdf"
-   "$here/../calculix/column.sh" --mesh "$work" 15.7 || fail 'no column from gmsh'
+   "$here/../programs/column.sh" --mesh "$work" 15.7 || fail 'no column from gmsh'
    measure_mesh column "$work/column.bdf" "$work/column_mesh.bdf"
 }
 

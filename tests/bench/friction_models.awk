@@ -1,6 +1,6 @@
 # Models with friction, made at random, for counting iterations: friction_models.sh. The same SEED gives the same decks.
 #
-#    awk -v seed=1 -v from=1 -v to=200 -v folder=FOLDER -f tests/fuzz/random.awk -f tests/bench/friction_models.awk
+#    awk -v seed=1 -v from=1 -v to=200 -v folder=FOLDER -f tests/random/random.awk -f tests/bench/friction_models.awk
 #
 # Six kinds in turn: a block on a bed, a lap joint, a bolted flange, each in the plane (flanges also as rings) and in space. Faces match
 # or not, elements are of first or second order, shear laws straight, dependent on the pressure, or cubic with unloading, MU is 0.05 to

@@ -30,7 +30,7 @@ folder=$1
 shift
 mkdir -p "$folder"
 rm -f "$folder"/f[0-9][0-9][0-9].bdf "$folder/table"
-awk -v seed="$seed" -v from=1 -v to="$decks" -v folder="$folder" -f "$here/../fuzz/random.awk" -f "$here/friction_models.awk" || exit 1
+awk -v seed="$seed" -v from=1 -v to="$decks" -v folder="$folder" -f "$here/../random/random.awk" -f "$here/friction_models.awk" || exit 1
 [ $# -gt 0 ] || exit 0
 
 # run NUMBER PROGRAM DECK: a line `deck number status increments iterations most divided(list or -) seconds` for FOLDER/table

@@ -1,5 +1,5 @@
 # The patch test of MacNeal and Harder as whole decks, of CHEXA, CPENTA and CTETRA, linear and of second order: the stress is the
-# same in every element, to the six digits of the listing (to 1E-12: unit/test_patch_decks.pf), and the nodes inside move as the
+# same in every element, to the six digits of the listing (to 1E-12: unit/test_element_patches.pf), and the nodes inside move as the
 # corners do.
 
 # equations: node 9, of which the elements have one more, moves by an equation of 21 terms that every linear field fulfils: as the

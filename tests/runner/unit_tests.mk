@@ -3,6 +3,7 @@
 #    make unit-test                    pfunit where PFUNIT_DIR is set, else fallback
 #    make unit-test RUNNER=fallback    the translator and the module funit beside this file
 #    make unit-test RUNNER=pfunit      the pFUnit that is installed under PFUNIT_DIR
+#    make unit-test ONLY=test_gaps     one file of them, or several names
 #
 # The including makefile sets, above the include, FC, FFLAGS_CHECKED, BUILD, PF_FILES, CHECKED_LIBRARY, its CHECKED_OBJECTS, their
 # folder CHECKED_MODULES and LIBRARIES, and names its own default target; it has a rule for CHECKED_LIBRARY. The run fails when a
@@ -14,8 +15,10 @@ RUNNER ?= $(if $(PFUNIT_DIR),pfunit,fallback)
 
 UNIT_RUNNER  := $(patsubst %/,%,$(dir $(lastword $(MAKEFILE_LIST))))
 UNIT_FOLDER  := $(BUILD)/unit-$(RUNNER)
-UNIT_PROGRAM := $(UNIT_FOLDER)/unit_tests
-UNIT_NAMES   := $(notdir $(basename $(PF_FILES)))
+UNIT_CHOSEN  := $(if $(ONLY),$(ONLY:%=tests/unit/%.pf),$(PF_FILES))
+UNIT_PROGRAM := $(UNIT_FOLDER)/unit_tests$(if $(ONLY),_only)
+UNIT_DRIVER  := $(UNIT_FOLDER)/driver$(if $(ONLY),_only)
+UNIT_NAMES   := $(notdir $(basename $(UNIT_CHOSEN)))
 UNIT_OBJECTS := $(UNIT_NAMES:%=$(UNIT_FOLDER)/%.o)
 UNIT_SHARED  := $(sort $(wildcard tests/unit/*.f90))
 UNIT_HELPERS := $(UNIT_SHARED:tests/unit/%.f90=$(UNIT_FOLDER)/%.o)
@@ -48,11 +51,11 @@ export UNIT_REPORT
 # BLAS has one thread here, as the program gives it: several wait for each other by asking again and again, which takes many times
 # the work itself where other parts have the cores.
 unit-test: $(UNIT_PROGRAM)
-	@written=$$(cat /dev/null $(PF_FILES) | \
+	@written=$$(cat /dev/null $(UNIT_CHOSEN) | \
 	   $(AWK) 'tolower($$1) == "@test" { n++ } tolower($$1) == "@disable" { n-- } END { print n + 0 }'); \
 	scratch=$$(mktemp -d $(UNIT_FOLDER)/scratch.XXXXXX); trap 'rm -rf $$scratch' EXIT; \
-	status=0; OPENBLAS_NUM_THREADS=1 UNIT_SCRATCH=$$scratch $(UNIT_PROGRAM) > $(UNIT_FOLDER)/unit_tests.log 2>&1 || status=$$?; \
-	$(AWK) -v written=$$written -v status=$$status "$$UNIT_REPORT" $(UNIT_FOLDER)/unit_tests.log
+	status=0; OPENBLAS_NUM_THREADS=1 UNIT_SCRATCH=$$scratch $(UNIT_PROGRAM) > $(UNIT_PROGRAM).log 2>&1 || status=$$?; \
+	$(AWK) -v written=$$written -v status=$$status "$$UNIT_REPORT" $(UNIT_PROGRAM).log
 
 $(UNIT_FOLDER):
 	@mkdir -p $@
@@ -63,7 +66,7 @@ $(UNIT_HELPERS): $(UNIT_FOLDER)/%.o: tests/unit/%.f90 | $(UNIT_FOLDER) $(CHECKED
 
 # An object waits for the library, and is made anew for the modules alone that it uses.
 $(UNIT_FOLDER)/dependencies.mk: $(PF_FILES) $(UNIT_SHARED) $(UNIT_RUNNER)/dependencies.awk | $(UNIT_FOLDER)
-	@$(AWK) -v folder=$(UNIT_FOLDER) -v objects='$(UNIT_OBJECTS) $(UNIT_HELPERS) $(CHECKED_OBJECTS)' \
+	@$(AWK) -v folder=$(UNIT_FOLDER) -v objects='$(PF_FILES:tests/unit/%.pf=$(UNIT_FOLDER)/%.o) $(UNIT_HELPERS) $(CHECKED_OBJECTS)' \
 	   -f $(UNIT_RUNNER)/dependencies.awk /dev/null $(PF_FILES) $(UNIT_SHARED) > $@
 
 ifneq ($(MAKECMDGOALS),clean)
@@ -83,14 +86,14 @@ $(UNIT_FOLDER)/funit.o: $(UNIT_RUNNER)/funit.f90 | $(UNIT_FOLDER)
 	$(UNIT_COMPILE) -c $< -o $@
 
 # Written anew, so that the program is linked again, only when a test file comes or goes.
-$(UNIT_FOLDER)/driver.f90: unit-force | $(UNIT_FOLDER)
+$(UNIT_DRIVER).f90: unit-force | $(UNIT_FOLDER)
 	@$(UNIT_CHECK) -v mode=driver $(UNIT_NAMES) > $@.part
 	@cmp -s $@.part $@ || mv $@.part $@; rm -f $@.part
 
-$(UNIT_FOLDER)/driver.o: $(UNIT_FOLDER)/driver.f90 $(UNIT_FOLDER)/funit.o
+$(UNIT_DRIVER).o: $(UNIT_DRIVER).f90 $(UNIT_FOLDER)/funit.o
 	$(UNIT_COMPILE) -c $< -o $@
 
-$(UNIT_PROGRAM): $(UNIT_FOLDER)/driver.o $(UNIT_OBJECTS) $(UNIT_HELPERS) $(UNIT_FOLDER)/funit.o $(CHECKED_LIBRARY)
+$(UNIT_PROGRAM): $(UNIT_DRIVER).o $(UNIT_OBJECTS) $(UNIT_HELPERS) $(UNIT_FOLDER)/funit.o $(CHECKED_LIBRARY)
 	$(FC) $(FFLAGS_CHECKED) -o $@ $^ $(LIBRARIES)
 
 else ifeq ($(RUNNER),pfunit)
@@ -114,15 +117,15 @@ $(UNIT_NAMES:%=$(UNIT_FOLDER)/%.F90): $(UNIT_FOLDER)/%.F90: \
 $(UNIT_OBJECTS): $(UNIT_FOLDER)/%.o: $(UNIT_FOLDER)/%.F90 | $(CHECKED_LIBRARY)
 	$(UNIT_COMPILE) -I$(CHECKED_MODULES) $(PFUNIT_EXTRA_FFLAGS) -c $< -o $@
 
-$(UNIT_FOLDER)/suites.inc: unit-force | $(UNIT_FOLDER)
+$(UNIT_DRIVER)_suites.inc: unit-force | $(UNIT_FOLDER)
 	@for name in $(UNIT_NAMES); do echo "ADD_TEST_SUITE($${name}_suite)"; done > $@.part
 	@cmp -s $@.part $@ || mv $@.part $@; rm -f $@.part
 
 # No trapped exceptions here: pFUnit raises them itself when it compares infinities or a NaN.
-$(UNIT_FOLDER)/driver.o: $(PFUNIT_INCLUDE_DIR)/driver.F90 $(UNIT_FOLDER)/suites.inc
-	$(filter-out -ffpe-trap=%,$(UNIT_COMPILE)) $(PFUNIT_EXTRA_FFLAGS) -I$(UNIT_FOLDER) -D_TEST_SUITES='"suites.inc"' -c $< -o $@
+$(UNIT_DRIVER).o: $(PFUNIT_INCLUDE_DIR)/driver.F90 $(UNIT_DRIVER)_suites.inc
+	$(filter-out -ffpe-trap=%,$(UNIT_COMPILE)) $(PFUNIT_EXTRA_FFLAGS) -I$(UNIT_FOLDER) -D_TEST_SUITES='"$(notdir $(UNIT_DRIVER))_suites.inc"' -c $< -o $@
 
-$(UNIT_PROGRAM): $(UNIT_FOLDER)/driver.o $(UNIT_OBJECTS) $(UNIT_HELPERS) $(CHECKED_LIBRARY)
+$(UNIT_PROGRAM): $(UNIT_DRIVER).o $(UNIT_OBJECTS) $(UNIT_HELPERS) $(CHECKED_LIBRARY)
 	$(FC) $(FFLAGS_CHECKED) -o $@ $^ $(LIBRARIES) $(PFUNIT_LIBRARIES)
 
 endif

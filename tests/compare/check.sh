@@ -1,0 +1,59 @@
+#!/usr/bin/env bash
+# Every deck of input/ against its listing and history in reference_output/, and against its other tables (stages, bolts, modes, their
+# energy, response) where a reference of these is there: first diff, then, where the text differs,
+# a comparison with a tolerance per quantity (tests/compare/tolerances.txt).
+#
+#    check.sh PROGRAM COMPARE WORK_FOLDER [NAME...]     all decks, or those named
+#
+# WORK_FOLDER/failed names the decks that failed. Prints the differences and a last line `N passed, N failed`; fails on any failure, and on a missing or surplus reference.
+set -u
+program=$1 compare=$2 work=$3
+shift 3
+passed=0 failed=0
+mkdir -p "$work"
+: > "$work/failed"
+
+fail() { echo "FAILED $1"; failed=$((failed + 1)); }
+
+check_deck() {
+   local name=$1 suffix status
+   rm -f "$work/$name.out" "$work/$name".*.csv
+   "$program" -q -o "$work" "input/$name.bdf" > "$work/$name.log" 2>&1
+   status=$?
+   if [ $status -ne 0 ]; then
+      cat "$work/$name.log"
+      fail "$name: exit status $status"
+      return
+   fi
+   for suffix in out joint.csv stage.csv bolt.csv modes.csv modes.energy.csv response.csv; do
+      local reference=reference_output/$name.$suffix actual=$work/$name.$suffix
+      if [ ! -f "$reference" ]; then
+         case $suffix in out|joint.csv) ;; *) continue ;; esac
+         fail "$name.$suffix: no reference; make accept CASE=$name takes the present result as one"
+      elif cmp -s "$reference" "$actual"; then
+         passed=$((passed + 1))
+      elif "$compare" tests/compare/tolerances.txt "$reference" "$actual"; then
+         passed=$((passed + 1))
+      else
+         fail "$name.$suffix"
+      fi
+   done
+}
+
+if [ $# -gt 0 ]; then
+   names=$*
+else
+   names=$(for deck in input/*.bdf; do basename "$deck" .bdf; done)
+   for reference in reference_output/*.out reference_output/*.csv; do
+      name=$(basename "$reference"); name=${name%.out}; name=${name%.csv}
+      for table in joint stage bolt energy modes response; do name=${name%.$table}; done
+      [ -f "input/$name.bdf" ] || fail "$reference: there is no deck input/$name.bdf"
+   done
+fi
+for name in $names; do
+   before=$failed
+   check_deck "$name"
+   [ $failed -eq $before ] || echo "$name" >> "$work/failed"
+done
+echo "$passed passed, $failed failed"
+[ $failed -eq 0 ] && [ $passed -gt 0 ]

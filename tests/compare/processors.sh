@@ -1,0 +1,70 @@
+#!/usr/bin/env bash
+# Every deck against its reference on other processors and by other optimisations: under the kernels that OpenBLAS has for
+# them, and built without optimisation and with more of it, contracted to this processor's instructions. A kernel whose instructions
+# this processor does not have is skipped. Of the listings LEAST must be the same bytes under all kernels; one that is not is named with
+# the first line that differs.
+#
+#    processors.sh PROGRAM COMPARE BUILD_FOLDER LEAST
+set -u
+program=$1 compare=$2 build=$3 least=$4
+passed=0 failed=0
+
+# decks WHAT PROGRAM FOLDER: one check, its differences and its share of the sum
+decks() {
+   local last
+   tests/compare/check.sh "$2" "$compare" "$3" > "$3.log" 2>&1
+   last=$(tail -n 1 "$3.log")
+   set -- "$1" $last
+   passed=$((passed + ${2:-0})) failed=$((failed + ${4:-1}))
+   [ "${4:-1}" = 0 ] || { echo "$1:"; cat "$build/processors/$1.log"; }
+}
+
+mkdir -p "$build/processors"
+# kernel NAME INSTRUCTIONS: the decks under this kernel where the processor has these INSTRUCTIONS
+kernel() {
+   local name=$1 instruction
+   shift
+   for instruction in "$@"; do
+      grep -qw "$instruction" /proc/cpuinfo && continue
+      echo "skipped: kernel $name: this processor has no $instruction"
+      return
+   done
+   OPENBLAS_CORETYPE=$name decks $name "$program" "$build/processors/$name"
+   kernels+=("$name")
+}
+kernels=()
+kernel Haswell avx2 fma
+kernel Zen avx2 fma
+kernel SkylakeX avx512f avx512dq avx512bw avx512vl
+kernel Sandybridge avx
+kernel Nehalem sse4_2
+
+same=0
+for deck in input/*.bdf; do
+   name=$(basename "$deck" .bdf).out
+   differs=
+   for kernel in "${kernels[@]}"; do
+      cmp -s "$build/processors/$kernels/$name" "$build/processors/$kernel/$name" || differs=$kernel
+   done
+   if [ -z "$differs" ]; then
+      same=$((same + 1))
+   else
+      echo "$name differs under $kernels and $differs:"
+      diff "$build/processors/$kernels/$name" "$build/processors/$differs/$name" | awk '/^[<>]/ && !seen[$1]++'
+   fi
+done
+echo "$same listings are the same bytes under ${kernels[*]}, at least $least expected"
+if [ "$same" -ge "$least" ]; then passed=$((passed + 1)); else failed=$((failed + 1)); fi
+
+for flags in '-O0' '-O3 -march=native'; do
+   name=${flags%% *} name=${name#-}
+   if ${MAKE:-make} --no-print-directory -s -j2 BUILD="$build/$name" BIN="$build/$name/bin" "$build/$name/bin/jointfem" \
+      FFLAGS="$flags" > "$build/processors/$name.log" 2>&1; then
+      decks $name "$build/$name/bin/jointfem" "$build/processors/$name"
+   else
+      cat "$build/processors/$name.log"
+      failed=$((failed + 1))
+   fi
+done
+echo "$passed passed, $failed failed"
+[ $failed -eq 0 ] && [ $passed -gt 0 ]

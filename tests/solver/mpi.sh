@@ -1,0 +1,115 @@
+#!/usr/bin/env bash
+# Runs on several processes, in parts; each is skipped, and nothing counted, where there is no mpirun or no program by `make mpi`.
+#
+#    mpi.sh PROGRAM PROGRAM_MPI QUERY WORK_FOLDER [PART...]      all parts, or those named
+#
+# decks       SOLVER = PETSC and MUMPS, on one process and on two, against TREE of the program without MPI, within 1E-8: some decks;
+#             all of them with ALL=yes in the environment
+# ranks       PETSC on one, two and three processes and MUMPS on one and three, histories equal to 1E-9; and to AUTO it is as if there
+#             were none: a small model gets the solver of the program without MPI, to the same bytes, and one whose factor TREE could
+#             not hold gets PETSC
+# pieces, failures, iterations   mpi_PART.sh
+# Ends with `N passed, N failed`.
+set -u
+export LC_ALL=C
+program=$1 query=$3 top=$4
+passed=0 failed=0
+if ! [ -x "$2" ] || ! command -v mpirun > /dev/null; then
+   echo 'skipped: runs on several processes: PETSc or mpirun is not installed (libpetsc-real-dev, pkg-config)'
+   echo '0 passed, 0 failed'
+   exit 0
+fi
+distributed=$(realpath "$2")
+. tests/solver/lib.sh
+shift 4
+[ $# -gt 0 ] || set -- decks ranks pieces failures iterations
+
+pass() { passed=$((passed + 1)); }
+fail() { failed=$((failed + 1)); echo "FAILED $1"; }
+
+# folders_of_decks FOLDER: INCLUDE looks beside the deck
+folders_of_decks() {
+   local included
+   mkdir -p "$1"
+   for included in input/*/ tests/solver/*.inc; do ln -s "$PWD/${included%/}" "$1/"; done
+}
+
+# on_processes N FOLDER DECK...: results into FOLDER; more processes than cores take turns
+export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMP_NUM_THREADS=1 OMPI_MCA_mpi_yield_when_idle=1
+on_processes() {
+   local n=$1 folder=$2
+   shift 2
+   timeout 900 mpirun -q --oversubscribe -n "$n" "$distributed" -q -o "$folder" "$@" < /dev/null
+}
+
+decks() {
+   local deck name way solver n folder words
+   compare_within 1e-8
+   mkdir -p "$work"/{tree,petsc1,petsc2,mumps2}
+   folders_of_decks "$work/decks"
+   if [ "${ALL:-}" ]; then set -- input/*.bdf tests/solver/*.bdf
+   else set -- input/{prism_history,friction_once,gib,flange_warm,bracket_spiders,solid_bolt}.bdf \
+      input/{meshed_apart,column_tetra10,one_element,normal_loop}.bdf tests/solver/{boxes,moved_newton}.bdf
+   fi
+   for deck; do
+      name=$(basename "$deck" .bdf)
+      with_solver "$deck" TREE > "$work/decks/$name.bdf"
+      if ! "$program" -q -o "$work/tree" "$work/decks/$name.bdf" > "$work/tree/$name.log" 2>&1; then
+         echo "$name: does not run by TREE"; failed=$((failed + 1))
+         continue
+      fi
+      for way in 'PETSC 1' 'PETSC 2' 'MUMPS 2'; do
+         read -r solver n <<< "$way"
+         folder=$work/${solver,,}$n
+         with_solver "$deck" $solver > "$work/decks/$name.bdf"
+         if words=$(on_processes $n "$folder" "$work/decks/$name.bdf" 2>&1) &&
+            words=$(same_history "$work/tree/$name" "$folder/$name"); then
+            pass
+         else
+            failed=$((failed + 1))
+            echo "$name by $solver on $n: $words" | head -n 5
+         fi
+      done
+   done
+}
+
+ranks() {
+   local name way solver n folder words deck mib
+   compare_within 1e-9
+   mkdir -p "$work"/{petsc1,petsc2,petsc3,mumps1,mumps3,auto,serial,limited}
+   folders_of_decks "$work/decks"
+   for name in prism_history flange_sector solid_bolt meshed_apart column_tetra10 one_element; do
+      for way in 'PETSC 1' 'PETSC 2' 'PETSC 3' 'MUMPS 1' 'MUMPS 3'; do
+         read -r solver n <<< "$way"
+         folder=$work/${solver,,}$n
+         with_solver "input/$name.bdf" $solver > "$work/decks/$name.bdf"
+         words=$(on_processes $n "$folder" "$work/decks/$name.bdf" 2>&1) || { fail "$name by $way: $words"; continue; }
+         [ "$way" = 'PETSC 1' ] && continue
+         if words=$(same_history "$work/petsc1/$name" "$folder/$name"); then pass; else fail "$name by $way: $words"; fi
+      done
+   done
+
+   for deck in input/prism10.bdf input/flange_pair.bdf tests/solver/boxes.bdf; do
+      name=$(basename "$deck" .bdf)
+      "$program" -q --threads 1 -o "$work/serial" "$deck" > /dev/null 2>&1
+      on_processes 1 "$work/auto" "$deck" > /dev/null 2>&1
+      if cmp -s "$work/serial/$name.out" "$work/auto/$name.out"; then pass; else fail "$name by AUTO: another listing"; fi
+   done
+
+   # the address space is limited; Open MPI, PETSc and what BLAS reserves take part of it, so that the limit is found: the first in which it runs
+   tests/bench/make_deck.sh hex8_24x24x24 AUTO NONE | sed 's/^JINCR,5.*/JINCR,5,1/' > "$work/block.bdf"
+   for mib in 450 500 550 600 650 700 750 800; do
+      ( ulimit -v $((1024*mib)); timeout 100 "$distributed" -q --threads 1 -o "$work/limited" "$work/block.bdf" ) > "$work/said" 2>&1 && break
+   done
+   if grep -q 'SOLVER PETSC' "$work/limited/block.out" && grep -qE 'AUTO: TREE WOULD NEED [0-9]+ MIB, MORE THAN THERE ARE' "$work/limited/block.out"
+   then pass; else fail "24 x 24 x 24 in $mib MiB: $(grep SOLVER "$work/limited/block.out" || head -n 3 "$work/said")"; fi
+}
+
+for part in "$@"; do
+   work=$top/$part
+   rm -rf "$work"
+   mkdir -p "$work"
+   if [ -e "tests/solver/mpi_$part.sh" ]; then . "tests/solver/mpi_$part.sh"; else $part; fi
+done
+echo "$passed passed, $failed failed"
+[ $failed -eq 0 ] && [ $passed -gt 0 ]

@@ -1,0 +1,65 @@
+#!/usr/bin/env bash
+# Every deck of input/ (two large ones by TREE alone), and those beside this script, moved supports, one large enough for several threads, one large enough to be
+# ordered by a coarse graph, by SOLVER = TREE and by SOLVER = SKYLINE: the same results. By TREE with one thread and with several: the same bytes.
+#
+#    tree_skyline.sh PROGRAM QUERY WORK_FOLDER
+set -u
+export LC_ALL=C
+program=$1 query=$2 work=$3
+here=tests/solver
+. $here/lib.sh
+compare_within 1e-9
+passed=0 failed=0
+rm -rf "$work"
+mkdir -p "$work/tree" "$work/skyline" "$work/threads"
+for kind in tree skyline; do
+   for included in input/*/ $here/*.inc; do ln -s "$PWD/${included%/}" "$work/$kind/"; done # INCLUDE looks beside the deck
+done
+
+# run FOLDER DECK_FOLDER [OPTION...]: the deck NAME
+run() {
+   local folder=$1 decks=$2
+   shift 2
+   "$program" -q "$@" -o "$work/$folder" "$work/$decks/$name.bdf" > "$work/$folder/$name.log" 2>&1 && return
+   cat "$work/$folder/$name.log"
+   return 1
+}
+
+same() {
+   local suffix
+   for suffix in out joint.csv; do
+      cmp "$work/$1/$name.$suffix" "$work/$2/$name.$suffix" || return 1
+   done
+}
+
+# too many unknowns for the profile: minutes by SKYLINE
+by_tree_alone='bracket flanged_column'
+
+for deck in input/*.bdf $here/*.bdf; do
+   name=$(basename "$deck" .bdf)
+   with_solver "$deck" TREE > "$work/tree/$name.bdf"
+   with_solver "$deck" SKYLINE > "$work/skyline/$name.bdf"
+   words=
+   if [[ " $by_tree_alone " = *" $name "* ]]; then
+      if run tree tree --threads 1; then passed=$((passed + 1)) words='by TREE alone'; else failed=$((failed + 1)) words='FAILED to run'; fi
+   elif run tree tree --threads 1 && run skyline skyline; then
+      if words=$(same_history "$work/skyline/$name" "$work/tree/$name" &&
+                 awk -f $here/compare.awk "$work/skyline/$name.out" "$work/tree/$name.out"); then
+         passed=$((passed + 1))
+      else
+         failed=$((failed + 1)) words="FAILED $words"
+      fi
+   else
+      failed=$((failed + 1)) words='FAILED to run'
+   fi
+   for threads in 2 3; do
+      if run threads tree --threads $threads && same tree threads; then
+         passed=$((passed + 1))
+      else
+         failed=$((failed + 1)) words="$words; FAILED with $threads threads"
+      fi
+   done
+   printf '%-20s %s\n' "$name" "$words"
+done
+echo "$passed passed, $failed failed"
+[ $failed -eq 0 ]

@@ -1,0 +1,55 @@
+#!/usr/bin/env bash
+# src/README.md against src: every module stands once in the table of its folder, and no other; the folders use each other as it
+# shows; its snippets stand word for word in the patches; what it names is there; its links lead somewhere.
+#
+#    readme.sh README SOURCE_FOLDER
+set -u
+export LC_ALL=C
+readme=$1 source=$2 here=tests/source
+passed=0 failed=0
+check() { if [ -z "$2" ]; then passed=$((passed + 1)); else echo "$1:"; echo "$2"; failed=$((failed + 1)); fi; }
+
+modules=$(cd "$source" && ls */*.f90 | sed 's/\.f90$//' | sort)
+told=$(awk '/^### `/ { folder = $2; gsub(/`/, "", folder) } /^## / { folder = "" }
+   folder != "" && /^\| `/ { split($0, part, "`"); print folder "/" part[2] }' "$readme" | sort)
+check "modules that are not in the tables of $readme (<), or there and gone or twice (>)" "$(diff <(echo "$modules") <(echo "$told"))"
+check 'modules without a sentence' "$(grep -E '^\| `[a-z0-9_]+` \| *\|$' "$readme")"
+check "what the folders use, in $readme (<) and in $source (>)" \
+   "$(diff <(awk '/^What uses what/ { on = 1 } on && /^```/ { if (on++ == 2) exit; next } on == 2' "$readme") \
+           <(awk -f $here/folder_uses.awk "$source"/*/*.f90))"
+
+# a fenced block ```diff FILE stands in FILE, line after line
+snippets=$(awk '/^```diff / { file = $2; n = 0; next }
+   file != "" && /^```$/ {
+      blocks++
+      found = lines = 0
+      while ((getline line < file) > 0) text[++lines] = line
+      close(file)
+      for (i = 1; i <= lines - n + 1 && !found; i++) {
+         for (k = 1; k <= n && text[i + k - 1] == block[k]; k++) ;
+         found = k > n
+      }
+      if (!found || n == 0) print "line " FNR - n ": these lines do not stand in " file
+      file = ""
+      next
+   }
+   file != "" { block[++n] = $0 }
+   END { if (blocks == 0) print "there are none" }' "$readme")
+check 'snippets' "$snippets"
+
+# names with an underscore in the charts, and all names between back-quotes, are words of the source, of the examples or of the tests
+named=$(awk '/^```/ { fence = !fence; is_text = $0 == "```"; next }
+   fence && is_text { while (match($0, /[a-z][a-z0-9]*_[a-z0-9_]*/)) { print substr($0, RSTART, RLENGTH); $0 = substr($0, RSTART + RLENGTH) } }
+   !fence { n = split($0, part, "`"); for (i = 2; i <= n; i += 2) if (part[i] ~ /^[a-z][a-z0-9_%]*$/) print part[i] }' "$readme" | sort -u)
+words=$(cat "$source"/*.f90 "$source"/*/*.f90 $here/*.patch | grep -oE '[a-z][a-z0-9_%]*' | sort -u)
+folders=$(ls "$source" | sort)
+check 'names that are nowhere in the source' "$(comm -23 <(echo "$named") <(printf '%s\n%s\nk_b\nk_s\nk_int\n' "$words" "$folders" | sort -u))"
+
+paths=$(grep -oE '`(src|input|tests)/[a-z0-9_./]+`' "$readme" | tr -d '`' | sort -u)
+check 'files that are not there' "$(for path in $paths; do [ -e "$path" ] || grep -qx "+++ b/$path" $here/*.patch || echo "$path"; done)"
+
+links=$(grep -oE '\]\([^)#]+' "$readme" | cut -c3- | sort -u)
+check 'links that lead nowhere' "$(cd "$(dirname "$readme")" && for link in $links; do [ -e "$link" ] || echo "$link"; done)"
+
+echo "$passed passed, $failed failed"
+[ $failed -eq 0 ]

@@ -1,0 +1,143 @@
+#!/usr/bin/env bash
+# The program under the sanitizers of gcc: every address that is used is one of its own, no memory is lost, no number is undefined
+# behaviour, and no two tasks of TREE use the same number without an order between them.
+#
+#    sanitize.sh WORK_FOLDER [PART...]      parts: address bad threads memcheck; all of them. Some minutes; not a part of `make test`
+#
+# address   -fsanitize=address,undefined with its look for leaks: every deck of input, decks with errors, jointfit on test data
+# bad       the bad decks and command lines of tests/bad with the same program
+# threads   -fsanitize=thread. libgomp is not instrumented, every task would be a race: OpenMP is threads_in_view.c here, BLAS
+#           plain_blas.f90; that the sanitizer sees what it should is shown by programs broken in each of the parallel parts
+# memcheck  valgrind, where it is installed: uninitialised numbers too, on small decks, of the program as it is built for use
+#
+# What the compiler does not have or is not installed is skipped, and said. The last line is `N passed, N failed`.
+set -u
+work=$1
+shift
+[ $# -gt 0 ] || set -- address bad threads memcheck
+make=${MAKE:-make} fc=${FC:-gfortran} libraries=${LIBRARIES:--larpack -lmetis -lopenblas}
+passed=0 failed=0
+mkdir -p "$work/results"
+
+# verdict WHAT STATUS LOG PATTERN: LOG has nothing of PATTERN, and the exit status is one of the program's own
+verdict() {
+   if [ "$2" -gt 4 ] || grep -qE "$4" "$3"; then
+      failed=$((failed + 1))
+      echo "FAILED $1: status $2"
+      grep -E -A 12 "$4" "$3" | head -n 40
+   else
+      passed=$((passed + 1))
+   fi
+}
+
+# built FOLDER FLAGS OBJECTS: the programs of this project with other FLAGS. Where the compiler has these for a program of one line the
+# failure is ours.
+built() {
+   "$make" --no-print-directory BUILD="$work/$1" BIN="$work/$1" FC="$fc" FFLAGS="-O1 -g -fbacktrace $2" \
+      LIBRARIES="$3 $libraries" "$work/$1/jointfem" "$work/$1/jointfit" > "$work/$1.log" 2>&1 && return 0
+   echo end > "$work/$1.f90"
+   if "$fc" $2 -o "$work/$1.out" "$work/$1.f90" > /dev/null 2>&1; then
+      failed=$((failed + 1)); echo "FAILED $1: it cannot be built"; tail -n 3 "$work/$1.log"
+   else
+      echo "$1: skipped, $fc has no $2"
+   fi
+   return 1
+}
+
+address() {
+   local deck log="$work/address-run.log"
+   built address '-fsanitize=address,undefined -fno-omit-frame-pointer' '' || return
+   export ASAN_OPTIONS=detect_leaks=1 UBSAN_OPTIONS=print_stacktrace=1
+   for deck in input/*.bdf; do
+      "$work/address/jointfem" -q -o "$work/results" "$deck" > "$log" 2>&1
+      verdict "address: $deck" $? "$log" 'ERROR: .*Sanitizer|runtime error'
+      awk 'NR % 7 == 3 { sub(/,[^,]*/, ",X") } { print }' "$deck" > "$work/bad.bdf"
+      "$work/address/jointfem" -q -o "$work/results" "$work/bad.bdf" > "$log" 2>&1
+      verdict "address: $deck, damaged" $? "$log" 'ERROR: .*Sanitizer|runtime error'
+   done
+   for deck in tests/fit/*.dat; do
+      "$work/address/jointfit" "$deck" > "$log" 2>&1
+      verdict "address: jointfit $deck" $? "$log" 'ERROR: .*Sanitizer|runtime error'
+   done
+}
+
+bad() {
+   local log="$work/bad-run.log"
+   built address '-fsanitize=address,undefined -fno-omit-frame-pointer' '' || return
+   LIMIT=600 ASAN_OPTIONS=detect_leaks=1:exitcode=99 UBSAN_OPTIONS=halt_on_error=1:exitcode=99 tests/bad/run.sh "$work/address/jointfem" > "$log" 2>&1
+   grep FAILED -A 6 "$log"
+   set -- $(grep -E '^[0-9]+ passed, [0-9]+ failed$' "$log" | tail -n 1 || echo 0 passed, 1 failed)
+   passed=$((passed + ${1:-0})) failed=$((failed + ${3:-1}))
+}
+
+threads() {
+   local model name seed log="$work/threads-run.log"
+   command -v gcc > /dev/null || { echo 'threads: skipped, there is no gcc'; return; }
+   mkdir -p "$work/threads"
+   gcc -O1 -g -c tests/source/threads_in_view.c -o "$work/threads/view.o" &&
+      "$fc" -O1 -g -fsanitize=thread -c tests/source/plain_blas.f90 -o "$work/threads/blas.o" || return
+   rm -f "$work"/threads/joint* # linked anew with what is made here
+   built threads '-fsanitize=thread' "$work/threads/view.o $work/threads/blas.o" || return
+   if nm -u "$work/threads/jointfem" | grep -E 'GOMP_|omp_'; then # left to libgomp, all of it were out of sight
+      failed=$((failed + 1)); echo 'FAILED threads: threads_in_view.c does not have what is named above'; return
+   fi
+   export TSAN_OPTIONS=detect_deadlocks=0 # libgfortran locks its units in either order
+   # the third: more nodes than layouts of fronts are tried one by one for, more rows than a table prints at once
+   for model in 'hex8_10x10x10 NONE' 'q4_160x40 ALL' 'q4_2600x8 LAST' 'over_10x8x4 NONE 2'; do
+      set -- $model
+      tests/bench/make_deck.sh "$1" TREE "$2" ${3:-} | sed 's/^JINCR,5,20,.*/JINCR,5,3,ARITH,0.1/' > "$work/$1.bdf"
+      for seed in 1 2; do
+         OMP_NUM_THREADS=4 TASKS_SEED=$seed "$work/threads/jointfem" -q -o "$work/results" "$work/$1.bdf" > "$log" 2>&1
+         verdict "threads: $1, seed $seed" $? "$log" 'ThreadSanitizer'
+      done
+   done
+   mkdir -p "$work/broken"
+   cp "$work"/threads/release/*.mod "$work/broken"
+   broken 'times that the fronts of a factorisation add up in no order' solver/front_factor hex8_10x10x10 '/omp atomic/ { next }'
+   broken 'solutions whose fronts leave all in one place' solver/front_solve hex8_10x10x10 '{ gsub(/%left \+/, "%r*0 +") }'
+   broken 'fronts that count their places together' solver/front_tree q4_2600x8 \
+      '/front%left|fronts\(f\)%left/ { next } /tree%n_left = / { next } /allocate \(front%rows\(front%r\)\)/ {
+       print "            front%left = tree%n_left"; print "            tree%n_left = tree%n_left + front%r" }'
+   broken 'layouts that share one order' solver/front_layout q4_2600x8 '/omp parallel/ { sub(/ private\(postponed\)/, "") }'
+   broken 'rows of a table written over each other' result/listing_bodies q4_2600x8 '{ sub(/lines\(part\), used\(part\)\)$/, "lines(1), used(1))") }'
+   broken 'stresses of elements in one place' result/listing_bodies q4_2600x8 '/stress\(:n_stresses/ { sub(/%state\), e\)/, "%state), 1)") }'
+   broken 'stresses that are compared in one place' result/stage_answer q4_2600x8 '/omp parallel do/ { n = 3 } n-- > 0 { sub(/size_of\(e\)/, "size_of(1)") }'
+}
+
+# broken WHAT SOURCE DECK AWK: what the sanitizer must see, else nothing said above were worth much
+broken() {
+   local what=$1 source=$2 deck=$3 name=${2##*/} seed log="$work/threads-run.log"
+   awk "$4 { print }" "src/$source.f90" > "$work/broken/$name.f90"
+   if cmp -s "src/$source.f90" "$work/broken/$name.f90"; then
+      failed=$((failed + 1)); echo "FAILED threads: $source.f90 has no longer what is to be broken: $what"
+      return
+   fi
+   "$fc" -O1 -g -fopenmp -fsanitize=thread -std=f2018 -J"$work/broken" -c "$work/broken/$name.f90" -o "$work/broken/$name.o" &&
+   "$fc" -O1 -g -fopenmp -fsanitize=thread -I"$work/threads/release" -o "$work/broken/jointfem" src/jointfem.f90 \
+      $(ls "$work"/threads/release/*.o | grep -v "/$name.o") "$work/broken/$name.o" "$work/threads/view.o" \
+      "$work/threads/blas.o" $libraries
+   for seed in 1 2 3 4 5 6; do # on a busy machine one thread may happen to do all
+      OMP_NUM_THREADS=4 TASKS_SEED=$seed "$work/broken/jointfem" -q -o "$work/results" "$work/$deck.bdf" > "$log" 2>&1
+      grep -q 'ThreadSanitizer: data race' "$log" && break
+   done
+   if grep -q 'ThreadSanitizer: data race' "$log"; then
+      passed=$((passed + 1))
+   else
+      failed=$((failed + 1)); echo "FAILED threads: $what: nothing is seen"
+   fi
+}
+
+memcheck() {
+   local deck log="$work/memcheck-run.log"
+   command -v valgrind > /dev/null || { echo 'memcheck: skipped, valgrind is not installed'; return; }
+   for deck in prism05 flange_pair bracket_spiders solid_bolt meshed_apart friction_full; do
+      # valgrind has no AVX-512: OpenBLAS takes kernels that it can follow
+      OPENBLAS_CORETYPE=Haswell OPENBLAS_NUM_THREADS=1 valgrind --leak-check=full --errors-for-leak-kinds=definite \
+         bin/jointfem -q --threads 1 -o "$work/results" "input/$deck.bdf" > "$log" 2>&1
+      verdict "memcheck: $deck" $? "$log" 'Invalid (read|write)|uninitialised|definitely lost: [1-9]'
+   done
+}
+
+for part; do "$part"; done
+echo "$passed passed, $failed failed"
+[ $failed -eq 0 ]
