@@ -193,7 +193,6 @@ contains
 
       tree%is_parallel = layout%static_operations + layout%refactored_operations > parallel_work
       tree%number = number
-      allocate (tree%fronts(layout%n))
       allocate (first(size(layout%order)), weight(size(layout%order)))
       tree%n = 0
       do k = 1, size(layout%order)
@@ -201,7 +200,7 @@ contains
          weight(k) = count(number(:, layout%order(k)) > 0)
          tree%n = tree%n + weight(k)
       end do
-      allocate (tree%of_equation(tree%n))
+      allocate (tree%fronts(layout%n), tree%of_equation(tree%n))
       allocate (tree%diagonal(tree%n), source=0.0_wp)
       allocate (tree%locked(tree%n), source=.false.)
       !$omp parallel do schedule(dynamic, 64) default(shared) private(d, i, n_rows, node) if(tree%is_parallel)
@@ -226,10 +225,6 @@ contains
          end associate
       end do
       !$omp end parallel do
-      do f = 1, layout%n
-         tree%fronts(f)%left = tree%n_left
-         tree%n_left = tree%n_left + tree%fronts(f)%r
-      end do
       call list_owners(layout%n, reshape(layout%parent, [1, layout%n]), first_child, children)
       !$omp parallel do schedule(dynamic, 64) default(shared) private(i, k) if(tree%is_parallel)
       do f = 1, layout%n
@@ -250,15 +245,16 @@ contains
                end if
             end do
             ! a run begins where the place in the parent is not right behind the one before, or is the first beyond its pivots
-            associate (at => front%in_parent)
-               front%run = [pack([(i, i=1, front%r)], at /= [0, at(:front%r - 1) + 1] .or. at == parent%p + 1), front%r + 1]
-            end associate
+            front%run = [pack([(i, i=1, front%r)], front%in_parent /= [0, front%in_parent(:front%r - 1) + 1] .or. &
+                                                   front%in_parent == parent%p + 1), front%r + 1]
          end associate
       end do
       !$omp end parallel do
       call hand_out_elements(model, tree)
       do f = 1, layout%n
          associate (front => tree%fronts(f))
+            front%left = tree%n_left
+            tree%n_left = tree%n_left + front%r
             front%work = front%work + front_operations(real(front%p, wp), real(front%r, wp))
             if (front%parent > 0) tree%fronts(front%parent)%work = tree%fronts(front%parent)%work + front%work
          end associate
