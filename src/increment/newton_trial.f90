@@ -105,7 +105,7 @@ contains
 
       allocate (body, mold=direction)
       call forces_in_bodies(system, direction, body)
-      g_0 = work_on(now)
+      g_0 = sum(now%residual*direction, mask=.not. analysis%held) ! the work of the unbalanced forces on DIRECTION
       step = 1.0_wp
       call try(step, g)
       if (next%size <= 0.5_wp*now%size .or. abs(g) <= enough*abs(g_0)) return
@@ -162,15 +162,8 @@ contains
          next%body = now%body + alpha*body
          call evaluate(model, system, load, analysis, next)
          g_alpha = -sign(sqrt(huge(1.0_wp)), g_0)          ! far too long
-         if (next%size < huge(1.0_wp)) g_alpha = work_on(next)
+         if (next%size < huge(1.0_wp)) g_alpha = sum(next%residual*direction, mask=.not. analysis%held)
       end subroutine try
-
-      !> Work of the unbalanced forces of TRIAL on DIRECTION.
-      real(wp) function work_on(trial) result(work)
-         type(trial_type), intent(in) :: trial
-
-         work = sum(trial%residual*direction, mask=.not. analysis%held)
-      end function work_on
 
    end subroutine search
 

@@ -101,10 +101,8 @@ contains
             return
          end select
       end do
-      if (size(command%decks) == 0) then
-         call complain(program, 'no deck given')
-         return
-      end if
+      ok = size(command%decks) > 0
+      if (.not. ok) call complain(program, 'no deck given')
       if (command%resume) then
          do i = 1, size(command%decks)
             if (command%decks(i)%path /= standard_input) cycle
@@ -112,7 +110,7 @@ contains
             return
          end do
       end if
-      call name_results(command, ok)
+      if (ok) call name_results(command, ok)
       if (.not. ok) return
       finished = .false.
       status = 0
