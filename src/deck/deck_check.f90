@@ -2,6 +2,7 @@
 !! laws of joints whose parts are missing.
 module deck_check
    use bulk_data, only: bulk_data_type
+   use card_fields, only: number_of
    use card_reader, only: card_kind
    use case_control, only: case_control_type
    use deck_cards, only: add_field_error, card_name
@@ -64,7 +65,7 @@ contains
       character(*), intent(in)           :: field, message
       character(*), intent(in), optional :: called !! in the message, where not by its name
 
-      call self%field_error(line, self%kinds(self%kind_of_line(line))%number_of(field), message, called)
+      call self%field_error(line, number_of(self%kinds(self%kind_of_line(line))%fields, field), message, called)
    end subroutine named_field_error
 
    !> The same about data field K. NOUN: what it names, in front of its name.
@@ -79,7 +80,7 @@ contains
       if (present(called)) then
          name = called
       else
-         name = trim(self%kinds(self%kind_of_line(line))%table(k)%name)
+         name = trim(self%kinds(self%kind_of_line(line))%fields(k))
       end if
       if (present(noun)) name = noun//' '//name
       call add_field_error(self%text, line, k, name, message, self%errors)

@@ -1,10 +1,9 @@
 !> A deck: its text, its case control, its bulk data. Read in one go, all errors collected.
 module deck_input
    use bulk_data, only: bulk_data_type
-   use card_lines, only: card_type
    use card_reader, only: card_kind, card_reader_type
    use case_control, only: case_control_type, read_case_control
-   use deck_cards, only: card_name, check_first_field, is_continuation, read_card
+   use deck_cards, only: card_name, card_type, check_first_field, is_continuation, read_card
    use deck_errors, only: deck_error_list
    use deck_text, only: deck_text_of_bytes, deck_text_type, read_deck_text
    use joint_cards, only: read_jgap, read_cjoint, read_jincr, read_jnorm, read_joint, read_jshear, read_pjoint
@@ -14,8 +13,8 @@ module deck_input
    use mesh_cards, only: complete_remedy, read_block, read_edge, read_element, read_grid, read_pmark, fill_grid_defaults, &
                          read_grid_defaults, read_system, system_names
    use nastran_compatibility, only: is_idle_card
-   use parameter_cards, only: read_parameter
-   use property_cards, only: read_conrod, read_mat1, read_paxis, read_prod, read_pshell, read_psolid, read_temperature
+   use property_cards, only: read_conrod, read_mat1, read_paxis, read_parameter, read_prod, read_pshell, read_psolid, &
+                             read_temperature
    use rigid_cards, only: read_equation, read_rigid
    use spring_cards, only: read_mass, read_spring, read_spring_property
    use support_cards, only: read_displacement, read_equation_sum, read_support, read_support_sum
@@ -86,6 +85,37 @@ contains
       call cards%add_kinds(['PARAM'], read_parameter)
    end subroutine list_cards
 
+   !> Every array of BULK as long as its cards will make it at most.
+   subroutine make_room(cards, bulk)
+      type(card_reader_type), intent(in)  :: cards
+      type(bulk_data_type), intent(inout) :: bulk
+
+      allocate (bulk%grid(cards%n_of('GRID')), bulk%system(2*cards%n_of('CORD1R')), bulk%element(cards%n_of('CHEXA')), &
+         bulk%edge(cards%n_of('CROD')), bulk%block(cards%n_of('BLOCK2')), bulk%pmark(cards%n_of('PMARK')), &
+         bulk%pshell(cards%n_of('PSHELL')), bulk%paxis(cards%n_of('PAXIS')), bulk%psolid(cards%n_of('PSOLID')), &
+         bulk%prod(cards%n_of('PROD')), bulk%conrod(cards%n_of('CONROD')), bulk%spring(cards%n_of('CBUSH')), &
+         bulk%spring_property(2*cards%n_of('PBUSH')), bulk%mass(cards%n_of('CONM2')), bulk%mat1(cards%n_of('MAT1')), &
+         bulk%support(2*cards%n_of('SPC')), bulk%support_sum(cards%n_of('SPCADD')), bulk%rigid(cards%n_of('RBE2')), &
+         bulk%equation(cards%n_of('MPC')), bulk%equation_sum(cards%n_of('MPCADD')), bulk%force(cards%n_of('FORCE')), &
+         bulk%pressure(cards%n_of('PLOAD')), bulk%surface_load(cards%n_of('PLOADM')), bulk%gravity(cards%n_of('GRAV')), &
+         bulk%displacement(2*cards%n_of('SPCD')), bulk%temperature(4*cards%n_of('TEMP')), bulk%load(cards%n_of('LOAD')), &
+         bulk%bolt(cards%n_of('BOLT')), bulk%joint(cards%n_of('JOINT')), bulk%cjoint(cards%n_of('CJOINT')), &
+         bulk%pjoint(cards%n_of('PJOINT')), bulk%jnorm(cards%n_of('JNORM')), bulk%jshear(cards%n_of('JSHEAR')), &
+         bulk%jgap(cards%n_of('JGAP')), bulk%jincr(cards%n_of('JINCR')), bulk%eigrl(cards%n_of('EIGRL')), &
+         bulk%freq1(cards%n_of('FREQ1')), bulk%freq4(cards%n_of('FREQ4')), bulk%tabdmp1(cards%n_of('TABDMP1')))
+   end subroutine make_room
+
+   !> The arrays whose cards may fill one entry or several are cut to those that were filled.
+   subroutine give_back(bulk)
+      type(bulk_data_type), intent(inout) :: bulk
+
+      bulk%system = bulk%system(:count(bulk%system%line > 0))
+      bulk%spring_property = bulk%spring_property(:count(bulk%spring_property%line > 0))
+      bulk%support = bulk%support(:count(bulk%support%line > 0))
+      bulk%displacement = bulk%displacement(:count(bulk%displacement%line > 0))
+      bulk%temperature = bulk%temperature(:count(bulk%temperature%line > 0))
+   end subroutine give_back
+
    !> Read the deck PATH. READABLE is false where the file itself cannot be read; what is wrong in it goes to ERRORS.
    subroutine read_deck(path, deck, errors, readable)
       character(*), intent(in)             :: path
@@ -123,12 +153,14 @@ contains
          call errors%add(0, 'no BEGIN BULK: expected it between case control and the cards')
          return
       end if
-      call cards%start(deck%text, errors)
+      call cards%start(deck%text%n)
       call list_cards(cards)
       deck%bulk%idle = deck%control%idle
       deck%bulk%parameters = deck%control%parameters
       call find_cards(deck%text, cursor, cards, deck%bulk, errors)
-      call cards%read_all(deck%bulk)
+      call make_room(cards, deck%bulk)
+      call cards%read_all(deck%text, deck%bulk, errors)
+      call give_back(deck%bulk)
       call fill_grid_defaults(deck%bulk)
       call count_unused(deck%bulk)
       associate (asked => deck%control%stages%vibration)

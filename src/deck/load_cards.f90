@@ -3,11 +3,9 @@
 !! The cards of loads: FORCE, FORCE1, FORCE2, MOMENT, PLOAD4, PLOADE, PLOAD, PLOADM, FORCEM, GRAV, LOAD, BOLT. A routine for each
 !! array of the bulk data, a table for each kind.
 module load_cards
-   use bulk_data, only: bolt_card, bulk_data_type, force_card, gravity_card, of_edge, of_face, of_nodes, pressure_card, &
-                        surface_load_card
-   use card_lines, only: card_values, decode_integer, decode_real
-   use card_reader, only: card_reader_type
-   use field_rules, only: any_field, integer_field, real_field, word_field
+   use bulk_data, only: bulk_data_type, of_edge, of_face, of_nodes, pressure_card
+   use card_fields, only: card_fields_type
+   use field_rules, only: positive
    use kinds, only: wp
    use text_tools, only: integer_text
    implicit none
@@ -90,37 +88,33 @@ contains
 
    !> FORCE: the vector F (N1, N2, N3) at one node, in system CID; the direction is not made a unit vector, as in NASTRAN. MOMENT:
    !! likewise. FORCE1: F along the line from G1 to G2; FORCE2: F along the vector product of the lines G1-G2 and G3-G4.
-   subroutine read_force(cards, bulk)
-      type(card_reader_type), intent(inout) :: cards
+   subroutine read_force(card, bulk)
+      type(card_fields_type), intent(inout) :: card
       type(bulk_data_type), intent(inout)   :: bulk
-      type(card_values) :: values
-      integer :: i
+      real(wp) :: f, direction(3)
 
-      call cards%set_table([integer_field(['SID', 'G  ']), integer_field('CID', default=0, least=0), real_field('F'), &
-         real_field(['N1', 'N2', 'N3'], default=0.0_wp)], 'FORCE')
-      call cards%set_table([integer_field(['SID', 'G  ']), integer_field('CID', default=0, least=0), real_field('M'), &
-         real_field(['N1', 'N2', 'N3'], default=0.0_wp)], 'MOMENT')
-      call cards%set_table([integer_field(['SID', 'G  ']), real_field('F'), integer_field(['G1', 'G2'])], 'FORCE1')
-      call cards%set_table([integer_field(['SID', 'G  ']), real_field('F'), integer_field(['G1', 'G2', 'G3', 'G4'])], 'FORCE2')
-      allocate (bulk%force(cards%n))
-      do i = 1, cards%n
-         call cards%next(values)
-         associate (force => bulk%force(i), integers => values%integers)
-            force = force_card(line=cards%line, set=integers(1), node=integers(2), is_moment=cards%card%name == 'MOMENT')
-            select case (cards%card%name)
-            case ('FORCE1')
-               force%ends(:2) = integers(4:5)
-               force%force(1) = values%reals(3)
-            case ('FORCE2')
-               force%ends = integers(4:7)
-               force%force(1) = values%reals(3)
-            case default
-               call cards%check_direction('N1', trim(merge('the moment', 'the force ', force%is_moment)), values)
-               force%system = integers(3)
-               force%force = values%reals(4)*values%reals(5:7)
-            end select
-         end associate
-      end do
+      associate (force => bulk%force(card%i))
+         force%is_moment = card%name == 'MOMENT'
+         call card%field('SID', force%set)
+         call card%field('G', force%node)
+         select case (card%name)
+         case ('FORCE1')
+            call card%field('F', force%force(1))
+            call card%field(['G1', 'G2'], force%ends(:2))
+            call card%finish(force%line)
+         case ('FORCE2')
+            call card%field('F', force%force(1))
+            call card%field(['G1', 'G2', 'G3', 'G4'], force%ends)
+            call card%finish(force%line)
+         case default
+            call card%field('CID', force%system, default=0, least=0)
+            call card%field(merge('M', 'F', force%is_moment), f)
+            call card%field(['N1', 'N2', 'N3'], direction, default=0.0_wp)
+            call card%finish(force%line)
+            call card%check_direction('N1', trim(merge('the moment', 'the force ', force%is_moment)), direction)
+            force%force = f*direction
+         end select
+      end associate
    end subroutine read_force
 
    !> PLOAD4: pressure on a face of a solid, positive into it: P1 at G1, P2 to P4 at the next corners as the right hand goes
@@ -129,185 +123,167 @@ contains
    !! the pressure acts along their normals. A direction N1, N2, N3 in system CID makes of the pressure a traction along it.
    !! PLOADE: pressure on the edge G1-G2 of a plane or axisymmetric element, positive into the body.
    !! PLOAD: pressure on the face with the corners G1 to G3 or G4, along the right-hand normal as these go round.
-   subroutine read_pressure(cards, bulk)
-      type(card_reader_type), intent(inout) :: cards
+   subroutine read_pressure(card, bulk)
+      type(card_fields_type), intent(inout) :: card
       type(bulk_data_type), intent(inout)   :: bulk
-      type(card_values) :: values
-      integer :: i
+      character(8) :: word
 
-      call cards%set_table([integer_field(['SID', 'EID']), real_field('P1'), real_field(['P2', 'P3', 'P4'], default=0.0_wp), &
-         any_field(['G1 ', 'G34']), integer_field('CID', default=0, least=0), &
-         real_field(['N1', 'N2', 'N3'], default=0.0_wp), word_field('SORL', '|SURF|'), word_field('LDIR', '|NORM|')], 'PLOAD4')
-      call cards%set_table([integer_field(['SID', 'EID']), real_field('P'), integer_field(['G1', 'G2'])], 'PLOADE')
-      call cards%set_table([integer_field('SID'), real_field('P'), integer_field(['G1', 'G2', 'G3']), &
-         integer_field('G4', default=0)], 'PLOAD')
-      allocate (bulk%pressure(cards%n))
-      do i = 1, cards%n
-         call cards%next(values)
-         associate (pressure => bulk%pressure(i), integers => values%integers)
-            pressure = pressure_card(line=cards%line, set=integers(1))
-            select case (cards%card%name)
-            case ('PLOAD4')
-               pressure%kind = of_face
-               pressure%first = integers(2)
-               pressure%pressure = merge(values%reals(3:6), values%reals(3), values%given(3:6))
-               pressure%system = integers(9)
-               pressure%direction = values%reals(10:12)
-               call read_face(cards, pressure)
-            case ('PLOADE')
-               pressure%kind = of_edge
-               pressure%first = integers(2)
-               pressure%corners(:2) = integers(4:5)
-               pressure%pressure = values%reals(3)
-            case default
-               pressure%kind = of_nodes
-               pressure%corners = integers(3:6)
-               pressure%pressure = values%reals(2)
-            end select
-         end associate
-      end do
+      associate (pressure => bulk%pressure(card%i), p => bulk%pressure(card%i)%pressure)
+         call card%field('SID', pressure%set)
+         select case (card%name)
+         case ('PLOAD4')
+            pressure%kind = of_face
+            call card%field('EID', pressure%first)
+            call card%field('P1', p(1))
+            call card%field(['P2', 'P3', 'P4'], p(2:), default=p(1))
+            call card%skip(['G1 ', 'G34'])
+            call card%field('CID', pressure%system, default=0, least=0)
+            call card%field(['N1', 'N2', 'N3'], pressure%direction, default=0.0_wp)
+            call card%word('SORL', '|SURF|', word)
+            call card%word('LDIR', '|NORM|', word)
+            call card%finish(pressure%line)
+            call read_face(card, pressure)
+         case ('PLOADE')
+            pressure%kind = of_edge
+            call card%field('EID', pressure%first)
+            call card%field('P', p(1))
+            call card%field(['G1', 'G2'], pressure%corners(:2))
+            call card%finish(pressure%line)
+            p = p(1)
+         case default
+            pressure%kind = of_nodes
+            call card%field('P', p(1))
+            call card%field(['G1', 'G2', 'G3'], pressure%corners(:3))
+            call card%field('G4', pressure%corners(4), default=0)
+            call card%finish(pressure%line)
+            p = p(1)
+         end select
+      end associate
    end subroutine read_pressure
 
    !> Data fields 7 and 8 of a PLOAD4: two corners of a face, or THRU and the last of the elements that mark faces.
-   subroutine read_face(cards, pressure)
-      type(card_reader_type), intent(inout) :: cards
+   subroutine read_face(card, pressure)
+      type(card_fields_type), intent(inout) :: card
       type(pressure_card), intent(inout)    :: pressure
-      character(*), parameter :: expected = 'a node number or THRU'
       integer :: k
       logical :: ok
 
-      associate (card => cards%card)
-         pressure%last = pressure%first
-         if (card%n < 7) return
-         if (card%fields(7)%text == 'THRU') then
-            if (card%n < 8) then
-               call card%field_error(8, 'EID2: blank, expected the number of an element behind THRU', cards%errors)
-               return
-            end if
-            call decode_integer(card, 8, 'EID2', 'the number of an element', pressure%last, ok, cards%errors)
-            if (ok .and. pressure%last < pressure%first) call card%field_error(8, 'EID2: '//integer_text(pressure%last)// &
-               ' is less than EID, expected '//integer_text(pressure%first)//' or more', cards%errors)
-            pressure%last = max(pressure%last, pressure%first)
-            return
-         end if
-         do k = 7, min(8, card%n)
-            if (card%fields(k)%length == 0) cycle
-            call decode_integer(card, k, trim(merge('G1 ', 'G34', k == 7)), expected, pressure%corners(k - 6), ok, cards%errors)
-            if (ok .and. pressure%corners(k - 6) < 1) call card%field_error(k, trim(merge('G1 ', 'G34', k == 7))//': '''// &
-               integer_text(pressure%corners(k - 6))//''' is no node number', cards%errors)
+      pressure%last = pressure%first
+      if (card%text_at(7) /= 'THRU') then
+         do k = 7, 8
+            if (card%text_at(k) /= '') call card%node_at(k, trim(merge('G1 ', 'G34', k == 7)), 'a node number or THRU', &
+                                                         pressure%corners(k - 6), ok)
          end do
-      end associate
+      else if (card%n < 8) then
+         call card%error_at(8, 'EID2: blank, expected the number of an element behind THRU')
+      else
+         call card%integer_at(8, 'EID2', 'the number of an element', pressure%last, ok)
+         if (ok .and. pressure%last < pressure%first) call card%error_at(8, 'EID2: '//integer_text(pressure%last)// &
+            ' is less than EID, expected '//integer_text(pressure%first)//' or more')
+         pressure%last = max(pressure%last, pressure%first)
+      end if
    end subroutine read_face
 
    !> PLOADM: pressure on a marked surface, positive into the body. FORCEM: a total force F (N1, N2, N3), spread evenly over it.
-   subroutine read_surface_load(cards, bulk)
-      type(card_reader_type), intent(inout) :: cards
+   subroutine read_surface_load(card, bulk)
+      type(card_fields_type), intent(inout) :: card
       type(bulk_data_type), intent(inout)   :: bulk
-      type(card_values) :: values
-      integer :: i
+      real(wp) :: f, direction(3)
 
-      call cards%set_table([integer_field('SID'), real_field('P'), integer_field('PID')], 'PLOADM')
-      call cards%set_table([integer_field('SID'), real_field('F'), real_field(['N1', 'N2', 'N3'], default=0.0_wp), &
-         integer_field('PID')], 'FORCEM')
-      allocate (bulk%surface_load(cards%n))
-      do i = 1, cards%n
-         call cards%next(values)
-         associate (load => bulk%surface_load(i))
-            load = surface_load_card(line=cards%line, set=values%integers(1), is_pressure=cards%card%name == 'PLOADM')
-            if (load%is_pressure) then
-               load%pressure = values%reals(2)
-               load%surface = values%integers(3)
-            else
-               call cards%check_direction('N1', 'the force', values)
-               load%force = values%reals(2)*values%reals(3:5)
-               load%surface = values%integers(6)
-            end if
-         end associate
-      end do
+      associate (load => bulk%surface_load(card%i))
+         load%is_pressure = card%name == 'PLOADM'
+         call card%field('SID', load%set)
+         if (load%is_pressure) then
+            call card%field('P', load%pressure)
+         else
+            call card%field('F', f)
+            call card%field(['N1', 'N2', 'N3'], direction, default=0.0_wp)
+         end if
+         call card%field('PID', load%surface)
+         call card%finish(load%line)
+         if (load%is_pressure) return
+         call card%check_direction('N1', 'the force', direction)
+         load%force = f*direction
+      end associate
    end subroutine read_surface_load
 
    !> GRAV: acceleration A (N1, N2, N3) on all bodies, with RHO of MAT1.
-   subroutine read_gravity(cards, bulk)
-      type(card_reader_type), intent(inout) :: cards
+   subroutine read_gravity(card, bulk)
+      type(card_fields_type), intent(inout) :: card
       type(bulk_data_type), intent(inout)   :: bulk
-      type(card_values) :: values
-      integer :: i
+      real(wp) :: a, direction(3)
+      integer  :: body
 
-      call cards%set_table([integer_field('SID'), integer_field('CID', default=0, least=0), real_field('A'), &
-         real_field(['N1', 'N2', 'N3'], default=0.0_wp), integer_field('MB', default=0, least=-1, most=0)]) ! no superelements
-      allocate (bulk%gravity(cards%n))
-      do i = 1, cards%n
-         call cards%next(values)
-         call cards%check_direction('N1', 'the acceleration', values)
-         bulk%gravity(i) = gravity_card(line=cards%line, set=values%integers(1), system=values%integers(2), &
-                                        acceleration=values%reals(3)*values%reals(4:6))
-      end do
+      associate (gravity => bulk%gravity(card%i))
+         call card%field('SID', gravity%set)
+         call card%field('CID', gravity%system, default=0, least=0)
+         call card%field('A', a)
+         call card%field(['N1', 'N2', 'N3'], direction, default=0.0_wp)
+         call card%field('MB', body, default=0, least=-1, most=0) ! no superelements
+         call card%finish(gravity%line)
+         call card%check_direction('N1', 'the acceleration', direction)
+         gravity%acceleration = a*direction
+      end associate
    end subroutine read_gravity
 
    !> LOAD: S (S1 L1 + S2 L2 + ...), the sets L being those of load cards other than LOAD.
-   subroutine read_load(cards, bulk)
-      type(card_reader_type), intent(inout) :: cards
+   subroutine read_load(card, bulk)
+      type(card_fields_type), intent(inout) :: card
       type(bulk_data_type), intent(inout)   :: bulk
-      type(card_values) :: values
       real(wp) :: factor
-      integer  :: i, k, set
+      integer  :: k, set
       logical  :: factor_ok, set_ok
 
-      call cards%set_table([integer_field('SID'), real_field('S'), real_field('S1'), integer_field('L1')], open_ended=.true.)
-      allocate (bulk%load(cards%n))
-      do i = 1, cards%n
-         call cards%next(values)
-         associate (load => bulk%load(i), card => cards%card)
-            load%line = card%line
-            load%set = values%integers(1)
-            load%scale = values%reals(2)
-            load%factors = values%reals(3:3)
-            load%sets = values%integers(4:4)
-            load%at = [4]
-            do k = 5, card%n, 2
-               if (k + 1 > card%n) then
-                  call card%field_error(k, 'S: a factor without its load set', cards%errors)
-                  exit
-               end if
-               if (card%fields(k)%text == '' .and. card%fields(k + 1)%text == '') cycle
-               if (card%fields(k)%text == '' .or. card%fields(k + 1)%text == '') then
-                  call card%field_error(k, 'S: a factor S and its load set L go together, one of them is blank', cards%errors)
-                  cycle
-               end if
-               call decode_real(card, k, 'S', 'a real number', factor, factor_ok, cards%errors)
-               call decode_integer(card, k + 1, 'L', 'a load set number', set, set_ok, cards%errors)
-               if (.not. (factor_ok .and. set_ok)) cycle
-               if (set < 1) call card%field_error(k + 1, 'L: '''//integer_text(set)// &
-                                                  ''' is out of range, expected a load set number of 1 or more', cards%errors)
-               load%factors = [load%factors, factor]
-               load%sets = [load%sets, set]
-               load%at = [load%at, k + 1]
-            end do
-         end associate
-      end do
+      associate (load => bulk%load(card%i))
+         load%line = card%line
+         call card%field('SID', load%set)
+         call card%field('S', load%scale)
+         call card%field('S1', factor)
+         call card%field('L1', set)
+         load%factors = [factor]
+         load%sets = [set]
+         load%at = [4]
+         do k = 5, card%n, 2
+            if (k + 1 > card%n) then
+               call card%error_at(k, 'S: a factor without its load set')
+               exit
+            end if
+            if (card%text_at(k) == '' .and. card%text_at(k + 1) == '') cycle
+            if (card%text_at(k) == '' .or. card%text_at(k + 1) == '') then
+               call card%error_at(k, 'S: a factor S and its load set L go together, one of them is blank')
+               cycle
+            end if
+            call card%real_at(k, 'S', 'a real number', factor, factor_ok)
+            call card%integer_at(k + 1, 'L', 'a load set number', set, set_ok)
+            if (.not. (factor_ok .and. set_ok)) cycle
+            if (set < 1) call card%error_at(k + 1, 'L: '''//integer_text(set)// &
+                                            ''' is out of range, expected a load set number of 1 or more')
+            load%factors = [load%factors, factor]
+            load%sets = [load%sets, set]
+            load%at = [load%at, k + 1]
+         end do
+      end associate
    end subroutine read_load
 
    !> BOLT: the CROD EID, or the solid cut at the surface PMARK, tightened to PRELOAD in SUBCASE STAGE and locked in the later
    !! ones.
-   subroutine read_bolt(cards, bulk)
-      type(card_reader_type), intent(inout) :: cards
+   subroutine read_bolt(card, bulk)
+      type(card_fields_type), intent(inout) :: card
       type(bulk_data_type), intent(inout)   :: bulk
-      type(card_values) :: values
-      integer :: i
 
-      call cards%set_table([integer_field('BID'), integer_field('EID', default=0), real_field('PRELOAD', above=0.0_wp), &
-         integer_field('STAGE', default=1), integer_field('PMARK', default=0)])
-      allocate (bulk%bolt(cards%n))
-      do i = 1, cards%n
-         call cards%next(values)
-         if (values%given(2) .and. values%given(5)) then
-            call cards%error('PMARK', 'a bolt is a CROD, EID, or a solid cut at a surface, PMARK, not both')
-         else if (.not. (values%given(2) .or. values%given(5))) then
-            call cards%error('EID', 'blank, expected a CROD, or in field 6 the PMARK at which a solid is cut')
-         end if
-         bulk%bolt(i) = bolt_card(line=cards%line, id=values%integers(1), element=values%integers(2), &
-                                  preload=values%reals(3), stage=values%integers(4), surface=values%integers(5))
-      end do
+      associate (bolt => bulk%bolt(card%i))
+         call card%field('BID', bolt%id)
+         call card%field('EID', bolt%element, default=0)
+         call card%field('PRELOAD', bolt%preload, positive)
+         call card%field('STAGE', bolt%stage, default=1)
+         call card%field('PMARK', bolt%surface, default=0)
+         call card%finish(bolt%line)
+      end associate
+      if (all(card%given(['EID  ', 'PMARK']))) then
+         call card%error('PMARK', 'a bolt is a CROD, EID, or a solid cut at a surface, PMARK, not both')
+      else if (.not. any(card%given(['EID  ', 'PMARK']))) then
+         call card%error('EID', 'blank, expected a CROD, or in field 6 the PMARK at which a solid is cut')
+      end if
    end subroutine read_bolt
 
 end module load_cards

@@ -1,14 +1,10 @@
-!> The cards of coordinate systems: CORD1R, CORD1C, CORD1S by three nodes, CORD2R, CORD2C, CORD2S by three points; GRDSET, the
-!! defaults of GRID.
-!!
-!! The cards of the mesh: GRID, body elements, the edges CBAR and CROD, PMARK, and the blocks BLOCK2 and BLOCK3. A routine for each
-!! array of the bulk data, a table for each kind.
+!> The cards of the mesh: GRID and its defaults GRDSET, coordinate systems by three nodes (CORD1R, CORD1C, CORD1S) or three points
+!! (CORD2R, CORD2C, CORD2S), body elements, the edges CBAR and CROD, PMARK, and the blocks BLOCK2 and BLOCK3.
 module mesh_cards
-   use bulk_data, only: bulk_data_type, edge_cbar, edge_crod, grid_card, grid_defaults_card, pmark_card, system_card
-   use card_lines, only: card_values
-   use card_reader, only: card_reader_type
-   use element_kinds, only: element_table, kind_hexa20, kind_penta15, kind_quad4, kind_quad8, kind_tria3, kind_tria6, n_kinds
-   use field_rules, only: any_field, blank_field, component_field, field_rule, integer_field, real_field
+   use bulk_data, only: block_card, bulk_data_type, edge_cbar, edge_crod, system_card
+   use card_fields, only: card_fields_type
+   use element_kinds, only: element_table, kind_hexa20, kind_penta15, kind_quad4, kind_quad8, kind_tria3, kind_tria6, max_nodes
+   use field_rules, only: parse_integer, positive
    use kinds, only: wp
    use text_tools, only: integer_text
    implicit none
@@ -17,7 +13,9 @@ module mesh_cards
    public :: read_system, read_grid_defaults, fill_grid_defaults, read_grid, read_element, read_edge, read_pmark, read_block
 
    character(6), parameter, public :: system_names(6) = ['CORD1R', 'CORD1C', 'CORD1S', 'CORD2R', 'CORD2C', 'CORD2S']
-
+   character(3), parameter :: node_names(max_nodes) = ['G1 ', 'G2 ', 'G3 ', 'G4 ', 'G5 ', 'G6 ', 'G7 ', 'G8 ', 'G9 ', 'G10', &
+      'G11', 'G12', 'G13', 'G14', 'G15', 'G16', 'G17', 'G18', 'G19', 'G20']
+   character(2), parameter :: side_names(6) = ['S1', 'S2', 'S3', 'S4', 'S5', 'S6'] ! of a block
    character(*), parameter, public :: complete_remedy = ' (in Gmsh set Mesh.SecondOrderIncomplete = 1)'
 
    real(wp), parameter :: most_elements = 2.0e7_wp         ! of a block
@@ -27,55 +25,53 @@ contains
 
    !> CORD1: one or two systems, each by its origin, a node on its z and one in its x-z plane. CORD2: the same by coordinates in
    !! system RID.
-   subroutine read_system(cards, bulk)
-      type(card_reader_type), intent(inout) :: cards
+   subroutine read_system(card, bulk)
+      type(card_fields_type), intent(inout) :: card
       type(bulk_data_type), intent(inout)   :: bulk
-      type(card_values) :: values
-      integer :: first, i, kind, n
+      type(system_card) :: second
 
-      do kind = 1, 3
-         call cards%set_table([integer_field(['CIDA', 'G1A ', 'G2A ', 'G3A ']), &
-                               integer_field(['CIDB', 'G1B ', 'G2B ', 'G3B '], default=0)], system_names(kind))
-         call cards%set_table([integer_field('CID'), integer_field('RID', default=0, least=0), &
-            real_field(['A1', 'A2', 'A3', 'B1', 'B2', 'B3', 'C1', 'C2', 'C3'], default=0.0_wp)], system_names(kind + 3))
-      end do
-      allocate (bulk%system(2*cards%n))
-      n = 0
-      do i = 1, cards%n
-         call cards%next(values)
-         kind = findloc(system_names, cards%card%name(:6), dim=1)
-         if (kind > 3) then
-            n = n + 1
-            bulk%system(n) = system_card(line=cards%line, id=values%integers(1), kind=kind - 3, reference=values%integers(2), &
-                                         points=reshape(values%reals(3:11), [3, 3]))
+      associate (system => bulk%system(card%i))
+         system%kind = modulo(findloc(system_names, card%name(:6), dim=1) - 1, 3) + 1
+         if (card%name(5:5) == '2') then
+            call card%field('CID', system%id)
+            call card%field('RID', system%reference, default=0, least=0)
+            call card%field(['A1', 'A2', 'A3'], system%points(:, 1), default=0.0_wp)
+            call card%field(['B1', 'B2', 'B3'], system%points(:, 2), default=0.0_wp)
+            call card%field(['C1', 'C2', 'C3'], system%points(:, 3), default=0.0_wp)
+            call card%finish(system%line)
          else
-            if (any(values%given(5:8)) .and. .not. all(values%given(5:8))) &
-               call cards%error('CIDB', 'a second system needs CIDB, G1B, G2B and G3B, all four')
-            do first = 1, merge(5, 1, all(values%given(5:8))), 4
-               n = n + 1
-               bulk%system(n) = system_card(line=cards%line, id=values%integers(first), kind=kind, &
-                                            field=first, nodes=values%integers(first + 1:first + 3))
-            end do
+            call card%field('CIDA', system%id)
+            call card%field(['G1A', 'G2A', 'G3A'], system%nodes)
+            call card%field('CIDB', second%id, default=0)
+            call card%field(['G1B', 'G2B', 'G3B'], second%nodes, default=0)
+            call card%finish(system%line)
+            associate (has_field => card%given(['CIDB', 'G1B ', 'G2B ', 'G3B ']))
+               if (all(has_field)) then
+                  card%i = card%i + 1
+                  bulk%system(card%i) = system_card(line=card%line, id=second%id, kind=system%kind, field=5, nodes=second%nodes)
+               else if (any(has_field)) then
+                  call card%error('CIDB', 'a second system needs CIDB, G1B, G2B and G3B, all four')
+               end if
+            end associate
          end if
-      end do
-      bulk%system = bulk%system(:n)
+      end associate
    end subroutine read_system
 
    !> GRDSET: what GRID has where its CP, CD and PS are blank; there is one at most.
-   subroutine read_grid_defaults(cards, bulk)
-      type(card_reader_type), intent(inout) :: cards
+   subroutine read_grid_defaults(card, bulk)
+      type(card_fields_type), intent(inout) :: card
       type(bulk_data_type), intent(inout)   :: bulk
-      type(card_values) :: values
-      integer :: i
 
-      call cards%set_table([any_field('-'), integer_field('CP', default=0, least=0), blank_field(['-', '-', '-']), &
-         integer_field('CD', default=0, least=0), component_field('PS', default=0), blank_field('SEID')])
-      do i = 1, cards%n
-         call cards%next(values)
-         if (i > 1) call cards%errors%add(cards%line, 'GRDSET: a second one; expected one at most in a deck')
-         bulk%grid_defaults = grid_defaults_card(line=cards%line, cp=values%integers(2), cd=values%integers(6), &
-                                                 ps=values%integers(7))
-      end do
+      associate (defaults => bulk%grid_defaults)
+         call card%skip(['-'])
+         call card%field('CP', defaults%cp, default=0, least=0)
+         call card%blank(['-', '-', '-'])
+         call card%field('CD', defaults%cd, default=0, least=0)
+         call card%components('PS', defaults%ps, default=0)
+         call card%blank(['SEID'])
+         call card%finish(defaults%line)
+      end associate
+      if (card%i > 1) call card%errors%add(card%line, 'GRDSET: a second one; expected one at most in a deck')
    end subroutine read_grid_defaults
 
    !> Fill the blank fields CP, CD and PS of all GRID cards from GRDSET.
@@ -90,217 +86,178 @@ contains
    end subroutine fill_grid_defaults
 
    !> GRID: a node. Gmsh writes whole coordinates without a decimal point in large field, so integers are taken here.
-   subroutine read_grid(cards, bulk)
-      type(card_reader_type), intent(inout) :: cards
+   subroutine read_grid(card, bulk)
+      type(card_fields_type), intent(inout) :: card
       type(bulk_data_type), intent(inout)   :: bulk
-      type(card_values) :: values
-      integer :: i
 
-      call cards%set_table([integer_field('ID'), integer_field('CP', default=-1, least=0), &
-         real_field(['X1', 'X2', 'X3'], default=0.0_wp, whole=.true.), integer_field('CD', default=-1, least=0), &
-         component_field('PS', default=0), blank_field('SEID')])
-      allocate (bulk%grid(cards%n))
-      do i = 1, cards%n
-         call cards%next(values)
-         bulk%grid(i) = grid_card(line=cards%line, id=values%integers(1), ps=values%integers(7), cp=values%integers(2), &
-                                  cd=values%integers(6), x=values%reals(3:5), doubtful=.not. values%ok)
-      end do
+      associate (grid => bulk%grid(card%i))
+         call card%field('ID', grid%id)
+         call card%field('CP', grid%cp, default=-1, least=0)
+         call card%field(['X1', 'X2', 'X3'], grid%x, default=0.0_wp, whole=.true.)
+         call card%field('CD', grid%cd, default=-1, least=0)
+         call card%components('PS', grid%ps, default=0)
+         call card%blank(['SEID'])
+         call card%finish(grid%line)
+         grid%doubtful = card%is_faulty()
+      end associate
    end subroutine read_grid
 
    !> CTRIA3, CTRIA6, CQUAD4, CQUAD8, CTETRA, CPENTA and CHEXA, the body elements; in a model of solids, faces of marked surfaces
    !! are those of the plane too. Any mid-side node makes the element one of second order. THETA turns the axes of a material, which
    !! is isotropic here: read without effect. ZOFFS and corner thicknesses of plates must be blank.
-   subroutine read_element(cards, bulk)
-      type(card_reader_type), intent(inout) :: cards
+   subroutine read_element(card, bulk)
+      type(card_fields_type), intent(inout) :: card
       type(bulk_data_type), intent(inout)   :: bulk
-      type(card_values) :: values
-      integer :: i, kind, linear
+      integer :: kind
 
-      do kind = 1, n_kinds
-         call cards%set_table(element_rules(kind), element_table(kind)%card, open_ended=complete_nodes(kind) > 0)
-      end do
-      allocate (bulk%element(cards%n))
-      kind = 1
-      do i = 1, cards%n
-         call cards%next(values)
-         if (element_table(kind)%card /= cards%card%name) &
-            kind = findloc(element_table%card, cards%card%name, dim=1, back=.true.) ! of second order, where there is one
-         call check_end(cards, kind, values)
-         linear = element_table(kind)%linear
-         associate (element => bulk%element(i), n => element_table(kind)%n_nodes, corners => element_table(kind)%n_corners)
-            element%line = cards%line
-            element%id = values%integers(1)
-            element%property = values%integers(2)
-            element%nodes(:n) = values%integers(3:2 + n)
-            element%kind = merge(kind, linear, any(element%nodes(corners + 1:n) > 0))
-         end associate
-      end do
+      kind = findloc(element_table%card, card%name, dim=1, back=.true.) ! of second order, where there is one
+      associate (element => bulk%element(card%i), n => element_table(kind)%n_nodes, corners => element_table(kind)%n_corners)
+         call card%field('EID', element%id)
+         call card%field('PID', element%property)
+         call card%field(node_names(:corners), element%nodes(:corners))
+         call card%field(node_names(corners + 1:n), element%nodes(corners + 1:n), default=0)
+         if (any(kind == [kind_tria3, kind_quad4, kind_tria6])) call card%skip(['THETA'])
+         if (any(kind == [kind_tria3, kind_quad4])) call card%blank(['ZOFFS'])
+         if (kind == kind_tria6) call card%blank(['ZOFFS', 'T1   ', 'T2   ', 'T3   '])
+         if (kind == kind_quad8) then
+            call card%blank(['T1', 'T2', 'T3', 'T4'])
+            call card%skip(['THETA'])
+            call card%blank(['ZOFFS'])
+         end if
+         element%line = card%line
+         if (kind == kind_hexa20) then ! complete: nodes inside its faces and itself, as Gmsh writes it
+            call check_end(card, n, 27, element%nodes(corners + 1:))
+         else if (kind == kind_penta15) then
+            call check_end(card, n, 18, element%nodes(corners + 1:))
+         else
+            call card%finish(element%line)
+         end if
+         element%kind = merge(kind, element_table(kind)%linear, any(element%nodes(corners + 1:n) > 0))
+      end associate
    end subroutine read_element
 
-   !> The table of the card of elements of a KIND; where a kind has the card of a linear one, that of both.
-   pure function element_rules(kind) result(rules)
-      integer, intent(in) :: kind
-      type(field_rule), allocatable :: rules(:)
-      integer :: k
-
-      associate (this => element_table(kind))
-         rules = [integer_field(['EID', 'PID']), (integer_field('G'//integer_text(k)), k = 1, this%n_corners), &
-                  (integer_field('G'//integer_text(k), default=0), k = this%n_corners + 1, this%n_nodes)]
-      end associate
-      select case (kind)
-      case (kind_tria3, kind_quad4)
-         rules = [rules, any_field('THETA'), blank_field('ZOFFS')]
-      case (kind_tria6)
-         rules = [rules, any_field('THETA'), blank_field(['ZOFFS', 'T1   ', 'T2   ', 'T3   '])]
-      case (kind_quad8)
-         rules = [rules, blank_field(['T1', 'T2', 'T3', 'T4']), any_field('THETA'), blank_field('ZOFFS')]
-      end select
-   end function element_rules
-
-   !> Nodes of the complete element of second order, with nodes inside its faces and itself, that Gmsh writes on the card of KIND; 0:
-   !! none.
-   pure integer function complete_nodes(kind) result(n)
-      integer, intent(in) :: kind
-
-      n = 0
-      if (kind == kind_hexa20) n = 27
-      if (kind == kind_penta15) n = 18
-   end function complete_nodes
-
-   !> Nothing may stand behind the last node of a solid with mid-side nodes; a complete element is told from a slip of the pen, and
-   !! its mid-side nodes, which have another order, are dropped.
-   subroutine check_end(cards, kind, values)
-      type(card_reader_type), intent(inout) :: cards
-      integer, intent(in)                   :: kind
-      type(card_values), intent(inout)      :: values
+   !> Nothing may stand behind the last of the N nodes of a solid; an element of COMPLETE nodes is told from a slip of the pen, and its
+   !! MID_SIDE nodes, which have another order, are dropped.
+   subroutine check_end(card, n, complete, mid_side)
+      type(card_fields_type), intent(inout) :: card
+      integer, intent(in)                   :: n, complete
+      integer, intent(inout)                :: mid_side(:)
       integer :: first
 
-      first = 3 + element_table(kind)%n_nodes
-      if (complete_nodes(kind) == 0 .or. cards%card%n < first) return
-      if (cards%card%n == 2 + complete_nodes(kind)) then
-         call cards%card%field_error(first, 'a complete element of '//integer_text(complete_nodes(kind))//' nodes; expected '// &
-            'at most '//integer_text(element_table(kind)%n_nodes)//', no nodes inside faces'//complete_remedy, cards%errors)
-         values%integers(3 + element_table(kind)%n_corners:first - 1) = 0
+      first = 3 + n
+      if (card%n < first) return
+      if (card%n == 2 + complete) then
+         call card%error_at(first, 'a complete element of '//integer_text(complete)//' nodes; expected at most '// &
+                            integer_text(n)//', no nodes inside faces'//complete_remedy)
+         mid_side = 0
       else
-         first = first - 1 + findloc(cards%card%fields(first:cards%card%n)%length > 0, .true., dim=1)
-         call cards%card%field_error(first, ''''//trim(cards%card%fields(first)%text)//''' behind the last node, G'// &
-                                     integer_text(element_table(kind)%n_nodes)//', expected nothing', cards%errors)
+         do while (card%text_at(first) == '')
+            first = first + 1
+         end do
+         call card%error_at(first, ''''//card%text_at(first)//''' behind the last node, G'//integer_text(n)//', expected nothing')
       end if
    end subroutine check_end
 
    !> CBAR: an edge of a marked surface; the orientation vector of a real bar (Gmsh writes one) has no meaning here, and of an edge
    !! of second order Gmsh writes the mid-side node in its place. CROD: such an edge, or with a PROD a bar, such as a bolt.
-   subroutine read_edge(cards, bulk)
-      type(card_reader_type), intent(inout) :: cards
+   subroutine read_edge(card, bulk)
+      type(card_fields_type), intent(inout) :: card
       type(bulk_data_type), intent(inout)   :: bulk
-      type(card_values) :: values
-      integer :: i
+      real(wp) :: orientation(3)
+      logical  :: ok
 
-      call cards%set_table([integer_field(['EID', 'PID', 'GA ', 'GB ']), real_field('X1', default=0.0_wp, whole=.true.), &
-                            real_field(['X2', 'X3'], default=0.0_wp)], 'CBAR')
-      call cards%set_table(integer_field(['EID', 'PID', 'G1 ', 'G2 ']), 'CROD')
-      allocate (bulk%edge(cards%n))
-      do i = 1, cards%n
-         call cards%next(values)
-         associate (edge => bulk%edge(i), integers => values%integers)
-            edge%line = cards%line
-            edge%kind = merge(edge_crod, edge_cbar, cards%card%name == 'CROD')
-            edge%id = integers(1)
-            edge%property = integers(2)
-            edge%nodes(:2) = integers(3:4)
-            if (edge%kind == edge_cbar) edge%nodes(3) = integers(5)
-         end associate
-      end do
+      associate (edge => bulk%edge(card%i))
+         edge%kind = merge(edge_crod, edge_cbar, card%name == 'CROD')
+         call card%field('EID', edge%id)
+         call card%field('PID', edge%property)
+         call card%field(merge(['G1', 'G2'], ['GA', 'GB'], edge%kind == edge_crod), edge%nodes(:2))
+         if (edge%kind == edge_cbar) then
+            call card%field('X1', orientation(1), default=0.0_wp, whole=.true.)
+            call card%field(['X2', 'X3'], orientation(2:), default=0.0_wp)
+            call parse_integer(card%text_at(5), edge%nodes(3), ok)
+         end if
+         call card%finish(edge%line)
+      end associate
    end subroutine read_edge
 
    !> PMARK: a marked surface.
-   subroutine read_pmark(cards, bulk)
-      type(card_reader_type), intent(inout) :: cards
+   subroutine read_pmark(card, bulk)
+      type(card_fields_type), intent(inout) :: card
       type(bulk_data_type), intent(inout)   :: bulk
-      type(card_values) :: values
-      integer :: i
 
-      call cards%set_table([integer_field('PID')])
-      allocate (bulk%pmark(cards%n))
-      do i = 1, cards%n
-         call cards%next(values)
-         bulk%pmark(i) = pmark_card(line=cards%line, id=values%integers(1))
-      end do
+      call card%field('PID', bulk%pmark(card%i)%id)
+      call card%finish(bulk%pmark(card%i)%line)
    end subroutine read_pmark
 
    !> BLOCK2: a quadrilateral block of NX by NY elements between four corners; corners 2 and 4 left blank make it a
    !! rectangle with corners 1 and 3 on its diagonal.
    !! BLOCK3: a box of NX by NY by NZ elements between two opposite corners; nodes go up z first, then y, then x.
-   subroutine read_block(cards, bulk)
-      type(card_reader_type), intent(inout) :: cards
+   subroutine read_block(card, bulk)
+      type(card_fields_type), intent(inout) :: card
       type(bulk_data_type), intent(inout)   :: bulk
-      type(card_values) :: values
-      integer, parameter :: others(4) = [7, 8, 11, 12] ! data fields of corners 2 and 4
-      integer :: i
+      character(2), parameter :: others(4) = ['X2', 'Y2', 'X4', 'Y4'] ! corners 2 and 4
+      integer :: n_sides
+      logical :: ok
 
-      call cards%set_table([integer_field(['BID', 'PID']), integer_field(['NX', 'NY'], most=100000), &
-         real_field(['X1', 'Y1', 'X2', 'Y2'], default=0.0_wp), real_field(['X3', 'Y3']), &
-         real_field(['X4', 'Y4'], default=0.0_wp), real_field(['RX', 'RY'], default=1.0_wp, above=0.0_wp), &
-         integer_field(['N1', 'E1'], default=1), integer_field(['S1  ', 'S2  ', 'S3  ', 'S4  ', 'WELD'], default=0), &
-         integer_field('ORDER', default=1, most=2)], 'BLOCK2')
-      call cards%set_table([integer_field(['BID', 'PID']), integer_field(['NX', 'NY', 'NZ'], most=10000), &
-         real_field(['X1', 'Y1', 'Z1'], default=0.0_wp), real_field(['X2', 'Y2', 'Z2']), &
-         real_field(['RX', 'RY', 'RZ'], default=1.0_wp, above=0.0_wp), integer_field(['N1', 'E1'], default=1), &
-         integer_field(['S1  ', 'S2  ', 'S3  ', 'S4  ', 'S5  ', 'S6  ', 'WELD'], default=0), &
-         integer_field('ORDER', default=1, most=2)], 'BLOCK3')
-      allocate (bulk%block(cards%n))
-      do i = 1, cards%n
-         call cards%next(values)
-         associate (block => bulk%block(i), x => values%reals, integers => values%integers, &
-                    given => values%given)
-            if (cards%card%name == 'BLOCK2') then
-               if (any(given(others)) .and. .not. all(given(others))) call cards%error('X2', &
-                  'corners 2 and 4 must both be given (X2, Y2, X4, Y4), or all four left blank for a rectangle')
-               call check_block(cards, 4, integers)
-               integers(15:16) = min(integers(15:16), most_first) ! no number of the block passes what an integer holds
-               block%divisions(:2) = max(1, integers(3:4))
-               block%corner(:2, :) = reshape(x(5:12), [2, 4])
-               if (.not. any(given(others))) block%corner(:2, 2::2) = reshape(x([9, 6, 5, 10]), [2, 2])
-               block%grading(:2) = x(13:14)
-               block%marks(:4) = integers(17:20)
-               block%weld = integers(21)
-               block%order = integers(22)
-            else
-               call check_block(cards, 5, integers)
-               where (integers(15:16) > most_first) integers(15:16) = 1 ! a deck of solids is mostly one block, from 1 on
-               if (values%ok .and. any(x(9:11) <= x(6:8))) &
-                  call cards%error('X2', 'the second corner must lie beyond the first in x, y and z')
-               block%dimension = 3
-               block%divisions = max(1, integers(3:5))
-               block%corner(:, :2) = reshape(x(6:11), [3, 2])
-               block%grading = x(12:14)
-               block%marks = integers(17:22)
-               block%weld = integers(23)
-               block%order = integers(24)
+      associate (block => bulk%block(card%i), corner => bulk%block(card%i)%corner)
+         block%dimension = merge(2, 3, card%name == 'BLOCK2')
+         n_sides = 2*block%dimension
+         call card%field('BID', block%id)
+         call card%field('PID', block%property)
+         if (block%dimension == 2) then
+            call card%field(['NX', 'NY'], block%divisions(:2), most=100000)
+            call card%field(['X1', 'Y1'], corner(:2, 1), default=0.0_wp)
+            call card%field(['X2', 'Y2'], corner(:2, 2), default=0.0_wp)
+            call card%field(['X3', 'Y3'], corner(:2, 3))
+            call card%field(['X4', 'Y4'], corner(:2, 4), default=0.0_wp)
+            call card%field(['RX', 'RY'], block%grading(:2), positive, default=1.0_wp)
+         else
+            call card%field(['NX', 'NY', 'NZ'], block%divisions, most=10000)
+            call card%field(['X1', 'Y1', 'Z1'], corner(:, 1), default=0.0_wp)
+            call card%field(['X2', 'Y2', 'Z2'], corner(:, 2))
+            call card%field(['RX', 'RY', 'RZ'], block%grading, positive, default=1.0_wp)
+         end if
+         call card%field('N1', block%first_node, default=1)
+         call card%field('E1', block%first_element, default=1)
+         call card%field(side_names(:n_sides), block%marks(:n_sides), default=0)
+         call card%field('WELD', block%weld, default=0)
+         call card%field('ORDER', block%order, default=1, most=2)
+         call card%finish(block%line)
+         ok = .not. card%is_faulty()
+         if (block%dimension == 2) then
+            if (.not. any(card%given(others))) then
+               corner(:2, 2) = [corner(1, 3), corner(2, 1)]
+               corner(:2, 4) = [corner(1, 1), corner(2, 3)]
+            else if (.not. all(card%given(others))) then
+               call card%error('X2', 'corners 2 and 4 must both be given (X2, Y2, X4, Y4), or all four left blank for a rectangle')
             end if
-            block%line = cards%line
-            block%id = integers(1)
-            block%property = integers(2)
-            block%first_node = integers(15)
-            block%first_element = integers(16)
-            block%doubtful = cards%is_faulty()
-         end associate
-      end do
+         end if
+         call check_block(card, block)
+         if (block%dimension == 3 .and. ok .and. any(corner(:, 2) <= corner(:, 1))) &
+            call card%error('X2', 'the second corner must lie beyond the first in x, y and z')
+         block%doubtful = card%is_faulty()
+      end associate
    end subroutine read_block
 
-   !> Size and numbers of a block, whose divisions are data fields 3 to LAST and whose N1 and E1 are 15 and 16. Of too many
-   !! elements one is left, so that the rest of the deck can be checked.
-   subroutine check_block(cards, last, integers)
-      type(card_reader_type), intent(inout) :: cards
-      integer, intent(in)                   :: last
-      integer, intent(inout)                :: integers(:) !! the data fields
+   !> Size and numbers of a block. Of too many elements one is left, so that the rest of the deck can be checked; no number passes
+   !! what an integer holds.
+   subroutine check_block(card, block)
+      type(card_fields_type), intent(inout) :: card
+      type(block_card), intent(inout)       :: block
+      integer :: instead
 
-      if (product(real(integers(3:last), wp)) > most_elements) then
-         call cards%error('NX', 'more than 2E7 elements in one block')
-         integers(3:last) = 1
-      end if
-      if (integers(15) > most_first) call cards%error('N1', 'the last node number would pass 2147483647')
-      if (integers(16) > most_first) call cards%error('E1', 'the last element number would pass 2147483647')
+      associate (divisions => block%divisions(:block%dimension))
+         if (product(real(divisions, wp)) > most_elements) then
+            call card%error('NX', 'more than 2E7 elements in one block')
+            divisions = 1
+         end if
+         divisions = max(1, divisions)
+      end associate
+      if (block%first_node > most_first) call card%error('N1', 'the last node number would pass 2147483647')
+      if (block%first_element > most_first) call card%error('E1', 'the last element number would pass 2147483647')
+      instead = merge(most_first, 1, block%dimension == 2) ! a deck of solids is mostly one block, from 1 on
+      if (block%first_node > most_first) block%first_node = instead
+      if (block%first_element > most_first) block%first_element = instead
    end subroutine check_block
 
 end module mesh_cards

@@ -1,9 +1,8 @@
-!> The cards of oscillation: EIGRL, FREQ1, FREQ4, TABDMP1. A table and a routine each.
+!> The cards of oscillation: EIGRL, FREQ1, FREQ4, TABDMP1.
 module vibration_cards
-   use bulk_data, only: bulk_data_type, eigrl_card, freq1_card, freq4_card, tabdmp1_card
-   use card_lines, only: card_values, decode_real, smallest_size
-   use card_reader, only: card_reader_type
-   use field_rules, only: any_field, blank_field, integer_field, real_field, word_field
+   use bulk_data, only: bulk_data_type, tabdmp1_card
+   use card_fields, only: card_fields_type
+   use field_rules, only: not_negative, positive, real_range, smallest_size
    use kinds, only: wp
    use text_tools, only: integer_text, real_text
    implicit none
@@ -18,155 +17,141 @@ contains
 
    !> EIGRL: the modes between V1 and V2, ND of them at the most, scaled by NORM. How Lanczos' method is steered and what it prints
    !! is its own affair here.
-   subroutine read_eigrl(cards, bulk)
-      type(card_reader_type), intent(inout) :: cards
+   subroutine read_eigrl(card, bulk)
+      type(card_fields_type), intent(inout) :: card
       type(bulk_data_type), intent(inout)   :: bulk
-      type(card_values) :: values
-      integer :: i
+      character(8) :: norm
 
-      call cards%set_table([integer_field('SID'), real_field('V1', default=0.0_wp), &
-         real_field('V2', default=0.0_wp, above=0.0_wp), integer_field('ND', default=0), &
-         any_field(['MSGLVL', 'MAXSET', 'SHFSCL']), word_field('NORM', '|MASS|MAX|')])
-      allocate (bulk%eigrl(cards%n))
-      do i = 1, cards%n
-         call cards%next(values)
-         bulk%eigrl(i) = eigrl_card(line=cards%line, id=values%integers(1), has_lowest=values%given(2), &
-            has_highest=values%given(3), lowest=values%reals(2), highest=values%reals(3), most=values%integers(4), &
-            unit_mass=values%words(8) == 'MASS')
-         if (values%ok .and. all(values%given(2:3)) .and. values%reals(2) >= values%reals(3)) call cards%error('V2', &
-            real_text(values%reals(3))//' is no more than V1, '//real_text(values%reals(2))//'; expected the end of the range')
-      end do
+      associate (eigrl => bulk%eigrl(card%i))
+         call card%field('SID', eigrl%id)
+         call card%field('V1', eigrl%lowest, default=0.0_wp)
+         call card%field('V2', eigrl%highest, positive, default=0.0_wp)
+         call card%field('ND', eigrl%most, default=0)
+         call card%skip(['MSGLVL', 'MAXSET', 'SHFSCL'])
+         call card%word('NORM', '|MASS|MAX|', norm)
+         call card%finish(eigrl%line)
+         eigrl%has_lowest = card%given('V1')
+         eigrl%has_highest = card%given('V2')
+         eigrl%unit_mass = norm == 'MASS'
+         if (eigrl%has_lowest .and. eigrl%has_highest) call check_range(card, eigrl%lowest, eigrl%highest, 'V')
+      end associate
    end subroutine read_eigrl
 
-   !> FREQ1: the frequencies F1 + k DF, k = 0 to NDF. A set may have several.
-   subroutine read_freq1(cards, bulk)
-      type(card_reader_type), intent(inout) :: cards
-      type(bulk_data_type), intent(inout)   :: bulk
-      type(card_values) :: values
-      integer :: i
+   !> The range from LOWEST, field NAME1, to HIGHEST, NAME2, must not be empty.
+   subroutine check_range(card, lowest, highest, name)
+      type(card_fields_type), intent(inout) :: card
+      real(wp), intent(in)                  :: lowest, highest
+      character(1), intent(in)              :: name
 
-      call cards%set_table([integer_field('SID'), real_field('F1', least=0.0_wp), real_field('DF', above=0.0_wp), &
-         integer_field('NDF', default=1, most=most_frequencies)])
-      allocate (bulk%freq1(cards%n))
-      do i = 1, cards%n
-         call cards%next(values)
-         bulk%freq1(i) = freq1_card(line=cards%line, set=values%integers(1), first=values%reals(2), step=values%reals(3), &
-                                    n=values%integers(4))
-      end do
+      if (.not. card%is_faulty() .and. lowest >= highest) call card%error(name//'2', real_text(highest)//' is no more than '// &
+         name//'1, '//real_text(lowest)//'; expected the end of the range')
+   end subroutine check_range
+
+   !> FREQ1: the frequencies F1 + k DF, k = 0 to NDF. A set may have several.
+   subroutine read_freq1(card, bulk)
+      type(card_fields_type), intent(inout) :: card
+      type(bulk_data_type), intent(inout)   :: bulk
+
+      associate (freq1 => bulk%freq1(card%i))
+         call card%field('SID', freq1%set)
+         call card%field('F1', freq1%first, not_negative)
+         call card%field('DF', freq1%step, positive)
+         call card%field('NDF', freq1%n, default=1, most=most_frequencies)
+         call card%finish(freq1%line)
+      end associate
    end subroutine read_freq1
 
    !> FREQ4: NFM frequencies, an odd number so that the mode itself is one of them, spread by FSPD about every mode from F1 to F2.
-   subroutine read_freq4(cards, bulk)
-      type(card_reader_type), intent(inout) :: cards
+   subroutine read_freq4(card, bulk)
+      type(card_fields_type), intent(inout) :: card
       type(bulk_data_type), intent(inout)   :: bulk
-      type(card_values) :: values
-      integer :: i
 
-      call cards%set_table([integer_field('SID'), real_field('F1', default=0.0_wp, least=0.0_wp), &
-         real_field('F2', default=1.0e20_wp, above=0.0_wp), real_field('FSPD', default=0.1_wp, above=0.0_wp, below=1.0_wp), &
-         integer_field('NFM', default=3, most=most_frequencies)])
-      allocate (bulk%freq4(cards%n))
-      do i = 1, cards%n
-         call cards%next(values)
-         bulk%freq4(i) = freq4_card(line=cards%line, set=values%integers(1), lowest=values%reals(2), highest=values%reals(3), &
-                                    spread=values%reals(4), n=values%integers(5) + modulo(values%integers(5) + 1, 2))
-         if (values%ok .and. values%reals(2) >= values%reals(3)) call cards%error('F2', real_text(values%reals(3))// &
-            ' is no more than F1, '//real_text(values%reals(2))//'; expected the end of the range')
-      end do
+      associate (freq4 => bulk%freq4(card%i))
+         call card%field('SID', freq4%set)
+         call card%field('F1', freq4%lowest, not_negative, default=0.0_wp)
+         call card%field('F2', freq4%highest, positive, default=1.0e20_wp)
+         call card%field('FSPD', freq4%spread, real_range(0.0_wp, 1.0_wp, above=.true., below=.true.), default=0.1_wp)
+         call card%field('NFM', freq4%n, default=3, most=most_frequencies)
+         call card%finish(freq4%line)
+         freq4%n = freq4%n + modulo(freq4%n + 1, 2)
+         call check_range(card, freq4%lowest, freq4%highest, 'F')
+      end associate
    end subroutine read_freq4
 
    !> TABDMP1: pairs of a frequency and the damping there, closed by ENDT. TYPE says what the damping is.
-   subroutine read_tabdmp1(cards, bulk)
-      type(card_reader_type), intent(inout) :: cards
+   subroutine read_tabdmp1(card, bulk)
+      type(card_fields_type), intent(inout) :: card
       type(bulk_data_type), intent(inout)   :: bulk
-      type(card_values) :: values
-      integer :: i
 
-      call cards%set_table([integer_field('TID'), word_field('TYPE', '|G|CRIT|Q|'), &
-         blank_field(['blank', 'blank', 'blank', 'blank', 'blank', 'blank'])], open_ended=.true.)
-      allocate (bulk%tabdmp1(cards%n))
-      do i = 1, cards%n
-         call cards%next(values)
-         associate (table => bulk%tabdmp1(i))
-            table%line = cards%line
-            table%id = values%integers(1)
-            table%kind = values%words(2)
-            allocate (table%frequency(0), table%value(0))
-            if (values%ok) call read_pairs(cards, table)
-            if (.not. cards%is_faulty()) call check_order(cards, table)
-         end associate
-      end do
+      associate (table => bulk%tabdmp1(card%i))
+         table%line = card%line
+         call card%field('TID', table%id)
+         call card%word('TYPE', '|G|CRIT|Q|', table%kind)
+         call card%blank(['blank', 'blank', 'blank', 'blank', 'blank', 'blank'])
+         allocate (table%frequency(0), table%value(0))
+         if (.not. card%is_faulty()) call read_pairs(card, table)
+         if (.not. card%is_faulty()) call check_order(card, table)
+      end associate
    end subroutine read_tabdmp1
 
    !> The pairs up to ENDT; one with SKIP in it is none, nor are two blank fields.
-   subroutine read_pairs(cards, table)
-      type(card_reader_type), intent(inout) :: cards
+   subroutine read_pairs(card, table)
+      type(card_fields_type), intent(inout) :: card
       type(tabdmp1_card), intent(inout)     :: table
+      character(:), allocatable :: first, second
       real(wp) :: frequency, value
       integer  :: k, last
 
-      associate (card => cards%card)
-         last = list_from
-         do while (last <= card%n)
-            if (card%fields(last)%text == 'ENDT') exit
-            last = last + 1
-         end do
-         if (last > card%n) then
-            call card%field_error(card%n, 'ENDT: expected it behind the last pair of a frequency and its damping', cards%errors)
-            return
+      last = list_from
+      do while (last <= card%n .and. card%text_at(last) /= 'ENDT')
+         last = last + 1
+      end do
+      if (last > card%n) then
+         call card%error_at(card%n, 'ENDT: expected it behind the last pair of a frequency and its damping')
+         return
+      end if
+      do k = last + 1, card%n
+         if (card%text_at(k) /= '') call card%error_at(k, ''''//card%text_at(k)//''' behind ENDT, where the card must be blank')
+      end do
+      do k = list_from, last - 1, 2
+         first = card%text_at(k)
+         second = card%text_at(k + 1)
+         if (first == '' .and. (second == '' .or. second == 'ENDT')) cycle
+         if (first == 'SKIP' .or. second == 'SKIP') cycle
+         call read_entry(card, k, 'F', 'a frequency of 0 or more', 0.0_wp, frequency)
+         if (table%kind == 'Q') then
+            call read_entry(card, k + 1, 'G', 'a real number above 0, the amplification Q there', smallest_size, value)
+         else
+            call read_entry(card, k + 1, 'G', 'a real number of at least 0, the damping there', 0.0_wp, value)
          end if
-         do k = last + 1, card%n
-            if (card%fields(k)%length > 0) call card%field_error(k, ''''//trim(card%fields(k)%text)// &
-               ''' behind ENDT, where the card must be blank', cards%errors)
-         end do
-         do k = list_from, last - 1, 2
-            associate (first => card%fields(k), second => card%fields(k + 1))
-               if (first%length == 0 .and. (second%length == 0 .or. second%text == 'ENDT')) cycle
-               if (first%text == 'SKIP' .or. second%text == 'SKIP') cycle
-            end associate
-            call read_entry(cards, k, 'F', 'a frequency of 0 or more', 0.0_wp, frequency)
-            if (table%kind == 'Q') then
-               call read_entry(cards, k + 1, 'G', 'a real number above 0, the amplification Q there', smallest_size, value)
-            else
-               call read_entry(cards, k + 1, 'G', 'a real number of at least 0, the damping there', 0.0_wp, value)
-            end if
-            table%frequency = [table%frequency, frequency]
-            table%value = [table%value, value]
-         end do
-      end associate
+         table%frequency = [table%frequency, frequency]
+         table%value = [table%value, value]
+      end do
    end subroutine read_pairs
 
    !> The real in data field K, NAME, which must be at least LEAST.
-   subroutine read_entry(cards, k, name, expected, least, value)
-      type(card_reader_type), intent(inout) :: cards
+   subroutine read_entry(card, k, name, expected, least, value)
+      type(card_fields_type), intent(inout) :: card
       integer, intent(in)                   :: k
       character(*), intent(in)              :: name, expected
       real(wp), intent(in)                  :: least
       real(wp), intent(out)                 :: value
       logical :: ok
 
-      value = least
-      associate (card => cards%card)
-         if (card%fields(k)%length == 0) then
-            call card%field_error(k, name//': blank, expected '//expected, cards%errors)
-            return
-         end if
-         call decode_real(card, k, name, expected, value, ok, cards%errors)
-         if (ok .and. value < least) call card%field_error(k, name//': '''//trim(card%fields(k)%text)// &
-            ''' is out of range, expected '//expected, cards%errors)
-      end associate
+      call card%real_at(k, name, expected, value, ok, required=.true.)
+      if (ok .and. value < least) call card%wrong_entry(k, name, 'is out of range, expected '//expected)
    end subroutine read_entry
 
    !> Two points at the least, all ascending or all descending, which is turned round; where the value jumps a frequency stands twice,
    !! but not at the ends.
-   subroutine check_order(cards, table)
-      type(card_reader_type), intent(inout) :: cards
+   subroutine check_order(card, table)
+      type(card_fields_type), intent(inout) :: card
       type(tabdmp1_card), intent(inout)     :: table
       integer :: n
 
       n = size(table%frequency)
       if (n < 2) then
-         call cards%card%field_error(cards%card%n, integer_text(n)//' points, expected two or more', cards%errors)
+         call card%error_at(card%n, integer_text(n)//' points, expected two or more')
          return
       end if
       if (table%frequency(1) > table%frequency(n)) then
@@ -175,11 +160,9 @@ contains
       end if
       associate (f => table%frequency)
          if (any(f(2:) < f(:n - 1))) then
-            call cards%card%field_error(list_from, 'F: the frequencies are not in order, expected them ascending, or descending', &
-                                        cards%errors)
+            call card%error_at(list_from, 'F: the frequencies are not in order, expected them ascending, or descending')
          else if (f(1) >= f(2) .or. f(n - 1) >= f(n) .or. any(f(3:) <= f(:n - 2))) then
-            call cards%card%field_error(list_from, 'F: a frequency stands twice at an end of the table, or three times', &
-                                        cards%errors)
+            call card%error_at(list_from, 'F: a frequency stands twice at an end of the table, or three times')
          end if
       end associate
    end subroutine check_order

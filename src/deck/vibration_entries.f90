@@ -1,10 +1,9 @@
 !> The entries of case control that ask how the structure oscillates at the end of a stage: MODES and what goes with it, FREQUENCY
 !! and what goes with that.
 module vibration_entries
-   use card_lines, only: largest_size, smallest_size
    use case_entries, only: choose, entry_type, read_number, set_reference, value_error
    use deck_errors, only: deck_error_list
-   use field_rules, only: parse_real
+   use field_rules, only: largest_size, parse_real, smallest_size
    use kinds, only: wp
    use node_limits, only: limit_type, read_limit
    use text_tools, only: upper

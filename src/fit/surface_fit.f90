@@ -3,10 +3,10 @@ module surface_fit
    use branch_cubic, only: cubic
    use branch_fit, only: branch_fit_type, fault_dependent, fault_few_points, fault_none, fault_one_pressure, fit_lines_only, &
                          fit_points, fit_loops
-   use card_lines, only: largest_size, smallest_size
    use data_columns, only: branch_words, column_c, column_d, column_lambda, column_p, column_tau, data_normal, data_shear, &
                            fit_load, fit_reload, fit_unload
    use deck_errors, only: deck_error_list
+   use field_rules, only: largest_size, smallest_size
    use fit_command, only: fit_command_type
    use fit_data, only: test_data_type
    use kinds, only: wp

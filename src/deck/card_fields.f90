@@ -1,0 +1,445 @@
+!> The data fields of a card, taken one after another. What a field is called, what it may hold and which component it fills is said in
+!! one line: `call card%field('EU', jnorm%law%e_u, positive, default=0.0_wp)`, an integer or a real as the component is one.
+module card_fields
+   use deck_cards, only: card_type
+   use deck_errors, only: deck_error_list
+   use field_rules, only: any_real, component_words, in_range, integer_words, is_component_list, largest_size, list_of, &
+                          parse_integer, parse_real, real_range, real_words, smallest_size
+   use kinds, only: wp
+   use text_tools, only: integer_text, real_text
+   implicit none
+   private
+
+   public :: number_of
+
+   type, public :: card_fields_type
+      character(8) :: name = ''
+      integer :: line = 0                            !! where the card begins
+      integer :: n = 0                               !! last data field that is filled
+      integer :: i = 0                               !! entry of its array that it fills; a routine that fills more goes on counting
+      type(card_type) :: card                        !! its fields as they stand
+      character(8), allocatable :: names(:)          !! of its fields, as far as cards of its kind were read
+      type(deck_error_list), pointer :: errors => null()
+      integer, private :: k = 0                      ! field that was taken last
+      integer, private :: errors_before = 0          ! the first one was taken
+   contains
+      procedure :: begin
+      procedure, private :: integer_field, integer_fields, real_field, real_fields
+      generic   :: field => integer_field, integer_fields, real_field, real_fields
+      procedure :: components, word, blank, skip, finish
+      procedure :: text_at, given, is_faulty, error, error_at, wrong_entry, integer_at, node_at, real_at, components_at
+      procedure :: check_direction
+   end type card_fields_type
+
+contains
+
+   !> Which of the NAMES of fields is FIELD; the source must not ask for another one.
+   pure integer function number_of(names, field)
+      character(8), intent(in) :: names(:)
+      character(*), intent(in) :: field
+
+      number_of = findloc(names, field, dim=1)
+      if (number_of == 0) error stop 'no card has a field '//field
+   end function number_of
+
+   !> The card was read, its fields are to be taken.
+   subroutine begin(self)
+      class(card_fields_type), intent(inout) :: self
+
+      if (.not. allocated(self%names)) allocate (self%names(0))
+      self%name = self%card%name
+      self%line = self%card%line
+      self%n = self%card%n
+      self%i = self%i + 1
+      self%k = 0
+      self%errors_before = self%errors%n
+   end subroutine begin
+
+   !> Go on to the next field, that with this NAME, and see whether it IS_GIVEN.
+   subroutine go_on(self, name, is_given)
+      type(card_fields_type), intent(inout) :: self
+      character(*), intent(in)              :: name
+      logical, intent(out)                  :: is_given
+
+      self%k = self%k + 1
+      is_given = self%k <= self%n
+      if (is_given) is_given = self%card%fields(self%k)%length > 0
+      if (self%k > size(self%names)) self%names = [character(8) :: self%names, name]
+   end subroutine go_on
+
+   !> The next field is the integer VALUE, an id from 1 on where LEAST and MOST say nothing else. Without DEFAULT it must be filled.
+   subroutine integer_field(self, name, value, default, least, most)
+      class(card_fields_type), intent(inout) :: self
+      character(*), intent(in)               :: name !! as in the card manual
+      integer, intent(out)                   :: value
+      integer, intent(in), optional          :: default, least, most
+      integer :: lowest
+      logical :: is_given, ok
+
+      call go_on(self, name, is_given)
+      lowest = 1
+      if (present(least)) lowest = least
+      if (is_given) then
+         associate (field => self%card%fields(self%k))
+            call parse_integer(field%text(:field%length), value, ok)
+         end associate
+         if (.not. ok) then
+            call self%integer_at(self%k, name, integer_words(lowest, most, present(default)), value, ok)
+            return
+         end if
+         if (present(most)) ok = value <= most
+         if (ok .and. value >= lowest) return
+         call self%wrong_entry(self%k, name, 'is out of range, expected '//integer_words(lowest, most, present(default)))
+         value = 0
+      else if (present(default)) then
+         value = default
+      else
+         call self%error_at(self%k, trim(name)//': blank, expected '//integer_words(lowest, most, .false.))
+         value = 0
+      end if
+   end subroutine integer_field
+
+   !> The next fields, alike.
+   subroutine integer_fields(self, names, values, default, least, most)
+      class(card_fields_type), intent(inout) :: self
+      character(*), intent(in)               :: names(:)
+      integer, intent(out)                   :: values(:)
+      integer, intent(in), optional          :: default, least, most
+      integer :: i
+
+      do i = 1, size(names)
+         call self%integer_field(names(i), values(i), default, least, most)
+      end do
+   end subroutine integer_fields
+
+   !> The next field is the real VALUE in RANGE, where WHOLE an integer is one too. Without DEFAULT it must be filled.
+   subroutine real_field(self, name, value, range, default, whole)
+      class(card_fields_type), intent(inout) :: self
+      character(*), intent(in)               :: name
+      real(wp), intent(out)                  :: value
+      type(real_range), intent(in), optional :: range   !! left out: any
+      real(wp), intent(in), optional         :: default
+      logical, intent(in), optional          :: whole
+      type(real_range) :: within
+      integer :: number
+      logical :: is_given, ok
+
+      call go_on(self, name, is_given)
+      within = any_real
+      if (present(range)) within = range
+      ok = .false.
+      if (is_given) then
+         associate (field => self%card%fields(self%k))
+            if (present(whole)) then
+               call parse_integer(field%text(:field%length), number, ok)
+               value = real(number, wp)
+               if (ok) return
+            end if
+            call parse_real(field%text(:field%length), value, ok)
+         end associate
+         if (.not. ok) then
+            call self%real_at(self%k, name, real_words(within, present(default)), value, ok)
+            return
+         end if
+         ok = in_range(within, value)
+         if (ok) then
+            call check_size(self, self%k, name, within%above .and. within%least >= 0.0_wp, value, ok)
+         else
+            call self%wrong_entry(self%k, name, 'is out of range, expected '//real_words(within, present(default)))
+         end if
+      else if (.not. present(default)) then
+         call self%error_at(self%k, trim(name)//': blank, expected '//real_words(within, .false.))
+      end if
+      if (ok) return
+      value = 0.0_wp
+      if (present(default)) value = default
+   end subroutine real_field
+
+   !> The next fields, alike.
+   subroutine real_fields(self, names, values, range, default, whole)
+      class(card_fields_type), intent(inout) :: self
+      character(*), intent(in)               :: names(:)
+      real(wp), intent(out)                  :: values(:)
+      type(real_range), intent(in), optional :: range
+      real(wp), intent(in), optional         :: default
+      logical, intent(in), optional          :: whole
+      integer :: i
+
+      do i = 1, size(names)
+         call self%real_field(names(i), values(i), range, default, whole)
+      end do
+   end subroutine real_fields
+
+   !> The next field is a list of NASTRAN's components: different digits of 1 to 6. Without DEFAULT it must be filled.
+   subroutine components(self, name, value, default)
+      class(card_fields_type), intent(inout) :: self
+      character(*), intent(in)               :: name
+      integer, intent(out)                   :: value
+      integer, intent(in), optional          :: default
+      logical :: is_given
+
+      call go_on(self, name, is_given)
+      if (present(default) .and. .not. is_given) then
+         value = default
+      else
+         call self%components_at(self%k, name, present(default), value)
+      end if
+   end subroutine components
+
+   !> The next field is one of the WORDS, '|ARITH|GEOM|LIST|'; blank it is the first.
+   subroutine word(self, name, words, value)
+      class(card_fields_type), intent(inout) :: self
+      character(*), intent(in)               :: name, words
+      character(8), intent(out)              :: value
+      character(:), allocatable :: text
+      logical :: is_given
+
+      call go_on(self, name, is_given)
+      if (is_given) then
+         text = self%text_at(self%k)
+         value = text
+         if (index(words, '|'//text//'|') == 0 .or. index(text, '|') > 0) &
+            call self%wrong_entry(self%k, name, 'is out of range, expected one of '//list_of(words, ', '))
+      else
+         value = words(2:index(words(2:), '|'))
+      end if
+   end subroutine word
+
+   !> The next fields must stay blank, NAMES says what NASTRAN has there; a zero is a blank too.
+   subroutine blank(self, names)
+      class(card_fields_type), intent(inout) :: self
+      character(*), intent(in)               :: names(:)
+      character(:), allocatable :: text
+      integer :: i
+      logical :: is_given
+
+      do i = 1, size(names)
+         call go_on(self, names(i), is_given)
+         if (.not. is_given) cycle
+         text = self%text_at(self%k)
+         if (verify(text, '0.+-') > 0 .or. index(text, '0') == 0) &
+            call self%wrong_entry(self%k, names(i), 'where the field must be blank')
+      end do
+   end subroutine blank
+
+   !> The next fields are left to the card's own routine, or have no effect whatever stands in them.
+   subroutine skip(self, names)
+      class(card_fields_type), intent(inout) :: self
+      character(*), intent(in)               :: names(:)
+      integer :: i
+      logical :: is_given
+
+      do i = 1, size(names)
+         call go_on(self, names(i), is_given)
+      end do
+   end subroutine skip
+
+   !> Behind the fields taken the card must be blank. LINE is where it begins.
+   subroutine finish(self, line)
+      class(card_fields_type), intent(inout) :: self
+      integer, intent(out)                   :: line
+      integer :: k
+
+      line = self%line
+      do k = self%k + 1, self%n
+         if (self%card%fields(k)%length > 0) call self%error_at(k, ''''//self%text_at(k)//''' where the field must be blank')
+      end do
+   end subroutine finish
+
+   !> The entry of data field K, empty where there is none.
+   pure function text_at(self, k) result(text)
+      class(card_fields_type), intent(in) :: self
+      integer, intent(in)                 :: k
+      character(:), allocatable           :: text
+
+      text = ''
+      if (k <= self%n) text = trim(self%card%fields(k)%text)
+   end function text_at
+
+   !> Whether the field with this NAME is filled.
+   elemental logical function given(self, name)
+      class(card_fields_type), intent(in) :: self
+      character(*), intent(in)            :: name
+      integer :: k
+
+      k = number_of(self%names, name)
+      given = k <= self%n
+      if (given) given = self%card%fields(k)%length > 0
+   end function given
+
+   !> Whether anything was found wrong with the entries of the card so far.
+   pure logical function is_faulty(self)
+      class(card_fields_type), intent(in) :: self
+
+      is_faulty = self%errors%n > self%errors_before
+   end function is_faulty
+
+   !> An error about the field with this NAME.
+   subroutine error(self, name, message)
+      class(card_fields_type), intent(inout) :: self
+      character(*), intent(in)               :: name, message
+
+      call self%error_at(number_of(self%names, name), name//': '//message)
+   end subroutine error
+
+   !> An error about data field K.
+   subroutine error_at(self, k, message)
+      class(card_fields_type), intent(inout) :: self
+      integer, intent(in)                    :: k
+      character(*), intent(in)               :: message
+
+      call self%card%field_error(k, message, self%errors)
+   end subroutine error_at
+
+   !> An error about data field K, NAME, that says of its entry what the WORDS say.
+   subroutine wrong_entry(self, k, name, words)
+      class(card_fields_type), intent(inout) :: self
+      integer, intent(in)                    :: k
+      character(*), intent(in)               :: name, words
+
+      call self%error_at(k, trim(name)//': '''//trim(self%card%fields(k)%text)//''' '//words)
+   end subroutine wrong_entry
+
+   !> The integer in data field K, NAME. Not OK, and said so with what was EXPECTED, where it is none.
+   subroutine integer_at(self, k, name, expected, value, ok)
+      class(card_fields_type), intent(inout) :: self
+      integer, intent(in)                    :: k
+      character(*), intent(in)               :: name, expected
+      integer, intent(out)                   :: value
+      logical, intent(out)                   :: ok
+
+      associate (text => self%card%fields(k)%text)
+         call parse_integer(text, value, ok)
+         if (ok) return
+         value = 0
+         if (is_number_shape(text, '0123456789+-') .and. scan(trim(text(2:)), '+-') == 0) then
+            call self%wrong_entry(k, name, 'is too large for an integer, expected '//expected)
+         else
+            call self%wrong_entry(k, name, 'is not an integer, expected '//expected)
+         end if
+      end associate
+   end subroutine integer_at
+
+   !> The number of a node in data field K, NAME, likewise; one below 1 is an error, but OK.
+   subroutine node_at(self, k, name, expected, node, ok)
+      class(card_fields_type), intent(inout) :: self
+      integer, intent(in)                    :: k
+      character(*), intent(in)               :: name, expected
+      integer, intent(out)                   :: node
+      logical, intent(out)                   :: ok
+
+      call self%integer_at(k, name, expected, node, ok)
+      if (ok .and. node < 1) call self%error_at(k, name//': '''//integer_text(node)//''' is no node number')
+   end subroutine node_at
+
+   !> The real in data field K, likewise.
+   subroutine real_at(self, k, name, expected, value, ok, required)
+      class(card_fields_type), intent(inout) :: self
+      integer, intent(in)                    :: k
+      character(*), intent(in)               :: name, expected
+      real(wp), intent(out)                  :: value
+      logical, intent(out)                   :: ok
+      logical, intent(in), optional          :: required !! true: where the field is blank that is said
+      integer :: whole
+      logical :: is_integer
+
+      value = 0.0_wp
+      ok = .false.
+      if (present(required) .and. self%text_at(k) == '') then
+         call self%error_at(k, name//': blank, expected '//expected)
+         return
+      end if
+      associate (text => self%card%fields(k)%text)
+         call parse_real(text, value, ok)
+         if (ok) then
+            call check_size(self, k, name, .false., value, ok)
+            if (.not. ok) value = 0.0_wp
+            return
+         end if
+         value = 0.0_wp
+         call parse_integer(text, whole, is_integer)
+         if (is_number_shape(text, '0123456789.+-ED') .and. scan(text, '.ED') > 0) then
+            call self%wrong_entry(k, name, 'is too large or too small for a real number, or not one, expected '//expected)
+         else if (is_integer) then
+            call self%wrong_entry(k, name, 'is an integer, expected '//expected//': write it with a decimal point')
+         else
+            call self%wrong_entry(k, name, 'is not a real number, expected '//expected)
+         end if
+      end associate
+   end subroutine real_at
+
+   !> The components in data field K, NAME, OR_BLANK as the words for it go on; with MOST a single one from 1 to MOST. Zero where they
+   !! are wrong, and said so.
+   subroutine components_at(self, k, name, or_blank, value, most)
+      class(card_fields_type), intent(inout) :: self
+      integer, intent(in)                    :: k
+      character(*), intent(in)               :: name
+      logical, intent(in)                    :: or_blank
+      integer, intent(out)                   :: value
+      integer, intent(in), optional          :: most
+      character(:), allocatable :: expected
+      logical :: ok
+
+      value = 0
+      ok = .false.
+      if (k <= self%n) call parse_integer(self%card%fields(k)%text, value, ok)
+      if (present(most)) then
+         ok = ok .and. value >= 1 .and. value <= most
+      else if (ok) then
+         ok = is_component_list(value)
+      end if
+      if (ok) return
+      expected = component_words
+      if (present(most)) expected = integer_words(1, most, .false.)
+      if (or_blank) expected = expected//', or blank'
+      if (self%text_at(k) == '') then
+         call self%error_at(k, trim(name)//': blank, expected '//expected)
+      else
+         call self%integer_at(k, name, expected, value, ok)
+         if (ok) call self%wrong_entry(k, name, 'is out of range, expected '//expected)
+      end if
+      value = 0
+   end subroutine components_at
+
+   !> Of numbers beyond all measure a stiffness, an area, a volume is none any more: such a VALUE in data field K is not OK, and said
+   !! so. One that must be above zero, IS_POSITIVE, must not vanish beside others either.
+   subroutine check_size(self, k, name, is_positive, value, ok)
+      type(card_fields_type), intent(inout) :: self
+      integer, intent(in)                   :: k
+      character(*), intent(in)              :: name
+      logical, intent(in)                   :: is_positive
+      real(wp), intent(in)                  :: value
+      logical, intent(out)                  :: ok
+
+      ok = .not. (abs(value) > largest_size .or. (is_positive .and. value < smallest_size))
+      if (ok) return
+      if (abs(value) > largest_size) then
+         call self%wrong_entry(k, name, 'is too large to compute with, expected no more than '//real_text(largest_size))
+      else
+         call self%wrong_entry(k, name, 'is too small to compute with, expected at least '//real_text(smallest_size))
+      end if
+   end subroutine check_size
+
+   !> Whether TEXT consists of LETTERS only, begins and ends like a number.
+   pure logical function is_number_shape(text, letters)
+      character(*), intent(in) :: text, letters
+
+      is_number_shape = index(text, '.') == index(text, '.', back=.true.) .and. &
+                        verify(trim(text), letters) == 0 .and. scan(text(1:1), '0123456789+-.') == 1 .and. &
+                        scan(text(len_trim(text):len_trim(text)), '0123456789.') == 1
+   end function is_number_shape
+
+   !> The direction of WHAT, the three fields from that called FIRST on, must not be zero.
+   subroutine check_direction(self, first, what, direction)
+      class(card_fields_type), intent(inout) :: self
+      character(*), intent(in)               :: first, what
+      real(wp), intent(in)                   :: direction(3)
+      integer :: k
+
+      if (self%is_faulty() .or. any(abs(direction) > 0.0_wp)) return
+      k = number_of(self%names, first)
+      call self%error(first, what//' has no direction, expected '//trim(self%names(k))//', '//trim(self%names(k + 1))// &
+                      ', '//trim(self%names(k + 2))//' not all zero')
+   end subroutine check_direction
+
+end module card_fields
