@@ -3,17 +3,16 @@
 !! marked surfaces.
 module vibration_build
    use bulk_data, only: freq1_card, freq4_card
-   use case_sets, only: find_set, number_set, numbers_in_set
+   use case_sets, only: find_set, limit_type, number_set, numbers_in_set
    use deck_check, only: checked_deck
    use deck_errors, only: deck_error_list
    use deck_input, only: deck_type
    use kinds, only: wp
    use model_data, only: model_type, stage_load_type
-   use node_limits, only: limit_type
    use stage_plan, only: stage_plan_type, frequency_spread, merged, response_plan, vibration_plan_type
    use surface_sides, only: nodes_of
    use text_tools, only: integer_text
-   use vibration_entries, only: vibration_entries_type
+   use stage_entries, only: vibration_entries_type
    implicit none
    private
 

@@ -3,9 +3,8 @@
 module bulk_data
    use elasticity, only: plane_stress
    use element_kinds, only: max_nodes
-   use entry_tally, only: entry_tally_type
    use kinds, only: wp
-   use nastran_compatibility, only: parameters_type
+   use nastran_compatibility, only: entry_tally_type, parameters_type
    use normal_curve, only: normal_law
    use shear_stiffness, only: shear_law
    implicit none

@@ -5,13 +5,11 @@ module case_control
    use case_sets, only: number_set, read_set
    use deck_errors, only: deck_error_list
    use deck_text, only: deck_text_type
-   use entry_tally, only: entry_tally_type
    use field_rules, only: parse_integer, parse_real
    use kinds, only: wp
-   use nastran_compatibility, only: read_echo, read_habit, parameters_type
-   use stage_entries, only: read_stage_entry, stage_type
+   use nastran_compatibility, only: entry_tally_type, parameters_type, read_echo, read_habit
+   use stage_entries, only: check_vibration, read_stage_entry, stage_type
    use text_tools, only: integer_text, upper
-   use vibration_entries, only: check_vibration
    implicit none
    private
 

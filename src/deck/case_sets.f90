@@ -1,5 +1,5 @@
 !> SET n = 1, 3, 10 THRU 20, 30 THRU 50 EXCEPT 35, 36: numbers to which case control gives a name. A set is kept as it is
-!! written; what is wrong with one that nothing uses does no harm.
+!! written; what is wrong with one that nothing uses does no harm. The nodes of a SET or of a marked surface, PMARK, limit tables.
 module case_sets
    use case_entries, only: entry_type
    use deck_errors, only: deck_error_list
@@ -9,12 +9,18 @@ module case_sets
    implicit none
    private
 
-   public :: read_set, find_set, numbers_in_set
+   public :: read_set, find_set, numbers_in_set, read_limit
 
    type, public :: number_set
       integer :: id = 0, line = 0
       character(:), allocatable :: text !! what follows the equals sign, with its continuation lines
    end type number_set
+
+   !> Nodes that case control names: those of a SET, or those of a marked surface.
+   type, public :: limit_type
+      logical :: is_mark = .false.
+      integer :: id = 0, line = 0
+   end type limit_type
 
    character(*), parameter :: expected = ', expected ALL, or numbers and N THRU M with commas between them, behind a THRU also '// &
                                          'EXCEPT and numbers'
@@ -134,5 +140,23 @@ contains
       word = text(first:first + length - 1)
       at = first + length
    end subroutine next_word
+
+   !> Append WORD, 'SET 5' or 'PMARK 20' in capitals, to LIMITS; OK is false where it is neither.
+   pure subroutine read_limit(word, line, limits, ok)
+      character(*), intent(in) :: word
+      integer, intent(in)      :: line !! of the entry
+      type(limit_type), allocatable, intent(inout) :: limits(:) !! not allocated: none so far
+      logical, intent(out)     :: ok
+      type(limit_type) :: limit
+
+      ok = index(word, 'SET ') == 1 .or. index(word, 'PMARK ') == 1
+      if (.not. ok) return
+      limit%is_mark = word(1:1) == 'P'
+      limit%line = line
+      call parse_integer(trim(adjustl(word(index(word, ' '):))), limit%id, ok)
+      if (.not. ok) return
+      if (.not. allocated(limits)) allocate (limits(0))
+      limits = [limits, limit]
+   end subroutine read_limit
 
 end module case_sets

@@ -5,10 +5,10 @@ module deck_input
    use case_control, only: case_control_type, read_case_control
    use deck_cards, only: card_name, card_type, check_first_field, is_continuation, read_card
    use deck_errors, only: deck_error_list
-   use deck_text, only: deck_text_of_bytes, deck_text_type, read_deck_text
+   use deck_text, only: deck_text_of_bytes, deck_text_type, is_include, read_deck_text
    use joint_cards, only: read_jgap, read_cjoint, read_jincr, read_jnorm, read_joint, read_jshear, read_pjoint
    use kinds, only: long
-   use line_scan, only: is_include
+   use lists, only: id_table_type
    use load_cards, only: read_bolt, read_force, read_gravity, read_load, read_pressure, read_surface_load
    use mesh_cards, only: complete_remedy, read_block, read_edge, read_element, read_grid, read_pmark, fill_grid_defaults, &
                          read_grid_defaults, read_system, system_names
@@ -18,7 +18,6 @@ module deck_input
    use rigid_cards, only: read_equation, read_rigid
    use spring_cards, only: read_mass, read_spring, read_spring_property
    use support_cards, only: read_displacement, read_equation_sum, read_support, read_support_sum
-   use unused_cards, only: count_unused
    use vibration_cards, only: read_eigrl, read_freq1, read_freq4, read_tabdmp1
    implicit none
    private
@@ -34,6 +33,8 @@ module deck_input
    end type deck_type
 
    character(*), parameter :: end_of_data = 'ENDDATA', behind_end = 'text behind ENDDATA' ! the second as an entry without effect
+
+   character(6), parameter :: property_names(4) = ['PSHELL', 'PAXIS ', 'PSOLID', 'PROD  ']
 
 contains
 
@@ -246,5 +247,74 @@ contains
          end if
       end if
    end subroutine find_card
+
+   !> Add to the entries without effect of BULK its properties and coordinate systems that no other card names.
+   subroutine count_unused(bulk)
+      type(bulk_data_type), intent(inout) :: bulk
+      integer, allocatable :: id(:), named(:), sort(:)
+      integer :: i
+
+      associate (pshell => bulk%pshell%id, paxis => bulk%paxis%id, psolid => bulk%psolid%id, prod => bulk%prod%id)
+         allocate (id, source=[pshell, paxis, psolid, prod])
+         allocate (sort, source=[(1, i = 1, size(pshell)), (2, i = 1, size(paxis)), (3, i = 1, size(psolid)), &
+                                 (4, i = 1, size(prod))])
+      end associate
+      call find_named(id, [bulk%block%property, without_repeats(bulk%element%property), without_repeats(bulk%edge%property)], named)
+      do i = 1, size(id)
+         if (named(i) == 0 .and. id(i) > 0) call bulk%idle%add(trim(property_names(sort(i))))
+      end do
+      call count_spring_properties(.false., 'PELAS')
+      call count_spring_properties(.true., 'PBUSH')
+      if (size(bulk%system) == 0) return
+      call find_named(bulk%system%id, [bulk%system%reference, bulk%force%system, bulk%pressure%system, bulk%gravity%system, &
+                                       bulk%spring%system, bulk%mass%system, without_repeats(bulk%grid%cp), &
+                                       without_repeats(bulk%grid%cd)], named)
+      do i = 1, size(named)
+         associate (card => bulk%system(i))
+            if (named(i) == 0 .and. card%id > 0) call bulk%idle%add(system_names(card%kind + merge(0, 3, card%nodes(1) > 0)))
+         end associate
+      end do
+
+   contains
+
+      !> PELAS, or PBUSH, which bushes alone name.
+      subroutine count_spring_properties(are_bushes, name)
+         logical, intent(in)      :: are_bushes
+         character(*), intent(in) :: name
+         integer, allocatable :: property(:)
+         integer :: k
+
+         allocate (property, source=pack(bulk%spring_property%id, bulk%spring_property%is_bush .eqv. are_bushes))
+         call find_named(property, pack(bulk%spring%property, bulk%spring%is_bush .eqv. are_bushes), named)
+         do k = 1, size(property)
+            if (named(k) == 0 .and. property(k) > 0) call bulk%idle%add(name)
+         end do
+      end subroutine count_spring_properties
+
+   end subroutine count_unused
+
+   !> NAMED(i) > 0 where ID(i) is among NAMES.
+   subroutine find_named(id, names, named)
+      integer, intent(in)               :: id(:), names(:)
+      integer, allocatable, intent(out) :: named(:)
+      type(id_table_type) :: table
+      integer :: i, k
+
+      call table%build(id)
+      allocate (named(size(id)), source=0)
+      do i = 1, size(names)
+         k = table%find(names(i))
+         if (k > 0) named(k) = 1
+      end do
+   end subroutine find_named
+
+   !> LIST without the entries that repeat the one before: a mesh has long runs of one property.
+   pure function without_repeats(list) result(shorter)
+      integer, intent(in)  :: list(:)
+      integer, allocatable :: shorter(:)
+      integer :: i
+
+      shorter = pack(list, [(i == 1 .or. list(max(1, i - 1)) /= list(i), i = 1, size(list))])
+   end function without_repeats
 
 end module deck_input

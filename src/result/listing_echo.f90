@@ -2,9 +2,8 @@
 module listing_echo
    use deck_cards, only: card_name
    use deck_input, only: deck_type
-   use deck_text, only: deck_text_type
+   use deck_text, only: deck_text_type, is_include
    use kinds, only: long
-   use line_scan, only: is_include
    use listing_table, only: cut, heading, page_width
    use output_file, only: output_file_type
    use text_tools, only: integer_text, plural, upper
