@@ -19,11 +19,6 @@ module bulk_data
       logical  :: doubtful = .false.                    ! some field could not be read
    end type grid_card
 
-   !> GRDSET: of GRID fields left blank.
-   type, public :: grid_defaults_card
-      integer :: line = 0, cp = 0, cd = 0, ps = 0
-   end type grid_defaults_card
-
    !> A coordinate system, by three points in system REFERENCE (CORD2) or by three NODES (CORD1): its origin, one on z, one in x-z.
    type, public :: system_card
       integer  :: line = 0, id = 0
@@ -198,8 +193,7 @@ module bulk_data
       integer  :: line = 0, set = 0
       real(wp) :: scale = 0.0_wp
       real(wp), allocatable :: factors(:)
-      integer, allocatable  :: sets(:)
-      integer, allocatable  :: at(:)                    ! data field of each set
+      integer, allocatable  :: sets(:), at(:)           ! AT(k): data field of SETS(k)
    end type load_card
 
    !> BLOCK2 and BLOCK3.
@@ -303,7 +297,7 @@ module bulk_data
       type(entry_tally_type) :: idle                       !! entries without effect, of case control too
       type(parameters_type) :: parameters                  !! of PARAM
       type(grid_card), allocatable         :: grid(:)
-      type(grid_defaults_card)             :: grid_defaults
+      type(grid_card)                      :: grid_defaults !! CP, CD and PS of GRDSET
       type(system_card), allocatable       :: system(:)
       type(element_card), allocatable      :: element(:)   !! of bodies; faces of marked surfaces too
       type(element_card), allocatable      :: edge(:)      !! CBAR and CROD

@@ -1,6 +1,6 @@
 !> Case control: everything before BEGIN BULK. What to do, stage by stage; the bulk data says with what.
 module case_control
-   use case_entries, only: check_repeated, choose, cut_entry, entry_type, global_keys, is_own_key, read_number, set_reference, &
+   use case_entries, only: check_repeated, choose, cut_entry, entry_type, global_keys, read_number, set_reference, &
                            stage_keys, value_error
    use case_sets, only: number_set, read_set
    use deck_errors, only: deck_error_list
@@ -102,7 +102,7 @@ contains
             call control%idle%add('OUTPUT')
          else if (entry%key == 'SET') then
             call read_set(text, entry, cursor, control%sets, errors)
-         else if (is_own_key(entry%key)) then
+         else if (entry%key == 'SUBCASE' .or. any(global_keys == entry%key) .or. any(stage_keys == entry%key)) then
             call check_repeated(entry, keys_seen, errors)
             call read_entry(entry, control, common, errors)
          else

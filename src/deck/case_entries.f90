@@ -6,7 +6,7 @@ module case_entries
    implicit none
    private
 
-   public :: cut_entry, check_repeated, choose, is_own_key, read_number, value_error
+   public :: cut_entry, check_repeated, choose, read_number, value_error
 
    !> Keys that hold for all stages, and those of a stage.
    character(8), parameter, public :: global_keys(12) = [character(8) :: 'SOL', 'TITLE', 'UNITS', 'METHOD', 'TOL', 'PRESSURE', &
@@ -70,13 +70,6 @@ contains
       entry%last = len(line)
       entry%first = min(entry%first, entry%last)
    end subroutine cut_entry
-
-   !> Whether KEY is one of the program's own, of the whole deck or of a stage.
-   pure logical function is_own_key(key)
-      character(*), intent(in) :: key
-
-      is_own_key = any(global_keys == key) .or. any(stage_keys == key) .or. key == 'SUBCASE'
-   end function is_own_key
 
    !> No key twice in the same place (above the stages, or in the same stage).
    subroutine check_repeated(entry, keys_seen, errors)

@@ -17,7 +17,7 @@ module deck_input
                              read_temperature
    use rigid_cards, only: read_equation, read_rigid
    use spring_cards, only: read_mass, read_spring, read_spring_property
-   use support_cards, only: read_displacement, read_equation_sum, read_support, read_support_sum
+   use support_cards, only: read_displacement, read_sum, read_support
    use vibration_cards, only: read_eigrl, read_freq1, read_freq4, read_tabdmp1
    implicit none
    private
@@ -34,7 +34,6 @@ module deck_input
 
    character(*), parameter :: end_of_data = 'ENDDATA', behind_end = 'text behind ENDDATA' ! the second as an entry without effect
 
-   character(6), parameter :: property_names(4) = ['PSHELL', 'PAXIS ', 'PSOLID', 'PROD  ']
 
 contains
 
@@ -60,10 +59,10 @@ contains
       call cards%add_kinds(['CONM2'], read_mass)
       call cards%add_kinds(['MAT1'], read_mat1)
       call cards%add_kinds(['SPC ', 'SPC1', 'SPCM'], read_support)
-      call cards%add_kinds(['SPCADD'], read_support_sum)
+      call cards%add_kinds(['SPCADD'], read_sum)
       call cards%add_kinds(['RBE2', 'RBE3'], read_rigid)
       call cards%add_kinds(['MPC'], read_equation)
-      call cards%add_kinds(['MPCADD'], read_equation_sum)
+      call cards%add_kinds(['MPCADD'], read_sum)
       call cards%add_kinds(['FORCE ', 'FORCE1', 'FORCE2', 'MOMENT'], read_force)
       call cards%add_kinds(['PLOAD4', 'PLOADE', 'PLOAD '], read_pressure)
       call cards%add_kinds(['PLOADM', 'FORCEM'], read_surface_load)
@@ -105,17 +104,6 @@ contains
          bulk%jgap(cards%n_of('JGAP')), bulk%jincr(cards%n_of('JINCR')), bulk%eigrl(cards%n_of('EIGRL')), &
          bulk%freq1(cards%n_of('FREQ1')), bulk%freq4(cards%n_of('FREQ4')), bulk%tabdmp1(cards%n_of('TABDMP1')))
    end subroutine make_room
-
-   !> The arrays whose cards may fill one entry or several are cut to those that were filled.
-   subroutine give_back(bulk)
-      type(bulk_data_type), intent(inout) :: bulk
-
-      bulk%system = bulk%system(:count(bulk%system%line > 0))
-      bulk%spring_property = bulk%spring_property(:count(bulk%spring_property%line > 0))
-      bulk%support = bulk%support(:count(bulk%support%line > 0))
-      bulk%displacement = bulk%displacement(:count(bulk%displacement%line > 0))
-      bulk%temperature = bulk%temperature(:count(bulk%temperature%line > 0))
-   end subroutine give_back
 
    !> Read the deck PATH. READABLE is false where the file itself cannot be read; what is wrong in it goes to ERRORS.
    subroutine read_deck(path, deck, errors, readable)
@@ -161,7 +149,13 @@ contains
       call find_cards(deck%text, cursor, cards, deck%bulk, errors)
       call make_room(cards, deck%bulk)
       call cards%read_all(deck%text, deck%bulk, errors)
-      call give_back(deck%bulk)
+      associate (bulk => deck%bulk) ! the arrays whose cards may fill one entry or several are cut to those that were filled
+         bulk%system = bulk%system(:count(bulk%system%line > 0))
+         bulk%spring_property = bulk%spring_property(:count(bulk%spring_property%line > 0))
+         bulk%support = bulk%support(:count(bulk%support%line > 0))
+         bulk%displacement = bulk%displacement(:count(bulk%displacement%line > 0))
+         bulk%temperature = bulk%temperature(:count(bulk%temperature%line > 0))
+      end associate
       call fill_grid_defaults(deck%bulk)
       call count_unused(deck%bulk)
       associate (asked => deck%control%stages%vibration)
@@ -251,62 +245,44 @@ contains
    !> Add to the entries without effect of BULK its properties and coordinate systems that no other card names.
    subroutine count_unused(bulk)
       type(bulk_data_type), intent(inout) :: bulk
-      integer, allocatable :: id(:), named(:), sort(:)
-      integer :: i
 
-      associate (pshell => bulk%pshell%id, paxis => bulk%paxis%id, psolid => bulk%psolid%id, prod => bulk%prod%id)
-         allocate (id, source=[pshell, paxis, psolid, prod])
-         allocate (sort, source=[(1, i = 1, size(pshell)), (2, i = 1, size(paxis)), (3, i = 1, size(psolid)), &
-                                 (4, i = 1, size(prod))])
+      associate (properties => [without_repeats(bulk%block%property), without_repeats(bulk%element%property), &
+                                without_repeats(bulk%edge%property)], &
+                 springs => bulk%spring_property, is_bush => bulk%spring%is_bush, system => bulk%system)
+         call count_unnamed([bulk%pshell%id, bulk%paxis%id, bulk%psolid%id, bulk%prod%id], properties, &
+            [spread('PSHELL', 1, size(bulk%pshell)), spread('PAXIS ', 1, size(bulk%paxis)), &
+             spread('PSOLID', 1, size(bulk%psolid)), spread('PROD  ', 1, size(bulk%prod))])
+         call count_unnamed(pack(springs%id, .not. springs%is_bush), pack(bulk%spring%property, .not. is_bush), &
+                            spread('PELAS ', 1, count(.not. springs%is_bush)))
+         call count_unnamed(pack(springs%id, springs%is_bush), pack(bulk%spring%property, is_bush), &
+                            spread('PBUSH ', 1, count(springs%is_bush)))
+         if (size(system) == 0) return
+         call count_unnamed(system%id, [system%reference, bulk%force%system, bulk%pressure%system, bulk%gravity%system, &
+            bulk%spring%system, bulk%mass%system, without_repeats(bulk%grid%cp), without_repeats(bulk%grid%cd)], &
+            system_names(system%kind + merge(0, 3, system%nodes(1) > 0)))
       end associate
-      call find_named(id, [bulk%block%property, without_repeats(bulk%element%property), without_repeats(bulk%edge%property)], named)
-      do i = 1, size(id)
-         if (named(i) == 0 .and. id(i) > 0) call bulk%idle%add(trim(property_names(sort(i))))
-      end do
-      call count_spring_properties(.false., 'PELAS')
-      call count_spring_properties(.true., 'PBUSH')
-      if (size(bulk%system) == 0) return
-      call find_named(bulk%system%id, [bulk%system%reference, bulk%force%system, bulk%pressure%system, bulk%gravity%system, &
-                                       bulk%spring%system, bulk%mass%system, without_repeats(bulk%grid%cp), &
-                                       without_repeats(bulk%grid%cd)], named)
-      do i = 1, size(named)
-         associate (card => bulk%system(i))
-            if (named(i) == 0 .and. card%id > 0) call bulk%idle%add(system_names(card%kind + merge(0, 3, card%nodes(1) > 0)))
-         end associate
-      end do
 
    contains
 
-      !> PELAS, or PBUSH, which bushes alone name.
-      subroutine count_spring_properties(are_bushes, name)
-         logical, intent(in)      :: are_bushes
-         character(*), intent(in) :: name
-         integer, allocatable :: property(:)
-         integer :: k
+      !> Cards with these numbers ID, each CALLED so, of which none is among NAMES.
+      subroutine count_unnamed(id, names, called)
+         integer, intent(in)      :: id(:), names(:)
+         character(6), intent(in) :: called(:)
+         type(id_table_type) :: table
+         logical :: named(0:size(id))
+         integer :: i
 
-         allocate (property, source=pack(bulk%spring_property%id, bulk%spring_property%is_bush .eqv. are_bushes))
-         call find_named(property, pack(bulk%spring%property, bulk%spring%is_bush .eqv. are_bushes), named)
-         do k = 1, size(property)
-            if (named(k) == 0 .and. property(k) > 0) call bulk%idle%add(name)
+         call table%build(id)
+         named = .false.
+         do i = 1, size(names)
+            named(table%find(names(i))) = .true.
          end do
-      end subroutine count_spring_properties
+         do i = 1, size(id)
+            if (id(i) > 0 .and. .not. named(i)) call bulk%idle%add(trim(called(i)))
+         end do
+      end subroutine count_unnamed
 
    end subroutine count_unused
-
-   !> NAMED(i) > 0 where ID(i) is among NAMES.
-   subroutine find_named(id, names, named)
-      integer, intent(in)               :: id(:), names(:)
-      integer, allocatable, intent(out) :: named(:)
-      type(id_table_type) :: table
-      integer :: i, k
-
-      call table%build(id)
-      allocate (named(size(id)), source=0)
-      do i = 1, size(names)
-         k = table%find(names(i))
-         if (k > 0) named(k) = 1
-      end do
-   end subroutine find_named
 
    !> LIST without the entries that repeat the one before: a mesh has long runs of one property.
    pure function without_repeats(list) result(shorter)

@@ -70,7 +70,7 @@ contains
       type(deck_error_list), intent(inout) :: errors
       logical, intent(out)                 :: readable
 
-      call start_text(text)
+      allocate (text%files(max_files), text%lines(1024), text%parts(2*max_files))
       call add_file(text, path, 0, 0, errors, readable)
    end subroutine read_deck_text
 
@@ -81,7 +81,7 @@ contains
       type(deck_text_type), intent(out)    :: text
       type(deck_error_list), intent(out)   :: errors
 
-      call start_text(text)
+      allocate (text%files(max_files), text%lines(1024), text%parts(2*max_files))
       text%n_files = 1
       text%files(1) = source_file(path='text', true_path='', bytes=bytes)
       call add_lines(text, 1, 0, errors)
@@ -100,13 +100,6 @@ contains
          call add_to_checksum(text%files(i)%bytes, sum)
       end do
    end function checksum_of
-
-   subroutine start_text(text)
-      type(deck_text_type), intent(inout) :: text
-
-      allocate (text%files(max_files))
-      allocate (text%lines(1024), text%parts(2*max_files))
-   end subroutine start_text
 
    !> Line I as it stands in its file, without the line end.
    function whole_line(self, i) result(line)
@@ -330,7 +323,8 @@ contains
             if (in_card) finish = i - 1
             in_card = .false.
          case (carriage_return)
-            if (bad < 0 .and. .not. ends_line(bytes, i)) bad = iachar(bytes(i:i))
+            if (bad < 0 .and. i < len(bytes, long) .and. bytes(i + 1:min(i + 1, len(bytes, long))) /= achar(10)) &
+               bad = iachar(bytes(i:i)) ! it does not stand at the end of its line
             if (in_card) finish = i - 1
             in_card = .false.
          case (line_feed)
@@ -347,15 +341,6 @@ contains
       end do
       line%length = int(finish - start + 1)
    end subroutine scan_line
-
-   !> Whether the carriage return at I stands at the end of its line.
-   pure logical function ends_line(bytes, i)
-      character(*), intent(in)  :: bytes
-      integer(long), intent(in) :: i
-
-      ends_line = i == len(bytes, long)
-      if (.not. ends_line) ends_line = bytes(i + 1:i + 1) == achar(10)
-   end function ends_line
 
    !> Whether LINE (its card part) is an INCLUDE: the word, then a blank, a quote or an equals sign.
    pure logical function is_include(line)

@@ -73,11 +73,10 @@ contains
       integer, intent(in)                       :: order(:)
       type(kind_type), allocatable, intent(out) :: kinds(:)
       integer, allocatable, intent(out)         :: kind_of(:)
-      type(kind_type), allocatable :: more(:)
-      character(:), allocatable    :: words
+      character(:), allocatable :: words
       integer :: i, k, n
 
-      allocate (kinds(8), kind_of(size(order)))
+      allocate (kinds(size(order)), kind_of(size(order)))
       n = 0
       do k = 1, size(order)
          words = kind_words(errors%items(order(k))%message)
@@ -86,11 +85,6 @@ contains
          end do
          kind_of(k) = i
          if (i <= n) cycle
-         if (n == size(kinds)) then
-            allocate (more(2*n))
-            more(:n) = kinds
-            call move_alloc(more, kinds)
-         end if
          n = n + 1
          kinds(n)%words = words
          if (index(words, no_card) > 0) kinds(n)%most = 1

@@ -46,8 +46,7 @@ contains
             call check_blank(card, 3, card%n)
          case default
             call check_blank(card, 3, min(7, card%n))
-            if (jgap%kind == 'TABLE') call read_points(card, jgap)
-            if (jgap%kind == 'NODES') call read_nodes(card, jgap)
+            call read_gaps(card, jgap)
          end select
       end associate
    end subroutine read_jgap
@@ -64,45 +63,32 @@ contains
       end do
    end subroutine check_blank
 
-   !> The points of TABLE: X, Y, Z, G four by four; a coordinate left blank is zero, four blank fields are no point.
-   subroutine read_points(card, jgap)
+   !> The points of TABLE: X, Y, Z, G four by four; a coordinate left blank is zero, four blank fields are no point. The nodes of NODES:
+   !! G1 and its gap, two by two; two blank fields are no node.
+   subroutine read_gaps(card, jgap)
       type(card_fields_type), intent(inout) :: card
       type(jgap_card), intent(inout)        :: jgap
+      character(*), parameter :: a_node = 'the number of a node'
       integer :: d, i
       logical :: ok
 
-      call list_groups(card, 4, jgap)
+      call list_groups(card, merge(4, 2, jgap%kind == 'TABLE'), jgap)
       do i = 1, size(jgap%at)
          associate (first => jgap%at(i))
-            do d = 1, 3
-               if (card%text_at(first + d - 1) /= '') call card%real_at(first + d - 1, achar(iachar('X') + d - 1), &
-                                                                        'a real number, or blank', jgap%x(d, i), ok)
-            end do
-            call card%real_at(first + 3, 'G', 'the gap at the point, a real number', jgap%gap(i), ok, required=.true.)
-         end associate
-      end do
-   end subroutine read_points
-
-   !> The nodes of NODES: G1 and its gap, two by two; two blank fields are no node.
-   subroutine read_nodes(card, jgap)
-      type(card_fields_type), intent(inout) :: card
-      type(jgap_card), intent(inout)        :: jgap
-      character(*), parameter :: expected = 'the number of a node'
-      integer :: i
-      logical :: ok
-
-      call list_groups(card, 2, jgap)
-      do i = 1, size(jgap%at)
-         associate (first => jgap%at(i))
-            if (card%text_at(first) == '') then
-               call card%error_at(first, 'G: blank, expected '//expected)
+            if (jgap%kind == 'TABLE') then
+               do d = 1, 3
+                  if (card%text_at(first + d - 1) /= '') call card%real_at(first + d - 1, achar(iachar('X') + d - 1), &
+                                                                           'a real number, or blank', jgap%x(d, i), ok)
+               end do
+               call card%real_at(first + 3, 'G', 'the gap at the point, a real number', jgap%gap(i), ok, required=.true.)
             else
-               call card%integer_at(first, 'G', expected, jgap%node(i), ok)
+               if (card%text_at(first) == '') call card%error_at(first, 'G: blank, expected '//a_node)
+               if (card%text_at(first) /= '') call card%integer_at(first, 'G', a_node, jgap%node(i), ok)
+               call card%real_at(first + 1, 'GAP', 'the gap there, a real number', jgap%gap(i), ok, required=.true.)
             end if
-            call card%real_at(first + 1, 'GAP', 'the gap there, a real number', jgap%gap(i), ok, required=.true.)
          end associate
       end do
-   end subroutine read_nodes
+   end subroutine read_gaps
 
    !> Where in the list of the card the groups of LENGTH fields begin that are not blank, and room for what they say; there must be
    !! some.

@@ -30,9 +30,7 @@ contains
       allocate (shares(n), source=1.0_wp)
       if (n == 1) return
       step = 2.0_wp*(1.0_wp - n*first)/(real(n, wp)*(n - 1))
-      do k = 1, n
-         shares(k) = first + (k - 1)*step
-      end do
+      shares = [(first + (k - 1)*step, k = 1, n)]
       ok = shares(1) > 0.0_wp .and. shares(n) > 1.0e-12_wp
    end subroutine arithmetic_shares
 

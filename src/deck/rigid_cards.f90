@@ -1,7 +1,7 @@
 !> The cards of dependent nodes: RBE2 (nodes that move with one as a rigid body), RBE3 (one that moves as the weighted mean of others),
 !! MPC (an equation between components).
 module rigid_cards
-   use bulk_data, only: bulk_data_type, equation_card, has_component, rigid_card
+   use bulk_data, only: bulk_data_type, has_component, rigid_card
    use card_fields, only: card_fields_type
    use field_rules, only: parse_integer, positive
    use kinds, only: wp
@@ -188,7 +188,9 @@ contains
    subroutine read_equation(card, bulk)
       type(card_fields_type), intent(inout) :: card
       type(bulk_data_type), intent(inout)   :: bulk
-      integer :: k
+      real(wp) :: factor
+      integer  :: component, k, node
+      logical  :: ok
 
       associate (equation => bulk%equation(card%i))
          equation%line = card%line
@@ -204,36 +206,23 @@ contains
          if (.not. card%is_faulty() .and. abs(equation%factor(1)) <= 0.0_wp) &
             call card%error('A1', 'zero, but the first term is the dependent one')
          do k = 8, card%n
-            if (modulo(k, 8) == 2 .or. modulo(k, 8) == 5) then
-               call read_term(card, k, equation)
-            else if (modulo(k, 8) <= 1 .and. card%text_at(k) /= '') then
+            if (modulo(k, 8) <= 1 .and. card%text_at(k) /= '') &
                call card%error_at(k, ''''//card%text_at(k)//''' where the field must be blank')
+            if (modulo(k, 8) /= 2 .and. modulo(k, 8) /= 5) cycle ! no term begins here
+            if (card%text_at(k)//card%text_at(k + 1)//card%text_at(k + 2) == '') cycle
+            if (card%text_at(k) == '') then
+               call card%error_at(k, 'G: blank, expected '//a_node)
+               cycle
             end if
+            call card%integer_at(k, 'G', a_node, node, ok)
+            call card%components_at(k + 1, 'C', .false., component, most=6)
+            call card%real_at(k + 2, 'A', 'a real number', factor, ok, required=.true.)
+            equation%node = [equation%node, node]
+            equation%component = [equation%component, component]
+            equation%factor = [equation%factor, factor]
+            equation%at = [equation%at, k]
          end do
       end associate
    end subroutine read_equation
-
-   !> The term in the data fields K to K + 2, where there is one.
-   subroutine read_term(card, k, equation)
-      type(card_fields_type), intent(inout) :: card
-      integer, intent(in)                   :: k
-      type(equation_card), intent(inout)    :: equation
-      real(wp) :: factor
-      integer  :: component, node
-      logical  :: ok
-
-      if (card%text_at(k)//card%text_at(k + 1)//card%text_at(k + 2) == '') return
-      if (card%text_at(k) == '') then
-         call card%error_at(k, 'G: blank, expected '//a_node)
-         return
-      end if
-      call card%integer_at(k, 'G', a_node, node, ok)
-      call card%components_at(k + 1, 'C', .false., component, most=6)
-      call card%real_at(k + 2, 'A', 'a real number', factor, ok, required=.true.)
-      equation%node = [equation%node, node]
-      equation%component = [equation%component, component]
-      equation%factor = [equation%factor, factor]
-      equation%at = [equation%at, k]
-   end subroutine read_term
 
 end module rigid_cards

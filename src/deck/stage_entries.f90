@@ -1,6 +1,7 @@
-!> The entries of case control that belong to one stage: what loads it, what is printed of it.
+!> The entries of case control that belong to one stage: what loads it, what is printed of it, how the structure oscillates at its end
+!! (MODES and what goes with it, FREQUENCY and what goes with that).
 module stage_entries
-   use case_entries, only: choose, entry_type, read_number, set_reference, value_error
+   use case_entries, only: choose, entry_type, read_number, set_reference, stage_keys, value_error
    use case_sets, only: limit_type, read_limit
    use deck_errors, only: deck_error_list
    use field_rules, only: largest_size, parse_real, smallest_size
@@ -13,11 +14,10 @@ module stage_entries
 
    integer, parameter, public :: output_none = 0, output_last = 1, output_joint = 2, output_all = 3 !! OUTPUT =
 
-   character(9), parameter :: keys(*) = [character(9) :: 'MODES', 'STIFFNESS', 'AMPLITUDE', 'FREQUENCY', 'DLOAD', 'SDAMPING', &
-                                         'RESPONSE']
-   integer, parameter :: modes = 1, stiffness = 2, amplitude = 3, frequency = 4, dload = 5, sdamping = 6, response = 7 ! of KEYS
+   integer, parameter :: modes = 1, stiffness = 2, frequency = 4, dload = 5, response = 7 ! of KEYS
+   character(11), parameter :: keys(*) = stage_keys(findloc(stage_keys, 'MODES', dim=1):)
 
-   !> What one stage asks.
+   !> How one stage asks the structure to oscillate.
    type, public :: vibration_entries_type
       integer  :: line(size(keys)) = 0        !! on which each of the keys stands, 0: not given
       type(set_reference) :: modes            !! EIGRL
@@ -34,50 +34,76 @@ module stage_entries
    type, public :: stage_type
       integer :: id = 0, line = 0
       character(:), allocatable :: label
-      type(set_reference) :: load     !! total load at the end of the stage; none: no load
-      type(set_reference) :: increments
-      type(set_reference) :: supports
-      type(set_reference) :: temperature !! at the end of the stage; none: all is at its TREF
-      type(set_reference) :: equations !! between components, MPC
+      type(set_reference) :: load         !! total load at the end of the stage; none: no load
+      type(set_reference) :: increments, supports
+      type(set_reference) :: temperature  !! at the end of the stage; none: all is at its TREF
+      type(set_reference) :: equations    !! between components, MPC
       integer :: output = output_last
-      logical :: plot   = .false.
-      logical :: vtu    = .false.
-      logical :: steps  = .false.   !! files for ParaView after every increment
-      logical :: stress = .false.   !! principal stresses and von Mises in the listing
-      logical :: state  = .false.   !! what the interface elements remember
-      logical :: condensed = .false. !! [k_b] condensed on the interface
-      logical :: along_cd = .false. !! vectors at nodes along their systems CD
+      logical :: plot = .false., vtu = .false.
+      logical :: steps = .false.          !! files for ParaView after every increment
+      logical :: stress = .false.         !! principal stresses and von Mises in the listing
+      logical :: state = .false.          !! what the interface elements remember
+      logical :: condensed = .false.      !! [k_b] condensed on the interface
+      logical :: along_cd = .false.       !! vectors at nodes along their systems CD
       type(limit_type), allocatable :: only(:) !! not allocated: the tables have all nodes and elements
       type(vibration_entries_type) :: vibration !! MODES and what goes with it
    end type stage_type
 
 contains
 
-   !> One of LABEL, LOAD, INCR, SPC, TEMPERATURE, MPC, OUTPUT and the keys of vibration of STAGE.
+   !> One entry of a stage into STAGE.
    subroutine read_stage_entry(entry, stage, errors)
       type(entry_type), intent(in)         :: entry
       type(stage_type), intent(inout)      :: stage
       type(deck_error_list), intent(inout) :: errors
+      integer :: choice, key
+      logical :: ok
 
-      if (is_vibration_key(entry%key)) call read_vibration_entry(entry, stage%vibration, errors)
-      select case (entry%key)
-      case ('LABEL')
-         stage%label = entry%value
-      case ('LOAD')
-         call read_number(entry, stage%load, errors)
-      case ('INCR')
-         call read_number(entry, stage%increments, errors)
-      case ('SPC')
-         call read_number(entry, stage%supports, errors)
-      case ('MPC')
-         call read_number(entry, stage%equations, errors)
-      case ('OUTPUT')
-         call read_output(entry, stage, errors)
-      case ('TEMPERATURE')
-         call read_number(entry, stage%temperature, errors)
-         if (entry%describers /= 'LOAD') call errors%add(entry%line, 'TEMPERATURE: expected TEMPERATURE(LOAD) = set, the '// &
-            'temperatures at the end of the stage; those without thermal strain are TREF on MAT1')
-      end select
+      key = findloc(keys == entry%key, .true., dim=1)
+      if (key > 0) stage%vibration%line(key) = entry%line
+      associate (asked => stage%vibration)
+         select case (entry%key)
+         case ('LABEL')
+            stage%label = entry%value
+         case ('LOAD')
+            call read_number(entry, stage%load, errors)
+         case ('INCR')
+            call read_number(entry, stage%increments, errors)
+         case ('SPC')
+            call read_number(entry, stage%supports, errors)
+         case ('MPC')
+            call read_number(entry, stage%equations, errors)
+         case ('OUTPUT')
+            call read_output(entry, stage, errors)
+         case ('TEMPERATURE')
+            call read_number(entry, stage%temperature, errors)
+            if (entry%describers /= 'LOAD') call errors%add(entry%line, 'TEMPERATURE: expected TEMPERATURE(LOAD) = set, the '// &
+               'temperatures at the end of the stage; those without thermal strain are TREF on MAT1')
+         case ('MODES')
+            call read_number(entry, asked%modes, errors)
+            asked%free = entry%describers == 'FREE'
+            if (entry%describers /= '' .and. .not. asked%free) call errors%add(entry%line, 'MODES('//entry%describers// &
+               '): expected MODES = set, or MODES(FREE) = set, the supports let go')
+         case ('STIFFNESS')
+            choice = 1
+            call choose(entry, '|UNLOAD|LOAD|', choice, errors)
+            asked%on_loading = choice == 2
+         case ('AMPLITUDE')
+            call parse_real(upper(entry%value), asked%amplitude, ok)
+            if (ok) ok = asked%amplitude >= smallest_size .and. asked%amplitude <= largest_size
+            if (ok) return
+            asked%amplitude = 1.0_wp ! that nothing more is said of it
+            call value_error(entry, 'a real number above 0, the largest displacement of the oscillation', errors)
+         case ('FREQUENCY')
+            call read_number(entry, asked%frequency, errors)
+         case ('DLOAD')
+            call read_number(entry, asked%load, errors)
+         case ('SDAMPING')
+            call read_number(entry, asked%damping, errors)
+         case ('RESPONSE')
+            call read_response(entry, asked, errors)
+         end select
+      end associate
    end subroutine read_stage_entry
 
    !> OUTPUT = LAST, PLOT: words between commas.
@@ -145,50 +171,6 @@ contains
 
    end subroutine read_output
 
-   !> Whether KEY is read here.
-   pure logical function is_vibration_key(key)
-      character(*), intent(in) :: key
-
-      is_vibration_key = any(keys == key)
-   end function is_vibration_key
-
-   !> One entry into those of its stage.
-   subroutine read_vibration_entry(entry, asked, errors)
-      type(entry_type), intent(in)                :: entry
-      type(vibration_entries_type), intent(inout) :: asked
-      type(deck_error_list), intent(inout)        :: errors
-      integer :: choice, key
-      logical :: ok
-
-      key = findloc(keys == entry%key, .true., dim=1)
-      asked%line(key) = entry%line
-      select case (key)
-      case (modes)
-         call read_number(entry, asked%modes, errors)
-         asked%free = entry%describers == 'FREE'
-         if (entry%describers /= '' .and. .not. asked%free) call errors%add(entry%line, 'MODES('//entry%describers// &
-            '): expected MODES = set, or MODES(FREE) = set, the supports let go')
-      case (stiffness)
-         choice = 1
-         call choose(entry, '|UNLOAD|LOAD|', choice, errors)
-         asked%on_loading = choice == 2
-      case (amplitude)
-         call parse_real(upper(entry%value), asked%amplitude, ok)
-         if (ok) ok = asked%amplitude >= smallest_size .and. asked%amplitude <= largest_size
-         if (ok) return
-         asked%amplitude = 1.0_wp ! that nothing more is said of it
-         call value_error(entry, 'a real number above 0, the largest displacement of the oscillation', errors)
-      case (frequency)
-         call read_number(entry, asked%frequency, errors)
-      case (dload)
-         call read_number(entry, asked%load, errors)
-      case (sdamping)
-         call read_number(entry, asked%damping, errors)
-      case (response)
-         call read_response(entry, asked, errors)
-      end select
-   end subroutine read_vibration_entry
-
    !> RESPONSE = SET 5, PMARK 20: words between commas.
    subroutine read_response(entry, asked, errors)
       type(entry_type), intent(in)                :: entry
@@ -215,9 +197,11 @@ contains
       type(vibration_entries_type), intent(in) :: asked(:) !! of each stage
       integer, intent(in)                      :: line(:)  !! of its SUBCASE, 0: there is none
       type(deck_error_list), intent(inout)     :: errors
+      character(:), allocatable :: lacking
       integer :: key, need, s, said
 
-      said = 0
+      lacking = ''
+      said = 0 ! line of the FREQUENCY of which it was said last what it needs beside it
       do s = 1, size(asked)
          do key = stiffness, response
             need = merge(modes, frequency, key <= frequency)
@@ -227,24 +211,16 @@ contains
                call errors%add(at, trim(keys(key))//': has no effect without '//trim(keys(need))//', which is not given')
             end associate
          end do
-         call check_response(asked(s), said, errors)
+         associate (at => asked(s)%line)
+            if (at(frequency) == 0 .or. at(modes) == 0 .or. at(frequency) == said) cycle
+            lacking = '' ! damping may be that of materials, of which nothing is known here
+            if (at(dload) == 0) lacking = ', DLOAD (the set of the load that oscillates)'
+            if (at(response) == 0) lacking = lacking//', RESPONSE (the nodes to be written)'
+            if (lacking == '') cycle
+            said = at(frequency)
+            call errors%add(said, 'FREQUENCY: expected beside it '//lacking(3:))
+         end associate
       end do
    end subroutine check_vibration
-
-   !> FREQUENCY, where it has an effect, needs a load and nodes; damping may be that of materials, of which nothing is known here.
-   subroutine check_response(asked, said, errors)
-      type(vibration_entries_type), intent(in) :: asked !! of one stage
-      integer, intent(inout)                   :: said  !! line of the FREQUENCY of which it was said last
-      type(deck_error_list), intent(inout)     :: errors
-      character(:), allocatable :: lacking
-
-      if (asked%line(frequency) == 0 .or. asked%line(modes) == 0) return
-      lacking = ''
-      if (asked%line(dload) == 0) lacking = ', DLOAD (the set of the load that oscillates)'
-      if (asked%line(response) == 0) lacking = lacking//', RESPONSE (the nodes to be written)'
-      if (lacking == '' .or. asked%line(frequency) == said) return
-      said = asked%line(frequency)
-      call errors%add(said, 'FREQUENCY: expected beside it '//lacking(3:))
-   end subroutine check_response
 
 end module stage_entries

@@ -7,7 +7,7 @@ module support_cards
    implicit none
    private
 
-   public :: read_support, read_support_sum, read_equation_sum, read_displacement
+   public :: read_support, read_sum, read_displacement
 
 contains
 
@@ -82,24 +82,20 @@ contains
       support%at = support%at(:n)
    end subroutine list_nodes
 
-   !> SPCADD: the supports of all sets S1, S2, ...
-   subroutine read_support_sum(card, bulk)
+   !> SPCADD: the supports of all sets S1, S2, ...; MPCADD: their equations.
+   subroutine read_sum(card, bulk)
       type(card_fields_type), intent(inout) :: card
       type(bulk_data_type), intent(inout)   :: bulk
 
-      call read_sum(card, 'a support set', bulk%support_sum(card%i))
-   end subroutine read_support_sum
+      if (card%name == 'SPCADD') then
+         call add_up(card, 'a support set', bulk%support_sum(card%i))
+      else
+         call add_up(card, 'a set of equations', bulk%equation_sum(card%i))
+      end if
+   end subroutine read_sum
 
-   !> MPCADD: the equations of all sets S1, S2, ...
-   subroutine read_equation_sum(card, bulk)
-      type(card_fields_type), intent(inout) :: card
-      type(bulk_data_type), intent(inout)   :: bulk
-
-      call read_sum(card, 'a set of equations', bulk%equation_sum(card%i))
-   end subroutine read_equation_sum
-
-   !> A card that sums up sets S1, S2, ..., each the number of A_SET.
-   subroutine read_sum(card, a_set, total)
+   !> The sets S1, S2, ... of a card, each the number of A_SET.
+   subroutine add_up(card, a_set, total)
       type(card_fields_type), intent(inout) :: card
       character(*), intent(in)              :: a_set
       type(set_sum_card), intent(inout)     :: total
@@ -119,7 +115,7 @@ contains
          total%sets = [total%sets, set]
          total%at = [total%at, k]
       end do
-   end subroutine read_sum
+   end subroutine add_up
 
    !> SPCD: displacements of held components, in a load set: the total at the end of the stage, as for forces.
    subroutine read_displacement(card, bulk)
