@@ -48,15 +48,13 @@ module bulk_data
 
    type, public :: prod_card
       integer  :: line = 0, id = 0, material = 0
-      real(wp) :: area = 0.0_wp
-      real(wp) :: extra_mass = 0.0_wp                   ! NSM, by length
+      real(wp) :: area = 0.0_wp, extra_mass = 0.0_wp    ! the second NSM, by length
    end type prod_card
 
    !> CONROD: a bar with its own section.
    type, public :: conrod_card
       integer  :: line = 0, id = 0, nodes(2) = 0, material = 0
-      real(wp) :: area = 0.0_wp
-      real(wp) :: extra_mass = 0.0_wp                   ! NSM, by length
+      real(wp) :: area = 0.0_wp, extra_mass = 0.0_wp    ! the second NSM, by length
    end type conrod_card
 
    !> CELAS1, CELAS2 (between component COMPONENTS(1) of node 1 and COMPONENTS(2) of node 2) and CBUSH (along three axes).
@@ -66,8 +64,7 @@ module bulk_data
       integer  :: components(2) = 0
       logical  :: is_bush = .false.
       integer  :: system = -1                           ! CID of a CBUSH, 0: global axes, -1: blank
-      real(wp) :: stiffness = 0.0_wp                    ! of a CELAS2
-      real(wp) :: damping = 0.0_wp                      ! likewise, GE
+      real(wp) :: stiffness = 0.0_wp, damping = 0.0_wp  ! of a CELAS2, K and GE
    end type spring_card
 
    !> PELAS (the first stiffness) and PBUSH.
@@ -143,9 +140,7 @@ module bulk_data
    !> PLOADE (the edge of element FIRST between its corners G1 and G2), PLOAD4 (the face of element FIRST at G1 and G3 or G4, or the
    !! faces marked by the elements FIRST to LAST) and PLOAD (the face with the corners).
    type, public :: pressure_card
-      integer  :: line = 0, set = 0, first = 0, last = 0
-      integer  :: kind = of_edge
-      integer  :: corners(4) = 0
+      integer  :: line = 0, set = 0, first = 0, last = 0, kind = of_edge, corners(4) = 0
       real(wp) :: pressure(4) = 0.0_wp                  ! positive into the body, at the corners from G1 on
       integer  :: system = 0                            ! CID of the direction, 0: global axes
       real(wp) :: direction(3) = 0.0_wp                 ! of PLOAD4; zero: along the normal
@@ -155,8 +150,7 @@ module bulk_data
    type, public :: surface_load_card
       integer  :: line = 0, set = 0, surface = 0
       logical  :: is_pressure = .false.                 ! PLOADM
-      real(wp) :: pressure = 0.0_wp
-      real(wp) :: force(3) = 0.0_wp
+      real(wp) :: pressure = 0.0_wp, force(3) = 0.0_wp
    end type surface_load_card
 
    !> GRAV: acceleration.
@@ -198,8 +192,7 @@ module bulk_data
 
    !> BLOCK2 and BLOCK3.
    type, public :: block_card
-      integer  :: line = 0, id = 0, property = 0
-      integer  :: dimension = 2
+      integer  :: line = 0, id = 0, property = 0, dimension = 2
       integer  :: divisions(3) = [1, 1, 0]              ! of a BLOCK2 along sides 1-2 and 1-4, and 0
       real(wp) :: corner(3, 4) = 0.0_wp                 ! of a BLOCK3 two opposite ones
       real(wp) :: grading(3) = 1.0_wp                   ! last division over first
@@ -217,9 +210,8 @@ module bulk_data
    integer, parameter, public :: fit_auto = 1, fit_yes = 2, fit_no = 3 !! whether faces are fitted: where nodes do not match, always,
                                                                        !! never
    type, public :: joint_card
-      integer  :: line = 0, id = 0, law = 0, sides(2) = 0
+      integer  :: line = 0, id = 0, law = 0, sides(2) = 0, fit = fit_auto
       real(wp) :: tolerance = 0.0_wp                    ! 0: default
-      integer  :: fit = fit_auto
    end type joint_card
 
    type, public :: cjoint_card
@@ -230,11 +222,9 @@ module bulk_data
    type, public :: pjoint_card
       integer  :: line = 0, id = 0, normal_law = 0
       integer  :: shear_laws(2) = 0                     ! along x and y of the joint, 0: none
-      real(wp) :: mu = 0.0_wp
-      logical  :: mu_given = .false.
       integer  :: n_reanalyses = 1
-      real(wp) :: p0 = 0.0_wp
-      logical  :: p0_given = .false.
+      real(wp) :: mu = 0.0_wp, p0 = 0.0_wp
+      logical  :: mu_given = .false., p0_given = .false.
    end type pjoint_card
 
    type, public :: jnorm_card

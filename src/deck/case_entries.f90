@@ -17,8 +17,7 @@ module case_entries
 
    !> A key with a number, and the line it stands on (0: not given).
    type, public :: set_reference
-      integer :: id   = 0
-      integer :: line = 0
+      integer :: id = 0, line = 0
    end type set_reference
 
    !> The line as it is being read, cut into key and value.

@@ -202,7 +202,8 @@ contains
       end if
    end subroutine check_marker
 
-   !> Cut one line into fields and put them at the end of CARD.
+   !> Cut one line into fields and put them at the end of CARD. Fixed fields: eight of 8 columns, or four of 16, behind the name; columns
+   !! 73-80 are the continuation mark. Free field: entries between commas, eight or four of them, and one more for the mark.
    recursive subroutine cut_line(line, comma, at, has_tabs, card, errors)
       character(*), intent(in)             :: line     !! its card part
       integer, intent(in)                  :: comma    !! column of its first comma, 0: none
@@ -211,7 +212,7 @@ contains
       type(card_type), intent(inout)       :: card
       type(deck_error_list), intent(inout) :: errors
       character(:), allocatable :: plain
-      integer :: tab
+      integer :: first, k, last, most, tab
       logical :: large
 
       if (has_tabs) then
@@ -223,19 +224,41 @@ contains
             return
          end if
       end if
-      card%marker = ''
       large = index(line(:merge(comma - 1, min(8, len(line)), comma > 0)), '*') > 0
-      if (card%half .and. .not. large) then
-         do while (modulo(card%n, 8) /= 0) ! the second half of a large-field line is not there
-            call push(card, '', at, 0, 0, errors)
-         end do
-      end if
-      if (comma > 0) then
-         call cut_free(line, comma, at, card, large, errors)
-      else
-         call cut_fixed(line, at, card, large, errors)
-      end if
+      do while (card%half .and. .not. large .and. modulo(card%n, 8) /= 0) ! the second half of a large-field line is not there
+         call push(card, '', at, 0, 0, errors)
+      end do
+      card%marker = ''
+      if (comma == 0 .and. len(line) > 80) &
+         call errors%add(at, 'text past column 80: expected at most ten fields of eight columns', 81, len(line))
+      most = merge(4, 8, large)
+      first = merge(comma + 1, 9, comma > 0)
+      do k = 1, most
+         if (comma > 0) then
+            last = min(first - 1, len(line))
+            do while (last < len(line))
+               if (line(last + 1:last + 1) == ',') exit
+               last = last + 1
+            end do
+            call push(card, line(first:last), at, first, max(first, last), errors)
+            first = last + 2
+         else
+            last = first + 64/most - 1
+            call push(card, line(first:min(last, len(line))), at, first, last, errors)
+            first = last + 1
+         end if
+      end do
       card%half = large .and. modulo(card%n, 8) == 4
+      if (first > len(line)) return
+      last = merge(len(line), min(80, len(line)), comma > 0)
+      card%marker = adjustl(line(first:last))
+      if (comma > 0) then
+         if (index(line(first:), ',') > 0 .or. scan(card%marker(1:1), '+*') == 0) call errors%add(at, 'more than '// &
+            integer_text(most)//' entries behind the name: go on in a continuation line', first, last)
+      else if (card%marker /= '' .and. scan(card%marker(1:1), '+*') == 0) then
+         call errors%add(at, ''''//trim(card%marker)//''' in columns 73 to 80: expected a continuation mark that begins with '// &
+                         '+ or *, or blanks', first, last)
+      end if
    end subroutine cut_line
 
    !> TEXT with its tabs as blanks up to the next field, so that one tab makes one error.
@@ -254,62 +277,6 @@ contains
          if (len(plain) > 1000) return
       end do
    end function without_tabs
-
-   !> Fixed fields: eight of 8 columns, or four of 16, behind the name; columns 73-80 are the continuation mark.
-   subroutine cut_fixed(line, at, card, large, errors)
-      character(*), intent(in)             :: line
-      integer, intent(in)                  :: at
-      type(card_type), intent(inout)       :: card
-      logical, intent(in)                  :: large
-      type(deck_error_list), intent(inout) :: errors
-      integer :: width, k, first, last
-
-      if (len(line) > 80) then
-         call errors%add(at, 'text past column 80: expected at most ten fields of eight columns', 81, len(line))
-      end if
-      width = merge(16, 8, large)
-      do k = 1, 64/width
-         first = 9 + (k - 1)*width
-         last = first + width - 1
-         if (first <= len(line)) then
-            call push(card, line(first:min(last, len(line))), at, first, last, errors)
-         else
-            call push(card, '', at, first, last, errors)
-         end if
-      end do
-      if (len(line) <= 72) return
-      card%marker = adjustl(line(73:min(80, len(line))))
-      if (card%marker /= '' .and. scan(card%marker(1:1), '+*') == 0) call errors%add(at, ''''//trim(card%marker)// &
-         ''' in columns 73 to 80: expected a continuation mark that begins with + or *, or blanks', 73, min(80, len(line)))
-   end subroutine cut_fixed
-
-   !> Free field: entries between commas, eight (large: four) of them, and one more for the continuation mark.
-   subroutine cut_free(line, comma, at, card, large, errors)
-      character(*), intent(in)             :: line
-      integer, intent(in)                  :: comma, at
-      type(card_type), intent(inout)       :: card
-      logical, intent(in)                  :: large
-      type(deck_error_list), intent(inout) :: errors
-      integer :: k, first, last, most
-
-      most = merge(4, 8, large)
-      first = comma + 1
-      do k = 1, most
-         last = min(first - 1, len(line))
-         do while (last < len(line))
-            if (line(last + 1:last + 1) == ',') exit
-            last = last + 1
-         end do
-         call push(card, line(first:last), at, first, max(first, last), errors)
-         first = last + 2
-      end do
-      if (first > len(line)) return
-      card%marker = adjustl(line(first:))
-      if (index(line(first:), ',') > 0 .or. scan(card%marker(1:1), '+*') == 0) then
-         call errors%add(at, 'more than '//integer_text(most)//' entries behind the name: go on in a continuation line', &
-                         first, len(line))
-      end if
-   end subroutine cut_free
 
    !> One more field: ENTRY without the blanks around it, in capitals.
    subroutine push(card, entry, at, first, last, errors)

@@ -6,9 +6,7 @@ module deck_errors
    !> One error: where (index of the line in the deck text, 0 for the deck as a whole; columns first to last,
    !! 0 for the whole line) and what.
    type, public :: deck_error
-      integer :: line  = 0
-      integer :: first = 0
-      integer :: last  = 0
+      integer :: line = 0, first = 0, last = 0
       character(:), allocatable :: message
    end type deck_error
 

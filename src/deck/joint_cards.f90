@@ -189,11 +189,17 @@ contains
       type(cubic)     :: curves(3)
       character(1)    :: branch
       real(wp) :: x(6)
-      integer  :: k
+      integer  :: k, n
       logical  :: lacks(2:3)
 
       as_given = card%card
-      call align(card%card)
+      do k = 8, 24, 8 ! a continuation line that begins in field 2 is put where it stands under A11, in field 3
+         n = merge(6, 2, k < 24)
+         if (k + 1 + n > card%n) cycle
+         associate (fields => card%card%fields(k + 1:k + 1 + n))
+            if (fields(1)%length == 0 .and. fields(1 + n)%length > 0) fields = cshift(fields, 1)
+         end associate
+      end do
       associate (jshear => bulk%jshear(card%i), law => bulk%jshear(card%i)%law)
          call card%field('SID', jshear%id)
          call card%field('A11', x(1))
@@ -218,20 +224,6 @@ contains
          end do
       end associate
    end subroutine read_jshear
-
-   !> Of a JSHEAR card whose continuation lines begin in field 2 they are put where they stand under A11, in field 3.
-   pure subroutine align(card)
-      type(card_type), intent(inout) :: card
-      integer :: before, entries
-
-      do before = 8, 24, 8
-         entries = merge(6, 2, before < 24)
-         if (before + 1 + entries > card%n) cycle
-         associate (fields => card%fields(before + 1:before + 1 + entries))
-            if (fields(1)%length == 0 .and. fields(1 + entries)%length > 0) fields = cshift(fields, 1)
-         end associate
-      end do
-   end subroutine align
 
    !> JINCR: the increments of a stage, turned into shares that add up to 1; they stay one where there is an error.
    subroutine read_jincr(card, bulk)

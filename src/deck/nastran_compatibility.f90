@@ -156,7 +156,8 @@ contains
       type(parameters_type), intent(inout)   :: parameters
       type(entry_tally_type), intent(inout)  :: idle        !! entries without effect
       type(deck_error_list), intent(inout)   :: errors
-      integer :: choice
+      character(:), allocatable :: expected, name, value
+      integer :: choice, comma
 
       choice = 0
       select case (entry%key)
@@ -165,7 +166,14 @@ contains
          call choose(entry, '|STATICS|STATIC|DISP|DISPLACEMENT|', choice, errors)
          call idle%add(entry%key)
       case ('PARAM')
-         call read_parameter(entry, parameters, idle, errors)
+         value = upper(adjustl(entry%value)) ! 'PARAM,POST,-1'
+         if (index(value, ',') == 1) value = adjustl(value(2:))
+         comma = scan(value//',', ', ')
+         name = value(:comma - 1)
+         value = trim(adjustl(value(min(comma + 1, len(value) + 1):)))
+         call take_parameter(name, value, entry%line, parameters, idle, expected)
+         if (expected /= '') call errors%add(entry%line, 'PARAM '//name//': '''//value//''', expected '//expected, &
+                                             entry%first, entry%last)
       case default
          if (control_habit(entry%key) /= '') then
             call idle%add(control_habit(entry%key))
@@ -177,26 +185,6 @@ contains
          end if
       end select
    end subroutine read_habit
-
-   !> 'PARAM,POST,-1' in case control.
-   subroutine read_parameter(entry, parameters, idle, errors)
-      type(entry_type), intent(in)           :: entry
-      type(parameters_type), intent(inout)   :: parameters
-      type(entry_tally_type), intent(inout)  :: idle        !! entries without effect
-      type(deck_error_list), intent(inout)   :: errors
-      character(:), allocatable :: expected, name, value
-      integer :: comma
-
-      value = upper(adjustl(entry%value))
-      if (index(value, ',') == 1) value = adjustl(value(2:))
-      comma = scan(value//',', ', ')
-      name = value(:comma - 1)
-      value = trim(adjustl(value(min(comma + 1, len(value) + 1):)))
-      call take_parameter(name, value, entry%line, parameters, idle, expected)
-      if (expected /= '') then
-         call errors%add(entry%line, 'PARAM '//name//': '''//value//''', expected '//expected, entry%first, entry%last)
-      end if
-   end subroutine read_parameter
 
    !> ECHO = NO or NONE, or any of the words by which NASTRAN prints the deck, in whatever order, to whatever file.
    subroutine read_echo(entry, is_on, errors)

@@ -156,22 +156,14 @@ contains
          call card%field('GE', mat1%damping, not_negative, default=0.0_wp)
          call card%skip(['ST   ', 'SC   ', 'SS   ', 'MCSID'])
          call card%finish(mat1%line)
-         if (.not. card%is_faulty()) call fill_in(card, mat1%e, g, mat1%nu)
-         mat1%bars_only = card%given('E') .and. .not. any(card%given(['G ', 'NU']))
          if (mat1%damping > 0.0_wp) call bulk%idle%wait('GE of MAT1', card%line, needs_response=.false.)
       end associate
-   end subroutine read_mat1
-
-   !> Of E, G and NU of a MAT1 the one that is left blank.
-   subroutine fill_in(card, e, g, nu)
-      type(card_fields_type), intent(inout) :: card
-      real(wp), intent(inout)               :: e, g, nu
-
-      associate (has_e => card%given('E'), has_g => card%given('G'), has_nu => card%given('NU'))
+      associate (e => bulk%mat1(card%i)%e, nu => bulk%mat1(card%i)%nu, bars_only => bulk%mat1(card%i)%bars_only, &
+                 has_e => card%given('E'), has_g => card%given('G'), has_nu => card%given('NU'))
+         bars_only = has_e .and. .not. (has_g .or. has_nu)
+         if (card%is_faulty() .or. bars_only) return ! of the three the one that is left blank follows
          if (.not. (has_e .or. (has_g .and. has_nu))) then
             call card%error('E', 'expected two of E, G and NU; for bars E alone will do')
-         else if (.not. (has_g .or. has_nu)) then
-            nu = 0.0_wp
          else if (.not. has_e) then
             e = 2.0_wp*(1.0_wp + nu)*g
          else if (.not. has_nu) then
@@ -183,7 +175,7 @@ contains
                             '; leave one of the three blank')
          end if
       end associate
-   end subroutine fill_in
+   end subroutine read_mat1
 
    !> PARAM: numbers that steer NASTRAN, a name and one value or two, of any kind. Most have no effect here, some would change the
    !! answer.
