@@ -115,7 +115,7 @@ contains
       self%done = n
    end subroutine skip
 
-   !> One more increment is done.
+   !> One more increment is done; the first one of a run is shown however short it was.
    subroutine advance(self, stage, increment, increments)
       class(progress_type), intent(inout) :: self
       integer, intent(in)                 :: stage, increment, increments
@@ -130,7 +130,7 @@ contains
               ', '//integer_text(nint(left))//' s left'
       if (self%solver%solutions > 0) words = words//', '//integer_text(int(self%solver%steps/self%solver%solutions))// &
                                              ' steps a solution'
-      call show_line(words, at_once=.false.)
+      call show_line(words, at_once=self%done == self%before + 1)
    end subroutine advance
 
    !> The run is over: clear the line, print the times.
