@@ -170,34 +170,17 @@ run map && judge 'the map of a joint: tenths of the largest pressure, rows from 
    }' "$work/map.joint.csv" "$work/map.out"
 
 # three nodes on a rigid base: two pressed alike but for a tenth of a millionth, the third a thousandth less once nearly all load is off
-cat > "$work/tie.bdf" <<'END'
-UNITS = MM, KGF
-METHOD = NEWTON
-SUBCASE 1
-  LOAD = 1
-SUBCASE 2
-  LOAD = 2
-SUBCASE 3
-  LOAD = 3
-BEGIN BULK
-GRID    1               0.0     0.0     0.0             1
-GRID    2               50.0    0.0     0.0             1
-GRID    3               100.0   0.0     0.0             1
+cards tie <<'END'
+UNITS = MM, KGF;METHOD = NEWTON;SUBCASE 1;  LOAD = 1;SUBCASE 2;  LOAD = 2
+SUBCASE 3;  LOAD = 3
+BEGIN BULK;GRID    1               0.0     0.0     0.0             1
+GRID    2               50.0    0.0     0.0             1;GRID    3               100.0   0.0     0.0             1
 CJOINT  1       1       1               100.0   0.0     1.0     0.0
 CJOINT  2       1       2               100.0   0.0     1.0     0.0
-CJOINT  3       1       3               100.0   0.0     1.0     0.0
-PJOINT  1       1
-JNORM   1       8.0-3   0.5     9500.0
-FORCE,1,1,,100.,0.,-1.,0.
-FORCE,1,2,,100.00001,0.,-1.,0.
-FORCE,1,3,,100.00001,0.,-1.,0.
-FORCE,2,1,,0.9999E-6,0.,-1.,0.
-FORCE,2,2,,0.9999E-6,0.,-1.,0.
-FORCE,2,3,,1.0E-6,0.,-1.,0.
-FORCE,3,1,,99.,0.,-1.,0.
-FORCE,3,2,,100.,0.,-1.,0.
-FORCE,3,3,,100.00001,0.,-1.,0.
-ENDDATA
+CJOINT  3       1       3               100.0   0.0     1.0     0.0;PJOINT  1       1
+JNORM   1       8.0-3   0.5     9500.0;FORCE,1,1,,100.,0.,-1.,0.;FORCE,1,2,,100.00001,0.,-1.,0.
+FORCE,1,3,,100.00001,0.,-1.,0.;FORCE,2,1,,0.9999E-6,0.,-1.,0.;FORCE,2,2,,0.9999E-6,0.,-1.,0.
+FORCE,2,3,,1.0E-6,0.,-1.,0.;FORCE,3,1,,99.,0.,-1.,0.;FORCE,3,2,,100.,0.,-1.,0.;FORCE,3,3,,100.00001,0.,-1.,0.;ENDDATA
 END
 run tie && {
    stages=0

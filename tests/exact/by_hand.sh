@@ -68,56 +68,16 @@ run removed && judge 'the force that removed an element' '
 
 # SHEAR while the pressure changes: branch, point A, o, b0 and c0 after every increment and K_S of the next one, from what is printed of
 # the increments before. The path turns on all branches, and comes to the loading curve of either sense.
-cat > "$work/shear_by_hand.bdf" <<'DECK'
-METHOD = STEP
-UNITS = MM, KGF
-OUTPUT = JOINT, STATE
-SUBCASE 1
-  LOAD = 1
-  INCR = 10
-SUBCASE 2
-  LOAD = 2
-  INCR = 10
-SUBCASE 3
-  LOAD = 3
-  INCR = 11
-SUBCASE 4
-  LOAD = 4
-  INCR = 10
-SUBCASE 5
-  LOAD = 5
-  INCR = 10
-SUBCASE 6
-  LOAD = 6
-  INCR = 10
-SUBCASE 7
-  LOAD = 7
-  INCR = 11
-BEGIN BULK
-GRID,1,,0.,0.,0.
-CJOINT,1,1,1,,100.,0.,1.,0.
-PJOINT,1,1,1
-JNORM,1,8.-3,.5,9500.
-JSHEAR,1,20.,100.,-1000.,-2000.,10000.,40000.
-+,20.,100.,-500.,-1000.,2500.,10000.
-+,20.,100.,-500.,-1000.,2500.,10000.
-+,1.,.01
-FORCE,1,1,,10.,0.,-1.
-FORCE,2,1,,80.,0.,-1.
-FORCE,2,1,,20.,1.,0.
-FORCE,3,1,,30.,0.,-1.
-FORCE,3,1,,-20.,1.,0.
-FORCE,4,1,,60.,0.,-1.
-FORCE,4,1,,14.,1.,0.
-FORCE,5,1,,40.,0.,-1.
-FORCE,5,1,,-10.,1.,0.
-FORCE,6,1,,70.,0.,-1.
-FORCE,6,1,,30.,1.,0.
-FORCE,7,1,,50.,0.,-1.
-FORCE,7,1,,-45.,1.,0.
-JINCR,10,10,ARITH,.1
-JINCR,11,16,ARITH,.0625
-ENDDATA
+cards shear_by_hand <<'DECK'
+METHOD = STEP;UNITS = MM, KGF;OUTPUT = JOINT, STATE;SUBCASE 1;  LOAD = 1;  INCR = 10
+SUBCASE 2;  LOAD = 2;  INCR = 10;SUBCASE 3;  LOAD = 3;  INCR = 11
+SUBCASE 4;  LOAD = 4;  INCR = 10;SUBCASE 5;  LOAD = 5;  INCR = 10
+SUBCASE 6;  LOAD = 6;  INCR = 10;SUBCASE 7;  LOAD = 7;  INCR = 11
+BEGIN BULK;GRID,1,,0.,0.,0.;CJOINT,1,1,1,,100.,0.,1.,0.;PJOINT,1,1,1;JNORM,1,8.-3,.5,9500.
+JSHEAR,1,20.,100.,-1000.,-2000.,10000.,40000.;+,20.,100.,-500.,-1000.,2500.,10000.;+,20.,100.,-500.,-1000.,2500.,10000.;+,1.,.01
+FORCE,1,1,,10.,0.,-1.;FORCE,2,1,,80.,0.,-1.;FORCE,2,1,,20.,1.,0.;FORCE,3,1,,30.,0.,-1.;FORCE,3,1,,-20.,1.,0.
+FORCE,4,1,,60.,0.,-1.;FORCE,4,1,,14.,1.,0.;FORCE,5,1,,40.,0.,-1.;FORCE,5,1,,-10.,1.,0.;FORCE,6,1,,70.,0.,-1.
+FORCE,6,1,,30.,1.,0.;FORCE,7,1,,50.,0.,-1.;FORCE,7,1,,-45.,1.,0.;JINCR,10,10,ARITH,.1;JINCR,11,16,ARITH,.0625;ENDDATA
 DECK
 run shear_by_hand && {
    judge 'SHEAR by hand' '

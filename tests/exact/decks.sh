@@ -5,85 +5,34 @@
 
 # One element, a = 100, c = 8E-3, E_u = 500, pressed by 130 in increments that grow from 0.07 of it.
 one_element() { # NAME METHOD M INCREMENTS
-   cat > "$work/$1.bdf" <<DECK
-METHOD = $2
-TOL = 1.0E-14
-SUBCASE 1
-  LOAD = 1
-  INCR = 1
-  OUTPUT = NONE
-BEGIN BULK
-GRID,1,,0.0,0.0,,,1
-CJOINT,1,1,1,,100.0,0.0,1.0
-PJOINT,1,1
-JNORM,1,8.0-3,$3,500.0
-FORCE,1,1,,100.0,0.0,-1.3
-JINCR,1,$4,GEOM,0.07
-ENDDATA
+   cards "$1" <<DECK
+METHOD = $2;TOL = 1.0E-14;SUBCASE 1;  LOAD = 1;  INCR = 1;  OUTPUT = NONE
+BEGIN BULK;GRID,1,,0.0,0.0,,,1;CJOINT,1,1,1,,100.0,0.0,1.0;PJOINT,1,1;JNORM,1,8.0-3,$3,500.0;FORCE,1,1,,100.0,0.0,-1.3
+JINCR,1,$4,GEOM,0.07;ENDDATA
 DECK
    run "$1"
 }
 
 # An element opens and closes again beside an elastic body (k_b at each node), by STEP and by NEWTON; the recurrence and the law are written out.
 reopen() { # NAME METHOD
-   cat > "$work/$1.bdf" <<DECK
-METHOD = $2
-SPC = 1
-SUBCASE 1
-  LOAD = 1
-  INCR = 1
-SUBCASE 2
-  LOAD = 2
-  INCR = 1
-SUBCASE 3
-  LOAD = 3
-  INCR = 1
-BEGIN BULK
-BLOCK2,1,1,1,1,0.0,0.0
-+,10.0,50.0
-+,20,,21
-PMARK,20
-PMARK,21
-PSHELL,1,1,20.0
-MAT1,1,1000.0,,0.0
-JOINT,1,1,20
-PJOINT,1,1,,,,,0.05
-JNORM,1,8.0-3,0.5,500.0
-SPCM,1,12,21
-SPCM,1,1,20
-FORCE,1,1,,100.0,0.0,-1.0
-FORCE,1,3,,100.0,0.0,-1.0
-LOAD,2,-0.4,1.0,1
-LOAD,3,1.5,1.0,1
-JINCR,1,8,ARITH,0.125
-ENDDATA
+   cards "$1" <<DECK
+METHOD = $2;SPC = 1;SUBCASE 1;  LOAD = 1;  INCR = 1;SUBCASE 2;  LOAD = 2;  INCR = 1
+SUBCASE 3;  LOAD = 3;  INCR = 1
+BEGIN BULK;BLOCK2,1,1,1,1,0.0,0.0;+,10.0,50.0;+,20,,21;PMARK,20;PMARK,21;PSHELL,1,1,20.0;MAT1,1,1000.0,,0.0
+JOINT,1,1,20;PJOINT,1,1,,,,,0.05;JNORM,1,8.0-3,0.5,500.0;SPCM,1,12,21;SPCM,1,1,20;FORCE,1,1,,100.0,0.0,-1.0
+FORCE,1,3,,100.0,0.0,-1.0;LOAD,2,-0.4,1.0,1;LOAD,3,1.5,1.0,1;JINCR,1,8,ARITH,0.125;ENDDATA
 DECK
    run "$1"
 }
 
 # One element beside a spring of 10000 kgf/mm: k_s = 25000, so a re-analysis removes 10000/35000 of the excess.
 sheared_spring() { # NAME METHOD NREAN FORCE
-   cat > "$work/$1.bdf" <<DECK
-METHOD = $2
-SUBCASE 1
-  LOAD = 1
-  OUTPUT = NONE
-SUBCASE 2
-  LOAD = 2
-BEGIN BULK
-GRID,1
-CJOINT,1,1,1,,100.0,0.0,-1.0
-PJOINT,1,1,1,,0.2,$3,0.5
-JNORM,1,8.0-3,0.5,500.0
-JSHEAR,1,100.0,300.0
+   cards "$1" <<DECK
+METHOD = $2;SUBCASE 1;  LOAD = 1;  OUTPUT = NONE;SUBCASE 2;  LOAD = 2
+BEGIN BULK;GRID,1;CJOINT,1,1,1,,100.0,0.0,-1.0;PJOINT,1,1,1,,0.2,$3,0.5;JNORM,1,8.0-3,0.5,500.0;JSHEAR,1,100.0,300.0
 \$ the spring: lambda = c p along x
-CJOINT,2,2,1,,100.0,1.0,0.0
-PJOINT,2,2,,,,,0.1
-JNORM,2,1.0-2,1.0,100.0
-FORCE,1,1,,50.0,0.0,-1.0
-FORCE,12,1,,$4,1.0
-LOAD,2,1.0,1.0,1,1.0,12
-ENDDATA
+CJOINT,2,2,1,,100.0,1.0,0.0;PJOINT,2,2,,,,,0.1;JNORM,2,1.0-2,1.0,100.0
+FORCE,1,1,,50.0,0.0,-1.0;FORCE,12,1,,$4,1.0;LOAD,2,1.0,1.0,1,1.0,12;ENDDATA
 DECK
    run "$1"
 }
@@ -113,31 +62,12 @@ gap_spring_lambda() { # M GAP FORCE
 # Two bars with interference, 100 each: at rest 50 (i - lambda) = a p on the loading curve, by every method; then pulled apart, along
 # the line of slope E_u from there: lambda = i - 2 P/100 - pull/100.
 bars() { # NAME METHOD PULL INCREMENTS
-   cat > "$work/$1.bdf" <<DECK
-METHOD = $2
-TOL = 1.0E-13
-SPC = 1
-SUBCASE 1
-  LOAD = 1
-  INCR = 1
-BEGIN BULK
-GRID,1,,0.0,0.0
-GRID,2,,0.0,100.0
-GRID,3,,0.0,100.0
-GRID,4,,0.0,200.0
-CROD,1,1,1,2
-CROD,2,1,3,4
-PROD,1,1,10.0
-MAT1,1,1000.0,,0.25
-CJOINT,5,1,2,3,4.0,0.0,1.0,0.0
-PJOINT,1,1,,,,,0.1
-JNORM,1,8.0-3,0.5,1000.0
-JGAP,1,CONST,-0.05
-SPC1,1,12,1,4
-SPC1,1,1,2,3
-FORCE,1,2,,$3,0.0,-1.0
-JINCR,1,$4,,$(awk "BEGIN { printf \"%.12f\", 1/$4 }")
-ENDDATA
+   cards "$1" <<DECK
+METHOD = $2;TOL = 1.0E-13;SPC = 1;SUBCASE 1;  LOAD = 1;  INCR = 1
+BEGIN BULK;GRID,1,,0.0,0.0;GRID,2,,0.0,100.0;GRID,3,,0.0,100.0;GRID,4,,0.0,200.0;CROD,1,1,1,2;CROD,2,1,3,4
+PROD,1,1,10.0;MAT1,1,1000.0,,0.25;CJOINT,5,1,2,3,4.0,0.0,1.0,0.0;PJOINT,1,1,,,,,0.1;JNORM,1,8.0-3,0.5,1000.0
+JGAP,1,CONST,-0.05;SPC1,1,12,1,4;SPC1,1,1,2,3;FORCE,1,2,,$3,0.0,-1.0
+JINCR,1,$4,,$(awk "BEGIN { printf \"%.12f\", 1/$4 }");ENDDATA
 DECK
    run "$1"
 }
@@ -147,23 +77,10 @@ DECK
 # A plate 100 x 50 x 20 of E 100 pressed evenly by 0.2 on a joint of M 0.4: forces on top as the areas of influence below, three divisions
 # 1 : sqrt(0.4) : 0.4.
 even_block() { # NAME
-   cat > "$work/$1.bdf" <<'DECK'
-METHOD = NEWTON
-SPC = 1
-SUBCASE 1
-  LOAD = 1
-  OUTPUT = NONE
-BEGIN BULK
-BLOCK2,1,1,3,2,0.0,0.0
-+,100.0,50.0,,,0.4,1.0
-+,20
-PMARK,20
-PSHELL,1,1,20.0
-MAT1,1,100.0,,0.3
-JOINT,1,1,20
-PJOINT,1,1
-JNORM,1,8.0-3,0.4,9500.0
-SPC1,1,1,1
+   cards "$1" <<'DECK'
+METHOD = NEWTON;SPC = 1;SUBCASE 1;  LOAD = 1;  OUTPUT = NONE
+BEGIN BULK;BLOCK2,1,1,3,2,0.0,0.0;+,100.0,50.0,,,0.4,1.0;+,20;PMARK,20;PSHELL,1,1,20.0;MAT1,1,100.0,,0.3;JOINT,1,1,20
+PJOINT,1,1;JNORM,1,8.0-3,0.4,9500.0;SPC1,1,1,1
 DECK
    awk 'BEGIN { CONVFMT = "%.17g"; r = sqrt(0.4); h = 100 / (1 + r + r * r)
       split(h / 2 " " h * (1 + r) / 2 " " h * r * (1 + r) / 2 " " h * r * r / 2, share, " ")
@@ -311,41 +228,13 @@ of() { "$query" tests/exact/beam_reference.csv rows "case = \"$1\"" "${@:2}"; }
 # the columns with the joint stay equal, (N - N0)/k_b + 20 alpha_s T = -(N - N0)/k_c - lambda(N) + lambda(N0) + (8 alpha_s + 12 alpha_a) T,
 # on the curve where N grows, along E_u = 30 where it falls.
 warm_columns() { # NAME T SOLVER
-   cat > "$work/$1.bdf" <<DECK
-METHOD = NEWTON
-SOLVER = $3
-SPC = 1
-SUBCASE 1
-  TEMPERATURE(LOAD) = 6
-SUBCASE 2
-  TEMPERATURE(LOAD) = 7
-  INCR = 5
-BEGIN BULK
-MAT1,1,200.,,.0,,1.2-5,20.
-MAT1,2,70.,,.0,,2.3-5,20.
-PSHELL,1,1,2.
-PSHELL,2,2,2.
-BLOCK2,1,1,1,2,0.,0.
-+,10.,8.
-+,20,,21
-BLOCK2,2,2,1,2,0.,8.
-+,10.,20.,,,,,101,101
-+,,,,,1
-PMARK,20
-PMARK,21
-SPCM,1,2,20
-SPC1,1,1,1,2,3,102,103
-JOINT,1,1,21
-PJOINT,1,1
-JNORM,1,.02,.5,30.
-CROD,301,3,1,103
-CROD,302,3,4,106
-PROD,3,1,1.
-BOLT,1,301,5.
-BOLT,2,302,5.
-JINCR,5,4,ARITH,.25
-TEMPD,6,20.,7,$2
-ENDDATA
+   cards "$1" <<DECK
+METHOD = NEWTON;SOLVER = $3;SPC = 1;SUBCASE 1;  TEMPERATURE(LOAD) = 6
+SUBCASE 2;  TEMPERATURE(LOAD) = 7;  INCR = 5
+BEGIN BULK;MAT1,1,200.,,.0,,1.2-5,20.;MAT1,2,70.,,.0,,2.3-5,20.;PSHELL,1,1,2.;PSHELL,2,2,2.
+BLOCK2,1,1,1,2,0.,0.;+,10.,8.;+,20,,21;BLOCK2,2,2,1,2,0.,8.;+,10.,20.,,,,,101,101;+,,,,,1;PMARK,20;PMARK,21
+SPCM,1,2,20;SPC1,1,1,1,2,3,102,103;JOINT,1,1,21;PJOINT,1,1;JNORM,1,.02,.5,30.;CROD,301,3,1,103;CROD,302,3,4,106
+PROD,3,1,1.;BOLT,1,301,5.;BOLT,2,302,5.;JINCR,5,4,ARITH,.25;TEMPD,6,20.,7,$2;ENDDATA
 DECK
    run "$1"
 }
@@ -354,22 +243,10 @@ DECK
 
 # A plate on two springs of 20 to the ground, pulled by 12.
 two_springs() { # NAME
-   cat > "$work/$1.bdf" <<'DECK'
-SPC = 1
-SUBCASE 1
-  LOAD = 10
-BEGIN BULK
-MAT1,1,100.,,.0
-PSHELL,1,1,2.
-BLOCK2,1,1,1,1,0.,0.
-+,4.,3.
-SPC1,1,2,1
-CELAS1,51,7,1,1
-CELAS2,52,20.,,,2,1
-PELAS,7,20.
-FORCE,10,3,,6.,1.
-FORCE,10,4,,6.,1.
-ENDDATA
+   cards "$1" <<'DECK'
+SPC = 1;SUBCASE 1;  LOAD = 10
+BEGIN BULK;MAT1,1,100.,,.0;PSHELL,1,1,2.;BLOCK2,1,1,1,1,0.,0.;+,4.,3.;SPC1,1,2,1;CELAS1,51,7,1,1;CELAS2,52,20.,,,2,1
+PELAS,7,20.;FORCE,10,3,,6.,1.;FORCE,10,4,,6.,1.;ENDDATA
 DECK
    run "$1"
 }
@@ -459,24 +336,10 @@ variant() { # DECK METHOD N
 # omega^2 = (6 E/(rho h^2)) (1 - cos t)/(2 + cos t), lumped (2 E/(rho h^2)) (1 - cos t), t = (2 j - 1) pi/(2 n), or j pi/n free at both ends.
 oscillating_bar() { # NAME N MASS MODES
    local nodes=$((2*($2 + 1)))
-   cat > "$work/$1.bdf" <<DECK
-SPC = 1
-MASS = $3
-SUBCASE 1
-  LOAD = 10
-  $4 = 5
-BEGIN BULK
-BLOCK2,1,1,$2,1,0.0,0.0
-+,500.0,10.0,,,,,1,1
-+,,,,40
-PMARK,40
-PSHELL,1,1,2.0
-MAT1,1,2.1E5,,0.0,7.85E-9
-SPC1,1,2,1,THRU,$nodes
-SPCM,1,1,40
-FORCE,10,$nodes,,1.0,1.0
-EIGRL,5,,,3
-ENDDATA
+   cards "$1" <<DECK
+SPC = 1;MASS = $3;SUBCASE 1;  LOAD = 10;  $4 = 5
+BEGIN BULK;BLOCK2,1,1,$2,1,0.0,0.0;+,500.0,10.0,,,,,1,1;+,,,,40;PMARK,40;PSHELL,1,1,2.0;MAT1,1,2.1E5,,0.0,7.85E-9
+SPC1,1,2,1,THRU,$nodes;SPCM,1,1,40;FORCE,10,$nodes,,1.0,1.0;EIGRL,5,,,3;ENDDATA
 DECK
    run "$1"
 }
@@ -492,63 +355,22 @@ tie_sections() { # NAME N
 
 # A cantilever, n elements with incompatible modes along it, L/h = 100, plane stress.
 oscillating_cantilever() { # NAME N
-   cat > "$work/$1.bdf" <<DECK
-SPC = 1
-SUBCASE 1
-  LOAD = 10
-  MODES = 5
-BEGIN BULK
-BLOCK2,1,1,$2,1,0.0,0.0
-+,1000.0,10.0,,,,,1,1
-+,,,,40
-PMARK,40
-PSHELL,1,1,2.0
-+,YES
-MAT1,1,2.1E5,,0.0,7.85E-9
-SPCM,1,12,40
-FORCE,10,1,,1.0,0.0,1.0
-EIGRL,5,,,2
-ENDDATA
+   cards "$1" <<DECK
+SPC = 1;SUBCASE 1;  LOAD = 10;  MODES = 5
+BEGIN BULK;BLOCK2,1,1,$2,1,0.0,0.0;+,1000.0,10.0,,,,,1,1;+,,,,40;PMARK,40;PSHELL,1,1,2.0;+,YES
+MAT1,1,2.1E5,,0.0,7.85E-9;SPCM,1,12,40;FORCE,10,1,,1.0,0.0,1.0;EIGRL,5,,,2;ENDDATA
 DECK
    run "$1"
 }
 
 # Two bars end to end, elements of second order, with a joint between them that is a spring K = E_u A for oscillation.
 two_bars() { # NAME
-   cat > "$work/$1.bdf" <<'DECK'
-METHOD = NEWTON
-SPC = 1
-SUBCASE 1
-  LOAD = 10
-  MODES = 5
-BEGIN BULK
-BLOCK2,1,1,60,1,0.0,0.0
-+,300.0,10.0,,,,,1,1
-+,11,20,12,40,,2
-BLOCK2,2,1,40,1,300.0,0.0
-+,500.0,10.0,,,,,1001,1001
-+,13,22,14,21,,2
-PMARK,11
-PMARK,12
-PMARK,13
-PMARK,14
-PMARK,20
-PMARK,21
-PMARK,22
-PMARK,40
-PSHELL,1,1,2.0
-MAT1,1,2.1E5,,0.0,7.85E-9
-JOINT,1,1,20,21
-PJOINT,1,1
-JNORM,1,1.0-3,0.5,2.0E3
-SPCM,1,2,11
-SPCM,1,2,12
-SPCM,1,2,13
-SPCM,1,2,14
-SPCM,1,1,40
-PLOADM,10,5.0,22
-EIGRL,5,,,4
-ENDDATA
+   cards "$1" <<'DECK'
+METHOD = NEWTON;SPC = 1;SUBCASE 1;  LOAD = 10;  MODES = 5
+BEGIN BULK;BLOCK2,1,1,60,1,0.0,0.0;+,300.0,10.0,,,,,1,1;+,11,20,12,40,,2
+BLOCK2,2,1,40,1,300.0,0.0;+,500.0,10.0,,,,,1001,1001;+,13,22,14,21,,2;PMARK,11;PMARK,12;PMARK,13;PMARK,14;PMARK,20
+PMARK,21;PMARK,22;PMARK,40;PSHELL,1,1,2.0;MAT1,1,2.1E5,,0.0,7.85E-9;JOINT,1,1,20,21;PJOINT,1,1;JNORM,1,1.0-3,0.5,2.0E3
+SPCM,1,2,11;SPCM,1,2,12;SPCM,1,2,13;SPCM,1,2,14;SPCM,1,1,40;PLOADM,10,5.0,22;EIGRL,5,,,4;ENDDATA
 DECK
    run "$1"
 }
@@ -567,27 +389,11 @@ two_bar_frequencies() {
 # A rigid block on its joint, pressed evenly: lambda_n = E_u A/M; sliding and rocking about z are coupled, of the block on its
 # springs below the centre: [k_x, k_x c; k_x c, k_x c^2 + k_t] = lambda [M, I]. Stiffness of the block taken away by a second run.
 block_on_joint() { # NAME E SOLVER MODES
-   cat > "$work/$1.bdf" <<DECK
-METHOD = NEWTON
-SOLVER = $3
-SUBCASE 1
-  LOAD = 10
-  $4 = 5
-BEGIN BULK
-BLOCK3,1,1,4,4,4,0.0,0.0,0.0
-+,100.0,60.0,80.0,,,,1,1
-+,,,20,21
-PMARK,20
-PMARK,21
-PSOLID,1,1
-MAT1,1,$2,,0.3,7.85E-9
-JOINT,1,1,20
-PJOINT,1,1,2,2
-JNORM,1,1.0-3,0.5,5.0E4
-JSHEAR,2,1.0E4,0.0
-EIGRL,5,,,6
-PLOADM,10,2.0,21
-ENDDATA
+   cards "$1" <<DECK
+METHOD = NEWTON;SOLVER = $3;SUBCASE 1;  LOAD = 10;  $4 = 5
+BEGIN BULK;BLOCK3,1,1,4,4,4,0.0,0.0,0.0;+,100.0,60.0,80.0,,,,1,1;+,,,20,21;PMARK,20;PMARK,21;PSOLID,1,1
+MAT1,1,$2,,0.3,7.85E-9;JOINT,1,1,20;PJOINT,1,1,2,2;JNORM,1,1.0-3,0.5,5.0E4;JSHEAR,2,1.0E4,0.0;EIGRL,5,,,6
+PLOADM,10,2.0,21;ENDDATA
 DECK
    run "$1"
 }
@@ -605,23 +411,10 @@ rocking() { # SIDE SIGN: of the two coupled modes
 # made, on loading p^(1 - m) a/(m c M) and A'(d; p) a/M. Loss factor of the motion along it: that of the Masing loop of the cubic A(d; p),
 # (4/3 |a_2| x^3 + 2 |a_3| x^4)/(pi B' x^2); of that across it none.
 mass_on_joint() { # NAME ENTRIES
-   cat > "$work/$1.bdf" <<DECK
-METHOD = NEWTON
-SUBCASE 1
-  LOAD = 10
-  MODES = 5
-  AMPLITUDE = 1.0E-3
-  $2
-BEGIN BULK
-GRID,1
-CJOINT,1,1,1,,100.0,0.0,1.0
-PJOINT,1,1,2
-JNORM,1,8.0-3,0.5,500.0
-JSHEAR,2,100.0,50.0,-2.0E3,-300.0,-1.0E4,-7.0E3
-+,400.0,150.0
-FORCE,10,1,,1.0,10.0,-130.0
-CONM2,4,1,,0.02
-EIGRL,5,,,2
+   cards "$1" <<DECK
+METHOD = NEWTON;SUBCASE 1;  LOAD = 10;  MODES = 5;  AMPLITUDE = 1.0E-3;  $2
+BEGIN BULK;GRID,1;CJOINT,1,1,1,,100.0,0.0,1.0;PJOINT,1,1,2;JNORM,1,8.0-3,0.5,500.0
+JSHEAR,2,100.0,50.0,-2.0E3,-300.0,-1.0E4,-7.0E3;+,400.0,150.0;FORCE,10,1,,1.0,10.0,-130.0;CONM2,4,1,,0.02;EIGRL,5,,,2
 ENDDATA
 DECK
    run "$1"

@@ -2,26 +2,10 @@
 # is the same from any other.
 
 guess() { # NAME METHOD P0
-   cat > "$work/$1.bdf" <<END
-METHOD = $2
-SPC = 1
-SUBCASE 1
-  LOAD = 1
-  INCR = 2
-BEGIN BULK
-BLOCK2,1,1,10,3,0.,0.
-+,100.,30.
-+,20
-PMARK,20
-PSHELL,1,1,10.
-MAT1,1,210000.,,0.3
-JOINT,1,1,20
-PJOINT,1,1,,,,,$3
-JNORM,1,8.-3,0.5,9500.
-SPC1,1,12,41
-FORCE,1,24,,100.,0.,-1.
-JINCR,2,2
-ENDDATA
+   cards "$1" <<END
+METHOD = $2;SPC = 1;SUBCASE 1;  LOAD = 1;  INCR = 2
+BEGIN BULK;BLOCK2,1,1,10,3,0.,0.;+,100.,30.;+,20;PMARK,20;PSHELL,1,1,10.;MAT1,1,210000.,,0.3;JOINT,1,1,20
+PJOINT,1,1,,,,,$3;JNORM,1,8.-3,0.5,9500.;SPC1,1,12,41;FORCE,1,24,,100.,0.,-1.;JINCR,2,2;ENDDATA
 END
    "$program" -q -o "$work" "$work/$1.bdf" 2> "$work/$1.log"
 }

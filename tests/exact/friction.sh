@@ -130,29 +130,12 @@ run_input friction_full && ask 'friction_full: excess gone, push carried' fricti
 
 # PRESSURE = EQ10 with MU: the check takes the pressure that is printed, p = k_n lambda/a. One element beside a spring, pushed past its
 # limit: what slips carries MU p, what sticks less; SUMF/a is 0.5 in every increment, and by it the limit would be 0.1.
-cat > "$work/eq10.bdf" <<'DECK'
-METHOD = STEP
-PRESSURE = EQ10
-SUBCASE 1
-  LOAD = 1
-  INCR = 1
-SUBCASE 2
-  LOAD = 2
-  INCR = 1
-BEGIN BULK
-GRID,7
-CJOINT,1,1,7,,100.0,0.0,-1.0
-CJOINT,2,2,7,,100.0,1.0,0.0
-PJOINT,1,1,1,,0.2,-1,0.05
-JNORM,1,8.0-3,0.5,500.0
-JSHEAR,1,100.0,300.0
-PJOINT,2,2,,,,,0.1
-JNORM,2,0.1,1.0,10.0
-FORCE,1,7,,50.0,0.0,-1.0
-FORCE,9,7,,60.0,1.0,0.0
-LOAD,2,1.0,1.0,1,1.0,9
-JINCR,1,10,ARITH,0.1
-ENDDATA
+cards eq10 <<'DECK'
+METHOD = STEP;PRESSURE = EQ10;SUBCASE 1;  LOAD = 1;  INCR = 1
+SUBCASE 2;  LOAD = 2;  INCR = 1
+BEGIN BULK;GRID,7;CJOINT,1,1,7,,100.0,0.0,-1.0;CJOINT,2,2,7,,100.0,1.0,0.0;PJOINT,1,1,1,,0.2,-1,0.05
+JNORM,1,8.0-3,0.5,500.0;JSHEAR,1,100.0,300.0;PJOINT,2,2,,,,,0.1;JNORM,2,0.1,1.0,10.0;FORCE,1,7,,50.0,0.0,-1.0
+FORCE,9,7,,60.0,1.0,0.0;LOAD,2,1.0,1.0,1,1.0,9;JINCR,1,10,ARITH,0.1;ENDDATA
 DECK
 run eq10 && {
    judge 'EQ10 with MU: the limit is MU times the pressure of Eq. (10)' -F, '
@@ -215,35 +198,13 @@ done
 # Slip erases what an element remembers: from the first slip on the two senses are mirror images, stiffnesses included, and what has slid
 # comes back. One element beside a spring, its three shear cubics different, pushed beyond the limit to and fro.
 for method in STEP NEWTON; do
-   cat > "$work/mirror.bdf" <<DECK
-METHOD = $method
-SUBCASE 1
-  LOAD = 10
-SUBCASE 2
-  LOAD = 20
-  INCR = 1
-SUBCASE 3
-  LOAD = 30
-  INCR = 1
-SUBCASE 4
-  LOAD = 20
-  INCR = 1
-BEGIN BULK
-GRID,1,,0.,0.,0.
-CJOINT,9,1,1,,1.0,0.,1.
-PJOINT,1,1,1,,0.3,-1
-JNORM,1,8.-3,0.5,5000.
-JSHEAR,1,100.,5.,-1000.,0.,0.,0.
-+,,200.,10.,3000.,0.,0.,0.
-+,,180.,9.,-500.,0.,0.,0.
-CELAS2,900,50.,1,1
-FORCE,1,1,,10.,0.,-1.
-FORCE,2,1,,6.,1.,0.
-LOAD,10,1.,1.,1
-LOAD,20,1.,1.,1,1.,2
-LOAD,30,1.,1.,1,-1.,2
-JINCR,1,12,ARITH,0.05
-ENDDATA
+   cards mirror <<DECK
+METHOD = $method;SUBCASE 1;  LOAD = 10;SUBCASE 2;  LOAD = 20;  INCR = 1
+SUBCASE 3;  LOAD = 30;  INCR = 1;SUBCASE 4;  LOAD = 20;  INCR = 1
+BEGIN BULK;GRID,1,,0.,0.,0.;CJOINT,9,1,1,,1.0,0.,1.;PJOINT,1,1,1,,0.3,-1;JNORM,1,8.-3,0.5,5000.
+JSHEAR,1,100.,5.,-1000.,0.,0.,0.;+,,200.,10.,3000.,0.,0.,0.;+,,180.,9.,-500.,0.,0.,0.;CELAS2,900,50.,1,1
+FORCE,1,1,,10.,0.,-1.;FORCE,2,1,,6.,1.,0.;LOAD,10,1.,1.,1;LOAD,20,1.,1.,1,1.,2;LOAD,30,1.,1.,1,-1.,2
+JINCR,1,12,ARITH,0.05;ENDDATA
 DECK
    run mirror && {
       ask "$method, to and fro: it slips in both senses" mirror rows 'stage > 2 and increment = 12' count 2 all 'slip = 1'

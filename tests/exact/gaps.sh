@@ -150,32 +150,12 @@ holds 'a guided crown, STEP' "$error < 0.03"
 
 # The distance of the faces: two blocks meshed 0.25 apart close by it and bear evenly, either side first.
 for sides in '20,21' '21,20'; do
-   cat > "$work/true.bdf" <<DECK
-METHOD = NEWTON
-SPC = 1
-SUBCASE 1
-  LOAD = 1
-BEGIN BULK
-BLOCK2,1,1,4,2,0.0,0.0
-+,100.0,50.0,,,,,101,101
-+,22,,21
-BLOCK2,2,1,4,2,0.0,50.25
-+,100.0,100.25,,,,,1,1
-+,20,,23
-PMARK,20
-PMARK,21
-PMARK,22
-PMARK,23
-PSHELL,1,1,20.0
-MAT1,1,9500.0,,0.0
-JOINT,1,1,$sides,0.3
-JGAP,1,TRUE
-PJOINT,1,1
-JNORM,1,8.0-3,0.5,9500.0
-SPCM,1,2,22
-SPC1,1,1,1,101
-PLOADM,1,0.2,23
-ENDDATA
+   cards true <<DECK
+METHOD = NEWTON;SPC = 1;SUBCASE 1;  LOAD = 1
+BEGIN BULK;BLOCK2,1,1,4,2,0.0,0.0;+,100.0,50.0,,,,,101,101;+,22,,21
+BLOCK2,2,1,4,2,0.0,50.25;+,100.0,100.25,,,,,1,1;+,20,,23;PMARK,20;PMARK,21;PMARK,22;PMARK,23;PSHELL,1,1,20.0
+MAT1,1,9500.0,,0.0;JOINT,1,1,$sides,0.3;JGAP,1,TRUE;PJOINT,1,1;JNORM,1,8.0-3,0.5,9500.0;SPCM,1,2,22;SPC1,1,1,1,101
+PLOADM,1,0.2,23;ENDDATA
 DECK
    run true && ask "true distance, sides $sides" true count 5 \
       all 'gap = 0.25 within 1e-12 and pressure = 0.2 within 1e-9 and lambda = 8e-3*0.2^0.5 within 1e-11 and branch = "LOAD"'
@@ -189,31 +169,10 @@ sed 's/OUTPUT = NONE/OUTPUT = NONE,VTU/' "$work/apart.bdf" > "$work/apart.vtu.bd
 for carry in YES NO; do
    for gap in CONST,0.01 CONST,-0.01 PLANE,0.01,4.0-4; do
       for solver in SKYLINE TREE; do
-         cat > "$work/carried.bdf" <<DECK
-METHOD = STEP
-CARRY = $carry
-SOLVER = $solver
-SPC = 1
-SUBCASE 1
-  LOAD = 1
-  INCR = 1
-  OUTPUT = NONE
-BEGIN BULK
-BLOCK2,1,1,4,4,0.0,0.0
-+,10.0,10.0
-+,20,,21
-PMARK,20
-PMARK,21
-PSHELL,1,1,1.0
-MAT1,1,1000.0,,0.0
-JOINT,1,1,20
-PJOINT,1,1,,,,,0.5
-JNORM,1,8.0-3,0.5,500.0
-JGAP,1,$gap
-SPC1,1,1,1
-PLOADM,1,2.0,21
-JINCR,1,5
-ENDDATA
+         cards carried <<DECK
+METHOD = STEP;CARRY = $carry;SOLVER = $solver;SPC = 1;SUBCASE 1;  LOAD = 1;  INCR = 1;  OUTPUT = NONE
+BEGIN BULK;BLOCK2,1,1,4,4,0.0,0.0;+,10.0,10.0;+,20,,21;PMARK,20;PMARK,21;PSHELL,1,1,1.0;MAT1,1,1000.0,,0.0
+JOINT,1,1,20;PJOINT,1,1,,,,,0.5;JNORM,1,8.0-3,0.5,500.0;JGAP,1,$gap;SPC1,1,1,1;PLOADM,1,2.0,21;JINCR,1,5;ENDDATA
 DECK
          run carried || continue
          words="STEP behind a gap, $gap, $solver, CARRY = $carry"
@@ -229,28 +188,11 @@ done
 # Interference at one edge pushes a block away until nothing presses; how far it slides there under no pressure is no shear deflection.
 # Loaded then, it sticks everywhere: tau = 100 delta from rest on, by NEWTON and by STEP.
 for method in NEWTON STEP; do
-   cat > "$work/pushed.bdf" <<DECK
-METHOD = $method
-SUBCASE 1
-  LOAD = 1
-  INCR = 1
-BEGIN BULK
-BLOCK2,1,1,4,2,0.0,0.0
-+,40.0,20.0
-+,20,,22
-PSHELL,1,1,10.0
-MAT1,1,100000.0,,0.3
-PMARK,20
-PMARK,22
-JOINT,1,1,20
-JGAP,1,PLANE,-1.0-3,1.3-4
-PJOINT,1,1,1,,0.3,,0.1
-JNORM,1,8.0-3,0.5,5000.0
-JSHEAR,1,100.0
-CELAS2,900,50.0,3,1
-FORCEM,1,1.0,1.0,-100.0,0.0,22
-JINCR,1,4
-ENDDATA
+   cards pushed <<DECK
+METHOD = $method;SUBCASE 1;  LOAD = 1;  INCR = 1
+BEGIN BULK;BLOCK2,1,1,4,2,0.0,0.0;+,40.0,20.0;+,20,,22;PSHELL,1,1,10.0;MAT1,1,100000.0,,0.3;PMARK,20;PMARK,22
+JOINT,1,1,20;JGAP,1,PLANE,-1.0-3,1.3-4;PJOINT,1,1,1,,0.3,,0.1;JNORM,1,8.0-3,0.5,5000.0;JSHEAR,1,100.0
+CELAS2,900,50.0,3,1;FORCEM,1,1.0,1.0,-100.0,0.0,22;JINCR,1,4;ENDDATA
 DECK
    run pushed && ask "$method, pushed away by interference, then pressed: no shear deflection from the way" pushed count 20 \
       all 'slip = 0 and abs(tau_x - 100*delta_x) <= 1e-12 + 1e-9*abs(tau_x)'
@@ -258,32 +200,12 @@ done
 
 # Two blocks, one on the other, interference below the lower one: while neither presses they do not slide off sideways.
 for solver in SKYLINE TREE; do
-   cat > "$work/stack.bdf" <<DECK
-METHOD = NEWTON
-SOLVER = $solver
-SUBCASE 1
-  LOAD = 1
-BEGIN BULK
-BLOCK2,1,1,4,2,0.0,0.0
-+,40.0,12.0,,,,,1,1
-+,20,,21
-BLOCK2,2,1,4,2,0.0,12.0
-+,40.0,20.0,,,,,101,101
-+,22,,23
-PSHELL,1,1,10.0
-MAT1,1,100000.0,,0.3
-PMARK,20
-PMARK,21
-PMARK,22
-PMARK,23
-JOINT,1,1,20
-JOINT,2,1,22,21
-JGAP,1,PLANE,-1.0-3,1.3-4
-PJOINT,1,1,1,,1.3,,0.1
-JNORM,1,8.0-3,0.5,5000.0
-JSHEAR,1,100.0
-FORCEM,1,1.0,0.0,-400.0,0.0,23
-ENDDATA
+   cards stack <<DECK
+METHOD = NEWTON;SOLVER = $solver;SUBCASE 1;  LOAD = 1
+BEGIN BULK;BLOCK2,1,1,4,2,0.0,0.0;+,40.0,12.0,,,,,1,1;+,20,,21
+BLOCK2,2,1,4,2,0.0,12.0;+,40.0,20.0,,,,,101,101;+,22,,23;PSHELL,1,1,10.0;MAT1,1,100000.0,,0.3;PMARK,20;PMARK,21
+PMARK,22;PMARK,23;JOINT,1,1,20;JOINT,2,1,22,21;JGAP,1,PLANE,-1.0-3,1.3-4;PJOINT,1,1,1,,1.3,,0.1
+JNORM,1,8.0-3,0.5,5000.0;JSHEAR,1,100.0;FORCEM,1,1.0,0.0,-400.0,0.0,23;ENDDATA
 DECK
    run stack && ask "$solver, a stack pushed away by interference: it does not slide off" stack count 10 \
       all 'slip = 0 and abs(tau_x - 100*delta_x) <= 1e-9 and abs(delta_x) < 1e-3'

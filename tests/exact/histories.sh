@@ -68,31 +68,13 @@ reopen reopen NEWTON && judge 'opens and closes again, NEWTON' -F, '
    END { if (n != 24 || !seen["OPEN"] || !seen["UNLOAD"] || !again) print n " rows, open " seen["OPEN"]; print "checked " n }' "$work/reopen.joint.csv"
 
 # One element under shear: STEP is the sum of tangents, each at the pressure and the place reached; a softening cubic stops at slope 0.
-cat > "$work/range.bdf" <<'DECK'
-METHOD = STEP
-SUBCASE 1
-  LOAD = 1
-SUBCASE 2
-  LOAD = 2
-  INCR = 1
-BEGIN BULK
-GRID,7
-CJOINT,1,1,7,,100.0,0.0,-1.0
+cards range <<'DECK'
+METHOD = STEP;SUBCASE 1;  LOAD = 1;SUBCASE 2;  LOAD = 2;  INCR = 1
+BEGIN BULK;GRID,7;CJOINT,1,1,7,,100.0,0.0,-1.0
 $ a spring of 1000 along x holds what the joint does not
-CJOINT,2,2,7,,100.0,1.0,0.0
-PJOINT,1,1,1,,,,0.5
-JNORM,1,8.0-3,0.5,500.0
-JSHEAR,1,20.0,100.0,-4.0+3,0.0
-+
-+
-+,0.6,0.006
-PJOINT,2,2,,,,,0.1
-JNORM,2,0.1,1.0,10.0
-FORCE,1,7,,50.0,0.0,-1.0
-FORCE,9,7,,60.0,1.0,0.0
-LOAD,2,1.0,1.0,1,1.0,9
-JINCR,1,10,ARITH,0.1
-ENDDATA
+CJOINT,2,2,7,,100.0,1.0,0.0;PJOINT,1,1,1,,,,0.5;JNORM,1,8.0-3,0.5,500.0;JSHEAR,1,20.0,100.0,-4.0+3,0.0;+;+;+,0.6,0.006
+PJOINT,2,2,,,,,0.1;JNORM,2,0.1,1.0,10.0;FORCE,1,7,,50.0,0.0,-1.0;FORCE,9,7,,60.0,1.0,0.0;LOAD,2,1.0,1.0,1,1.0,9
+JINCR,1,10,ARITH,0.1;ENDDATA
 DECK
 slope='if(100*(70 - 8000*before(delta_x)) > 0, 100*(70 - 8000*before(delta_x)), 0)'
 run range && {
@@ -127,26 +109,11 @@ run_input shear_pressure && ask 'shear under rising pressure, STEP' shear_pressu
 # The first increment of an element is the first that reaches it: two elements with the same p, one loaded a stage later, and
 # a stage without load before all others.
 late() { # NAME STAGES-BEFORE
-   cat > "$work/$1.bdf" <<DECK
-$2SUBCASE 5
-  LOAD = 1
-  INCR = 1
-SUBCASE 6
-  LOAD = 2
-  INCR = 1
-BEGIN BULK
-GRID,1,,0.0,0.0,0.0,,1
-GRID,2,,10.0,0.0,0.0,,1
-CJOINT,1,1,1,,100.0,0.0,1.0,0.0
-CJOINT,2,2,2,,100.0,0.0,1.0,0.0
-PJOINT,1,1,,,,,0.1
-PJOINT,2,1,,,,,0.1
-JNORM,1,8.0-3,0.5,9500.0
-FORCE,1,1,,100.0,0.0,-1.0
-FORCE,2,1,,100.0,0.0,-1.0
-FORCE,2,2,,100.0,0.0,-1.0
-JINCR,1,10,ARITH,0.1
-ENDDATA
+   cards "$1" <<DECK
+$2SUBCASE 5;  LOAD = 1;  INCR = 1;SUBCASE 6;  LOAD = 2;  INCR = 1
+BEGIN BULK;GRID,1,,0.0,0.0,0.0,,1;GRID,2,,10.0,0.0,0.0,,1;CJOINT,1,1,1,,100.0,0.0,1.0,0.0
+CJOINT,2,2,2,,100.0,0.0,1.0,0.0;PJOINT,1,1,,,,,0.1;PJOINT,2,1,,,,,0.1;JNORM,1,8.0-3,0.5,9500.0
+FORCE,1,1,,100.0,0.0,-1.0;FORCE,2,1,,100.0,0.0,-1.0;FORCE,2,2,,100.0,0.0,-1.0;JINCR,1,10,ARITH,0.1;ENDDATA
 DECK
 }
 for before in '' 'SUBCASE 1
@@ -162,25 +129,11 @@ done
 #    2: k = 2 sqrt(.6097560976) a/c = 19521.72, d = -150/27521.72, lambda = -5.721919281E-4, force -45.42246458: found falling
 #       from the loading curve and in tension in one call, it is removed at once; the tension is left unbalanced
 #    3: the bar alone,                       d = -150/8000,      lambda = -1.932219193E-2,   force 0
-cat > "$work/glued.bdf" <<'DECK'
-SUBCASE 1
-  LOAD = 1
-SUBCASE 2
-  LOAD = 2
-  INCR = 2
-BEGIN BULK
-GRID,1,,0.0,0.0,,,1
-GRID,2,,0.0,10.0,,,12
-CROD,2,1,1,2
-PROD,1,1,10.0
-MAT1,1,8000.0,,0.0
-CJOINT,1,1,1,,100.0,0.0,-1.0
-PJOINT,1,1,,,,,1.0
-JNORM,1,8.0-3,0.5,9500.0
-FORCE,1,1,,100.0,0.0,-1.0
-FORCE,2,1,,-200.0,0.0,-1.0
-JINCR,2,2,ARITH,0.5
-ENDDATA
+cards glued <<'DECK'
+SUBCASE 1;  LOAD = 1;SUBCASE 2;  LOAD = 2;  INCR = 2
+BEGIN BULK;GRID,1,,0.0,0.0,,,1;GRID,2,,0.0,10.0,,,12;CROD,2,1,1,2;PROD,1,1,10.0;MAT1,1,8000.0,,0.0
+CJOINT,1,1,1,,100.0,0.0,-1.0;PJOINT,1,1,,,,,1.0;JNORM,1,8.0-3,0.5,9500.0;FORCE,1,1,,100.0,0.0,-1.0
+FORCE,2,1,,-200.0,0.0,-1.0;JINCR,2,2,ARITH,0.5;ENDDATA
 DECK
 run glued && {
    near 'pulled off a bar: pressed, lambda' "$(cell glued 1 1 1 lambda)" 4.878048780487805e-3 1e-12
@@ -200,24 +153,10 @@ run glued && {
 #    down:     k = 2 sqrt(1) a/c = 25000,    lambda = 8E-3 - 20/25000 = 7.2E-3
 #    up, 1:    k = E_u a = 50000,            lambda = 7.2E-3 + 110/50000 = 9.4E-3, past A and force 190: on the loading curve
 #    up, 2:    k = 2 sqrt(1.9) a/c = 34460.12188,  lambda = 9.4E-3 + 110/34460.12188 = 1.259209550E-2
-cat > "$work/past_a.bdf" <<'DECK'
-SUBCASE 1
-  LOAD = 1
-SUBCASE 2
-  LOAD = 2
-SUBCASE 3
-  LOAD = 3
-  INCR = 2
-BEGIN BULK
-GRID,1,,0.0,0.0,,,1
-CJOINT,1,1,1,,100.0,0.0,-1.0
-PJOINT,1,1
-JNORM,1,8.0-3,0.5,500.0
-FORCE,1,1,,100.0,0.0,-1.0
-LOAD,2,0.8,1.0,1
-LOAD,3,3.0,1.0,1
-JINCR,2,2,ARITH,0.5
-ENDDATA
+cards past_a <<'DECK'
+SUBCASE 1;  LOAD = 1;SUBCASE 2;  LOAD = 2;SUBCASE 3;  LOAD = 3;  INCR = 2
+BEGIN BULK;GRID,1,,0.0,0.0,,,1;CJOINT,1,1,1,,100.0,0.0,-1.0;PJOINT,1,1;JNORM,1,8.0-3,0.5,500.0
+FORCE,1,1,,100.0,0.0,-1.0;LOAD,2,0.8,1.0,1;LOAD,3,3.0,1.0,1;JINCR,2,2,ARITH,0.5;ENDDATA
 DECK
 run past_a && {
    near 'reloaded past A: relieved' "$(cell past_a 2 1 1 lambda)" 7.2e-3 1e-12

@@ -6,6 +6,9 @@ passed=0 failed=0
 
 fail() { echo "FAILED $1"; failed=$((failed + 1)); }
 
+# cards NAME: the deck $work/NAME.bdf of the lines on the standard input; a semicolon ends a line too, as in the unit tests
+cards() { tr ';' '\n' > "$work/$1.bdf"; }
+
 # run NAME [STATUS]: the deck $work/NAME.bdf; its messages are in NAME.log
 run() {
    local status

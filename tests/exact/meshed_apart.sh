@@ -82,32 +82,11 @@ elements_shown() {
 }
 for place in '7. 33. 20 21' '22. 61. 20 21' '-9. 31. 20 21' '-9. 31. 21 20'; do
    set -- $place
-   cat > "$work/covered.bdf" <<DECK
-SPC = 1
-METHOD = NEWTON
-SUBCASE 1
-  LOAD = 10
-  OUTPUT = LAST, VTU
-BEGIN BULK
-BLOCK2,1,1,3,1,0.,0.
-+,60.,10.
-+,23,,20
-BLOCK2,2,1,3,1,$1,10.
-+,$2,20.,,,,,101,101
-+,21,,22
-PMARK,23
-PMARK,20
-PMARK,21
-PMARK,22
-PSHELL,1,1,2.
-MAT1,1,9500.,,.25
-JOINT,1,1,$3,$4
-PJOINT,1,1,,,,,0.1
-JNORM,1,8.-3,0.5
-SPCM,1,12,23
-SPC1,1,1,101
-PLOADM,10,1.,22
-ENDDATA
+   cards covered <<DECK
+SPC = 1;METHOD = NEWTON;SUBCASE 1;  LOAD = 10;  OUTPUT = LAST, VTU
+BEGIN BULK;BLOCK2,1,1,3,1,0.,0.;+,60.,10.;+,23,,20;BLOCK2,2,1,3,1,$1,10.;+,$2,20.,,,,,101,101;+,21,,22;PMARK,23
+PMARK,20;PMARK,21;PMARK,22;PSHELL,1,1,2.;MAT1,1,9500.,,.25;JOINT,1,1,$3,$4;PJOINT,1,1,,,,,0.1;JNORM,1,8.-3,0.5
+SPCM,1,12,23;SPC1,1,1,101;PLOADM,10,1.,22;ENDDATA
 DECK
    run covered
    same "side 1 covered in part ($place): elements in the VTU file of the joint" "$(elements_shown "$work/covered.joint.vtu")" \

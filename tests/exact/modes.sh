@@ -154,32 +154,11 @@ oscillating_bar bound 40 CONSISTENT 'MODES(FREE)' && {
 # ---- A block relieved until rounding alone presses it: it touches, whatever the sign of what is left
 for solver in SKYLINE TREE; do
    for load in 1.0-9 1.0-16 -1.0-16 0.0; do
-      cat > "$work/touching.bdf" <<DECK
-METHOD = STEP
-SOLVER = $solver
-SPC = 1
-SUBCASE 1
-  LOAD = 1
-  INCR = 1
-SUBCASE 2
-  LOAD = 2
-  MODES = 5
-BEGIN BULK
-BLOCK2,1,1,4,4,0.0,0.0
-+,10.0,10.0
-+,20,,21
-PMARK,20
-PMARK,21
-PSHELL,1,1,1.0
-MAT1,1,2.1+5,,0.3,7.85-9
-JOINT,1,1,20
-PJOINT,1,1
-JNORM,1,8.0-3,0.5,9500.0
-SPC1,1,1,1
-PLOADM,1,1.0,21
-PLOADM,2,$load,21
-JINCR,1,4
-EIGRL,5,,,2
+      cards touching <<DECK
+METHOD = STEP;SOLVER = $solver;SPC = 1;SUBCASE 1;  LOAD = 1;  INCR = 1
+SUBCASE 2;  LOAD = 2;  MODES = 5
+BEGIN BULK;BLOCK2,1,1,4,4,0.0,0.0;+,10.0,10.0;+,20,,21;PMARK,20;PMARK,21;PSHELL,1,1,1.0;MAT1,1,2.1+5,,0.3,7.85-9
+JOINT,1,1,20;PJOINT,1,1;JNORM,1,8.0-3,0.5,9500.0;SPC1,1,1,1;PLOADM,1,1.0,21;PLOADM,2,$load,21;JINCR,1,4;EIGRL,5,,,2
 ENDDATA
 DECK
       run touching || continue

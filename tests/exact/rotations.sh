@@ -28,29 +28,11 @@ FORCE,10,13,,2.0,1.0,0.0,0.0\nFORCE,10,16,,5.0,0.0,1.0,0.0\nFORCE,10,16,,7.0,0.0
 
 # The lower side moves by a along x, b along y and turns by r about its middle: energy of u = (1 - y/h) (a, b + r (x - w/2)).
 w=8 h=5 t=2 e=9500 g=4750
-cat > "$work/condensed.bdf" <<DECK
-SPC = 1
-SUBCASE 1
-  LOAD = 10
-  INCR = 5
-  OUTPUT = LAST, CONDENSED
-BEGIN BULK
-BLOCK2,1,1,1,1,0.0,0.0
-+,$w.0,$h.0
-+,20
-PMARK,20
-PSHELL,1,1,$t.0
-MAT1,1,$e.0,,0.0
-GRID,900,,4.0,0.0
-RBE2,50,900,126,1,3
-JOINT,1,1,20
-PJOINT,1,1,,,,,0.5
-JNORM,1,8.0-3,0.5
-SPC1,1,12,2,4
-FORCE,10,900,,100.0,0.0,-1.0
-MOMENT,10,900,,30.0,0.0,0.0,1.0
-JINCR,5,2
-ENDDATA
+cards condensed <<DECK
+SPC = 1;SUBCASE 1;  LOAD = 10;  INCR = 5;  OUTPUT = LAST, CONDENSED
+BEGIN BULK;BLOCK2,1,1,1,1,0.0,0.0;+,$w.0,$h.0;+,20;PMARK,20;PSHELL,1,1,$t.0;MAT1,1,$e.0,,0.0;GRID,900,,4.0,0.0
+RBE2,50,900,126,1,3;JOINT,1,1,20;PJOINT,1,1,,,,,0.5;JNORM,1,8.0-3,0.5;SPC1,1,12,2,4;FORCE,10,900,,100.0,0.0,-1.0
+MOMENT,10,900,,30.0,0.0,0.0,1.0;JINCR,5,2;ENDDATA
 DECK
 # entry NAME K: column K of the row that is called NAME in the condensed stiffness; share NAME K: in the load
 entry() { table condensed '[K_B] CONDENSED' | awk -v name="$1" -v k="$2" '$1 == name { print $(k + 1) }'; }

@@ -98,25 +98,11 @@ else
 fi
 
 # rotations and moments of a reference node along its system: what SPCD asks for; a bar in torsion about direction 3
-cat > "$work/turned_node.bdf" <<'END'
-METHOD = NEWTON
-SPC = 1
-LOAD = 10
-OUTPUT = LAST, CD
-BEGIN BULK
-PSOLID,1,1
-MAT1,1,9500.,,.25
-BLOCK3,1,1,6,2,2,0.,0.,0.
-+,60.,10.,10.
-GRID,900,,80.,5.,25.,1
-CORD2R,1,,0.,0.,0.,1.,1.,1.
-+,1.,0.,0.
-SPC1,1,123,1,THRU,9
-SPC1,1,3456,900
-SPCD,10,900,5,.001
-SPCD,10,900,6,.002
-RBE2,901,900,123456,55,57,63
-ENDDATA
+cards turned_node <<'END'
+METHOD = NEWTON;SPC = 1;LOAD = 10;OUTPUT = LAST, CD
+BEGIN BULK;PSOLID,1,1;MAT1,1,9500.,,.25;BLOCK3,1,1,6,2,2,0.,0.,0.;+,60.,10.,10.;GRID,900,,80.,5.,25.,1
+CORD2R,1,,0.,0.,0.,1.,1.,1.;+,1.,0.,0.;SPC1,1,123,1,THRU,9;SPC1,1,3456,900;SPCD,10,900,5,.001;SPCD,10,900,6,.002
+RBE2,901,900,123456,55,57,63;ENDDATA
 END
 run turned_node && {
    same 'rotations along CD' "$(table turned_node 'ROTATIONS OF REFERENCE' | awk '$1 == 900 { print $2 + 0, $3, $4, $5 }')" \
@@ -137,23 +123,10 @@ run turned_node && {
 }
 # in the plane about direction 3 of CD, which may be against z: a rigid turn by 0.01 about it
 for z in 1. -1.; do
-   cat > "$work/plane_turn.bdf" <<END
-METHOD = NEWTON
-SPC = 1
-LOAD = 10
-OUTPUT = LAST, CD
-BEGIN BULK
-PSHELL,1,1,2.
-MAT1,1,9500.,,.25
-BLOCK2,1,1,4,2,0.,0.
-+,8.,4.
-CORD2R,1,,0.,0.,0.,0.,0.,$z
-+,1.,0.,0.
-GRID,900,,2.,2.,,1
-SPC1,1,126,900
-SPCD,10,900,6,.01,900,2,.3
-RBE2,90,900,12,1,3,13
-ENDDATA
+   cards plane_turn <<END
+METHOD = NEWTON;SPC = 1;LOAD = 10;OUTPUT = LAST, CD
+BEGIN BULK;PSHELL,1,1,2.;MAT1,1,9500.,,.25;BLOCK2,1,1,4,2,0.,0.;+,8.,4.;CORD2R,1,,0.,0.,0.,0.,0.,$z;+,1.,0.,0.
+GRID,900,,2.,2.,,1;SPC1,1,126,900;SPCD,10,900,6,.01,900,2,.3;RBE2,90,900,12,1,3,13;ENDDATA
 END
    run plane_turn && {
       same "turned about z $z" "$(table plane_turn 'ROTATIONS OF REFERENCE' | awk '$1 == 900 { print $2, $3 }')" '1.00000E-02 1'

@@ -2,30 +2,11 @@
 # whole at 200, at 0.4 of the push; pulled by up to 4,000 instead, it is loose at 1,000, at 0.25.
 
 limit() { # NAME FX FY
-   cat > "$work/$1.bdf" <<END
-METHOD = NEWTON
-SUBCASE 1
-  LOAD = 1
-SUBCASE 2
-  LOAD = 4
-  INCR = 2
-BEGIN BULK
-BLOCK2,1,1,4,1,0.,0.
-+,40.,10.
-+,20,,21
-PMARK,20
-PMARK,21
-PSHELL,1,1,10.
-MAT1,1,210000.,,0.0
-JOINT,1,1,20
-PJOINT,1,1,1,,0.2
-JNORM,1,8.-3,0.5,9500.
-JSHEAR,1,100.,300.
-FORCEM,1,1000.,0.,-1.,0.,21
-FORCEM,2,1.,$2,$3,0.,20
-LOAD,4,1.,1.,1,1.,2
-JINCR,2,3,LIST,0.2,0.5,0.3
-ENDDATA
+   cards "$1" <<END
+METHOD = NEWTON;SUBCASE 1;  LOAD = 1;SUBCASE 2;  LOAD = 4;  INCR = 2
+BEGIN BULK;BLOCK2,1,1,4,1,0.,0.;+,40.,10.;+,20,,21;PMARK,20;PMARK,21;PSHELL,1,1,10.;MAT1,1,210000.,,0.0;JOINT,1,1,20
+PJOINT,1,1,1,,0.2;JNORM,1,8.-3,0.5,9500.;JSHEAR,1,100.,300.;FORCEM,1,1000.,0.,-1.,0.,21;FORCEM,2,1.,$2,$3,0.,20
+LOAD,4,1.,1.,1,1.,2;JINCR,2,3,LIST,0.2,0.5,0.3;ENDDATA
 END
    rm -f "$work/$1".*.csv "$work/$1.out"
    run "$1" 3
@@ -55,37 +36,12 @@ says 'shear without friction: the message' "$work/limit_pulled.log" \
 
 # A block in space on springs of 2000 along x and y, pressed by 10,000 with mu = 0.3, slips obliquely on a joint that is 40 times as stiff along y. Its
 # shear stress is along (k_x delta_x, k_y delta_y), of size mu p.
-cat > "$work/oblique.bdf" <<END
-METHOD = NEWTON
-SUBCASE 1
-  LOAD = 1
-SUBCASE 2
-  LOAD = 3
-BEGIN BULK
-BLOCK3,1,1,2,2,1,0.,0.,0.
-+,20.,20.,10.
-+,,,,,20,21
-PMARK,20
-PMARK,21
-PSOLID,1,1
-MAT1,1,210000.,,0.0
-JOINT,1,1,20
-PJOINT,1,1,1,2,0.3
-JNORM,1,8.-3,0.5,9500.
-JSHEAR,1,1000.
-JSHEAR,2,40000.
-FORCEM,1,10000.,0.,0.,-1.,21
-FORCEM,2,1.,5000.,4000.,0.,20
-LOAD,3,1.,1.,1,1.,2
-CELAS2,101,500.,1,1
-CELAS2,102,500.,3,1
-CELAS2,103,500.,7,1
-CELAS2,104,500.,9,1
-CELAS2,105,500.,1,2
-CELAS2,106,500.,3,2
-CELAS2,107,500.,7,2
-CELAS2,108,500.,9,2
-ENDDATA
+cards oblique <<END
+METHOD = NEWTON;SUBCASE 1;  LOAD = 1;SUBCASE 2;  LOAD = 3
+BEGIN BULK;BLOCK3,1,1,2,2,1,0.,0.,0.;+,20.,20.,10.;+,,,,,20,21;PMARK,20;PMARK,21;PSOLID,1,1;MAT1,1,210000.,,0.0
+JOINT,1,1,20;PJOINT,1,1,1,2,0.3;JNORM,1,8.-3,0.5,9500.;JSHEAR,1,1000.;JSHEAR,2,40000.;FORCEM,1,10000.,0.,0.,-1.,21
+FORCEM,2,1.,5000.,4000.,0.,20;LOAD,3,1.,1.,1,1.,2;CELAS2,101,500.,1,1;CELAS2,102,500.,3,1;CELAS2,103,500.,7,1
+CELAS2,104,500.,9,1;CELAS2,105,500.,1,2;CELAS2,106,500.,3,2;CELAS2,107,500.,7,2;CELAS2,108,500.,9,2;ENDDATA
 END
 run oblique && {
    ask 'slip between two laws: everywhere' oblique rows 'stage = 2' all 'slip = 1'

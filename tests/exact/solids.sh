@@ -109,31 +109,11 @@ ring_triangles=$(awk 'BEGIN {
    } }')
 ring ring_tria "$ring_triangles\n$free" && pressed_evenly 'ring of triangles pressed evenly' ring_tria 0.5 "$(ring_area 20 60)"
 # a ring in a ring, the joint between them a cylinder: pressed from outside it carries the same along its height
-cat > "$work/rings.bdf" <<'DECK'
-METHOD = NEWTON
-SPC = 1
-SUBCASE 1
-  LOAD = 1
-  INCR = 5
-BEGIN BULK
-BLOCK2,1,1,4,3,20.0,0.0
-+,40.0,30.0,,,,0.5
-+,,20
-BLOCK2,2,1,4,3,40.0,0.0
-+,60.0,30.0,,,,0.5,101,101
-+,,23,,21
-PMARK,20
-PMARK,21
-PMARK,23
-PAXIS,1,1
-MAT1,1,9500.0,,0.3
-JOINT,1,1,20,21
-PJOINT,1,1,,,,,1.0
-JNORM,1,8.0-3,0.5
-SPC1,1,2,1,THRU,200
-PLOADM,1,2.0,23
-JINCR,5,5
-ENDDATA
+cards rings <<'DECK'
+METHOD = NEWTON;SPC = 1;SUBCASE 1;  LOAD = 1;  INCR = 5
+BEGIN BULK;BLOCK2,1,1,4,3,20.0,0.0;+,40.0,30.0,,,,0.5;+,,20
+BLOCK2,2,1,4,3,40.0,0.0;+,60.0,30.0,,,,0.5,101,101;+,,23,,21;PMARK,20;PMARK,21;PMARK,23;PAXIS,1,1;MAT1,1,9500.0,,0.3
+JOINT,1,1,20,21;PJOINT,1,1,,,,,1.0;JNORM,1,8.0-3,0.5;SPC1,1,2,1,THRU,200;PLOADM,1,2.0,23;JINCR,5,5;ENDDATA
 DECK
 run rings && pressed_evenly 'ring in a ring: the same pressure along the height' rings "$(cell rings 1 5 17 pressure)" \
    "$(number "2400*pi")"
@@ -180,26 +160,11 @@ p0=1.0 box inclined HEXA 1.2 "PSOLID,1,1\nSPC1,1,123,1,THRU,12\nFORCEM,7,100.0,3
    near 'FORCEM and PLOADM by LOAD: z' "$(total inclined LOADS 3)" -1800 2e-6
 }
 # a pressure round a closed body has no resultant: on all faces of a tetrahedron
-cat > "$work/around.bdf" <<'DECK'
-SPC = 1
-SUBCASE 1
-  LOAD = 1
-BEGIN BULK
-GRID,1,,0.0,0.0,0.0
-GRID,2,,7.0,1.0,0.5
-GRID,3,,1.5,6.0,-0.5
-GRID,4,,2.0,1.0,5.0
-CTETRA,1,1,1,2,3,4
-PSOLID,1,1
-MAT1,1,9500.0,,0.3
-PLOAD4,1,1,2.0,,,,1,4
-PLOAD4,1,1,2.0,,,,1,3
-PLOAD4,1,1,2.0,,,,2,1
-PLOAD4,1,1,2.0,,,,1,2
-SPC1,1,123,1
-SPC1,1,23,2
-SPC1,1,3,3
-ENDDATA
+cards around <<'DECK'
+SPC = 1;SUBCASE 1;  LOAD = 1
+BEGIN BULK;GRID,1,,0.0,0.0,0.0;GRID,2,,7.0,1.0,0.5;GRID,3,,1.5,6.0,-0.5;GRID,4,,2.0,1.0,5.0;CTETRA,1,1,1,2,3,4
+PSOLID,1,1;MAT1,1,9500.0,,0.3;PLOAD4,1,1,2.0,,,,1,4;PLOAD4,1,1,2.0,,,,1,3;PLOAD4,1,1,2.0,,,,2,1;PLOAD4,1,1,2.0,,,,1,2
+SPC1,1,123,1;SPC1,1,23,2;SPC1,1,3,3;ENDDATA
 DECK
 run around && for c in 1 2 3; do near "pressure all round: component $c" "$(total around LOADS $c)" 0 0 1e-12; near "pressure all round: reaction $c" "$(total around SUPPORTS $c)" 0 0 1e-10; done
 

@@ -1,27 +1,10 @@
 # Bars and springs in one model: a block between two springs below and two rods above, pressed evenly by 12 (nu = 0). What the springs
 # take and the rods give follows from three stiffnesses in a row.
-cat > "$work/springs.bdf" <<'DECK'
-SPC = 1
-SUBCASE 1
-  LOAD = 10
-  INCR = 5
-BEGIN BULK
-BLOCK2,1,1,1,1,0.0,0.0
-+,8.0,5.0
-PSHELL,1,1,2.0
-MAT1,1,9500.0,,0.0
-GRID,52,,0.0,15.0
-GRID,54,,8.0,15.0
-CONROD,92,2,52,1,1.5
-CONROD,94,4,54,1,1.5
-CELAS2,81,700.0,1,2
-CELAS2,83,700.0,3,2
-SPC1,1,1,1
-SPC1,1,12,52,54
-FORCE,10,2,,6.0,0.0,-1.0
-FORCE,10,4,,6.0,0.0,-1.0
-JINCR,5,2
-ENDDATA
+cards springs <<'DECK'
+SPC = 1;SUBCASE 1;  LOAD = 10;  INCR = 5
+BEGIN BULK;BLOCK2,1,1,1,1,0.0,0.0;+,8.0,5.0;PSHELL,1,1,2.0;MAT1,1,9500.0,,0.0;GRID,52,,0.0,15.0;GRID,54,,8.0,15.0
+CONROD,92,2,52,1,1.5;CONROD,94,4,54,1,1.5;CELAS2,81,700.0,1,2;CELAS2,83,700.0,3,2;SPC1,1,1,1;SPC1,1,12,52,54
+FORCE,10,2,,6.0,0.0,-1.0;FORCE,10,4,,6.0,0.0,-1.0;JINCR,5,2;ENDDATA
 DECK
 run springs && {
    rod=$(number '9500*1.5/10') block=$(number '9500*2*8/5/2')         # of half the block

@@ -112,29 +112,11 @@ check 'node 2147483648: the message' "$(grep -c "'2147483648' is too large for a
 
 # overflow METHOD E FORCE: a block of next to no area under a force that is a pressure beyond all measure there
 overflow() {
-   cat > overflow.bdf << DECK
-METHOD = $1
-SPC = 1
-SUBCASE 1
-  LOAD = 1
-  INCR = 1
-BEGIN BULK
-BLOCK2,1,1,2,1,0.0,0.0
-+,2.0E-30,1.0E-30
-+,20,21,22,23
-PMARK,20
-PMARK,22
-PMARK,21
-PMARK,23
-PSHELL,1,1,1.0E-30
-MAT1,1,$2,,0.3
-JOINT,1,1,20
-PJOINT,1,1,,,,,1.0
-JNORM,1,1.0E-75,1.0,1.0E75
-SPCM,1,1,23
-FORCEM,1,$3,0.0,-1.0,0.0,22
-JINCR,1,2
-ENDDATA
+   tr ';' '\n' > overflow.bdf << DECK
+METHOD = $1;SPC = 1;SUBCASE 1;  LOAD = 1;  INCR = 1
+BEGIN BULK;BLOCK2,1,1,2,1,0.0,0.0;+,2.0E-30,1.0E-30;+,20,21,22,23;PMARK,20;PMARK,22;PMARK,21;PMARK,23
+PSHELL,1,1,1.0E-30;MAT1,1,$2,,0.3;JOINT,1,1,20;PJOINT,1,1,,,,,1.0;JNORM,1,1.0E-75,1.0,1.0E75;SPCM,1,1,23
+FORCEM,1,$3,0.0,-1.0,0.0,22;JINCR,1,2;ENDDATA
 DECK
    rm -f overflow.out
    check "$1, $3 on an area of 2E-60: status" "$(run overflow)" 3
@@ -145,24 +127,10 @@ for method in STEP NEWTON BACK; do overflow $method 1.0E50 1.0E70; done
 
 # beyond E FORCE TIMES WORDS: a block of next to no section, 2E-60, that TIMES the FORCE stretches; WORDS say what is beyond all measure
 beyond() {
-   cat > beyond.bdf << DECK
-SPC = 1
-SUBCASE 1
-  LOAD = 2
-  INCR = 1
-BEGIN BULK
-BLOCK2,1,1,2,1,0.0,0.0
-+,2.0E-30,1.0E-30
-+,20,,22
-PMARK,20
-PMARK,22
-PSHELL,1,1,1.0E-30
-MAT1,1,$1,,0.3
-SPCM,1,12,20
-FORCEM,1,$2,0.0,1.0,0.0,22
-LOAD,2,$3,1.0,1
-JINCR,1,2
-ENDDATA
+   tr ';' '\n' > beyond.bdf << DECK
+SPC = 1;SUBCASE 1;  LOAD = 2;  INCR = 1
+BEGIN BULK;BLOCK2,1,1,2,1,0.0,0.0;+,2.0E-30,1.0E-30;+,20,,22;PMARK,20;PMARK,22;PSHELL,1,1,1.0E-30;MAT1,1,$1,,0.3
+SPCM,1,12,20;FORCEM,1,$2,0.0,1.0,0.0,22;LOAD,2,$3,1.0,1;JINCR,1,2;ENDDATA
 DECK
    rm -f beyond.out
    check "E $1, $2 times $3 on an area of 2E-60: status" "$(run beyond)" 3

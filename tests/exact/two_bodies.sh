@@ -33,44 +33,14 @@ sed 's/^JOINT,1,1,20,21/JOINT,1,1,21,20/' "$work/meshes.bdf" > "$work/swapped.bd
 run swapped && same_rows 'sides exchanged' meshes swapped 1e-10 $against
 
 # Three blocks on a rigid base, three joints with laws of their own, pressed evenly (nu = 0): each carries all, lambda = c p**m of its law.
-cat > "$work/stack.bdf" <<'DECK'
-METHOD = NEWTON
-SPC = 1
-SUBCASE 1
-  LOAD = 1
-  INCR = 1
-BEGIN BULK
-BLOCK2,1,1,2,2,0.0,0.0
-+,40.0,20.0,,,,,1,1
-+,10,,11
-BLOCK2,2,1,2,2,0.0,20.0
-+,40.0,40.0,,,,,101,101
-+,12,,13
-BLOCK2,3,1,2,2,0.0,40.0
-+,40.0,60.0,,,,,201,201
-+,14
-PMARK,10
-PMARK,11
-PMARK,12
-PMARK,13
-PMARK,14
-PSHELL,1,1,20.0
-MAT1,1,9500.0,,0.0
-JOINT,1,1,10
-JOINT,2,2,11,12
-JOINT,3,3,14,13
-PJOINT,1,1
-PJOINT,2,2
-PJOINT,3,3
-JNORM,1,8.0-3,0.5,9500.0
-JNORM,2,5.0-3,0.4,9500.0
-JNORM,3,3.0-3,1.0,9500.0
-SPC1,1,1,2,102,202
-FORCE,1,203,,100.0,0.0,-1.0
-FORCE,1,206,,200.0,0.0,-1.0
-FORCE,1,209,,100.0,0.0,-1.0
-JINCR,1,3,ARITH,0.2
-ENDDATA
+cards stack <<'DECK'
+METHOD = NEWTON;SPC = 1;SUBCASE 1;  LOAD = 1;  INCR = 1
+BEGIN BULK;BLOCK2,1,1,2,2,0.0,0.0;+,40.0,20.0,,,,,1,1;+,10,,11
+BLOCK2,2,1,2,2,0.0,20.0;+,40.0,40.0,,,,,101,101;+,12,,13;BLOCK2,3,1,2,2,0.0,40.0;+,40.0,60.0,,,,,201,201;+,14;PMARK,10
+PMARK,11;PMARK,12;PMARK,13;PMARK,14;PSHELL,1,1,20.0;MAT1,1,9500.0,,0.0;JOINT,1,1,10;JOINT,2,2,11,12;JOINT,3,3,14,13
+PJOINT,1,1;PJOINT,2,2;PJOINT,3,3;JNORM,1,8.0-3,0.5,9500.0;JNORM,2,5.0-3,0.4,9500.0;JNORM,3,3.0-3,1.0,9500.0
+SPC1,1,1,2,102,202;FORCE,1,203,,100.0,0.0,-1.0;FORCE,1,206,,200.0,0.0,-1.0;FORCE,1,209,,100.0,0.0,-1.0
+JINCR,1,3,ARITH,0.2;ENDDATA
 DECK
 run stack && {
    ask 'three joints in one model' stack all 'pressure = 0.5*load within 1e-8*pressure' by joint all 'max(joint) <= 3 and count() = 9' \
@@ -89,36 +59,12 @@ run stack && {
 # E_u left blank: bodies of E 100 and 300 have 2 x 100 x 300/400 = 150 between them, and loaded and relieved they go the same way
 # whichever side comes first. p 0.5 and then 0.1 by hand: lambda = 8E-3 sqrt(0.5) - 0.4/150 (nu = 0, pressed evenly).
 unequal() { # NAME SIDES
-   cat > "$work/$1.bdf" <<DECK
-METHOD = NEWTON
-SPC = 1
-SUBCASE 1
-  LOAD = 1
-SUBCASE 2
-  LOAD = 2
-BEGIN BULK
-PSHELL,1,1,20.0
-MAT1,1,100.0,,0.0
-PSHELL,2,2,20.0
-MAT1,2,300.0,,0.0
-BLOCK2,2,2,2,1,0.0,-30.0
-+,100.0,0.0,,,,,1001,1001
-+,22,,21
-BLOCK2,1,1,2,1,0.0,0.0
-+,100.0,40.0,,,,,1,1
-+,20,,23
-PMARK,20
-PMARK,21
-PMARK,22
-PMARK,23
-SPCM,1,12,22
-SPC1,1,1,1
-JOINT,1,1,$2
-PJOINT,1,1
-JNORM,1,8.0-3,0.5
-PLOADM,1,0.5,23
-PLOADM,2,0.1,23
-ENDDATA
+   cards "$1" <<DECK
+METHOD = NEWTON;SPC = 1;SUBCASE 1;  LOAD = 1;SUBCASE 2;  LOAD = 2
+BEGIN BULK;PSHELL,1,1,20.0;MAT1,1,100.0,,0.0;PSHELL,2,2,20.0;MAT1,2,300.0,,0.0
+BLOCK2,2,2,2,1,0.0,-30.0;+,100.0,0.0,,,,,1001,1001;+,22,,21;BLOCK2,1,1,2,1,0.0,0.0;+,100.0,40.0,,,,,1,1;+,20,,23
+PMARK,20;PMARK,21;PMARK,22;PMARK,23;SPCM,1,12,22;SPC1,1,1,1;JOINT,1,1,$2;PJOINT,1,1;JNORM,1,8.0-3,0.5;PLOADM,1,0.5,23
+PLOADM,2,0.1,23;ENDDATA
 DECK
    run "$1"
 }

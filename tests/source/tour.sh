@@ -132,23 +132,10 @@ for solver in BAND SKYLINE; do # a section locked, increments by STEP
    done
    sed "s/BAND/$solver/; /^SPCM/d; /^SPC =/d; s/^SPCD.*//" $here/solver.bdf > "$work/loose.$solver.bdf"
    run loose.$solver 3
-   cat > "$work/soft.$solver.bdf" <<DECK
-SOLVER = $solver
-SPC = 1
-SUBCASE 1
-  LOAD = 10
-BEGIN BULK
-BLOCK2,1,1,8,6,0.0,0.0
-+,100.0,60.0
-PSHELL,1,1,20.0
-MAT1,1,9500.0,,0.0
-MAT1,2,1.0-6,,0.0
-GRID,900,,50.0,-100.0
-CROD,901,2,29,900
-PROD,2,2,100.0
-SPC1,1,12,900
-SPC1,1,1,1,THRU,63
-FORCE,10,29,,800.0,0.0,-1.0
+   cards "soft.$solver" <<DECK
+SOLVER = $solver;SPC = 1;SUBCASE 1;  LOAD = 10
+BEGIN BULK;BLOCK2,1,1,8,6,0.0,0.0;+,100.0,60.0;PSHELL,1,1,20.0;MAT1,1,9500.0,,0.0;MAT1,2,1.0-6,,0.0
+GRID,900,,50.0,-100.0;CROD,901,2,29,900;PROD,2,2,100.0;SPC1,1,12,900;SPC1,1,1,1,THRU,63;FORCE,10,29,,800.0,0.0,-1.0
 ENDDATA
 DECK
    run soft.$solver
