@@ -20,7 +20,7 @@ module analysis_state
    private
 
    public :: start_analysis, all_held, interface_stiffness, reach, find_unbalanced, subtract_joint_forces, &
-             element_force, tally_work, book_friction, record_pass, note_largest, free_norm, force_noise, kind_on_branch
+             element_force, tally_work, book_friction, record_iteration, note_largest, free_norm, force_noise, kind_on_branch
 
    real(wp), parameter, public :: precise = 1.0e-6_wp !! of the load: what rounding may leave of the forces that joints are to balance
 
@@ -33,89 +33,94 @@ module analysis_state
    end type joint_energy
 
    !> One re-analysis after the Coulomb check, or one iteration towards equilibrium, for the listing.
-   type, public :: pass_record
+   type, public :: iteration_record
       real(wp) :: before = 0.0_wp, after = 0.0_wp   !! excess, or unbalanced force [force]; BACK: largest p, its change [pressure]
       real(wp) :: step = 1.0_wp                     !! length of the line search; BACK: largest deflection [length]
       integer  :: changes = 0                       !! interface elements that slip, or that changed their branch
       integer  :: part = 0                          !! NEWTON: which part of a divided increment; BACK: -1
-   end type pass_record
+   end type iteration_record
 
    !> An element that slips, before a re-analysis and after it: points t_1 and t_1' of Fig. 5(b).
    type, public :: slip_record
-      integer  :: pass = 0, element = 0
+      integer  :: reanalysis = 0, element = 0
       real(wp) :: delta(2, 2) = 0.0_wp              !! (direction, before and after) [length]
       real(wp) :: tau(2, 2) = 0.0_wp                !! likewise [pressure]
       real(wp) :: limit(2) = 0.0_wp                 !! mu p before and after
    end type slip_record
 
-   !> Arrays over nodes are (dimension, n_nodes). Of displacements and forces the increments see the retained nodes alone, in arrays
+   !> What acts on the structure at one instant.
+   type, public :: load_state
+      real(wp), allocatable  :: load(:, :)           !! (dimension, n_nodes) what is not elastic in bolts and what warmth pushes included [force]
+      real(wp), allocatable  :: moved(:, :)          !! (dimension, n_nodes) displacements of held components [length]
+      type(temperature_type) :: temperature
+      real(wp), allocatable  :: condensed_load(:, :) !! (dimension, retained) the load as retained nodes feel it: what acts on the others
+                                                     !! condensed, and what moved supports push included [force]
+   end type load_state
+
+   !> What the last increment has to tell: nothing that comes behind it depends on this.
+   type, public :: increment_record
+      type(iteration_record), allocatable :: iterations(:)
+      type(slip_record), allocatable      :: slips(:) !! where OUTPUT asks for them
+      type(condensed_type)  :: condensed              !! [k_b] on the interface, where OUTPUT asks for it
+      type(condition_type)  :: condition              !! of the stiffness that the increment used
+      integer, allocatable  :: kind(:)                !! of the normal stiffness that each interface element had
+      integer  :: n_iterations = 0
+      integer  :: n_removed = 0                       !! interface elements removed
+      integer  :: n_parts   = 1                       !! NEWTON: parts that it was divided into
+      logical  :: is_whole  = .true.                  !! ... or only to find the way: it was made as a whole from where they led
+      logical  :: ends_early = .false.                !! NEWTON cannot go on: this is the last state in equilibrium, there is one
+      logical  :: is_partial = .false.                !! ... and it is a part of the way into an increment
+      logical  :: is_settled = .true.                 !! BACK: whether the last secants agree with what they led to
+   end type increment_record
+
+   !> Displacements and forces over nodes are (dimension, n_nodes). The increments see those of the retained nodes alone, in arrays
    !! (dimension, retained); recover_bodies completes them.
    type, public :: analysis_type
       integer  :: stage = 0, increment = 0
       logical  :: goes_on = .false.                 !! the stage has been taken up from a restart file in its midst
       real(wp) :: share = 0.0_wp                    !! of the stage's load change, this increment
       real(wp) :: fraction = 0.0_wp                 !! of it, so far: exactly 1 at the end of the stage
+      type(load_state) :: before, after, now        !! at the start of the stage, at its end, in this increment
+      integer, allocatable :: loaded(:)             !! nodes on which loads act in this stage
+      logical  :: is_moved = .false.                !! whether supports are out of their places in this stage
+      logical  :: moves = .false.                   !! whether they are moved in this increment
+      ! as case control has them
       logical  :: carry = .false.
       logical  :: eq10 = .false.                    !! STEP: p on the loading curve by Eq. (10) as printed
       logical  :: average = .true.                  !! BACK: of two consecutive sets of results
-      logical  :: crosses_gaps = .false.            !! STEP: this increment is iterated, for gaps leave a body loose
-      logical  :: is_loose = .false.                !! interference has pushed a body away until nothing presses it any more
-      real(wp) :: loose_force = 0.0_wp              !! then p_av a_i of its joints: little of that is no force [force]
-      logical  :: is_settled = .true.               !! BACK: whether the last secants agree with what they led to
       real(wp) :: load_tolerance = 1.0e-10_wp       !! NEWTON: share of the largest load that may be left unbalanced; BACK: of the
                                                     !! largest pressure by which the laws may differ from the secants
       real(wp) :: tolerance = 0.0_wp                !! the same as a force, for the largest load so far
-      ! over all nodes
-      real(wp), allocatable :: load_before(:, :)    !! at the start of the stage [force]
-      real(wp), allocatable :: load_after(:, :)     !! at its end; what is not elastic in bolts and what warmth pushes included
-      real(wp), allocatable :: applied(:, :)        !! now
-      type(temperature_type) :: temperature_before  !! at the start of the stage
-      type(temperature_type) :: temperature_after   !! at its end
-      type(temperature_type) :: temperature         !! now
-      integer, allocatable  :: loaded(:)            !! nodes on which loads act in this stage
-      logical  :: is_moved = .false.                !! whether supports are out of their places in this stage
-      logical  :: moves = .false.                   !! whether they are moved in this increment
-      real(wp), allocatable :: moved_before(:, :)   !! displacements of held components at the start of the stage [length]
-      real(wp), allocatable :: moved_after(:, :)    !! at its end
-      real(wp), allocatable :: moved(:, :)          !! now
-      real(wp), allocatable :: all_u(:, :)          !! displacements, as recover_bodies found them last [length]
-      real(wp), allocatable :: all_unbalanced(:, :) !! applied - internal forces, likewise; on held components minus the reaction
-      integer, allocatable  :: place(:)             !! (n_nodes) of a node among the retained ones, 0: nowhere
+      logical  :: crosses_gaps = .false.            !! STEP: this increment is iterated, for gaps leave a body loose
+      logical  :: is_loose = .false.                !! interference has pushed a body away until nothing presses it any more
+      real(wp) :: loose_force = 0.0_wp              !! then p_av a_i of its joints: little of that is no force [force]
+      ! over all nodes, as recover_bodies found them last
+      real(wp), allocatable :: all_u(:, :)          !! displacements [length]
+      real(wp), allocatable :: all_unbalanced(:, :) !! applied - internal forces; on held components minus the reaction
+      integer, allocatable  :: retained_index(:)    !! (n_nodes) of a node among the retained ones, 0: nowhere
       ! over retained nodes
       logical, allocatable  :: held(:, :)           !! supported, or locked since
-      real(wp), allocatable :: felt_before(:, :)    !! the loads as retained nodes feel them: what acts on the others
-      real(wp), allocatable :: felt_after(:, :)     !! condensed, and what moved supports push included
-      real(wp), allocatable :: felt(:, :)
-      real(wp), allocatable :: change(:, :)         !! of that in this increment
+      real(wp), allocatable :: change(:, :)         !! of the condensed load in this increment
       real(wp), allocatable :: move(:, :)           !! of supports in this increment [length]
       real(wp), allocatable :: body(:, :)           !! [k_b] {u}
       real(wp), allocatable :: u(:, :), du(:, :)    !! displacements, and of this increment [length]
-      real(wp), allocatable :: unbalanced(:, :)     !! felt - internal forces
+      real(wp), allocatable :: unbalanced(:, :)     !! condensed load - internal forces
       ! of bars and of the sections of solid bolts
       logical, allocatable  :: is_elastic(:)        !! of bars: no bolt, or locked
-      real(wp), allocatable :: pull(:)              !! of locked bolts: tension at the lengths of the model at rest, all of it at its TREF [force]
+      real(wp), allocatable :: pull(:)              !! of locked bolts: tension at the lengths of the model at rest, all of it at TREF [force]
       logical, allocatable  :: is_locked(:)         !! of sections
       ! of interface elements and joints
       type(element_state), allocatable :: states(:)
       real(wp), allocatable :: movement(:, :)       !! (3, n) of end 1 against end 2, in all, in the element's axes [length]
       real(wp), allocatable :: k(:, :)              !! (3, n) their stiffness (k_sx, k_sy, k_n) in the next increment
+      integer, allocatable  :: next_kind(:)         !! of the normal stiffness in the next increment
       type(element_state), allocatable :: exact(:)  !! STEP: the states by the exact laws along the same movements
       type(turning_point), allocatable :: turns(:, :) !! (2, n) where the shear branches began
-      integer, allocatable  :: kind(:), next_kind(:) !! of the normal stiffness used in this increment, and in the next one
-      type(condensed_type)  :: condensed            !! [k_b] on the interface, where OUTPUT asks for it
-      type(condition_type)  :: condition            !! of the stiffness that the increment used
-      type(joint_energy), allocatable  :: energy(:) !! of the joints
-      type(pass_record), allocatable   :: passes(:) !! of the last increment
-      type(slip_record), allocatable   :: slips(:)  !! of the last increment, where OUTPUT asks for them
-      integer  :: n_passes  = 0
+      type(joint_energy), allocatable  :: energy(:) !! of the joints, in this stage
       real(wp) :: largest_p = 0.0_wp                !! pressure or shear stress so far, anywhere: the measure of noise
       real(wp) :: largest_lambda = 0.0_wp           !! deflection so far, likewise
       real(wp) :: largest_load = 0.0_wp             !! on the structure or on the joints so far [force]
-      integer  :: n_removed = 0                     !! interface elements removed by the last increment
-      logical  :: ends_early = .false.              !! NEWTON cannot go on: this is the last state in equilibrium, there is one
-      logical  :: is_partial = .false.              !! ... and it is a part of the way into an increment
-      integer  :: n_parts   = 1                     !! NEWTON: parts that the last increment was divided into
-      logical  :: is_whole  = .true.                !! ... or only to find the way: it was made as a whole from where they led
+      type(increment_record) :: record
    end type analysis_type
 
 contains
@@ -131,22 +136,24 @@ contains
       analysis%eq10 = control%pressure == pressure_eq10
       analysis%average = control%average
       analysis%load_tolerance = control%tolerance
-      allocate (analysis%applied(model%dimension, model%n_nodes), source=0.0_wp)
-      allocate (analysis%load_before, analysis%load_after, analysis%moved_before, analysis%moved_after, analysis%moved, &
-                analysis%all_u, analysis%all_unbalanced, source=analysis%applied)
-      allocate (analysis%place, source=system%retained_index)
+      allocate (analysis%all_u(model%dimension, model%n_nodes), source=0.0_wp)
+      allocate (analysis%all_unbalanced, analysis%now%load, analysis%now%moved, source=analysis%all_u)
+      allocate (analysis%retained_index, source=system%retained_index)
       allocate (analysis%held, source=system%held_now())
       allocate (analysis%u(model%dimension, size(system%retained)), source=0.0_wp)
-      allocate (analysis%du, analysis%body, analysis%unbalanced, analysis%felt_before, analysis%felt_after, analysis%felt, &
-                analysis%change, analysis%move, source=analysis%u)
+      allocate (analysis%du, analysis%body, analysis%unbalanced, analysis%change, analysis%move, analysis%now%condensed_load, &
+                source=analysis%u)
+      analysis%before = analysis%now
+      analysis%after = analysis%now
       allocate (analysis%pull(n_bars(model)), source=0.0_wp)
       allocate (analysis%is_locked(n_sections(model)), source=.false.)
       allocate (analysis%is_elastic(n_bars(model)), source=.true.)
       if (n_bars(model) > 0) analysis%is_elastic = model%bars%bolt == 0
-      allocate (analysis%states(size(model%interface)), analysis%energy(size(model%joints)), analysis%passes(16))
+      allocate (analysis%states(size(model%interface)), analysis%energy(size(model%joints)))
+      allocate (analysis%record%iterations(16), analysis%record%slips(0))
       allocate (analysis%k(3, size(model%interface)), analysis%movement(3, size(model%interface)), source=0.0_wp)
-      allocate (analysis%turns(2, size(model%interface)), analysis%slips(0))
-      allocate (analysis%kind(size(model%interface)), analysis%next_kind(size(model%interface)), source=no_stiffness)
+      allocate (analysis%turns(2, size(model%interface)))
+      allocate (analysis%record%kind(size(model%interface)), analysis%next_kind(size(model%interface)), source=no_stiffness)
       analysis%states%normal = at_rest(model%joints(model%interface%joint)%p_av, model%interface%gap)
       if (control%method == method_step) allocate (analysis%exact, source=analysis%states)
    end subroutine start_analysis
@@ -174,7 +181,7 @@ contains
       logical :: was_apart
 
       if (failure%raised) return
-      analysis%n_removed = 0
+      analysis%record%n_removed = 0
       do i = 1, size(model%interface)
          associate (area => model%interface(i)%area, law => model%joints(model%interface(i)%joint)%law, &
                     state => analysis%states(i), k => analysis%k(:, i))
@@ -188,7 +195,7 @@ contains
                   call shear(law%shear(d), area, shear_pressure(area, state%normal), state%shear(d), k(d))
                end do
             else if (before /= branch_open) then
-               analysis%n_removed = analysis%n_removed + 1
+               analysis%record%n_removed = analysis%record%n_removed + 1
             end if
             analysis%next_kind(i) = kind_on_branch(state%normal%branch)
             if (is_virgin(area, state%normal) .and. k(3) <= normal_secant(law%normal, area, state%normal%p_av)) &
@@ -238,7 +245,7 @@ contains
       class(equation_system), intent(in) :: system
       type(analysis_type), intent(inout) :: analysis
 
-      analysis%unbalanced = analysis%felt - analysis%body
+      analysis%unbalanced = analysis%now%condensed_load - analysis%body
       call subtract_joint_forces(system%interface, analysis%states, analysis%unbalanced)
    end subroutine find_unbalanced
 
@@ -303,7 +310,7 @@ contains
       integer :: k
 
       if (size(analysis%states) == 0) return
-      analysis%largest_load = max(analysis%largest_load, free_norm(analysis%felt, analysis%held), &
+      analysis%largest_load = max(analysis%largest_load, free_norm(analysis%now%condensed_load, analysis%held), &
                                   norm2(analysis%states%normal%sumf))
       analysis%largest_p = max(analysis%largest_p, maxval(abs(analysis%states%normal%pressure)))
       analysis%largest_lambda = max(analysis%largest_lambda, maxval(abs(analysis%states%normal%lambda)))
@@ -313,17 +320,19 @@ contains
       end do
    end subroutine note_largest
 
-   !> Note a pass for the listing, and tell of it on the terminal.
-   subroutine record_pass(analysis, pass)
+   !> Note an iteration for the listing, and tell of it on the terminal.
+   subroutine record_iteration(analysis, iteration)
       type(analysis_type), intent(inout) :: analysis
-      type(pass_record), intent(in)      :: pass
+      type(iteration_record), intent(in) :: iteration
 
-      if (analysis%n_passes == size(analysis%passes)) analysis%passes = [analysis%passes, analysis%passes]
-      analysis%n_passes = analysis%n_passes + 1
-      analysis%passes(analysis%n_passes) = pass
+      associate (record => analysis%record)
+         if (record%n_iterations == size(record%iterations)) record%iterations = [record%iterations, record%iterations]
+         record%n_iterations = record%n_iterations + 1
+         record%iterations(record%n_iterations) = iteration
+      end associate
       call show_line('stage '//integer_text(analysis%stage)//', increment '//integer_text(analysis%increment)//', iteration '// &
-                     integer_text(analysis%n_passes)//': '//real_text(pass%after)//' left, changes of branch: '// &
-                     integer_text(pass%changes), at_once=.false.)
-   end subroutine record_pass
+                     integer_text(analysis%record%n_iterations)//': '//real_text(iteration%after)//' left, changes of branch: '// &
+                     integer_text(iteration%changes), at_once=.false.)
+   end subroutine record_iteration
 
 end module analysis_state

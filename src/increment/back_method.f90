@@ -9,7 +9,7 @@
 !!       |                *
 !!     0 *---*----*------------------ lambda
 module back_method
-   use analysis_state, only: analysis_type, find_unbalanced, force_noise, no_stiffness, pass_record, reach, record_pass, &
+   use analysis_state, only: analysis_type, find_unbalanced, force_noise, no_stiffness, iteration_record, reach, record_iteration, &
                              secant_stiffness, tally_work
    use equations, only: equation_system, forces_in_bodies, form_structure_stiffness, solve_equations
    use failures, only: failure_type
@@ -68,21 +68,22 @@ contains
          end do
          call form_structure_stiffness(model, now%k_int, where_in_plan(plan, analysis%stage, analysis%increment), system, &
                                        failure, one_solution=.true.)
-         call solve_equations(model, system, load_of_secants(system, analysis%felt, now), analysis%u, failure, &
-                              moved=merge(analysis%moved(:, system%retained), 0.0_wp, analysis%moves))
+         call solve_equations(model, system, load_of_secants(system, analysis%now%condensed_load, now), analysis%u, failure, &
+                              moved=merge(analysis%now%moved(:, system%retained), 0.0_wp, analysis%moves))
          if (failure%raised) return
          if (n == 0) exit
          call read_off(model, system, analysis, now, largest_p)
-         call record_pass(analysis, pass_record(before=largest_p, after=maxval(now%change), &
+         call record_iteration(analysis, iteration_record(before=largest_p, after=maxval(now%change), &
                                                 step=maxval(now%deflection(3, :)), part=-1))
-         analysis%is_settled = has_settled(model, system, analysis, now, largest_p)
-         if (analysis%is_settled) exit
+         analysis%record%is_settled = has_settled(model, system, analysis, now, largest_p)
+         if (analysis%record%is_settled) exit
          now%taken = merge(0.5_wp*(now%taken + now%deflection), now%deflection, analysis%average)
       end do
-      if (analysis%average .and. .not. analysis%is_settled) then
+      if (analysis%average .and. .not. analysis%record%is_settled) then
          worst = first_largest(now%change)
          call failure%raise(where_in_plan(plan, analysis%stage, analysis%increment)//': the pressures have not settled after '// &
-            integer_text(analysis%n_passes)//' iterations; the one of node '//integer_text(joint_node_id(model, worst, 1))// &
+            integer_text(analysis%record%n_iterations)//' iterations; the one of node '// &
+            integer_text(joint_node_id(model, worst, 1))// &
             ' still changes by '//real_text(now%change(worst))//'; METHOD = NEWTON follows such laws')
          return
       end if
@@ -172,7 +173,7 @@ contains
             state%normal%branch = merge(branch_load, branch_open, has_come_to(0.0_wp, deflection(3), largest))
             state%normal%lambda = deflection(3)
             state%normal%k_n = now%k_int(3, 3, i)
-            analysis%kind(i) = merge(secant_stiffness, no_stiffness, state%normal%k_n > 0.0_wp)
+            analysis%record%kind(i) = merge(secant_stiffness, no_stiffness, state%normal%k_n > 0.0_wp)
             state%normal%sumf = max(0.0_wp, now%k_int(3, 3, i)*deflection(3))
             state%normal%pressure = state%normal%sumf/element%area
             state%shear%sense = sign(1.0_wp, deflection(:2))

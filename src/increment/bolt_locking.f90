@@ -28,8 +28,8 @@ contains
             if (bar%bolt == 0 .or. bar%stage /= analysis%stage) cycle
             analysis%is_elastic(i) = .true.
             analysis%pull(i) = bar%preload - bar%stiffness*elongation_now(model, analysis, i)
-            call add_pull(model, i, analysis%pull(i) - bar%preload, analysis%applied)
-            analysis%pull(i) = analysis%pull(i) - thermal_pull(bar, analysis%temperature) ! which is among the loads from here on
+            call add_pull(model, i, analysis%pull(i) - bar%preload, analysis%now%load)
+            analysis%pull(i) = analysis%pull(i) - thermal_pull(bar, analysis%now%temperature) ! which is among the loads from here on
             call add_bar(model, i, system)
          end associate
       end do
@@ -37,9 +37,9 @@ contains
          associate (section => model%sections(i))
             if (section%stage /= analysis%stage) cycle
             analysis%is_locked(i) = .true.
-            analysis%held(1, analysis%place(section%node)) = .true.
-            analysis%applied(1, section%node) = analysis%applied(1, section%node) - section%preload
-            analysis%moved(1, section%node) = overlap_now(model, analysis, i)
+            analysis%held(1, analysis%retained_index(section%node)) = .true.
+            analysis%now%load(1, section%node) = analysis%now%load(1, section%node) - section%preload
+            analysis%now%moved(1, section%node) = overlap_now(model, analysis, i)
             call lock_unknown(section%node, 1, system)
          end associate
       end do
@@ -71,7 +71,8 @@ contains
       type(analysis_type), intent(in) :: analysis
       integer, intent(in)             :: i
 
-      elongation = bar_elongation(model%bars(i), displacements_at(model, bar_nodes(model%bars(i)), analysis%place, analysis%u))
+      elongation = bar_elongation(model%bars(i), displacements_at(model, bar_nodes(model%bars(i)), analysis%retained_index, &
+                                                                 analysis%u))
    end function elongation_now
 
    !> Overlap g at the section of solid bolt I now [length].
@@ -80,7 +81,7 @@ contains
       type(analysis_type), intent(in) :: analysis
       integer, intent(in)             :: i
 
-      overlap = analysis%u(1, analysis%place(model%sections(i)%node))
+      overlap = analysis%u(1, analysis%retained_index(model%sections(i)%node))
    end function overlap_now
 
    !> Tension of bar I now [force].
@@ -92,7 +93,8 @@ contains
       tension = 0.0_wp
       associate (bar => model%bars(i))
          if (analysis%is_elastic(i)) then
-            tension = analysis%pull(i) + bar%stiffness*elongation_now(model, analysis, i) + thermal_pull(bar, analysis%temperature)
+            tension = analysis%pull(i) + bar%stiffness*elongation_now(model, analysis, i) + &
+                      thermal_pull(bar, analysis%now%temperature)
          else if (bar%stage == analysis%stage) then
             tension = analysis%fraction*bar%preload
          end if
@@ -106,7 +108,7 @@ contains
       integer, intent(in)             :: i
 
       associate (section => model%sections(i))
-         tension = -analysis%unbalanced(1, analysis%place(section%node))
+         tension = -analysis%unbalanced(1, analysis%retained_index(section%node))
          if (section%stage == analysis%stage) tension = tension + analysis%fraction*section%preload
       end associate
    end function section_tension

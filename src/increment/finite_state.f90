@@ -28,7 +28,7 @@ contains
       type(failure_type), intent(inout)  :: failure
       integer :: i
 
-      call check_nodes('the load', analysis%applied, [(i, i = 1, model%n_nodes)])
+      call check_nodes('the load', analysis%now%load, [(i, i = 1, model%n_nodes)])
       call check_nodes('the displacement', analysis%u, system%retained)
       call check_joints()
       do i = 1, n_bars(model)

@@ -1,6 +1,6 @@
 !> The way of the load: from stage to stage, from increment to increment, and what it does to all nodes of the bodies.
 module load_path
-   use analysis_state, only: all_held, analysis_type, joint_energy, subtract_joint_forces
+   use analysis_state, only: all_held, analysis_type, joint_energy, load_state, subtract_joint_forces
    use bar_elements, only: add_bar_forces, add_pull, add_thermal_pulls
    use body_elements, only: add_thermal_forces, internal_forces
    use bolt_locking, only: lock_bolts
@@ -35,54 +35,50 @@ contains
       analysis%increment = 0
       analysis%fraction = 0.0_wp
       if (stage > 1) analysis%energy = joint_energy() ! the first stage has what interference has put in before
-      analysis%load_before = analysis%applied
-      analysis%load_after = 0.0_wp
-      analysis%moved_before = analysis%moved
-      analysis%moved_after = 0.0_wp
-      analysis%temperature_before = analysis%temperature
-      analysis%temperature_after = model%stage_loads(stage)%temperature
+      analysis%before = analysis%now
+      analysis%after%load = 0.0_wp
+      analysis%after%moved = 0.0_wp
+      analysis%after%temperature = model%stage_loads(stage)%temperature
       associate (loads => model%stage_loads(stage))
-         if (allocated(loads%moved)) analysis%moved_after = loads%moved
+         if (allocated(loads%moved)) analysis%after%moved = loads%moved
          do i = 1, loads%n
-            analysis%load_after(:, loads%node(i)) = analysis%load_after(:, loads%node(i)) + loads%force(:model%dimension, i)
+            analysis%after%load(:, loads%node(i)) = analysis%after%load(:, loads%node(i)) + loads%force(:model%dimension, i)
          end do
       end associate
       do i = 1, n_bars(model)
          if (model%bars(i)%stage == stage) analysis%pull(i) = model%bars(i)%preload
-         call add_pull(model, i, analysis%pull(i), analysis%load_after)
+         call add_pull(model, i, analysis%pull(i), analysis%after%load)
       end do
-      if (allocated(analysis%temperature_after%at)) then
-         call add_thermal_forces(model, analysis%temperature_after, analysis%load_after)
-         call add_thermal_pulls(model, analysis%is_elastic, analysis%temperature_after, analysis%load_after)
+      if (allocated(analysis%after%temperature%at)) then
+         call add_thermal_forces(model, analysis%after%temperature, analysis%after%load)
+         call add_thermal_pulls(model, analysis%is_elastic, analysis%after%temperature, analysis%after%load)
       end if
       do i = 1, n_sections(model)
          associate (section => model%sections(i))
-            associate (load => analysis%load_after(1, section%node))
+            associate (load => analysis%after%load(1, section%node))
                if (section%stage == stage) load = load + section%preload
             end associate
-            if (analysis%is_locked(i)) analysis%moved_after(1, section%node) = analysis%moved_before(1, section%node)
+            if (analysis%is_locked(i)) analysis%after%moved(1, section%node) = analysis%before%moved(1, section%node)
          end associate
       end do
       analysis%loaded = pack([(i, i = 1, model%n_nodes)], &
-                             any(abs(analysis%load_before) > 0.0_wp .or. abs(analysis%load_after) > 0.0_wp, dim=1))
-      analysis%is_moved = any(abs(analysis%moved_before) > 0.0_wp .or. abs(analysis%moved_after) > 0.0_wp)
-      associate (is_elastic => analysis%is_elastic)
-         if (stage > 1) call condense(model, system, is_elastic, analysis%load_before, analysis%moved_before, analysis%felt_before)
-         call condense(model, system, is_elastic, analysis%load_after, analysis%moved_after, analysis%felt_after)
-      end associate
-      analysis%felt = analysis%felt_before
+                             any(abs(analysis%before%load) > 0.0_wp .or. abs(analysis%after%load) > 0.0_wp, dim=1))
+      analysis%is_moved = any(abs(analysis%before%moved) > 0.0_wp .or. abs(analysis%after%moved) > 0.0_wp)
+      if (stage > 1) call condense(model, system, analysis%is_elastic, analysis%before)
+      call condense(model, system, analysis%is_elastic, analysis%after)
+      analysis%now%condensed_load = analysis%before%condensed_load
       call forces_in_bodies(system, analysis%u, analysis%body)
    end subroutine start_stage
 
-   !> What retained unknowns feel of LOAD on all nodes where held ones are MOVED.
-   subroutine condense(model, system, is_elastic, load, moved, felt)
+   !> What retained unknowns feel of the load AT an instant, where held ones are moved.
+   subroutine condense(model, system, is_elastic, at)
       type(model_type), intent(in)       :: model
       class(equation_system), intent(in) :: system
       logical, intent(in)                :: is_elastic(:)
-      real(wp), intent(in)               :: load(:, :), moved(:, :)
-      real(wp), intent(out)              :: felt(:, :)
+      type(load_state), intent(inout)    :: at
 
-      call condense_load(system, forces_on_unknowns(model, load - forces_of(model, system, is_elastic, moved)), felt)
+      call condense_load(system, forces_on_unknowns(model, at%load - forces_of(model, system, is_elastic, at%moved)), &
+                         at%condensed_load)
    end subroutine condense
 
    !> Forces that bodies and elastic bars need to have MOVED what has no equation, the others at rest.
@@ -125,25 +121,25 @@ contains
          analysis%fraction = sum(shares(:analysis%increment))
          if (analysis%increment == size(shares)) analysis%fraction = 1.0_wp
       end associate
-      associate (nodes => analysis%loaded)
-         analysis%applied(:, nodes) = between(analysis%fraction, analysis%load_before(:, nodes), analysis%load_after(:, nodes))
-      end associate
-      analysis%temperature = temperature_between(analysis%temperature_before, analysis%temperature_after, analysis%fraction)
+      call load_nodes(analysis)
+      analysis%now%temperature = temperature_between(analysis%before%temperature, analysis%after%temperature, analysis%fraction)
       analysis%moves = .false.
       analysis%move = 0.0_wp
       if (analysis%is_moved) then
-         allocate (before, source=analysis%moved)
-         analysis%moved = between(analysis%fraction, analysis%moved_before, analysis%moved_after)
-         analysis%moves = any(abs(analysis%moved - before) > 0.0_wp)
-         analysis%move = analysis%moved(:, system%retained) - before(:, system%retained)
+         allocate (before, source=analysis%now%moved)
+         analysis%now%moved = between(analysis%fraction, analysis%before%moved, analysis%after%moved)
+         analysis%moves = any(abs(analysis%now%moved - before) > 0.0_wp)
+         analysis%move = analysis%now%moved(:, system%retained) - before(:, system%retained)
       end if
-      analysis%change = between(analysis%fraction, analysis%felt_before, analysis%felt_after) - analysis%felt
-      analysis%felt = analysis%felt + analysis%change
+      associate (load => analysis%now%condensed_load)
+         analysis%change = between(analysis%fraction, analysis%before%condensed_load, analysis%after%condensed_load) - load
+         load = load + analysis%change
+      end associate
       if (analysis%carry) analysis%change = analysis%change + analysis%unbalanced
-      analysis%n_passes = 0
-      analysis%slips = analysis%slips(:0)
-      analysis%n_parts = 1
-      analysis%is_whole = .true.
+      analysis%record%n_iterations = 0
+      analysis%record%slips = analysis%record%slips(:0)
+      analysis%record%n_parts = 1
+      analysis%record%is_whole = .true.
    end subroutine start_increment
 
    !> The increment could not be made, but all of it up to what is LEFT: the loads and movements that this state bears. Where nothing
@@ -153,16 +149,25 @@ contains
       real(wp), intent(in)               :: left     !! of the increment [-], > 0
       type(analysis_type), intent(inout) :: analysis
 
-      analysis%is_partial = left < 1.0_wp
-      associate (shares => plan%stages(analysis%stage)%shares, nodes => analysis%loaded)
+      analysis%record%is_partial = left < 1.0_wp
+      associate (shares => plan%stages(analysis%stage)%shares)
          analysis%fraction = sum(shares(:analysis%increment)) - left*shares(analysis%increment)
-         if (.not. analysis%is_partial) analysis%increment = analysis%increment - 1
-         analysis%applied(:, nodes) = between(analysis%fraction, analysis%load_before(:, nodes), analysis%load_after(:, nodes))
+         if (.not. analysis%record%is_partial) analysis%increment = analysis%increment - 1
       end associate
-      if (analysis%is_moved) analysis%moved = between(analysis%fraction, analysis%moved_before, analysis%moved_after)
-      analysis%felt = between(analysis%fraction, analysis%felt_before, analysis%felt_after)
-      analysis%ends_early = analysis%increment > 0 .or. analysis%stage > 1
+      call load_nodes(analysis)
+      if (analysis%is_moved) analysis%now%moved = between(analysis%fraction, analysis%before%moved, analysis%after%moved)
+      analysis%now%condensed_load = between(analysis%fraction, analysis%before%condensed_load, analysis%after%condensed_load)
+      analysis%record%ends_early = analysis%increment > 0 .or. analysis%stage > 1
    end subroutine go_back
+
+   !> The load on all nodes, so far as the stage is done.
+   pure subroutine load_nodes(analysis)
+      type(analysis_type), intent(inout) :: analysis
+
+      associate (nodes => analysis%loaded)
+         analysis%now%load(:, nodes) = between(analysis%fraction, analysis%before%load(:, nodes), analysis%after%load(:, nodes))
+      end associate
+   end subroutine load_nodes
 
    !> What is BEFORE at the beginning of the stage and AFTER at its end, where FRACTION of it is done.
    elemental real(wp) function between(fraction, before, after)
@@ -181,7 +186,7 @@ contains
 
       real(wp), allocatable :: felt(:, :), q(:, :)
 
-      call recover(model, system, analysis, analysis%applied, analysis%moved, analysis%u, q, analysis%all_unbalanced)
+      call recover(model, system, analysis, analysis%now%load, analysis%now%moved, analysis%u, q, analysis%all_unbalanced)
       analysis%all_u = displacements(model, q)
       analysis%u = q(:, system%retained)
       allocate (felt, source=forces_on_unknowns(model, analysis%all_unbalanced))
@@ -218,8 +223,8 @@ contains
       real(wp), allocatable :: q(:, :)
 
       associate (ahead => left*analysis%share)
-         call recover(model, system, analysis, analysis%applied - ahead*(analysis%load_after - analysis%load_before), &
-                      analysis%moved - ahead*(analysis%moved_after - analysis%moved_before), u, q, unbalanced)
+         call recover(model, system, analysis, analysis%now%load - ahead*(analysis%after%load - analysis%before%load), &
+                      analysis%now%moved - ahead*(analysis%after%moved - analysis%before%moved), u, q, unbalanced)
       end associate
       force = norm2(pack(forces_on_unknowns(model, unbalanced), all_held(model, analysis)))
    end function support_force

@@ -2,7 +2,7 @@
 !! states of the joints are committed only at equilibrium. An increment that does not converge is divided; where its parts lead to, it
 !! is made once more as a whole, so that the answer does not depend on how it was divided.
 module newton_method
-   use analysis_state, only: all_held, analysis_type, force_noise, free_norm, pass_record, precise, record_pass
+   use analysis_state, only: all_held, analysis_type, force_noise, free_norm, iteration_record, precise, record_iteration
    use equations, only: equation_system, forces_in_bodies
    use failures, only: failure_type
    use kinds, only: wp
@@ -60,13 +60,13 @@ contains
       type(attempt_type) :: attempt
       integer :: before(size(analysis%states))
 
-      if (analysis%is_loose .and. .not. (analysis%moves .or. any(abs(analysis%felt) > 0.0_wp))) then
+      if (analysis%is_loose .and. .not. (analysis%moves .or. any(abs(analysis%now%condensed_load) > 0.0_wp))) then
          call press_apart(model, analysis, system, failure)
          return
       end if
       before = analysis%states%normal%branch
       analysis%tolerance = max(analysis%tolerance, analysis%load_tolerance*free_norm(forces_on_unknowns(model, &
-                               analysis%applied), all_held(model, analysis)), tiny(1.0_wp))
+                               analysis%now%load), all_held(model, analysis)), tiny(1.0_wp))
       attempt%where = where_in_plan(plan, analysis%stage, analysis%increment)
       call find_equilibrium(model, analysis, system, attempt, failure)
       if (.not. failure%raised) then
@@ -74,7 +74,7 @@ contains
          return
       end if
       call go_back(plan, attempt%left_over, analysis)
-      if (analysis%ends_early) failure%message = failure%message//'; the last state in equilibrium stands at '// &
+      if (analysis%record%ends_early) failure%message = failure%message//'; the last state in equilibrium stands at '// &
          real_text(anint(1.0e4_wp*analysis%fraction)*1.0e-4_wp)//' of stage '//integer_text(plan%stages(analysis%stage)%id)
    end subroutine newton_increment
 
@@ -88,7 +88,7 @@ contains
 
       call newton_increment(model, plan, analysis, system, failure)
       call free_idle_joints(model, analysis)
-      analysis%n_passes = 0 ! these are no re-analyses
+      analysis%record%n_iterations = 0 ! these are no re-analyses
    end subroutine cross_gaps
 
    !> Interference presses before any load: the equilibrium of the structure at rest without load becomes the state that STEP and
@@ -182,14 +182,14 @@ contains
       before_open = count(analysis%states%normal%branch == branch_open)
       done = 0.0_wp
       part = 1.0_wp
-      analysis%n_parts = 0
+      analysis%record%n_parts = 0
       do while (done < 1.0_wp)
          part = min(part, 1.0_wp - done)
          call try_part(model, system, analysis, merge(1.0_wp - done - part, 0.0_wp, done + part < 1.0_wp), attempt)
          if (attempt%converged) then
             done = done + part
             part = 2.0_wp*part
-            analysis%n_parts = analysis%n_parts + 1
+            analysis%record%n_parts = analysis%record%n_parts + 1
          else if (part > 0.5_wp**most_halvings) then
             if (.not. allocated(start)) allocate (start, source=analysis) ! nothing is committed yet
             part = 0.5_wp*part
@@ -205,7 +205,7 @@ contains
       end do
       if (allocated(start)) call make_whole(model, system, start, analysis, attempt)
       analysis%du = analysis%u - u_start
-      analysis%n_removed = max(0, count(analysis%states%normal%branch == branch_open) - before_open)
+      analysis%record%n_removed = max(0, count(analysis%states%normal%branch == branch_open) - before_open)
    end subroutine find_equilibrium
 
    !> An ATTEMPT to where so much of the increment is LEFT: by straight laws; where these go round in circles, by a line search along the
@@ -240,17 +240,14 @@ contains
       type(analysis_type), allocatable :: whole
 
       allocate (whole, source=start)
-      whole%passes = analysis%passes
-      whole%n_passes = analysis%n_passes
-      whole%n_parts = analysis%n_parts
+      whole%record = analysis%record
       whole%tolerance = analysis%tolerance
       call try_part(model, system, whole, 0.0_wp, attempt, analysis%u)
       if (attempt%converged) then
          analysis = whole
       else
-         analysis%passes = whole%passes
-         analysis%n_passes = whole%n_passes
-         analysis%is_whole = .false.
+         analysis%record = whole%record
+         analysis%record%is_whole = .false.
       end if
    end subroutine make_whole
 
@@ -266,8 +263,8 @@ contains
       attempt%left = left
       if (attempt%seats) analysis%states%normal%gap = merge((1.0_wp - left)*model%interface%gap, model%interface%gap, &
                                                             model%interface%gap < 0.0_wp)
-      attempt%load = analysis%felt - left*analysis%change
-      attempt%move = merge(analysis%moved(:, system%retained) - left*analysis%move - analysis%u, 0.0_wp, &
+      attempt%load = analysis%now%condensed_load - left*analysis%change
+      attempt%move = merge(analysis%now%moved(:, system%retained) - left*analysis%move - analysis%u, 0.0_wp, &
                            system%number(:, system%retained) == 0)
       if (.not. allocated(attempt%flips)) allocate (attempt%flips(size(analysis%states)))
       attempt%flips = 0
@@ -292,7 +289,7 @@ contains
       allocate (now, next)
       allocate (direction, mold=analysis%u)
       way%moves = analysis%moves .and. .not. present(from)
-      way%travel = max(maxval(abs(analysis%moved)), maxval(abs(analysis%u)))
+      way%travel = max(maxval(abs(analysis%now%moved)), maxval(abs(analysis%u)))
       way%load_size = analysis%tolerance/analysis%load_tolerance ! the largest so far
       call start_trial(system, analysis, now)
       call start_trial(system, analysis, next)
@@ -358,7 +355,7 @@ contains
       end if
       way%noise = force_noise(system, now%u)
       call renew_forces(model, system, analysis, attempt, way%noise, way%spoilt, now)
-      rounding = 10.0_wp*epsilon(1.0_wp)*system%stiffest*way%travel*sqrt(real(size(analysis%applied), wp))
+      rounding = 10.0_wp*epsilon(1.0_wp)*system%stiffest*way%travel*sqrt(real(size(analysis%now%load), wp))
       way%carried = way%load_size <= rounding .and. maxval(abs(now%u)) <= 10.0_wp*way%travel
       attempt%converged = now%size <= max(analysis%tolerance, 0.1_wp*way%noise) .and. way%noise <= precise*way%load_size
       attempt%converged = .not. way%moves .and. (attempt%converged .or. (way%carried .and. now%size <= rounding))
@@ -407,8 +404,8 @@ contains
 
       flips = next%states%normal%branch /= now%states%normal%branch .or. (next%states%slips .neqv. now%states%slips)
       where (flips) attempt%flips = attempt%flips + 1
-      call record_pass(analysis, pass_record(before=now%size, after=next%size, step=step, changes=count(flips), &
-                                             part=analysis%n_parts + 1))
+      call record_iteration(analysis, iteration_record(before=now%size, after=next%size, step=step, changes=count(flips), &
+                                             part=analysis%record%n_parts + 1))
    end subroutine note_iteration
 
    !> How ATTEMPT has ended, at the trial NOW.
@@ -503,8 +500,9 @@ contains
                  ' on, and does not hold the load in the direction of its movement'
       else if (attempt%imprecise) then
          words = words//': '//no_balance
-      else if (analysis%n_passes > 0) then
-         words = words//', '//real_text(analysis%passes(analysis%n_passes)%after)//' of force are left unbalanced'
+      else if (analysis%record%n_iterations > 0) then
+         words = words//', '//real_text(analysis%record%iterations(analysis%record%n_iterations)%after)// &
+                 ' of force are left unbalanced'
          if (all(attempt%worst > 0)) words = words//', most at '//unknown_name(model, attempt%worst(1), attempt%worst(2))
       end if
       if (size(attempt%flips) > 0) then

@@ -184,7 +184,7 @@ contains
             state%shear(1)%k_s = trial%tangent(1, 1, i)
             state%shear(2)%k_s = trial%tangent(2, 2, i)
             call rest_when_open(state, analysis%movement(:, i))
-            analysis%kind(i) = kind_on_branch(state%normal%branch)
+            analysis%record%kind(i) = kind_on_branch(state%normal%branch)
          end associate
       end do
       call note_turns(analysis%states, analysis%turns)

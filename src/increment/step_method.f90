@@ -1,6 +1,6 @@
 !> METHOD = STEP, the step-wise tangent-stiffness method: one routine a box of the flow chart (Fig. 6a).
 module step_method
-   use analysis_state, only: analysis_type, book_friction, pass_record, reach, record_pass, slip_record, tally_work
+   use analysis_state, only: analysis_type, book_friction, iteration_record, reach, record_iteration, slip_record, tally_work
    use equations, only: equation_system, forces_in_bodies, form_structure_stiffness, solve_equations
    use failures, only: failure_type
    use interface_operator, only: add_force, joint_movement
@@ -18,8 +18,8 @@ module step_method
 
    public :: structure_stiffness, solve_increment, accumulate, limit_friction
 
-   integer, parameter  :: most_passes = 2000               ! of NREAN = -1
-   integer, parameter, public :: passes_shown = 8          !! of many, and the last one
+   integer, parameter  :: most_reanalyses = 2000               ! of NREAN = -1
+   integer, parameter, public :: reanalyses_shown = 8          !! of many, and the last one
 
 contains
 
@@ -82,7 +82,7 @@ contains
       integer :: i, k
 
       if (failure%raised .or. analysis%crosses_gaps) return
-      analysis%kind = analysis%next_kind
+      analysis%record%kind = analysis%next_kind
       do i = 1, size(model%interface)
          associate (state => analysis%states(i))
             state%normal%k_n = analysis%k(3, i)
@@ -144,7 +144,7 @@ contains
       type(failure_type), intent(inout)  :: failure
       real(wp), allocatable :: excess(:, :), relief(:, :)
       real(wp) :: total, total_after
-      integer  :: pass, worst
+      integer  :: reanalysis, worst
       logical  :: again, is_listed
 
       if (failure%raised .or. analysis%crosses_gaps .or. .not. any(model%joints%law%has_friction)) return
@@ -152,46 +152,46 @@ contains
       allocate (relief, mold=analysis%u)
       is_listed = plan%stages(analysis%stage)%output >= output_joint
       call find_excess(model, analysis, excess, total)
-      do pass = 1, most_passes
+      do reanalysis = 1, most_reanalyses
          if (total <= 0.0_wp) return
-         if (is_listed) call note_slipping(model, pass, excess, analysis)
-         call release(model, system, pass, excess, analysis, relief, again)
+         if (is_listed) call note_slipping(model, reanalysis, excess, analysis)
+         call release(model, system, reanalysis, excess, analysis, relief, again)
          if (.not. again) return
          call solve_equations(model, system, relief, analysis%du, failure)
          if (failure%raised) return
          call add_displacements(model, system, relief, analysis)
          call find_excess(model, analysis, excess, total_after)
          if (is_listed) call note_relieved(model, analysis)
-         call record_pass(analysis, pass_record(before=total, after=total_after, changes=count(analysis%states%slips)))
+         call record_iteration(analysis, iteration_record(before=total, after=total_after, changes=count(analysis%states%slips)))
          total = total_after
       end do
       worst = first_largest(maxval(abs(excess), dim=1), model%joints(model%interface%joint)%n_reanalyses < 0)
-      call failure%raise(where_in_plan(plan, analysis%stage, analysis%increment)//': after '//integer_text(most_passes)// &
+      call failure%raise(where_in_plan(plan, analysis%stage, analysis%increment)//': after '//integer_text(most_reanalyses)// &
          ' re-analyses the friction of joint '//integer_text(model%joints(model%interface(worst)%joint)%id)// &
          ' is still exceeded, by '//real_text(total)//' in all, most at node '// &
          integer_text(joint_node_id(model, worst, 1))// &
          ' in its tangential direction: the joint slips as a whole')
    end subroutine limit_friction
 
-   !> Note the elements that re-analysis number PASS relieves, as they are before it: of many passes the first, and the last one in
+   !> Note the elements that re-analysis number REANALYSIS relieves, as they are before it: of many the first, and the last one in
    !! place of those between.
-   subroutine note_slipping(model, pass, excess, analysis)
+   subroutine note_slipping(model, reanalysis, excess, analysis)
       type(model_type), intent(in)       :: model
-      integer, intent(in)                :: pass
+      integer, intent(in)                :: reanalysis
       real(wp), intent(in)               :: excess(:, :)
       type(analysis_type), intent(inout) :: analysis
       type(slip_record) :: record
       integer :: i
 
-      analysis%slips = pack(analysis%slips, analysis%slips%pass <= passes_shown)
+      analysis%record%slips = pack(analysis%record%slips, analysis%record%slips%reanalysis <= reanalyses_shown)
       do i = 1, size(model%interface)
-         if (.not. is_relieved(model, i, pass, excess(:, i))) cycle
-         record%pass = pass
+         if (.not. is_relieved(model, i, reanalysis, excess(:, i))) cycle
+         record%reanalysis = reanalysis
          record%element = i
          record%delta(:, 1) = analysis%states(i)%shear%delta
          record%tau(:, 1) = analysis%states(i)%shear%tau
          record%limit(1) = friction_limit(model%joints(model%interface(i)%joint)%law, analysis%states(i)%normal%pressure)
-         analysis%slips = [analysis%slips, record]
+         analysis%record%slips = [analysis%record%slips, record]
       end do
    end subroutine note_slipping
 
@@ -201,9 +201,9 @@ contains
       type(analysis_type), intent(inout) :: analysis
       integer :: i
 
-      do i = 1, size(analysis%slips)
-         associate (record => analysis%slips(i), state => analysis%states(analysis%slips(i)%element))
-            if (record%pass <= analysis%n_passes) cycle
+      do i = 1, size(analysis%record%slips)
+         associate (record => analysis%record%slips(i), state => analysis%states(analysis%record%slips(i)%element))
+            if (record%reanalysis <= analysis%record%n_iterations) cycle
             record%delta(:, 2) = state%shear%delta
             record%tau(:, 2) = state%shear%tau
             record%limit(2) = friction_limit(model%joints(model%interface(record%element)%joint)%law, state%normal%pressure)
@@ -211,14 +211,14 @@ contains
       end do
    end subroutine note_relieved
 
-   !> Whether re-analysis number PASS relieves interface element I of its EXCESS.
-   pure logical function is_relieved(model, i, pass, excess)
+   !> Whether re-analysis number REANALYSIS relieves interface element I of its EXCESS.
+   pure logical function is_relieved(model, i, reanalysis, excess)
       type(model_type), intent(in) :: model
-      integer, intent(in)          :: i, pass
+      integer, intent(in)          :: i, reanalysis
       real(wp), intent(in)         :: excess(2)
 
-      associate (passes => model%joints(model%interface(i)%joint)%n_reanalyses)
-         is_relieved = norm2(excess) > 0.0_wp .and. (passes < 0 .or. pass <= passes)
+      associate (allowed => model%joints(model%interface(i)%joint)%n_reanalyses)
+         is_relieved = norm2(excess) > 0.0_wp .and. (allowed < 0 .or. reanalysis <= allowed)
       end associate
    end function is_relieved
 
@@ -238,12 +238,12 @@ contains
       end do
    end subroutine find_excess
 
-   !> Relieve the elements whose joints ask for re-analysis number PASS of their excess; RELIEF are the nodal forces that it
+   !> Relieve the elements whose joints ask for re-analysis number REANALYSIS of their excess; RELIEF are the nodal forces that it
    !! becomes, AGAIN whether there are any. NREAN = -1 goes on as long as any excess is left.
-   subroutine release(model, system, pass, excess, analysis, relief, again)
+   subroutine release(model, system, reanalysis, excess, analysis, relief, again)
       type(model_type), intent(in)       :: model
       class(equation_system), intent(in) :: system
-      integer, intent(in)                :: pass
+      integer, intent(in)                :: reanalysis
       real(wp), intent(in)               :: excess(:, :)
       type(analysis_type), intent(inout) :: analysis
       real(wp), intent(out)              :: relief(:, :)
@@ -254,7 +254,7 @@ contains
       relief = 0.0_wp
       again = .false.
       do i = 1, size(model%interface)
-         if (.not. is_relieved(model, i, pass, excess(:, i))) cycle
+         if (.not. is_relieved(model, i, reanalysis, excess(:, i))) cycle
          associate (element => system%interface(i))
             again = .true.
             slid = 0.0_wp

@@ -86,7 +86,7 @@ contains
       character(40) :: words
 
       listing%n_increments = listing%n_increments + 1
-      listing%n_removed = listing%n_removed + analysis%n_removed
+      listing%n_removed = listing%n_removed + analysis%record%n_removed
       associate (stage => plan%stages(analysis%stage), page => listing%page)
          page%stage = 'STAGE '//integer_text(stage%id)
          page%now = ', '//page%stage//', INCREMENT '//integer_text(analysis%increment)//stage%shown_words
@@ -95,7 +95,7 @@ contains
             if (allocated(page%shown)) deallocate (page%shown)
             if (allocated(stage%shown)) page%shown = stage%shown
          end if
-         page%largest_force = max(page%largest_force, maxval(abs(analysis%applied(:, analysis%loaded))))
+         page%largest_force = max(page%largest_force, maxval(abs(analysis%now%load(:, analysis%loaded))))
          if (analysis%is_moved) page%largest_force = &
             max(page%largest_force, maxval(abs(held_forces(model, analysis%all_unbalanced)))) ! what moves the supports
          if (any(model%interface%gap < 0.0_wp)) page%largest_force = &
@@ -108,7 +108,7 @@ contains
          call note_bars(page, model, analysis, listing%bars)
          call note_springs(page, model, analysis, listing%springs)
          call note_sections(page, model, analysis, listing%sections)
-         if (analysis%condition%is_new) call note_condition(model, plan, analysis, listing%watch, listing%poor_condition)
+         if (analysis%record%condition%is_new) call note_condition(model, plan, analysis, listing%watch, listing%poor_condition)
          call note_division(plan, analysis, listing%watch, listing%divided)
          call watch_ranges(model, analysis, listing%watch)
          if (listing%method /= method_back) then
@@ -196,7 +196,7 @@ contains
       now%n = size(analysis%loaded)
       allocate (now%node, source=analysis%loaded)
       allocate (now%force(3, now%n), source=0.0_wp)
-      now%force(:model%dimension, :) = analysis%applied(:, now%node)
+      now%force(:model%dimension, :) = analysis%now%load(:, now%node)
       unbalanced = clean(free_norm(analysis%unbalanced, analysis%held), noise*page%largest_force)
       do j = min(1, size(model%joints)), size(model%joints)
          call table%add([analysis%increment])

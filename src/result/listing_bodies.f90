@@ -130,7 +130,7 @@ contains
       !$omp parallel do schedule(dynamic, piece) default(shared) if(model%n_elements > few)
       do e = 1, model%n_elements
          stress(:n_stresses(model%properties(model%element_property(e))%state), e) = &
-            element_stress(model, e, analysis%all_u, analysis%temperature)
+            element_stress(model, e, analysis%all_u, analysis%now%temperature)
          centre(:, e) = element_centre(model, e)
       end do
       !$omp end parallel do
@@ -178,7 +178,7 @@ contains
       integer  :: node
 
       allocate (stress(max_stresses, n_points(model)))
-      call node_stresses(model, analysis%all_u, analysis%temperature, stress)
+      call node_stresses(model, analysis%all_u, analysis%now%temperature, stress)
       floor = noise*maxval(abs(stress))
       shown = shown_stresses(model)
       call table%start('STRESSES AT NODES, MEAN OF THEIR ELEMENTS'//page%now//in_units(page%labels%pressure), &
@@ -208,7 +208,7 @@ contains
       call table%print_head(page%file)
       do e = 1, model%n_elements
          if (.not. shows_element(page, model, e)) cycle
-         full = whole_stress(model, e, analysis%all_u, analysis%temperature)
+         full = whole_stress(model, e, analysis%all_u, analysis%now%temperature)
          call table%add([model%element_id(e)])
          call table%add(clean(principal_stresses(full), floor))
          call table%add([clean(von_mises(full), floor)])
@@ -255,13 +255,13 @@ contains
          if (model%bars(i)%nodes(2) > 0) cycle
          ground = ground + bar_tension(model, analysis, i)*model%bars(i)%direction(:model%dimension, 1)
       end do
-      loads = sum(analysis%applied(:, :n_points(model)), dim=2)
+      loads = sum(analysis%now%load(:, :n_points(model)), dim=2)
       first = merge(2, 1, model%axisymmetric)
       call table%start('BALANCE OF FORCES'//page%now//in_units(page%labels%force), &
                        [column('', 'a35'), column(axes(first:model%dimension), 'es13.5'), &
                         column(merge('  (THE RADIAL FORCES BALANCE ROUND THE RING)', repeat(' ', 44), model%axisymmetric), 'a')])
       call table%print_head(page%file)
-      call balance_line('LOADS', loads(first:), min(floor, of_a_sum*sum(abs(analysis%applied))))
+      call balance_line('LOADS', loads(first:), min(floor, of_a_sum*sum(abs(analysis%now%load))))
       call balance_line('SUPPORTS', supports(first:), floor)
       call balance_line('RIGID BASES, THROUGH THE JOINTS', base(first:), floor)
       if (has_ground_springs(model)) call balance_line('GROUND, THROUGH SPRINGS', ground(first:), floor)

@@ -89,7 +89,7 @@ contains
                                clean(loading_deflection(joint%law%normal, max(0.0_wp, state%pressure)), lambda_floor), &
                                clean(state%k_n)])
                if (has_gaps(model)) call table%add(clean([state%lambda + state%gap, state%gap], lambda_floor))
-               call table%add(trim(kinds(analysis%kind(i))))
+               call table%add(trim(kinds(analysis%record%kind(i))))
                call table%print_row(page%file)
             end associate
          end do
@@ -230,27 +230,27 @@ contains
                               column('REMOVED %', 'f10.2', heading_shift=1), column('SLIPPING', 'i9', heading_shift=3)])
          end select
       end if
-      do i = 1, analysis%n_passes
-         if (analysis%n_passes > 3*shown .and. i > shown .and. i < analysis%n_passes) then
+      do i = 1, analysis%record%n_iterations
+         if (analysis%record%n_iterations > 3*shown .and. i > shown .and. i < analysis%record%n_iterations) then
             write (increment, '(i6)') analysis%increment
             if (i == shown + 1) call table%keep_line( &
-               increment//'   ... '//integer_text(analysis%n_passes - shown - 1)//' MORE ...')
+               increment//'   ... '//integer_text(analysis%record%n_iterations - shown - 1)//' MORE ...')
             cycle
          end if
-         associate (pass => analysis%passes(i))
-            if (pass%part > 0) then
-               call table%add([analysis%increment, pass%part, i])
-               call add_unbalanced(pass%before)
-               call add_unbalanced(pass%after)
-               call table%add([pass%step])
-               call table%add([pass%changes])
+         associate (iteration => analysis%record%iterations(i))
+            if (iteration%part > 0) then
+               call table%add([analysis%increment, iteration%part, i])
+               call add_unbalanced(iteration%before)
+               call add_unbalanced(iteration%after)
+               call table%add([iteration%step])
+               call table%add([iteration%changes])
             else
                call table%add([analysis%increment, i])
-               if (pass%part < 0) call table%add([pass%step])
-               call table%add([pass%before, pass%after])
-               if (pass%part == 0) then
-                  call table%add([100.0_wp*(1.0_wp - pass%after/max(pass%before, tiny(1.0_wp)))])
-                  call table%add([pass%changes])
+               if (iteration%part < 0) call table%add([iteration%step])
+               call table%add([iteration%before, iteration%after])
+               if (iteration%part == 0) then
+                  call table%add([100.0_wp*(1.0_wp - iteration%after/max(iteration%before, tiny(1.0_wp)))])
+                  call table%add([iteration%changes])
                end if
             end if
             call table%keep_row()

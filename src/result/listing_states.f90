@@ -105,7 +105,7 @@ contains
       real(wp) :: k_floor, load_floor
       integer  :: i, first, last, n
 
-      associate (condensed => analysis%condensed)
+      associate (condensed => analysis%record%condensed)
          if (condensed%problem /= '') then
             call heading(page%file, '[K_B] CONDENSED ON THE INTERFACE, '//page%stage//': NOT PRINTED, '//upper(condensed%problem))
             return

@@ -6,7 +6,7 @@ module listing_steps
    use listing_table, only: axes, column, listing_table_type, noise, page_type
    use model_data, only: joint_node_id, model_type
    use stage_plan, only: stage_plan_type, where_in_plan
-   use step_method, only: passes_shown
+   use step_method, only: reanalyses_shown
    use text_tools, only: clean, integer_text, real_text
    implicit none
    private
@@ -121,7 +121,7 @@ contains
       real(wp) :: delta_floor, tau_floor
       integer  :: i, k
 
-      if (size(analysis%slips) == 0) return
+      if (size(analysis%record%slips) == 0) return
       associate (length => page%labels%length, pressure => page%labels%pressure)
          if (table%is_empty()) call table%start( &
             'SLIPPING ELEMENTS BEFORE AND AFTER EACH RE-ANALYSIS, '//page%stage//' (POINTS T_1 AND T_1'' OF FIG. 5B)', &
@@ -131,13 +131,13 @@ contains
       end associate
       delta_floor = noise*analysis%largest_lambda
       tau_floor = noise*analysis%largest_p
-      do i = 1, size(analysis%slips)
-         associate (slip => analysis%slips(i))
-            if (slip%pass > passes_shown + 1 .and. all(analysis%slips(:i - 1)%pass < slip%pass)) &
+      do i = 1, size(analysis%record%slips)
+         associate (slip => analysis%record%slips(i))
+            if (slip%reanalysis > reanalyses_shown + 1 .and. all(analysis%record%slips(:i - 1)%reanalysis < slip%reanalysis)) &
                call table%keep_line('        ...')
             do k = 1, model%dimension - 1
                if (.not. model%joints(model%interface(slip%element)%joint)%law%shear(k)%given) cycle
-               call table%add([analysis%increment, slip%pass, model%interface(slip%element)%id, &
+               call table%add([analysis%increment, slip%reanalysis, model%interface(slip%element)%id, &
                                joint_node_id(model, slip%element, 1)])
                call table%add(axes(k))
                call table%add([clean(slip%delta(k, 1), delta_floor), clean(slip%tau(k, 1), tau_floor), &

@@ -280,9 +280,9 @@ contains
          call watch%rows%keep_line(words//real_text(unbalanced)//' OF FORCE ARE LEFT UNBALANCED BY REMOVED ELEMENTS: '// &
                              'SEE CARRY = YES, METHOD = NEWTON')
       end if
-      if (.not. analysis%is_settled) then
+      if (.not. analysis%record%is_settled) then
          watch%n_warnings = watch%n_warnings + 1
-         call watch%rows%keep_line(words//'THE SECANTS HAVE NOT SETTLED IN '//integer_text(analysis%n_passes)// &
+         call watch%rows%keep_line(words//'THE SECANTS HAVE NOT SETTLED IN '//integer_text(analysis%record%n_iterations)// &
                                    ' ITERATIONS, THE RESULTS ARE THOSE OF THE LAST: SEE AVERAGE = YES')
       end if
       excess = 0.0_wp
@@ -310,7 +310,7 @@ contains
       character(:), allocatable :: first, second
       integer :: power
 
-      associate (condition => analysis%condition)
+      associate (condition => analysis%record%condition)
          power = nint(log10(condition%number))
          first = where_in_plan(plan, analysis%stage, analysis%increment)//': condition of the stiffness about 1E'// &
                  integer_text(power)//', of its 16 digits about '//integer_text(max(0, 16 - power))//' are left'
@@ -330,14 +330,15 @@ contains
       character(:), allocatable, intent(inout) :: words
       character(:), allocatable :: first, second
 
-      if (analysis%n_parts <= 1 .or. analysis%is_partial) return
-      first = where_in_plan(plan, analysis%stage, analysis%increment)//': divided into '//integer_text(analysis%n_parts)//' parts'
+      if (analysis%record%n_parts <= 1 .or. analysis%record%is_partial) return
+      first = where_in_plan(plan, analysis%stage, analysis%increment)//': divided into '// &
+              integer_text(analysis%record%n_parts)//' parts'
       second = 'then made as a whole from where they led'
-      if (.not. analysis%is_whole) then
+      if (.not. analysis%record%is_whole) then
          second = 'it did not converge as a whole, and the answer depends on the parts: more increments tell by how much'
          watch%n_warnings = watch%n_warnings + 1
       end if
-      call keep_two_parts(watch, merge('  NOTE:    ', '  WARNING: ', analysis%is_whole)//upper(first)//', ', upper(second))
+      call keep_two_parts(watch, merge('  NOTE:    ', '  WARNING: ', analysis%record%is_whole)//upper(first)//', ', upper(second))
       words = first//', '//second
    end subroutine note_division
 

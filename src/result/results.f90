@@ -117,7 +117,7 @@ contains
          if (fault /= '') call failure%raise(where_in_plan(plan, analysis%stage, analysis%increment)//': '//fault// &
                                              ' is beyond all measure; are loads, lengths and stiffnesses in consistent units?')
          title = 'ANSWER AT THE END OF '//page%stage//'   '//stage%label
-         if (analysis%ends_early) title = 'ANSWER WHERE THE RUN ENDED EARLY, '//page%stage//', LOAD '// &
+         if (analysis%record%ends_early) title = 'ANSWER WHERE THE RUN ENDED EARLY, '//page%stage//', LOAD '// &
                                           real_text(analysis%fraction)//'   '//stage%label
          call print_answer(page%file, page%labels, title, model, answer)
          if (results%base /= '') then

@@ -223,7 +223,7 @@ contains
                                                     model%node_id(node), model%x(:, node))
       if (model%n_elements == 0) return
       allocate (at_node(max_stresses, n_points(model)))
-      call node_stresses(model, analysis%all_u, analysis%temperature, at_node)
+      call node_stresses(model, analysis%all_u, analysis%now%temperature, at_node)
       do node = 1, size(size_of)
          size_of(node) = von_mises(at_node(:, node))
       end do
@@ -233,7 +233,7 @@ contains
       allocate (size_of(model%n_elements))
       !$omp parallel do schedule(dynamic, 512) default(shared) if(model%n_elements > 4096)
       do e = 1, model%n_elements
-         size_of(e) = von_mises(whole_stress(model, e, analysis%all_u, analysis%temperature))
+         size_of(e) = von_mises(whole_stress(model, e, analysis%all_u, analysis%now%temperature))
       end do
       !$omp end parallel do
       e = first_largest(size_of, size_of >= 0.0_wp)
@@ -333,7 +333,7 @@ contains
             answer%has_moment = bolt%section > 0 .and. analysis%fraction >= 1.0_wp
             if (answer%has_moment) then
                associate (section => model%sections(bolt%section))
-                  answer%moment = above(bending_moment(model, section, analysis%all_u, analysis%temperature), &
+                  answer%moment = above(bending_moment(model, section, analysis%all_u, analysis%now%temperature), &
                                         floor*sqrt(section%area))
                end associate
             end if

@@ -87,7 +87,7 @@ contains
             call name_next('.vtu', 0, 1)
             associate (file => results%parts(results%n)%files(1))
                call file%start(path_of(results, results%n, 1))
-               call write_bodies(file, results%labels, model, all_shown(model), analysis%all_u, analysis%temperature)
+               call write_bodies(file, results%labels, model, all_shown(model), analysis%all_u, analysis%now%temperature)
                call file%complete()
             end associate
          end if
@@ -173,7 +173,7 @@ contains
          do k = 1, size(names)
             names(k) = part%files(k)%part
          end do
-         call results%dealt%write(analysis%all_u, analysis%temperature, notes_for_pieces(results%labels), names, ok)
+         call results%dealt%write(analysis%all_u, analysis%now%temperature, notes_for_pieces(results%labels), names, ok)
       end subroutine write_into
 
    end subroutine write_pieces

@@ -4,7 +4,7 @@
 !! What an increment needs and no file could hold, the factors of the equations and earlier solutions, is made anew, and the run
 !! that wrote the file forgets it too: from the same point on both do the same, to the last digit. The model is built from the deck.
 module restart_file
-   use analysis_state, only: analysis_type
+   use analysis_state, only: analysis_type, load_state
    use bolt_locking, only: lock_again
    use c_library, only: close_file, is_regular_file, keep_on_disk, read_all_bytes, remove_file
    use case_control, only: no_restart, restart_stages
@@ -14,7 +14,7 @@ module restart_file
    use equation_solver, only: equation_system
    use incomplete_results, only: create_part, name_part
    use, intrinsic :: iso_fortran_env, only: error_unit
-   use model_data, only: model_type, temperature_type
+   use model_data, only: model_type
    use progress, only: goes_on, is_over, is_refused, run_type
    use restart_stream, only: open_restart, restart_stream_type
    use results, only: record_results, restart_ending, results_type
@@ -171,55 +171,57 @@ contains
       integer :: n_loaded, n_slips
 
       call stream%item(a%stage, a%increment, a%share, a%fraction, a%carry, a%eq10)
-      call stream%item(a%average, a%is_loose, a%loose_force, a%is_settled, a%load_tolerance, a%tolerance)
-      ! of all nodes
-      call stream%item(a%load_before, a%load_after, a%applied)
-      call record_temperature(stream, a%temperature_before)
-      call record_temperature(stream, a%temperature_after)
-      call record_temperature(stream, a%temperature)
+      call stream%item(a%average, a%is_loose, a%loose_force, a%load_tolerance, a%tolerance)
+      call record_loads(stream, a%before)
+      call record_loads(stream, a%after)
+      call record_loads(stream, a%now)
       n_loaded = 0
       if (stream%writes) n_loaded = size(a%loaded)
       call stream%extent(n_loaded, 4)
       if (.not. stream%writes) allocate (a%loaded(n_loaded))
-      call stream%item(a%loaded, a%is_moved, a%moves, a%moved_before, a%moved_after, a%moved)
-      call stream%item(a%all_u, a%all_unbalanced, a%place)
+      call stream%item(a%loaded, a%is_moved, a%moves, a%all_u, a%all_unbalanced, a%retained_index)
       ! of retained nodes, bars and sections
-      call stream%item(a%held, a%felt_before, a%felt_after, a%felt, a%change, a%move)
-      call stream%item(a%body, a%u, a%du, a%unbalanced)
-      call stream%item(a%is_elastic, a%pull, a%is_locked)
+      call stream%item(a%held, a%change, a%move, a%body, a%u, a%du)
+      call stream%item(a%unbalanced, a%is_elastic, a%pull, a%is_locked)
       ! of interface elements and joints
-      call stream%item(a%states, a%movement, a%k, a%turns, a%kind, a%next_kind)
+      call stream%item(a%states, a%movement, a%k, a%turns, a%next_kind)
       if (allocated(a%exact)) call stream%item(a%exact)
-      call stream%item(a%condition, a%energy, a%largest_p, a%largest_lambda, a%largest_load)
-      call stream%item(a%n_removed, a%ends_early, a%is_partial, a%n_parts)
-      call stream%extent(a%n_passes, 32)
-      n_slips = size(a%slips)
-      call stream%extent(n_slips, 88)
-      if (a%n_passes > size(a%passes)) then
-         deallocate (a%passes)
-         allocate (a%passes(a%n_passes))
-      end if
-      if (n_slips /= size(a%slips)) then
-         deallocate (a%slips)
-         allocate (a%slips(n_slips))
-      end if
-      call stream%item(a%passes(:a%n_passes), a%slips)
+      call stream%item(a%energy, a%largest_p, a%largest_lambda, a%largest_load)
+      associate (record => a%record)
+         call stream%item(record%condition, record%kind, record%n_removed, record%n_parts)
+         call stream%item(record%ends_early, record%is_partial, record%is_settled)
+         call stream%extent(record%n_iterations, 32)
+         n_slips = size(record%slips)
+         call stream%extent(n_slips, 88)
+         if (record%n_iterations > size(record%iterations)) then
+            deallocate (record%iterations)
+            allocate (record%iterations(record%n_iterations))
+         end if
+         if (n_slips /= size(record%slips)) then
+            deallocate (record%slips)
+            allocate (record%slips(n_slips))
+         end if
+         call stream%item(record%iterations(:record%n_iterations), record%slips)
+      end associate
    end subroutine record_analysis
 
-   subroutine record_temperature(stream, temperature)
+   subroutine record_loads(stream, at)
       type(restart_stream_type), intent(inout) :: stream
-      type(temperature_type), intent(inout)    :: temperature
+      type(load_state), intent(inout)          :: at
       integer :: n
 
-      n = -1
-      if (allocated(temperature%at)) n = size(temperature%at)
-      call stream%extent(n, 8)
-      if (.not. stream%writes) then
-         if (allocated(temperature%at)) deallocate (temperature%at)
-         if (n >= 0) allocate (temperature%at(n))
-      end if
-      if (n >= 0) call stream%item(temperature%at)
-      call stream%item(temperature%reference_share)
-   end subroutine record_temperature
+      call stream%item(at%load, at%moved, at%condensed_load)
+      associate (temperature => at%temperature)
+         n = -1
+         if (allocated(temperature%at)) n = size(temperature%at)
+         call stream%extent(n, 8)
+         if (.not. stream%writes) then
+            if (allocated(temperature%at)) deallocate (temperature%at)
+            if (n >= 0) allocate (temperature%at(n))
+         end if
+         if (n >= 0) call stream%item(temperature%at)
+         call stream%item(temperature%reference_share)
+      end associate
+   end subroutine record_loads
 
 end module restart_file

@@ -254,17 +254,18 @@ contains
       type(failure_type)    :: overflow
       real(wp), allocatable :: u(:, :), unbalanced(:, :)
 
-      run%keeps = run%failure%raised .and. run%ending == goes_on .and. analysis%ends_early
+      run%keeps = run%failure%raised .and. run%ending == goes_on .and. analysis%record%ends_early
       if (is_over(run) .and. .not. run%keeps) return
-      if (run%keeps .and. .not. analysis%is_partial) then ! it is printed, but for the tables of the end
+      if (run%keeps .and. .not. analysis%record%is_partial) then ! it is printed, but for the tables of the end
          call recover_bodies(model, system, analysis)
          return
       end if
       call note_largest(analysis)
       call follow_laws(model, analysis)
-      call watch_condition(system, analysis%condition)
+      call watch_condition(system, analysis%record%condition)
       if (plan%stages(analysis%stage)%condensed .and. analysis%increment == 1) &
-         call condense_on_joints(model, system, analysis%felt_before, analysis%felt_after, analysis%condensed)
+         call condense_on_joints(model, system, analysis%before%condensed_load, analysis%after%condensed_load, &
+                                 analysis%record%condensed)
       call run%progress%enter(phase_recover)
       if (run%keeps .or. analysis%moves .or. shows_bodies(plan, analysis%stage, analysis%increment)) then
          call recover_bodies(model, system, analysis)
