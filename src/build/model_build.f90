@@ -177,7 +177,7 @@ contains
       ! what all of it together does
       call find_parts(model, .false.)          ! bolts that are being tightened connect nothing yet
       call find_determinate_joints(model)
-      call find_first_pressures(plan%stages(1)%shares(1), deck%control%method /= method_step, model, errors)
+      call find_first_pressures(plan%stages(1)%fractions(1), deck%control%method /= method_step, model, errors)
       if (any(model%bars%bolt > 0) .or. n_sections(model) > 0) then
          call find_parts(model, .true.)
          call find_determinate_joints(model)

@@ -65,7 +65,7 @@ module stage_plan
       logical :: along_cd = .false.         !! tables of nodes have the directions of their systems CD
       logical, allocatable :: shown(:)      !! nodes that its tables are limited to; not allocated: all
       character(:), allocatable :: shown_words !! of that, behind a title
-      real(wp), allocatable :: shares(:)    !! of the stage's load change, one an increment, sum 1
+      real(wp), allocatable :: fractions(:)    !! of the stage's load change, one an increment, sum 1
       type(vibration_plan_type), allocatable :: vibration !! at its end; not allocated: none is asked
    end type planned_stage
 
@@ -172,13 +172,13 @@ contains
             stage%state = given%state
             stage%condensed = given%condensed
             stage%along_cd = given%along_cd
-            stage%shares = [1.0_wp]
+            stage%fractions = [1.0_wp]
             if (given%increments%id == 0) cycle
             k = findloc(deck%bulk%jincr%id, given%increments%id, dim=1)
             if (k == 0) then
                call errors%add(given%increments%line, 'INCR: there is no JINCR '//integer_text(given%increments%id))
             else if (deck%control%method /= method_back) then
-               stage%shares = deck%bulk%jincr(k)%shares
+               stage%fractions = deck%bulk%jincr(k)%fractions
             end if
          end associate
       end do
@@ -220,7 +220,7 @@ contains
 
       n = 0
       do s = 1, size(plan%stages)
-         n = n + size(plan%stages(s)%shares)
+         n = n + size(plan%stages(s)%fractions)
       end do
       if (method == method_newton) n = 6*n
       if (method == method_back) n = 40*n
@@ -233,7 +233,7 @@ contains
 
       associate (planned => plan%stages(stage))
          shows_bodies = planned%output == output_all .or. planned%steps
-         if (increment == size(planned%shares)) shows_bodies = shows_bodies .or. planned%output == output_last .or. planned%vtu
+         if (increment == size(planned%fractions)) shows_bodies = shows_bodies .or. planned%output == output_last .or. planned%vtu
       end associate
    end function shows_bodies
 

@@ -4,7 +4,7 @@ module bulk_data
    use elasticity, only: plane_stress
    use element_kinds, only: max_nodes
    use kinds, only: wp
-   use nastran_compatibility, only: entry_tally_type, parameters_type
+   use nastran_compatibility, only: ignored_entries_type, parameters_type
    use normal_curve, only: normal_law
    use shear_stiffness, only: shear_law
    implicit none
@@ -250,7 +250,7 @@ module bulk_data
 
    type, public :: jincr_card
       integer :: line = 0, id = 0
-      real(wp), allocatable :: shares(:)                ! of the stage's load change, add up to 1
+      real(wp), allocatable :: fractions(:)                ! of the stage's load change, add up to 1
    end type jincr_card
 
    !> EIGRL: which natural frequencies, how their shapes are scaled.
@@ -284,7 +284,7 @@ module bulk_data
    !> All of them.
    type, public :: bulk_data_type
       integer :: n_cards = 0                               !! of all kinds
-      type(entry_tally_type) :: idle                       !! entries without effect, of case control too
+      type(ignored_entries_type) :: ignored                       !! entries without effect, of case control too
       type(parameters_type) :: parameters                  !! of PARAM
       type(grid_card), allocatable         :: grid(:)
       type(grid_card)                      :: grid_defaults !! CP, CD and PS of GRDSET

@@ -7,7 +7,7 @@ module case_control
    use deck_text, only: deck_text_type
    use field_rules, only: parse_integer, parse_real
    use kinds, only: wp
-   use nastran_compatibility, only: entry_tally_type, parameters_type, read_echo, read_habit
+   use nastran_compatibility, only: ignored_entries_type, parameters_type, read_echo, read_habit
    use stage_entries, only: check_vibration, read_stage_entry, stage_type
    use text_tools, only: integer_text, upper
    implicit none
@@ -39,7 +39,7 @@ module case_control
       logical :: mass_is_given = .false.                 !! MASS is
       type(number_set), allocatable :: sets(:)
       type(parameters_type) :: parameters                !! of PARAM
-      type(entry_tally_type) :: idle                     !! entries without effect
+      type(ignored_entries_type) :: ignored                     !! entries without effect
       type(stage_type), allocatable :: stages(:)
    end type case_control_type
 
@@ -99,14 +99,14 @@ contains
          end if
          in_plots = entry%key == 'OUTPUT' .and. entry%describers /= '' ! NASTRAN's plots: all lines up to BEGIN BULK
          if (in_plots .or. (entry%key == 'OUTPUT' .and. entry%value == '')) then
-            call control%idle%add('OUTPUT')
+            call control%ignored%add('OUTPUT')
          else if (entry%key == 'SET') then
             call read_set(text, entry, cursor, control%sets, errors)
          else if (entry%key == 'SUBCASE' .or. any(global_keys == entry%key) .or. any(stage_keys == entry%key)) then
             call check_repeated(entry, keys_seen, errors)
             call read_entry(entry, control, common, errors)
          else
-            call read_habit(entry, control%parameters, control%idle, errors)
+            call read_habit(entry, control%parameters, control%ignored, errors)
             goes_on = line(len(line):) == ','
          end if
       end do
@@ -133,7 +133,7 @@ contains
                end associate
             end associate
          end do
-         if (.not. used) call control%idle%add('SET')
+         if (.not. used) call control%ignored%add('SET')
       end do
    end subroutine note_idle_sets
 
@@ -148,7 +148,7 @@ contains
 
       n = size(control%stages)
       if (n > 0 .and. any(entry%key == ['TITLE', 'ECHO '])) then ! that of a subcase
-         call control%idle%add(entry%key)
+         call control%ignored%add(entry%key)
          return
       end if
       if (n > 0 .and. any(global_keys == entry%key)) &

@@ -144,7 +144,7 @@ contains
       end if
       call cards%start(deck%text%n)
       call list_cards(cards)
-      deck%bulk%idle = deck%control%idle
+      deck%bulk%ignored = deck%control%ignored
       deck%bulk%parameters = deck%control%parameters
       call find_cards(deck%text, cursor, cards, deck%bulk, errors)
       call make_room(cards, deck%bulk)
@@ -159,7 +159,7 @@ contains
       call fill_grid_defaults(deck%bulk)
       call count_unused(deck%bulk)
       associate (asked => deck%control%stages%vibration)
-         call deck%bulk%idle%settle(any(asked%modes%id > 0), any(asked%modes%id > 0 .and. asked%frequency%id > 0), errors)
+         call deck%bulk%ignored%settle(any(asked%modes%id > 0), any(asked%modes%id > 0 .and. asked%frequency%id > 0), errors)
       end associate
       call move_alloc(cards%kinds, deck%kinds)
       deck%is_whole = is_whole
@@ -185,7 +185,7 @@ contains
          if (last < first) then
             cursor = cursor + 1
          else if (ended_file == 1 .or. file == ended_file) then
-            call bulk%idle%add(behind_end)
+            call bulk%ignored%add(behind_end)
             do while (cursor <= text%n) ! once a file
                if (ended_file /= 1 .and. text%file_number(cursor) /= ended_file) exit
                cursor = cursor + 1
@@ -229,7 +229,7 @@ contains
       if (is_known) then
          cursor = cursor + 1
       else if (.not. faults%any() .and. is_idle_card(card_name(line, comma))) then
-         call bulk%idle%add(trim(card_name(line, comma)))
+         call bulk%ignored%add(trim(card_name(line, comma)))
          cursor = cursor + 1
       else
          call read_card(text, cursor, card, errors) ! for what else is wrong with it
@@ -278,7 +278,7 @@ contains
             named(table%find(names(i))) = .true.
          end do
          do i = 1, size(id)
-            if (id(i) > 0 .and. .not. named(i)) call bulk%idle%add(trim(called(i)))
+            if (id(i) > 0 .and. .not. named(i)) call bulk%ignored%add(trim(called(i)))
          end do
       end subroutine count_unnamed
 

@@ -7,7 +7,7 @@ module joint_cards
    use deck_cards, only: card_type
    use field_rules, only: not_negative, positive, real_range
    use kinds, only: wp
-   use load_cards, only: arithmetic_shares, geometric_shares
+   use load_cards, only: arithmetic_fractions, geometric_fractions
    use normal_curve, only: least_power
    use shear_stiffness, only: shear_law
    use text_tools, only: integer_text, real_text
@@ -235,13 +235,13 @@ contains
       logical  :: ok
 
       associate (jincr => bulk%jincr(card%i))
-         jincr%shares = [1.0_wp]
+         jincr%fractions = [1.0_wp]
          call card%field('SID', jincr%id)
          call card%field('N', n, default=0, most=most_increments)
          call card%word('PROG', '|ARITH|GEOM|LIST|', progression)
          if (card%text_at(3) == 'LIST') then ! the shares follow
             jincr%line = card%line
-            if (.not. card%is_faulty()) call read_list(card, n, jincr%shares)
+            if (.not. card%is_faulty()) call read_list(card, n, jincr%fractions)
             return
          end if
          call card%field('FIRST', first, real_range(0.0_wp, 1.0_wp, above=.true.), default=0.05_wp)
@@ -250,11 +250,11 @@ contains
          if (.not. card%given('N')) then
             call card%error('N', 'blank, expected the number of increments')
          else if (progression == 'ARITH') then
-            call arithmetic_shares(n, first, jincr%shares, ok)
+            call arithmetic_fractions(n, first, jincr%fractions, ok)
             if (.not. ok) call card%error('FIRST', 'with '//integer_text(n)//' increments in arithmetic progression and a '// &
                'first share of '//real_text(first)//' the last share is not positive, expected FIRST below '//real_text(2.0_wp/n))
          else
-            call geometric_shares(n, first, jincr%shares, ok)
+            call geometric_fractions(n, first, jincr%fractions, ok)
             if (.not. ok) call card%error('FIRST', 'no geometric progression of '//integer_text(n)//' increments begins with '// &
                                           real_text(first))
          end if
@@ -262,10 +262,10 @@ contains
    end subroutine read_jincr
 
    !> The SHARES of PROG = LIST; they add up to 1 (to 1E-4: then they are scaled to do so). N of them where it is given.
-   subroutine read_list(card, n, shares)
+   subroutine read_list(card, n, fractions)
       type(card_fields_type), intent(inout) :: card
       integer, intent(in)                   :: n
-      real(wp), allocatable, intent(inout)  :: shares(:)
+      real(wp), allocatable, intent(inout)  :: fractions(:)
       real(wp) :: share
       real(wp), allocatable :: list(:)
       integer :: k
@@ -284,7 +284,7 @@ contains
       else if (abs(sum(list) - 1.0_wp) > 1.0e-4_wp) then
          call card%error_at(4, 'SHARE: the shares add up to '//real_text(sum(list))//', expected 1')
       else
-         shares = list/sum(list)
+         fractions = list/sum(list)
       end if
    end subroutine read_list
 

@@ -11,40 +11,40 @@ module load_cards
    implicit none
    private
 
-   public :: arithmetic_shares, geometric_shares, read_force, read_pressure, read_surface_load, read_gravity, read_load, &
+   public :: arithmetic_fractions, geometric_fractions, read_force, read_pressure, read_surface_load, read_gravity, read_load, &
              read_bolt
 
 contains
 
-   !> N shares s_k = FIRST + (k - 1) d with sum 1: d = 2 (1 - N FIRST) / (N (N - 1)).
+   !> N fractions s_k = FIRST + (k - 1) d with sum 1: d = 2 (1 - N FIRST) / (N (N - 1)).
    !! OK is false where the last share would not be positive (FIRST >= 2/N).
-   pure subroutine arithmetic_shares(n, first, shares, ok)
+   pure subroutine arithmetic_fractions(n, first, fractions, ok)
       integer, intent(in)                :: n     !! increments, 1 or more
       real(wp), intent(in)               :: first !! share of the first one, 0 < FIRST <= 1 (N = 1: not used)
-      real(wp), allocatable, intent(out) :: shares(:)
+      real(wp), allocatable, intent(out) :: fractions(:)
       logical, intent(out)               :: ok
       real(wp) :: step
       integer  :: k
 
       ok = .true.
-      allocate (shares(n), source=1.0_wp)
+      allocate (fractions(n), source=1.0_wp)
       if (n == 1) return
       step = 2.0_wp*(1.0_wp - n*first)/(real(n, wp)*(n - 1))
-      shares = [(first + (k - 1)*step, k = 1, n)]
-      ok = shares(1) > 0.0_wp .and. shares(n) > 1.0e-12_wp
-   end subroutine arithmetic_shares
+      fractions = [(first + (k - 1)*step, k = 1, n)]
+      ok = fractions(1) > 0.0_wp .and. fractions(n) > 1.0e-12_wp
+   end subroutine arithmetic_fractions
 
-   !> N shares s_k = FIRST r^(k - 1) with sum 1; the ratio r is found by bisection and closed by scaling.
+   !> N fractions s_k = FIRST r^(k - 1) with sum 1; the ratio r is found by bisection and closed by scaling.
    !! OK is false where no such r exists (FIRST >= 1 with N > 1).
-   pure subroutine geometric_shares(n, first, shares, ok)
+   pure subroutine geometric_fractions(n, first, fractions, ok)
       integer, intent(in)                :: n
       real(wp), intent(in)               :: first !! 0 < FIRST < 1 (N = 1: not used)
-      real(wp), allocatable, intent(out) :: shares(:)
+      real(wp), allocatable, intent(out) :: fractions(:)
       logical, intent(out)               :: ok
       real(wp) :: low, high, ratio
       integer  :: k
 
-      allocate (shares(n), source=1.0_wp)
+      allocate (fractions(n), source=1.0_wp)
       ok = n == 1
       if (ok) return
       if (first <= 0.0_wp .or. first >= 1.0_wp) return
@@ -61,13 +61,13 @@ contains
             high = ratio
          end if
       end do
-      shares(1) = first
+      fractions(1) = first
       do k = 2, n
-         shares(k) = shares(k - 1)*ratio
+         fractions(k) = fractions(k - 1)*ratio
       end do
-      shares(2:) = shares(2:)*(1.0_wp - first)/sum(shares(2:))
-      ok = all(shares > 1.0e-12_wp)
-   end subroutine geometric_shares
+      fractions(2:) = fractions(2:)*(1.0_wp - first)/sum(fractions(2:))
+      ok = all(fractions > 1.0e-12_wp)
+   end subroutine geometric_fractions
 
    pure real(wp) function geometric_sum(n, first, ratio) result(total)
       integer, intent(in)  :: n

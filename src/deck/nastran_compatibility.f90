@@ -25,7 +25,7 @@ module nastran_compatibility
    end type waiting_entry
 
    !> What has no effect in one deck.
-   type, public :: entry_tally_type
+   type, public :: ignored_entries_type
       integer :: n = 0                                        !! entries
       character(name_length), allocatable, private :: names(:) ! of them, each once, in the order of their appearance
       type(waiting_entry), allocatable, private :: waiting(:)
@@ -33,7 +33,7 @@ module nastran_compatibility
       procedure :: wait, settle
       procedure :: add
       procedure :: words
-   end type entry_tally_type
+   end type ignored_entries_type
 
    !> What the PARAMs of a deck ask for.
    type, public :: parameters_type
@@ -86,11 +86,11 @@ contains
 
    !> Take the PARAM called NAME with this VALUE on LINE into PARAMETERS, or among the entries without effect, IDLE. Where it asks for
    !! another answer, or its value is wrong, EXPECTED says what of it would be understood.
-   pure subroutine take_parameter(name, value, line, parameters, idle, expected)
+   pure subroutine take_parameter(name, value, line, parameters, ignored, expected)
       character(*), intent(in)               :: name, value !! in capitals, no blanks in front
       integer, intent(in)                    :: line
       type(parameters_type), intent(inout)   :: parameters
-      type(entry_tally_type), intent(inout)  :: idle
+      type(ignored_entries_type), intent(inout)  :: ignored
       character(:), allocatable, intent(out) :: expected
       real(wp) :: x
       integer  :: number
@@ -109,30 +109,30 @@ contains
          if (is_real) is_real = x >= 0.0_wp
          if (is_real) parameters%damping = x
          if (.not. is_real) expected = 'a real number of at least 0, the structural damping of everything'
-         call idle%wait('PARAM G', line, needs_response=.false.)
+         call ignored%wait('PARAM G', line, needs_response=.false.)
       case ('COUPMASS')
          parameters%lumped = number < 1
          parameters%mass_line = line
          if (.not. is_integer) expected = 'an integer: above 0 consistent mass, else lumped mass'
-         call idle%wait('PARAM COUPMASS', line, needs_response=.false.)
+         call ignored%wait('PARAM COUPMASS', line, needs_response=.false.)
       case ('KDAMP')
          parameters%is_structural = number == -1
          if (.not. is_integer .or. abs(number) /= 1) expected = '1, SDAMPING is viscous, or -1, it is structural'
-         call idle%wait('PARAM KDAMP', line, needs_response=.true.)
+         call ignored%wait('PARAM KDAMP', line, needs_response=.true.)
       case ('ALPHA1', 'ALPHA2')
-         call idle%wait('PARAM '//name, line, needs_response=.true., refusal=refusal(abs(x) <= 0.0_wp, &
+         call ignored%wait('PARAM '//name, line, needs_response=.true., refusal=refusal(abs(x) <= 0.0_wp, &
             'expected 0.0: damping is SDAMPING, AMPLITUDE, PARAM G and GE of MAT1'))
       case ('LMODES', 'LFREQ')
-         call idle%wait('PARAM '//name, line, needs_response=.true., refusal=refusal(abs(x) <= 0.0_wp, which_modes))
+         call ignored%wait('PARAM '//name, line, needs_response=.true., refusal=refusal(abs(x) <= 0.0_wp, which_modes))
       case ('HFREQ')
-         call idle%wait('PARAM '//name, line, needs_response=.true., refusal=refusal(x >= all_frequencies, which_modes))
+         call ignored%wait('PARAM '//name, line, needs_response=.true., refusal=refusal(x >= all_frequencies, which_modes))
       case default
          if (name == 'INREL' .and. (.not. is_integer .or. number /= 0)) then
             expected = '0: bodies without supports are not held by their inertia here'
          else if (name == 'LGDISP' .and. (.not. is_integer .or. number > 0)) then
             expected = '-1 or 0: displacements are small here'
          else
-            call idle%add('PARAM '//name)
+            call ignored%add('PARAM '//name)
          end if
       end select
 
@@ -151,10 +151,10 @@ contains
    end subroutine take_parameter
 
    !> What a line says that is none of the program's own keys: it has no effect, or is not known.
-   subroutine read_habit(entry, parameters, idle, errors)
+   subroutine read_habit(entry, parameters, ignored, errors)
       type(entry_type), intent(in)           :: entry
       type(parameters_type), intent(inout)   :: parameters
-      type(entry_tally_type), intent(inout)  :: idle        !! entries without effect
+      type(ignored_entries_type), intent(inout)  :: ignored        !! entries without effect
       type(deck_error_list), intent(inout)   :: errors
       character(:), allocatable :: expected, name, value
       integer :: choice, comma
@@ -164,19 +164,19 @@ contains
       case ('INCLUDE', 'CEND') ! lines of an INCLUDE file follow in the deck text; CEND is the end of NASTRAN's executive control
       case ('APP', 'ANALYSIS')
          call choose(entry, '|STATICS|STATIC|DISP|DISPLACEMENT|', choice, errors)
-         call idle%add(entry%key)
+         call ignored%add(entry%key)
       case ('PARAM')
          value = upper(adjustl(entry%value)) ! 'PARAM,POST,-1'
          if (index(value, ',') == 1) value = adjustl(value(2:))
          comma = scan(value//',', ', ')
          name = value(:comma - 1)
          value = trim(adjustl(value(min(comma + 1, len(value) + 1):)))
-         call take_parameter(name, value, entry%line, parameters, idle, expected)
+         call take_parameter(name, value, entry%line, parameters, ignored, expected)
          if (expected /= '') call errors%add(entry%line, 'PARAM '//name//': '''//value//''', expected '//expected, &
                                              entry%first, entry%last)
       case default
          if (control_habit(entry%key) /= '') then
-            call idle%add(control_habit(entry%key))
+            call ignored%add(control_habit(entry%key))
          else
             call errors%add(entry%line, ''''//entry%key(:min(40, len(entry%key)))//''' is no key of case control; '// &
                             'expected TITLE, UNITS, METHOD, TOL, PRESSURE, CARRY, AVERAGE, SOLVER, MASS, RESTART, ECHO, SPC, '// &
@@ -202,7 +202,7 @@ contains
 
    !> One more entry that is called NAME.
    pure subroutine add(self, name)
-      class(entry_tally_type), intent(inout) :: self
+      class(ignored_entries_type), intent(inout) :: self
       character(*), intent(in)               :: name
 
       if (.not. allocated(self%names)) allocate (self%names(0))
@@ -212,7 +212,7 @@ contains
 
    !> The entry NAME on LINE has an effect where the structure oscillates, or responds to a load; with a REFUSAL that is an error.
    pure subroutine wait(self, name, line, needs_response, refusal)
-      class(entry_tally_type), intent(inout) :: self
+      class(ignored_entries_type), intent(inout) :: self
       character(*), intent(in)               :: name
       integer, intent(in)                    :: line
       logical, intent(in)                    :: needs_response
@@ -237,7 +237,7 @@ contains
 
    !> Now it is known whether any stage has MODES, and FREQUENCY.
    subroutine settle(self, has_modes, has_response, errors)
-      class(entry_tally_type), intent(inout) :: self
+      class(ignored_entries_type), intent(inout) :: self
       logical, intent(in)                    :: has_modes, has_response
       type(deck_error_list), intent(inout)   :: errors
       integer :: i
@@ -258,7 +258,7 @@ contains
 
    !> '12 entries without effect: PARAM, DISPLACEMENT'; empty where there are none.
    pure function words(self) result(text)
-      class(entry_tally_type), intent(in) :: self
+      class(ignored_entries_type), intent(in) :: self
       character(:), allocatable           :: text
       integer :: i
 

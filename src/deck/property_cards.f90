@@ -156,7 +156,7 @@ contains
          call card%field('GE', mat1%damping, not_negative, default=0.0_wp)
          call card%skip(['ST   ', 'SC   ', 'SS   ', 'MCSID'])
          call card%finish(mat1%line)
-         if (mat1%damping > 0.0_wp) call bulk%idle%wait('GE of MAT1', card%line, needs_response=.false.)
+         if (mat1%damping > 0.0_wp) call bulk%ignored%wait('GE of MAT1', card%line, needs_response=.false.)
       end associate
       associate (e => bulk%mat1(card%i)%e, nu => bulk%mat1(card%i)%nu, bars_only => bulk%mat1(card%i)%bars_only, &
                  has_e => card%given('E'), has_g => card%given('G'), has_nu => card%given('NU'))
@@ -190,7 +190,7 @@ contains
       if (.not. card%given('N')) call card%error('N', 'blank, expected the name of a parameter')
       if (.not. card%given('V1')) call card%error('V1', 'blank, expected the value of the parameter')
       if (.not. all(card%given(['N ', 'V1']))) return
-      call take_parameter(card%text_at(1), card%text_at(2), line, bulk%parameters, bulk%idle, expected)
+      call take_parameter(card%text_at(1), card%text_at(2), line, bulk%parameters, bulk%ignored, expected)
       if (expected /= '') call card%error('V1', ''''//card%text_at(2)//''' for '//card%text_at(1)//', expected '//expected)
    end subroutine read_parameter
 

@@ -36,7 +36,7 @@ contains
             call card%field('G1,1', node)
             call read_groups(card, weight, directions, rigid)
             if (any(has_component(rigid%directions, 4) .or. has_component(rigid%directions, 5) .or. &
-                    has_component(rigid%directions, 6))) call bulk%idle%add('456 in C of RBE3')
+                    has_component(rigid%directions, 6))) call bulk%ignored%add('456 in C of RBE3')
          else
             call card%field('GN', rigid%node)
             call card%components('CM', rigid%components)

@@ -49,7 +49,7 @@ contains
             call card%skip(['S'])
          end if
          call card%finish(spring%line)
-         if (spring%damping > 0.0_wp) call bulk%idle%wait('GE of CELAS2', card%line, needs_response=.false.)
+         if (spring%damping > 0.0_wp) call bulk%ignored%wait('GE of CELAS2', card%line, needs_response=.false.)
          if (.not. card%is_faulty()) call check_ends(card, spring)
       end associate
    end subroutine read_spring
@@ -113,13 +113,13 @@ contains
          call card%field('GE2', second%damping, not_negative, default=0.0_wp)
          call card%skip(['S2'])
          call card%finish(first%line)
-         if (first%damping > 0.0_wp) call bulk%idle%wait('GE of PELAS', card%line, needs_response=.false.)
+         if (first%damping > 0.0_wp) call bulk%ignored%wait('GE of PELAS', card%line, needs_response=.false.)
          if (card%given('PID2')) then
             second%line = card%line
             second%field = 5
             card%i = card%i + 1
             bulk%spring_property(card%i) = second
-            if (second%damping > 0.0_wp) call bulk%idle%wait('GE of PELAS', card%line, needs_response=.false.)
+            if (second%damping > 0.0_wp) call bulk%ignored%wait('GE of PELAS', card%line, needs_response=.false.)
          else if (card%given('K2')) then
             call card%error('PID2', 'blank, but K2 is not')
          end if
@@ -137,7 +137,7 @@ contains
       do k = 10, card%n, 8
          flag = card%text_at(k)
          if (flag == 'B' .or. flag == 'GE') then
-            call bulk%idle%wait(flag//' of PBUSH', card%line, needs_response=.true., &
+            call bulk%ignored%wait(flag//' of PBUSH', card%line, needs_response=.true., &
                                 refusal='expected none: of springs GE of CELAS2 and PELAS is done')
          else if (flag /= 'RCV' .and. flag /= '') then
             call card%error_at(k, 'FLAG: '''//flag//''', expected B, GE or RCV behind the line of K')

@@ -78,7 +78,7 @@ module analysis_state
    type, public :: analysis_type
       integer  :: stage = 0, increment = 0
       logical  :: goes_on = .false.                 !! the stage has been taken up from a restart file in its midst
-      real(wp) :: share = 0.0_wp                    !! of the stage's load change, this increment
+      real(wp) :: increment_fraction = 0.0_wp       !! of the stage's load change, this increment
       real(wp) :: fraction = 0.0_wp                 !! of it, so far: exactly 1 at the end of the stage
       type(load_state) :: before, after, now        !! at the start of the stage, at its end, in this increment
       integer, allocatable :: loaded(:)             !! nodes on which loads act in this stage

@@ -22,7 +22,7 @@ module law_error
    type, public :: distance_type
       logical  :: is_there = .false.           !! whether the joint has any such deflection or stress
       integer  :: element = 0, direction = 3
-      real(wp) :: share = 0.0_wp               !! |actual - by_law| of the largest one of the joint
+      real(wp) :: relative = 0.0_wp            !! |actual - by_law| of the largest one of the joint
       real(wp) :: actual = 0.0_wp, by_law = 0.0_wp !! lambda [length] or tau [pressure]
    end type distance_type
 
@@ -91,7 +91,7 @@ contains
             if (.not. model%joints(j)%law%shear(k)%given) cycle
             found = distance_of(analysis%states(first:last)%shear(k)%tau, analysis%exact(first:last)%shear(k)%tau, &
                                 maxval(abs(analysis%states(first:last)%shear(k)%tau)), noise*analysis%largest_p)
-            if (.not. found%is_there .or. (farthest%is_there .and. found%share <= farthest%share)) cycle
+            if (.not. found%is_there .or. (farthest%is_there .and. found%relative <= farthest%relative)) cycle
             farthest = found
             farthest%direction = k
             farthest%element = first + found%element - 1
@@ -109,9 +109,9 @@ contains
       farthest%is_there = largest > floor
       if (.not. farthest%is_there) return
       do i = 1, size(actual)
-         if (abs(actual(i) - by_law(i)) > (farthest%share + noise)*largest) then
+         if (abs(actual(i) - by_law(i)) > (farthest%relative + noise)*largest) then
             farthest%element = i
-            farthest%share = abs(actual(i) - by_law(i))/largest
+            farthest%relative = abs(actual(i) - by_law(i))/largest
          end if
       end do
       farthest%actual = actual(farthest%element)

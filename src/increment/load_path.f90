@@ -115,11 +115,11 @@ contains
       type(analysis_type), intent(inout) :: analysis
       real(wp), allocatable :: before(:, :)
 
-      associate (shares => plan%stages(analysis%stage)%shares)
+      associate (fractions => plan%stages(analysis%stage)%fractions)
          analysis%increment = analysis%increment + 1
-         analysis%share = shares(analysis%increment)
-         analysis%fraction = sum(shares(:analysis%increment))
-         if (analysis%increment == size(shares)) analysis%fraction = 1.0_wp
+         analysis%increment_fraction = fractions(analysis%increment)
+         analysis%fraction = sum(fractions(:analysis%increment))
+         if (analysis%increment == size(fractions)) analysis%fraction = 1.0_wp
       end associate
       call load_nodes(analysis)
       analysis%now%temperature = temperature_between(analysis%before%temperature, analysis%after%temperature, analysis%fraction)
@@ -150,8 +150,8 @@ contains
       type(analysis_type), intent(inout) :: analysis
 
       analysis%record%is_partial = left < 1.0_wp
-      associate (shares => plan%stages(analysis%stage)%shares)
-         analysis%fraction = sum(shares(:analysis%increment)) - left*shares(analysis%increment)
+      associate (fractions => plan%stages(analysis%stage)%fractions)
+         analysis%fraction = sum(fractions(:analysis%increment)) - left*fractions(analysis%increment)
          if (.not. analysis%record%is_partial) analysis%increment = analysis%increment - 1
       end associate
       call load_nodes(analysis)
@@ -222,7 +222,7 @@ contains
       real(wp), dimension(model%dimension, model%n_nodes) :: unbalanced
       real(wp), allocatable :: q(:, :)
 
-      associate (ahead => left*analysis%share)
+      associate (ahead => left*analysis%increment_fraction)
          call recover(model, system, analysis, analysis%now%load - ahead*(analysis%after%load - analysis%before%load), &
                       analysis%now%moved - ahead*(analysis%after%moved - analysis%before%moved), u, q, unbalanced)
       end associate

@@ -117,11 +117,11 @@ contains
          end if
          if (stage%condensed .and. analysis%increment == 1) call list_condensed(page, model, analysis)
          if (shows_increment(stage, analysis%increment)) then
-            write (words, '(2(a, f8.5))') '   SHARE', analysis%share, '   LOAD', analysis%fraction
+            write (words, '(2(a, f8.5))') '   SHARE', analysis%increment_fraction, '   LOAD', analysis%fraction
             call page%file%put('')
             call page%file%put(' '//page%stage//', INCREMENT '//integer_text(analysis%increment)//trim(words))
          end if
-         if (analysis%increment == size(stage%shares)) return ! list_stage prints its tables
+         if (analysis%increment == size(stage%fractions)) return ! list_stage prints its tables
          if (stage%output == output_all .or. stage%output == output_joint) call list_joints(page, stage%state, model, analysis)
          if (stage%output == output_all) call list_bodies(page, stage%stress, model, analysis)
       end associate
@@ -133,7 +133,7 @@ contains
       integer, intent(in)             :: increment
 
       shows_increment = stage%output == output_all .or. stage%output == output_joint .or. &
-                        (stage%output == output_last .and. increment == size(stage%shares))
+                        (stage%output == output_last .and. increment == size(stage%fractions))
    end function shows_increment
 
    !> Print the tables of the end of the stage just completed, which are those of its last increment, and then its own.
@@ -200,7 +200,7 @@ contains
       unbalanced = clean(free_norm(analysis%unbalanced, analysis%held), noise*page%largest_force)
       do j = min(1, size(model%joints)), size(model%joints)
          call table%add([analysis%increment])
-         call table%add([analysis%share, analysis%fraction])
+         call table%add([analysis%increment_fraction, analysis%fraction])
          if (j > 0) call add_joint(model, analysis, now, j, noise*page%largest_force, table)
          if (j == 0) call table%skip(9)
          call table%add([unbalanced])
@@ -292,7 +292,7 @@ contains
          call stream%any_text(farthest%place)
          call stream%any_text(listing%poor_condition)
          call stream%any_text(listing%divided)
-         call stream%item(page%largest_force, farthest%share, farthest%node, listing%n_increments, listing%n_removed)
+         call stream%item(page%largest_force, farthest%relative, farthest%node, listing%n_increments, listing%n_removed)
       end associate
       call listing%increments%record(stream)
       call listing%distances%record(stream)

@@ -110,7 +110,7 @@ contains
       end associate
       if (deck%control%length_unit /= '') call file%put('  UNITS, LABELS ONLY: LENGTH '// &
          trim(deck%control%length_unit)//', FORCE '//trim(deck%control%force_unit))
-      call write_folded(file, upper(deck%bulk%idle%words()))
+      call write_folded(file, upper(deck%bulk%ignored%words()))
       if (tetra_words(model) /= '') call file%put('  WARNING: '//upper(tetra_words(model)))
 
    contains
@@ -305,8 +305,8 @@ contains
             total = sum(loads%force(:, :loads%n), dim=2, mask=spread(loads%node(:loads%n) <= n_points(model), 1, 3)) ! no moments
             largest = 0.0_wp
             if (loads%n > 0) largest = maxval(abs(loads%force(:, :loads%n)))
-            call table%add([stage%id, size(stage%shares)])
-            call table%add([stage%shares(1), stage%shares(size(stage%shares))])
+            call table%add([stage%id, size(stage%fractions)])
+            call table%add([stage%fractions(1), stage%fractions(size(stage%fractions))])
             call table%add(clean(total(:model%dimension), 1.0e-9_wp*largest))
             call table%add('   '//cut(stage%label, 33))
             call table%print_row(page%file)

@@ -17,7 +17,7 @@ module listing_steps
 
    !> The largest distance from a law in a run.
    type, public :: farthest_type
-      real(wp) :: share = 0.0_wp           !! of the largest deflection or stress of the joint in the increment
+      real(wp) :: relative = 0.0_wp        !! of the largest deflection or stress of the joint in the increment
       integer  :: node = 0                 !! its number
       character(:), allocatable :: quantity, place !! in words
    end type farthest_type
@@ -81,7 +81,7 @@ contains
             call table%skip(4)
             return
          end if
-         call table%add([100.0_wp*clean(distance%share, noise)])
+         call table%add([100.0_wp*clean(distance%relative, noise)])
          call table%add([joint_node_id(model, distance%element, 1)])
          if (distance%direction < 3) call table%add(axes(distance%direction))
          call table%add(clean([distance%actual, distance%by_law], noise*largest))
@@ -92,8 +92,8 @@ contains
          type(distance_type), intent(in) :: distance
          character(*), intent(in)        :: quantity
 
-         if (.not. distance%is_there .or. distance%share <= farthest%share) return
-         farthest%share = distance%share
+         if (.not. distance%is_there .or. distance%relative <= farthest%relative) return
+         farthest%relative = distance%relative
          farthest%node = joint_node_id(model, distance%element, 1)
          farthest%quantity = quantity
          farthest%place = where_in_plan(plan, analysis%stage, analysis%increment)
@@ -107,7 +107,7 @@ contains
       character(:), allocatable :: words
 
       words = ''
-      if (farthest%share > far) words = 'STEP is up to '//real_text(0.1_wp*anint(1000.0_wp*farthest%share))// &
+      if (farthest%relative > far) words = 'STEP is up to '//real_text(0.1_wp*anint(1000.0_wp*farthest%relative))// &
          ' % of the largest '//farthest%quantity//' away from its law, at node '//integer_text(farthest%node)//' in '// &
          farthest%place//'; METHOD = NEWTON gives the answer of the laws'
    end function distance_words

@@ -65,7 +65,7 @@ contains
       if (present(dealt)) call move_alloc(dealt, results%dealt)
       most = 0
       do s = 1, size(plan%stages)
-         most = most + merge(size(plan%stages(s)%shares), 1, plan%stages(s)%steps)
+         most = most + merge(size(plan%stages(s)%fractions), 1, plan%stages(s)%steps)
       end do
       if (allocated(results%parts)) deallocate (results%parts)
       allocate (results%parts(2*most + size(plan%stages)))

@@ -102,7 +102,7 @@ contains
 
       self%done = 0
       self%before = 0
-      self%total = sum([(size(plan%stages(s)%shares), s = 1, size(plan%stages))])
+      self%total = sum([(size(plan%stages(s)%fractions), s = 1, size(plan%stages))])
       call system_clock(self%increments_began)
    end subroutine expect
 

@@ -86,8 +86,8 @@ contains
       run%restart = restart_stream_type() ! its bytes
       call lock_again(model, analysis, system)
       call system%forget_past()
-      analysis%goes_on = analysis%increment < size(plan%stages(analysis%stage)%shares)
-      call run%progress%skip(sum([(size(plan%stages(s)%shares), s = 1, analysis%stage - 1)]) + analysis%increment)
+      analysis%goes_on = analysis%increment < size(plan%stages(analysis%stage)%fractions)
+      call run%progress%skip(sum([(size(plan%stages(s)%fractions), s = 1, analysis%stage - 1)]) + analysis%increment)
       words = ': taken up from '//restart_name(run%argument%base)//' behind stage '// &
               integer_text(plan%stages(analysis%stage)%id)//', increment '//integer_text(analysis%increment)
       if (analysis%stage == size(plan%stages) .and. .not. analysis%goes_on) &
@@ -101,7 +101,7 @@ contains
       type(analysis_type), intent(in)   :: analysis
 
       is_in_plan = analysis%stage >= 1 .and. analysis%stage <= size(plan%stages)
-      if (is_in_plan) is_in_plan = analysis%increment >= 1 .and. analysis%increment <= size(plan%stages(analysis%stage)%shares)
+      if (is_in_plan) is_in_plan = analysis%increment >= 1 .and. analysis%increment <= size(plan%stages(analysis%stage)%fractions)
    end function is_in_plan
 
    !> WRITE THE RESTART FILE, at the end of a stage, and of every so many increments where RESTART says how many; nothing else. Where
@@ -115,7 +115,7 @@ contains
       logical :: ok
 
       if (is_over(run) .or. run%argument%base == '' .or. deck%control%restart == no_restart) return
-      if (analysis%increment < size(plan%stages(analysis%stage)%shares)) then
+      if (analysis%increment < size(plan%stages(analysis%stage)%fractions)) then
          if (deck%control%restart == restart_stages) return
          if (modulo(analysis%increment, deck%control%restart) /= 0) return
       end if
@@ -170,7 +170,7 @@ contains
       type(analysis_type), intent(inout)       :: a
       integer :: n_loaded, n_slips
 
-      call stream%item(a%stage, a%increment, a%share, a%fraction, a%carry, a%eq10)
+      call stream%item(a%stage, a%increment, a%increment_fraction, a%fraction, a%carry, a%eq10)
       call stream%item(a%average, a%is_loose, a%loose_force, a%load_tolerance, a%tolerance)
       call record_loads(stream, a%before)
       call record_loads(stream, a%after)

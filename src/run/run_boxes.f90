@@ -66,7 +66,7 @@ contains
 
       if (is_over(run)) return
       associate (stage => plan%stages(analysis%stage))
-         if (analysis%increment < size(stage%shares) .or. .not. allocated(stage%vibration)) return
+         if (analysis%increment < size(stage%fractions) .or. .not. allocated(stage%vibration)) return
          call run%progress%enter(phase_modes)
          if (stage%vibration%free) then
             allocate (loose, source=model)
@@ -229,7 +229,7 @@ contains
       type(analysis_type), intent(in)   :: analysis
 
       another_increment = .not. is_over(run)
-      if (another_increment) another_increment = analysis%increment < size(plan%stages(analysis%stage)%shares)
+      if (another_increment) another_increment = analysis%increment < size(plan%stages(analysis%stage)%fractions)
    end function another_increment
 
    !> Print the increment just completed, and the stage that it completes.
@@ -269,7 +269,7 @@ contains
       call run%progress%enter(phase_recover)
       if (run%keeps .or. analysis%moves .or. shows_bodies(plan, analysis%stage, analysis%increment)) then
          call recover_bodies(model, system, analysis)
-      else if (analysis%increment == size(plan%stages(analysis%stage)%shares)) then
+      else if (analysis%increment == size(plan%stages(analysis%stage)%fractions)) then
          u = analysis%u                   ! for the answer of the stage alone: what goes on from here is left as it is
          unbalanced = analysis%unbalanced
          call recover_bodies(model, system, analysis)
@@ -286,7 +286,7 @@ contains
       call run%progress%enter(phase_write)
       run%progress%solver = system%description
       call list_results(model, plan, analysis, run%results)
-      call run%progress%advance(analysis%stage, analysis%increment, size(plan%stages(analysis%stage)%shares))
+      call run%progress%advance(analysis%stage, analysis%increment, size(plan%stages(analysis%stage)%fractions))
       call run%progress%enter(phase_increments)
    end subroutine list_increment
 
@@ -300,7 +300,7 @@ contains
 
       if (is_over(run) .and. .not. run%keeps) return
       if (analysis%increment == 0) return
-      if (analysis%increment < size(plan%stages(analysis%stage)%shares) .and. .not. run%keeps) return
+      if (analysis%increment < size(plan%stages(analysis%stage)%fractions) .and. .not. run%keeps) return
       call run%progress%enter(phase_write)
       call print_stage_results(model, plan, analysis, run%results, overflow)
       if (overflow%raised) then

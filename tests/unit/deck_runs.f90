@@ -99,7 +99,7 @@ contains
       allocate (run%states(0))
       do s = 1, stages
          call start_stage(run%model, run%system, run%analysis)
-         do i = 1, size(run%plan%stages(s)%shares)
+         do i = 1, size(run%plan%stages(s)%fractions)
             call start_increment(run%plan, run%system, run%analysis)
             if (run%control%method == method_newton) then
                call newton_increment(run%model, run%plan, run%analysis, run%system, run%failure)
