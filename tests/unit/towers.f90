@@ -52,7 +52,7 @@ contains
       allocate (plan%stages(2))
       do i = 1, 2
          plan%stages(i)%id = i
-         plan%stages(i)%shares = [1.0_wp]
+         plan%stages(i)%fractions = [1.0_wp]
       end do
       call start_equations(model, system, failure)
       call form_body_stiffness(model, system, failure)
