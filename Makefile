@@ -15,10 +15,11 @@ FFLAGS_CHECKED = -O1 -g -fopenmp $(WARNINGS) -fcheck=all,no-array-temps,no-recur
 LIBRARIES  = -larpack -lmetis -lopenblas
 
 MANUAL     = $(BUILD)/manual/card_manual.f90
-# one process, or those of mpirun with PETSc: `make mpi`
-ENGINE     = serial
-OTHERS     = $(filter-out $(ENGINE),serial mpi)
-SOURCES    = $(sort $(filter-out src/$(OTHERS)/%,$(wildcard src/*/*.f90))) $(MANUAL)
+SOURCES    = $(sort $(filter-out src/mpi/%,$(wildcard src/*/*.f90))) $(MANUAL)
+# on the processes of mpirun with PETSc: `make mpi`
+MPI_FC      = mpifort
+MPI_SOURCES = $(sort $(wildcard src/mpi/*.f90))
+MPI_OBJECTS = $(MPI_SOURCES:src/%.f90=$(BUILD)/%.o)
 MODULES    = $(notdir $(SOURCES:.f90=))
 VPATH      = $(sort $(dir $(SOURCES)))
 
@@ -66,11 +67,13 @@ $(BIN)/jointfem: src/jointfem.f90 $(RELEASE_OBJECTS)
 .PHONY: mpi
 mpi:
 	@pkg-config --exists petsc || { echo 'make mpi needs PETSc: apt-get install libpetsc-real-dev'; exit 1; }
-	@$(MAKE) --no-print-directory ENGINE=mpi FC=mpifort BUILD=$(BUILD)/mpi PETSC="$$(pkg-config --libs petsc)" bin/jointfem_mpi
+	@$(MAKE) --no-print-directory PETSC="$$(pkg-config --libs petsc)" $(BIN)/jointfem_mpi
 
-$(BIN)/jointfem_mpi: src/jointfem.f90 $(RELEASE_OBJECTS)
+# It has the objects of the program for one process, but for the submodule that is the one process
+$(BIN)/jointfem_mpi: src/jointfem.f90 $(RELEASE_OBJECTS) $(MPI_OBJECTS)
 	@mkdir -p $(@D)
-	$(FC) $(FFLAGS_RELEASE) -I$(BUILD)/release -o $@ $< $(RELEASE_OBJECTS) $(PETSC) $(LIBRARIES)
+	$(MPI_FC) $(FFLAGS_RELEASE) -I$(BUILD)/release -o $@ $< $(filter-out %/serial_backend.o,$(RELEASE_OBJECTS)) $(MPI_OBJECTS) \
+	   $(PETSC) $(LIBRARIES)
 
 $(BIN)/jointfit: src/jointfit.f90 $(RELEASE_OBJECTS)
 	@mkdir -p $(@D)
@@ -105,6 +108,10 @@ $(BUILD)/release/%.o: %.f90 $(RELEASE_STAMP)
 	@mkdir -p $(@D)
 	$(FC) $(FFLAGS_RELEASE) -J$(@D) -c -o $@ $<
 
+$(BUILD)/mpi/%.o: src/mpi/%.f90 $(RELEASE_STAMP)
+	@mkdir -p $(@D)
+	$(MPI_FC) $(FFLAGS_RELEASE) -I$(BUILD)/release -J$(@D) -c -o $@ $<
+
 $(BUILD)/checked/%.o: %.f90 $(CHECKED_STAMP)
 	@mkdir -p $(@D)
 	$(FC) $(FFLAGS_CHECKED) -J$(@D) -c -o $@ $<
@@ -118,10 +125,11 @@ $(MANUAL): input/README.md src/run/card_manual.awk
 %.mod: %.o
 	@:
 
-$(BUILD)/dependencies.mk: $(SOURCES) $(COMPARISONS) tests/runner/dependencies.awk Makefile
+$(BUILD)/dependencies.mk: $(SOURCES) $(MPI_SOURCES) $(COMPARISONS) tests/runner/dependencies.awk Makefile
 	@mkdir -p $(@D)
 	@$(DEPENDENCIES) -v folder=$(BUILD)/release -v objects='$(RELEASE_OBJECTS)' $(SOURCES) > $@
 	@$(DEPENDENCIES) -v folder=$(BUILD)/checked -v objects='$(CHECKED_OBJECTS)' $(SOURCES) >> $@
+	@$(DEPENDENCIES) -v folder=$(BUILD)/mpi -v objects='$(RELEASE_OBJECTS) $(MPI_OBJECTS)' $(MPI_SOURCES) >> $@
 	@$(DEPENDENCIES) -v folder=$(BUILD)/compare -v objects='$(COMPARISONS:tests/%.f90=$(BUILD)/%.o)' $(COMPARISONS) >> $@
 
 ifneq ($(MAKECMDGOALS),clean)
