@@ -1,6 +1,6 @@
-!> PLOAD4, PLOADE and PLOAD: which sides of which elements a card presses on, found by their corners, and the nodal forces.
+!> PLOAD4, PLOADE, PLOAD and PLOAD2: which sides of which elements a card presses on, found by their corners, and the nodal forces.
 module pressure_loads
-   use bulk_data, only: of_edge, of_face, of_nodes, pressure_card
+   use bulk_data, only: of_face, of_marks, of_nodes, pressure_card
    use coordinate_systems, only: rectangular
    use deck_check, only: checked_deck
    use displacement_systems, only: find_system
@@ -34,19 +34,18 @@ module pressure_loads
 
 contains
 
-   !> The FACE whose corners have the numbers ID, in either sense; FIELD of the card on LINE names them. None, with an error, where
-   !! there is none, or where bodies lie on both sides and forces on their nodes would be those of both.
-   subroutine find_face(deck, model, line, field, id, face)
-      type(checked_deck), intent(in) :: deck
-      type(model_type), intent(in)   :: model
-      integer, intent(in)            :: line
-      character(*), intent(in)       :: field
-      integer, intent(in)            :: id(:)         !! 3 or 4 corners, going round
-      type(named_face), intent(out)  :: face
+   !> The FACE whose corners have the numbers ID, in either sense. None, and a PROBLEM, where there is none, or where bodies lie on
+   !! both sides and forces on their nodes would be those of both.
+   subroutine find_face(model, id, face, problem)
+      type(model_type), intent(in)           :: model
+      integer, intent(in)                    :: id(:)  !! 3 or 4 corners, going round
+      type(named_face), intent(out)          :: face
+      character(:), allocatable, intent(out) :: problem
       type(named_face) :: tried
       integer :: found, i, node, s
 
       found = 0
+      problem = ''
       node = model%node_table%find(id(1))
       do while (node > 0)
          do i = model%first_at(node), model%first_at(node + 1) - 1
@@ -61,10 +60,10 @@ contains
          node = model%twin(node)
       end do
       if (found == 0) then
-         call deck%field_error(line, field, 'no body element has a face with the corners '//list_of_numbers(id))
+         problem = 'no body element has a face with the corners '//list_of_numbers(id)
       else if (found > 1) then
-         call deck%field_error(line, field, 'bodies lie on both sides of the face with the corners '//list_of_numbers(id)// &
-                               ', so which one the pressure acts on is not known')
+         problem = 'bodies lie on both sides of the face with the corners '//list_of_numbers(id)// &
+                   ', so which one the pressure acts on is not known'
          face = named_face()
       end if
    end subroutine find_face
@@ -115,13 +114,13 @@ contains
       end do
    end function list_of_numbers
 
-   !> The sides that PLOAD4, PLOADE and PLOAD cards press on; none of a card in error.
+   !> The sides that PLOAD4, PLOADE, PLOAD and PLOAD2 cards press on; none of a card in error.
    subroutine find_pressed_sides(deck, model, pressed)
       type(checked_deck), intent(in)               :: deck
       type(model_type), intent(in)                 :: model
       type(pressed_side), allocatable, intent(out) :: pressed(:)
       type(id_table_type) :: elements, faces
-      integer :: e, i, n
+      integer :: e, i, k, n
 
       allocate (pressed(size(deck%bulk%pressure)))
       if (size(pressed) == 0) return
@@ -133,11 +132,16 @@ contains
             if (card%kind == of_nodes) then
                call press_on_corners(deck, model, i, pressed, n)
                cycle
+            else if (card%kind == of_marks) then
+               do k = 1, size(card%ranges%first)
+                  call press_on_marked(deck, model, i, card%ranges%at(k), [card%ranges%first(k), card%ranges%last(k)], pressed, n)
+               end do
+               cycle
             end if
             if (card%first == 0) cycle
             e = elements%find(card%first)
             if (card%kind == of_face .and. (card%last > card%first .or. faces%find(card%first) > 0)) then
-               call press_on_marked(deck, model, i, pressed, n)
+               call press_on_marked(deck, model, i, 2, [card%first, card%last], pressed, n)
             else if (e == 0) then
                call deck%field_error(card%line, 'EID', 'there is no body element '//integer_text(card%first))
             else if (element_table(model%element_kind(e))%dimension /= merge(3, 2, card%kind == of_face)) then
@@ -190,16 +194,17 @@ contains
       end associate
    end subroutine find_direction
 
-   !> PLOAD4 I on faces that elements mark, from its EID to its EID2: along the normals of these elements, the right hand round
-   !! their corners, or along its direction.
-   subroutine press_on_marked(deck, model, i, pressed, n)
+   !> PLOAD4 or PLOAD2 I on faces that elements mark, of the numbers from RANGE(1) to RANGE(2) in data field AT: along the normals of
+   !! these elements, the right hand round their corners, or along its direction.
+   subroutine press_on_marked(deck, model, i, at, range, pressed, n)
       type(checked_deck), intent(in)                 :: deck
       type(model_type), intent(in)                   :: model
-      integer, intent(in)                            :: i
+      integer, intent(in)                            :: i, at, range(2)
       type(pressed_side), allocatable, intent(inout) :: pressed(:)
       integer, intent(inout)                         :: n
       type(pressed_side) :: side
       type(named_face)   :: found
+      character(:), allocatable :: problem
       integer :: f
       logical :: any_face
 
@@ -214,11 +219,14 @@ contains
          call find_direction(deck, model, i, side%direction)
          do f = 1, size(deck%bulk%element)
             associate (face => deck%bulk%element(f))
-               if (face%id < card%first .or. face%id > card%last) cycle
+               if (face%id < range(1) .or. face%id > range(2)) cycle
                if (.not. is_face(model, face)) cycle
                any_face = .true.
-               call find_face(deck, model, card%line, 'EID', face%nodes(:element_table(face%kind)%n_corners), found)
-               if (found%element == 0) cycle
+               call find_face(model, face%nodes(:element_table(face%kind)%n_corners), found, problem)
+               if (problem /= '') then
+                  call deck%field_error(card%line, at, problem, called='EID')
+                  cycle
+               end if
                side%element = found%element
                side%side = found%side
                associate (c => element_table(face%kind)%n_corners)
@@ -236,8 +244,9 @@ contains
                end associate
             end associate
          end do
-         if (.not. any_face) call deck%field_error(card%line, 'EID', 'no element from '//integer_text(card%first)//' to '// &
-            integer_text(card%last)//' marks a face of a solid; THRU is for CTRIA3 and CQUAD4 with a PMARK')
+         if (.not. any_face .and. range(1) <= range(2)) call deck%field_error(card%line, at, 'no element from '// &
+            integer_text(range(1))//' to '//integer_text(range(2))//' marks a face of a solid; '// &
+            trim(merge('PLOAD2', 'THRU  ', card%kind == of_marks))//' is for CTRIA3 and CQUAD4 with a PMARK', called='EID')
       end associate
    end subroutine press_on_marked
 
@@ -249,11 +258,15 @@ contains
       type(pressed_side), allocatable, intent(inout) :: pressed(:)
       integer, intent(inout)                         :: n
       type(named_face) :: face
+      character(:), allocatable :: problem
 
       associate (card => deck%bulk%pressure(i))
          if (any(card%corners(:3) == 0)) return ! said already
-         call find_face(deck, model, card%line, 'G1', card%corners(:merge(4, 3, card%corners(4) > 0)), face)
-         if (face%element == 0) return
+         call find_face(model, card%corners(:merge(4, 3, card%corners(4) > 0)), face, problem)
+         if (problem /= '') then
+            call deck%field_error(card%line, 'G1', problem)
+            return
+         end if
          call append(pressed_side(card=i, element=face%element, side=face%side, &
                                   p=merge(-card%pressure, card%pressure, face%outward)), pressed, n)
       end associate

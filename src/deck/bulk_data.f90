@@ -1,6 +1,7 @@
 !> The bulk data of a deck as read: one array a kind of card, cards in the order of the deck, nothing resolved yet.
 !! LINE is always the index of the card's first line in the deck text, for messages.
 module bulk_data
+   use card_fields, only: id_ranges
    use elasticity, only: plane_stress
    use element_kinds, only: max_nodes
    use kinds, only: wp
@@ -93,11 +94,10 @@ module bulk_data
    end type mat1_card
 
    !> SPC, SPC1 and SPCM alike: nodes FIRST(k) to LAST(k), or all nodes of a marked surface.
-   type, public :: support_card
+   type, extends(id_ranges), public :: support_card
       integer :: line = 0, set = 0, components = 0
       integer :: surface = 0                            ! PMARK id, 0: the nodes below
       real(wp) :: value = 0.0_wp                        ! D of an SPC, which has one node
-      integer, allocatable :: first(:), last(:), at(:)  ! AT(k): data field of FIRST(k)
    end type support_card
 
    !> RBE2: the NODES move with the reference node as a rigid body, each in its DIRECTIONS; RBE3: the COMPONENTS of the reference node
@@ -135,12 +135,14 @@ module bulk_data
       logical  :: is_moment = .false.
    end type force_card
 
-   integer, parameter, public :: of_edge = 1, of_face = 2, of_nodes = 3 !! what a pressure card names
+   integer, parameter, public :: of_edge = 1, of_face = 2, of_nodes = 3, of_marks = 4 !! what a pressure card names
 
    !> PLOADE (the edge of element FIRST between its corners G1 and G2), PLOAD4 (the face of element FIRST at G1 and G3 or G4, or the
-   !! faces marked by the elements FIRST to LAST) and PLOAD (the face with the corners).
+   !! faces marked by the elements FIRST to LAST), PLOAD2 (the faces marked by the elements of several RANGES) and PLOAD (the face with
+   !! the corners).
    type, public :: pressure_card
       integer  :: line = 0, set = 0, first = 0, last = 0, kind = of_edge, corners(4) = 0
+      type(id_ranges) :: ranges
       real(wp) :: pressure(4) = 0.0_wp                  ! positive into the body, at the corners from G1 on
       integer  :: system = 0                            ! CID of the direction, 0: global axes
       real(wp) :: direction(3) = 0.0_wp                 ! of PLOAD4; zero: along the normal

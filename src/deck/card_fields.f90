@@ -12,6 +12,11 @@ module card_fields
 
    public :: number_of
 
+   !> Numbers of things, FIRST(k) THRU LAST(k).
+   type, public :: id_ranges
+      integer, allocatable :: first(:), last(:), at(:) !! AT(k): data field of FIRST(k)
+   end type id_ranges
+
    type, public :: card_fields_type
       character(8) :: name = ''
       integer :: line = 0                            !! where the card begins
@@ -28,7 +33,7 @@ module card_fields
       generic   :: field => integer_field, integer_fields, real_field, real_fields
       procedure :: components, word, blank, skip, finish
       procedure :: text_at, given, is_faulty, error, error_at, wrong_entry, integer_at, node_at, real_at, components_at
-      procedure :: check_direction
+      procedure :: check_direction, list_ranges
    end type card_fields_type
 
 contains
@@ -400,6 +405,48 @@ contains
       end if
       value = 0
    end subroutine components_at
+
+   !> The numbers in the data fields from FROM on, and those between, G1 THRU G2. NAME: what the manual calls such a field; WHAT it is:
+   !! 'a node number'.
+   subroutine list_ranges(self, from, name, what, ranges)
+      class(card_fields_type), intent(inout) :: self
+      integer, intent(in)                    :: from
+      character(*), intent(in)               :: name, what
+      type(id_ranges), intent(inout)         :: ranges
+      integer :: k, n, value
+      logical :: ok, through
+
+      allocate (ranges%first(self%n), ranges%last(self%n), ranges%at(self%n), source=0)
+      n = 0
+      through = .false.
+      do k = from, self%n
+         if (self%text_at(k) == '') cycle
+         if (self%text_at(k) == 'THRU') then
+            if (n == 0 .or. through .or. k == self%n) call self%error_at(k, 'THRU: expected '//name//'1 THRU '//name//'2')
+            through = .true.
+            cycle
+         end if
+         call self%integer_at(k, name, what//' or THRU', value, ok)
+         if (.not. ok) cycle
+         if (value < 1) call self%error_at(k, name//': '''//integer_text(value)//''' is no '//what(index(what, ' ') + 1:))
+         if (through) then
+            through = .false.
+            if (n == 0) cycle
+            ranges%last(n) = value
+            if (value < ranges%first(n)) call self%error_at(k, name//': THRU goes down, expected '// &
+                                                            integer_text(ranges%first(n))//' or more')
+         else
+            n = n + 1
+            ranges%first(n) = value
+            ranges%last(n) = value
+            ranges%at(n) = k
+         end if
+      end do
+      if (n == 0 .and. self%n < from) call self%error_at(from, name//'1: blank, expected '//what)
+      ranges%first = ranges%first(:n)
+      ranges%last = ranges%last(:n)
+      ranges%at = ranges%at(:n)
+   end subroutine list_ranges
 
    !> Of numbers beyond all measure a stiffness, an area, a volume is none any more: such a VALUE in data field K is not OK, and said
    !! so. One that must be above zero, IS_POSITIVE, must not vanish beside others either.

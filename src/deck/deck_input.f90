@@ -64,7 +64,7 @@ contains
       call cards%add_kinds(['MPC'], read_equation)
       call cards%add_kinds(['MPCADD'], read_sum)
       call cards%add_kinds(['FORCE ', 'FORCE1', 'FORCE2', 'MOMENT'], read_force)
-      call cards%add_kinds(['PLOAD4', 'PLOADE', 'PLOAD '], read_pressure)
+      call cards%add_kinds(['PLOAD4', 'PLOADE', 'PLOAD ', 'PLOAD2'], read_pressure)
       call cards%add_kinds(['PLOADM', 'FORCEM'], read_surface_load)
       call cards%add_kinds(['GRAV'], read_gravity)
       call cards%add_kinds(['SPCD'], read_displacement)

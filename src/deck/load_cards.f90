@@ -3,7 +3,7 @@
 !! The cards of loads: FORCE, FORCE1, FORCE2, MOMENT, PLOAD4, PLOADE, PLOAD, PLOADM, FORCEM, GRAV, LOAD, BOLT. A routine for each
 !! array of the bulk data, a table for each kind.
 module load_cards
-   use bulk_data, only: bulk_data_type, of_edge, of_face, of_nodes, pressure_card
+   use bulk_data, only: bulk_data_type, of_edge, of_face, of_marks, of_nodes, pressure_card
    use card_fields, only: card_fields_type
    use field_rules, only: positive
    use kinds, only: wp
@@ -120,6 +120,7 @@ contains
    !! CTETRA G4 is the corner that the face does not have. Faces that elements mark are named by these, EID or EID THRU EID2, and
    !! the pressure acts along their normals. A direction N1, N2, N3 in system CID makes of the pressure a traction along it.
    !! PLOADE: pressure on the edge G1-G2 of a plane or axisymmetric element, positive into the body.
+   !! PLOAD2: pressure on faces that elements mark, EID1, EID2, ... or EID1 THRU EID2, along their normals.
    !! PLOAD: pressure on the face with the corners G1 to G3 or G4, along the right-hand normal as these go round.
    subroutine read_pressure(card, bulk)
       type(card_fields_type), intent(inout) :: card
@@ -147,6 +148,12 @@ contains
             call card%field('P', p(1))
             call card%field(['G1', 'G2'], pressure%corners(:2))
             call card%finish(pressure%line)
+            p = p(1)
+         case ('PLOAD2')
+            pressure%kind = of_marks
+            call card%field('P', p(1))
+            call card%list_ranges(3, 'EID', 'an element number', pressure%ranges)
+            pressure%line = card%line
             p = p(1)
          case default
             pressure%kind = of_nodes

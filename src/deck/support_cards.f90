@@ -35,7 +35,7 @@ contains
          call card%field('SID', support%set)
          call card%components('C', support%components)
          if (card%name == 'SPC1') then
-            call list_nodes(card, support)
+            call card%list_ranges(3, 'G', 'a node number', support%id_ranges)
          else
             call card%field('PID', support%surface)
             call card%finish(support%line)
@@ -43,44 +43,6 @@ contains
          end if
       end associate
    end subroutine read_support
-
-   !> The nodes of an SPC1, from data field 3 on.
-   subroutine list_nodes(card, support)
-      type(card_fields_type), intent(inout) :: card
-      type(support_card), intent(inout)     :: support
-      integer :: k, n, node
-      logical :: ok, through
-
-      allocate (support%first(card%n), support%last(card%n), support%at(card%n), source=0)
-      n = 0
-      through = .false.
-      do k = 3, card%n
-         if (card%text_at(k) == '') cycle
-         if (card%text_at(k) == 'THRU') then
-            if (n == 0 .or. through .or. k == card%n) call card%error_at(k, 'THRU: expected G1 THRU G2')
-            through = .true.
-            cycle
-         end if
-         call card%node_at(k, 'G', 'a node number or THRU', node, ok)
-         if (.not. ok) cycle
-         if (through) then
-            through = .false.
-            if (n == 0) cycle
-            support%last(n) = node
-            if (node < support%first(n)) call card%error_at(k, 'G: THRU goes down, expected '// &
-                                                            integer_text(support%first(n))//' or more')
-         else
-            n = n + 1
-            support%first(n) = node
-            support%last(n) = node
-            support%at(n) = k
-         end if
-      end do
-      if (n == 0 .and. card%n < 3) call card%error_at(3, 'G1: blank, expected a node number')
-      support%first = support%first(:n)
-      support%last = support%last(:n)
-      support%at = support%at(:n)
-   end subroutine list_nodes
 
    !> SPCADD: the supports of all sets S1, S2, ...; MPCADD: their equations.
    subroutine read_sum(card, bulk)
