@@ -5,7 +5,7 @@ module front_factor
    use front_kernel, only: eliminate, large, top_row
    use front_tree, only: add_to_block, begins, front_of, front_tree_type, front_type, keep_block, restore_block, task_work
    use kinds, only: long, wp
-   use lists, only: first_not_below
+   use lists, only: first_not_below, sorted_order
    use machine, only: give_back
    use mass_elements, only: coupled_dynamic_stiffness
    use model_data, only: model_type
@@ -339,29 +339,27 @@ contains
       end do
    end subroutine restart_front
 
-   !> Add the symmetric matrix K of the EQUATIONS (0: held), all of refactored fronts, for good.
+   !> Add the symmetric matrix K of the EQUATIONS (0: held; else each once), all of refactored fronts, for good.
    subroutine add_to_refactored(tree, equations, k)
       type(front_tree_type), intent(inout) :: tree
       integer, intent(in)                  :: equations(:)
       real(wp), intent(in)                 :: k(:, :)
-      integer :: f, i, j, places(size(equations))
+      integer, allocatable :: order(:), places(:)
+      integer :: f, i, n
 
       f = front_of(tree, equations)
       if (f == 0) return
       associate (front => tree%fronts(f))
          places = place_in(front, equations)
-         do j = 1, size(equations)
-            if (places(j) == 0) cycle
-            front%start%diagonal(places(j)) = front%start%diagonal(places(j)) + k(j, j)
-            do i = 1, size(equations)
-               if (places(i) < places(j)) cycle
-               if (places(j) <= front%p) then
-                  call add_to_block(front%start%panel, places(i), places(j), k(i, j))
-               else
-                  call add_to_block(front%start%update, places(i) - front%p, places(j) - front%p, k(i, j))
-               end if
-            end do
+         call sorted_order(places, order)
+         order = pack(order, places(order) > 0)
+         places = places(order)
+         n = count(places <= front%p)
+         do i = 1, size(places)
+            front%start%diagonal(places(i)) = front%start%diagonal(places(i)) + k(order(i), order(i))
          end do
+         call add_to_block(front%start%panel, places, places(:n), k(order, order(:n)))
+         call add_to_block(front%start%update, places(n + 1:) - front%p, places(n + 1:) - front%p, k(order(n + 1:), order(n + 1:)))
       end associate
    end subroutine add_to_refactored
 

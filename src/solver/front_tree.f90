@@ -20,7 +20,7 @@ module front_tree
    type, public :: kept_block
       integer :: n_rows = 0, n_columns = 0
       real(wp), allocatable :: whole(:, :)            !! (n_rows, n_columns), or
-      real(wp), allocatable :: values(:)              !! entries, at
+      real(wp), allocatable :: values(:)              !! entries, column by column, rows ascending, at
       integer, allocatable  :: row(:), column(:)
    end type kept_block
 
@@ -135,25 +135,67 @@ contains
       end do
    end subroutine restore_block
 
-   !> Add VALUE at row I, column J of BLOCK.
-   subroutine add_to_block(block, i, j, value)
+   !> Add to BLOCK at these ROWS and COLUMNS the entries of K that do not lie above its diagonal.
+   subroutine add_to_block(block, rows, columns, k)
       type(kept_block), intent(inout) :: block
-      integer, intent(in)             :: i, j
-      real(wp), intent(in)            :: value
-      integer(long) :: k
+      integer, intent(in)             :: rows(:), columns(:) !! ascending, each once
+      real(wp), intent(in)            :: k(:, :)             !! (rows, columns)
+      type(kept_block) :: old
+      integer(long) :: next, n
+      integer :: i, j
 
       if (allocated(block%whole)) then
-         block%whole(i, j) = block%whole(i, j) + value
+         do j = 1, size(columns)
+            do i = 1, size(rows)
+               if (rows(i) >= columns(j)) block%whole(rows(i), columns(j)) = block%whole(rows(i), columns(j)) + k(i, j)
+            end do
+         end do
          return
       end if
-      do k = 1, size(block%values, kind=long)
-         if (block%row(k) /= i .or. block%column(k) /= j) cycle
-         block%values(k) = block%values(k) + value
-         return
+      ! entries stand column by column, and so do the new ones: merged
+      old = block
+      n = size(old%values, kind=long) + sum([(count(rows >= columns(j)), j = 1, size(columns))])
+      deallocate (block%values, block%row, block%column)
+      allocate (block%values(n), block%row(n), block%column(n))
+      n = 0
+      next = 1
+      do j = 1, size(columns)
+         do i = 1, size(rows)
+            if (rows(i) < columns(j)) cycle
+            do while (next <= size(old%values, kind=long))
+               if (old%column(next) > columns(j) .or. (old%column(next) == columns(j) .and. old%row(next) > rows(i))) exit
+               call append(old%row(next), old%column(next), old%values(next))
+               next = next + 1
+            end do
+            call append(rows(i), columns(j), k(i, j))
+         end do
       end do
-      block%values = [block%values, value]
-      block%row = [block%row, i]
-      block%column = [block%column, j]
+      do next = next, size(old%values, kind=long)
+         call append(old%row(next), old%column(next), old%values(next))
+      end do
+      block%values = block%values(:n)
+      block%row = block%row(:n)
+      block%column = block%column(:n)
+
+   contains
+
+      !> One more entry, or more in the last one where that stands at the same place.
+      subroutine append(row, column, value)
+         integer, intent(in)  :: row, column
+         real(wp), intent(in) :: value
+
+         if (n > 0) then
+            if (block%row(n) == row .and. block%column(n) == column) then
+               block%values(n) = block%values(n) + value
+               return
+            end if
+         end if
+         n = n + 1
+         block%row(n) = row
+         block%column(n) = column
+         block%values(n) = value
+      end subroutine append
+
    end subroutine add_to_block
 
    !> Y = Y + BLOCK X, the block as part of a symmetric matrix over the unknowns of its rows.
