@@ -7,7 +7,7 @@ module terminal_line
    implicit none
    private
 
-   public :: open_line, show_line, clear_line
+   public :: open_line, show_line, clear_line, say_line
 
    integer, parameter :: width = 80 ! of the words
    logical :: shown = .false.
@@ -43,8 +43,20 @@ contains
 
    !> Clear the line; nothing more is shown.
    subroutine clear_line()
-      if (shown) write (error_unit, '(a)', advance='no') achar(13)//repeat(' ', len(name) + width + 2)//achar(13)
+      call empty_line()
       shown = .false.
    end subroutine clear_line
+
+   !> A line that stays, above the one that tells where the run is.
+   subroutine say_line(words)
+      character(*), intent(in) :: words
+
+      call empty_line()
+      write (error_unit, '(a)') words
+   end subroutine say_line
+
+   subroutine empty_line()
+      if (shown) write (error_unit, '(a)', advance='no') achar(13)//repeat(' ', len(name) + width + 2)//achar(13)
+   end subroutine empty_line
 
 end module terminal_line

@@ -19,6 +19,7 @@ module restart_file
    use restart_stream, only: open_restart, restart_stream_type
    use results, only: record_results, restart_ending, results_type
    use stage_plan, only: stage_plan_type
+   use terminal_line, only: say_line
    use text_tools, only: integer_text
    implicit none
    private
@@ -92,7 +93,7 @@ contains
               integer_text(plan%stages(analysis%stage)%id)//', increment '//integer_text(analysis%increment)
       if (analysis%stage == size(plan%stages) .and. .not. analysis%goes_on) &
          words = ': taken up from '//restart_name(run%argument%base)//', where the run is complete; its results are written again'
-      write (error_unit, '(2a)') run%argument%name, words
+      call say_line(run%argument%name//words)
    end subroutine take_up
 
    !> Whether PLAN has the stage and the increment that ANALYSIS is at.

@@ -3,7 +3,7 @@
 module run_boxes
    use analysis_state, only: analysis_type, interface_stiffness, note_largest, start_analysis
    use c_library, only: open_standard_outputs, tell_failed_writes
-   use case_control, only: method_back
+   use case_control, only: method_back, method_newton
    use command_line, only: command_type, deck_argument, is_result_of, read_command_line
    use condensed_interface, only: condense_on_joints
    use condition_estimate, only: watch_condition
@@ -34,6 +34,8 @@ module run_boxes
    use run_end, only: end_program
    use stage_plan, only: factorisations_of, shows_bodies, stage_plan_type, vibration_plan_type, where_in_plan
    use vtu_bodies, only: write_piece
+   use terminal_line, only: say_line
+   use text_tools, only: integer_text
    implicit none
    private
 
@@ -153,6 +155,7 @@ contains
       type(deck_type), intent(in)        :: deck
       type(model_type), intent(out)      :: model
       type(stage_plan_type), intent(out) :: plan
+      integer, allocatable :: drops(:)
 
       if (is_over(run)) return
       call keep_memory()
@@ -165,6 +168,12 @@ contains
       else if (run%check_only) then
          run%ending = was_checked
       end if
+      if (run%errors%any() .or. deck%control%method /= method_newton) return
+      drops = pack(model%joints%id, (model%joints%law%shear(1)%given .or. model%joints%law%shear(2)%given) .and. &
+                   .not. model%joints%law%has_friction)
+      if (size(drops) > 0) call say_line(run%argument%name//': JOINT '//integer_text(drops(1))// &
+         trim(merge(' and others', '           ', size(drops) > 1))//': shear stiffness without MU on PJOINT: an element '// &
+         'that opens drops its shear at once, and NEWTON may find no equilibrium')
    end subroutine build_structure
 
    !> [k_b] of the bodies, factorised as far as no joint moves it; the listing can be opened then.

@@ -219,3 +219,6 @@ DECK
          END { off("slid", back, first, 0.1); if (n != 24) print n " rows"; print "checked " n }' "$work/mirror.joint.csv"
    }
 done
+
+# Shear without MU drops at once where an element opens: said of a deck for NEWTON when it has been read, of no other.
+same 'shear without MU is said' "$("$program" --check input/{two_blocks,cantilever,friction_none}.bdf 2>&1 | grep -c 'shear stiffness without MU')" 1
