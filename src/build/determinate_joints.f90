@@ -5,7 +5,8 @@ module determinate_joints
    use interface_operator, only: nodes_of_end
    use kinds, only: wp
    use lists, only: join, root_of, distinct
-   use model_data, only: joint_type, model_type, n_bars, n_points, n_rotations, n_sections, stage_load_type, supported
+   use model_data, only: a_point, an_overlap, joint_type, model_type, n_bars, n_points, n_sections, node_kind, place_in_kind, &
+                         stage_load_type, supported
    use node_coupling, only: is_coupled
    use normal_curve, only: loading_pressure
    use text_tools, only: integer_text, real_text
@@ -173,12 +174,12 @@ contains
       resultant = 0.0_wp
       do i = 1, loads%n
          node = loads%node(i)
-         if (node > n_points(model) + n_rotations(model)) then  ! a pair of forces that shortens a solid bolt
-            associate (section => model%sections(node - n_points(model) - n_rotations(model)))
+         if (node_kind(model, node) == an_overlap) then ! a pair of forces that shortens a solid bolt
+            associate (section => model%sections(place_in_kind(model, node)))
                if (joint%carries(model%part(node))) call add(loads%force(1, i)*section%direction)
                if (joint%carries(model%part(section%point))) call add(-loads%force(1, i)*section%direction)
             end associate
-         else if (node <= n_points(model) .and. joint%carries(model%part(node))) then ! behind these moments
+         else if (node_kind(model, node) == a_point .and. joint%carries(model%part(node))) then ! behind these moments
             call add(loads%force(:, i))
          end if
       end do

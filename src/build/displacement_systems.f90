@@ -194,7 +194,7 @@ contains
             if (ok .and. model%dimension == 2) call check_plane_frame(deck, grid%line, directions, ok)
             if (.not. ok) cycle
             call turn_node(node)
-            if (model%twin(node) > 0) call turn_node(model%twin(node))
+            if (model%duplicate(node) > 0) call turn_node(model%duplicate(node))
          end associate
       end do
 

@@ -30,8 +30,8 @@ contains
       type(surface_node_list), intent(inout)               :: side
       type(interface_element), allocatable, intent(inout)  :: elements(:)
 
-      if (any(model%twin(side%node) > 0)) call drop_tips(model, side)
-      call pair_elements(deck, j, model, model%surfaces(surface), side, model%twin(side%node), elements)
+      if (any(model%duplicate(side%node) > 0)) call drop_tips(model, side)
+      call pair_elements(deck, j, model, model%surfaces(surface), side, model%duplicate(side%node), elements)
    end subroutine join_one_side
 
    !> The elements between two sides: pairs where every node has its partner and the card does not ask for a fit.
@@ -74,7 +74,7 @@ contains
       integer, allocatable :: kept(:)
       integer :: k
 
-      kept = pack([(k, k = 1, side%n)], model%twin(side%node) > 0)
+      kept = pack([(k, k = 1, side%n)], model%duplicate(side%node) > 0)
       side%n = size(kept)
       side%node = side%node(kept)
       side%area = side%area(kept)

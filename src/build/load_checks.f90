@@ -7,7 +7,7 @@ module load_checks
    use displacement_systems, only: find_system
    use element_kinds, only: element_table
    use kinds, only: wp
-   use model_data, only: corners_of, model_type, n_bars, n_points, supported
+   use model_data, only: a_bar, corners_of, model_type, n_bars, n_points, supported
    use reference_nodes, only: component_place, place_of_component
    use surface_build, only: find_surface
    use surface_sides, only: nodes_of
@@ -283,8 +283,8 @@ contains
       is_filled = .false.
       is_filled(model%first_filled:model%first_filled + model%n_filled - 1) = .true.
       do i = 1, n_points(model)
-         if (model%twin(i) == 0) cycle
-         associate (twin => model%twin(i))
+         if (model%duplicate(i) == 0) cycle
+         associate (twin => model%duplicate(i))
             if (given(i) .and. .not. given(twin)) at(twin) = at(i)
             given(twin) = given(twin) .or. given(i)
             is_filled(twin) = is_filled(i)
@@ -333,7 +333,7 @@ contains
 
          is_warmed = model%first_at(node + 1) > model%first_at(node)
          do k = 1, n_bars(model)
-            is_warmed = is_warmed .or. (model%bars(k)%axis == '' .and. any(model%bars(k)%nodes == node))
+            is_warmed = is_warmed .or. (model%bars(k)%kind == a_bar .and. any(model%bars(k)%nodes == node))
          end do
       end function is_warmed
 

@@ -346,7 +346,7 @@ contains
 
       associate (n => model%n_nodes + 1, d => model%dimension)
          model%node_id = [model%node_id, 0]
-         model%twin = [model%twin, 0]
+         model%duplicate = [model%duplicate, 0]
          model%x = reshape([model%x, x], [3, n])
          model%elements_at = [model%elements_at, elements]
          model%first_at = [model%first_at, size(model%elements_at) + 1]

@@ -57,7 +57,7 @@ contains
             end do
          end do
          if (node /= model%node_table%find(id(1))) exit
-         node = model%twin(node)
+         node = model%duplicate(node)
       end do
       if (found == 0) then
          problem = 'no body element has a face with the corners '//list_of_numbers(id)
@@ -99,7 +99,7 @@ contains
       if (node == 0) return
       associate (corners => model%element_nodes(:element_table(model%element_kind(e))%n_corners, e))
          corner = findloc(corners, node, dim=1)
-         if (corner == 0 .and. model%twin(node) > 0) corner = findloc(corners, model%twin(node), dim=1)
+         if (corner == 0 .and. model%duplicate(node) > 0) corner = findloc(corners, model%duplicate(node), dim=1)
       end associate
    end function own_corner
 

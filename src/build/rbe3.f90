@@ -39,7 +39,7 @@ contains
       node = model%node_table%find(id)
       if (node == 0) then
          call deck%field_error(line, field, 'there is no GRID '//integer_text(id), called='G')
-      else if (model%twin(node) > 0) then
+      else if (model%duplicate(node) > 0) then
          call deck%field_error(line, field, 'node '//integer_text(id)//' is split by a JOINT: which of the two is meant is not '// &
                                'known; expected nodes away from it, or bodies meshed apart', called='G')
          node = 0

@@ -7,7 +7,7 @@ module spring_build
    use deck_check, only: checked_deck
    use displacement_systems, only: find_system
    use kinds, only: wp
-   use model_data, only: bar_type, model_type, n_bars
+   use model_data, only: a_spring, bar_type, model_type, n_bars
    use node_build, only: find_nodes
    use text_tools, only: integer_text
    implicit none
@@ -196,6 +196,7 @@ contains
          n = n + 1
          bars(n)%id = card%id
          bars(n)%nodes = nodes
+         bars(n)%kind = a_spring
          bars(n)%axis = axis
          bars(n)%stiffness = k_axis
          bars(n)%damping = damping

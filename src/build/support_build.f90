@@ -131,7 +131,7 @@ contains
          associate (place => place_of_component(model, node, d))
             if (place%node == 0) cycle
             model%held(place%d, place%node) = .true.
-            if (model%twin(place%node) > 0) model%held(d, model%twin(node)) = .true. ! a split node: both of it
+            if (model%duplicate(place%node) > 0) model%held(d, model%duplicate(node)) = .true. ! a split node: both of it
          end associate
       end do
    end subroutine hold
@@ -260,7 +260,7 @@ contains
          if (place%node == 0) cycle
          n = n + 1
          places(n) = place
-         place%node = model%twin(place%node)
+         place%node = model%duplicate(place%node)
          if (place%node == 0) cycle
          n = n + 1
          places(n) = place

@@ -209,11 +209,11 @@ contains
       type(checked_deck), intent(in)  :: deck
       type(model_type), intent(inout) :: model
       type(id_table_type)  :: surfaces
-      integer :: j, n_twins, node, s
+      integer :: j, n_duplicates, node, s
 
-      allocate (model%twin(model%n_nodes), source=0)
+      allocate (model%duplicate(model%n_nodes), source=0)
       call surfaces%build(model%surfaces%id)
-      n_twins = 0
+      n_duplicates = 0
       do j = 1, size(deck%bulk%joint)
          if (deck%bulk%joint(j)%sides(2) /= 0) cycle
          s = surfaces%find(deck%bulk%joint(j)%sides(1))
@@ -225,30 +225,30 @@ contains
                   model%dimension == 2)//' of surface '//integer_text(surface%id)//' and on one side of others')
                cycle
             end if
-            if (any(model%twin(nodes) > 0)) then
-               node = nodes(findloc(model%twin(nodes) > 0, .true., dim=1))
+            if (any(model%duplicate(nodes) > 0)) then
+               node = nodes(findloc(model%duplicate(nodes) > 0, .true., dim=1))
                call deck%field_error(line, 'SIDE1', 'surface '//integer_text(surface%id)//' meets another surface that is '// &
                   'split, at node '//integer_text(model%node_id(node))//': mesh the bodies apart there and give both '// &
                   'faces, SIDE1 and SIDE2')
                cycle
             end if
          end associate
-         call split_surface(model, s, n_twins)
+         call split_surface(model, s, n_duplicates)
       end do
-      if (n_twins == 0) return
-      if (model%node_id(model%n_nodes) > huge(1) - n_twins) call deck%errors%add(0, 'the nodes that stand double where '// &
+      if (n_duplicates == 0) return
+      if (model%node_id(model%n_nodes) > huge(1) - n_duplicates) call deck%errors%add(0, 'the nodes that stand double where '// &
          'surfaces are split are numbered behind node '//integer_text(model%node_id(model%n_nodes))// &
          ', and their numbers would pass 2147483647')
-      call add_twins(model, n_twins)
+      call add_duplicates(model, n_duplicates)
       call list_owners(model%n_nodes, model%element_nodes, model%first_at, model%elements_at)
       call move_other_surfaces(model)
    end subroutine split_shared_surfaces
 
    !> Give the elements behind surface S twins of its nodes, behind the N_TWINS that there are. They are no nodes of the model yet.
-   subroutine split_surface(model, s, n_twins)
+   subroutine split_surface(model, s, n_duplicates)
       type(model_type), intent(inout) :: model
       integer, intent(in)             :: s
-      integer, intent(inout)          :: n_twins
+      integer, intent(inout)          :: n_duplicates
       type(side_list) :: at
       type(element_list), allocatable :: behind(:)
       integer :: i, k
@@ -261,11 +261,11 @@ contains
       end do
       do k = 1, at%n
          if (size(behind(k)%element) == 0) cycle ! the surface ends inside a body here: the tip stays whole
-         n_twins = n_twins + 1
-         model%twin(at%node(k)) = model%n_nodes + n_twins
+         n_duplicates = n_duplicates + 1
+         model%duplicate(at%node(k)) = model%n_nodes + n_duplicates
          do i = 1, size(behind(k)%element)
             associate (nodes => model%element_nodes(:, behind(k)%element(i)))
-               where (nodes == at%node(k)) nodes = model%n_nodes + n_twins
+               where (nodes == at%node(k)) nodes = model%n_nodes + n_duplicates
             end associate
          end do
       end do
@@ -274,19 +274,19 @@ contains
    end subroutine split_surface
 
    !> Append the twins to the nodes of the model.
-   subroutine add_twins(model, n_twins)
+   subroutine add_duplicates(model, n_duplicates)
       type(model_type), intent(inout) :: model
-      integer, intent(in)             :: n_twins
+      integer, intent(in)             :: n_duplicates
       real(wp), allocatable :: x(:, :)
       integer :: k
 
-      allocate (x(3, n_twins))
+      allocate (x(3, n_duplicates))
       do k = 1, model%n_nodes
-         if (model%twin(k) > 0) x(:, model%twin(k) - model%n_nodes) = model%x(:, k)
+         if (model%duplicate(k) > 0) x(:, model%duplicate(k) - model%n_nodes) = model%x(:, k)
       end do
       call append_nodes(model, x)
-      model%twin = [model%twin, (0, k = 1, n_twins)]
-   end subroutine add_twins
+      model%duplicate = [model%duplicate, (0, k = 1, n_duplicates)]
+   end subroutine add_duplicates
 
    !> Sides of the surfaces that were not split follow their elements.
    pure subroutine move_other_surfaces(model)
@@ -298,7 +298,7 @@ contains
          associate (surface => model%surfaces(s))
             do i = 1, surface%n
                do k = 1, surface%n_nodes(i)
-                  twin = model%twin(surface%nodes(k, i))
+                  twin = model%duplicate(surface%nodes(k, i))
                   if (twin == 0) cycle
                   if (any(model%element_nodes(:, surface%element(i)) == twin)) surface%nodes(k, i) = twin
                end do

@@ -11,8 +11,8 @@ module model_data
    implicit none
    private
 
-   public :: corners_of, has_gaps, has_ground_springs, has_second_order, is_coarser, joint_centroid, joint_node_id, n_bars, &
-             n_springs, bar_nodes, n_sections, n_rotations, n_points, supported
+   public :: bar_nodes, corners_of, has_gaps, has_ground_springs, has_second_order, is_coarser, joint_centroid, joint_node_id, &
+             n_bars, n_points, n_rotations, n_sections, n_springs, node_kind, place_in_kind, supported
 
    !> Section and material of body elements.
    type, public :: property_type
@@ -87,6 +87,9 @@ module model_data
       type(temperature_type) :: temperature
    end type stage_load_type
 
+   integer, parameter, public :: a_point = 1, a_rotation = 2, an_overlap = 3 !! kinds of nodes
+   integer, parameter, public :: a_bar = 1, a_spring = 2                     !! kinds of bars; a bolt is a bar with a BOLT card
+
    !> A bar, which may be a bolt, or a spring: a force that grows with its elongation, direction 2 . u_2 - direction 1 . u_1.
    type, public :: bar_type
       integer  :: id = 0
@@ -94,7 +97,8 @@ module model_data
       real(wp) :: direction(3, 2) = 0.0_wp   !! at each node, unit: of a bar both from node 1 to node 2
       real(wp) :: stiffness = 0.0_wp         !! E A/L [force/length]
       logical  :: ground_first = .false.     !! of a spring: its card names the ground as its first node
-      character(2) :: axis = ''              !! of a spring: T1, T2 or T3, as the card numbers its components; blank: a bar
+      integer  :: kind = a_bar
+      character(2) :: axis = ''              !! of a spring: T1, T2 or T3, as the card numbers its components
       integer  :: bolt = 0                   !! BOLT id, 0: none
       real(wp) :: preload = 0.0_wp           !! of a bolt [force]
       integer  :: stage = 0                  !! position of the stage that tightens it; a bolt is elastic from its end on
@@ -150,7 +154,7 @@ module model_data
       integer :: first_filled = 0            !! position of the first of them
       integer, allocatable  :: node_id(:)    !! ascending; behind the last those of rotations, then those of sections, 0
       real(wp), allocatable :: x(:, :)       !! (3, n_nodes) [length]
-      integer, allocatable  :: twin(:)       !! (n_nodes) the node that a split surface put opposite, 0: none
+      integer, allocatable  :: duplicate(:)  !! (n_nodes) the node that a split surface put opposite, 0: none
       logical, allocatable  :: used(:)       !! (n_nodes) whether any element holds the node
       logical, allocatable  :: held(:, :)    !! (dimension, n_nodes) supported, component by component of its unknowns
       logical, allocatable  :: left_out(:, :) !! (dimension, n_nodes) no unknowns though not supported: components that depend on
@@ -205,7 +209,7 @@ contains
       type(model_type), intent(in) :: model
 
       n_springs = 0
-      if (allocated(model%bars)) n_springs = count(model%bars%axis /= '')
+      if (allocated(model%bars)) n_springs = count(model%bars%kind == a_spring)
    end function n_springs
 
    !> Whether any spring stands on the ground.
@@ -258,6 +262,26 @@ contains
 
       n_points = model%n_nodes - n_sections(model) - n_rotations(model)
    end function n_points
+
+   !> What the unknowns of NODE are. Behind the points stand the nodes of rotations, behind these those of sections.
+   pure integer function node_kind(model, node) result(kind)
+      type(model_type), intent(in) :: model
+      integer, intent(in)          :: node
+
+      kind = a_point
+      if (node > n_points(model)) kind = a_rotation
+      if (node > n_points(model) + n_rotations(model)) kind = an_overlap
+   end function node_kind
+
+   !> Which of its kind NODE is: a point, or that of model%rotations or model%sections.
+   pure integer function place_in_kind(model, node) result(place)
+      type(model_type), intent(in) :: model
+      integer, intent(in)          :: node
+
+      place = node
+      if (node_kind(model, node) /= a_point) place = place - n_points(model)
+      if (node_kind(model, node) == an_overlap) place = place - n_rotations(model)
+   end function place_in_kind
 
    !> How many reference nodes with rotations there are.
    pure integer function n_rotations(model)

@@ -2,7 +2,7 @@
 module temperatures
    use element_kinds, only: element_table
    use kinds, only: wp
-   use model_data, only: bar_type, corners_of, model_type, temperature_type
+   use model_data, only: a_spring, bar_type, corners_of, model_type, temperature_type
    implicit none
    private
 
@@ -29,7 +29,7 @@ contains
       type(temperature_type), intent(in) :: temperature
 
       rise = 0.0_wp
-      if (bar%axis /= '' .or. .not. allocated(temperature%at)) return
+      if (bar%kind == a_spring .or. .not. allocated(temperature%at)) return
       rise = 0.5_wp*sum(temperature%at(bar%nodes)) - temperature%reference_share*bar%reference
    end function bar_rise
 

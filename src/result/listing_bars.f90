@@ -4,7 +4,7 @@ module listing_bars
    use bolt_locking, only: bar_tension, elongation_now, overlap_now, section_tension
    use kinds, only: wp
    use listing_table, only: column, listing_table_type, noise, page_type
-   use model_data, only: bar_nodes, model_type, n_bars, n_sections, n_springs
+   use model_data, only: a_bar, a_spring, bar_nodes, model_type, n_bars, n_sections, n_springs
    use text_tools, only: clean
    implicit none
    private
@@ -30,7 +30,7 @@ contains
       floor = noise*maxval(abs(analysis%u))
       do i = 1, n_bars(model)
          associate (bar => model%bars(i))
-            if (bar%axis /= '') cycle
+            if (bar%kind == a_spring) cycle
             call table%add([analysis%increment])
             if (bar%bolt > 0) call table%add([bar%bolt])
             if (bar%bolt == 0) call table%skip(1)
@@ -60,7 +60,7 @@ contains
       floor = noise*maxval(abs(analysis%u))
       do i = 1, n_bars(model)
          associate (spring => model%bars(i))
-            if (spring%axis == '') cycle
+            if (spring%kind == a_bar) cycle
             id = 0
             id(:size(bar_nodes(spring))) = model%node_id(bar_nodes(spring))
             if (spring%ground_first) id = id([2, 1])

@@ -77,7 +77,7 @@ contains
       if (.not. all(model%used)) call count_line('   OF THESE WITHOUT AN ELEMENT, LEFT OUT', &
                                                  count(.not. model%used, kind=long))
       if (model%n_filled > 0) call count_line('   OF THESE PUT AT THE MIDDLE OF EDGES', int(model%n_filled, long))
-      if (any(model%twin > 0)) call count_line('   OF THESE DOUBLED AT SPLIT SURFACES', count(model%twin > 0, kind=long))
+      if (any(model%duplicate > 0)) call count_line('   OF THESE DOUBLED AT SPLIT SURFACES', count(model%duplicate > 0, kind=long))
       call count_line('BODY ELEMENTS', int(model%n_elements, long))
       call count_formulations(model)
       if (n_bars(model) > n_springs(model)) call count_line('BARS, BOLTS INCLUDED', int(n_bars(model) - n_springs(model), long))

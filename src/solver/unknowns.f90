@@ -3,7 +3,7 @@
 !! does not open.
 module unknowns
    use kinds, only: wp
-   use model_data, only: model_type, n_points, n_rotations
+   use model_data, only: a_point, a_rotation, an_overlap, model_type, node_kind, place_in_kind
    use numbers, only: cross
    use reference_nodes, only: node_axes, rotation_component
    use text_tools, only: integer_text
@@ -20,11 +20,11 @@ contains
       integer, intent(in)          :: node, d
       character(:), allocatable    :: words
 
-      if (node > n_points(model) + n_rotations(model)) then
+      if (node_kind(model, node) == an_overlap) then
          words = 'nothing holds '//owner_name(model, node)//' together at its section'
       else
-         words = owner_name(model, node)//' has no stiffness '//trim(merge('against', 'in     ', node > n_points(model)))//' '// &
-                 direction_name(model, node, d)
+         words = owner_name(model, node)//' has no stiffness '// &
+                 trim(merge('against', 'in     ', node_kind(model, node) == a_rotation))//' '//direction_name(model, node, d)
       end if
    end function what_is_loose
 
@@ -34,7 +34,7 @@ contains
       integer, intent(in)          :: node, d
       character(:), allocatable    :: words
 
-      if (node > n_points(model) + n_rotations(model)) then
+      if (node_kind(model, node) == an_overlap) then
          words = 'the section of '//owner_name(model, node)
       else
          words = owner_name(model, node)//' in '//direction_name(model, node, d)
@@ -47,7 +47,7 @@ contains
       integer, intent(in)          :: node
 
       point = node
-      if (node > n_points(model)) point = model%rotations(node - n_points(model))%point
+      if (node_kind(model, node) == a_rotation) point = model%rotations(place_in_kind(model, node))%point
    end function point_of
 
    !> 'node 7', or of a section 'BOLT 3'.
@@ -56,13 +56,11 @@ contains
       integer, intent(in)          :: node
       character(:), allocatable    :: name
 
-      associate (section => node - n_points(model) - n_rotations(model))
-         if (section > 0) then
-            name = 'BOLT '//integer_text(model%sections(section)%bolt)
-         else
-            name = 'node '//integer_text(model%node_id(point_of(model, node)))
-         end if
-      end associate
+      if (node_kind(model, node) == an_overlap) then
+         name = 'BOLT '//integer_text(model%sections(place_in_kind(model, node))%bolt)
+      else
+         name = 'node '//integer_text(model%node_id(point_of(model, node)))
+      end if
    end function owner_name
 
    !> 'direction X', or that of the system that the node has, 'direction 1 of its system 7'; of a node of rotations 'rotation about X',
@@ -74,7 +72,7 @@ contains
       character(1), parameter :: letters(3) = ['X', 'Y', 'Z']
       logical :: is_rotation
 
-      is_rotation = node > n_points(model)
+      is_rotation = node_kind(model, node) == a_rotation
       words = letters(merge(3, d, is_rotation .and. model%dimension == 2))
       if (.not. is_rotation) words = 'direction '//words
       if (allocated(model%node_system)) then
@@ -97,7 +95,7 @@ contains
       type(model_type), intent(in) :: model
       integer, intent(in)          :: node
 
-      is_ordinary = node <= n_points(model)
+      is_ordinary = node_kind(model, node) == a_point
       if (is_ordinary .and. allocated(model%node_system)) is_ordinary = model%node_system(node) == 0
    end function is_ordinary
 
@@ -126,23 +124,23 @@ contains
       type(model_type), intent(in) :: model
       integer, intent(in)          :: node
       real(wp) :: q(model%dimension, n_motions(model%dimension)), axes(3, 3)
-      integer  :: d, r
+      integer  :: d
 
       d = model%dimension
       q = 0.0_wp
-      if (node <= n_points(model)) then
+      select case (node_kind(model, node))
+      case (a_point)
          axes = node_axes(model, node)
          q = matmul(transpose(axes(:d, :d)), motions_at(model%x(:d, node)))
-      else if (node <= n_points(model) + n_rotations(model)) then
-         r = findloc(model%rotations%node, node, dim=1)
-         associate (point => model%rotations(r)%point, arm => model%rotations(r)%arm)
+      case (a_rotation)
+         associate (point => point_of(model, node), arm => model%rotations(place_in_kind(model, node))%arm)
             if (d == 2) then
                q(rotation_component(model, 6), 3) = arm ! about z, whichever way the system CD has it
             else
                q(:, 4:) = arm*transpose(node_axes(model, point))
             end if
          end associate
-      end if
+      end select
    end function motions_of
 
 end module unknowns

@@ -10,7 +10,7 @@ module natural_modes
    use equation_solver, only: equation_system
    use failures, only: failure_type
    use kinds, only: wp
-   use model_data, only: model_type, n_points
+   use model_data, only: a_point, model_type, n_points, node_kind
    use oscillating_structure, only: factorise_at, hold_bolts, oscillating_type
    use stage_plan, only: vibration_plan_type
    use text_tools, only: integer_text
@@ -297,7 +297,7 @@ contains
       largest = 0.0_wp
       do i = 1, system%n
          associate (node => system%node(i))
-            if (node > n_points(model)) cycle
+            if (node_kind(model, node) /= a_point) cycle
             do k = structure%mass%first(node), structure%mass%first(node + 1) - 1
                if (structure%mass%column(k) /= node .or. .not. structure%mass%value(k) > 0.0_wp) cycle
                largest = max(largest, diagonal(i)/structure%mass%value(k))
