@@ -68,7 +68,7 @@ judge() {
 part 'decks against their references' tests/compare/check.sh "$program" "$compare" "$build/check"
 everything_so_far
 part 'unit tests' ${MAKE:-make} --no-print-directory -s unit-test
-part 'modules use what stands to the left' tests/source/folders.sh README.md src
+part 'modules use what stands to the left' tests/source/folders.sh src/README.md src
 part 'the tour of the source' tests/source/readme.sh src/README.md src
 part 'the test runner itself' env -u MAKELEVEL tests/runner/selftest.sh
 part 'the tools of make mutants and make coverage' tests/source/selftest.sh
