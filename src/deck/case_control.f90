@@ -35,6 +35,7 @@ module case_control
       integer :: restart = no_restart                    !! increments of a stage from restart file to restart file
       logical :: echo  = .true.
       logical :: echo_asked = .false.                    !! by ECHO: however many cards there are
+      logical :: of_nastran = .false.                    !! SOL or CEND: the deck was written for NASTRAN
       logical :: lumped = .false.                        !! MASS = LUMPED: the mass of elements stands at their nodes
       logical :: mass_is_given = .false.                 !! MASS is
       type(number_set), allocatable :: sets(:)
@@ -97,6 +98,7 @@ contains
             cursor = cursor - 1
             exit
          end if
+         control%of_nastran = control%of_nastran .or. entry%key == 'SOL' .or. entry%key == 'CEND'
          in_plots = entry%key == 'OUTPUT' .and. entry%describers /= '' ! NASTRAN's plots: all lines up to BEGIN BULK
          if (in_plots .or. (entry%key == 'OUTPUT' .and. entry%value == '')) then
             call control%ignored%add('OUTPUT')

@@ -78,7 +78,7 @@ contains
       type(deck_type), intent(in) :: deck
 
       if (deck%bulk%ignored%n > 0) write (error_unit, '(3a)') run%argument%name, ': ', deck%bulk%ignored%words()
-      if (size(deck%control%stages) > 1) write (error_unit, '(4a)') run%argument%name, ': ', &
+      if (deck%control%of_nastran .and. size(deck%control%stages) > 1) write (error_unit, '(4a)') run%argument%name, ': ', &
          plural(size(deck%control%stages), 'SUBCASE'), ' are stages of one history, each goes on from the end of the one before'
    end subroutine say_of_deck
 

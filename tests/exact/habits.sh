@@ -56,4 +56,5 @@ if run habits_nastran; then
    same 'named once on the screen' "$(grep -c "habits_nastran.bdf: $names ENDDATA, PARAM POST, CORD2S\$" "$work/habits_nastran.log")" 1
    same 'named once in the listing' "$(grep -c 'ENTRIES WITHOUT EFFECT: NASTRAN, ID, TIME' "$work/habits_nastran.out")" 1
    same 'SUBCASEs are stages: said once' "$(grep -c '2 SUBCASEs are stages of one history' "$work/habits_nastran.log")" 1
+   same 'SUBCASEs are stages: not said of a deck of our own' "$(grep -c 'stages of one history' "$work/habits_own.log")" 0
 fi
