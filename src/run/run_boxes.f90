@@ -2,6 +2,7 @@
 !! does nothing once one before it has ended the run; whatever ended it is said in one place, finish_run of run_end.
 module run_boxes
    use analysis_state, only: analysis_type, interface_stiffness, note_largest, start_analysis
+   use backbone, only: backbone_type, find_backbone
    use c_library, only: open_standard_outputs, tell_failed_writes
    use case_control, only: method_back, method_newton
    use command_line, only: command_type, deck_argument, is_result_of, read_command_line
@@ -26,11 +27,12 @@ module run_boxes
    use natural_modes, only: find_natural_modes, spectrum_type
    use newton_method, only: seat_joints
    use oscillating_structure, only: let_go, oscillating_type, start_oscillation
-   use progress, only: phase_build, phase_factor, phase_increments, phase_modes, phase_order, phase_recover, phase_write, &
-                       goes_on, has_errors, is_over, is_unreadable, is_unwritten, run_type, was_checked, would_overwrite
+   use progress, only: phase_backbone, phase_build, phase_factor, phase_increments, phase_modes, phase_order, phase_recover, &
+                       phase_write, goes_on, has_errors, is_over, is_unreadable, is_unwritten, run_type, was_checked, &
+                       would_overwrite
    use restart_file, only: open_restart_file, take_up, write_restart
-   use results, only: list_results => print_increment, print_modes, print_response, print_stage_results => print_stage, &
-                      remove_old_results, start_results
+   use results, only: list_results => print_increment, print_backbone, print_modes, print_response, &
+                      print_stage_results => print_stage, remove_old_results, start_results
    use run_end, only: end_program
    use stage_plan, only: factorisations_of, shows_bodies, stage_plan_type, vibration_plan_type, where_in_plan
    use vtu_bodies, only: write_piece
@@ -92,6 +94,7 @@ contains
       type(spectrum_type)    :: spectrum
       type(modes_type)       :: modes
       type(response_type)    :: response
+      type(backbone_type)    :: found
       class(equation_system), allocatable :: shifted
 
       call start_oscillation(model, analysis, system, wanted%on_loading, structure, run%failure)
@@ -102,6 +105,13 @@ contains
       end if
       call evaluate_modes(model, analysis, structure, wanted, spectrum, shifted, modes)
       call print_modes(model, plan, analysis%stage, modes, run%results)
+      if (allocated(wanted%backbone)) then
+         call run%progress%enter(phase_backbone)
+         call find_backbone(model, plan, analysis, system, structure%mass, modes, found, run%failure)
+         if (run%failure%raised) return
+         call print_backbone(model, plan, analysis%stage, found, run%results)
+         call run%progress%enter(phase_modes)
+      end if
       if (.not. allocated(wanted%response)) return
       call find_response(model, structure, wanted%response, modes, shifted, response, run%failure)
       if (.not. run%failure%raised) call print_response(plan, analysis%stage, response, run%results)
