@@ -1,0 +1,77 @@
+# BACKBONE against closed forms: a mass on interface elements, pushed along them or across.
+
+# backbone NAME COLUMN [AMPLITUDE NUMBER, 1 the smallest]; loss_of, frequency_of: expected figures as expressions of the amplitude there
+backbone() { awk -F, -v name="$2" -v row="${3:-1}" 'NR == 1 { for (i = 1; i <= NF; i++) if ($i == name) c = i } NR == row + 1 { print $c }' \
+                "$work/$1.backbone.csv"; }
+
+# pushed_mass NAME ELEMENTS LAW... : a mass of 0.02 on CJOINTs 1 to ELEMENTS of area 100, pressed by 130; the cards of their laws and more
+pushed_mass() { # NAME JAMPL CARDS [METHOD]
+   cards "$1" <<DECK
+METHOD = ${4:-NEWTON};SUBCASE 1;  LOAD = 10;  MODES = 5;  BACKBONE = 6;BEGIN BULK;GRID,1;FORCE,10,1,,1.0,0.0,-130.0
+CONM2,4,1,,0.02;EIGRL,5,,,2;$2;$3;ENDDATA
+DECK
+   run "$1"
+}
+
+# judge_rows NAME ROWS FREQUENCY LOSS: every row against awk expressions of the amplitude x; pi, mass, within 1E-6
+judge_rows() {
+   judge "$1" -F, -v rows="$2" 'function near(a, b) { return (a - b)^2 <= (1e-6*b)^2 + 1e-24 }
+      function max(a, b) { return a > b ? a : b }
+      function min(a, b) { return a < b ? a : b }
+      BEGIN { pi = atan2(0, -1); m = 0.02 }
+      NR == 1 { next }
+      { x = $3; k = '"$3"'; d = '"$4"'; n++
+        if (!near($4, sqrt(k/m)/(2*pi))) print "amplitude " x ": frequency " $4 ", expected " sqrt(k/m)/(2*pi)
+        if (!near($5, d/(pi*k*x*x))) print "amplitude " x ": loss factor " $5 ", expected " d/(pi*k*x*x) }
+      END { if (n != rows) print n " rows, expected " rows; print "checked " 2*n }' "$work/$1.backbone.csv"
+}
+joint='CJOINT,1,1,1,,100.0,0.0,-1.0;PJOINT,1,1,2,,0.2;JNORM,1,8.0-3,0.5,500.0'
+
+# ---- Jenkins: a spring 4000 that slips at 0.2*130 = 26, and a spring 1000 beside it. Before slip it is linear; beyond it the force at the
+# turning point is 26 + 1000 x, and the loop a parallelogram of 4*26 (x - 26/4000). The two amplitudes beside the slip limit are there too.
+for method in NEWTON STEP; do
+   pushed_mass jenkins JAMPL,6,1,0.1,21,0.001 "$joint;JSHEAR,2,40.0;CELAS2,2,1000.0,1,1" $method &&
+      judge_rows jenkins 21 'min(4000, 26/x) + 1000' '4*26*max(0, x - 26/4000)'
+done
+same 'Jenkins: elements that slip' "$(number "$(backbone jenkins slipping 13) + 2*($(backbone jenkins slipping 14))")" 2
+near 'Jenkins: the amplitudes' "$(backbone jenkins amplitude 11)" 0.1*10^-1.5 1e-8
+# any number of increments
+for n in 1 3 40; do
+   pushed_mass increments "JAMPL,6,1,0.1,21,0.001,,$n" "$joint;JSHEAR,2,40.0;CELAS2,2,1000.0,1,1" &&
+      judge_rows increments 21 'min(4000, 26/x) + 1000' '4*26*max(0, x - 26/4000)'
+done
+
+# ---- Iwan of two: elements side by side that slip at 0.1*65 and 0.3*65, stiffnesses 2500 and 1500; a spring 1000
+two='CJOINT,1,1,1,,100.0,0.0,-1.0;CJOINT,2,3,1,,100.0,0.0,-1.0;PJOINT,1,1,2,,0.1;PJOINT,3,1,4,,0.3;JNORM,1,8.0-3,0.5,500.0'
+pushed_mass iwan JAMPL,6,1,0.1,21,0.001 "$two;JSHEAR,2,25.0;JSHEAR,4,15.0;CELAS2,3,1000.0,1,1" && {
+   judge_rows iwan 21 'min(2500, 6.5/x) + min(1500, 19.5/x) + 1000' '4*6.5*max(0, x - 6.5/2500) + 4*19.5*max(0, x - 19.5/1500)'
+   # what each joint has of the loss at the largest amplitude
+   near 'Iwan of two: share of the first' "$(table iwan 'SHARE OF THE LOSS' | awk '$1 == "1.00000E-01" && $2 == 1 { print $3/100 }')" \
+      '6.5*(0.1 - 6.5/2500)/(6.5*(0.1 - 6.5/2500) + 19.5*(0.1 - 19.5/1500))' 1e-3
+}
+
+# ---- Masing: the loading curve A = a_1 d + a_2 d^2 + a_3 d^3, and B and C such that from the tips at d_0 the branches are twice as large
+# curves, tau = +-(A(d_0) - 2 A((d_0 -+ d)/2)): a secant A(d_0)/d_0, and a loss of -(4/3) a_2 d_0^3 - 2 a_3 d_0^4, times the area
+for x in 0.003 0.006 0.01 0.015; do
+   b=$(awk -v x=$x 'BEGIN { a1 = 100; a2 = -2e3; a3 = 1e4; b1 = a1 + a2*x + 0.75*a3*x^2; b2 = (a2 + 1.5*a3*x)/2
+      printf "+,%.15e,,%.15e,,%.15e;+,%.15e,,%.15e,,%.15e", b1, -b2, a3/4, b1, b2, a3/4 }')
+   pushed_mass masing "JAMPL,6,1,$x,1" "CJOINT,1,1,1,,100.0,0.0,-1.0;PJOINT,1,1,2;JNORM,1,8.0-3,0.5,500.0
+JSHEAR,2,100.0,,-2.0E3,,1.0E4;$b" &&
+      judge_rows masing 1 '100*(100 - 2e3*x + 1e4*x*x)' '100*(4/3*2e3*x^3 - 2*1e4*x^4)'
+done
+
+# ---- One-sided contact: a linear joint of stiffness 12500, pressed by its share of 130, and a spring 1000 across it. Beyond 130 upwards
+# the spring alone bears; half the distance of the turning points is x
+for n in 1 8; do
+   pushed_mass contact "JAMPL,6,1,0.2,21,0.005,,$n" \
+      'CJOINT,1,1,1,,100.0,0.0,-1.0;PJOINT,1,1;JNORM,1,8.0-3,1.0,125.0;CELAS2,2,1000.0,1,2;CELAS2,3,1.0E6,1,1' &&
+      judge_rows contact 21 'max(min(1, x*1e9), 0)*(x < 130/13500 ? 13500 : (2*x + 0.13 - 130/13500)/(1/13500 + 1e-3)/x)' 0
+done
+same 'contact: it opens' "$(backbone contact open 1) $(backbone contact open 21)" "0.0000000000000000E+000 1.0000000000000000E+000"
+
+# ---- Nothing but the joint bears: it slips at 26, and no amplitude beyond 26/4000 is in equilibrium; the largest that is stays
+pushed_mass limit JAMPL,6,1,0.1,11,0.001 "$joint;JSHEAR,2,40.0" && {
+   judge_rows limit 8 4000 0
+   near 'limit: the largest amplitude' "$(backbone limit amplitude 8)" 26/4000 1e-4
+   says 'limit: the listing says so' "$work/limit.out" 'WARNING: LARGER AMPLITUDES ARE NOT BORNE'
+}
