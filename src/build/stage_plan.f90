@@ -245,6 +245,13 @@ contains
       end do
       if (method == method_newton) n = 6*n
       if (method == method_back) n = 40*n
+      do s = 1, size(plan%stages) ! two loops and the way to them, some three iterations an increment, three trials an amplitude
+         if (.not. allocated(plan%stages(s)%vibration)) cycle
+         if (.not. allocated(plan%stages(s)%vibration%backbone)) cycle
+         associate (backbone => plan%stages(s)%vibration%backbone)
+            n = n + 3*3*9*backbone%increments*size(backbone%amplitudes)
+         end associate
+      end do
    end function factorisations_of
 
    !> Whether displacements, stresses or reactions of the bodies are printed after this increment.

@@ -215,7 +215,8 @@ contains
       real(wp), parameter :: weight(5) = [0.236926885056189_wp, 0.478628670499366_wp, 0.568888888888889_wp, 0.478628670499366_wp, &
                                           0.236926885056189_wp]
       type(element_state) :: begins, after
-      real(wp) :: tangent(3, 3), part(3), stick, slip, middle
+      real(wp), parameter :: near = 1.0e-7_wp ! of the way: the work is wrong by the square of that
+      real(wp) :: tangent(3, 3), part(3), stick, slip, middle, guess
       integer  :: i
 
       call follow_element(law, area, before, to, after, tangent, part)
@@ -223,8 +224,11 @@ contains
       if (.not. after%slips) return
       stick = 0.0_wp ! share of the way
       slip = 1.0_wp
-      do i = 1, 48
+      guess = 1.0_wp - norm2(after%shear%slid - before%shear%slid)/norm2(to(:2) - from(:2))
+      do i = 1, 26
+         if (slip - stick <= 2.0_wp*near) exit
          middle = 0.5_wp*(stick + slip)
+         if (i <= 2) middle = min(max(guess + merge(-near, near, i == 1), stick), slip)
          call follow_element(law, area, before, from + middle*(to - from), after, tangent, part)
          if (after%slips) slip = middle
          if (.not. after%slips) stick = middle

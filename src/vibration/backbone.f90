@@ -18,7 +18,7 @@ module backbone
 
    public :: find_backbone
 
-   real(wp), parameter :: reached = 1.0e-9_wp       ! of an amplitude: nearer none is sought
+   real(wp), parameter :: reached = 1.0e-7_wp       ! of an amplitude: nearer none is sought
    real(wp), parameter :: same = 1.0e-12_wp         ! of alpha: the loop jumps between two that are as near
    real(wp), parameter :: near_limit = 1.0e-4_wp    ! of alpha: so near the largest load that is borne is known
    integer, parameter  :: most_trials = 60

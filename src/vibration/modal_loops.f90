@@ -4,7 +4,8 @@
 !!
 !!    omega^2 = (alpha_+ - alpha_-)/(q_+ - q_-)     zeta = D/(2 pi omega^2 q^2), q = (q_+ - q_-)/2, D what the joints keep of the loop
 !!
-!! D is summed over the elements by the exact work of their laws, so that it needs no fine steps. What lies inside condensed bodies has its
+!! D is summed over the elements by the exact work of their laws, so that it needs no fine steps; without that of the forces at rest, which
+!! a closed loop does not have: preloads times what rounding leaves open would drown small loops. What lies inside condensed bodies has its
 !! share in q: K_gg^-1 of its forces, which is linear in alpha, so that an increment costs no recovery.
 !! Source: H. Festjens, G. Chevallier, J.-L. Dion, A numerical quasi-static method for the identification of frictional dissipation in
 !! bolted joints, ASME DETC 2012-70583 and Int. J. Solids Struct. 2013; R. M. Lacayo, M. S. Allen, Mech. Syst. Signal Process. 118 (2019)
@@ -31,6 +32,7 @@ module modal_loops
 
    real(wp), parameter :: settled = 0.01_wp          ! of the area of a loop: less is no change
    real(wp), parameter :: no_area = 1.0e-9_wp        ! of alpha q: rounding
+   real(wp), parameter :: negligible = 1.0e-6_wp     ! likewise: areas so small need not settle
    real(wp), parameter :: finest = 1.0e-13_wp        ! TOL beside the load that is held
 
    !> What the loops of one mode start from.
@@ -40,6 +42,7 @@ module modal_loops
       real(wp), allocatable :: condensed(:, :)       !! of it what retained nodes feel
       real(wp) :: inside = 0.0_wp                    !! q of the inside of the bodies, retained nodes at rest, for alpha = 1
       type(analysis_type)   :: rest                  !! the copy of the state, in equilibrium
+      real(wp), allocatable :: borne(:, :)           !! (3, n) forces of the interface elements there, in their axes
       type(stage_plan_type) :: plan
       class(equation_system), allocatable :: system
    end type push_type
@@ -73,6 +76,7 @@ contains
       type(failure_type), intent(inout)  :: failure
       real(wp), allocatable :: inside(:, :), felt(:, :)
       type(loop_type) :: none
+      integer :: e
 
       if (failure%raised) return
       allocate (push%system, source=system)
@@ -89,6 +93,12 @@ contains
       call recover_displacements(push%system, felt, 0.0_wp*push%condensed, inside)
       push%inside = sum(felt*inside)
       call swing(model, push, 0.0_wp, 0.0_wp, 1, push%rest, none, failure)
+      allocate (push%borne(3, size(model%interface)))
+      do e = 1, size(model%interface)
+         associate (state => push%rest%states(e))
+            push%borne(:, e) = [state%shear%tau*model%interface(e)%area, state%normal%sumf]
+         end associate
+      end do
    end subroutine start_push
 
    !> From alpha = BEGIN to END in N increments; what the joints do on the way goes to LOOP where it counts that.
@@ -123,9 +133,9 @@ contains
          loop%way = reshape([loop%way, begin + now%fraction*(end - begin), 0.0_wp], [2, size(loop%way, 2) + 1])
          loop%way(2, size(loop%way, 2)) = coordinate(push, now, loop%way(1, size(loop%way, 2)))
          do e = 1, size(model%interface)
-            associate (element => model%interface(e))
+            associate (element => model%interface(e), from => before%movement(:, e), to => now%movement(:, e))
                loop%lost(element%joint) = loop%lost(element%joint) + sum(work_along(model%joints(element%joint)%law, &
-                  element%area, before%states(e), before%movement(:, e), now%movement(:, e)))
+                  element%area, before%states(e), from, to)) - dot_product(push%borne(:, e), to - from)
             end associate
          end do
          loop%has_slipped = loop%has_slipped .or. now%states%slips
@@ -184,7 +194,7 @@ contains
          area = sum(loop%lost)
          loop%n_loops = loop%n_loops + 1
          if (loop%n_loops >= 2 + cycles) exit
-         if (loop%n_loops >= 2 .and. abs(area - area_before) <= max(settled*abs(area), no_area*alpha*(high - low))) exit
+         if (loop%n_loops >= 2 .and. abs(area - area_before) <= max(settled*abs(area), negligible*alpha*(high - low))) exit
       end do
       if (.not. failure%raised .and. .not. (low < 0.0_wp .and. high > 0.0_wp)) &
          call failure%raise('the oscillation leaves the state about which it began: both ends of the loop lie on one side of it')
