@@ -75,3 +75,65 @@ pushed_mass limit JAMPL,6,1,0.1,11,0.001 "$joint;JSHEAR,2,40.0" && {
    near 'limit: the largest amplitude' "$(backbone limit amplitude 8)" 26/4000 1e-4
    says 'limit: the listing says so' "$work/limit.out" 'WARNING: LARGER AMPLITUDES ARE NOT BORNE'
 }
+
+# ---- Against integration in time: free decay, whose frequency and decrement at each amplitude must be those of the backbone
+# decays_like NAME: the rows of ring_down.awk, NAME.rows, against the backbone of NAME, interpolated, within 2 %
+decays_like() {
+   judge "$1: free decay" -v name="$1" -F'[, ]' 'NR == FNR { if (FNR > 1) { x[++n] = log($3); f[n] = $4; d[n] = $5; if ($5 > largest) largest = $5 } next }
+      { a = log($1); for (i = 1; i < n - 1 && x[i + 1] < a; i++) ; w = (a - x[i])/(x[i + 1] - x[i])
+        if (w < 0 || w > 1) next
+        fb = f[i] + w*(f[i + 1] - f[i]); db = d[i] + w*(d[i + 1] - d[i])
+        if (db < 0.6*largest) next
+        rows++
+        if (($2/fb - 1)^2 > 0.02^2 || ($3/db - 1)^2 > 0.02^2) print "amplitude " $1 ": frequency " $2 ", loss " $3 "; backbone " fb ", " db }
+      END { if (rows < 5) print rows " rows"; print "checked " rows }' "$work/$1.backbone.csv" "$work/$1.rows"
+}
+pushed_mass decay JAMPL,6,1,1.0,41,0.1 "$joint;JSHEAR,2,1.0;CELAS2,2,4000.0,1,1" && {
+   printf 'mass 1 0.02\nspring 0 1 4000.0\nelement 0 1 100.0 26.0\nshape 1 1.0\n' |
+      awk -v V=400 -v step=1e-5 -v time=2.0 -v cycles=4 -v skip=1 -f tests/exact/ring_down.awk > "$work/decay.rows"
+   decays_like decay
+}
+
+# a lap joint: two bars of rods that lap over three nodes, pressed there by 40, 60 and 90, a spring beside the joint as a bolt is; fixed at
+# the left end; masses at the nodes
+lap_row() { # the row of masses for ring_down.awk, the shape from the file for ParaView: twelve vectors in the order of the nodes
+   local i shape
+   for i in 2 3 4 5 6 14 15 16 17 18 19; do echo "mass $i 1.0e-3"; done
+   echo 'spring 0 2 1e5'
+   for i in 2 3 4 5 14 15 16 17 18; do echo "spring $i $((i + 1)) 1e5"; done
+   printf 'spring 4 14 1e5\nelement 4 14 1000 8\nelement 5 15 1000 12\nelement 6 16 1000 18\n'
+}
+{
+   echo 'METHOD = NEWTON;SPC = 1;SUBCASE 1;  LOAD = 10;  MODES = 5;  BACKBONE = 6;BEGIN BULK;MAT1,1,1.0E5,,0.3;PROD,1,1,10.0'
+   for i in 1 2 3 4 5 6 14 15 16 17 18 19; do
+      echo "GRID,$i,,$((10*(i % 10)))"'.0,0.0;CONM2,'"10$i,$i,,1.0E-3"
+      case $i in 14|15|16) ;; *) echo "SPC1,1,2,$i" ;; esac
+   done
+   for i in 1 2 3 4 5 14 15 16 17 18; do echo "CROD,20$i,1,$i,$((i + 1))"; done
+   echo 'SPC1,1,1,1;JNORM,1,8.0-3,1.0,125.0;JSHEAR,2,10.0;CELAS2,301,1.0E5,4,1,14,1;PJOINT,1,1,2,,0.2;EIGRL,5,,,2;JAMPL,6,1,0.4,41,0.1'
+   for i in 4 5 6; do echo "CJOINT,$i,1,1$i,$i,100.0,0.0,-1.0"; done
+   echo 'FORCE,10,14,,40.0,0.0,-1.0;FORCE,10,15,,60.0,0.0,-1.0;FORCE,10,16,,90.0,0.0,-1.0;ENDDATA'
+} | cards lap
+run lap && {
+   { lap_row; lap_row | awk -f tests/exact/first_shape.awk; } |
+      awk -v V=350 -v step=2e-5 -v time=0.5 -v cycles=4 -v skip=1 -f tests/exact/ring_down.awk > "$work/lap.rows"
+   decays_like lap
+}
+
+# ---- Bodies: the bolted lap begins at the frequency of MODES; by the solver that condenses the bodies the same as by the one that does not
+run_input bolted_lap && {
+   near 'bolted lap: smallest amplitude' "$(backbone bolted_lap frequency 1)" "$(awk -F, '$2 == 1 { f = $3 } END { print f }' "$work/bolted_lap.modes.csv")" 1e-6
+   for solver in TREE SKYLINE; do
+      sed "s/^METHOD.*/&\nSOLVER = $solver/" input/bolted_lap.bdf > "$work/lap_$solver.bdf"
+      run lap_$solver
+   done
+   for row in 1 6 7 8 9; do
+      for figure in frequency loss_factor distortion; do
+         near "bolted lap, solvers: $figure of amplitude $row" "$(backbone lap_TREE $figure $row)" "$(backbone lap_SKYLINE $figure $row)" 1e-6 1e-9
+      done
+   done
+   # what goes on from a stage with BACKBONE is the same to the last byte
+   sed 's/^BEGIN BULK/SUBCASE 3\n  LABEL = ON\n&/' input/bolted_lap.bdf > "$work/goes_on.bdf"
+   sed '/BACKBONE/d' "$work/goes_on.bdf" > "$work/without.bdf"
+   run goes_on && run without && same 'what goes on is untouched' "$(cmp "$work/goes_on.joint.csv" "$work/without.joint.csv" && echo same)" same
+}
