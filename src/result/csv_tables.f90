@@ -21,15 +21,15 @@ module csv_tables
    private
 
    public :: write_headers, write_history, write_stage, write_bolts, write_modes, write_energies, write_response, &
-             write_backbone, write_loops
+             write_backbone, write_loops, write_answers
 
    ! the tables in the order of their endings
    integer, parameter, public :: joint_table = 1, stage_table = 2, bolt_table = 3, modes_table = 4, energy_table = 5, &
-                                 response_table = 6, backbone_table = 7, loop_table = 8
+                                 response_table = 6, backbone_table = 7, loop_table = 8, bend_table = 9
    character(*), parameter, public :: history_ending = '.joint.csv'
-   character(17), parameter, public :: table_endings(8) = [character(17) :: history_ending, '.stage.csv', '.bolt.csv', &
+   character(22), parameter, public :: table_endings(9) = [character(22) :: history_ending, '.stage.csv', '.bolt.csv', &
                                                            '.modes.csv', '.modes.energy.csv', '.response.csv', &
-                                                           '.backbone.csv', '.loop.csv']
+                                                           '.backbone.csv', '.loop.csv', '.backbone.response.csv']
 
    real(wp), parameter :: no_mass = 1.0e-12_wp ! of the structure's: rounding
 
@@ -52,6 +52,7 @@ contains
       call put(modes_table, 'stage,mode,frequency,omega,residual,mass_x,mass_y,mass_z,loss_factor')
       call put(energy_table, 'stage,mode,kind,id,normal,shear')
       call put(backbone_table, 'stage,mode,amplitude,frequency,loss_factor,slipping,open,distortion')
+      call put(bend_table, 'stage,mode,amplitude,below,phase_below,above,phase_above')
       call put(loop_table, 'stage,mode,amplitude,point,alpha,q')
       call put(response_table, 'stage,frequency,node,component,amplitude,phase')
 
@@ -334,6 +335,27 @@ contains
          end do
       end do
    end subroutine write_loops
+
+   !> The rows of STAGE: the response of the mode alone, its amplitudes ascending.
+   subroutine write_answers(file, stage, found)
+      type(output_file_type), intent(inout) :: file
+      integer, intent(in)                   :: stage
+      type(backbone_type), intent(in)       :: found
+      type(csv_line_type) :: line
+      integer :: i
+
+      if (.not. allocated(found%answers)) return
+      do i = 1, size(found%answers, 2)
+         line%length = 0
+         call line%add([stage, found%mode])
+         call line%add([found%answers(1, i)])
+         if (found%answers(2, i) >= 0.0_wp) call line%add(clean(found%answers(2:3, i)))
+         if (found%answers(2, i) < 0.0_wp) call line%add('')
+         if (found%answers(2, i) < 0.0_wp) call line%add('')
+         call line%add(found%answers(4:5, i))
+         call file%put(line%text(:line%length))
+      end do
+   end subroutine write_answers
 
    !> The rows of the ANSWER of STAGE: frequency by frequency, at each node by node, of each its components.
    subroutine write_response(file, stage, answer)

@@ -49,6 +49,7 @@ contains
             end associate
          end do
          if (size(model%joints) > 1) call list_shares(page, model, found)
+         if (allocated(found%answers)) call list_resonance(page, found)
       end if
       if (found%is_limited) then
          call page%file%put('  WARNING: LARGER AMPLITUDES ARE NOT BORNE; THE LAST ONE IS THAT OF THE LARGEST LOAD FOUND')
@@ -57,6 +58,25 @@ contains
          call page%file%put('  WARNING: NO BACKBONE: '//upper(found%problem))
       end if
    end subroutine list_backbone
+
+   !> Where the mode alone, of the backbone's frequency and loss, has its resonances under the load that oscillates.
+   subroutine list_resonance(page, found)
+      type(page_type), intent(inout)  :: page
+      type(backbone_type), intent(in) :: found
+      type(listing_table_type) :: table
+      integer :: i
+
+      call table%start('RESPONSE OF THIS MODE ALONE BY ITS BACKBONE: RESONANCES', &
+                       [column('AMPLITUDE', 'es14.5', page%labels%length), column('FREQUENCY', 'es14.5', '1/TIME')])
+      call table%print_head(page%file)
+      do i = 1, size(found%answers, 2)
+         if (found%answers(3, i) > -90.0_wp .or. found%answers(5, i) < -90.0_wp) cycle
+         call table%add(found%answers(1:2, i))
+         call table%print_row(page%file)
+      end do
+      if (.not. any(found%answers(3, :) <= -90.0_wp)) call page%file%put( &
+         '  NONE UP TO THE LARGEST AMPLITUDE: THE BRANCHES DO NOT MEET')
+   end subroutine list_resonance
 
    !> What every joint has of the loss.
    subroutine list_shares(page, model, found)

@@ -4,9 +4,9 @@ module results
    use answer_block, only: print_answer
    use backbone, only: backbone_type
    use c_library, only: close_file, lock_folder
-   use csv_tables, only: backbone_table, bolt_table, energy_table, history_ending, joint_table, loop_table, modes_table, &
-                         response_table, stage_table, table_endings, write_backbone, write_bolts, write_energies, write_headers, &
-                         write_history, write_loops, write_modes, write_response, write_stage
+   use csv_tables, only: backbone_table, bend_table, bolt_table, energy_table, history_ending, joint_table, loop_table, &
+                         modes_table, response_table, stage_table, table_endings, write_answers, write_backbone, write_bolts, &
+                         write_energies, write_headers, write_history, write_loops, write_modes, write_response, write_stage
    use deck_input, only: deck_type
    use distribution, only: subdomain_output_type, distribute_bodies
    use equation_solver, only: equation_system
@@ -77,6 +77,7 @@ contains
          if (any(i == [modes_table, energy_table]) .and. .not. any_modes(plan)) cycle
          if (any(i == [backbone_table, loop_table]) .and. .not. any_backbone(plan)) cycle
          if (i == response_table .and. .not. any_response(plan)) cycle
+         if (i == bend_table .and. .not. (any_backbone(plan) .and. any_response(plan))) cycle
          call results%tables(i)%start(base//trim(table_endings(i)))
          results%has_table(i) = .true.
          ok = ok .and. .not. results%tables(i)%failed()
@@ -162,6 +163,7 @@ contains
       if (results%base == '') return
       call write_backbone(results%tables(backbone_table), plan%stages(stage)%id, found)
       call write_loops(results%tables(loop_table), plan%stages(stage)%id, found)
+      if (allocated(found%answers)) call write_answers(results%tables(bend_table), plan%stages(stage)%id, found)
    end subroutine print_backbone
 
    !> The response to an oscillating load about that state.
@@ -290,7 +292,7 @@ contains
    pure logical function is_result_ending(ending)
       character(*), intent(in) :: ending
 
-      is_result_ending = any(ending == [character(17) :: listing_ending, restart_ending, table_endings]) .or. is_vtu_ending(ending)
+      is_result_ending = any(ending == [character(22) :: listing_ending, restart_ending, table_endings]) .or. is_vtu_ending(ending)
    end function is_result_ending
 
 end module results

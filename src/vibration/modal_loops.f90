@@ -19,7 +19,7 @@ module modal_loops
    use joint_laws, only: work_along
    use kinds, only: wp
    use load_path, only: hold_load, start_increment
-   use mass_matrix, only: mass_matrix_type, mass_times
+   use mass_matrix, only: form_mass, mass_matrix_type, mass_times
    use model_data, only: model_type
    use newton_method, only: newton_increment
    use node_coupling, only: displacements, forces_on_unknowns
@@ -44,6 +44,7 @@ module modal_loops
       type(analysis_type)   :: rest                  !! the copy of the state, in equilibrium
       real(wp), allocatable :: borne(:, :)           !! (3, n) forces of the interface elements there, in their axes
       type(stage_plan_type) :: plan
+      type(mass_matrix_type) :: mass
       class(equation_system), allocatable :: system
    end type push_type
 
@@ -65,12 +66,11 @@ module modal_loops
 contains
 
    !> A copy of ANALYSIS and SYSTEM, the load held, in equilibrium; the force of the mode whose shape is PHI.
-   subroutine start_push(model, plan, analysis, system, mass, phi, push, failure)
+   subroutine start_push(model, plan, analysis, system, phi, push, failure)
       type(model_type), intent(in)       :: model
       type(stage_plan_type), intent(in)  :: plan
       type(analysis_type), intent(in)    :: analysis
       class(equation_system), intent(in) :: system
-      type(mass_matrix_type), intent(in) :: mass
       real(wp), intent(in)               :: phi(:, :) !! generalised mass 1
       type(push_type), intent(out)       :: push
       type(failure_type), intent(inout)  :: failure
@@ -80,13 +80,15 @@ contains
 
       if (failure%raised) return
       allocate (push%system, source=system)
+      call push%system%forget_past()
+      call form_mass(model, push%mass)
       push%rest = analysis
       if (allocated(push%rest%exact)) deallocate (push%rest%exact)
       push%plan = plan
       push%phi = phi
       allocate (push%force, inside, mold=phi)
       allocate (push%condensed, mold=analysis%u)
-      call mass_times(model, mass, push%phi, push%force)
+      call mass_times(model, push%mass, push%phi, push%force)
       call hold_load(model, push%system, push%rest)
       felt = forces_on_unknowns(model, push%force)
       call condense_load(push%system, felt, push%condensed)
@@ -154,9 +156,8 @@ contains
 
    !> 0 -> ALPHA -> -ALPHA -> ALPHA, then the same loop again, and up to CYCLES times more until its area has settled. FAILURE where the
    !! structure does not bear ALPHA.
-   subroutine run_loops(model, mass, push, alpha, cycles, increments, loop, failure)
+   subroutine run_loops(model, push, alpha, cycles, increments, loop, failure)
       type(model_type), intent(in)       :: model
-      type(mass_matrix_type), intent(in) :: mass
       type(push_type), intent(inout)     :: push
       real(wp), intent(in)               :: alpha
       integer, intent(in)                :: cycles
@@ -210,14 +211,13 @@ contains
          loop%slipping = count(loop%has_slipped)/real(size(model%interface), wp)
          loop%open = count(loop%has_opened)/real(size(model%interface), wp)
       end if
-      loop%distortion = distortion_of(model, mass, push, 0.5_wp*(now%u - u_low), loop)
+      loop%distortion = distortion_of(model, push, 0.5_wp*(now%u - u_low), loop)
    end subroutine run_loops
 
    !> Share of the movement U of retained nodes, half of that between the turning points, that is not phi: |d - q phi|/|d|, d the movement
    !! of all nodes, in the norm of [M] [-].
-   function distortion_of(model, mass, push, u, loop) result(share)
+   function distortion_of(model, push, u, loop) result(share)
       type(model_type), intent(in)       :: model
-      type(mass_matrix_type), intent(in) :: mass
       type(push_type), intent(in)        :: push
       real(wp), intent(in)               :: u(:, :)
       type(loop_type), intent(in)        :: loop
@@ -228,9 +228,9 @@ contains
       call recover_displacements(push%system, forces_on_unknowns(model, loop%alpha*push%force), u, d)
       d = displacements(model, d)
       other = d - loop%q*push%phi
-      call mass_times(model, mass, other, f)
+      call mass_times(model, push%mass, other, f)
       share = max(0.0_wp, sum(other*f))
-      call mass_times(model, mass, d, f)
+      call mass_times(model, push%mass, d, f)
       share = sqrt(share/sum(d*f))
    end function distortion_of
 
