@@ -137,3 +137,20 @@ run_input bolted_lap && {
    sed '/BACKBONE/d' "$work/goes_on.bdf" > "$work/without.bdf"
    run goes_on && run without && same 'what goes on is untouched' "$(cmp "$work/goes_on.joint.csv" "$work/without.joint.csv" && echo same)" same
 }
+
+# ---- Response of the mode alone: Jenkins under 20 cos(omega t), (20/x)^2 = (k - m omega^2)^2 + (D/(pi x^2))^2 with k, D of the loop, both
+# branches; at resonance 4*26 (x - x_s) = pi x 20
+pushed_mass bend JAMPL,6,1,0.1,201,0.001 "$joint;JSHEAR,2,40.0;CELAS2,2,1000.0,1,1" && {
+   sed -i 's/^METHOD.*/&\nSET 1 = 1/; s/^  MODES.*/&\n  AMPLITUDE = 0.01\n  FREQUENCY = 7\n  DLOAD = 20\n  RESPONSE = SET 1/; s/^EIGRL.*/&\nFREQ1,7,10.0,10.0,10\nFORCE,20,1,,20.0,1.0,0.0/' \
+      "$work/bend.bdf"
+   run bend && judge 'response by the backbone' -F, 'NR == 1 { pi = atan2(0, -1); xs = 26/4000; next }
+      ($3/xs - 1)^2 < 0.04^2 { next } # a kink between two amplitudes
+      { x = $3; k = x < xs ? 5000 : 26/x + 1000; d = x < xs ? 0 : 4*26*(x - xs)/(pi*x*x)
+        if ($4 == $6) { peaks++; if ((x*(1 - pi*20/(4*26))/xs - 1)^2 > 1e-6) print "resonance at amplitude " x ", expected " xs/(1 - pi*20/(4*26)); next }
+        b = sqrt((20/x)^2 - d^2); n++
+        if (((sqrt((k + b)/0.02)/(2*pi))/$6 - 1)^2 > 1e-6) print "amplitude " x ": above " $6 ", expected " sqrt((k + b)/0.02)/(2*pi)
+        if ($4 != "" && ((sqrt((k - b)/0.02)/(2*pi))/$4 - 1)^2 > 1e-4) print "amplitude " x ": below " $4 ", expected " sqrt((k - b)/0.02)/(2*pi)
+        if ($7 + $5 + 180 > 1e-9 && $4 != "") print "phases " $5 ", " $7 }
+      END { if (peaks != 1 || n < 1000) print peaks " peaks, " n " rows"; print "checked " n + peaks }' "$work/bend.backbone.response.csv"
+   says 'response by the backbone: the listing' "$work/bend.out" 'RESPONSE OF THIS MODE ALONE BY ITS BACKBONE'
+}
