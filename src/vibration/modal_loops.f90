@@ -33,6 +33,7 @@ module modal_loops
    real(wp), parameter :: settled = 0.01_wp          ! of the area of a loop: less is no change
    real(wp), parameter :: no_area = 1.0e-9_wp        ! of alpha q: rounding
    real(wp), parameter :: negligible = 1.0e-6_wp     ! likewise: areas so small need not settle
+   real(wp), parameter :: exact = 1.0e-10_wp         ! TOL at most
    real(wp), parameter :: finest = 1.0e-13_wp        ! TOL beside the load that is held
 
    !> What the loops of one mode start from.
@@ -84,6 +85,8 @@ contains
       call form_mass(model, push%mass)
       push%rest = analysis
       if (allocated(push%rest%exact)) deallocate (push%rest%exact)
+      push%rest%tolerance = push%rest%tolerance*min(1.0_wp, exact/push%rest%load_tolerance) ! TOL of BACK is of pressures
+      push%rest%load_tolerance = min(exact, push%rest%load_tolerance)
       push%plan = plan
       push%phi = phi
       allocate (push%force, inside, mold=phi)
