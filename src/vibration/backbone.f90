@@ -71,6 +71,7 @@ contains
 
       associate (wanted => plan%stages(analysis%stage)%vibration%backbone)
          call choose_mode(model, modes, wanted, found)
+         if (index(system%description%name, 'PETSC') == 1) found%problem = 'IT NEEDS SOLVER = TREE OR SKYLINE'
          if (found%problem /= '') return
          associate (mode => modes%modes(wanted%mode - modes%n_before))
             call start_push(model, plan, analysis, system, mode%u/sqrt(mode%mass), push, failure)
