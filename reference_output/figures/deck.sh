@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Pictures of any deck: of its joints from their history, pressure and deflection along the joint, loops; of its response to loads
-# that oscillate, amplitude over frequency. Needs gnuplot.
+# that oscillate, amplitude over frequency; of its backbones. Needs gnuplot.
 #
 #    deck.sh PROGRAM DECK WORK_FOLDER
 set -u
@@ -23,9 +23,10 @@ awk -v folder="$tables" -f "$here/joint_tables.awk" "$work/$name.joint.csv" || e
 if [ -s "$work/$name.response.csv" ]; then
    awk -v folder="$tables" -f "$here/response_tables.awk" "$work/$name.response.csv" || exit 1
 fi
-[ -s "$tables/joints" ] || [ -s "$tables/responses" ] ||
+[ ! -s "$work/$name.backbone.csv" ] || awk -F, 'NR > 1 && !seen[$1]++ { print $1 }' "$work/$name.backbone.csv" > "$tables/backbones"
+[ -s "$tables/joints" ] || [ -s "$tables/responses" ] || [ -s "$tables/backbones" ] ||
    { echo "$deck has no joint, nor a response: nothing is drawn"; exit 1; }
-touch "$tables/joints" "$tables/responses"
+touch "$tables/joints" "$tables/responses" "$tables/backbones"
 # in the listing: UNITS, LABELS ONLY: LENGTH MM, FORCE KGF
 read -r length force <<< "$(sed -n 's/^ *UNITS, LABELS ONLY: LENGTH \([^,]*\), FORCE \(.*\)/\1 \2/p' "$work/$name.out" |
    tr 'A-Z' 'a-z' | sed -E 's/ ([km]?)n *$/ \1N/; q')"
@@ -52,3 +53,8 @@ done < "$tables/joints"
 while read -r stage; do
    draw "$work/$name.response.$stage.png" "stage = '$stage'" response.inc
 done < "$tables/responses"
+while read -r stage; do
+   for picture in backbone loops; do
+      draw "$work/$name.$picture.$stage.png" "stage = '$stage'; folder = $(quoted "$work/")" $picture.inc
+   done
+done < "$tables/backbones"

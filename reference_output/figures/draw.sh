@@ -70,6 +70,11 @@ sed -i -E 's/^\+ +20$/+,,,,,20,,1/; /^P?JOINT/d; /^JNORM/d; /^JSHEAR/d; /^\+ +75
 column 8000 > "$work/welded.csv"
 "$program" -q -o "$work" input/column_modes_08.bdf > /dev/null 2>&1
 
+# the bolted lap: its backbone, and three loops in more increments
+"$program" -q -o "$work" input/bolted_lap.bdf > /dev/null 2>&1
+sed -E 's/^JAMPL.*/JAMPL,6,1,1.0,3,0.03,2,16/' input/bolted_lap.bdf > "$work/bolted_loops.bdf"
+"$program" -q -o "$work" "$work/bolted_loops.bdf" > /dev/null 2>&1
+
 for chart in a b c; do
    awk -v title="Fig. 6($chart)" -f "$here/chart.awk" "$here/README.md" > "$here/fig6$chart.svg"
    echo "$here/fig6$chart.svg"

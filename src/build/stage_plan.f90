@@ -11,8 +11,8 @@ module stage_plan
    implicit none
    private
 
-   public :: loss_at, asked_frequencies, merged, any_modes, any_response, plan_stages, where_in_plan, factorisations_of, &
-             shows_bodies
+   public :: loss_at, asked_frequencies, merged, any_modes, any_backbone, any_response, plan_stages, where_in_plan, &
+             factorisations_of, shows_bodies
 
    real(wp), parameter :: critical_quality = 0.5_wp ! Q of critical damping
    real(wp), parameter :: same_frequency = 1.0e-9_wp ! of the largest: what is nearer is one
@@ -41,6 +41,15 @@ module stage_plan
       logical :: is_structural = .false.      !! KDAMP = -1: it is structural damping
    end type response_plan
 
+   !> BACKBONE of a stage: the mode that is followed through loops of growing amplitude.
+   type, public :: backbone_plan
+      integer  :: mode = 0                    !! its number in the table of frequencies
+      real(wp), allocatable :: amplitudes(:)  !! ascending [length]
+      integer  :: cycles = 0                  !! loops at most, beyond the second
+      integer  :: increments = 0              !! from rest to a turning point
+      integer  :: node = 0                    !! position of the node whose displacement they are, 0: of the one that moves most
+   end type backbone_plan
+
    !> MODES of a stage.
    type, public :: vibration_plan_type
       integer  :: id = 0                      !! of the EIGRL
@@ -54,6 +63,7 @@ module stage_plan
       real(wp) :: amplitude = 0.0_wp          !! largest displacement for the loss factors of the joints [length]; 0: none
       real(wp) :: damping = 0.0_wp            !! PARAM G, structural damping of everything [-]
       logical  :: has_losses = .false.        !! modes have loss factors: by an amplitude, PARAM G or GE
+      type(backbone_plan), allocatable :: backbone
       type(response_plan), allocatable :: response
    end type vibration_plan_type
 
@@ -192,6 +202,17 @@ contains
       any_modes = any([(allocated(plan%stages(s)%vibration), s = 1, size(plan%stages))])
    end function any_modes
 
+   !> Whether a backbone is asked for after any stage.
+   pure logical function any_backbone(plan)
+      type(stage_plan_type), intent(in) :: plan
+      integer :: s
+
+      any_backbone = .false.
+      do s = 1, size(plan%stages)
+         if (allocated(plan%stages(s)%vibration)) any_backbone = any_backbone .or. allocated(plan%stages(s)%vibration%backbone)
+      end do
+   end function any_backbone
+
    !> Whether the response to an oscillating load is asked for after any stage.
    pure logical function any_response(plan)
       type(stage_plan_type), intent(in) :: plan
@@ -224,6 +245,13 @@ contains
       end do
       if (method == method_newton) n = 6*n
       if (method == method_back) n = 40*n
+      do s = 1, size(plan%stages) ! two loops and the way to them, some three iterations an increment, three trials an amplitude
+         if (.not. allocated(plan%stages(s)%vibration)) cycle
+         if (.not. allocated(plan%stages(s)%vibration%backbone)) cycle
+         associate (backbone => plan%stages(s)%vibration%backbone)
+            n = n + 3*3*9*backbone%increments*size(backbone%amplitudes)
+         end associate
+      end do
    end function factorisations_of
 
    !> Whether displacements, stresses or reactions of the bodies are printed after this increment.

@@ -9,7 +9,7 @@ module vibration_build
    use deck_input, only: deck_type
    use kinds, only: wp
    use model_data, only: model_type, stage_load_type
-   use stage_plan, only: stage_plan_type, frequency_spread, merged, response_plan, vibration_plan_type
+   use stage_plan, only: stage_plan_type, backbone_plan, frequency_spread, merged, response_plan, vibration_plan_type
    use surface_sides, only: nodes_of
    use text_tools, only: integer_text
    use stage_entries, only: vibration_entries_type
@@ -34,6 +34,7 @@ contains
             if (asked%modes%id == 0) cycle
             allocate (plan%stages(s)%vibration)
             call plan_modes(deck, model, asked, plan%stages(s)%vibration)
+            if (asked%backbone%id > 0) call plan_backbone(deck, model, asked, plan%stages(s)%vibration)
             if (asked%frequency%id == 0) cycle
             if (asked%damping%id == 0 .and. .not. plan%stages(s)%vibration%has_losses .and. asked%frequency%line /= undamped) then
                undamped = asked%frequency%line ! once of an entry that stands above all stages
@@ -76,6 +77,42 @@ contains
          vibration%unit_mass = card%unit_mass
       end associate
    end subroutine plan_modes
+
+   !> BACKBONE of one stage: the amplitudes ascending.
+   subroutine plan_backbone(deck, model, asked, vibration)
+      type(checked_deck), intent(in)           :: deck
+      type(model_type), intent(in)             :: model
+      type(vibration_entries_type), intent(in) :: asked
+      type(vibration_plan_type), intent(inout) :: vibration
+      type(backbone_plan) :: backbone
+      integer :: k, i
+
+      if (asked%free) call deck%errors%add(asked%backbone%line, &
+         'BACKBONE: expected MODES = set beside it, not MODES(FREE): a load on a structure without supports has no equilibrium')
+      k = findloc(deck%bulk%jampl%id, asked%backbone%id, dim=1)
+      if (k == 0) then
+         call deck%errors%add(asked%backbone%line, 'BACKBONE: there is no JAMPL '//integer_text(asked%backbone%id))
+         return
+      end if
+      associate (card => deck%bulk%jampl(k))
+         backbone%mode = card%mode
+         backbone%cycles = card%cycles
+         backbone%increments = card%increments
+         backbone%amplitudes = [(card%largest*card%ratio**(real(card%n - i, wp)/max(1, card%n - 1)), i = 1, card%n)]
+         if (vibration%most > 0 .and. .not. vibration%has_lowest .and. card%mode > vibration%most) &
+            call deck%errors%add(card%line, 'JAMPL: mode '//integer_text(card%mode)//' is not among the '// &
+                                 integer_text(vibration%most)//' lowest that EIGRL '//integer_text(vibration%id)//' asks for')
+         if (card%node > 0) then
+            backbone%node = findloc(model%node_id, card%node, dim=1)
+            if (backbone%node > 0) then
+               if (.not. model%used(backbone%node)) backbone%node = 0
+            end if
+            if (backbone%node == 0 .and. .not. deck%errors%any()) call deck%errors%add(card%line, &
+               'JAMPL: GID '//integer_text(card%node)//' is no node that an element holds')
+         end if
+      end associate
+      vibration%backbone = backbone
+   end subroutine plan_backbone
 
    !> Whether materials, or PARAM G, have structural damping.
    pure logical function is_damped(deck, model)

@@ -264,6 +264,15 @@ module bulk_data
       logical  :: unit_mass = .true.                    ! NORM = MASS
    end type eigrl_card
 
+   !> JAMPL: N amplitudes of MODE in geometric progression, from LARGEST down to RATIO times that.
+   type, public :: jampl_card
+      integer  :: line = 0, id = 0, mode = 0, n = 0
+      real(wp) :: largest = 0.0_wp, ratio = 0.0_wp
+      integer  :: cycles = 0                            ! at most, beyond the second loop
+      integer  :: increments = 0                        ! from rest to a turning point
+      integer  :: node = 0                              ! whose displacement the amplitude is, 0: of the one that moves most
+   end type jampl_card
+
    !> FREQ4: N frequencies from 1 - SPREAD to 1 + SPREAD times that of every mode from LOWEST to HIGHEST.
    type, public :: freq4_card
       integer  :: line = 0, set = 0, n = 0
@@ -322,6 +331,7 @@ module bulk_data
       type(jgap_card), allocatable         :: jgap(:)
       type(jincr_card), allocatable        :: jincr(:)
       type(eigrl_card), allocatable        :: eigrl(:)
+      type(jampl_card), allocatable        :: jampl(:)
       type(freq1_card), allocatable        :: freq1(:)
       type(freq4_card), allocatable        :: freq4(:)
       type(tabdmp1_card), allocatable      :: tabdmp1(:)

@@ -108,6 +108,7 @@ contains
          call self%report_repeated('JGAP of joint', bulk%jgap%joint, bulk%jgap%line)
          call self%report_repeated('JINCR', bulk%jincr%id, bulk%jincr%line)
          call self%report_repeated('EIGRL', bulk%eigrl%id, bulk%eigrl%line)
+         call self%report_repeated('JAMPL', bulk%jampl%id, bulk%jampl%line)
          call self%report_repeated('TABDMP1', bulk%tabdmp1%id, bulk%tabdmp1%line)
          do i = 1, size(bulk%joint)
             call check_law(bulk%joint(i)%line, bulk%joint(i)%law)

@@ -18,7 +18,7 @@ module deck_input
    use rigid_cards, only: read_equation, read_rigid
    use spring_cards, only: read_mass, read_spring, read_spring_property
    use support_cards, only: read_displacement, read_sum, read_support
-   use vibration_cards, only: read_eigrl, read_freq1, read_freq4, read_tabdmp1
+   use vibration_cards, only: read_eigrl, read_freq1, read_freq4, read_jampl, read_tabdmp1
    implicit none
    private
 
@@ -79,6 +79,7 @@ contains
       call cards%add_kinds(['JGAP'], read_jgap)
       call cards%add_kinds(['JINCR'], read_jincr)
       call cards%add_kinds(['EIGRL'], read_eigrl)
+      call cards%add_kinds(['JAMPL'], read_jampl)
       call cards%add_kinds(['FREQ1'], read_freq1)
       call cards%add_kinds(['FREQ4'], read_freq4)
       call cards%add_kinds(['TABDMP1'], read_tabdmp1)
@@ -102,6 +103,7 @@ contains
          bulk%bolt(cards%n_of('BOLT')), bulk%joint(cards%n_of('JOINT')), bulk%cjoint(cards%n_of('CJOINT')), &
          bulk%pjoint(cards%n_of('PJOINT')), bulk%jnorm(cards%n_of('JNORM')), bulk%jshear(cards%n_of('JSHEAR')), &
          bulk%jgap(cards%n_of('JGAP')), bulk%jincr(cards%n_of('JINCR')), bulk%eigrl(cards%n_of('EIGRL')), &
+         bulk%jampl(cards%n_of('JAMPL')), &
          bulk%freq1(cards%n_of('FREQ1')), bulk%freq4(cards%n_of('FREQ4')), bulk%tabdmp1(cards%n_of('TABDMP1')))
    end subroutine make_room
 

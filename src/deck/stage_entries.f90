@@ -14,7 +14,7 @@ module stage_entries
 
    integer, parameter, public :: output_none = 0, output_last = 1, output_joint = 2, output_all = 3 !! OUTPUT =
 
-   integer, parameter :: modes = 1, stiffness = 2, frequency = 4, dload = 5, response = 7 ! of KEYS
+   integer, parameter :: modes = 1, stiffness = 2, frequency = 5, dload = 6, response = 8 ! of KEYS
    character(11), parameter :: keys(*) = stage_keys(findloc(stage_keys, 'MODES', dim=1):)
 
    !> How one stage asks the structure to oscillate.
@@ -24,6 +24,7 @@ module stage_entries
       logical  :: free = .false.              !! MODES(FREE)
       logical  :: on_loading = .false.        !! STIFFNESS = LOAD
       real(wp) :: amplitude = 0.0_wp          !! [length], 0: not given
+      type(set_reference) :: backbone         !! JAMPL
       type(set_reference) :: frequency        !! FREQ1, FREQ4
       type(set_reference) :: load             !! set of the load that oscillates
       type(set_reference) :: damping          !! TABDMP1
@@ -94,6 +95,8 @@ contains
             if (ok) return
             asked%amplitude = 1.0_wp ! that nothing more is said of it
             call value_error(entry, 'a real number above 0, the largest displacement of the oscillation', errors)
+         case ('BACKBONE')
+            call read_number(entry, asked%backbone, errors)
          case ('FREQUENCY')
             call read_number(entry, asked%frequency, errors)
          case ('DLOAD')

@@ -1,4 +1,4 @@
-!> The cards of oscillation: EIGRL, FREQ1, FREQ4, TABDMP1.
+!> The cards of oscillation: EIGRL, JAMPL, FREQ1, FREQ4, TABDMP1.
 module vibration_cards
    use bulk_data, only: bulk_data_type, tabdmp1_card
    use card_fields, only: card_fields_type
@@ -8,9 +8,10 @@ module vibration_cards
    implicit none
    private
 
-   public :: read_eigrl, read_freq1, read_freq4, read_tabdmp1
+   public :: read_eigrl, read_jampl, read_freq1, read_freq4, read_tabdmp1
 
    integer, parameter :: most_frequencies = 100000 ! of one FREQ1, and of one mode by FREQ4
+   integer, parameter :: most_amplitudes = 1000    ! of one JAMPL, and increments to one of them
    integer, parameter :: list_from = 9             ! data field in which the list of a TABDMP1 begins
 
 contains
@@ -36,6 +37,24 @@ contains
          if (eigrl%has_lowest .and. eigrl%has_highest) call check_range(card, eigrl%lowest, eigrl%highest, 'V')
       end associate
    end subroutine read_eigrl
+
+   !> JAMPL: the amplitudes at which BACKBONE follows a mode through its loops.
+   subroutine read_jampl(card, bulk)
+      type(card_fields_type), intent(inout) :: card
+      type(bulk_data_type), intent(inout)   :: bulk
+
+      associate (jampl => bulk%jampl(card%i))
+         call card%field('SID', jampl%id)
+         call card%field('MODE', jampl%mode, default=1)
+         call card%field('AMAX', jampl%largest, positive)
+         call card%field('N', jampl%n, default=10, most=most_amplitudes)
+         call card%field('RATIO', jampl%ratio, real_range(0.0_wp, 1.0_wp, above=.true., below=.true.), default=0.01_wp)
+         call card%field('CYCLES', jampl%cycles, default=5, least=0)
+         call card%field('INCS', jampl%increments, default=8, most=most_amplitudes)
+         call card%field('GID', jampl%node, default=0)
+         call card%finish(jampl%line)
+      end associate
+   end subroutine read_jampl
 
    !> The range from LOWEST, field NAME1, to HIGHEST, NAME2, must not be empty.
    subroutine check_range(card, lowest, highest, name)

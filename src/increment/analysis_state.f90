@@ -120,6 +120,7 @@ module analysis_state
       real(wp) :: largest_p = 0.0_wp                !! pressure or shear stress so far, anywhere: the measure of noise
       real(wp) :: largest_lambda = 0.0_wp           !! deflection so far, likewise
       real(wp) :: largest_load = 0.0_wp             !! on the structure or on the joints so far [force]
+      real(wp), allocatable :: kept(:, :)           !! of a backbone at the end of this stage what is done, a column a loop
       type(increment_record) :: record
    end type analysis_type
 

@@ -13,7 +13,7 @@ module load_path
    implicit none
    private
 
-   public :: start_stage, start_increment, go_back, recover_bodies, support_force
+   public :: start_stage, hold_load, start_increment, go_back, recover_bodies, support_force
 
 contains
 
@@ -69,6 +69,23 @@ contains
       analysis%now%condensed_load = analysis%before%condensed_load
       call forces_in_bodies(system, analysis%u, analysis%body)
    end subroutine start_stage
+
+   !> The structure as the next stage finds it, its load held: bolts locked, the load the same before and after.
+   subroutine hold_load(model, system, analysis)
+      type(model_type), intent(in)          :: model
+      class(equation_system), intent(inout) :: system
+      type(analysis_type), intent(inout)    :: analysis
+      integer :: i
+
+      call lock_bolts(model, system, analysis)
+      analysis%carry = .false.
+      analysis%is_moved = .false.
+      analysis%loaded = [(i, i = 1, model%n_nodes)]
+      call condense(model, system, analysis%is_elastic, analysis%now)
+      analysis%before = analysis%now
+      analysis%after = analysis%now
+      call forces_in_bodies(system, analysis%u, analysis%body)
+   end subroutine hold_load
 
    !> What retained unknowns feel of the load AT an instant, where held ones are moved.
    subroutine condense(model, system, is_elastic, at)

@@ -10,7 +10,7 @@ module joint_laws
    implicit none
    private
 
-   public :: stiffness_at_rest, shear_pressure, open_or_close, follow_element, rest_when_open, is_apart
+   public :: stiffness_at_rest, shear_pressure, open_or_close, follow_element, work_along, rest_when_open, is_apart
    public :: friction_limit, friction_excess, exceeds_limit, stand_at_limits
    public :: back_stiffness, loading_work
 
@@ -200,6 +200,47 @@ contains
       work(1) = sum(0.5_wp*area*(before%shear%tau + after%shear%tau)*(after%shear%delta - before%shear%delta)) - work(3)
       call stand_at_limits(law, after)
    end subroutine follow_element
+
+   !> Work that an element takes (tangentially, along its normal) on the straight way from its state BEFORE, at the movement FROM, to the
+   !! movement TO [force x length]. follow_element takes the mean of the stresses where slip begins on the way; here that point is found.
+   !! On the way without slip the work is that of the laws, behind it five Gauss points integrate the stress.
+   pure function work_along(law, area, before, from, to) result(work)
+      type(joint_law), intent(in)     :: law
+      real(wp), intent(in)            :: area
+      type(element_state), intent(in) :: before
+      real(wp), intent(in)            :: from(3), to(3) !! of end 1 against end 2, in all [length]
+      real(wp) :: work(2)
+      real(wp), parameter :: point(5) = [-0.906179845938664_wp, -0.538469310105683_wp, 0.0_wp, 0.538469310105683_wp, &
+                                         0.906179845938664_wp]
+      real(wp), parameter :: weight(5) = [0.236926885056189_wp, 0.478628670499366_wp, 0.568888888888889_wp, 0.478628670499366_wp, &
+                                          0.236926885056189_wp]
+      type(element_state) :: begins, after
+      real(wp), parameter :: near = 1.0e-7_wp ! of the way: the work is wrong by the square of that
+      real(wp) :: tangent(3, 3), part(3), stick, slip, middle, guess
+      integer  :: i
+
+      call follow_element(law, area, before, to, after, tangent, part)
+      work = part(:2)
+      if (.not. after%slips) return
+      stick = 0.0_wp ! share of the way
+      slip = 1.0_wp
+      guess = 1.0_wp - norm2(after%shear%slid - before%shear%slid)/norm2(to(:2) - from(:2))
+      do i = 1, 26
+         if (slip - stick <= 2.0_wp*near) exit
+         middle = 0.5_wp*(stick + slip)
+         if (i <= 2) middle = min(max(guess + merge(-near, near, i == 1), stick), slip)
+         call follow_element(law, area, before, from + middle*(to - from), after, tangent, part)
+         if (after%slips) slip = middle
+         if (.not. after%slips) stick = middle
+      end do
+      call follow_element(law, area, before, from + stick*(to - from), begins, tangent, part)
+      work(1) = part(1)
+      do i = 1, size(point)
+         slip = stick + 0.5_wp*(1.0_wp + point(i))*(1.0_wp - stick)
+         call follow_element(law, area, begins, from + slip*(to - from), after, tangent, part)
+         work(1) = work(1) + 0.5_wp*weight(i)*(1.0_wp - stick)*area*dot_product(after%shear%tau, to(:2) - from(:2))
+      end do
+   end function work_along
 
    !> BACK: secants K = (k_sx, k_sy, k_n) of the loading curves at the DEFLECTION: p(lambda)/lambda, P(d)/d under this p and cut to
    !! the Coulomb limit, times the area [force/length]; none where the element is open.

@@ -1,11 +1,14 @@
 !> The tables beside the listing, in full precision; a field is empty where there is nothing to say. NAME.joint.csv: every interface
 !! element after every increment; NAME.stage.csv: the answer of every stage, a row a joint; NAME.bolt.csv: every bolt after every
 !! increment; NAME.modes.csv: the natural modes of every stage that asks for them; NAME.modes.energy.csv: the shares of their strain
-!! energy; NAME.response.csv: amplitude and phase of the nodes asked, over the frequency of a load that oscillates.
+!! energy; NAME.response.csv: amplitude and phase of the nodes asked, over the frequency of a load that oscillates;
+!! NAME.backbone.csv and NAME.loop.csv: frequency and loss of a mode over its amplitude, and the loops that they are read from.
 module csv_tables
    use analysis_state, only: analysis_type
    use interface_operator, only: at_first_end
+   use element_mapping, only: two_pi
    use kinds, only: wp
+   use backbone, only: backbone_type
    use modal_response, only: response_type
    use mode_values, only: modes_type
    use model_data, only: has_gaps, joint_node_id, model_type
@@ -17,14 +20,16 @@ module csv_tables
    implicit none
    private
 
-   public :: write_headers, write_history, write_stage, write_bolts, write_modes, write_energies, write_response
+   public :: write_headers, write_history, write_stage, write_bolts, write_modes, write_energies, write_response, &
+             write_backbone, write_loops, write_answers
 
    ! the tables in the order of their endings
    integer, parameter, public :: joint_table = 1, stage_table = 2, bolt_table = 3, modes_table = 4, energy_table = 5, &
-                                 response_table = 6
+                                 response_table = 6, backbone_table = 7, loop_table = 8, bend_table = 9
    character(*), parameter, public :: history_ending = '.joint.csv'
-   character(17), parameter, public :: table_endings(6) = [character(17) :: history_ending, '.stage.csv', '.bolt.csv', &
-                                                           '.modes.csv', '.modes.energy.csv', '.response.csv']
+   character(22), parameter, public :: table_endings(9) = [character(22) :: history_ending, '.stage.csv', '.bolt.csv', &
+                                                           '.modes.csv', '.modes.energy.csv', '.response.csv', &
+                                                           '.backbone.csv', '.loop.csv', '.backbone.response.csv']
 
    real(wp), parameter :: no_mass = 1.0e-12_wp ! of the structure's: rounding
 
@@ -46,6 +51,9 @@ contains
       call put(bolt_table, 'stage,increment,load,bolt,force,change,load_change,ratio,bending,longer,element,surface')
       call put(modes_table, 'stage,mode,frequency,omega,residual,mass_x,mass_y,mass_z,loss_factor')
       call put(energy_table, 'stage,mode,kind,id,normal,shear')
+      call put(backbone_table, 'stage,mode,amplitude,frequency,loss_factor,slipping,open,distortion')
+      call put(bend_table, 'stage,mode,amplitude,below,phase_below,above,phase_above')
+      call put(loop_table, 'stage,mode,amplitude,point,alpha,q')
       call put(response_table, 'stage,frequency,node,component,amplitude,phase')
 
    contains
@@ -288,6 +296,66 @@ contains
       end subroutine put
 
    end subroutine write_energies
+
+   !> The rows of STAGE: an amplitude each.
+   subroutine write_backbone(file, stage, found)
+      type(output_file_type), intent(inout) :: file
+      integer, intent(in)                   :: stage !! its number
+      type(backbone_type), intent(in)       :: found
+      type(csv_line_type) :: line
+      integer :: i
+
+      do i = 1, size(found%loops)
+         associate (loop => found%loops(i))
+            line%length = 0
+            call line%add([stage, found%mode])
+            call line%add(clean([loop%q*found%peak, sqrt(loop%omega_squared)/two_pi, loop%loss, loop%slipping, loop%open, &
+                                 loop%distortion]))
+            call file%put(line%text(:line%length))
+         end associate
+      end do
+   end subroutine write_backbone
+
+   !> The rows of STAGE: the points of the last loop of each amplitude, from its upper turning point on, alpha against q.
+   subroutine write_loops(file, stage, found)
+      type(output_file_type), intent(inout) :: file
+      integer, intent(in)                   :: stage
+      type(backbone_type), intent(in)       :: found
+      type(csv_line_type) :: line
+      integer :: i, k
+
+      do i = 1, size(found%loops)
+         do k = 1, size(found%loops(i)%way, 2)
+            line%length = 0
+            call line%add([stage, found%mode])
+            call line%add([found%loops(i)%q*found%peak])
+            call line%add([k - 1])
+            call line%add(clean(found%loops(i)%way(:, k)))
+            call file%put(line%text(:line%length))
+         end do
+      end do
+   end subroutine write_loops
+
+   !> The rows of STAGE: the response of the mode alone, its amplitudes ascending.
+   subroutine write_answers(file, stage, found)
+      type(output_file_type), intent(inout) :: file
+      integer, intent(in)                   :: stage
+      type(backbone_type), intent(in)       :: found
+      type(csv_line_type) :: line
+      integer :: i
+
+      if (.not. allocated(found%answers)) return
+      do i = 1, size(found%answers, 2)
+         line%length = 0
+         call line%add([stage, found%mode])
+         call line%add([found%answers(1, i)])
+         if (found%answers(2, i) >= 0.0_wp) call line%add(clean(found%answers(2:3, i)))
+         if (found%answers(2, i) < 0.0_wp) call line%add('')
+         if (found%answers(2, i) < 0.0_wp) call line%add('')
+         call line%add(found%answers(4:5, i))
+         call file%put(line%text(:line%length))
+      end do
+   end subroutine write_answers
 
    !> The rows of the ANSWER of STAGE: frequency by frequency, at each node by node, of each its components.
    subroutine write_response(file, stage, answer)

@@ -2,10 +2,11 @@
 module results
    use analysis_state, only: analysis_type
    use answer_block, only: print_answer
+   use backbone, only: backbone_type
    use c_library, only: close_file, lock_folder
-   use csv_tables, only: bolt_table, energy_table, history_ending, joint_table, modes_table, response_table, stage_table, &
-                         table_endings, write_bolts, write_energies, write_headers, write_history, write_modes, write_response, &
-                         write_stage
+   use csv_tables, only: backbone_table, bend_table, bolt_table, energy_table, history_ending, joint_table, loop_table, &
+                         modes_table, response_table, stage_table, table_endings, write_answers, write_backbone, write_bolts, &
+                         write_energies, write_headers, write_history, write_loops, write_modes, write_response, write_stage
    use deck_input, only: deck_type
    use distribution, only: subdomain_output_type, distribute_bodies
    use equation_solver, only: equation_system
@@ -13,6 +14,7 @@ module results
    use incomplete_results, only: all_complete, give_up_parts, remove_old, what_is_in_the_way
    use kinds, only: wp
    use listing, only: finish_listing, list_increment, list_stage, listing_type, record_listing, start_listing
+   use listing_backbone, only: list_backbone
    use listing_modes, only: list_modes, list_response
    use modal_response, only: response_type
    use mode_values, only: modes_type
@@ -20,7 +22,7 @@ module results
    use output_file, only: output_file_type
    use restart_stream, only: restart_stream_type
    use stage_answer, only: n_bolts, bolt_answer_type, fault_of_answer, find_answer, find_bolt_answers, stage_answer_type
-   use stage_plan, only: any_modes, any_response, stage_plan_type, where_in_plan
+   use stage_plan, only: any_backbone, any_modes, any_response, stage_plan_type, where_in_plan
    use text_tools, only: real_text
    use vtu_lists, only: is_vtu_ending, remove_old_vtu
    use vtu_results, only: discard_vtu, finish_vtu, record_vtu, start_vtu, vtu_names, vtu_results_type, &
@@ -28,7 +30,7 @@ module results
    implicit none
    private
 
-   public :: start_results, print_increment, print_stage, print_modes, print_response, finish_results, &
+   public :: start_results, print_increment, print_stage, print_modes, print_backbone, print_response, finish_results, &
              discard_results, record_results, remove_old_results, show_answers, is_result_ending
 
    character(*), parameter, public :: listing_ending = '.out', restart_ending = '.restart'
@@ -73,7 +75,9 @@ contains
       do i = 1, size(table_endings)
          if (i == bolt_table .and. n_bolts(model) == 0) cycle
          if (any(i == [modes_table, energy_table]) .and. .not. any_modes(plan)) cycle
+         if (any(i == [backbone_table, loop_table]) .and. .not. any_backbone(plan)) cycle
          if (i == response_table .and. .not. any_response(plan)) cycle
+         if (i == bend_table .and. .not. (any_backbone(plan) .and. any_response(plan))) cycle
          call results%tables(i)%start(base//trim(table_endings(i)))
          results%has_table(i) = .true.
          ok = ok .and. .not. results%tables(i)%failed()
@@ -145,6 +149,22 @@ contains
          if (planned%vtu) call write_modes_vtu(results%vtu, model, planned%id, modes)
       end associate
    end subroutine print_modes
+
+   !> Frequency and loss of a mode over its amplitude, about that state.
+   subroutine print_backbone(model, plan, stage, found, results)
+      type(model_type), intent(in)      :: model
+      type(stage_plan_type), intent(in) :: plan
+      integer, intent(in)               :: stage !! its position
+      type(backbone_type), intent(in)   :: found
+      type(results_type), intent(inout) :: results
+
+      call list_backbone(results%listing%page, model, found)
+      if (found%problem /= '') results%listing%watch%n_warnings = results%listing%watch%n_warnings + 1
+      if (results%base == '') return
+      call write_backbone(results%tables(backbone_table), plan%stages(stage)%id, found)
+      call write_loops(results%tables(loop_table), plan%stages(stage)%id, found)
+      if (allocated(found%answers)) call write_answers(results%tables(bend_table), plan%stages(stage)%id, found)
+   end subroutine print_backbone
 
    !> The response to an oscillating load about that state.
    subroutine print_response(plan, stage, response, results)
@@ -272,7 +292,7 @@ contains
    pure logical function is_result_ending(ending)
       character(*), intent(in) :: ending
 
-      is_result_ending = any(ending == [character(17) :: listing_ending, restart_ending, table_endings]) .or. is_vtu_ending(ending)
+      is_result_ending = any(ending == [character(22) :: listing_ending, restart_ending, table_endings]) .or. is_vtu_ending(ending)
    end function is_result_ending
 
 end module results

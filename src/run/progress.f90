@@ -20,9 +20,9 @@ module progress
    public :: is_over
 
    integer, parameter, public :: phase_read = 1, phase_build = 2, phase_order = 3, phase_factor = 4, phase_increments = 5, &
-                                 phase_recover = 6, phase_write = 7, phase_modes = 8
-   character(10), parameter :: phase_name(8) = [character(10) :: 'read', 'build', 'order', 'factor', 'increments', 'recover', &
-                                                'write', 'modes']
+                                 phase_recover = 6, phase_write = 7, phase_modes = 8, phase_backbone = 9
+   character(10), parameter :: phase_name(9) = [character(10) :: 'read', 'build', 'order', 'factor', 'increments', 'recover', &
+                                                'write', 'modes', 'backbone']
 
    type, public :: progress_type
       private
@@ -91,7 +91,7 @@ contains
       self%ticks(self%phase) = self%ticks(self%phase) + now - self%entered
       self%entered = now
       self%phase = phase
-      if (phase < phase_increments .or. phase == phase_modes) call show_line(trim(phase_name(phase)), at_once=.true.)
+      if (phase < phase_increments .or. phase >= phase_modes) call show_line(trim(phase_name(phase)), at_once=.true.)
    end subroutine enter
 
    !> From now on increments are counted, those of PLAN.

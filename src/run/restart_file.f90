@@ -91,8 +91,11 @@ contains
       call run%progress%skip(sum([(size(plan%stages(s)%fractions), s = 1, analysis%stage - 1)]) + analysis%increment)
       words = ': taken up from '//restart_name(run%argument%base)//' behind stage '// &
               integer_text(plan%stages(analysis%stage)%id)//', increment '//integer_text(analysis%increment)
-      if (analysis%stage == size(plan%stages) .and. .not. analysis%goes_on) &
+      if (allocated(analysis%kept)) then
+         words = words//', '//integer_text(size(analysis%kept, 2))//' amplitudes of its backbone done'
+      else if (analysis%stage == size(plan%stages) .and. .not. analysis%goes_on) then
          words = ': taken up from '//restart_name(run%argument%base)//', where the run is complete; its results are written again'
+      end if
       call say_line(run%argument%name//words)
    end subroutine take_up
 
@@ -169,7 +172,7 @@ contains
    subroutine record_analysis(stream, a)
       type(restart_stream_type), intent(inout) :: stream
       type(analysis_type), intent(inout)       :: a
-      integer :: n_loaded, n_slips
+      integer :: n_loaded, n_slips, rows, columns
 
       call stream%item(a%stage, a%increment, a%increment_fraction, a%fraction, a%carry, a%eq10)
       call stream%item(a%average, a%is_loose, a%loose_force, a%load_tolerance, a%tolerance)
@@ -188,6 +191,14 @@ contains
       call stream%item(a%states, a%movement, a%k, a%turns, a%next_kind)
       if (allocated(a%exact)) call stream%item(a%exact)
       call stream%item(a%energy, a%largest_p, a%largest_lambda, a%largest_load)
+      rows = 0
+      columns = 0
+      if (allocated(a%kept)) rows = size(a%kept, 1)
+      if (allocated(a%kept)) columns = size(a%kept, 2)
+      call stream%extent(rows, 8)
+      call stream%extent(columns, 8)
+      if (.not. stream%writes .and. columns > 0) allocate (a%kept(rows, columns))
+      if (columns > 0) call stream%item(a%kept)
       associate (record => a%record)
          call stream%item(record%condition, record%kind, record%n_removed, record%n_parts)
          call stream%item(record%ends_early, record%is_partial, record%is_settled)

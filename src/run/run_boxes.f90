@@ -2,6 +2,7 @@
 !! does nothing once one before it has ended the run; whatever ended it is said in one place, finish_run of run_end.
 module run_boxes
    use analysis_state, only: analysis_type, interface_stiffness, note_largest, start_analysis
+   use backbone, only: backbone_type, find_backbone
    use c_library, only: open_standard_outputs, tell_failed_writes
    use case_control, only: method_back, method_newton
    use command_line, only: command_type, deck_argument, is_result_of, read_command_line
@@ -26,11 +27,12 @@ module run_boxes
    use natural_modes, only: find_natural_modes, spectrum_type
    use newton_method, only: seat_joints
    use oscillating_structure, only: let_go, oscillating_type, start_oscillation
-   use progress, only: phase_build, phase_factor, phase_increments, phase_modes, phase_order, phase_recover, phase_write, &
-                       goes_on, has_errors, is_over, is_unreadable, is_unwritten, run_type, was_checked, would_overwrite
+   use progress, only: phase_backbone, phase_build, phase_factor, phase_increments, phase_modes, phase_order, phase_recover, &
+                       phase_write, goes_on, has_errors, is_over, is_unreadable, is_unwritten, run_type, was_checked, &
+                       would_overwrite
    use restart_file, only: open_restart_file, take_up, write_restart
-   use results, only: list_results => print_increment, print_modes, print_response, print_stage_results => print_stage, &
-                      remove_old_results, start_results
+   use results, only: list_results => print_increment, print_backbone, print_modes, print_response, &
+                      print_stage_results => print_stage, remove_old_results, start_results
    use run_end, only: end_program
    use stage_plan, only: factorisations_of, shows_bodies, stage_plan_type, vibration_plan_type, where_in_plan
    use vtu_bodies, only: write_piece
@@ -53,17 +55,18 @@ contains
       class(equation_system), allocatable, intent(inout) :: system
       type(analysis_type), intent(inout) :: analysis
 
-      call find_modes(run, model, plan, system, analysis)
+      call find_modes(run, deck, model, plan, system, analysis)
       call write_restart(run, deck, plan, system, analysis)
    end subroutine go_on
 
    !> Find and print the natural modes where the increment has completed a stage that asks for them. Nothing of the analysis changes.
-   subroutine find_modes(run, model, plan, system, analysis)
+   subroutine find_modes(run, deck, model, plan, system, analysis)
       type(run_type), intent(inout)      :: run
+      type(deck_type), intent(in)        :: deck
       type(model_type), intent(in)       :: model
       type(stage_plan_type), intent(in)  :: plan
-      class(equation_system), intent(in) :: system
-      type(analysis_type), intent(in)    :: analysis
+      class(equation_system), allocatable, intent(inout) :: system
+      type(analysis_type), intent(inout) :: analysis
       type(model_type), allocatable :: loose
 
       if (is_over(run)) return
@@ -73,25 +76,28 @@ contains
          if (stage%vibration%free) then
             allocate (loose, source=model)
             call let_go(loose)
-            call oscillate(run, loose, plan, stage%vibration, system, analysis)
+            call oscillate(run, deck, loose, plan, stage%vibration, system, analysis)
          else
-            call oscillate(run, model, plan, stage%vibration, system, analysis)
+            call oscillate(run, deck, model, plan, stage%vibration, system, analysis)
          end if
       end associate
       call run%progress%enter(phase_increments)
    end subroutine find_modes
 
-   subroutine oscillate(run, model, plan, wanted, system, analysis)
+   !> Modes, backbone, response, all printed when they are there: a restart file that is written meanwhile has none of it.
+   subroutine oscillate(run, deck, model, plan, wanted, system, analysis)
       type(run_type), intent(inout)         :: run
+      type(deck_type), intent(in)           :: deck
       type(model_type), intent(in)          :: model
       type(stage_plan_type), intent(in)     :: plan
       type(vibration_plan_type), intent(in) :: wanted
-      class(equation_system), intent(in)    :: system
-      type(analysis_type), intent(in)       :: analysis
+      class(equation_system), allocatable, intent(inout) :: system
+      type(analysis_type), intent(inout)    :: analysis
       type(oscillating_type) :: structure
       type(spectrum_type)    :: spectrum
       type(modes_type)       :: modes
       type(response_type)    :: response
+      type(backbone_type)    :: found
       class(equation_system), allocatable :: shifted
 
       call start_oscillation(model, analysis, system, wanted%on_loading, structure, run%failure)
@@ -101,10 +107,29 @@ contains
          return
       end if
       call evaluate_modes(model, analysis, structure, wanted, spectrum, shifted, modes)
+      if (allocated(wanted%backbone)) then
+         call run%progress%enter(phase_backbone)
+         call find_backbone(model, plan, analysis, system, modes, keep, found, run%failure)
+         if (allocated(analysis%kept)) deallocate (analysis%kept)
+         call run%progress%enter(phase_modes)
+      end if
       call print_modes(model, plan, analysis%stage, modes, run%results)
+      if (run%failure%raised) return
+      if (allocated(wanted%backbone)) call print_backbone(model, plan, analysis%stage, found, run%results)
       if (.not. allocated(wanted%response)) return
       call find_response(model, structure, wanted%response, modes, shifted, response, run%failure)
       if (.not. run%failure%raised) call print_response(plan, analysis%stage, response, run%results)
+
+   contains
+
+      !> The restart file has the loops found so far.
+      subroutine keep(system, analysis)
+         class(equation_system), allocatable, intent(inout) :: system
+         type(analysis_type), intent(inout)                 :: analysis
+
+         call write_restart(run, deck, plan, system, analysis)
+      end subroutine keep
+
    end subroutine oscillate
 
    !> The command line; where it leaves nothing to do the program ends. Threads, and a watch on the memory. Of several processes one
@@ -219,6 +244,7 @@ contains
       call run%progress%expect(plan)
       call run%progress%enter(phase_increments)
       call take_up(run, model, plan, system, analysis)
+      if (allocated(analysis%kept)) call go_on(run, deck, model, plan, system, analysis)
    end subroutine start_joints
 
    !> Whether a stage is left, or some of one that has been taken up.

@@ -331,8 +331,8 @@ run -o here /proc/self/mem;           check 'a file that cannot be read' 1 '/pro
 
 run --times -q -o here large.bdf;     check '--times' 0 'memory' 'operations fixed' 'operations moving' 's of factor'
 if awk '$1 != "large.bdf:" { next } $NF == "s" { n++; if ($3 + 0 < 0 || $3 !~ /^[0-9.]+$/) bad = 1 } $2 == "memory" { m = $3 }
-        END { exit bad || n != 8 || m < 1 }' "$work/stderr"; then pass
-else fail '--times: not the seconds of eight phases and the memory'
+        END { exit bad || n != 9 || m < 1 }' "$work/stderr"; then pass
+else fail '--times: not the seconds of nine phases and the memory'
 fi
 if command -v script > /dev/null; then
    # terminal OPTION...: what a terminal shows of a run

@@ -5,7 +5,7 @@
 #    accept.sh PROGRAM WORK_FOLDER --failed CHECK_FOLDER      of the decks that failed the last check.sh in CHECK_FOLDER
 #
 # Listing and joint history; tables of stages, bolts, modes, their energy and response where there are references of them, or where
-# TABLES='stage bolt modes modes.energy response' in the environment asks for them.
+# TABLES='stage bolt modes modes.energy response backbone' in the environment asks for them.
 set -eu
 program=$1 work=$2
 shift 2
@@ -21,7 +21,7 @@ for name; do
    [ -f "input/$name.bdf" ] || { echo "there is no deck input/$name.bdf"; exit 1; }
    "$program" -q -o "$work" "input/$name.bdf"
    cp "$work/$name.out" "$work/$name.joint.csv" reference_output
-   for table in stage bolt modes modes.energy response; do
+   for table in stage bolt modes modes.energy response backbone; do
       [[ -f reference_output/$name.$table.csv || " ${TABLES:-} " = *" $table "* ]] || continue
       cp "$work/$name.$table.csv" reference_output
    done

@@ -25,7 +25,7 @@ check_deck() {
       fail "$name: exit status $status"
       return
    fi
-   for suffix in out joint.csv stage.csv bolt.csv modes.csv modes.energy.csv response.csv; do
+   for suffix in out joint.csv stage.csv bolt.csv modes.csv modes.energy.csv response.csv backbone.csv; do
       local reference=reference_output/$name.$suffix actual=$work/$name.$suffix
       if [ ! -f "$reference" ]; then
          case $suffix in out|joint.csv) ;; *) continue ;; esac
@@ -46,7 +46,7 @@ else
    names=$(for deck in input/*.bdf; do basename "$deck" .bdf; done)
    for reference in reference_output/*.out reference_output/*.csv; do
       name=$(basename "$reference"); name=${name%.out}; name=${name%.csv}
-      for table in joint stage bolt energy modes response; do name=${name%.$table}; done
+      for table in joint stage bolt energy modes response backbone; do name=${name%.$table}; done
       [ -f "input/$name.bdf" ] || fail "$reference: there is no deck input/$name.bdf"
    done
 fi

@@ -61,10 +61,11 @@ deck flange_sector sector     'RESTART = 1'
 deck solid_bolt    solid       'RESTART = 1'
 deck column_tetra10 bodies     'RESTART = 1'
 deck by_hand       hand        'RESTART = 1'
+deck bolted_lap    backbone   'RESTART = 0; SOLVER = TREE'
 deck meshed_apart  apart       'RESTART = 0; SOLVER = SKYLINE'
 # the factor of an increment serves others: 1,300 unknowns of joints
 "$make_deck" hex8_18x18x6 TREE NONE | sed 's/^SPC = .*/&\nRESTART = 3/' > decks/factors.bdf
-decks='step skyline steps newton back friction cycles gaps warm bolts spiders sector solid bodies hand apart factors'
+decks='step skyline steps newton back friction cycles gaps warm bolts spiders sector solid bodies hand apart backbone factors'
 
 # whole NAME: the run in peace, in NAME.whole, what it says in NAME.said, and how many calls it makes
 whole() {

@@ -1,0 +1,4 @@
+deck = 'bolted_lap'
+stage = '2'
+length_unit = 'mm'
+load includes . 'backbone.inc'

@@ -1,0 +1,4 @@
+deck = 'bolted_loops'
+stage = '2'
+length_unit = 'mm'
+load includes . 'loops.inc'

@@ -1,0 +1,272 @@
+!> BACKBONE: frequency and loss factor of a mode as they change with its amplitude, about the state at the end of a stage. The amplitude is
+!! the displacement that the mode has at the node that moves most, or at the node asked for, q |phi|; for every amplitude the load
+!! alpha [M] {phi} is sought under which the loop reaches it. With a load that oscillates, of which the mode feels F = phi^T {F}, the mode
+!! alone answers by the amplitude q at two frequencies, (F/q)^2 = (omega_r^2 - omega^2)^2 + (eta omega_r^2)^2, omega_r and eta those of q.
+module backbone
+   use analysis_state, only: analysis_type
+   use element_mapping, only: two_pi
+   use equation_solver, only: equation_system
+   use failures, only: failure_type
+   use kinds, only: wp
+   use modal_loops, only: loop_type, push_type, run_loops, start_push
+   use mode_values, only: modes_type
+   use model_data, only: model_type, n_points
+   use stage_plan, only: backbone_plan, loss_at, stage_plan_type
+   use terminal_line, only: show_line
+   use text_tools, only: integer_text
+   implicit none
+   private
+
+   public :: find_backbone
+
+   abstract interface
+      !> Keep what ANALYSIS has of the loops found so far.
+      subroutine keep_loops(system, analysis)
+         import :: analysis_type, equation_system
+         class(equation_system), allocatable, intent(inout) :: system
+         type(analysis_type), intent(inout)                 :: analysis
+      end subroutine keep_loops
+   end interface
+
+   real(wp), parameter :: reached = 1.0e-7_wp       ! of an amplitude: nearer none is sought
+   real(wp), parameter :: same = 1.0e-12_wp         ! of alpha: the loop jumps between two that are as near
+   real(wp), parameter :: near_limit = 1.0e-4_wp    ! of alpha: so near the largest load that is borne is known
+   integer, parameter  :: most_trials = 60
+   integer, parameter  :: steps = 20                ! of the response between two amplitudes
+
+   type, public :: backbone_type
+      integer  :: mode = 0                          !! number in the table of frequencies
+      real(wp) :: omega_squared = 0.0_wp            !! of the mode [1/time^2]
+      real(wp) :: peak = 0.0_wp                     !! |phi| at the node whose displacement the amplitude is
+      integer  :: node = 0                          !! its position
+      type(loop_type), allocatable :: loops(:)      !! in the order of their amplitudes
+      character(:), allocatable    :: problem       !! why there is none, or not up to the largest amplitude; '': there is
+      logical  :: is_limited = .false.              !! the last loop is under the largest load that the structure bears
+      real(wp), allocatable :: answers(:, :)        !! (amplitude, frequency below, phase there, frequency above, phase there; n): the
+                                                    !! response of the mode alone [length, 1/time, degrees]; frequency < 0: none
+   end type backbone_type
+
+   !> A load and the amplitude to which it leads.
+   type :: trial_type
+      real(wp) :: alpha = 0.0_wp, amplitude = 0.0_wp
+   end type trial_type
+
+contains
+
+   !> The backbone that PLAN asks for, but for the loops that ANALYSIS has kept; KEEP is told of each that is found. FAILURE where the
+   !! state at the end of the stage is not in equilibrium.
+   subroutine find_backbone(model, plan, analysis, system, modes, keep, found, failure)
+      type(model_type), intent(in)       :: model
+      type(stage_plan_type), intent(in)  :: plan
+      type(analysis_type), intent(inout) :: analysis
+      class(equation_system), allocatable, intent(inout) :: system
+      type(modes_type), intent(in)       :: modes
+      procedure(keep_loops)              :: keep
+      type(backbone_type), intent(out)   :: found
+      type(failure_type), intent(inout)  :: failure
+      type(push_type) :: push
+      type(loop_type) :: loop
+      real(wp) :: loss
+      integer :: i, k
+
+      associate (wanted => plan%stages(analysis%stage)%vibration%backbone)
+         call choose_mode(model, modes, wanted, found)
+         if (index(system%description%name, 'PETSC') == 1) found%problem = 'IT NEEDS SOLVER = TREE OR SKYLINE'
+         if (found%problem /= '') return
+         associate (mode => modes%modes(wanted%mode - modes%n_before))
+            call start_push(model, plan, analysis, system, mode%u/sqrt(mode%mass), push, failure)
+         end associate
+         if (failure%raised) return
+         if (allocated(analysis%kept)) &
+            found%loops = [(taken_up(size(model%joints), analysis%kept(:, i)), i = 1, size(analysis%kept, 2))]
+         do i = size(found%loops) + 1, size(wanted%amplitudes)
+            call show_line('backbone, amplitude '//integer_text(i)//' of '//integer_text(size(wanted%amplitudes)), at_once=i == 1)
+            call reach_amplitude(model, wanted, wanted%amplitudes(i), push, found, loop)
+            if (loop%n_loops > 0) found%loops = [found%loops, loop]
+            if (found%problem /= '') exit
+            analysis%kept = reshape([(numbers_of(found%loops(k)), k = 1, i)], [size(numbers_of(loop)), i])
+            call keep(system, analysis)
+         end do
+      end associate
+      associate (vibration => plan%stages(analysis%stage)%vibration, mode => modes%modes(found%mode - modes%n_before))
+         if (.not. allocated(vibration%response)) return
+         loss = mode%material_loss
+         if (allocated(vibration%response%damping)) loss = loss + loss_at(vibration%response%damping, mode%frequency)
+         call find_answers(abs(sum(push%phi*vibration%response%force(:model%dimension, :))), loss, found)
+      end associate
+   end subroutine find_backbone
+
+   !> What a restart file keeps of LOOP, all that is printed; and a loop of these NUMBERS.
+   pure function numbers_of(loop) result(numbers)
+      type(loop_type), intent(in) :: loop
+      real(wp), allocatable :: numbers(:)
+
+      numbers = [loop%alpha, loop%q, loop%omega_squared, loop%loss, loop%centre, loop%gap, loop%distortion, loop%slipping, &
+                 loop%open, real(loop%n_loops, wp), loop%lost, loop%way]
+   end function numbers_of
+
+   pure type(loop_type) function taken_up(n_joints, numbers) result(loop)
+      integer, intent(in)  :: n_joints
+      real(wp), intent(in) :: numbers(:)
+
+      loop = loop_type(numbers(1), numbers(2), numbers(3), numbers(4), numbers(5), numbers(6), numbers(7), numbers(8), numbers(9), &
+                       nint(numbers(10)), numbers(11:10 + n_joints), &
+                       reshape(numbers(11 + n_joints:), [2, (size(numbers) - 10 - n_joints)/2]))
+   end function taken_up
+
+   !> The mode that is WANTED among MODES, and the node whose displacement is the amplitude.
+   subroutine choose_mode(model, modes, wanted, found)
+      type(model_type), intent(in)       :: model
+      type(modes_type), intent(in)       :: modes
+      type(backbone_plan), intent(in)    :: wanted
+      type(backbone_type), intent(inout) :: found
+      real(wp), allocatable :: moved(:)
+
+      found%mode = wanted%mode
+      found%problem = ''
+      allocate (found%loops(0))
+      associate (k => wanted%mode - modes%n_before)
+         if (k < 1 .or. k > size(modes%modes)) then
+            found%problem = 'THE MODE IS NOT AMONG THOSE FOUND'
+         else if (modes%modes(k)%is_rigid) then
+            found%problem = 'THE MODE HAS NO STRAIN'
+         else
+            moved = sqrt(sum(modes%modes(k)%u(:, :n_points(model))**2, dim=1)/modes%modes(k)%mass)
+            found%omega_squared = modes%modes(k)%lambda
+            found%node = wanted%node
+            if (found%node == 0) found%node = findloc(moved >= (1.0_wp - reached)*maxval(moved), .true., dim=1)
+            found%peak = moved(found%node)
+            if (found%peak <= reached*maxval(moved)) found%problem = 'THE NODE ASKED FOR DOES NOT MOVE IN THIS MODE'
+         end if
+      end associate
+   end subroutine choose_mode
+
+   !> The LOOP of this AMPLITUDE, by secants over the load, within what has been found too little and too much. A load that is not borne is
+   !! too much; where there is no room left below it the loop of the largest load that is borne is the last, if it adds one.
+   subroutine reach_amplitude(model, wanted, amplitude, push, found, loop)
+      type(model_type), intent(in)       :: model
+      type(backbone_plan), intent(in)    :: wanted
+      real(wp), intent(in)               :: amplitude
+      type(push_type), intent(inout)     :: push
+      type(backbone_type), intent(inout) :: found
+      type(loop_type), intent(out)       :: loop
+      type(trial_type)   :: low, high, now, before
+      type(loop_type)    :: next, best
+      type(failure_type) :: refused, none
+      integer :: trial
+
+      high%alpha = huge(1.0_wp)
+      now%alpha = found%omega_squared*amplitude/found%peak
+      if (size(found%loops) > 0) then
+         low%alpha = found%loops(size(found%loops))%alpha
+         low%amplitude = found%loops(size(found%loops))%q*found%peak
+         now%alpha = low%alpha*amplitude/low%amplitude
+      end if
+      before = low
+      do trial = 1, most_trials
+         refused = none
+         call run_loops(model, push, now%alpha, wanted%cycles, wanted%increments, next, refused)
+         if (refused%raised) then
+            high = trial_type(now%alpha, huge(1.0_wp))
+            found%problem = refused%message
+            now%alpha = 0.5_wp*(low%alpha + high%alpha)
+         else
+            loop = next
+            now%amplitude = next%q*found%peak
+            if (abs(now%amplitude - amplitude) <= reached*amplitude) exit
+            if (now%amplitude < amplitude) then
+               low = now
+               best = next
+            else
+               high = now
+            end if
+            call next_trial(amplitude, low, high, before, now)
+         end if
+         if (high%alpha - low%alpha <= same*high%alpha) exit
+         found%is_limited = high%amplitude >= huge(1.0_wp) .and. high%alpha - low%alpha <= near_limit*high%alpha
+         if (found%is_limited) exit
+      end do
+      if (found%is_limited) then
+         loop = best
+      else
+         found%problem = ''
+      end if
+   end subroutine reach_amplitude
+
+   !> NOW becomes the next trial: by the secant through it and the one BEFORE, within LOW and HIGH.
+   pure subroutine next_trial(amplitude, low, high, before, now)
+      real(wp), intent(in)            :: amplitude
+      type(trial_type), intent(in)    :: low, high
+      type(trial_type), intent(inout) :: before, now
+      real(wp) :: alpha
+
+      alpha = -1.0_wp
+      if (abs(now%amplitude - before%amplitude) > 0.0_wp) alpha = now%alpha + (amplitude - now%amplitude)* &
+         (now%alpha - before%alpha)/(now%amplitude - before%amplitude)
+      before = now
+      if (.not. (alpha > low%alpha .and. alpha < high%alpha)) then
+         alpha = 2.0_wp*low%alpha
+         if (high%alpha < huge(1.0_wp)) alpha = 0.5_wp*(low%alpha + high%alpha)
+      end if
+      now%alpha = alpha
+   end subroutine next_trial
+
+   !> The response of the mode alone, which feels FORCE, at every amplitude of FOUND and between them (linearly over log q); LOSS is what
+   !! it loses beside the joints. Where both frequencies meet is the resonance, which has a row of its own.
+   subroutine find_answers(force, loss, found)
+      real(wp), intent(in)               :: force, loss
+      type(backbone_type), intent(inout) :: found
+      real(wp) :: row(5), excess, before, low, high, w
+      integer  :: i, k, n
+
+      allocate (found%answers(5, 0))
+      before = 1.0_wp
+      do i = 1, size(found%loops)
+         n = merge(steps, 1, i > 1)
+         do k = 1, n
+            w = real(k, wp)/n
+            call answer(found%loops(max(1, i - 1)), found%loops(i), w, row, excess)
+            if (i > 1 .and. before*excess < 0.0_wp) then
+               low = w - 1.0_wp/n
+               high = w
+               do while (high - low > same)
+                  w = 0.5_wp*(low + high)
+                  call answer(found%loops(i - 1), found%loops(i), w, row, excess)
+                  if (excess*before > 0.0_wp) low = w
+                  if (excess*before <= 0.0_wp) high = w
+               end do
+               call answer(found%loops(i - 1), found%loops(i), merge(low, high, before > 0.0_wp), row, excess)
+               row([3, 5]) = -90.0_wp
+               row(4) = row(2)
+               found%answers = reshape([found%answers, row], [5, size(found%answers, 2) + 1])
+               call answer(found%loops(i - 1), found%loops(i), real(k, wp)/n, row, excess)
+            end if
+            if (excess > 0.0_wp) found%answers = reshape([found%answers, row], [5, size(found%answers, 2) + 1])
+            before = excess
+         end do
+      end do
+
+   contains
+
+      !> The ROW of the amplitude W of the way from loop A to B; EXCESS: of F/q above what damping takes at resonance.
+      pure subroutine answer(a, b, w, row, excess)
+         type(loop_type), intent(in) :: a, b
+         real(wp), intent(in)        :: w
+         real(wp), intent(out)       :: row(5), excess
+         real(wp) :: q, omega_squared, lost, beside
+
+         q = a%q**(1.0_wp - w)*b%q**w
+         omega_squared = (1.0_wp - w)*a%omega_squared + w*b%omega_squared
+         lost = ((1.0_wp - w)*a%loss + w*b%loss + loss)*omega_squared
+         excess = force/q - lost
+         beside = sqrt(max(0.0_wp, excess*(force/q + lost)))
+         row(1) = q*found%peak
+         row([2, 4]) = sqrt(max(0.0_wp, omega_squared + beside*[-1.0_wp, 1.0_wp]))/two_pi
+         if (omega_squared < beside) row(2) = -1.0_wp
+         row(3) = -atan2(lost, beside)*360.0_wp/two_pi
+         row(5) = -180.0_wp - row(3)
+      end subroutine answer
+
+   end subroutine find_answers
+
+end module backbone

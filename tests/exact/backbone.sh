@@ -1,0 +1,156 @@
+# BACKBONE against closed forms: a mass on interface elements, pushed along them or across.
+
+# backbone NAME COLUMN [AMPLITUDE NUMBER, 1 the smallest]; loss_of, frequency_of: expected figures as expressions of the amplitude there
+backbone() { awk -F, -v name="$2" -v row="${3:-1}" 'NR == 1 { for (i = 1; i <= NF; i++) if ($i == name) c = i } NR == row + 1 { print $c }' \
+                "$work/$1.backbone.csv"; }
+
+# pushed_mass NAME ELEMENTS LAW... : a mass of 0.02 on CJOINTs 1 to ELEMENTS of area 100, pressed by 130; the cards of their laws and more
+pushed_mass() { # NAME JAMPL CARDS [METHOD]
+   cards "$1" <<DECK
+METHOD = ${4:-NEWTON};SUBCASE 1;  LOAD = 10;  MODES = 5;  BACKBONE = 6;BEGIN BULK;GRID,1;FORCE,10,1,,1.0,0.0,-130.0
+CONM2,4,1,,0.02;EIGRL,5,,,2;$2;$3;ENDDATA
+DECK
+   run "$1"
+}
+
+# judge_rows NAME ROWS FREQUENCY LOSS: every row against awk expressions of the amplitude x; pi, mass, within 1E-6
+judge_rows() {
+   judge "$1" -F, -v rows="$2" 'function near(a, b) { return (a - b)^2 <= (1e-6*b)^2 + 1e-24 }
+      function max(a, b) { return a > b ? a : b }
+      function min(a, b) { return a < b ? a : b }
+      BEGIN { pi = atan2(0, -1); m = 0.02 }
+      NR == 1 { next }
+      { x = $3; k = '"$3"'; d = '"$4"'; n++
+        if (!near($4, sqrt(k/m)/(2*pi))) print "amplitude " x ": frequency " $4 ", expected " sqrt(k/m)/(2*pi)
+        if (!near($5, d/(pi*k*x*x))) print "amplitude " x ": loss factor " $5 ", expected " d/(pi*k*x*x) }
+      END { if (n != rows) print n " rows, expected " rows; print "checked " 2*n }' "$work/$1.backbone.csv"
+}
+joint='CJOINT,1,1,1,,100.0,0.0,-1.0;PJOINT,1,1,2,,0.2;JNORM,1,8.0-3,0.5,500.0'
+
+# ---- Jenkins: a spring 4000 that slips at 0.2*130 = 26, and a spring 1000 beside it. Before slip it is linear; beyond it the force at the
+# turning point is 26 + 1000 x, and the loop a parallelogram of 4*26 (x - 26/4000). The two amplitudes beside the slip limit are there too.
+for method in NEWTON STEP; do
+   pushed_mass jenkins JAMPL,6,1,0.1,21,0.001 "$joint;JSHEAR,2,40.0;CELAS2,2,1000.0,1,1" $method &&
+      judge_rows jenkins 21 'min(4000, 26/x) + 1000' '4*26*max(0, x - 26/4000)'
+done
+same 'Jenkins: elements that slip' "$(number "$(backbone jenkins slipping 13) + 2*($(backbone jenkins slipping 14))")" 2
+near 'Jenkins: the amplitudes' "$(backbone jenkins amplitude 11)" 0.1*10^-1.5 1e-8
+# any number of increments
+for n in 1 3 40; do
+   pushed_mass increments "JAMPL,6,1,0.1,21,0.001,,$n" "$joint;JSHEAR,2,40.0;CELAS2,2,1000.0,1,1" &&
+      judge_rows increments 21 'min(4000, 26/x) + 1000' '4*26*max(0, x - 26/4000)'
+done
+
+# ---- Iwan of two: elements side by side that slip at 0.1*65 and 0.3*65, stiffnesses 2500 and 1500; a spring 1000
+two='CJOINT,1,1,1,,100.0,0.0,-1.0;CJOINT,2,3,1,,100.0,0.0,-1.0;PJOINT,1,1,2,,0.1;PJOINT,3,1,4,,0.3;JNORM,1,8.0-3,0.5,500.0'
+pushed_mass iwan JAMPL,6,1,0.1,21,0.001 "$two;JSHEAR,2,25.0;JSHEAR,4,15.0;CELAS2,3,1000.0,1,1" && {
+   judge_rows iwan 21 'min(2500, 6.5/x) + min(1500, 19.5/x) + 1000' '4*6.5*max(0, x - 6.5/2500) + 4*19.5*max(0, x - 19.5/1500)'
+   # what each joint has of the loss at the largest amplitude
+   near 'Iwan of two: share of the first' "$(table iwan 'SHARE OF THE LOSS' | awk '$1 == "1.00000E-01" && $2 == 1 { print $3/100 }')" \
+      '6.5*(0.1 - 6.5/2500)/(6.5*(0.1 - 6.5/2500) + 19.5*(0.1 - 19.5/1500))' 1e-3
+}
+
+# ---- Masing: the loading curve A = a_1 d + a_2 d^2 + a_3 d^3, and B and C such that from the tips at d_0 the branches are twice as large
+# curves, tau = +-(A(d_0) - 2 A((d_0 -+ d)/2)): a secant A(d_0)/d_0, and a loss of -(4/3) a_2 d_0^3 - 2 a_3 d_0^4, times the area
+for x in 0.003 0.006 0.01 0.015; do
+   b=$(awk -v x=$x 'BEGIN { a1 = 100; a2 = -2e3; a3 = 1e4; b1 = a1 + a2*x + 0.75*a3*x^2; b2 = (a2 + 1.5*a3*x)/2
+      printf "+,%.15e,,%.15e,,%.15e;+,%.15e,,%.15e,,%.15e", b1, -b2, a3/4, b1, b2, a3/4 }')
+   pushed_mass masing "JAMPL,6,1,$x,1" "CJOINT,1,1,1,,100.0,0.0,-1.0;PJOINT,1,1,2;JNORM,1,8.0-3,0.5,500.0
+JSHEAR,2,100.0,,-2.0E3,,1.0E4;$b" &&
+      judge_rows masing 1 '100*(100 - 2e3*x + 1e4*x*x)' '100*(4/3*2e3*x^3 - 2*1e4*x^4)'
+done
+
+# ---- One-sided contact: a linear joint of stiffness 12500, pressed by its share of 130, and a spring 1000 across it. Beyond 130 upwards
+# the spring alone bears; half the distance of the turning points is x
+for n in 1 8; do
+   pushed_mass contact "JAMPL,6,1,0.2,21,0.005,,$n" \
+      'CJOINT,1,1,1,,100.0,0.0,-1.0;PJOINT,1,1;JNORM,1,8.0-3,1.0,125.0;CELAS2,2,1000.0,1,2;CELAS2,3,1.0E6,1,1' &&
+      judge_rows contact 21 'max(min(1, x*1e9), 0)*(x < 130/13500 ? 13500 : (2*x + 0.13 - 130/13500)/(1/13500 + 1e-3)/x)' 0
+done
+same 'contact: it opens' "$(backbone contact open 1) $(backbone contact open 21)" "0.0000000000000000E+000 1.0000000000000000E+000"
+
+# ---- Nothing but the joint bears: it slips at 26, and no amplitude beyond 26/4000 is in equilibrium; the largest that is stays
+pushed_mass limit JAMPL,6,1,0.1,11,0.001 "$joint;JSHEAR,2,40.0" && {
+   judge_rows limit 8 4000 0
+   near 'limit: the largest amplitude' "$(backbone limit amplitude 8)" 26/4000 1e-4
+   says 'limit: the listing says so' "$work/limit.out" 'WARNING: LARGER AMPLITUDES ARE NOT BORNE'
+}
+
+# ---- Against integration in time: free decay, whose frequency and decrement at each amplitude must be those of the backbone
+# decays_like NAME: the rows of ring_down.awk, NAME.rows, against the backbone of NAME, interpolated, within 2 %
+decays_like() {
+   judge "$1: free decay" -v name="$1" -F'[, ]' 'NR == FNR { if (FNR > 1) { x[++n] = log($3); f[n] = $4; d[n] = $5; if ($5 > largest) largest = $5 } next }
+      { a = log($1); for (i = 1; i < n - 1 && x[i + 1] < a; i++) ; w = (a - x[i])/(x[i + 1] - x[i])
+        if (w < 0 || w > 1) next
+        fb = f[i] + w*(f[i + 1] - f[i]); db = d[i] + w*(d[i + 1] - d[i])
+        if (db < 0.6*largest) next
+        rows++
+        if (($2/fb - 1)^2 > 0.02^2 || ($3/db - 1)^2 > 0.02^2) print "amplitude " $1 ": frequency " $2 ", loss " $3 "; backbone " fb ", " db }
+      END { if (rows < 5) print rows " rows"; print "checked " rows }' "$work/$1.backbone.csv" "$work/$1.rows"
+}
+pushed_mass decay JAMPL,6,1,1.0,41,0.1 "$joint;JSHEAR,2,1.0;CELAS2,2,4000.0,1,1" && {
+   printf 'mass 1 0.02\nspring 0 1 4000.0\nelement 0 1 100.0 26.0\nshape 1 1.0\n' |
+      awk -v V=400 -v step=1e-5 -v time=2.0 -v cycles=4 -v skip=1 -f tests/exact/ring_down.awk > "$work/decay.rows"
+   decays_like decay
+}
+
+# a lap joint: two bars of rods that lap over three nodes, pressed there by 40, 60 and 90, a spring beside the joint as a bolt is; fixed at
+# the left end; masses at the nodes
+lap_row() { # the row of masses for ring_down.awk, the shape from the file for ParaView: twelve vectors in the order of the nodes
+   local i shape
+   for i in 2 3 4 5 6 14 15 16 17 18 19; do echo "mass $i 1.0e-3"; done
+   echo 'spring 0 2 1e5'
+   for i in 2 3 4 5 14 15 16 17 18; do echo "spring $i $((i + 1)) 1e5"; done
+   printf 'spring 4 14 1e5\nelement 4 14 1000 8\nelement 5 15 1000 12\nelement 6 16 1000 18\n'
+}
+{
+   echo 'METHOD = NEWTON;SPC = 1;SUBCASE 1;  LOAD = 10;  MODES = 5;  BACKBONE = 6;BEGIN BULK;MAT1,1,1.0E5,,0.3;PROD,1,1,10.0'
+   for i in 1 2 3 4 5 6 14 15 16 17 18 19; do
+      echo "GRID,$i,,$((10*(i % 10)))"'.0,0.0;CONM2,'"10$i,$i,,1.0E-3"
+      case $i in 14|15|16) ;; *) echo "SPC1,1,2,$i" ;; esac
+   done
+   for i in 1 2 3 4 5 14 15 16 17 18; do echo "CROD,20$i,1,$i,$((i + 1))"; done
+   echo 'SPC1,1,1,1;JNORM,1,8.0-3,1.0,125.0;JSHEAR,2,10.0;CELAS2,301,1.0E5,4,1,14,1;PJOINT,1,1,2,,0.2;EIGRL,5,,,2;JAMPL,6,1,0.4,41,0.1'
+   for i in 4 5 6; do echo "CJOINT,$i,1,1$i,$i,100.0,0.0,-1.0"; done
+   echo 'FORCE,10,14,,40.0,0.0,-1.0;FORCE,10,15,,60.0,0.0,-1.0;FORCE,10,16,,90.0,0.0,-1.0;ENDDATA'
+} | cards lap
+run lap && {
+   { lap_row; lap_row | awk -f tests/exact/first_shape.awk; } |
+      awk -v V=350 -v step=2e-5 -v time=0.5 -v cycles=4 -v skip=1 -f tests/exact/ring_down.awk > "$work/lap.rows"
+   decays_like lap
+}
+
+# ---- Bodies: the bolted lap begins at the frequency of MODES; by the solver that condenses the bodies the same as by the one that does not
+run_input bolted_lap && {
+   near 'bolted lap: smallest amplitude' "$(backbone bolted_lap frequency 1)" "$(awk -F, '$2 == 1 { f = $3 } END { print f }' "$work/bolted_lap.modes.csv")" 1e-6
+   for solver in TREE SKYLINE; do
+      sed "s/^METHOD.*/&\nSOLVER = $solver/" input/bolted_lap.bdf > "$work/lap_$solver.bdf"
+      run lap_$solver
+   done
+   for row in 1 6 7 8 9; do
+      for figure in frequency loss_factor distortion; do
+         near "bolted lap, solvers: $figure of amplitude $row" "$(backbone lap_TREE $figure $row)" "$(backbone lap_SKYLINE $figure $row)" 1e-6 1e-9
+      done
+   done
+   # what goes on from a stage with BACKBONE is the same to the last byte
+   sed 's/^BEGIN BULK/SUBCASE 3\n  LABEL = ON\n&/' input/bolted_lap.bdf > "$work/goes_on.bdf"
+   sed '/BACKBONE/d' "$work/goes_on.bdf" > "$work/without.bdf"
+   run goes_on && run without && same 'what goes on is untouched' "$(cmp "$work/goes_on.joint.csv" "$work/without.joint.csv" && echo same)" same
+}
+
+# ---- Response of the mode alone: Jenkins under 20 cos(omega t), (20/x)^2 = (k - m omega^2)^2 + (D/(pi x^2))^2 with k, D of the loop, both
+# branches; at resonance 4*26 (x - x_s) = pi x 20
+pushed_mass bend JAMPL,6,1,0.1,201,0.001 "$joint;JSHEAR,2,40.0;CELAS2,2,1000.0,1,1" && {
+   sed -i 's/^METHOD.*/&\nSET 1 = 1/; s/^  MODES.*/&\n  AMPLITUDE = 0.01\n  FREQUENCY = 7\n  DLOAD = 20\n  RESPONSE = SET 1/; s/^EIGRL.*/&\nFREQ1,7,10.0,10.0,10\nFORCE,20,1,,20.0,1.0,0.0/' \
+      "$work/bend.bdf"
+   run bend && judge 'response by the backbone' -F, 'NR == 1 { pi = atan2(0, -1); xs = 26/4000; next }
+      ($3/xs - 1)^2 < 0.04^2 { next } # a kink between two amplitudes
+      { x = $3; k = x < xs ? 5000 : 26/x + 1000; d = x < xs ? 0 : 4*26*(x - xs)/(pi*x*x)
+        if ($4 == $6) { peaks++; if ((x*(1 - pi*20/(4*26))/xs - 1)^2 > 1e-6) print "resonance at amplitude " x ", expected " xs/(1 - pi*20/(4*26)); next }
+        b = sqrt((20/x)^2 - d^2); n++
+        if (((sqrt((k + b)/0.02)/(2*pi))/$6 - 1)^2 > 1e-6) print "amplitude " x ": above " $6 ", expected " sqrt((k + b)/0.02)/(2*pi)
+        if ($4 != "" && ((sqrt((k - b)/0.02)/(2*pi))/$4 - 1)^2 > 1e-4) print "amplitude " x ": below " $4 ", expected " sqrt((k - b)/0.02)/(2*pi)
+        if ($7 + $5 + 180 > 1e-9 && $4 != "") print "phases " $5 ", " $7 }
+      END { if (peaks != 1 || n < 1000) print peaks " peaks, " n " rows"; print "checked " n + peaks }' "$work/bend.backbone.response.csv"
+   says 'response by the backbone: the listing' "$work/bend.out" 'RESPONSE OF THIS MODE ALONE BY ITS BACKBONE'
+}
