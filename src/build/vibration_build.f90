@@ -141,16 +141,22 @@ contains
       end do
    end function merged_frequencies
 
-   !> Fill SHOWN of the stages of PLAN that are limited.
+   !> Fill SHOWN of the stages of PLAN that are limited, and WATCHED of those that have WATCH.
    subroutine find_shown_nodes(deck, model, plan, errors)
       type(deck_type), intent(in)          :: deck
       type(model_type), intent(in)         :: model
       type(stage_plan_type), intent(inout) :: plan
       type(deck_error_list), intent(inout) :: errors
+      logical, allocatable :: are_named(:)
       integer :: i, s
 
       do s = 1, size(plan%stages)
          associate (given => deck%control%stages(s), stage => plan%stages(s))
+            if (allocated(given%watch)) then
+               call find_limited_nodes(deck%control%sets, model, 'WATCH', given%watch, are_named, errors)
+               stage%watched = pack([(i, i = 1, model%n_nodes)], are_named .and. model%used .and. model%node_id > 0)
+               if (size(stage%watched) == 0) call errors%add(given%watch(1)%line, 'WATCH: names no node that an element holds')
+            end if
             if (.not. allocated(given%only)) cycle
             call find_limited_nodes(deck%control%sets, model, 'OUTPUT', given%only, stage%shown, errors)
             do i = 1, size(given%only)

@@ -2,7 +2,7 @@
 module case_control
    use case_entries, only: check_repeated, choose, cut_entry, entry_type, global_keys, read_number, set_reference, &
                            stage_keys, value_error
-   use case_sets, only: number_set, read_set
+   use case_sets, only: limit_type, number_set, read_set
    use deck_errors, only: deck_error_list
    use deck_text, only: deck_text_type
    use field_rules, only: parse_integer, parse_real
@@ -117,7 +117,7 @@ contains
       call note_idle_sets(control)
    end subroutine read_case_control
 
-   !> Sets that no OUTPUT and no RESPONSE names have no effect.
+   !> Sets that no OUTPUT, no WATCH and no RESPONSE names have no effect.
    pure subroutine note_idle_sets(control)
       type(case_control_type), intent(inout) :: control
       integer :: i, s
@@ -128,15 +128,22 @@ contains
          used = .false.
          do s = 1, size(control%stages)
             associate (stage => control%stages(s))
-               if (allocated(stage%only)) used = used .or. any(stage%only%id == control%sets(i)%id .and. .not. stage%only%is_mark)
-               if (.not. allocated(stage%vibration%response)) cycle
-               associate (only => stage%vibration%response)
-                  used = used .or. any(only%id == control%sets(i)%id .and. .not. only%is_mark)
-               end associate
+               used = used .or. names(stage%only) .or. names(stage%watch) .or. names(stage%vibration%response)
             end associate
          end do
          if (.not. used) call control%ignored%add('SET')
       end do
+
+   contains
+
+      !> Whether LIMITS name set I.
+      pure logical function names(limits)
+         type(limit_type), allocatable, intent(in) :: limits(:)
+
+         names = .false.
+         if (allocated(limits)) names = any(limits%id == control%sets(i)%id .and. .not. limits%is_mark)
+      end function names
+
    end subroutine note_idle_sets
 
    !> What one line of case control says.

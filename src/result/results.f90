@@ -3,9 +3,9 @@ module results
    use analysis_state, only: analysis_type
    use answer_block, only: print_answer
    use c_library, only: close_file, lock_folder
-   use csv_tables, only: bolt_table, energy_table, history_ending, joint_table, modes_table, response_table, stage_table, &
-                         table_endings, write_bolts, write_energies, write_headers, write_history, write_modes, write_response, &
-                         write_stage
+   use csv_tables, only: bolt_table, energy_table, history_ending, joint_table, modes_table, response_table, split_table, &
+                         stage_table, table_endings, watch_table, write_bolts, write_energies, write_headers, write_history, &
+                         write_modes, write_response, write_stage
    use deck_input, only: deck_type
    use distribution, only: subdomain_output_type, distribute_bodies
    use equation_solver, only: equation_system
@@ -20,11 +20,13 @@ module results
    use output_file, only: output_file_type
    use restart_stream, only: restart_stream_type
    use stage_answer, only: n_bolts, bolt_answer_type, fault_of_answer, find_answer, find_bolt_answers, stage_answer_type
-   use stage_plan, only: any_modes, any_response, stage_plan_type, where_in_plan
+   use stage_plan, only: any_modes, any_response, any_watched, stage_plan_type, where_in_plan
    use text_tools, only: real_text
    use vtu_lists, only: is_vtu_ending, remove_old_vtu
    use vtu_results, only: discard_vtu, finish_vtu, record_vtu, start_vtu, vtu_names, vtu_results_type, &
                           write_modes_vtu => write_modes, write_vtu
+   use watched_nodes, only: find_watched, keep_watched, print_watched, record_watched, start_watched, watch_answer, watch_state, &
+                            write_watched
    implicit none
    private
 
@@ -40,6 +42,7 @@ module results
       type(output_file_type) :: screen        !! the answers, for the standard output at the end
       type(vtu_results_type) :: vtu
       real(wp), allocatable, private :: bolts_before(:) ! their forces at the end of the stage before
+      type(watch_state), private :: watched_before      ! likewise, where nodes are watched
       character(:), allocatable :: missing_vtu !! why there are no files for ParaView though they were asked for; '': there are
       character(:), allocatable :: base !! what the names of the files begin with, folder included
    end type results_type
@@ -63,6 +66,7 @@ contains
       results%base = base
       results%missing_vtu = ''
       allocate (results%bolts_before(n_bolts(model)), source=0.0_wp)
+      if (any_watched(plan)) call start_watched(model, results%watched_before)
       if (base == '') call start_listing(results%listing, '', deck, model, plan, system)
       if (base /= '') call start_listing(results%listing, base//listing_ending, deck, model, plan, system)
       if (base /= '' .and. any(plan%stages%vtu)) call distribute_bodies(model, system, dealt)
@@ -73,6 +77,7 @@ contains
       do i = 1, size(table_endings)
          if (i == bolt_table .and. n_bolts(model) == 0) cycle
          if (any(i == [modes_table, energy_table]) .and. .not. any_modes(plan)) cycle
+         if (any(i == [watch_table, split_table]) .and. .not. any_watched(plan)) cycle
          if (i == response_table .and. .not. any_response(plan)) cycle
          call results%tables(i)%start(base//trim(table_endings(i)))
          results%has_table(i) = .true.
@@ -108,6 +113,7 @@ contains
       type(results_type), intent(inout) :: results
       type(failure_type), intent(inout) :: failure
       type(stage_answer_type) :: answer
+      type(watch_answer)      :: watch
       character(:), allocatable :: fault, title
 
       call list_stage(results%listing, model, plan, analysis)
@@ -120,12 +126,21 @@ contains
          if (analysis%record%ends_early) title = 'ANSWER WHERE THE RUN ENDED EARLY, '//page%stage//', LOAD '// &
                                           real_text(analysis%fraction)//'   '//stage%label
          call print_answer(page%file, page%labels, title, model, answer)
+         if (allocated(stage%watched)) then
+            call find_watched(model, analysis, stage%watched, results%watched_before, watch)
+            call print_watched(page%file, page%labels, model, watch)
+         end if
          if (results%base /= '') then
             call print_answer(results%screen, page%labels, title, model, answer)
             call write_stage(results%tables(stage_table), stage%id, model, answer)
          end if
+         if (results%base /= '' .and. allocated(stage%watched)) then
+            call print_watched(results%screen, page%labels, model, watch)
+            call write_watched(results%tables(watch_table), results%tables(split_table), stage%id, model, watch)
+         end if
       end associate
       results%bolts_before = answer%bolts%force
+      if (any_watched(plan)) call keep_watched(model, analysis, results%watched_before)
       if (.not. plan%stages(analysis%stage)%steps) call write_vtu(results%vtu, model, plan, analysis)
    end subroutine print_stage
 
@@ -241,6 +256,7 @@ contains
       call results%screen%record(stream)
       call record_vtu(results%vtu, stream)
       call stream%item(results%bolts_before)
+      call record_watched(stream, results%watched_before)
    end subroutine record_results
 
    !> Remove what an earlier run of the same deck left: it is not the result of this deck any more, wherever the run ends.
