@@ -11,6 +11,7 @@ module run_boxes
    use distribution, only: join_processes
    use equation_solver, only: equation_system
    use equations, only: form_body_stiffness, start_equations
+   use facing_bodies, only: loose_words
    use failures, only: failure_type
    use finite_state, only: check_precision, check_state
    use incomplete_results, only: watch_ends
@@ -156,6 +157,7 @@ contains
       type(model_type), intent(out)      :: model
       type(stage_plan_type), intent(out) :: plan
       integer, allocatable :: drops(:)
+      character(:), allocatable :: loose
 
       if (is_over(run)) return
       call keep_memory()
@@ -163,8 +165,12 @@ contains
       if (.not. (run%check_only .or. run%errors%any())) call check_model_size(deck, run%failure)
       if (is_over(run)) return
       call build_model(deck, model, plan, run%errors)
+      loose = ''
+      if (.not. run%errors%any()) loose = loose_words(model)
       if (run%errors%any()) then
          run%ending = has_errors
+      else if (loose /= '') then
+         call run%failure%raise(loose)
       else if (run%check_only) then
          run%ending = was_checked
       end if
