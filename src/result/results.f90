@@ -3,9 +3,9 @@ module results
    use analysis_state, only: analysis_type
    use answer_block, only: print_answer
    use c_library, only: close_file, lock_folder
-   use csv_tables, only: bolt_table, energy_table, history_ending, joint_table, modes_table, response_table, split_table, &
-                         stage_table, table_endings, watch_table, write_bolts, write_energies, write_headers, write_history, &
-                         write_modes, write_response, write_stage
+   use csv_tables, only: bolt_table, energy_table, history_ending, joint_table, modes_table, reaction_table, response_table, &
+                         split_table, stage_table, table_endings, watch_table, write_bolts, write_energies, write_headers, &
+                         write_history, write_modes, write_response, write_stage
    use deck_input, only: deck_type
    use distribution, only: subdomain_output_type, distribute_bodies
    use equation_solver, only: equation_system
@@ -21,6 +21,7 @@ module results
    use restart_stream, only: restart_stream_type
    use stage_answer, only: n_bolts, bolt_answer_type, fault_of_answer, find_answer, find_bolt_answers, stage_answer_type
    use stage_plan, only: any_modes, any_response, any_watched, stage_plan_type, where_in_plan
+   use support_reactions, only: find_reactions, print_reactions, reactions_type, write_reactions
    use text_tools, only: real_text
    use vtu_lists, only: is_vtu_ending, remove_old_vtu
    use vtu_results, only: discard_vtu, finish_vtu, record_vtu, start_vtu, vtu_names, vtu_results_type, &
@@ -113,6 +114,7 @@ contains
       type(results_type), intent(inout) :: results
       type(failure_type), intent(inout) :: failure
       type(stage_answer_type) :: answer
+      type(reactions_type)    :: reactions
       type(watch_answer)      :: watch
       character(:), allocatable :: fault, title
 
@@ -126,13 +128,17 @@ contains
          if (analysis%record%ends_early) title = 'ANSWER WHERE THE RUN ENDED EARLY, '//page%stage//', LOAD '// &
                                           real_text(analysis%fraction)//'   '//stage%label
          call print_answer(page%file, page%labels, title, model, answer)
+         call find_reactions(model, analysis, page%largest_force, reactions)
+         call print_reactions(page%file, page%labels, model, reactions)
          if (allocated(stage%watched)) then
             call find_watched(model, analysis, stage%watched, results%watched_before, watch)
             call print_watched(page%file, page%labels, model, watch)
          end if
          if (results%base /= '') then
             call print_answer(results%screen, page%labels, title, model, answer)
+            call print_reactions(results%screen, page%labels, model, reactions)
             call write_stage(results%tables(stage_table), stage%id, model, answer)
+            call write_reactions(results%tables(reaction_table), stage%id, reactions)
          end if
          if (results%base /= '' .and. allocated(stage%watched)) then
             call print_watched(results%screen, page%labels, model, watch)
