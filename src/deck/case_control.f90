@@ -13,7 +13,7 @@ module case_control
    implicit none
    private
 
-   public :: read_case_control, offer_petsc
+   public :: read_case_control, watch_also, offer_petsc
 
    integer, parameter, public :: method_step = 1, method_newton = 2, method_back = 3                !! METHOD =
    integer, parameter, public :: pressure_sumf = 1, pressure_eq10 = 2                               !! PRESSURE =
@@ -21,6 +21,7 @@ module case_control
    integer, parameter, public :: solver_auto = 1, solver_skyline = 2, solver_tree = 3, &
                                  solver_petsc = 4, solver_mumps = 5                                !! SOLVER =
 
+   integer, parameter  :: own_set = -1 ! of --watch
    real(wp), parameter :: newton_tolerance = 1.0e-10_wp, back_tolerance = 1.0e-6_wp ! TOL that is not given
 
    type, public :: case_control_type
@@ -116,6 +117,22 @@ contains
       call check_stages(control, common, errors)
       call note_idle_sets(control)
    end subroutine read_case_control
+
+   !> The nodes of LIST, numbers with commas, are watched in all stages too: by a set with a number that no deck can give.
+   pure subroutine watch_also(control, list)
+      type(case_control_type), intent(inout) :: control
+      character(*), intent(in)               :: list
+      integer :: s
+
+      if (.not. allocated(control%sets)) allocate (control%sets(0))
+      control%sets = [control%sets, number_set(own_set, 0, list)]
+      do s = 1, size(control%stages)
+         associate (stage => control%stages(s))
+            if (.not. allocated(stage%watch)) allocate (stage%watch(0))
+            stage%watch = [stage%watch, limit_type(.false., own_set, 0)]
+         end associate
+      end do
+   end subroutine watch_also
 
    !> Sets that no OUTPUT, no WATCH and no RESPONSE names have no effect.
    pure subroutine note_idle_sets(control)

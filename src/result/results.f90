@@ -36,7 +36,18 @@ module results
 
    character(*), parameter, public :: listing_ending = '.out', restart_ending = '.restart'
 
+   !> What a row of a batch says of a run.
+   type, public :: digest_type
+      integer  :: stages = 0, increments = 0, iterations = 0 !! completed; iterations or re-analyses
+      real(wp) :: u_max = 0.0_wp, mises_max = 0.0_wp         !! the largest at the end of any stage [length], [pressure]
+      real(wp) :: contact = 1.0_wp                           !! least share of any joint, likewise
+      real(wp) :: safety = huge(1.0_wp)                      !! least against slip, likewise; huge: none
+      real(wp) :: frequency = -1.0_wp                        !! the first that is not zero, of the last stage with modes [1/time]
+   end type digest_type
+
    type, public :: results_type
+      type(digest_type)      :: digest
+      type(watch_answer)     :: watched       !! of the last stage that has any
       type(listing_type)     :: listing
       type(output_file_type) :: tables(size(table_endings))
       logical, private       :: has_table(size(table_endings)) = .false.
@@ -97,6 +108,8 @@ contains
       type(bolt_answer_type), allocatable :: bolts(:)
 
       call list_increment(results%listing, model, plan, analysis)
+      results%digest%increments = results%digest%increments + 1
+      results%digest%iterations = results%digest%iterations + analysis%n_passes
       if (plan%stages(analysis%stage)%steps) call write_vtu(results%vtu, model, plan, analysis)
       if (results%base == '') return
       call write_history(results%tables(joint_table), model, plan, analysis)
@@ -132,6 +145,7 @@ contains
          call print_reactions(page%file, page%labels, model, reactions)
          if (allocated(stage%watched)) then
             call find_watched(model, analysis, stage%watched, results%watched_before, watch)
+            results%watched = watch
             call print_watched(page%file, page%labels, model, watch)
          end if
          if (results%base /= '') then
@@ -145,10 +159,26 @@ contains
             call write_watched(results%tables(watch_table), results%tables(split_table), stage%id, model, watch)
          end if
       end associate
+      call note_stage(answer, results%digest)
       results%bolts_before = answer%bolts%force
       if (any_watched(plan)) call keep_watched(model, analysis, results%watched_before)
       if (.not. plan%stages(analysis%stage)%steps) call write_vtu(results%vtu, model, plan, analysis)
    end subroutine print_stage
+
+   !> The stage just completed in the DIGEST.
+   pure subroutine note_stage(answer, digest)
+      type(stage_answer_type), intent(in) :: answer
+      type(digest_type), intent(inout)    :: digest
+      integer :: j
+
+      digest%stages = digest%stages + 1
+      digest%u_max = max(digest%u_max, answer%displacement%value)
+      digest%mises_max = max(digest%mises_max, answer%at_node%value)
+      do j = 1, size(answer%joints)
+         digest%contact = min(digest%contact, answer%joints(j)%contact)
+         if (answer%joints(j)%has_safety) digest%safety = min(digest%safety, answer%joints(j)%safety)
+      end do
+   end subroutine note_stage
 
    !> The natural modes about the state at the end of the stage just completed.
    subroutine print_modes(model, plan, stage, modes, results)
@@ -157,7 +187,12 @@ contains
       integer, intent(in)               :: stage !! its position
       type(modes_type), intent(in)      :: modes
       type(results_type), intent(inout) :: results
+      integer :: m
 
+      results%digest%frequency = -1.0_wp
+      do m = size(modes%modes), 1, -1
+         if (.not. modes%modes(m)%is_rigid) results%digest%frequency = modes%modes(m)%frequency
+      end do
       associate (planned => plan%stages(stage))
          call list_modes(results%listing%page, model, planned%vibration, modes)
          if (results%base == '') return
@@ -263,6 +298,10 @@ contains
       call record_vtu(results%vtu, stream)
       call stream%item(results%bolts_before)
       call record_watched(stream, results%watched_before)
+      associate (d => results%digest)
+         call stream%item(d%stages, d%increments, d%iterations, d%u_max, d%mises_max, d%contact)
+         call stream%item(d%safety, d%frequency)
+      end associate
    end subroutine record_results
 
    !> Remove what an earlier run of the same deck left: it is not the result of this deck any more, wherever the run ends.

@@ -37,9 +37,9 @@ module watched_nodes
       real(wp), allocatable :: tension(:)       !! of bars [force]
    end type watch_state
 
-   type :: watched_node
-      integer  :: node = 0                      ! its position
-      real(wp) :: u(3) = 0.0_wp, change(3) = 0.0_wp ! displacement, and its change over the stage [length]
+   type, public :: watched_node
+      integer  :: node = 0                      !! its position
+      real(wp) :: u(3) = 0.0_wp, change(3) = 0.0_wp !! displacement, and its change over the stage [length]
       real(wp) :: load(3) = 0.0_wp              ! the load that its stiffness is for, change over the stage [force]
       logical  :: is_loaded = .false., moves = .false.
       real(wp) :: along = 0.0_wp                ! the change along the load [length]

@@ -136,8 +136,8 @@ contains
       run%argument = argument
       run%check_only = command%check_only
       run%is_dated = command%dated
-      call run%progress%start(argument%name, command%quiet, command%times)
-      call read_deck(argument%path, deck, run%errors, readable)
+      call run%progress%start(argument%name, command%quiet, command%times, argument%number, argument%of)
+      call read_deck(argument%path, deck, run%errors, readable, argument%parameters, command%watched)
       if (.not. readable) then
          run%ending = is_unreadable
          return
@@ -203,6 +203,10 @@ contains
       call date_and_time(date, time)
       if (run%is_dated) run%results%listing%page%date = date(:4)//'-'//date(5:6)//'-'//date(7:8)//' '//time(:2)//':'//time(3:4)
       call start_results(run%argument%base, deck, model, plan, system, run%results, ok)
+      if (ok .and. run%argument%of > 1 .and. run%argument%base /= '') then
+         call run%results%screen%put('')
+         call run%results%screen%put(' DECK: '//run%argument%name)
+      end if
       if (.not. ok) run%ending = is_unwritten
    end subroutine form_bodies
 
