@@ -102,7 +102,7 @@ contains
       response%spreads = [(frequency_spread(spreads(k)%lowest, spreads(k)%highest, spreads(k)%spread, spreads(k)%n), &
                            k = 1, size(spreads))]
       if (size(response%frequencies) + size(response%spreads) == 0) call deck%errors%add(asked%frequency%line, &
-         'FREQUENCY: there is no FREQ1 and no FREQ4 with set '//integer_text(asked%frequency%id))
+         'FREQUENCY: there is no FREQ1, FREQ2 or FREQ4 with set '//integer_text(asked%frequency%id))
       response%is_structural = deck%bulk%parameters%is_structural
       allocate (response%force(3, model%n_nodes), source=0.0_wp)
       do k = 1, load%n
@@ -137,7 +137,13 @@ contains
 
       allocate (f(0))
       do i = 1, size(cards)
-         f = merged(f, [(cards(i)%first + k*cards(i)%step, k = 0, cards(i)%n)])
+         associate (card => cards(i))
+            if (card%last > 0.0_wp) then
+               f = merged(f, [(card%first*(card%last/card%first)**(real(k, wp)/card%n), k = 0, card%n)])
+            else
+               f = merged(f, [(card%first + k*card%step, k = 0, card%n)])
+            end if
+         end associate
       end do
    end function merged_frequencies
 

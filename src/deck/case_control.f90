@@ -100,6 +100,7 @@ contains
             exit
          end if
          control%of_nastran = control%of_nastran .or. entry%key == 'SOL' .or. entry%key == 'CEND'
+         if (entry%key == 'METHOD' .and. entry%value /= '' .and. verify(entry%value, '0123456789') == 0) entry%key = 'MODES'
          in_plots = entry%key == 'OUTPUT' .and. entry%describers /= '' ! NASTRAN's plots: all lines up to BEGIN BULK
          if (in_plots .or. (entry%key == 'OUTPUT' .and. entry%value == '')) then
             call control%ignored%add('OUTPUT')
@@ -193,11 +194,11 @@ contains
       select case (entry%key)
       case ('SUBCASE')
          call start_stage(entry, control, common, errors)
-      case ('SOL') ! linear and nonlinear statics by their numbers and names; old decks write 1,0
+      case ('SOL') ! statics, and modes, by their numbers and names; old decks write 1,0
          choice = scan(entry%value//',', ', ')
-         if (index('|1|24|101|106|SESTATIC|SESTATICS|STATIC|STATICS|NLSTATIC|', &
+         if (index('|1|3|24|101|103|106|SESTATIC|SESTATICS|STATIC|STATICS|NLSTATIC|SEMODES|MODES|', &
                    '|'//upper(entry%value(:choice - 1))//'|') == 0 .or. choice == 1) &
-            call value_error(entry, '101 (or 1, 24, 106, SESTATIC, NLSTATIC): statics', errors)
+            call value_error(entry, '101 (or 1, 24, 106, SESTATIC, NLSTATIC), statics, or 103 (3, SEMODES), modes', errors)
       case ('TITLE')
          control%title = entry%value
       case ('UNITS')

@@ -80,7 +80,7 @@ contains
       call cards%add_kinds(['JGAP'], read_jgap)
       call cards%add_kinds(['JINCR'], read_jincr)
       call cards%add_kinds(['EIGRL'], read_eigrl)
-      call cards%add_kinds(['FREQ1'], read_freq1)
+      call cards%add_kinds(['FREQ1', 'FREQ2'], read_freq1)
       call cards%add_kinds(['FREQ4'], read_freq4)
       call cards%add_kinds(['TABDMP1'], read_tabdmp1)
       call cards%add_kinds(['PARAM'], read_parameter)
