@@ -109,7 +109,7 @@ contains
 
       call list_increment(results%listing, model, plan, analysis)
       results%digest%increments = results%digest%increments + 1
-      results%digest%iterations = results%digest%iterations + analysis%n_passes
+      results%digest%iterations = results%digest%iterations + analysis%record%n_iterations
       if (plan%stages(analysis%stage)%steps) call write_vtu(results%vtu, model, plan, analysis)
       if (results%base == '') return
       call write_history(results%tables(joint_table), model, plan, analysis)

@@ -83,10 +83,10 @@ contains
       answer%parts = pack(answer%parts(:n), answer%parts(:n)%nodes > 0)
       answer%loads%kind = 'LOADS'
       do node = 1, n_points(model)
-         if (any(abs(analysis%applied(:, node)) > 0.0_wp)) call act(answer%loads, model%x(:, node), analysis%applied(:, node))
+         if (any(abs(analysis%now%load(:, node)) > 0.0_wp)) call act(answer%loads, model%x(:, node), analysis%now%load(:, node))
       end do
       do j = 1, n_rotations(model)
-         call add_moment(model, j, analysis%applied(:, model%rotations(j)%node), answer%loads)
+         call add_moment(model, j, analysis%now%load(:, model%rotations(j)%node), answer%loads)
       end do
       answer%total%kind = 'ALL'
       do j = 1, size(answer%parts)

@@ -17,7 +17,7 @@ module watched_nodes
    use kinds, only: wp
    use listing_table, only: axes, column, label_type, listing_table_type
    use model_build, only: find_bodies
-   use model_data, only: bar_nodes, corners_of, model_type, n_bars, n_points
+   use model_data, only: a_spring, bar_nodes, corners_of, model_type, n_bars, n_points
    use output_file, only: output_file_type
    use restart_stream, only: restart_stream_type
    use text_tools, only: clean, csv_line_type
@@ -189,10 +189,10 @@ contains
       allocate (f, mold=change)
       call internal_forces(model, change, f)
       allocate (thermal, source=0.0_wp*change)
-      if (allocated(analysis%temperature_before%at)) call add_thermal_forces(model, analysis%temperature_before, thermal)
+      if (allocated(analysis%before%temperature%at)) call add_thermal_forces(model, analysis%before%temperature, thermal)
       f = f + thermal
       thermal = 0.0_wp
-      if (allocated(analysis%temperature%at)) call add_thermal_forces(model, analysis%temperature, thermal)
+      if (allocated(analysis%now%temperature%at)) call add_thermal_forces(model, analysis%now%temperature, thermal)
       f = f - thermal
       do node = 1, model%n_nodes
          if (of_node(node) == 0) cycle
@@ -221,7 +221,7 @@ contains
       character(6) :: words
 
       words = 'BAR'
-      if (model%bars(i)%axis /= '') words = 'SPRING'
+      if (model%bars(i)%kind == a_spring) words = 'SPRING'
       if (model%bars(i)%bolt > 0) words = 'BOLT'
    end function words_of_bar
 
