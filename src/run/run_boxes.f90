@@ -34,6 +34,7 @@ module run_boxes
                       remove_old_results, start_results
    use run_end, only: end_program
    use stage_plan, only: factorisations_of, shows_bodies, stage_plan_type, vibration_plan_type, where_in_plan
+   use unit_watch, only: unit_words
    use vtu_bodies, only: write_piece
    use terminal_line, only: say_line
    use text_tools, only: integer_text
@@ -174,7 +175,9 @@ contains
       else if (run%check_only) then
          run%ending = was_checked
       end if
-      if (run%errors%any() .or. deck%control%method /= method_newton) return
+      if (run%errors%any()) return
+      if (unit_words(deck) /= '') call say_line(run%argument%name//': '//unit_words(deck))
+      if (deck%control%method /= method_newton) return
       drops = pack(model%joints%id, (model%joints%law%shear(1)%given .or. model%joints%law%shear(2)%given) .and. &
                    .not. model%joints%law%has_friction)
       if (size(drops) > 0) call say_line(run%argument%name//': JOINT '//integer_text(drops(1))// &

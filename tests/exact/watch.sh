@@ -56,3 +56,15 @@ for case in 'bolted_cantilever 1' 'solid_bolt 2' 'lap_joint 3' 'bracket_spiders 
    sed '0,/^ *SUBCASE/s//WATCH = SET 99\nSET 99 = ALL\n&/' "input/$1.bdf" > "$work/$1.bdf"
    run "$1" && adds_up "$1" "$2"
 done
+
+# Units looked at: kg/m3 in a deck of mm and N is told, with what it should be; the right density, in any system of units, is not.
+for case in '7850.0 2.1+5 7.850E-09' '7.85 2.1+5 7.850E-09 UNITS=MM,N' '7.85 2.1+5' '7.85-9 2.1+5' '7850.0 2.1+11' '8.0-10 21000.0' '7.35-4 3.0+7'; do
+   set -- $case
+   cards units <<DECK
+${4:-TITLE = UNITS};SPC = 1;LOAD = 10
+BEGIN BULK;BLOCK2,1,1,1,1,0.0,0.0;+,8.0,5.0;PSHELL,1,1,2.0;MAT1,1,$2,,0.0,$1;SPC1,1,12,1,3;FORCE,10,2,,1.0,0.0,1.0;ENDDATA
+DECK
+   run units
+   if [ -n "${3:-}" ]; then says "units: $1 with $2" "$work/units.log" "There it would be $3"
+   else same "units: $1 with $2" "$(grep -c 'speed of waves' "$work/units.log")" 0; fi
+done
