@@ -5,6 +5,7 @@ program jointfem
    use analysis_state, only: analysis_type, interface_stiffness
    use back_method, only: back_increment
    use case_control, only: method_back, method_newton, method_step
+   use batch, only: batch_type, end_run_of_batch, start_run_of_batch
    use command_line, only: command_type, deck_argument
    use deck_input, only: deck_type
    use equation_solver, only: equation_system
@@ -19,13 +20,14 @@ program jointfem
    use step_method, only: accumulate, limit_friction, solve_increment, structure_stiffness
    implicit none
    type(command_type) :: command
+   type(batch_type)   :: runs
    integer :: i
 
    call start_program(command)
    do i = 1, size(command%decks)
       call analyse(command%decks(i))
    end do
-   call end_program()
+   call end_program(command=command, runs=runs)
 
 contains
 
@@ -39,6 +41,7 @@ contains
       class(equation_system), allocatable :: system
 
       ! ------------------------------------------------------------------ READ THE DATA
+      call start_run_of_batch(command, runs)
       call read_data(command, argument, run, deck)
 
       ! ------------------------------------------------------------------ BODIES, JOINTS, LOADS
@@ -92,6 +95,7 @@ contains
          end do
       end do
       call finish_run(run, deck, model, plan)
+      call end_run_of_batch(run, model, runs)
    end subroutine analyse
 
 end program jointfem

@@ -11,7 +11,7 @@ module stage_plan
    implicit none
    private
 
-   public :: loss_at, asked_frequencies, merged, any_modes, any_backbone, any_response, plan_stages, where_in_plan, &
+   public :: loss_at, asked_frequencies, merged, any_modes, any_backbone, any_response, any_watched, plan_stages, where_in_plan, &
              factorisations_of, shows_bodies
 
    real(wp), parameter :: critical_quality = 0.5_wp ! Q of critical damping
@@ -74,6 +74,7 @@ module stage_plan
       logical :: plot = .false., vtu = .false., steps = .false., stress = .false., state = .false., condensed = .false.
       logical :: along_cd = .false.         !! tables of nodes have the directions of their systems CD
       logical, allocatable :: shown(:)      !! nodes that its tables are limited to; not allocated: all
+      integer, allocatable :: watched(:)    !! positions of the nodes of WATCH; not allocated: none
       character(:), allocatable :: shown_words !! of that, behind a title
       real(wp), allocatable :: fractions(:)    !! of the stage's load change, one an increment, sum 1
       type(vibration_plan_type), allocatable :: vibration !! at its end; not allocated: none is asked
@@ -212,6 +213,14 @@ contains
          if (allocated(plan%stages(s)%vibration)) any_backbone = any_backbone .or. allocated(plan%stages(s)%vibration%backbone)
       end do
    end function any_backbone
+
+   !> Whether the answer of any stage gives the movement of nodes.
+   pure logical function any_watched(plan)
+      type(stage_plan_type), intent(in) :: plan
+      integer :: s
+
+      any_watched = any([(allocated(plan%stages(s)%watched), s = 1, size(plan%stages))])
+   end function any_watched
 
    !> Whether the response to an oscillating load is asked for after any stage.
    pure logical function any_response(plan)

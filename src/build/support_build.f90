@@ -2,9 +2,10 @@
 !! loads, and by D of SPC, which stays from the end of the first stage on. SPCADD and MPCADD sum up sets.
 module support_build
    use bulk_data, only: has_component, set_sum_card, support_card
+   use deck_cards, only: card_name
    use deck_check, only: checked_deck
    use kinds, only: wp
-   use model_data, only: model_type, n_bars, n_points, stage_load_type
+   use model_data, only: model_type, n_bars, n_points, stage_load_type, support_group
    use reference_nodes, only: component_place, place_of_component
    use surface_build, only: find_surface
    use surface_sides, only: nodes_of
@@ -26,6 +27,8 @@ contains
       integer :: i, set, set_line
 
       allocate (model%held(model%dimension, model%n_nodes), source=.false.)
+      allocate (model%support_of(model%dimension, model%n_nodes), source=0)
+      allocate (model%support_groups(0))
       allocate (model%used(model%n_nodes))
       model%used = model%first_at(2:) > model%first_at(:model%n_nodes)
       do i = 1, size(model%interface)
@@ -36,6 +39,7 @@ contains
       end do
       do i = 1, size(deck%bulk%grid)
          if (deck%bulk%grid(i)%ps == 0) cycle
+         call open_group(support_group('GRID', 0, deck%bulk%grid(i)%line), model)
          call hold(model, model%node_table%find(deck%bulk%grid(i)%id), deck%bulk%grid(i)%ps)
       end do
       set = 0
@@ -45,6 +49,7 @@ contains
       end if
       allocate (sets, source=support_sets(deck))
       do i = 1, size(deck%bulk%support)
+         if (any(sets == deck%bulk%support(i)%set)) call open_group(group_of(deck, deck%bulk%support(i)), model)
          call apply_support(deck, deck%bulk%support(i), any(sets == deck%bulk%support(i)%set), model)
       end do
       call check_sums(deck, 'SPCADD', deck%bulk%support_sum, deck%bulk%support%set, 'SPC, SPC1 or SPCM')
@@ -120,7 +125,7 @@ contains
    end function first_from
 
    !> Hold NODE in COMPONENTS, those of rotations where it has any; what a node does not have (3 to 5 in the plane) is held anyway.
-   pure subroutine hold(model, node, components)
+   subroutine hold(model, node, components)
       type(model_type), intent(inout) :: model
       integer, intent(in)             :: node, components
       integer :: d
@@ -130,11 +135,44 @@ contains
          if (.not. has_component(components, d)) cycle
          associate (place => place_of_component(model, node, d))
             if (place%node == 0) cycle
-            model%held(place%d, place%node) = .true.
-            if (model%duplicate(place%node) > 0) model%held(d, model%duplicate(node)) = .true. ! a split node: both of it
+            call hold_place(place%d, place%node)
+            if (model%duplicate(place%node) > 0) call hold_place(d, model%duplicate(node)) ! a split node: both of it
          end associate
       end do
+
+   contains
+
+      subroutine hold_place(d, node)
+         integer, intent(in) :: d, node
+
+         model%held(d, node) = .true.
+         if (model%support_of(d, node) == 0) model%support_of(d, node) = size(model%support_groups)
+      end subroutine hold_place
+
    end subroutine hold
+
+   !> The group that the card SUPPORT belongs to.
+   function group_of(deck, support) result(group)
+      type(checked_deck), intent(in) :: deck
+      type(support_card), intent(in) :: support
+      type(support_group) :: group
+
+      group = support_group(card_name(deck%text%card_part(support%line)), support%set, support%line)
+      if (support%surface > 0) group = support_group('SPCM', support%surface, support%line)
+   end function group_of
+
+   !> What is held from here on is of GROUP: of the last one where both are PS of GRID, or SPC cards of one set.
+   subroutine open_group(group, model)
+      type(support_group), intent(in) :: group
+      type(model_type), intent(inout) :: model
+
+      associate (groups => model%support_groups)
+         if (size(groups) > 0 .and. any(group%kind == ['GRID', 'SPC '])) then
+            if (groups(size(groups))%kind == group%kind .and. groups(size(groups))%id == group%id) return
+         end if
+      end associate
+      model%support_groups = [model%support_groups, group]
+   end subroutine open_group
 
    !> Add FACTOR times what the SPCD cards of load set SET move to LOADS.
    subroutine add_moves(deck, model, set, factor, loads)

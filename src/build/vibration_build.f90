@@ -139,7 +139,7 @@ contains
       response%spreads = [(frequency_spread(spreads(k)%lowest, spreads(k)%highest, spreads(k)%spread, spreads(k)%n), &
                            k = 1, size(spreads))]
       if (size(response%frequencies) + size(response%spreads) == 0) call deck%errors%add(asked%frequency%line, &
-         'FREQUENCY: there is no FREQ1 and no FREQ4 with set '//integer_text(asked%frequency%id))
+         'FREQUENCY: there is no FREQ1, FREQ2 or FREQ4 with set '//integer_text(asked%frequency%id))
       response%is_structural = deck%bulk%parameters%is_structural
       allocate (response%force(3, model%n_nodes), source=0.0_wp)
       do k = 1, load%n
@@ -174,20 +174,32 @@ contains
 
       allocate (f(0))
       do i = 1, size(cards)
-         f = merged(f, [(cards(i)%first + k*cards(i)%step, k = 0, cards(i)%n)])
+         associate (card => cards(i))
+            if (card%last > 0.0_wp) then
+               f = merged(f, [(card%first*(card%last/card%first)**(real(k, wp)/card%n), k = 0, card%n)])
+            else
+               f = merged(f, [(card%first + k*card%step, k = 0, card%n)])
+            end if
+         end associate
       end do
    end function merged_frequencies
 
-   !> Fill SHOWN of the stages of PLAN that are limited.
+   !> Fill SHOWN of the stages of PLAN that are limited, and WATCHED of those that have WATCH.
    subroutine find_shown_nodes(deck, model, plan, errors)
       type(deck_type), intent(in)          :: deck
       type(model_type), intent(in)         :: model
       type(stage_plan_type), intent(inout) :: plan
       type(deck_error_list), intent(inout) :: errors
+      logical, allocatable :: are_named(:)
       integer :: i, s
 
       do s = 1, size(plan%stages)
          associate (given => deck%control%stages(s), stage => plan%stages(s))
+            if (allocated(given%watch)) then
+               call find_limited_nodes(deck%control%sets, model, 'WATCH', given%watch, are_named, errors)
+               stage%watched = pack([(i, i = 1, model%n_nodes)], are_named .and. model%used .and. model%node_id > 0)
+               if (size(stage%watched) == 0) call errors%add(given%watch(1)%line, 'WATCH: names no node that an element holds')
+            end if
             if (.not. allocated(given%only)) cycle
             call find_limited_nodes(deck%control%sets, model, 'OUTPUT', given%only, stage%shown, errors)
             do i = 1, size(given%only)

@@ -279,10 +279,11 @@ module bulk_data
       real(wp) :: lowest = 0.0_wp, highest = 0.0_wp, spread = 0.0_wp
    end type freq4_card
 
-   !> FREQ1: frequencies FIRST + k STEP, k = 0 to N.
+   !> FREQ1: frequencies FIRST + k STEP, k = 0 to N; FREQ2: FIRST (LAST/FIRST)**(k/N).
    type, public :: freq1_card
       integer  :: line = 0, set = 0, n = 0
       real(wp) :: first = 0.0_wp, step = 0.0_wp
+      real(wp) :: last = 0.0_wp                         ! above zero: of a FREQ2
    end type freq1_card
 
    !> TABDMP1: damping over frequency, in ascending order.

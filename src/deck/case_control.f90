@@ -2,7 +2,7 @@
 module case_control
    use case_entries, only: check_repeated, choose, cut_entry, entry_type, global_keys, read_number, set_reference, &
                            stage_keys, value_error
-   use case_sets, only: number_set, read_set
+   use case_sets, only: limit_type, number_set, read_set
    use deck_errors, only: deck_error_list
    use deck_text, only: deck_text_type
    use field_rules, only: parse_integer, parse_real
@@ -13,7 +13,7 @@ module case_control
    implicit none
    private
 
-   public :: read_case_control, offer_petsc
+   public :: read_case_control, watch_also, offer_petsc
 
    integer, parameter, public :: method_step = 1, method_newton = 2, method_back = 3                !! METHOD =
    integer, parameter, public :: pressure_sumf = 1, pressure_eq10 = 2                               !! PRESSURE =
@@ -21,6 +21,7 @@ module case_control
    integer, parameter, public :: solver_auto = 1, solver_skyline = 2, solver_tree = 3, &
                                  solver_petsc = 4, solver_mumps = 5                                !! SOLVER =
 
+   integer, parameter  :: own_set = -1 ! of --watch
    real(wp), parameter :: newton_tolerance = 1.0e-10_wp, back_tolerance = 1.0e-6_wp ! TOL that is not given
 
    type, public :: case_control_type
@@ -99,6 +100,7 @@ contains
             exit
          end if
          control%of_nastran = control%of_nastran .or. entry%key == 'SOL' .or. entry%key == 'CEND'
+         if (entry%key == 'METHOD' .and. entry%value /= '' .and. verify(entry%value, '0123456789') == 0) entry%key = 'MODES'
          in_plots = entry%key == 'OUTPUT' .and. entry%describers /= '' ! NASTRAN's plots: all lines up to BEGIN BULK
          if (in_plots .or. (entry%key == 'OUTPUT' .and. entry%value == '')) then
             call control%ignored%add('OUTPUT')
@@ -117,7 +119,23 @@ contains
       call note_idle_sets(control)
    end subroutine read_case_control
 
-   !> Sets that no OUTPUT and no RESPONSE names have no effect.
+   !> The nodes of LIST, numbers with commas, are watched in all stages too: by a set with a number that no deck can give.
+   pure subroutine watch_also(control, list)
+      type(case_control_type), intent(inout) :: control
+      character(*), intent(in)               :: list
+      integer :: s
+
+      if (.not. allocated(control%sets)) allocate (control%sets(0))
+      control%sets = [control%sets, number_set(own_set, 0, list)]
+      do s = 1, size(control%stages)
+         associate (stage => control%stages(s))
+            if (.not. allocated(stage%watch)) allocate (stage%watch(0))
+            stage%watch = [stage%watch, limit_type(.false., own_set, 0)]
+         end associate
+      end do
+   end subroutine watch_also
+
+   !> Sets that no OUTPUT, no WATCH and no RESPONSE names have no effect.
    pure subroutine note_idle_sets(control)
       type(case_control_type), intent(inout) :: control
       integer :: i, s
@@ -128,15 +146,22 @@ contains
          used = .false.
          do s = 1, size(control%stages)
             associate (stage => control%stages(s))
-               if (allocated(stage%only)) used = used .or. any(stage%only%id == control%sets(i)%id .and. .not. stage%only%is_mark)
-               if (.not. allocated(stage%vibration%response)) cycle
-               associate (only => stage%vibration%response)
-                  used = used .or. any(only%id == control%sets(i)%id .and. .not. only%is_mark)
-               end associate
+               used = used .or. names(stage%only) .or. names(stage%watch) .or. names(stage%vibration%response)
             end associate
          end do
          if (.not. used) call control%ignored%add('SET')
       end do
+
+   contains
+
+      !> Whether LIMITS name set I.
+      pure logical function names(limits)
+         type(limit_type), allocatable, intent(in) :: limits(:)
+
+         names = .false.
+         if (allocated(limits)) names = any(limits%id == control%sets(i)%id .and. .not. limits%is_mark)
+      end function names
+
    end subroutine note_idle_sets
 
    !> What one line of case control says.
@@ -169,11 +194,11 @@ contains
       select case (entry%key)
       case ('SUBCASE')
          call start_stage(entry, control, common, errors)
-      case ('SOL') ! linear and nonlinear statics by their numbers and names; old decks write 1,0
+      case ('SOL') ! statics, and modes, by their numbers and names; old decks write 1,0
          choice = scan(entry%value//',', ', ')
-         if (index('|1|24|101|106|SESTATIC|SESTATICS|STATIC|STATICS|NLSTATIC|', &
+         if (index('|1|3|24|101|103|106|SESTATIC|SESTATICS|STATIC|STATICS|NLSTATIC|SEMODES|MODES|', &
                    '|'//upper(entry%value(:choice - 1))//'|') == 0 .or. choice == 1) &
-            call value_error(entry, '101 (or 1, 24, 106, SESTATIC, NLSTATIC): statics', errors)
+            call value_error(entry, '101 (or 1, 24, 106, SESTATIC, NLSTATIC), statics, or 103 (3, SEMODES), modes', errors)
       case ('TITLE')
          control%title = entry%value
       case ('UNITS')

@@ -11,8 +11,8 @@ module case_entries
    !> Keys that hold for all stages, and those of a stage.
    character(8), parameter, public :: global_keys(12) = [character(8) :: 'SOL', 'TITLE', 'UNITS', 'METHOD', 'TOL', 'PRESSURE', &
       'CARRY', 'AVERAGE', 'SOLVER', 'ECHO', 'RESTART', 'MASS']
-   character(11), parameter, public :: stage_keys(15) = [character(11) :: 'SPC', 'MPC', 'LABEL', 'LOAD', 'INCR', 'OUTPUT', &
-      'TEMPERATURE', 'MODES', 'STIFFNESS', 'AMPLITUDE', 'BACKBONE', 'FREQUENCY', 'DLOAD', 'SDAMPING', 'RESPONSE']
+   character(11), parameter, public :: stage_keys(16) = [character(11) :: 'SPC', 'MPC', 'LABEL', 'LOAD', 'INCR', 'OUTPUT', &
+      'TEMPERATURE', 'WATCH', 'MODES', 'STIFFNESS', 'AMPLITUDE', 'BACKBONE', 'FREQUENCY', 'DLOAD', 'SDAMPING', 'RESPONSE']
    character(11), parameter :: short_keys(3) = [character(11) :: 'TEMPERATURE', 'FREQUENCY', 'SDAMPING'] ! four letters will do
 
    !> A key with a number, and the line it stands on (0: not given).

@@ -2,9 +2,10 @@
 module deck_input
    use bulk_data, only: bulk_data_type
    use card_reader, only: card_kind, card_reader_type
-   use case_control, only: case_control_type, read_case_control
+   use case_control, only: case_control_type, read_case_control, watch_also
    use deck_cards, only: card_name, card_type, check_first_field, is_continuation, read_card
    use deck_errors, only: deck_error_list
+   use deck_parameters, only: parameter_type
    use deck_text, only: deck_text_of_bytes, deck_text_type, is_include, read_deck_text
    use joint_cards, only: read_jgap, read_cjoint, read_jincr, read_jnorm, read_joint, read_jshear, read_pjoint
    use kinds, only: long
@@ -80,7 +81,7 @@ contains
       call cards%add_kinds(['JINCR'], read_jincr)
       call cards%add_kinds(['EIGRL'], read_eigrl)
       call cards%add_kinds(['JAMPL'], read_jampl)
-      call cards%add_kinds(['FREQ1'], read_freq1)
+      call cards%add_kinds(['FREQ1', 'FREQ2'], read_freq1)
       call cards%add_kinds(['FREQ4'], read_freq4)
       call cards%add_kinds(['TABDMP1'], read_tabdmp1)
       call cards%add_kinds(['PARAM'], read_parameter)
@@ -108,14 +109,20 @@ contains
    end subroutine make_room
 
    !> Read the deck PATH. READABLE is false where the file itself cannot be read; what is wrong in it goes to ERRORS.
-   subroutine read_deck(path, deck, errors, readable)
+   subroutine read_deck(path, deck, errors, readable, parameters, watched)
       character(*), intent(in)             :: path
       type(deck_type), intent(out)         :: deck
       type(deck_error_list), intent(inout) :: errors
       logical, intent(out)                 :: readable
+      type(parameter_type), intent(in), optional :: parameters(:) !! of --set; default: none
+      character(*), intent(in), optional   :: watched             !! numbers of nodes with commas, of --watch; default and '': none
 
-      call read_deck_text(path, deck%text, errors, readable)
+      call read_deck_text(path, deck%text, errors, readable, parameters)
       if (readable) call read_lines(deck, errors)
+      if (.not. present(watched) .or. .not. readable) return
+      if (watched == '') return
+      call watch_also(deck%control, watched)
+      deck%text%options = '--watch '//watched
    end subroutine read_deck
 
    !> Read the deck whose file would hold these BYTES; what is wrong in it goes to ERRORS.

@@ -4,6 +4,7 @@ module deck_text
    use checksum, only: add_to_checksum, no_bytes
    use command_arguments, only: standard_input
    use deck_errors, only: deck_error_list
+   use deck_parameters, only: fill_parameters, parameter_type
    use, intrinsic :: iso_fortran_env, only: int8
    use kinds, only: long
    use text_tools, only: integer_text, upper
@@ -51,6 +52,8 @@ module deck_text
       type(line_place), allocatable, private :: lines(:)
       type(part_type), allocatable, private  :: parts(:)
       integer, private                       :: n_parts = 0
+      type(parameter_type), allocatable      :: parameters(:) !! of --set
+      character(:), allocatable              :: options       !! of the command, that change what is asked; not allocated: none
    contains
       procedure :: line => whole_line
       procedure :: card_part
@@ -64,14 +67,23 @@ contains
 
    !> Read the deck PATH and what it includes. READABLE is false where PATH itself cannot be read (then TEXT holds
    !! nothing); everything else that is wrong goes to ERRORS.
-   subroutine read_deck_text(path, text, errors, readable)
+   subroutine read_deck_text(path, text, errors, readable, parameters)
       character(*), intent(in)             :: path
       type(deck_text_type), intent(out)    :: text
       type(deck_error_list), intent(inout) :: errors
       logical, intent(out)                 :: readable
+      type(parameter_type), intent(in), optional :: parameters(:) !! default: none
+      integer :: k
 
-      allocate (text%files(max_files), text%lines(1024), text%parts(2*max_files))
+      allocate (text%files(max_files), text%lines(1024), text%parts(2*max_files), text%parameters(0))
+      if (present(parameters)) text%parameters = parameters
       call add_file(text, path, 0, 0, errors, readable)
+      do k = 1, size(text%parameters)
+         associate (parameter => text%parameters(k))
+            if (.not. parameter%is_used) call errors%add(0, '--set '//parameter%name//': there is no ${'//parameter%name// &
+                                                         '} in the deck')
+         end associate
+      end do
    end subroutine read_deck_text
 
    !> The deck with these BYTES, lines and line ends as a file holds them. It is named 'text'; what it includes is looked for in
@@ -94,6 +106,7 @@ contains
       integer :: i
 
       sum = no_bytes
+      if (allocated(text%options)) call add_to_checksum(text%options, sum)
       do i = 1, text%n_files
          write (length, '(i20)') len(text%files(i)%bytes, long)
          call add_to_checksum(length, sum)
@@ -195,6 +208,7 @@ contains
       integer, intent(in)                  :: parent, depth
       type(deck_error_list), intent(inout) :: errors
       logical, intent(out)                 :: readable
+      character(:), allocatable :: fault
       integer :: me
 
       me = text%n_files + 1
@@ -203,6 +217,10 @@ contains
       text%files(me)%parent = parent
       call read_all_bytes(path, text%files(me)%bytes, readable)
       if (.not. readable) return
+      if (allocated(text%parameters)) then
+         call fill_parameters(text%files(me)%bytes, text%parameters, fault)
+         if (fault /= '') call errors%add(0, text%files(me)%path//', '//fault)
+      end if
       text%files(me)%true_path = true_path(path)
       text%n_files = me
       call add_lines(text, me, depth, errors)

@@ -48,7 +48,8 @@ module nastran_compatibility
    character(*), parameter :: which_modes = 'expected none: V1, V2 and ND of EIGRL say which modes take part'
 
    ! of the executive control and of the case control
-   character(12), parameter :: control_words(63) = [character(12) :: &
+   character(12), parameter :: control_words(65) = [character(12) :: &
+      'SCREEN', 'FORMAT', &
       'ID', 'TIME', 'NASTRAN', 'INIT', 'ASSIGN', 'DIAG', 'GEOMCHECK', 'ECHOON', 'ECHOOFF', 'SUBTITLE', 'LINE', &
       'MAXLINES', 'PAGE', 'POST', 'ELSUM', 'GROUNDCHECK', 'WEIGHTCHECK', 'AUTOSPC', 'NLPARM', 'NLSTRESS', 'DISPLACEMENT', &
       'VECTOR', 'SVECTOR', 'VELOCITY', 'ACCELERATION', 'STRESS', 'ELSTRESS', 'STRAIN', 'ELSTRAIN', 'FORCE', 'ELFORCE', &
@@ -56,7 +57,8 @@ module nastran_compatibility
       'EDE', 'STRFIELD', 'SURFACE', 'VOLUME', 'BOUTPUT', 'DATAREC', 'THERMAL', 'FLUX', 'HOUTPUT', 'ENTHALPY', 'MEFFMASS', &
       'MODALKE', 'OTIME', 'OFREQUENCY', 'OMODES', 'PLOTID', 'SETP', 'XYPLOT', 'XYPRINT', 'SEALL', 'VUGRID']
    ! of the bulk data: plots, and properties and materials of elements that there are none of
-   character(8), parameter :: card_names(42) = [character(8) :: &
+   character(8), parameter :: card_names(45) = [character(8) :: &
+      'MAT4', 'MAT5', 'DTI', &
       'PLOTEL', 'PLOTEL3', 'PLOTEL4', 'PLOTEL6', 'PLOTEL8', 'ECHOON', 'ECHOOFF', 'NLPARM', 'PBAR', 'PBARL', 'PBEAM', &
       'PBEAML', 'PBCOMP', 'PBEND', 'PBUSH1D', 'PCOMP', 'PCOMPG', 'PCOMPS', 'PDAMP', 'PFAST', 'PGAP', 'PLPLANE', 'PLSOLID', &
       'PMASS', 'PRAC2D', 'PRAC3D', 'PSHEAR', 'PTUBE', 'PVISC', 'PWELD', 'BAROR', 'BEAMOR', 'MAT2', 'MAT3', 'MAT8', 'MAT9', &
@@ -180,7 +182,7 @@ contains
          else
             call errors%add(entry%line, ''''//entry%key(:min(40, len(entry%key)))//''' is no key of case control; '// &
                             'expected TITLE, UNITS, METHOD, TOL, PRESSURE, CARRY, AVERAGE, SOLVER, MASS, RESTART, ECHO, SPC, '// &
-                            'MPC, SUBCASE, LABEL, LOAD, TEMPERATURE(LOAD), INCR, OUTPUT, MODES, STIFFNESS, AMPLITUDE, '// &
+                            'MPC, SUBCASE, LABEL, LOAD, TEMPERATURE(LOAD), INCR, OUTPUT, WATCH, MODES, STIFFNESS, AMPLITUDE, '// &
                             'FREQUENCY, DLOAD, SDAMPING, RESPONSE or BEGIN BULK')
          end if
       end select

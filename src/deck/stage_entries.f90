@@ -47,6 +47,7 @@ module stage_entries
       logical :: condensed = .false.      !! [k_b] condensed on the interface
       logical :: along_cd = .false.       !! vectors at nodes along their systems CD
       type(limit_type), allocatable :: only(:) !! not allocated: the tables have all nodes and elements
+      type(limit_type), allocatable :: watch(:) !! nodes whose movement the answer gives; not allocated: none
       type(vibration_entries_type) :: vibration !! MODES and what goes with it
    end type stage_type
 
@@ -104,7 +105,9 @@ contains
          case ('SDAMPING')
             call read_number(entry, asked%damping, errors)
          case ('RESPONSE')
-            call read_response(entry, asked, errors)
+            call read_nodes(entry, asked%response, errors)
+         case ('WATCH')
+            call read_nodes(entry, stage%watch, errors)
          end select
       end associate
    end subroutine read_stage_entry
@@ -174,25 +177,25 @@ contains
 
    end subroutine read_output
 
-   !> RESPONSE = SET 5, PMARK 20: words between commas.
-   subroutine read_response(entry, asked, errors)
-      type(entry_type), intent(in)                :: entry
-      type(vibration_entries_type), intent(inout) :: asked
-      type(deck_error_list), intent(inout)        :: errors
+   !> RESPONSE = SET 5, PMARK 20, and WATCH likewise: words between commas.
+   subroutine read_nodes(entry, nodes, errors)
+      type(entry_type), intent(in)         :: entry
+      type(limit_type), allocatable, intent(inout) :: nodes(:)
+      type(deck_error_list), intent(inout) :: errors
       character(:), allocatable :: rest
       integer :: comma
       logical :: ok
 
-      if (allocated(asked%response)) deallocate (asked%response)
+      if (allocated(nodes)) deallocate (nodes)
       rest = upper(entry%value)
       ok = rest /= ''
       do while (ok .and. rest /= '')
          comma = index(rest//',', ',')
-         call read_limit(trim(adjustl(rest(:comma - 1))), entry%line, asked%response, ok)
+         call read_limit(trim(adjustl(rest(:comma - 1))), entry%line, nodes, ok)
          rest = rest(min(comma + 1, len(rest) + 1):)
       end do
       if (.not. ok) call value_error(entry, 'SET N or PMARK N, several with commas between them: the nodes to be written', errors)
-   end subroutine read_response
+   end subroutine read_nodes
 
    !> What goes together stands together: of the stages, whose entries above the first SUBCASE have come down into each, the entries
    !! of its own. What stands above them all has no effect in a stage without MODES, or without FREQUENCY, but one must have it.

@@ -1,4 +1,4 @@
-!> The cards of oscillation: EIGRL, JAMPL, FREQ1, FREQ4, TABDMP1.
+!> The cards of oscillation: EIGRL, JAMPL, FREQ1, FREQ2, FREQ4, TABDMP1.
 module vibration_cards
    use bulk_data, only: bulk_data_type, tabdmp1_card
    use card_fields, only: card_fields_type
@@ -66,13 +66,21 @@ contains
          name//'1, '//real_text(lowest)//'; expected the end of the range')
    end subroutine check_range
 
-   !> FREQ1: the frequencies F1 + k DF, k = 0 to NDF. A set may have several.
+   !> FREQ1: the frequencies F1 + k DF, k = 0 to NDF. FREQ2: NF logarithmic intervals from F1 to F2. A set may have several.
    subroutine read_freq1(card, bulk)
       type(card_fields_type), intent(inout) :: card
       type(bulk_data_type), intent(inout)   :: bulk
 
       associate (freq1 => bulk%freq1(card%i))
          call card%field('SID', freq1%set)
+         if (card%name == 'FREQ2') then
+            call card%field('F1', freq1%first, positive)
+            call card%field('F2', freq1%last, positive)
+            call card%field('NF', freq1%n, default=1, most=most_frequencies)
+            call card%finish(freq1%line)
+            call check_range(card, freq1%first, freq1%last, 'F')
+            return
+         end if
          call card%field('F1', freq1%first, not_negative)
          call card%field('DF', freq1%step, positive)
          call card%field('NDF', freq1%n, default=1, most=most_frequencies)

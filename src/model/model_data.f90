@@ -137,6 +137,13 @@ module model_data
       real(wp) :: arm = 1.0_wp               !! root mean square of the distances of the nodes that move with it [length]
    end type rotation_type
 
+   !> What holds: an SPC1 card, the SPC cards of one set, the SPCM card of a surface, PS of GRID.
+   type, public :: support_group
+      character(4) :: kind = ''              !! SPC, SPC1, SPCM, GRID
+      integer :: id = 0                      !! SPCM: the PMARK; else the set; GRID: 0
+      integer :: line = 0                    !! of the (first) card in the deck text
+   end type support_group
+
    !> Nodes whose displacements are not their own unknowns in global axes: see node_coupling.
    type, public :: node_coupling_type
       integer :: n = 0                       !! coupled nodes
@@ -157,6 +164,8 @@ module model_data
       integer, allocatable  :: duplicate(:)  !! (n_nodes) the node that a split surface put opposite, 0: none
       logical, allocatable  :: used(:)       !! (n_nodes) whether any element holds the node
       logical, allocatable  :: held(:, :)    !! (dimension, n_nodes) supported, component by component of its unknowns
+      type(support_group), allocatable :: support_groups(:)
+      integer, allocatable  :: support_of(:, :) !! (dimension, nodes at that time) the first of these that holds it, 0: none
       logical, allocatable  :: left_out(:, :) !! (dimension, n_nodes) no unknowns though not supported: components that depend on
                                              !! others, or are of reference nodes and move nothing; held too; where any are
       type(node_coupling_type) :: coupling   !! of displacements with unknowns

@@ -1,7 +1,8 @@
 !> The tables beside the listing, in full precision; a field is empty where there is nothing to say. NAME.joint.csv: every interface
 !! element after every increment; NAME.stage.csv: the answer of every stage, a row a joint; NAME.bolt.csv: every bolt after every
-!! increment; NAME.modes.csv: the natural modes of every stage that asks for them; NAME.modes.energy.csv: the shares of their strain
-!! energy; NAME.response.csv: amplitude and phase of the nodes asked, over the frequency of a load that oscillates;
+!! increment; NAME.reaction.csv: what the supports of every stage take; NAME.modes.csv: the natural modes of every stage that asks for
+!! them; NAME.modes.energy.csv: the shares of their strain energy; NAME.watch.csv: how the nodes of WATCH move; NAME.watch.energy.csv:
+!! who gives way by how much; NAME.response.csv: amplitude and phase of the nodes asked, over the frequency of a load that oscillates;
 !! NAME.backbone.csv and NAME.loop.csv: frequency and loss of a mode over its amplitude, and the loops that they are read from.
 module csv_tables
    use analysis_state, only: analysis_type
@@ -25,11 +26,12 @@ module csv_tables
 
    ! the tables in the order of their endings
    integer, parameter, public :: joint_table = 1, stage_table = 2, bolt_table = 3, modes_table = 4, energy_table = 5, &
-                                 response_table = 6, backbone_table = 7, loop_table = 8, bend_table = 9
+                                 response_table = 6, backbone_table = 7, loop_table = 8, bend_table = 9, watch_table = 10, &
+                                 split_table = 11, reaction_table = 12
    character(*), parameter, public :: history_ending = '.joint.csv'
-   character(22), parameter, public :: table_endings(9) = [character(22) :: history_ending, '.stage.csv', '.bolt.csv', &
-                                                           '.modes.csv', '.modes.energy.csv', '.response.csv', &
-                                                           '.backbone.csv', '.loop.csv', '.backbone.response.csv']
+   character(22), parameter, public :: table_endings(12) = [character(22) :: history_ending, '.stage.csv', '.bolt.csv', &
+      '.modes.csv', '.modes.energy.csv', '.response.csv', '.backbone.csv', '.loop.csv', '.backbone.response.csv', '.watch.csv', &
+      '.watch.energy.csv', '.reaction.csv']
 
    real(wp), parameter :: no_mass = 1.0e-12_wp ! of the structure's: rounding
 
@@ -54,6 +56,10 @@ contains
       call put(backbone_table, 'stage,mode,amplitude,frequency,loss_factor,slipping,open,distortion')
       call put(bend_table, 'stage,mode,amplitude,below,phase_below,above,phase_above')
       call put(loop_table, 'stage,mode,amplitude,point,alpha,q')
+      call put(watch_table, 'stage,node,x,y,z,u_x,u_y,u_z,change_x,change_y,change_z,load_x,load_y,load_z,along,load,stiffness')
+      call put(reaction_table, 'stage,kind,id,line,nodes,x,y,z,force_x,force_y,force_z,moment_x,moment_y,moment_z,'// &
+               'central_x,central_y,central_z')
+      call put(split_table, 'stage,kind,id,normal,shear,work')
       call put(response_table, 'stage,frequency,node,component,amplitude,phase')
 
    contains

@@ -7,6 +7,7 @@ module listing_opening
    use element_kinds, only: element_table, n_kinds
    use element_mapping, only: has_modes
    use equation_solver, only: equation_system
+   use facing_bodies, only: body_type, list_bodies
    use interface_operator, only: named_node
    use joint_motion, only: is_closed
    use kinds, only: long, wp
@@ -44,6 +45,7 @@ contains
       call page%file%put(' '//repeat('-', page_width - 1))
       call write_echo(page%file, deck)
       call write_summary(page%file, deck, model, system)
+      call write_bodies(page, model)
       if (size(model%joints) > 0) call write_joints(page, model)
       if (has_gaps(model)) call write_gaps(page, model)
       call write_shear_laws(page%file, model)
@@ -152,6 +154,31 @@ contains
       end subroutine count_line
 
    end subroutine write_summary
+
+   !> The bodies, where there are several: they have the numbers of the answers and of the energies of modes.
+   subroutine write_bodies(page, model)
+      type(page_type), intent(inout) :: page
+      type(model_type), intent(in)   :: model
+      type(listing_table_type) :: table
+      type(body_type), allocatable :: bodies(:)
+      integer :: body(model%n_elements), d, i
+
+      call list_bodies(model, body, bodies)
+      if (size(bodies) < 2) return
+      d = model%dimension
+      call table%start('BODIES', [column('BODY', 'i11'), column([character(8) :: 'ELEMENTS', 'NODES'], 'i11'), &
+                                  column([character(12) :: 'FROM ELEMENT', 'TO ELEMENT'], 'i13'), &
+                                  column('FROM '//axes(:d), 'es12.4', page%labels%length), &
+                                  column('TO '//axes(:d), 'es12.4', page%labels%length)])
+      call table%print_head(page%file)
+      do i = 1, size(bodies)
+         associate (b => bodies(i))
+            call table%add([i, b%n_elements, b%n_nodes, b%first, b%last])
+            call table%add(clean([b%low(:d), b%high(:d)]))
+            call table%print_row(page%file)
+         end associate
+      end do
+   end subroutine write_bodies
 
    !> WORDS, a list with commas, in as many lines as it takes; none where there are no words.
    subroutine write_folded(file, words)

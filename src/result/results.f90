@@ -5,8 +5,9 @@ module results
    use backbone, only: backbone_type
    use c_library, only: close_file, lock_folder
    use csv_tables, only: backbone_table, bend_table, bolt_table, energy_table, history_ending, joint_table, loop_table, &
-                         modes_table, response_table, stage_table, table_endings, write_answers, write_backbone, write_bolts, &
-                         write_energies, write_headers, write_history, write_loops, write_modes, write_response, write_stage
+                         modes_table, reaction_table, response_table, split_table, stage_table, table_endings, watch_table, &
+                         write_answers, write_backbone, write_bolts, write_energies, write_headers, write_history, write_loops, &
+                         write_modes, write_response, write_stage
    use deck_input, only: deck_type
    use distribution, only: subdomain_output_type, distribute_bodies
    use equation_solver, only: equation_system
@@ -22,11 +23,14 @@ module results
    use output_file, only: output_file_type
    use restart_stream, only: restart_stream_type
    use stage_answer, only: n_bolts, bolt_answer_type, fault_of_answer, find_answer, find_bolt_answers, stage_answer_type
-   use stage_plan, only: any_backbone, any_modes, any_response, stage_plan_type, where_in_plan
+   use stage_plan, only: any_backbone, any_modes, any_response, any_watched, stage_plan_type, where_in_plan
+   use support_reactions, only: find_reactions, print_reactions, reactions_type, write_reactions
    use text_tools, only: real_text
    use vtu_lists, only: is_vtu_ending, remove_old_vtu
    use vtu_results, only: discard_vtu, finish_vtu, record_vtu, start_vtu, vtu_names, vtu_results_type, &
                           write_modes_vtu => write_modes, write_vtu
+   use watched_nodes, only: find_watched, keep_watched, print_watched, record_watched, start_watched, watch_answer, watch_state, &
+                            write_watched
    implicit none
    private
 
@@ -35,13 +39,25 @@ module results
 
    character(*), parameter, public :: listing_ending = '.out', restart_ending = '.restart'
 
+   !> What a row of a batch says of a run.
+   type, public :: digest_type
+      integer  :: stages = 0, increments = 0, iterations = 0 !! completed; iterations or re-analyses
+      real(wp) :: u_max = 0.0_wp, mises_max = 0.0_wp         !! the largest at the end of any stage [length], [pressure]
+      real(wp) :: contact = 1.0_wp                           !! least share of any joint, likewise
+      real(wp) :: safety = huge(1.0_wp)                      !! least against slip, likewise; huge: none
+      real(wp) :: frequency = -1.0_wp                        !! the first that is not zero, of the last stage with modes [1/time]
+   end type digest_type
+
    type, public :: results_type
+      type(digest_type)      :: digest
+      type(watch_answer)     :: watched       !! of the last stage that has any
       type(listing_type)     :: listing
       type(output_file_type) :: tables(size(table_endings))
       logical, private       :: has_table(size(table_endings)) = .false.
       type(output_file_type) :: screen        !! the answers, for the standard output at the end
       type(vtu_results_type) :: vtu
       real(wp), allocatable, private :: bolts_before(:) ! their forces at the end of the stage before
+      type(watch_state), private :: watched_before      ! likewise, where nodes are watched
       character(:), allocatable :: missing_vtu !! why there are no files for ParaView though they were asked for; '': there are
       character(:), allocatable :: base !! what the names of the files begin with, folder included
    end type results_type
@@ -65,6 +81,7 @@ contains
       results%base = base
       results%missing_vtu = ''
       allocate (results%bolts_before(n_bolts(model)), source=0.0_wp)
+      if (any_watched(plan)) call start_watched(model, results%watched_before)
       if (base == '') call start_listing(results%listing, '', deck, model, plan, system)
       if (base /= '') call start_listing(results%listing, base//listing_ending, deck, model, plan, system)
       if (base /= '' .and. any(plan%stages%vtu)) call distribute_bodies(model, system, dealt)
@@ -76,6 +93,7 @@ contains
          if (i == bolt_table .and. n_bolts(model) == 0) cycle
          if (any(i == [modes_table, energy_table]) .and. .not. any_modes(plan)) cycle
          if (any(i == [backbone_table, loop_table]) .and. .not. any_backbone(plan)) cycle
+         if (any(i == [watch_table, split_table]) .and. .not. any_watched(plan)) cycle
          if (i == response_table .and. .not. any_response(plan)) cycle
          if (i == bend_table .and. .not. (any_backbone(plan) .and. any_response(plan))) cycle
          call results%tables(i)%start(base//trim(table_endings(i)))
@@ -95,6 +113,8 @@ contains
       type(bolt_answer_type), allocatable :: bolts(:)
 
       call list_increment(results%listing, model, plan, analysis)
+      results%digest%increments = results%digest%increments + 1
+      results%digest%iterations = results%digest%iterations + analysis%record%n_iterations
       if (plan%stages(analysis%stage)%steps) call write_vtu(results%vtu, model, plan, analysis)
       if (results%base == '') return
       call write_history(results%tables(joint_table), model, plan, analysis)
@@ -112,6 +132,8 @@ contains
       type(results_type), intent(inout) :: results
       type(failure_type), intent(inout) :: failure
       type(stage_answer_type) :: answer
+      type(reactions_type)    :: reactions
+      type(watch_answer)      :: watch
       character(:), allocatable :: fault, title
 
       call list_stage(results%listing, model, plan, analysis)
@@ -124,14 +146,44 @@ contains
          if (analysis%record%ends_early) title = 'ANSWER WHERE THE RUN ENDED EARLY, '//page%stage//', LOAD '// &
                                           real_text(analysis%fraction)//'   '//stage%label
          call print_answer(page%file, page%labels, title, model, answer)
+         call find_reactions(model, analysis, page%largest_force, reactions)
+         call print_reactions(page%file, page%labels, model, reactions)
+         if (allocated(stage%watched)) then
+            call find_watched(model, analysis, stage%watched, results%watched_before, watch)
+            results%watched = watch
+            call print_watched(page%file, page%labels, model, watch)
+         end if
          if (results%base /= '') then
             call print_answer(results%screen, page%labels, title, model, answer)
+            call print_reactions(results%screen, page%labels, model, reactions)
             call write_stage(results%tables(stage_table), stage%id, model, answer)
+            call write_reactions(results%tables(reaction_table), stage%id, reactions)
+         end if
+         if (results%base /= '' .and. allocated(stage%watched)) then
+            call print_watched(results%screen, page%labels, model, watch)
+            call write_watched(results%tables(watch_table), results%tables(split_table), stage%id, model, watch)
          end if
       end associate
+      call note_stage(answer, results%digest)
       results%bolts_before = answer%bolts%force
+      if (any_watched(plan)) call keep_watched(model, analysis, results%watched_before)
       if (.not. plan%stages(analysis%stage)%steps) call write_vtu(results%vtu, model, plan, analysis)
    end subroutine print_stage
+
+   !> The stage just completed in the DIGEST.
+   pure subroutine note_stage(answer, digest)
+      type(stage_answer_type), intent(in) :: answer
+      type(digest_type), intent(inout)    :: digest
+      integer :: j
+
+      digest%stages = digest%stages + 1
+      digest%u_max = max(digest%u_max, answer%displacement%value)
+      digest%mises_max = max(digest%mises_max, answer%at_node%value)
+      do j = 1, size(answer%joints)
+         digest%contact = min(digest%contact, answer%joints(j)%contact)
+         if (answer%joints(j)%has_safety) digest%safety = min(digest%safety, answer%joints(j)%safety)
+      end do
+   end subroutine note_stage
 
    !> The natural modes about the state at the end of the stage just completed.
    subroutine print_modes(model, plan, stage, modes, results)
@@ -140,7 +192,12 @@ contains
       integer, intent(in)               :: stage !! its position
       type(modes_type), intent(in)      :: modes
       type(results_type), intent(inout) :: results
+      integer :: m
 
+      results%digest%frequency = -1.0_wp
+      do m = size(modes%modes), 1, -1
+         if (.not. modes%modes(m)%is_rigid) results%digest%frequency = modes%modes(m)%frequency
+      end do
       associate (planned => plan%stages(stage))
          call list_modes(results%listing%page, model, planned%vibration, modes)
          if (results%base == '') return
@@ -261,6 +318,11 @@ contains
       call results%screen%record(stream)
       call record_vtu(results%vtu, stream)
       call stream%item(results%bolts_before)
+      call record_watched(stream, results%watched_before)
+      associate (d => results%digest)
+         call stream%item(d%stages, d%increments, d%iterations, d%u_max, d%mises_max, d%contact)
+         call stream%item(d%safety, d%frequency)
+      end associate
    end subroutine record_results
 
    !> Remove what an earlier run of the same deck left: it is not the result of this deck any more, wherever the run ends.

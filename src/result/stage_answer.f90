@@ -304,6 +304,8 @@ contains
          least(4:) = least(4:)/max(frame%extent, tiny(1.0_wp))
          answer%movement = above(rigid_movement(model, analysis, joint, frame), least)
          answer%tangent = stiffness_about(model, joint, frame, k)
+         answer%tangent(:3) = above(answer%tangent(:3), noise*maxval(abs(answer%tangent(:3))))
+         answer%tangent(4:) = above(answer%tangent(4:), noise*maxval(abs(answer%tangent(4:))))
          answer%has_secant = frame%exists .and. answer%force*answer%movement > 0.0_wp
          where (answer%has_secant) answer%secant = answer%force/answer%movement
       end associate

@@ -4,6 +4,7 @@ module command_line
    use card_manual, only: manual_entry, manual_names
    use command_arguments, only: argument_text, complain, input_argument, is_option, say, set_input, standard_input, version
    use csv_tables, only: history_ending
+   use deck_parameters, only: is_parameter_name, parameter_type
    use field_rules, only: parse_integer
    use results, only: is_result_ending, listing_ending
    use text_tools, only: upper
@@ -17,8 +18,15 @@ module command_line
 
    !> One deck of the command.
    type, extends(input_argument), public :: deck_argument
+      type(parameter_type), allocatable :: parameters(:) !! of --set
+      integer :: number = 1, of = 1     !! which run of the command this is, of how many
       character(:), allocatable :: base !! what the names of its results begin with, folder included; empty: standard output
    end type deck_argument
+
+   !> --set NAME=V[,V...]
+   type :: setting_type
+      character(:), allocatable :: name, values
+   end type setting_type
 
    type, public :: command_type
       logical :: check_only = .false.       !! --check
@@ -27,6 +35,8 @@ module command_line
       logical :: dated      = .false.       !! --date
       logical :: resume     = .false.       !! --resume
       integer :: threads    = 0             !! --threads, 0: all cores
+      character(:), allocatable :: watched  !! --watch: numbers with commas, empty: none
+      character(:), allocatable :: summary  !! --summary: path of the table of the batch, empty: none
       character(:), allocatable :: folder   !! -o, with a slash at its end, empty: here
       type(deck_argument), allocatable :: decks(:)
    end type command_type
@@ -40,10 +50,14 @@ contains
       logical, intent(out)            :: finished
       integer, intent(out)            :: status
       character(:), allocatable :: argument
+      type(setting_type), allocatable :: settings(:)
       integer :: i, n
       logical :: options, ok
 
       command%folder = ''
+      command%watched = ''
+      command%summary = ''
+      allocate (settings(0))
       allocate (command%decks(0))
       finished = .true.
       status = 1
@@ -80,22 +94,34 @@ contains
             command%dated = .true.
          case ('--resume')
             command%resume = .true.
-         case ('-o', '--threads')
+         case ('-o', '--threads', '--watch', '--summary', '--set')
             if (i == n) then
                call complain(program, argument//' needs a value behind it')
                return
             end if
             i = i + 1
-            if (argument == '-o') then
+            select case (argument)
+            case ('-o')
                command%folder = argument_text(i)//'/'
                if (command%folder == '/') command%folder = './'
-            else
+            case ('--summary')
+               command%summary = argument_text(i)
+            case ('--watch')
+               command%watched = argument_text(i)
+               if (command%watched == '' .or. verify(command%watched, '0123456789,') > 0) then
+                  call complain(program, '--watch '//command%watched//': expected numbers of nodes with commas between them')
+                  return
+               end if
+            case ('--set')
+               call read_setting(argument_text(i), settings, ok)
+               if (.not. ok) return
+            case default
                call parse_integer(argument_text(i), command%threads, ok)
                if (.not. ok .or. command%threads < 1) then
                   call complain(program, '--threads '//argument_text(i)//': expected a number of 1 or more')
                   return
                end if
-            end if
+            end select
          case default
             call complain(program, 'there is no option '//argument)
             return
@@ -110,11 +136,98 @@ contains
             return
          end do
       end if
+      if (ok) call vary(command, settings)
       if (ok) call name_results(command, ok)
       if (.not. ok) return
       finished = .false.
       status = 0
    end subroutine read_command_line
+
+   !> Read TEXT, 'NAME=V,V,V', into SETTINGS.
+   subroutine read_setting(text, settings, ok)
+      character(*), intent(in) :: text
+      type(setting_type), allocatable, intent(inout) :: settings(:)
+      logical, intent(out)     :: ok
+      integer :: equals, k
+
+      equals = index(text, '=')
+      ok = equals > 1 .and. equals < len(text) .and. verify(text, ' ') > 0
+      if (ok) ok = is_parameter_name(text(:equals - 1)) .and. index(','//text(equals + 1:)//',', ',,') == 0
+      if (.not. ok) then
+         call complain(program, '--set '//text//': expected NAME=VALUE, or NAME=VALUE,VALUE,... for a run with each')
+         return
+      end if
+      do k = 1, size(settings)
+         if (settings(k)%name /= text(:equals - 1)) cycle
+         ok = .false.
+         call complain(program, '--set '//text(:equals)//': given twice')
+         return
+      end do
+      settings = [settings, setting_type(text(:equals - 1), text(equals + 1:))]
+   end subroutine read_setting
+
+   !> A run of every deck with every combination of values of SETTINGS, the last one changing fastest. Values of which there are several
+   !! become part of the names.
+   subroutine vary(command, settings)
+      type(command_type), intent(inout) :: command
+      type(setting_type), intent(in)    :: settings(:)
+      type(deck_argument), allocatable  :: runs(:)
+      integer, allocatable :: n(:)
+      integer :: d, k, r, run, which
+
+      allocate (n(size(settings)))
+      do k = 1, size(settings)
+         n(k) = 1 + count([(settings(k)%values(d:d) == ',', d = 1, len(settings(k)%values))])
+      end do
+      allocate (runs(size(command%decks)*product(n)))
+      r = 0
+      do d = 1, size(command%decks)
+         do run = 0, product(n) - 1
+            r = r + 1
+            runs(r)%path = command%decks(d)%path
+            runs(r)%name = command%decks(d)%name
+            runs(r)%base = ''
+            runs(r)%number = r
+            runs(r)%of = size(runs)
+            allocate (runs(r)%parameters(size(settings)))
+            do k = 1, size(settings)
+               which = modulo(run/product(n(k + 1:)), n(k)) + 1
+               associate (parameter => runs(r)%parameters(k))
+                  parameter%name = settings(k)%name
+                  parameter%value = value_of(settings(k)%values, which)
+                  if (n(k) == 1) cycle
+                  runs(r)%base = runs(r)%base//'_'//parameter%name//'='//without_slashes(parameter%value)
+                  runs(r)%name = runs(r)%name//', '//parameter%name//'='//parameter%value
+               end associate
+            end do
+         end do
+      end do
+      call move_alloc(runs, command%decks)
+   end subroutine vary
+
+   !> WORDS with dashes for slashes, for a name of a file.
+   pure function without_slashes(words) result(name)
+      character(*), intent(in) :: words
+      character(len(words))    :: name
+      integer :: k
+
+      name = words
+      do k = 1, len(words)
+         if (words(k:k) == '/') name(k:k) = '-'
+      end do
+   end function without_slashes
+
+   !> Value number WHICH of VALUES, which have commas between them.
+   pure recursive function value_of(values, which) result(value)
+      character(*), intent(in)  :: values
+      integer, intent(in)       :: which
+      character(:), allocatable :: value
+      integer :: comma
+
+      comma = index(values//',', ',')
+      if (which == 1) value = values(:comma - 1)
+      if (which > 1) value = value_of(values(comma + 1:), which - 1)
+   end function value_of
 
    !> One more of DECKS, the one that ARGUMENT means. (An array constructor would leak its names in gfortran 12.)
    subroutine add_deck(decks, argument)
@@ -139,7 +252,7 @@ contains
       do i = 1, size(command%decks)
          associate (deck => command%decks(i))
             if (deck%path == standard_input) cycle
-            deck%base = command%folder//base_name(deck%path)
+            deck%base = command%folder//base_name(deck%path)//deck%base
             do k = 1, i - 1
                if (command%decks(k)%base == deck%base) then
                   call complain(program, command%decks(k)%name//' and '//deck%name//' would both write '//deck%base//listing_ending)
@@ -233,6 +346,9 @@ contains
          '   --check       read and check the decks, solve nothing'//nl// &
          '   -q            no progress on the terminal'//nl// &
          '   --threads N   at most N threads (default: all cores; the results do not depend on it)'//nl// &
+         '   --set N=V     put V in the place of ${N} in the decks; N=V,V,V: a run with each value, named beam_N=V'//nl// &
+         '   --watch N,N   nodes whose movement, and the stiffness there, stand in the answer of every stage'//nl// &
+         '   --summary F   a table of the whole batch, a row a run, into the file F'//nl// &
          '   --resume      continue each deck from its restart file, beam.restart, where the run was broken off: the'//nl// &
          '                 results are those of an unbroken run. A deck without one starts from the beginning.'//nl// &
          '   --date        date and time in the head of the listing'//nl// &

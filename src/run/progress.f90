@@ -67,13 +67,15 @@ module progress
 contains
 
    !> A run of DECK begins, by reading it.
-   subroutine start(self, deck, quiet, timed)
+   subroutine start(self, deck, quiet, timed, number, of)
       class(progress_type), intent(inout) :: self
       character(*), intent(in)            :: deck
       logical, intent(in)                 :: quiet
+      integer, intent(in)                 :: number, of !! this is run NUMBER of the command, of so many
       logical, intent(in)                 :: timed !! print the seconds of the phases at the end
 
-      call open_line(deck, quiet)
+      if (of == 1) call open_line(deck, quiet)
+      if (of > 1) call open_line(deck//' ('//integer_text(number)//' of '//integer_text(of)//')', quiet)
       self%timed = timed
       self%deck = deck
       self%ticks = 0

@@ -12,6 +12,7 @@ module run_boxes
    use distribution, only: join_processes
    use equation_solver, only: equation_system
    use equations, only: form_body_stiffness, start_equations
+   use facing_bodies, only: loose_words
    use failures, only: failure_type
    use finite_state, only: check_precision, check_state
    use incomplete_results, only: watch_ends
@@ -35,6 +36,7 @@ module run_boxes
                       print_stage_results => print_stage, remove_old_results, start_results
    use run_end, only: end_program
    use stage_plan, only: factorisations_of, shows_bodies, stage_plan_type, vibration_plan_type, where_in_plan
+   use unit_watch, only: unit_words
    use vtu_bodies, only: write_piece
    use terminal_line, only: say_line
    use text_tools, only: integer_text
@@ -160,8 +162,8 @@ contains
       run%argument = argument
       run%check_only = command%check_only
       run%is_dated = command%dated
-      call run%progress%start(argument%name, command%quiet, command%times)
-      call read_deck(argument%path, deck, run%errors, readable)
+      call run%progress%start(argument%name, command%quiet, command%times, argument%number, argument%of)
+      call read_deck(argument%path, deck, run%errors, readable, argument%parameters, command%watched)
       if (.not. readable) then
          run%ending = is_unreadable
          return
@@ -181,6 +183,7 @@ contains
       type(model_type), intent(out)      :: model
       type(stage_plan_type), intent(out) :: plan
       integer, allocatable :: drops(:)
+      character(:), allocatable :: loose
 
       if (is_over(run)) return
       call keep_memory()
@@ -188,12 +191,18 @@ contains
       if (.not. (run%check_only .or. run%errors%any())) call check_model_size(deck, run%failure)
       if (is_over(run)) return
       call build_model(deck, model, plan, run%errors)
+      loose = ''
+      if (.not. run%errors%any()) loose = loose_words(model)
       if (run%errors%any()) then
          run%ending = has_errors
+      else if (loose /= '') then
+         call run%failure%raise(loose)
       else if (run%check_only) then
          run%ending = was_checked
       end if
-      if (run%errors%any() .or. deck%control%method /= method_newton) return
+      if (run%errors%any()) return
+      if (unit_words(deck) /= '') call say_line(run%argument%name//': '//unit_words(deck))
+      if (deck%control%method /= method_newton) return
       drops = pack(model%joints%id, (model%joints%law%shear(1)%given .or. model%joints%law%shear(2)%given) .and. &
                    .not. model%joints%law%has_friction)
       if (size(drops) > 0) call say_line(run%argument%name//': JOINT '//integer_text(drops(1))// &
@@ -222,6 +231,10 @@ contains
       call date_and_time(date, time)
       if (run%is_dated) run%results%listing%page%date = date(:4)//'-'//date(5:6)//'-'//date(7:8)//' '//time(:2)//':'//time(3:4)
       call start_results(run%argument%base, deck, model, plan, system, run%results, ok)
+      if (ok .and. run%argument%of > 1 .and. run%argument%base /= '') then
+         call run%results%screen%put('')
+         call run%results%screen%put(' DECK: '//run%argument%name)
+      end if
       if (.not. ok) run%ending = is_unwritten
    end subroutine form_bodies
 

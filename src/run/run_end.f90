@@ -1,9 +1,10 @@
 !> The end of a run: the results get their names, or what is wrong is said; and the end of the program with the highest status of
 !! all runs.
 module run_end
+   use batch, only: batch_type, end_batch
    use c_library, only: end_run, write_bytes
    use command_arguments, only: complain_of_input
-   use command_line, only: is_result_of
+   use command_line, only: command_type, is_result_of
    use csv_tables, only: history_ending
    use deck_input, only: deck_type
    use distribution, only: leave_processes
@@ -140,10 +141,17 @@ contains
    end subroutine miss_output
 
    !> End with STATUS, or the highest of the decks where that is higher.
-   subroutine end_program(status)
+   subroutine end_program(status, command, runs)
       integer, intent(in), optional :: status !! 0
+      type(command_type), intent(in), optional :: command !! and its RUNS, of which a table is made
+      type(batch_type), intent(in), optional   :: runs
+      logical :: ok
 
       if (present(status)) exit_status = max(exit_status, status)
+      if (present(runs)) then
+         call end_batch(command, runs, ok)
+         if (.not. ok) exit_status = max(exit_status, status_of(is_unwritten))
+      end if
       call leave_processes()
       call end_run(exit_status)
    end subroutine end_program

@@ -20,6 +20,15 @@ for n in 0 -1 x 1.5 '' 99999999999; do
    run --threads "$n" good.bdf;       check "--threads '$n'" 1 '--threads' 'expected a number of 1 or more'
 done
 run good.bdf --threads;               check '--threads without value' 1 '--threads needs a value'
+for s in '' T =3 T= 'T=1,,2' 'T T=1' T=,1; do
+   run --set "$s" good.bdf;            check "--set '$s'" 1 "--set $s: expected NAME=VALUE"
+done
+run --set T=1 --set T=2 good.bdf;     check '--set twice' 1 'given twice'
+for s in '' x 1,b '3 4'; do
+   run --watch "$s" good.bdf;          check "--watch '$s'" 1 "--watch $s: expected numbers of nodes"
+done
+run --summary nowhere/s.csv -o results good.bdf; check '--summary that cannot be written' 4 'nowhere/s.csv cannot be written'
+rm -f results/*
 run good.bdf -o;                      check '-o without value' 1 '-o needs a value'
 run -o results nowhere.bdf;           check 'missing file' 1 'nowhere.bdf: no such file'
 run -o results '';                    check 'empty name' 1
@@ -62,7 +71,7 @@ for option in '' -q; do
    run $option -o results good.bdf;   check "the answer ${option:+with $option}" 0
    if [ -s "$work/stderr" ] && ! grep -q 'STEP is up to\|warning' "$work/stderr"; then fail 'the answer: other words on the standard error'; fi
    prints 'the answer' '^ ANSWER AT THE END OF STAGE 1'
-   if [ "$(tail -n 1 "$work/stdout")" = ' RESULTS: results/good.out (listing), results/good.joint.csv, .stage.csv' ]; then pass
+   if [ "$(tail -n 1 "$work/stdout")" = ' RESULTS: results/good.out (listing), results/good.joint.csv, .stage.csv, .reaction.csv' ]; then pass
    else fail 'the answer: the last line names the files'; fi
 done
 if cmp -s <(grep -A 99 '^ ANSWER' "$work/stdout" | grep -v RESULTS) <(grep -A 99 '^ ANSWER' results/good.out | grep -v 'END OF LISTING'); then pass
@@ -136,10 +145,10 @@ for bad in faulty free; do
    fresh results
    cp good.bdf beam.bdf
    run -o results beam.bdf;           check 'a good deck' 0
-   holds results 'results of a good deck' beam.joint.csv beam.out beam.stage.csv
+   holds results 'results of a good deck' beam.joint.csv beam.out beam.reaction.csv beam.stage.csv
    cp $bad.bdf beam.bdf
    run --check -o results beam.bdf
-   holds results "--check of a $bad deck removes nothing" beam.joint.csv beam.out beam.stage.csv
+   holds results "--check of a $bad deck removes nothing" beam.joint.csv beam.out beam.reaction.csv beam.stage.csv
    run -o results beam.bdf
    if [ "$status" -eq 2 ] || [ "$status" -eq 3 ]; then pass; else fail "$bad.bdf: exit status $status"; fi
    holds results "$bad.bdf: the results of an earlier run are removed"
@@ -150,16 +159,16 @@ rm -f beam.bdf
 
 fresh results
 run -o results nowhere.bdf good.bdf;  check 'a missing deck and a good one' 1 'nowhere.bdf'
-holds results 'the good deck ran' good.joint.csv good.out good.stage.csv
+holds results 'the good deck ran' good.joint.csv good.out good.reaction.csv good.stage.csv
 fresh results
 run -o results free.bdf faulty.bdf nowhere.bdf good.bdf other.bdf
 check 'five decks' 3 'free.bdf' 'mechanism' 'faulty.bdf, line 7' 'nowhere.bdf: no such file'
-holds results 'the good ones of five ran' good.joint.csv good.out good.stage.csv other.joint.csv other.out other.stage.csv
+holds results 'the good ones of five ran' good.joint.csv good.out good.reaction.csv good.stage.csv other.joint.csv other.out other.reaction.csv other.stage.csv
 fresh results
 run -o results good.bdf faulty.bdf;   check 'a good deck and a faulty one' 2
 cp good.bdf ./-beam.bdf
 run -o results -- -beam.bdf;          check 'a deck behind --' 0
-holds results 'results of a deck behind --' -beam.joint.csv -beam.out -beam.stage.csv good.joint.csv good.out good.stage.csv
+holds results 'results of a deck behind --' -beam.joint.csv -beam.out -beam.reaction.csv -beam.stage.csv good.joint.csv good.out good.reaction.csv good.stage.csv
 rm -f ./-beam.bdf
 
 # ---- standard input and output ----
@@ -194,7 +203,7 @@ full --help;                          check 'a full standard output, --help' 4
 full --version;                       check 'a full standard output, --version' 4
 fresh results
 full -o results good.bdf;             check 'a full standard output, the answer' 4
-holds results 'a full standard output: the files are there' good.joint.csv good.out good.stage.csv
+holds results 'a full standard output: the files are there' good.joint.csv good.out good.reaction.csv good.stage.csv
 timeout 60 "$program" - < good.bdf >&- 2>"$work/stderr"; status=$?
 check 'a closed standard output' 4
 timeout 60 "$program" faulty.bdf 2>/dev/full; status=$?

@@ -5,14 +5,14 @@
 for target in target nothing; do
    fresh results
    [ $target = target ] && echo old > results/target
-   for ending in out joint.csv stage.csv out.part joint.csv.part; do ln -s $target results/good.$ending; done
+   for ending in out joint.csv stage.csv reaction.csv out.part joint.csv.part; do ln -s $target results/good.$ending; done
    run -o results good.bdf;              check "links to a $target of the names of results" 0
-   holds results 'links are replaced, not followed' good.joint.csv good.joint.csv.part good.out good.out.part good.stage.csv \
+   holds results 'links are replaced, not followed' good.joint.csv good.joint.csv.part good.out good.out.part good.reaction.csv good.stage.csv \
       $([ $target = target ] && echo target)
    if [ -L results/good.out ] || [ -L results/good.joint.csv ]; then fail 'a link is no result'; else pass; fi
    if [ $target = nothing ] || [ "$(cat results/target)" = old ]; then pass; else fail 'what a link leads to is written to'; fi
 done
-for ending in out joint.csv stage.csv; do
+for ending in out joint.csv stage.csv reaction.csv; do
    fresh results
    mkfifo results/good.$ending
    run -o results good.bdf;              check "a pipe good.$ending" 4 "results/good.$ending is a pipe and no file"
@@ -29,7 +29,7 @@ for ending in 1.7.vtu 1.20.joint.vtu pvd; do
    mkfifo results/steps.$ending
    run -o results steps.bdf;             check "a pipe steps.$ending" 4 "results/steps.$ending is a pipe and no file"
    holds results 'a pipe of the name of a VTU file stays, with the results but for those for ParaView' steps.$ending \
-      steps.joint.csv steps.out steps.stage.csv
+      steps.joint.csv steps.out steps.reaction.csv steps.stage.csv
 done
 
 # ---- two runs in one folder ----
@@ -82,4 +82,4 @@ holds results 'a run that is interrupted leaves no file, and those of a killed o
 rm -f results/*.part
 mv short.bdf long.bdf
 run -o results long.bdf;              check 'the same deck again, with fewer increments' 0
-holds results 'the same deck again' long.joint.csv long.out long.stage.csv
+holds results 'the same deck again' long.joint.csv long.out long.reaction.csv long.stage.csv

@@ -108,3 +108,11 @@ mass_on_joint bare '' && {
       "$work/bare.bdf"
    run bare && says 'an undamped peak' "$work/bare.out" 'MODE 1 HAS ITS PEAK BETWEEN .* NODE 1 Y NO BOUND'
 }
+
+# FREQ2: logarithmic intervals; SOL 103 with METHOD = n is MODES = n: a mass on a spring, whose response is asked at three decades
+cards decades <<'DECK'
+SOL 103;CEND;SPC = 1;METHOD = 4;FREQUENCY = 5;DLOAD = 10;SDAMPING = 6;RESPONSE = SET 7;SET 7 = 4
+BEGIN BULK;BLOCK2,1,1,1,1,0.0,0.0;+,8.0,5.0;PSHELL,1,1,2.0;MAT1,1,9500.0,,0.0,8.0-10;SPC1,1,1,1,2,3,4;SPC1,1,2,1,3
+FORCE,10,4,,1.0,0.0,1.0;EIGRL,4,,,1;FREQ2,5,10.0,10000.0,3;TABDMP1,6;+,0.0,0.01,1.0+6,0.01,ENDT;ENDDATA
+DECK
+run decades && same 'FREQ2: three decades' "$(awk -F, 'NR > 1 && !seen[$2 + 0]++ { printf "%.6g ", $2 }' "$work/decades.response.csv")" '10 100 1000 10000 '

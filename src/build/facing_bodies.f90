@@ -1,0 +1,414 @@
+!> The bodies of a model as a user would name them, their outer sides, which bodies face each other, and which are held by nothing:
+!! found by counting, before anything is factorised.
+module facing_bodies
+   use element_kinds, only: element_table
+   use interface_operator, only: named_node
+   use kinds, only: wp
+   use lists, only: join, list_owners, root_of
+   use model_build, only: find_bodies
+   use model_data, only: corners_of, model_type, n_bars, n_points, supported
+   use numbers, only: cross
+   use spatial_search, only: box_search_type, position_search_type
+   use text_tools, only: clean, integer_text, real_text
+   implicit none
+   private
+
+   public :: list_bodies, body_words, box_words, list_outer_sides, find_facing, loose_words
+
+   real(wp), parameter :: reach = 0.1_wp       ! of the longest edge of a side: as far as a JOINT looks without TOL
+   real(wp), parameter :: opposed = -0.5_wp    ! cosine between the normals of facing sides, at most
+   real(wp), parameter :: on_rim = 1.0e-6_wp   ! of the size of a side: a point so near to its rim is on it
+   real(wp), parameter :: two_pi = 6.283185307179586_wp
+   integer, parameter  :: most_said = 5        ! loose bodies
+
+   type, public :: body_type
+      integer  :: first = huge(1), last = 0    !! lowest and highest number of its elements
+      integer  :: n_elements = 0, n_nodes = 0
+      real(wp) :: low(3) = huge(1.0_wp), high(3) = -huge(1.0_wp) !! the box around it [length]
+   end type body_type
+
+   !> A side of an element that no other element has.
+   type, public :: outer_side
+      integer  :: element = 0, side = 0, body = 0
+      integer  :: n = 0                        !! corners
+      integer  :: corners(4) = 0               !! positions of nodes
+      real(wp) :: centre(3) = 0.0_wp           !! [length]
+      real(wp) :: normal(3) = 0.0_wp           !! unit, out of the body
+      real(wp) :: area = 0.0_wp                !! [length^2]
+      real(wp) :: size = 0.0_wp                !! longest edge [length]
+   end type outer_side
+
+   !> Two bodies that face each other: those of its sides of which the centres see the other body. SIDE1, of the finer mesh, is first.
+   type, public :: facing_type
+      integer  :: body(2) = 0
+      integer  :: n(2) = 0                     !! sides of each body that see the other
+      real(wp) :: area(2) = 0.0_wp             !! of these [length^2]
+      real(wp) :: gap(2) = [huge(1.0_wp), -huge(1.0_wp)] !! smallest and largest distance along the normals [length]
+      real(wp) :: normal(3) = 0.0_wp           !! mean of SIDE1, unit
+   end type facing_type
+
+contains
+
+   !> All bodies, and which one each element belongs to.
+   pure subroutine list_bodies(model, body, bodies)
+      type(model_type), intent(in)   :: model
+      integer, intent(out)           :: body(:) !! (n_elements)
+      type(body_type), allocatable, intent(out) :: bodies(:)
+      integer :: seen(model%n_nodes), e, i, n
+
+      call find_bodies(model, body, n)
+      allocate (bodies(n))
+      seen = 0
+      do e = 1, model%n_elements
+         associate (own => bodies(body(e)), nodes => corners_of(model, e))
+            own%first = min(own%first, model%element_id(e))
+            own%last = max(own%last, model%element_id(e))
+            own%n_elements = own%n_elements + 1
+            do i = 1, size(nodes)
+               if (seen(nodes(i)) == body(e)) cycle
+               seen(nodes(i)) = body(e)
+               own%n_nodes = own%n_nodes + 1
+               own%low = min(own%low, model%x(:, nodes(i)))
+               own%high = max(own%high, model%x(:, nodes(i)))
+            end do
+         end associate
+      end do
+   end subroutine list_bodies
+
+   !> 'body 3 (elements 1201 to 2400, 347 nodes, box (0, 0, 40) to (90, 30, 80))'
+   pure function body_words(number, body) result(words)
+      integer, intent(in)         :: number
+      type(body_type), intent(in) :: body
+      character(:), allocatable   :: words
+
+      words = 'body '//integer_text(number)//' (elements '//integer_text(body%first)//' to '//integer_text(body%last)//', '// &
+              integer_text(body%n_nodes)//' nodes, box '//box_words(body%low)//' to '//box_words(body%high)//')'
+   end function body_words
+
+   !> '(0, 0, 40)'
+   pure function box_words(x) result(words)
+      real(wp), intent(in)      :: x(3)
+      character(:), allocatable :: words
+
+      words = '('//real_text(clean(x(1)))//', '//real_text(clean(x(2)))//', '//real_text(clean(x(3)))//')'
+   end function box_words
+
+   !> The outer SIDES of all bodies, in the order of the elements.
+   pure subroutine list_outer_sides(model, body, sides)
+      type(model_type), intent(in) :: model
+      integer, intent(in)          :: body(:) !! (n_elements)
+      type(outer_side), allocatable, intent(out) :: sides(:)
+      integer, allocatable :: corners(:, :), element(:), side(:), first(:), owners(:), least(:, :)
+      logical, allocatable :: is_outer(:)
+      integer :: e, i, j, n, s
+
+      n = 0
+      do e = 1, model%n_elements
+         n = n + element_table(model%element_kind(e))%n_sides
+      end do
+      allocate (corners(4, n), element(n), side(n), least(1, n), is_outer(n))
+      corners = 0
+      i = 0
+      do e = 1, model%n_elements
+         associate (kind => element_table(model%element_kind(e)))
+            do s = 1, kind%n_sides
+               i = i + 1
+               element(i) = e
+               side(i) = s
+               corners(:kind%side_corners(s), i) = model%element_nodes(kind%side_nodes(:kind%side_corners(s), s), e)
+               least(1, i) = minval(corners(:kind%side_corners(s), i))
+            end do
+         end associate
+      end do
+      call list_owners(model%n_nodes, least, first, owners)
+      do i = 1, n
+         is_outer(i) = .true.
+         do j = first(least(1, i)), first(least(1, i) + 1) - 1
+            if (owners(j) == i) cycle
+            is_outer(i) = is_outer(i) .and. .not. are_same(corners(:, i), corners(:, owners(j)))
+         end do
+      end do
+      allocate (sides(count(is_outer)))
+      j = 0
+      do i = 1, n
+         if (.not. is_outer(i)) cycle
+         j = j + 1
+         sides(j)%element = element(i)
+         sides(j)%side = side(i)
+         sides(j)%body = body(element(i))
+         sides(j)%n = count(corners(:, i) > 0)
+         sides(j)%corners = corners(:, i)
+         call measure(model, sides(j))
+      end do
+   end subroutine list_outer_sides
+
+   !> Whether A and B hold the same nodes.
+   pure logical function are_same(a, b)
+      integer, intent(in) :: a(4), b(4)
+      integer :: k
+
+      are_same = all([(any(a(k) == b), k = 1, 4)]) .and. count(a > 0) == count(b > 0)
+   end function are_same
+
+   !> Centre, normal, area and size of SIDE, of which the corners are known.
+   pure subroutine measure(model, side)
+      type(model_type), intent(in)    :: model
+      type(outer_side), intent(inout) :: side
+      real(wp) :: x(3, 4), vector(3)
+      integer  :: k
+
+      do k = 1, side%n
+         x(:, k) = model%x(:, side%corners(k))
+      end do
+      side%centre = sum(x(:, :side%n), dim=2)/side%n
+      do k = 1, side%n
+         side%size = max(side%size, norm2(x(:, 1 + modulo(k, side%n)) - x(:, k)))
+      end do
+      select case (side%n)
+      case (2) ! the body on the left of the edge
+         vector = [x(2, 2) - x(2, 1), x(1, 1) - x(1, 2), 0.0_wp]
+      case (3)
+         vector = 0.5_wp*cross(x(:, 2) - x(:, 1), x(:, 3) - x(:, 1))
+      case default
+         vector = 0.5_wp*cross(x(:, 3) - x(:, 1), x(:, 4) - x(:, 2))
+      end select
+      side%area = norm2(vector)
+      side%normal = vector/max(side%area, tiny(1.0_wp))
+      if (side%n > 2) return
+      if (model%axisymmetric) then
+         side%area = side%area*two_pi*side%centre(1)
+      else
+         side%area = side%area*model%properties(model%element_property(side%element))%thickness
+      end if
+   end subroutine measure
+
+   !> Which bodies face each other, in the order of their numbers, and of every one of SIDES the body that its centre SEES, 0: none.
+   pure subroutine find_facing(model, sides, pairs, sees)
+      type(model_type), intent(in)  :: model
+      type(outer_side), intent(in)  :: sides(:)
+      type(facing_type), allocatable, intent(out) :: pairs(:)
+      integer, allocatable, intent(out) :: sees(:) !! (sides)
+      type(box_search_type) :: search
+      real(wp), allocatable :: boxes(:, :, :)
+      integer, allocatable  :: found(:)
+      real(wp) :: distance, nearest
+      integer  :: i, k, n, p
+
+      allocate (boxes(3, 2, size(sides)), sees(size(sides)), pairs(0))
+      do i = 1, size(sides)
+         associate (x => model%x(:, sides(i)%corners(:sides(i)%n)))
+            boxes(:, 1, i) = minval(x, dim=2)
+            boxes(:, 2, i) = maxval(x, dim=2)
+         end associate
+      end do
+      call search%build(boxes)
+      allocate (found(64))
+      sees = 0
+      do i = 1, size(sides)
+         associate (side => sides(i))
+            call search%list_meeting(side%centre - reach*side%size, side%centre + reach*side%size, found, n)
+            nearest = huge(1.0_wp)
+            do k = 1, n
+               if (sides(found(k))%body == side%body) cycle
+               distance = distance_over(model, side, sides(found(k)))
+               if (distance >= nearest) cycle
+               nearest = distance
+               sees(i) = sides(found(k))%body
+            end do
+            if (sees(i) == 0) cycle
+            p = place_of(pairs, side%body, sees(i))
+            if (p == 0) then
+               pairs = [pairs, facing_type(body=[min(side%body, sees(i)), max(side%body, sees(i))])]
+               p = size(pairs)
+            end if
+            associate (pair => pairs(p), k => merge(1, 2, side%body == pairs(p)%body(1)))
+               pair%n(k) = pair%n(k) + 1
+               pair%area(k) = pair%area(k) + side%area
+               pair%gap = [min(pair%gap(1), nearest), max(pair%gap(2), nearest)]
+               pair%normal = pair%normal + merge(1, -1, k == 1)*side%area*side%normal
+            end associate
+         end associate
+      end do
+      do p = 1, size(pairs)
+         associate (pair => pairs(p))
+            pair%normal = pair%normal/max(norm2(pair%normal), tiny(1.0_wp))
+            if (pair%n(2) > pair%n(1)) then
+               pair%body = pair%body([2, 1])
+               pair%n = pair%n([2, 1])
+               pair%area = pair%area([2, 1])
+               pair%normal = -pair%normal
+            end if
+         end associate
+      end do
+   end subroutine find_facing
+
+   !> Which of PAIRS has the bodies A and B; 0: none.
+   pure integer function place_of(pairs, a, b) result(p)
+      type(facing_type), intent(in) :: pairs(:)
+      integer, intent(in)           :: a, b
+
+      do p = size(pairs), 1, -1
+         if (all(pairs(p)%body == [min(a, b), max(a, b)])) return
+      end do
+   end function place_of
+
+   !> How far the centre of SIDE is from OTHER along its normal, gap or overlap [length]; huge where OTHER does not face SIDE there, or
+   !! is beyond the reach.
+   pure real(wp) function distance_over(model, side, other) result(distance)
+      type(model_type), intent(in) :: model
+      type(outer_side), intent(in) :: side, other
+      real(wp) :: point(3), along(3), a(3), b(3), cosine
+      logical  :: lies_over
+      integer  :: k
+
+      distance = huge(1.0_wp)
+      cosine = dot_product(side%normal, other%normal)
+      if (cosine > opposed) return
+      distance = dot_product(other%centre - side%centre, other%normal)/cosine
+      point = side%centre + distance*side%normal
+      distance = abs(distance)
+      lies_over = distance <= reach*side%size
+      if (other%n == 2) then
+         a = model%x(:, other%corners(1))
+         b = model%x(:, other%corners(2))
+         associate (share => dot_product(point - a, b - a)/dot_product(b - a, b - a))
+            lies_over = lies_over .and. share >= -on_rim .and. share <= 1.0_wp + on_rim
+         end associate
+      else
+         do k = 1, other%n
+            a = model%x(:, other%corners(k))
+            b = model%x(:, other%corners(1 + modulo(k, other%n)))
+            along = cross(b - a, point - a)
+            lies_over = lies_over .and. dot_product(along, other%normal) >= -on_rim*other%size**2
+         end do
+      end if
+      if (.not. lies_over) distance = huge(1.0_wp)
+   end function distance_over
+
+   !> What of MODEL is held by nothing, in words; '' where all bodies are held: connected, over elements, bars, rigid elements and
+   !! joints, open or not, to a support, a rigid base or a spring to the ground.
+   function loose_words(model) result(words)
+      type(model_type), intent(in) :: model
+      character(:), allocatable    :: words
+      type(body_type), allocatable :: bodies(:)
+      integer :: parent(0:model%n_parts), body(model%n_elements), ground, e, i, k, said
+      integer, allocatable :: part(:)
+
+      words = ''
+      if (model%n_elements == 0) return
+      call list_bodies(model, body, bodies)
+      call connect(model, parent)
+      allocate (part(size(bodies)))
+      do e = model%n_elements, 1, -1
+         part(body(e)) = root_of(parent(1:), model%part(model%element_nodes(1, e)))
+      end do
+      ground = parent(0)
+      if (ground > 0) ground = root_of(parent(1:), ground)
+      said = 0
+      do i = 1, size(bodies)
+         if (part(i) == ground .or. any(part(:i - 1) == part(i))) cycle
+         said = said + 1
+         if (said > most_said) exit
+         if (words /= '') words = words//'; '
+         words = words//body_words(i, bodies(i))
+         k = count(part == part(i)) - 1
+         if (k > 0) then
+            words = words//', on which '//integer_text(k)//trim(merge(' other body hangs,   ', ' other bodies hang,  ', k == 1))
+            words = words//' is held by no support'
+         else
+            words = words//' is held by no support, joint, bolt or spring'//neighbour_words(model, body, i)
+         end if
+      end do
+      if (said > most_said) words = words//'; and others'
+   end function loose_words
+
+   !> Sets of the parts of MODEL that hang together by joints: PARENT(1:), as of union-find; PARENT(0) is a part that the ground holds, 0:
+   !! there is none.
+   subroutine connect(model, parent)
+      type(model_type), intent(in) :: model
+      integer, intent(out)         :: parent(0:)
+      integer :: i, k, node
+
+      parent = [(i, i = 0, size(parent) - 1)]
+      do node = 1, n_points(model)
+         if (any(supported(model, node))) call to_ground(node)
+      end do
+      do i = 1, n_bars(model)
+         if (model%bars(i)%nodes(2) == 0) call to_ground(model%bars(i)%nodes(1))
+      end do
+      do i = 1, size(model%interface)
+         associate (nodes => model%interface(i)%node)
+            do k = 2, size(nodes)
+               call join(parent(1:), model%part(nodes(1)), model%part(nodes(k)))
+            end do
+            if (named_node(model%interface(i), 2) == 0) call to_ground(nodes(1))
+         end associate
+      end do
+
+   contains
+
+      subroutine to_ground(node)
+         integer, intent(in) :: node
+
+         if (parent(0) > 0) call join(parent(1:), parent(0), model%part(node))
+         if (parent(0) == 0) parent(0) = model%part(node)
+      end subroutine to_ground
+
+   end subroutine connect
+
+   !> The body next to body I, ', 0 from body 1 over an area of about 1250: a JOINT?'; '' where there is none.
+   function neighbour_words(model, body, i) result(words)
+      type(model_type), intent(in) :: model
+      integer, intent(in)          :: body(:) !! (n_elements)
+      integer, intent(in)          :: i
+      character(:), allocatable    :: words
+      type(outer_side), allocatable  :: sides(:)
+      type(facing_type), allocatable :: pairs(:)
+      type(position_search_type) :: search
+      integer, allocatable :: sees(:), own(:), others(:)
+      real(wp) :: distance, nearest
+      integer  :: k, p, point
+
+      words = ''
+      call list_outer_sides(model, body, sides)
+      call find_facing(model, sides, pairs, sees)
+      p = maxloc([(merge(maxval(pairs(k)%n), 0, any(pairs(k)%body == i)), k = 1, size(pairs))], dim=1)
+      if (size(pairs) > 0) then
+         associate (pair => pairs(p))
+            if (any(pair%body == i)) words = '; it lies '//distance_words(pair%gap)//' from body '// &
+               integer_text(sum(pair%body) - i)//' over an area of about '//real_text(rounded(pair%area(1)))//': a JOINT?'
+         end associate
+      end if
+      if (words /= '' .or. all(sides%body == i)) return
+      own = pack([(k, k = 1, size(sides))], sides%body == i)
+      others = pack([(k, k = 1, size(sides))], sides%body /= i)
+      call search%build(model%x(:, sides(others)%corners(1)))
+      nearest = huge(1.0_wp)
+      do k = 1, size(own)
+         call search%nearest(model%x(:, sides(own(k))%corners(1)), huge(1.0_wp), point, distance)
+         if (distance >= nearest) cycle
+         nearest = distance
+         p = others(point)
+      end do
+      words = '; the nearest is body '//integer_text(sides(p)%body)//', their nodes '//real_text(rounded(nearest))//' apart'
+   end function neighbour_words
+
+   !> '0', or '0.1 to 0.3'.
+   pure function distance_words(gap) result(words)
+      real(wp), intent(in)      :: gap(2)
+      character(:), allocatable :: words
+
+      words = real_text(rounded(gap(1)))
+      if (gap(2) - gap(1) > 0.01_wp*gap(2)) words = words//' to '//real_text(rounded(gap(2)))
+   end function distance_words
+
+   !> VALUE with three digits.
+   pure real(wp) function rounded(value)
+      real(wp), intent(in) :: value
+      character(16) :: text
+
+      write (text, '(es10.2)') value
+      read (text, *) rounded
+   end function rounded
+
+end module facing_bodies

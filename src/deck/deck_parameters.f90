@@ -1,0 +1,94 @@
+!> ${NAME} in a deck: a number, or any word, that the command gives by --set NAME=VALUE.
+module deck_parameters
+   use kinds, only: long
+   use text_tools, only: integer_text
+   implicit none
+   private
+
+   public :: fill_parameters, is_parameter_name
+
+   character(*), parameter :: letters = 'ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_'
+
+   !> NAME=VALUE of the command.
+   type, public :: parameter_type
+      character(:), allocatable :: name, value
+      logical :: is_used = .false. !! the deck has it
+   end type parameter_type
+
+contains
+
+   !> Whether NAME may stand between the braces: letters, digits, underscores.
+   pure logical function is_parameter_name(name)
+      character(*), intent(in) :: name
+
+      is_parameter_name = len(name) > 0 .and. verify(name, letters) == 0
+   end function is_parameter_name
+
+   !> Put the values of PARAMETERS into BYTES, the lines of a file, outside of comments. Columns behind a value stay where they are, as
+   !! far as blanks behind it allow. FAULT says which has no value, or does not fit; '' where all is well.
+   subroutine fill_parameters(bytes, parameters, fault)
+      character(:), allocatable, intent(inout) :: bytes
+      type(parameter_type), intent(inout)      :: parameters(:)
+      character(:), allocatable, intent(out)   :: fault
+      character(:), allocatable :: filled, line
+      integer(long) :: finish, start
+      integer :: n
+
+      fault = ''
+      if (index(bytes, '${') == 0) return
+      filled = ''
+      start = 1
+      n = 0
+      do while (start <= len(bytes, long))
+         n = n + 1
+         finish = start - 1 + index(bytes(start:), achar(10), kind=long)
+         if (finish < start) finish = len(bytes, long)
+         line = bytes(start:finish)
+         if (index(line, '${') > 0) call fill_line(line, n, parameters, fault)
+         filled = filled//line
+         start = finish + 1
+      end do
+      call move_alloc(filled, bytes)
+   end subroutine fill_parameters
+
+   !> The same of one LINE, number N of its file.
+   subroutine fill_line(line, n, parameters, fault)
+      character(:), allocatable, intent(inout) :: line
+      integer, intent(in)                      :: n
+      type(parameter_type), intent(inout)      :: parameters(:)
+      character(:), allocatable, intent(inout) :: fault
+      character(:), allocatable :: name, rest, value
+      integer :: at, blanks, closing, k, width
+      logical :: is_fixed
+
+      is_fixed = index(line, ',') == 0
+      do
+         at = index(line, '$')
+         if (at == 0 .or. at /= index(line, '${')) return ! a comment
+         closing = index(line(at:), '}')
+         if (closing < 3) return
+         name = line(at + 2:at + closing - 2)
+         if (.not. is_parameter_name(name)) return
+         do k = size(parameters), 1, -1
+            if (parameters(k)%name == name) exit
+         end do
+         if (k == 0) then
+            if (fault == '') fault = 'line '//integer_text(n)//': ${'//name//'} has no value, expected --set '//name//'=VALUE'
+            return
+         end if
+         parameters(k)%is_used = .true.
+         if (allocated(value)) deallocate (value, rest)
+         allocate (value, source=parameters(k)%value)
+         allocate (rest, source=line(at + closing:))
+         width = max(closing, len(value))
+         if (len(value) > closing .and. verify(rest, ' '//achar(13)//achar(10)) > 0) then
+            blanks = verify(rest, ' ') - 1
+            if (is_fixed .and. blanks < len(value) - closing .and. fault == '') fault = 'line '//integer_text(n)//': '//value// &
+               ' in the place of ${'//name//'} does not fit in front of what follows'
+            rest = rest(1 + min(blanks, len(value) - closing):)
+         end if
+         line = line(:at - 1)//value//repeat(' ', width - len(value))//rest
+      end do
+   end subroutine fill_line
+
+end module deck_parameters

@@ -1,0 +1,340 @@
+!> What WATCH asks at the end of a stage: how its nodes have moved, how stiff the structure is there, and which bodies, joints, bars
+!! and springs give way by how much.
+!!
+!! With q the internal forces of a component, d its deformations, and Delta the change over the stage, equilibrium at both ends of the
+!! stage and the principle of virtual work give, however nonlinear the way between them was,
+!!
+!!     1/2 sum of Delta F . Delta u = 1/2 sum over all components of Delta q . Delta d
+!!
+!! for all loads, preloads, and supports that are moved. The shares are those of the right side. For one force F at one node that is
+!! F . u at the node: the share of a component is its share of the compliance there.
+module watched_nodes
+   use analysis_state, only: analysis_type
+   use bar_elements, only: bar_elongation
+   use body_elements, only: add_thermal_forces, internal_forces
+   use bolt_locking, only: bar_tension
+   use interface_operator, only: joint_movement
+   use kinds, only: wp
+   use listing_table, only: axes, column, label_type, listing_table_type
+   use model_build, only: find_bodies
+   use model_data, only: a_spring, bar_nodes, corners_of, model_type, n_bars, n_points
+   use output_file, only: output_file_type
+   use restart_stream, only: restart_stream_type
+   use text_tools, only: clean, csv_line_type
+   implicit none
+   private
+
+   public :: start_watched, find_watched, keep_watched, print_watched, write_watched, record_watched, words_of_bar
+
+   real(wp), parameter :: cancels = 1.0e-9_wp   ! of the sum of amounts: forces or works that leave no more cancel
+   real(wp), parameter :: rests = 1.0e-7_wp     ! of the largest movement over the stage: what moves less along the load is at rest
+
+   !> The structure at the end of the stage before.
+   type, public :: watch_state
+      real(wp), allocatable :: u(:, :)          !! (dimension, n_nodes) [length]
+      real(wp), allocatable :: force(:, :)      !! (3, interface elements) in their axes [force]
+      real(wp), allocatable :: movement(:, :)   !! likewise [length]
+      real(wp), allocatable :: tension(:)       !! of bars [force]
+   end type watch_state
+
+   type, public :: watched_node
+      integer  :: node = 0                      !! its position
+      real(wp) :: u(3) = 0.0_wp, change(3) = 0.0_wp !! displacement, and its change over the stage [length]
+      real(wp) :: load(3) = 0.0_wp              ! the load that its stiffness is for, change over the stage [force]
+      logical  :: is_loaded = .false., moves = .false.
+      real(wp) :: along = 0.0_wp                ! the change along the load [length]
+      real(wp) :: stiffness = 0.0_wp            ! load over that [force/length]
+   end type watched_node
+
+   !> One component, and its shares of the work.
+   type :: yielding_type
+      character(6) :: kind = ''
+      integer      :: id = 0
+      integer      :: first = 0, last = 0       ! of a body: lowest and highest number of its elements
+      real(wp)     :: share(2) = 0.0_wp         ! normal, which has what bodies and bars have, and shear [-]
+   end type yielding_type
+
+   type, public :: watch_answer
+      type(watched_node), allocatable  :: nodes(:)
+      type(yielding_type), allocatable :: parts(:) !! none where the stage does no work
+      real(wp) :: work = 0.0_wp                 !! 1/2 sum of Delta q . Delta d [force x length]
+   end type watch_answer
+
+contains
+
+   !> The answer about the nodes WATCHED at the end of the stage just completed, the bodies recovered.
+   subroutine find_watched(model, analysis, watched, before, answer)
+      type(model_type), intent(in)    :: model
+      type(analysis_type), intent(in) :: analysis
+      integer, intent(in)             :: watched(:)  !! positions
+      type(watch_state), intent(in)   :: before      !! at the end of the stage before
+      type(watch_answer), intent(out) :: answer
+      real(wp), allocatable :: change(:, :), load(:, :)
+      real(wp) :: on_nodes(3), total(3), amount, largest
+      integer  :: d, k
+
+      d = model%dimension
+      change = analysis%all_u - before%u
+      largest = maxval(abs(change(:, :n_points(model))))
+      call load_change(model, analysis, load)
+      amount = cancels*sum(abs(load))
+      on_nodes = sum(load(:, watched), dim=2)
+      total = sum(load, dim=2)
+      allocate (answer%nodes(size(watched)))
+      do k = 1, size(watched)
+         associate (answer => answer%nodes(k), node => watched(k))
+            answer%node = node
+            answer%u(:d) = analysis%all_u(:, node)
+            answer%change(:d) = change(:, node)
+            answer%load = on_nodes
+            if (norm2(on_nodes) <= amount) answer%load = load(:, node)
+            if (norm2(answer%load) <= amount) answer%load = total
+            answer%is_loaded = norm2(answer%load) > amount
+            if (.not. answer%is_loaded) cycle
+            answer%along = dot_product(answer%change, answer%load)/norm2(answer%load)
+            answer%moves = abs(answer%along) > rests*largest
+            if (answer%moves) answer%stiffness = norm2(answer%load)/answer%along
+         end associate
+      end do
+      call share_work(model, analysis, change, before, answer)
+   end subroutine find_watched
+
+   !> How much the loads of the deck have changed over the stage, at every node; of preloads nothing [force].
+   pure subroutine load_change(model, analysis, load)
+      type(model_type), intent(in)       :: model
+      type(analysis_type), intent(in)    :: analysis
+      real(wp), allocatable, intent(out) :: load(:, :) !! (3, n_nodes)
+      integer :: i, s
+
+      allocate (load(3, model%n_nodes), source=0.0_wp)
+      do s = max(1, analysis%stage - 1), analysis%stage
+         associate (loads => model%stage_loads(s))
+            do i = 1, loads%n
+               load(:, loads%node(i)) = load(:, loads%node(i)) + &
+                                        merge(1, -1, s == analysis%stage)*analysis%fraction*loads%force(:, i)
+            end do
+         end associate
+      end do
+   end subroutine load_change
+
+   !> The shares of bodies, joints, bars and springs in the work over the stage, in which the nodes moved by CHANGE.
+   subroutine share_work(model, analysis, change, before, answer)
+      type(model_type), intent(in)       :: model
+      type(analysis_type), intent(in)    :: analysis
+      real(wp), intent(in)               :: change(:, :) !! (dimension, n_nodes) [length]
+      type(watch_state), intent(in)      :: before
+      type(watch_answer), intent(inout)  :: answer
+      type(yielding_type), allocatable   :: parts(:)
+      real(wp) :: work(3), tension, all_amounts
+      integer  :: i, n_bodies, n_joints
+
+      call share_of_bodies(model, analysis, change, parts)
+      n_bodies = size(parts)
+      n_joints = size(model%joints)
+      parts = [parts, [(yielding_type('JOINT', model%joints(i)%id), i = 1, n_joints)], &
+               [(yielding_type(words_of_bar(model, i), bar_number(model, i)), i = 1, n_bars(model))]]
+      do i = 1, size(model%interface)
+         work = local_force(model, analysis, i)
+         work = 0.5_wp*(work - before%force(:, i))*(analysis%movement(:, i) - before%movement(:, i))
+         associate (part => parts(n_bodies + model%interface(i)%joint))
+            part%share = part%share + [work(3), work(1) + work(2)]
+         end associate
+      end do
+      do i = 1, n_bars(model)
+         tension = bar_tension(model, analysis, i) - before%tension(i)
+         parts(n_bodies + n_joints + i)%share(1) = 0.5_wp*tension*bar_elongation(model%bars(i), change(:, bar_nodes(model%bars(i))))
+      end do
+      all_amounts = sum([(sum(abs(parts(i)%share)), i = 1, size(parts))])
+      answer%work = sum([(sum(parts(i)%share), i = 1, size(parts))])
+      if (abs(answer%work) <= cancels*all_amounts .or. all_amounts <= rounding(analysis)) parts = parts(:0)
+      do i = 1, size(parts)
+         parts(i)%share = parts(i)%share/answer%work
+      end do
+      call move_alloc(parts, answer%parts)
+   end subroutine share_work
+
+   !> Work that rounding alone may make [force x length].
+   pure real(wp) function rounding(analysis)
+      type(analysis_type), intent(in) :: analysis
+
+      rounding = cancels**2*analysis%largest_load*maxval(abs(analysis%all_u))
+   end function rounding
+
+   !> The bodies, as PARTS with their works: forces at their nodes by movements of these, what warmth pushes taken off the forces.
+   subroutine share_of_bodies(model, analysis, change, parts)
+      type(model_type), intent(in)       :: model
+      type(analysis_type), intent(in)    :: analysis
+      real(wp), intent(in)               :: change(:, :)
+      type(yielding_type), allocatable, intent(out) :: parts(:)
+      real(wp), allocatable :: f(:, :), thermal(:, :)
+      integer, allocatable  :: of_node(:)
+      integer :: body(model%n_elements), e, n, node
+
+      call find_bodies(model, body, n)
+      allocate (parts(n), of_node(model%n_nodes))
+      of_node = 0
+      parts%kind = 'BODY'
+      parts%first = huge(1)
+      do e = 1, model%n_elements
+         associate (part => parts(body(e)))
+            part%id = body(e)
+            part%first = min(part%first, model%element_id(e))
+            part%last = max(part%last, model%element_id(e))
+         end associate
+         of_node(corners_of(model, e)) = body(e)
+         if (allocated(model%element_section)) then
+            if (model%element_section(e) > 0) of_node(model%sections(model%element_section(e))%node) = body(e)
+         end if
+      end do
+      allocate (f, mold=change)
+      call internal_forces(model, change, f)
+      allocate (thermal, source=0.0_wp*change)
+      if (allocated(analysis%before%temperature%at)) call add_thermal_forces(model, analysis%before%temperature, thermal)
+      f = f + thermal
+      thermal = 0.0_wp
+      if (allocated(analysis%now%temperature%at)) call add_thermal_forces(model, analysis%now%temperature, thermal)
+      f = f - thermal
+      do node = 1, model%n_nodes
+         if (of_node(node) == 0) cycle
+         associate (part => parts(of_node(node)))
+            part%share(1) = part%share(1) + 0.5_wp*dot_product(f(:, node), change(:, node))
+         end associate
+      end do
+   end subroutine share_of_bodies
+
+   !> Shear along x and y, and normal force that interface element I carries [force].
+   pure function local_force(model, analysis, i) result(force)
+      type(model_type), intent(in)    :: model
+      type(analysis_type), intent(in) :: analysis
+      integer, intent(in)             :: i
+      real(wp) :: force(3)
+
+      associate (state => analysis%states(i))
+         force = [state%shear%tau*model%interface(i)%area, state%normal%sumf]
+      end associate
+   end function local_force
+
+   !> What bar I is called: a bolt by its BOLT card, springs and other bars by their elements.
+   pure function words_of_bar(model, i) result(words)
+      type(model_type), intent(in) :: model
+      integer, intent(in)          :: i
+      character(6) :: words
+
+      words = 'BAR'
+      if (model%bars(i)%kind == a_spring) words = 'SPRING'
+      if (model%bars(i)%bolt > 0) words = 'BOLT'
+   end function words_of_bar
+
+   pure integer function bar_number(model, i) result(number)
+      type(model_type), intent(in) :: model
+      integer, intent(in)          :: i
+
+      number = model%bars(i)%id
+      if (model%bars(i)%bolt > 0) number = model%bars(i)%bolt
+   end function bar_number
+
+   !> Before the first stage all is at rest.
+   pure subroutine start_watched(model, before)
+      type(model_type), intent(in)   :: model
+      type(watch_state), intent(out) :: before
+
+      allocate (before%u(model%dimension, model%n_nodes), before%force(3, size(model%interface)), &
+                before%movement(3, size(model%interface)), before%tension(n_bars(model)), source=0.0_wp)
+   end subroutine start_watched
+
+   !> The stage just completed becomes the stage before.
+   pure subroutine keep_watched(model, analysis, before)
+      type(model_type), intent(in)     :: model
+      type(analysis_type), intent(in)  :: analysis
+      type(watch_state), intent(inout) :: before
+      integer :: i
+
+      before%u = analysis%all_u
+      before%movement = analysis%movement
+      do i = 1, size(model%interface)
+         before%force(:, i) = local_force(model, analysis, i)
+      end do
+      before%tension = [(bar_tension(model, analysis, i), i = 1, n_bars(model))]
+   end subroutine keep_watched
+
+   !> Two tables behind the answer of a stage.
+   subroutine print_watched(file, labels, model, answer)
+      type(output_file_type), intent(inout) :: file
+      type(label_type), intent(in)          :: labels
+      type(model_type), intent(in)          :: model
+      type(watch_answer), intent(in)        :: answer
+      type(listing_table_type) :: table
+      integer :: d, k
+
+      d = model%dimension
+      call file%put('')
+      call table%start('', [column('WATCHED', 'i11'), column('U'//axes(:d), 'es13.4', labels%length), &
+                            column('CHANGE '//axes(:d), 'es13.4', labels%length), column('LOAD', 'es13.4', labels%force), &
+                            column('ALONG IT', 'es13.4', labels%length), column('STIFFNESS', 'es13.4', labels%stiffness)])
+      call table%print_head(file)
+      do k = 1, size(answer%nodes)
+         associate (node => answer%nodes(k))
+            call table%add([model%node_id(node%node)])
+            call table%add(clean([node%u(:d), node%change(:d)]))
+            if (node%is_loaded) call table%add(clean([norm2(node%load), node%along]))
+            if (node%moves) call table%add([node%stiffness])
+            call table%print_row(file)
+         end associate
+      end do
+      if (size(answer%parts) == 0) return
+      call file%put('')
+      call table%start('', [column('GIVES WAY', 'a11'), column('NUMBER', 'i11'), &
+                            column([character(8) :: 'SHARE %', 'NORMAL %', 'SHEAR %'], 'f11.4'), &
+                            column([character(12) :: 'FROM ELEMENT', 'TO ELEMENT'], 'i14')])
+      call table%print_head(file)
+      do k = 1, size(answer%parts)
+         associate (part => answer%parts(k))
+            call table%add(' '//part%kind)
+            call table%add([part%id])
+            call table%add(clean(100.0_wp*[sum(part%share), part%share]))
+            if (part%kind == 'BODY') call table%add([part%first, part%last])
+            call table%print_row(file)
+         end associate
+      end do
+   end subroutine print_watched
+
+   !> The rows of the stage with the number STAGE: of its nodes into FILE, of its shares into SHARES.
+   subroutine write_watched(file, shares, stage, model, answer)
+      type(output_file_type), intent(inout) :: file, shares
+      integer, intent(in)                   :: stage
+      type(model_type), intent(in)          :: model
+      type(watch_answer), intent(in)        :: answer
+      type(csv_line_type) :: line
+      integer :: k
+
+      do k = 1, size(answer%nodes)
+         associate (node => answer%nodes(k))
+            line%length = 0
+            call line%add([stage, model%node_id(node%node)])
+            call line%add(clean([model%x(:, node%node), node%u, node%change, node%load]))
+            if (node%is_loaded) call line%add(clean([node%along, norm2(node%load)]))
+            if (.not. node%is_loaded) call line%add(',')
+            if (node%moves) call line%add([node%stiffness])
+            if (.not. node%moves) call line%add('')
+            call file%put(line%text(:line%length))
+         end associate
+      end do
+      do k = 1, size(answer%parts)
+         line%length = 0
+         call line%add([stage])
+         call line%add(trim(answer%parts(k)%kind))
+         call line%add([answer%parts(k)%id])
+         call line%add(clean([answer%parts(k)%share, sum(answer%parts(k)%share)*answer%work]))
+         call shares%put(line%text(:line%length))
+      end do
+   end subroutine write_watched
+
+   !> BEFORE passes through a restart file.
+   subroutine record_watched(stream, before)
+      type(restart_stream_type), intent(inout) :: stream
+      type(watch_state), intent(inout)         :: before
+
+      if (allocated(before%u)) call stream%item(before%u, before%force, before%movement, before%tension)
+   end subroutine record_watched
+
+end module watched_nodes

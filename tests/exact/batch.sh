@@ -1,0 +1,51 @@
+# Parameters of a deck by --set, nodes by --watch, the table of --summary: one element, c and F varied, lambda = c (F/a)**m by hand.
+cat > "$work/varied.bdf" <<'DECK'
+METHOD = NEWTON
+SPC = 1
+LOAD = 10
+BEGIN BULK
+$ a comment with ${NOTHING} in it
+BLOCK2,1,1,1,1,0.0,0.0
++,8.0,5.0
++,5
+PSHELL  1       1       ${T}    $ thickness
+MAT1    1       9500.0          0.0
+PMARK,5
+JOINT,1,1,5
+PJOINT,1,1
+JNORM   1       ${C}    0.5     ${EU}
+SPC1,1,1,1,2,3,4
+FORCE,10,2,,${F},0.0,-1.0
+FORCE,10,4,,${F},0.0,-1.0
+ENDDATA
+DECK
+"$program" -q -o "$work" --set T=2.0 --set C=8.0-3,4.0-3 --set EU=1.0+6 --set F=6.0,12.0,7.25 --watch 2,4 --summary "$work/sum.csv" "$work/varied.bdf" \
+   > "$work/varied.log" 2>&1
+same 'six runs' "$?" 0
+same '... one row each' "$(awk 'NR > 1' "$work/sum.csv" | wc -l)" 6
+for c in 8.0 4.0; do
+   for f in 6.0 12.0 7.25; do
+      row=$(grep "varied.bdf, C=$c-3, F=$f\"" "$work/sum.csv" | sed 's/^"[^"]*",//')
+      down=$(number "$c*1e-3*sqrt(2*$f/16) + 2*$f*5/(9500*16)")
+      near "C $c F $f: largest displacement" "$(echo "$row" | cut -d, -f5)" "$down" 1e-9
+      near "... stiffness at the first watched node" "$(echo "$row" | cut -d, -f12)" "2*$f/($down)" 1e-9
+      same '... a listing of its own' "$(ls "$work" | grep -c "^varied_C=$c-3_F=$f.out")" 1
+   done
+done
+says 'the answers name their runs' "$work/varied.log" '^ DECK: .*varied.bdf, C=4.0-3, F=7.25$'
+says 'a table behind all answers' "$work/varied.log" '^ ALL RUNS'
+same '... in which every run stands' "$(sed -n '/^ ALL RUNS/,$p' "$work/varied.log" | grep -c 'varied.bdf, C=')" 6
+"$program" -q -o "$work" --set T=2.0 --set C=1.0 --set F=1.0 "$work/varied.bdf" > "$work/varied.log" 2>&1
+same 'a parameter without a value' "$?" 2
+says '...' "$work/varied.log" 'line 14: ${EU} has no value, expected --set EU=VALUE'
+"$program" -q -o "$work" --set T=2.0 --set C=1.0 --set F=1.0 --set EU=1. --set Q=1 "$work/varied.bdf" > "$work/varied.log" 2>&1
+same 'a value that nothing takes' "$?" 2
+says '...' "$work/varied.log" 'there is no ${Q} in the deck'
+"$program" -q -o "$work" --set T=2.0 --set C=1.23456789 --set EU=1.0 --set F=1.0 "$work/varied.bdf" > "$work/varied.log" 2>&1
+same 'a value that does not fit' "$?" 2
+says '...' "$work/varied.log" 'does not fit in front of what follows'
+# a deck that cannot be solved has its row too
+sed 's/^SPC = 1/TITLE = FREE/' "$work/varied.bdf" > "$work/free.bdf"
+"$program" -q -o "$work" --set T=2.0 --set C=1.0 --set EU=1.0 --set F=1.0 --summary "$work/sum.csv" "$work/free.bdf" "$work/varied.bdf" > "$work/varied.log" 2>&1
+same 'status of a batch' "$?" 3
+same '... and of its runs' "$(awk -F, 'NR > 1 { printf "%s ", $2 }' "$work/sum.csv")" '3 0 '

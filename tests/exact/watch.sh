@@ -1,0 +1,70 @@
+# WATCH: movement, stiffness, and who gives way by how much.
+watched() { "$query" "$work/$1.watch.csv" rows "stage = $2 and node = $3" print "$4"; }
+share() { awk -F, -v s="$2" -v kind="$3" -v id="$4" '$1 == s && $2 == kind && $3 == id { printf "%.17g", $4 + $5 }' "$work/$1.watch.energy.csv"; }
+adds_up() { # NAME STAGES
+   same "shares of $1 add up to 1 in $2 stages" "$(awk -F, 'NR > 1 { sum[$1] += $4 + $5 }
+      END { for (s in sum) n += (sum[s] - 1)^2 < 1e-18; print n }' "$work/$1.watch.energy.csv")" "$2"
+}
+
+# A block between a joint below and two springs above, pressed in two stages: three compliances in a row, that of the joint by
+# lambda = c p**m, its share of each stage by hand.
+for m in 1.0 0.5; do
+   cards watch <<DECK
+METHOD = NEWTON;SPC = 1;WATCH = SET 7;SET 7 = 52, 54
+SUBCASE 1;  LOAD = 10;SUBCASE 2;  LOAD = 20;  INCR = 5
+BEGIN BULK;BLOCK2,1,1,1,1,0.0,0.0;+,8.0,5.0;+,5;PSHELL,1,1,2.0;MAT1,1,9500.0,,0.0;GRID,52,,0.0,15.0;GRID,54,,8.0,15.0
+PMARK,5;JOINT,1,1,5;PJOINT,1,1;JNORM,1,8.0-3,$m
+CELAS2,81,700.0,52,2,2,2;CELAS2,83,700.0,54,2,4,2;SPC1,1,1,1,2,3,4,52,54
+FORCE,10,52,,6.0,0.0,-1.0;FORCE,10,54,,6.0,0.0,-1.0;FORCE,20,52,,9.0,0.0,-1.0;FORCE,20,54,,9.0,0.0,-1.0;JINCR,5,3;ENDDATA
+DECK
+   run watch || continue
+   for stage in 1 2; do
+      f=$(number "if($stage = 1, 12, 6)")
+      joint=$(number "8e-3*(if($stage = 1, 12, 18)/16)^$m - if($stage = 1, 0, 8e-3*(12/16)^$m)")
+      block=$(number "$f*5/(9500*16)") springs=$(number "$f/1400")
+      all=$(number "$joint + $block + $springs")
+      near "watched movement, m $m" "$(watched watch $stage 52 along)" "$all" 1e-10
+      near "watched stiffness, m $m" "$(watched watch $stage 54 stiffness)" "$f/$all" 1e-10
+      near "share of the joint, m $m" "$(share watch $stage JOINT 1)" "$joint/$all" 1e-10
+      near "share of the block, m $m" "$(share watch $stage BODY 1)" "$block/$all" 1e-10
+      near "work of the stage, m $m" "$(awk -F, -v s=$stage '$1 == s { w += $6 } END { printf "%.17g", w }' "$work/watch.watch.energy.csv")" \
+           "0.5*$f*$all" 1e-10
+      for id in 81 83; do near "share of a spring, m $m" "$(share watch $stage SPRING $id)" "0.5*$springs/$all" 1e-10; done
+   done
+   adds_up watch 2
+done
+says 'watched nodes in the listing' "$work/watch.out" '^    WATCHED '
+says 'shares in the answer' "$work/watch.log" '^     JOINT  *1 '
+
+# The node alone where the loads on the watched nodes cancel; all loads where none acts on them; no stiffness across the load.
+cards pulled <<'DECK'
+SPC = 1;SET 1 = 1, 2;SET 3 = 3;LOAD = 10;WATCH = SET 1, SET 3
+BEGIN BULK;GRID,1,,0.0,0.0;GRID,2,,10.0,0.0;GRID,3,,10.0,10.0;GRID,4,,0.0,10.0;CQUAD4,1,1,1,2,3,4;PSHELL,1,1,2.0;MAT1,1,100.0,,0.0
+CONROD,7,1,2,1,1,1.0;SPC1,1,2,1,2,3,4;SPC1,1,1,4;SPC1,1,1,3;FORCE,10,1,,5.0,-1.0,0.0;FORCE,10,2,,5.0,1.0,0.0;ENDDATA
+DECK
+sed -i 's/CONROD,7,1,2,1,1,1.0/CONROD,7,1,2,1,1.0/' "$work/pulled.bdf"
+run pulled && {
+   near 'loads that cancel: the node alone' "$(watched pulled 1 1 load_x)" -5 1e-12
+   near '... and the other' "$(watched pulled 1 2 load_x)" 5 1e-12
+   same '... and none at a third' "$(awk -F, '$2 == 3 { print $15 $16 $17 }' "$work/pulled.watch.csv")" ''
+   adds_up pulled 1
+}
+
+# What is at work besides: bolts, friction, splits, spiders, gravity. Tightening rods does no outer work: no table.
+for case in 'bolted_cantilever 1' 'solid_bolt 2' 'lap_joint 3' 'bracket_spiders 1' 'gib 2'; do
+   set -- $case
+   sed '0,/^ *SUBCASE/s//WATCH = SET 99\nSET 99 = ALL\n&/' "input/$1.bdf" > "$work/$1.bdf"
+   run "$1" && adds_up "$1" "$2"
+done
+
+# Units looked at: kg/m3 in a deck of mm and N is told, with what it should be; the right density, in any system of units, is not.
+for case in '7850.0 2.1+5 7.850E-09' '7.85 2.1+5 7.850E-09 UNITS=MM,N' '7.85 2.1+5' '7.85-9 2.1+5' '7850.0 2.1+11' '8.0-10 21000.0' '7.35-4 3.0+7'; do
+   set -- $case
+   cards units <<DECK
+${4:-TITLE = UNITS};SPC = 1;LOAD = 10
+BEGIN BULK;BLOCK2,1,1,1,1,0.0,0.0;+,8.0,5.0;PSHELL,1,1,2.0;MAT1,1,$2,,0.0,$1;SPC1,1,12,1,3;FORCE,10,2,,1.0,0.0,1.0;ENDDATA
+DECK
+   run units
+   if [ -n "${3:-}" ]; then says "units: $1 with $2" "$work/units.log" "There it would be $3"
+   else same "units: $1 with $2" "$(grep -c 'speed of waves' "$work/units.log")" 0; fi
+done
