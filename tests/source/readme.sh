@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # src/README.md against src: every module stands once in the table of its folder, and no other; the folders use each other as it
-# shows; its snippets stand word for word in the patches; what it names is there; its links lead somewhere.
+# shows; its snippets stand word for word in the patches; what it names is there; its links lead somewhere. And the index of the decks.
 #
 #    readme.sh README SOURCE_FOLDER
 set -u
@@ -17,6 +17,15 @@ check 'modules without a sentence' "$(grep -E '^\| `[a-z0-9_]+` \| *\|$' "$readm
 check "what the folders use, in $readme (<) and in $source (>)" \
    "$(diff <(awk '/^What uses what/ { on = 1 } on && /^```/ { if (on++ == 2) exit; next } on == 2' "$readme") \
            <(awk -f $here/folder_uses.awk "$source"/*/*.f90))"
+
+# the index of decks: every deck once, with the largest displacement of its reference
+decks=$(awk '/^## / { on = /^## The decks of this folder/ }
+   on && /^\| `/ { split($0, part, "`"); split($0, cell, "|"); gsub(/ /, "", cell[4]); print part[2], cell[4] }' input/README.md | sort)
+answers=$(for deck in input/*.bdf; do
+   name=$(basename "$deck" .bdf)
+   echo "$name $(awk '/LARGEST DISPLACEMENT +[0-9]/ { u = $3 } END { print u }' "reference_output/$name.out")"
+done | sort)
+check 'decks in the index of input/README.md (<), and in input (>)' "$(diff <(echo "$decks") <(echo "$answers"))"
 
 # a fenced block ```diff FILE stands in FILE, line after line
 snippets=$(awk '/^```diff / { file = $2; n = 0; next }
