@@ -4,13 +4,15 @@ module element_build
    use block_mesh, only: block_type
    use bulk_data, only: element_card, property_card
    use deck_check, only: checked_deck
-   use elasticity, only: axisymmetric, solid
-   use element_kinds, only: element_table, kind_quad4, kind_quad8, kind_tria3, kind_tria6
+   use elasticity, only: axisymmetric, beam, plane_stress, shell, solid
+   use element_kinds, only: element_table, kind_edge2, kind_quad4, kind_quad8, kind_tria3, kind_tria6
    use element_mapping, only: smallest_jacobian
    use kinds, only: wp
    use lists, only: id_table_type, sorted_order
    use model_data, only: corners_of, model_type, property_type
    use node_build, only: blank_node, find_nodes, raw_nodes
+   use shell_element, only: flat_coordinates
+   use structural_build, only: is_beam_edge
    use text_tools, only: integer_text
    implicit none
    private
@@ -21,15 +23,16 @@ module element_build
 
 contains
 
-   !> Whether an element card marks a face: in a model of solids, CQUAD4 and CTRIA3 do nothing else.
+   !> Whether an element card marks a face: in a model of space CTRIA3, CQUAD4 and those of second order whose property is no PSHELL.
    elemental logical function is_face(model, card)
       type(model_type), intent(in)   :: model
       type(element_card), intent(in) :: card
 
       is_face = model%dimension == 3 .and. element_table(card%kind)%dimension == 2
+      if (is_face) is_face = .not. any(model%properties%id == card%property .and. model%properties%state == shell)
    end function is_face
 
-   !> Every PSHELL, PAXIS and PSOLID with its material.
+   !> Every PSHELL, PAXIS and PSOLID with its material, and the sections of beams behind them. In space a PSHELL is that of shells.
    subroutine resolve_properties(deck, model)
       type(checked_deck), intent(in)  :: deck
       type(model_type), intent(inout) :: model
@@ -38,11 +41,18 @@ contains
       integer :: i, k
 
       call materials%build(deck%bulk%mat1%id)
-      allocate (cards, source=[deck%bulk%pshell, deck%bulk%paxis, deck%bulk%psolid])
+      allocate (cards, source=[deck%bulk%pshell, deck%bulk%paxis, deck%bulk%psolid, (property_card( &
+         line=deck%bulk%beam_property(i)%line, id=deck%bulk%beam_property(i)%id, material=deck%bulk%beam_property(i)%material, &
+         state=beam), i = 1, size(deck%bulk%beam_property))])
       allocate (model%properties(size(cards)))
       do i = 1, size(cards)
          associate (card => cards(i), property => model%properties(i))
             property = property_type(id=card%id, state=card%state, thickness=card%thickness, incompatible=card%incompatible)
+            if (model%dimension == 3 .and. i <= size(deck%bulk%pshell)) then
+               property%state = shell
+               property%fibre = card%fibre
+               property%extra_mass = deck%bulk%parameters%mass_factor*card%extra_mass
+            end if
             k = materials%find(card%material)
             if (k > 0) then
                property%e = deck%bulk%mat1(k)%e
@@ -50,6 +60,8 @@ contains
                if (deck%bulk%mat1(k)%bars_only) call deck%field_error(card%line, 2, 'MAT1 '//integer_text(card%material)// &
                   ' has E alone, which is enough for bars only; expected two of E, G and NU on it')
                property%rho = deck%bulk%parameters%mass_factor*deck%bulk%mat1(k)%rho
+               if (property%state < axisymmetric .and. card%thickness > 0.0_wp) & ! a membrane
+                  property%rho = property%rho + deck%bulk%parameters%mass_factor*card%extra_mass/card%thickness
                property%alpha = deck%bulk%mat1(k)%alpha
                property%damping = deck%bulk%mat1(k)%damping
                property%reference = deck%bulk%mat1(k)%reference
@@ -72,7 +84,7 @@ contains
       integer :: b, corners, i, k, most, n, total
 
       call properties%build(model%properties%id)
-      total = size(deck%bulk%element) + n_elements(blocks)
+      total = size(deck%bulk%element) + size(deck%bulk%edge) + n_elements(blocks)
       allocate (id(total), kind(total), property(total), line(total))
       most = max(4, maxval(element_table(deck%bulk%element%kind)%n_nodes), maxval(element_table(blocks%kind)%n_nodes))
       allocate (nodes(most, total), source=0)
@@ -90,6 +102,17 @@ contains
             where (element%nodes(corners + 1:k) == 0) nodes(corners + 1:k, n) = blank_node
             property(n) = properties%find(element%property)
             call check_property(deck, model, element%line, element%property, element%kind, property(n))
+         end associate
+      end do
+      do i = 1, size(deck%bulk%edge)
+         associate (edge => deck%bulk%edge(i))
+            if (.not. is_beam_edge(deck, edge)) cycle
+            n = n + 1
+            id(n) = edge%id
+            kind(n) = kind_edge2
+            line(n) = edge%line
+            call find_nodes(deck, edge%line, edge%nodes(:2), model, nodes(:2, n))
+            property(n) = findloc(model%properties%id == edge%property .and. model%properties%state == beam, .true., dim=1)
          end associate
       end do
       do b = 1, size(blocks)
@@ -133,12 +156,17 @@ contains
       integer, intent(inout)         :: property
       character(:), allocatable :: wanted
 
-      if (model%dimension == 3 .and. element_table(kind)%dimension == 2) then
-         call deck%errors%add(line, 'BLOCK2: the model has solids; plane bodies and solids cannot be mixed')
+      if (model%dimension == 3 .and. element_table(kind)%dimension == 2 .and. any(deck%bulk%block%line == line)) then
+         call deck%errors%add(line, 'BLOCK2: the model is one of space; BLOCK2 makes plane bodies only')
          return
       end if
       if (property > 0) then
-         if ((model%properties(property)%state == solid) .eqv. element_table(kind)%dimension == 3) return
+         if (model%properties(property)%state == shell .and. element_table(kind)%linear /= kind) then
+            call deck%errors%add(line, 'a shell of second order; expected CTRIA3 or CQUAD4 for shells in a model of space')
+            return
+         end if
+         if (model%properties(property)%state /= beam .and. &
+             ((model%properties(property)%state == solid) .eqv. element_table(kind)%dimension == 3)) return
          property = 0
       end if
       if (id == 0) return
@@ -242,7 +270,12 @@ contains
             if (any(nodes == 0)) return
             if (any(doubtful(nodes))) return
             if (doubtful_blocks%find(model%element_line(e)) > 0) return
-            is_sound = smallest_jacobian(model%element_kind(e), model%x(:model%dimension, nodes)) > 0.0_wp
+            if (model%element_kind(e) == kind_edge2) return ! a beam: its length is asked for with its offsets
+            if (model%dimension == 3 .and. element_table(model%element_kind(e))%dimension == 2) then
+               is_sound = smallest_jacobian(model%element_kind(e), flat_coordinates(model%x(:, nodes))) > 0.0_wp
+            else
+               is_sound = smallest_jacobian(model%element_kind(e), model%x(:model%dimension, nodes)) > 0.0_wp
+            end if
          end associate
       end function is_sound
 

@@ -1,6 +1,7 @@
 !> Loads: which forces act, and which displacements are prescribed, at the end of every stage. FORCE, FORCE1 and FORCE2 are
 !! vectors in global axes; MOMENT acts on the rotations of reference nodes.
 module load_build
+   use beam_loads, only: add_beam_gravity, add_beam_loads, check_beam_loads
    use body_elements, only: element_weight
    use bulk_data, only: force_card
    use case_entries, only: set_reference
@@ -9,7 +10,7 @@ module load_build
    use element_kinds, only: max_nodes, max_side_nodes
    use kinds, only: wp
    use load_checks, only: check_load_cards, check_plane, has_set, nor_others
-   use model_data, only: corners_of, model_type, stage_load_type, surface_type
+   use model_data, only: corners_of, model_type, own_nodes, stage_load_type, surface_type
    use node_coupling, only: add_section_share
    use pressure_loads, only: add_pressure, find_pressed_sides, pressed_side
    use reference_nodes, only: node_axes, rotation_at, rotation_component
@@ -167,6 +168,7 @@ contains
 
       call find_nodal_forces(deck, model, node, force)
       call check_load_cards(deck, model)
+      call check_beam_loads(deck, model)
       call check_kept(deck, model)
       call find_pressed_sides(deck, model, pressed)
       allocate (model%stage_loads(size(deck%control%stages)), oscillating(size(deck%control%stages)))
@@ -225,7 +227,8 @@ contains
             if (bulk%force(i)%set == set) call add_force(nodal(i), factor*force(:, i), loads)
          end do
          call add_moves(deck, model, set, factor, loads)
-         if (all(bulk%pressure%set /= set) .and. all(bulk%surface_load%set /= set) .and. all(bulk%gravity%set /= set)) return
+         if (all(bulk%pressure%set /= set) .and. all(bulk%surface_load%set /= set) .and. all(bulk%gravity%set /= set) .and. &
+             all(bulk%beam_load%set /= set)) return
          if (deck%errors%any()) return ! elements may be what nothing can be spread over
          allocate (spread_out(3, model%n_nodes), source=0.0_wp)
          do i = 1, size(pressed)
@@ -247,9 +250,11 @@ contains
             acceleration = factor*bulk%gravity(i)%acceleration
             if (s > 0) acceleration = matmul(model%systems(s)%axes, acceleration)
             call add_gravity(model, acceleration, spread_out)
+            call add_beam_gravity(model, acceleration, loads)
             call add_mass_weights(model, acceleration, spread_out)
          end do
       end associate
+      call add_beam_loads(deck, model, set, factor, loads, spread_out)
       do node = 1, model%n_nodes
          if (any(abs(spread_out(:, node)) > 0.0_wp)) call add_force(node, spread_out(:, node), loads)
       end do
@@ -331,8 +336,8 @@ contains
       integer  :: e
 
       do e = 1, model%n_elements
-         associate (nodes => corners_of(model, e), d => model%dimension)
-            if (any(nodes == 0) .or. model%element_property(e) == 0) cycle
+         if (any(corners_of(model, e) == 0) .or. model%element_property(e) == 0) cycle
+         associate (nodes => own_nodes(model, e), d => model%dimension)
             call element_weight(model, e, acceleration(:d), f)
             force(:d, nodes) = force(:d, nodes) + f(:, :size(nodes))
             call add_section_share(model, e, nodes, f, force)

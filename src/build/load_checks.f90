@@ -17,7 +17,7 @@ module load_checks
 
    public :: check_load_cards, check_plane, has_set, build_temperatures
 
-   character(*), parameter :: others = 'PLOAD4, PLOADE, PLOAD, PLOADM, FORCEM, GRAV or SPCD' ! than FORCE, of a load set
+   character(*), parameter :: others = 'PLOAD4, PLOADE, PLOAD, PLOAD1, PLOAD2, PLOADM, FORCEM, GRAV or SPCD' ! than FORCE, of a load set
    character(*), parameter, public :: nor_others = ', nor a '//others                 !! behind `there is no FORCE`
 
 contains
@@ -39,7 +39,7 @@ contains
       integer, intent(in)              :: set
 
       has_set = any(bulk%force%set == set) .or. any(bulk%pressure%set == set) .or. any(bulk%surface_load%set == set) .or. &
-                any(bulk%gravity%set == set) .or. any(bulk%displacement%set == set)
+                any(bulk%gravity%set == set) .or. any(bulk%displacement%set == set) .or. any(bulk%beam_load%set == set)
    end function has_set
 
    !> A plane model has no direction z; the card on LINE has its component of VECTOR in N3, unless it is turned or goes along nodes.

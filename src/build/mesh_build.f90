@@ -4,6 +4,7 @@
 module mesh_build
    use block_mesh, only: block_type, generate_block
    use bulk_data, only: element_card
+   use case_control, only: model_axisymmetric, model_plane, model_space
    use deck_check, only: checked_deck
    use displacement_systems, only: build_systems
    use element_build, only: check_element_numbers, check_elements, check_one_state, collect_elements, is_face, &
@@ -14,6 +15,7 @@ module mesh_build
    use model_data, only: model_type
    use node_build, only: fill_mid_sides, collect_nodes, find_nodes, order_nodes, raw_nodes
    use spring_build, only: is_bar
+   use structural_build, only: is_beam_edge
    use text_tools, only: integer_text
    implicit none
    private
@@ -52,8 +54,8 @@ contains
       end do
       call build_systems(deck, model%systems)
       call collect_nodes(deck, model%systems, blocks, raw)
-      if (size(deck%bulk%element) + size(blocks) == 0) & ! bars alone
-         model%dimension = merge(3, 2, any(abs(raw%x(3, :raw%n)) > 0.0_wp))
+      if (any(abs(raw%x(3, :raw%n)) > 0.0_wp) .and. size(deck%bulk%paxis) == 0) model%dimension = 3
+      call take_model(deck, model)
       call order_nodes(raw, model, position)
       call resolve_properties(deck, model)
       call collect_elements(deck, blocks, raw, position, model)
@@ -65,6 +67,30 @@ contains
       call check_elements(deck, model)
       call collect_sides(deck, blocks, raw, position, model, sides)
    end subroutine build_mesh
+
+   !> MODEL of case control says what the model is, where the deck does not say otherwise.
+   subroutine take_model(deck, model)
+      type(checked_deck), intent(in)  :: deck
+      type(model_type), intent(inout) :: model
+      logical :: has_solids
+
+      has_solids = any(deck%bulk%block%dimension == 3) .or. any(element_table(deck%bulk%element%kind)%dimension == 3)
+      associate (control => deck%control)
+         select case (control%model)
+         case (model_space)
+            if (size(deck%bulk%paxis) > 0) call deck%errors%add(control%model_line, 'MODEL = SPACE, but the deck has a PAXIS; '// &
+                                                                'expected AXISYMMETRIC, or no PAXIS')
+            if (size(deck%bulk%paxis) == 0) model%dimension = 3
+         case (model_plane, model_axisymmetric)
+            if (has_solids) call deck%errors%add(control%model_line, 'MODEL: the deck has solids; expected SPACE')
+            if (.not. has_solids) model%dimension = 2
+            if (size(deck%bulk%paxis) == 0 .neqv. control%model == model_plane) call deck%errors%add(control%model_line, &
+               trim(merge('MODEL = PLANE, but the deck has a PAXIS        ', &
+                          'MODEL = AXISYMMETRIC, but the deck has no PAXIS', &
+                          control%model == model_plane)))
+         end select
+      end associate
+   end subroutine take_model
 
    !> A plane model lies in x-y, an axisymmetric one besides in x >= 0.
    subroutine check_nodes(deck, model)
@@ -112,13 +138,14 @@ contains
       allocate (sides%nodes(merge(3, max_side_nodes, model%dimension == 2), total), source=0)
       do i = 1, size(deck%bulk%edge)
          associate (edge => deck%bulk%edge(i))
-            if (is_bar(deck, edge)) cycle
+            if (is_bar(deck, edge) .or. is_beam_edge(deck, edge)) cycle
             if (model%dimension == 3) then
                call deck%errors%add(edge%line, 'a CBAR, or a CROD without a PROD, marks an edge of a plane body; surfaces of '// &
-                               'solids are marked with CTRIA3 and CQUAD4 faces')
+                               'solids are marked with CTRIA3 and CQUAD4 faces; the PID of a beam is that of a PBAR, PBARL, '// &
+                               'PBEAM or PBEAML')
                cycle
             end if
-            call add_card(edge, 2, merge(3, 2, edge%nodes(3) /= 0))
+            call add_card(edge%element_card, 2, merge(3, 2, edge%nodes(3) /= 0))
          end associate
       end do
       do i = 1, size(deck%bulk%element)

@@ -16,9 +16,10 @@ module model_build
    use model_data, only: model_type, n_bars, n_rotations, n_sections, stage_load_type
    use node_coupling, only: section_node
    use pretension_section, only: build_sections
-   use rbe2, only: build_dependents, build_rotations
+   use rbe2, only: build_dependents
    use spring_build, only: build_bars, build_masses, check_mass, build_springs
    use stage_plan, only: plan_stages, stage_plan_type
+   use structural_build, only: build_rotations, build_structural, turn_rotations
    use support_build, only: build_supports
    use surface_build, only: build_surfaces
    use surface_sides, only: split_shared_surfaces
@@ -165,6 +166,8 @@ contains
       call build_supports(checked, model)
       call build_sections(checked, model)
       call build_frames(checked, model)
+      call turn_rotations(model)
+      call build_structural(checked, model)
       call build_springs(checked, model)
       call build_dependents(checked, model)
       call build_masses(checked, model)

@@ -16,7 +16,7 @@ module node_build
    implicit none
    private
 
-   public :: collect_nodes, order_nodes, append_nodes, find_nodes, fill_mid_sides, append_node
+   public :: collect_nodes, order_nodes, append_nodes, find_nodes, fill_mid_sides, append_node, append_rotations
 
    !> Nodes as they come, before they are put in order, and which of them a block's places are.
    type, public :: raw_nodes
@@ -357,5 +357,54 @@ contains
       end associate
       model%n_nodes = model%n_nodes + 1
    end subroutine append_node
+
+   !> Append a node for each of the rotations of MODEL: at its point, with the elements of this where shells or beams have it, free in what
+   !! the model has of rotations.
+   subroutine append_rotations(model)
+      type(model_type), intent(inout) :: model
+      integer, allocatable :: elements(:), points(:)
+      integer :: k, m, n
+
+      n = model%n_nodes
+      m = size(model%rotations)
+      allocate (points(m))
+      points(:) = model%rotations%point
+      model%node_id = [model%node_id, spread(0, 1, m)]
+      model%duplicate = [model%duplicate, spread(0, 1, m)]
+      model%rotation_of = [model%rotation_of, spread(0, 1, m)]
+      model%x = reshape([model%x, model%x(:, points)], [3, n + m])
+      if (allocated(model%node_section)) model%node_section = [model%node_section, spread(0, 1, m)]
+      if (allocated(model%used)) model%used = [model%used, spread(.true., 1, m)]
+      allocate (elements(sum(model%first_at(points + 1) - model%first_at(points), mask=model%rotations%of_element)))
+      model%first_at = [model%first_at, spread(0, 1, m)]
+      do k = 1, m
+         model%rotations(k)%node = n + k
+         associate (before => model%first_at(n + k) - size(model%elements_at), point => model%rotations(k)%point)
+            if (model%rotations(k)%of_element) then
+               associate (own => model%elements_at(model%first_at(point):model%first_at(point + 1) - 1))
+                  elements(before:before + size(own) - 1) = own
+                  model%first_at(n + k + 1) = model%first_at(n + k) + size(own)
+               end associate
+            else
+               model%first_at(n + k + 1) = model%first_at(n + k)
+            end if
+         end associate
+      end do
+      model%elements_at = [model%elements_at, elements]
+      model%n_nodes = n + m
+      call hold_new(model, n, [.false., spread(model%dimension == 2, 1, model%dimension - 1)])
+   end subroutine append_rotations
+
+   !> The nodes behind the first N are HELD in what is no unknown of theirs.
+   subroutine hold_new(model, n, held)
+      type(model_type), intent(inout) :: model
+      integer, intent(in)             :: n
+      logical, intent(in)             :: held(:) !! (dimension)
+
+      associate (d => model%dimension, m => model%n_nodes - n)
+         if (allocated(model%held)) model%held = reshape([model%held, spread(held, 2, m)], [d, n + m])
+         if (allocated(model%left_out)) model%left_out = reshape([model%left_out, spread(held, 2, m)], [d, n + m])
+      end associate
+   end subroutine hold_new
 
 end module node_build

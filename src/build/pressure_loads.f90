@@ -9,7 +9,7 @@ module pressure_loads
    use element_loads, only: side_forces
    use kinds, only: wp
    use lists, only: id_table_type
-   use model_data, only: corners_of, model_type
+   use model_data, only: corners_of, is_shell, model_type
    use node_coupling, only: add_section_share
    use text_tools, only: integer_text
    implicit none
@@ -27,7 +27,7 @@ module pressure_loads
    !> Where the pressure of a card acts.
    type, public :: pressed_side
       integer  :: card = 0                    !! among the pressure cards
-      integer  :: element = 0, side = 0
+      integer  :: element = 0, side = 0       !! side 0: the face of a shell, from behind its normal
       real(wp) :: p(4) = 0.0_wp               !! at the corners of the side, in its order; positive into the body [pressure]
       real(wp) :: direction(3) = 0.0_wp       !! of a traction P, unit; zero: along the normal
    end type pressed_side
@@ -49,7 +49,7 @@ contains
       node = model%node_table%find(id(1))
       do while (node > 0)
          do i = model%first_at(node), model%first_at(node + 1) - 1
-            do s = 1, element_table(model%element_kind(model%elements_at(i)))%n_sides
+            do s = 0, element_table(model%element_kind(model%elements_at(i)))%n_sides
                call compare_corners(model, model%elements_at(i), s, id, tried)
                if (tried%element == 0) cycle
                found = found + 1
@@ -68,7 +68,7 @@ contains
       end if
    end subroutine find_face
 
-   !> Side S of element E where ID are its corners, else none.
+   !> Side S of element E where ID are its corners, else none; side 0: the face of a shell.
    pure subroutine compare_corners(model, e, s, id, face)
       type(model_type), intent(in)  :: model
       integer, intent(in)           :: e, s, id(:)
@@ -76,9 +76,15 @@ contains
       integer :: k, place(size(id))
       logical :: outward
 
+      if (s == 0) then
+         if (.not. is_shell(model, e) .or. size(corners_of(model, e)) /= size(id)) return
+         place = [(own_corner(model, e, id(k)), k = 1, size(id))]
+      end if
       associate (kind => element_table(model%element_kind(e)))
-         if (kind%dimension /= 3 .or. kind%side_corners(s) /= size(id)) return
-         do k = 1, size(id)
+         if (s > 0) then
+            if (kind%dimension /= 3 .or. kind%side_corners(s) /= size(id)) return
+         end if
+         do k = 1, merge(size(id), 0, s > 0)
             place(k) = findloc(kind%side_nodes(:size(id), s), own_corner(model, e, id(k)), dim=1)
          end do
       end associate
@@ -121,6 +127,7 @@ contains
       type(pressed_side), allocatable, intent(out) :: pressed(:)
       type(id_table_type) :: elements, faces
       integer :: e, i, k, n
+      logical :: names_shell
 
       allocate (pressed(size(deck%bulk%pressure)))
       if (size(pressed) == 0) return
@@ -140,7 +147,9 @@ contains
             end if
             if (card%first == 0) cycle
             e = elements%find(card%first)
-            if (card%kind == of_face .and. (card%last > card%first .or. faces%find(card%first) > 0)) then
+            names_shell = e > 0
+            if (names_shell) names_shell = is_shell(model, e)
+            if (card%kind == of_face .and. (card%last > card%first .or. faces%find(card%first) > 0 .or. names_shell)) then
                call press_on_marked(deck, model, i, 2, [card%first, card%last], pressed, n)
             else if (e == 0) then
                call deck%field_error(card%line, 'EID', 'there is no body element '//integer_text(card%first))
@@ -208,8 +217,8 @@ contains
       integer :: f
       logical :: any_face
 
-      any_face = .false.
       associate (card => deck%bulk%pressure(i))
+         call press_on_shells(deck, model, i, range, pressed, n, any_face)
          if (card%corners(1) > 0) then
             call deck%field_error(card%line, 'G1', 'element '//integer_text(card%first)//' marks a face; expected a blank, or '// &
                                   'in EID the solid that the face belongs to')
@@ -245,10 +254,38 @@ contains
             end associate
          end do
          if (.not. any_face .and. range(1) <= range(2)) call deck%field_error(card%line, at, 'no element from '// &
-            integer_text(range(1))//' to '//integer_text(range(2))//' marks a face of a solid; '// &
-            trim(merge('PLOAD2', 'THRU  ', card%kind == of_marks))//' is for CTRIA3 and CQUAD4 with a PMARK', called='EID')
+            integer_text(range(1))//' to '//integer_text(range(2))//' marks a face of a solid or is a shell; '// &
+            trim(merge('PLOAD2', 'THRU  ', card%kind == of_marks))// &
+            ' is for CTRIA3 and CQUAD4 with a PMARK or PSHELL', called='EID')
       end associate
    end subroutine press_on_marked
+
+   !> PLOAD4 or PLOAD2 I on the shells with the numbers from RANGE(1) to RANGE(2): along their normals, or along its direction.
+   subroutine press_on_shells(deck, model, i, range, pressed, n, any_shell)
+      type(checked_deck), intent(in)                 :: deck
+      type(model_type), intent(in)                   :: model
+      integer, intent(in)                            :: i, range(2)
+      type(pressed_side), allocatable, intent(inout) :: pressed(:)
+      integer, intent(inout)                         :: n
+      logical, intent(out)                           :: any_shell
+      type(pressed_side) :: side
+      integer :: e
+
+      any_shell = .false.
+      if (.not. allocated(model%structural%place)) return
+      associate (card => deck%bulk%pressure(i))
+         side%card = i
+         do e = 1, model%n_elements
+            if (model%element_id(e) < range(1) .or. model%element_id(e) > range(2) .or. .not. is_shell(model, e)) cycle
+            if (.not. any_shell) call find_direction(deck, model, i, side%direction)
+            any_shell = .true.
+            side%element = e
+            side%p = card%pressure
+            if (norm2(side%direction) <= 0.0_wp) side%p = -side%p
+            call append(side, pressed, n)
+         end do
+      end associate
+   end subroutine press_on_shells
 
    !> PLOAD I, on the face with its corners.
    subroutine press_on_corners(deck, model, i, pressed, n)
@@ -372,25 +409,41 @@ contains
       type(pressed_side), intent(in) :: pressed
       real(wp), intent(in)           :: factor
       real(wp), intent(inout)        :: force(:, :)       !! (3, n_nodes) [force]
-      real(wp) :: f(model%dimension, max_side_nodes), at_nodes(max_side_nodes)
+      real(wp) :: at_nodes(max_side_nodes)
 
-      associate (kind => element_table(model%element_kind(pressed%element)), e => pressed%element, d => model%dimension)
+      associate (kind => element_table(model%element_kind(pressed%element)), e => pressed%element)
+         if (pressed%side == 0) then
+            call press(corners_of(model, e), factor*pressed%p, force)
+            return
+         end if
          associate (c => kind%side_corners(pressed%side))
             at_nodes(:c) = factor*pressed%p(:c)
             at_nodes(c + 1:2*c) = 0.5_wp*(at_nodes(:c) + cshift(at_nodes(:c), 1))
          end associate
-         associate (nodes => model%element_nodes(kind%side_nodes(:kind%side_size(pressed%side), pressed%side), e), &
-                    property => model%properties(max(1, model%element_property(e))))
+         call press(model%element_nodes(kind%side_nodes(:kind%side_size(pressed%side), pressed%side), e), at_nodes, force)
+      end associate
+
+   contains
+
+      !> The pressure P at NODES.
+      pure subroutine press(nodes, p, force)
+         integer, intent(in)     :: nodes(:)
+         real(wp), intent(in)    :: p(:)
+         real(wp), intent(inout) :: force(:, :)
+         real(wp) :: f(model%dimension, max_side_nodes)
+
+         associate (e => pressed%element, d => model%dimension, &
+                    property => model%properties(max(1, model%element_property(pressed%element))))
             if (norm2(pressed%direction) > 0.0_wp) then
-               call side_forces(property%state, property%thickness, model%x(:d, nodes), at_nodes(:size(nodes)), f, &
-                                pressed%direction(:d))
+               call side_forces(property%state, property%thickness, model%x(:d, nodes), p(:size(nodes)), f, pressed%direction(:d))
             else
-               call side_forces(property%state, property%thickness, model%x(:d, nodes), at_nodes(:size(nodes)), f)
+               call side_forces(property%state, property%thickness, model%x(:d, nodes), p(:size(nodes)), f)
             end if
             force(:d, nodes) = force(:d, nodes) + f(:, :size(nodes))
             call add_section_share(model, e, nodes, f, force)
          end associate
-      end associate
+      end subroutine press
+
    end subroutine add_pressure
 
 end module pressure_loads

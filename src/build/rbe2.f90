@@ -6,9 +6,7 @@ module rbe2
    use constraint_equations, only: add_dependence, add_term, check_dependences, dependence_list, eliminate
    use deck_check, only: checked_deck
    use kinds, only: wp
-   use model_data, only: model_type, n_rotations, rotation_type
-   use node_build, only: append_node
-   use node_coupling, only: couple_node
+   use model_data, only: model_type, n_rotations
    use rbe3, only: add_mean, by_rotation, find_node, no_displacement
    use reference_nodes, only: component_place, node_axes, place_of_component, rotation_at, third_axis
    use support_build, only: check_sums, summed_sets
@@ -16,7 +14,7 @@ module rbe2
    implicit none
    private
 
-   public :: build_dependents, build_rotations
+   public :: build_dependents
 
 contains
 
@@ -53,25 +51,10 @@ contains
       if (deck%errors%any() .or. list%n == 0) return
       call check_dependences(deck, model, list)
       do i = 1, n_rotations(model)
-         without(model%rotations(i)%node) = .true.
          model%used(model%rotations(i)%node) = .true.
-         call turn_rotation(i)
+         if (.not. model%rotations(i)%of_element) without(model%rotations(i)%node) = .true.
       end do
       if (.not. deck%errors%any()) call eliminate(list, without, model)
-
-   contains
-
-      !> Rotations in space are counted along the axes of their node.
-      subroutine turn_rotation(k)
-         integer, intent(in) :: k
-
-         if (.not. allocated(model%node_system) .or. model%dimension == 2) return
-         associate (rotation => model%rotations(k))
-            if (model%node_system(rotation%point) > 0) call couple_node(model%coupling, model%n_nodes, rotation%node, &
-               [rotation%node], reshape(node_axes(model, rotation%point), [3, 3, 1]))
-         end associate
-      end subroutine turn_rotation
-
    end subroutine build_dependents
 
    !> A rigid element that grows where there are temperatures: that is not done.
@@ -95,8 +78,8 @@ contains
       integer  :: c, digit, k, node, point
 
       call find_node(deck, card%line, 2, card%node, model, without, point)
-      if (no_displacement(model, card%components)) call deck%field_error(card%line, 'CM', 'names no displacement that nodes of '// &
-         'this model have; expected some of 1 to '//integer_text(model%dimension))
+      if (no_displacement(model, card%components) .and. .not. turn_others()) call deck%field_error(card%line, &
+         'CM', 'names no displacement that nodes of this model have; expected some of 1 to '//integer_text(model%dimension))
       do k = 1, size(card%nodes)
          call find_node(deck, card%line, card%at(k), card%nodes(k), model, without, node)
          if (node == 0 .or. point == 0) cycle
@@ -116,7 +99,41 @@ contains
                end associate
             end do
          end do
+         call add_rotations(node, card%at(k))
       end do
+
+   contains
+
+      !> Whether the card names rotations, and a dependent node has some.
+      logical function turn_others()
+         integer :: c, i
+
+         turn_others = any([(has_component(card%components, c), c = 4, 6)]) .and. &
+                       any([(rotation_at(model, max(1, model%node_table%find(card%nodes(i)))) > 0, i = 1, size(card%nodes))])
+      end function turn_others
+
+      !> Rotations of a dependent NODE that has them are those of the body.
+      subroutine add_rotations(node, at)
+         integer, intent(in) :: node, at
+         type(component_place) :: own_place, place
+         real(wp) :: body(3, 3)
+         integer  :: c, digit
+
+         if (rotation_at(model, node) == 0) return
+         own = node_axes(model, node)
+         body = node_axes(model, point)
+         do c = 4, 6
+            own_place = place_of_component(model, node, c)
+            if (own_place%node == 0 .or. .not. has_component(card%components, c)) cycle
+            call add_dependence(list, own_place, card%line, at)
+            do digit = 4, 6
+               place = place_of_component(model, point, digit)
+               if (place%node > 0) call add_term(list, place, dot_product(own(:, c - 3), body(:, digit - 3))* &
+                                                 own_place%scale/place%scale)
+            end do
+         end do
+      end subroutine add_rotations
+
    end subroutine add_rigid
 
    !> The displacement at ARM from POINT that its components 1 to 6 make of a rigid body, in global axes. That of a ring is along the
@@ -166,58 +183,5 @@ contains
          call add_term(list, place(k), -card%factor(k)/card%factor(1)*place(1)%scale/place(k)%scale)
       end do
    end subroutine add_equation
-
-   !> Append a node for the rotations of each reference node, behind those of the deck. Nodes that are not there are for others to
-   !! name.
-   subroutine build_rotations(deck, model)
-      type(checked_deck), intent(in)  :: deck
-      type(model_type), intent(inout) :: model
-      integer :: i, point
-
-      if (model%axisymmetric) return
-      do i = 1, size(deck%bulk%rigid)
-         associate (card => deck%bulk%rigid(i))
-            point = model%node_table%find(card%node)
-            if (point == 0 .or. .not. turns(model, card)) cycle
-            if (rotation_at(model, point) > 0) cycle
-            if (.not. allocated(model%rotations)) allocate (model%rotations(0))
-            model%rotations = [model%rotations, rotation_type(point=point, arm=arm_of(model, point, card))]
-         end associate
-      end do
-      if (.not. allocated(model%rotations)) return
-      do i = 1, size(model%rotations)
-         call append_node(model, model%x(:, model%rotations(i)%point), [.true., spread(model%dimension == 3, 1, &
-                                                                                        model%dimension - 1)], [integer ::])
-         model%rotations(i)%node = model%n_nodes
-      end do
-   end subroutine build_rotations
-
-   !> Whether the reference node of CARD has rotations that the model knows.
-   pure logical function turns(model, card)
-      type(model_type), intent(in) :: model
-      type(rigid_card), intent(in) :: card
-
-      turns = .not. card%is_mean .or. has_component(card%components, 6)
-      if (model%dimension == 3) turns = turns .or. has_component(card%components, 4) .or. has_component(card%components, 5)
-   end function turns
-
-   !> Root mean square of the distances of the nodes of CARD from POINT; 1 where they lie there [length].
-   pure real(wp) function arm_of(model, point, card) result(arm)
-      type(model_type), intent(in) :: model
-      integer, intent(in)          :: point
-      type(rigid_card), intent(in) :: card
-      integer :: k, n, node
-
-      arm = 0.0_wp
-      n = 0
-      do k = 1, size(card%nodes)
-         node = model%node_table%find(card%nodes(k))
-         if (node == 0) cycle
-         n = n + 1
-         arm = arm + sum((model%x(:, node) - model%x(:, point))**2)
-      end do
-      arm = sqrt(arm/max(n, 1))
-      if (arm <= 0.0_wp) arm = 1.0_wp
-   end function arm_of
 
 end module rbe2

@@ -2,7 +2,7 @@
 !! bars of the model, one a direction, behind the bars themselves; CONM2, and whether there is any mass where the structure
 !! shall oscillate.
 module spring_build
-   use bulk_data, only: bolt_card, edge_crod, element_card, mass_card, prod_card, spring_card
+   use bulk_data, only: bolt_card, edge_card, edge_crod, mass_card, prod_card, spring_card
    use coordinate_systems, only: directions_at
    use deck_check, only: checked_deck
    use displacement_systems, only: find_system
@@ -22,7 +22,7 @@ contains
    !> Whether an edge is a bar: a CROD with the id of a PROD.
    pure logical function is_bar(deck, edge)
       type(checked_deck), intent(in) :: deck
-      type(element_card), intent(in) :: edge
+      type(edge_card), intent(in)    :: edge
 
       is_bar = edge%kind == edge_crod .and. edge%property > 0 .and. any(deck%bulk%prod%id == edge%property)
    end function is_bar

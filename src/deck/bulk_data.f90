@@ -1,6 +1,7 @@
 !> The bulk data of a deck as read: one array a kind of card, cards in the order of the deck, nothing resolved yet.
 !! LINE is always the index of the card's first line in the deck text, for messages.
 module bulk_data
+   use beam_sections, only: beam_section
    use card_fields, only: id_ranges
    use elasticity, only: plane_stress
    use element_kinds, only: max_nodes
@@ -30,14 +31,43 @@ module bulk_data
       integer  :: field = 1                             ! data field of the id
    end type system_card
 
-   integer, parameter, public :: edge_cbar = 0, edge_crod = -1 !! kinds of edge
+   integer, parameter, public :: edge_cbar = 0, edge_crod = -1, edge_cbeam = -2 !! kinds of edge
 
-   !> An element with nodes: bodies, and the edges CBAR and CROD (marks, or a CROD that is a bolt).
+   !> An element with nodes: bodies, faces of marked surfaces.
    type, public :: element_card
       integer :: line = 0, id = 0, property = 0
       integer :: kind = 0                               ! of element_kinds; of an edge one of those above
       integer :: nodes(max_nodes) = 0                   ! corners, then mid-side nodes: 0 where the field is blank
    end type element_card
+
+   !> The edges CBAR, CBEAM and CROD: marks, beams, or a CROD that is a bolt. NODES: its ends; the third, G0 of a CBAR, may be the middle
+   !! of a marked edge.
+   type, extends(element_card), public :: edge_card
+      real(wp) :: orientation(3) = 0.0_wp               ! X1, X2, X3 where there is no G0
+      integer  :: pins(2) = 0                           ! PA, PB
+      real(wp) :: offset(3, 2) = 0.0_wp                 ! WA, WB
+   end type edge_card
+
+   !> What the card of a shell has beside its nodes: the place of the element_card, ZOFFS and T1 to T4.
+   type, public :: plate_card
+      integer  :: element = 0
+      real(wp) :: offset = 0.0_wp, thickness(4) = 0.0_wp ! 0: that of the PSHELL
+   end type plate_card
+
+   !> PBAR, PBARL, PBEAM, PBEAML.
+   type, public :: beam_property_card
+      integer  :: line = 0, id = 0, material = 0
+      type(beam_section) :: section
+      real(wp) :: extra_mass = 0.0_wp                   ! NSM, by length
+   end type beam_property_card
+
+   !> PLOAD1: the load P at X, from X(1) to X(2).
+   type, public :: beam_load_card
+      integer  :: line = 0, set = 0, element = 0
+      integer  :: kind = 1                              ! 1 to 3 a force, 4 to 6 a moment in global axes, 7 to 12 in those of the beam
+      logical  :: is_fraction = .false., is_projected = .false.
+      real(wp) :: x(2) = 0.0_wp, p(2) = 0.0_wp
+   end type beam_load_card
 
    !> PSHELL, PAXIS and PSOLID alike.
    type, public :: property_card
@@ -45,6 +75,12 @@ module bulk_data
       integer  :: state = plane_stress                  ! of elasticity
       real(wp) :: thickness = 0.0_wp                    ! of a PSHELL
       logical  :: incompatible = .false.                ! modes of Wilson and Taylor
+      integer  :: bending = 0, shear = 0                ! MID2 and MID3 of a PSHELL, 0: blank
+      real(wp) :: inertia_ratio = 1.0_wp                ! 12I/T**3
+      real(wp) :: shear_ratio = 5.0_wp/6.0_wp           ! TS/T
+      real(wp) :: extra_mass = 0.0_wp                   ! NSM, by area
+      real(wp) :: fibre(2) = 0.0_wp                     ! Z1, Z2
+      logical  :: fibre_given(2) = .false.
    end type property_card
 
    type, public :: prod_card
@@ -302,7 +338,10 @@ module bulk_data
       type(grid_card)                      :: grid_defaults !! CP, CD and PS of GRDSET
       type(system_card), allocatable       :: system(:)
       type(element_card), allocatable      :: element(:)   !! of bodies; faces of marked surfaces too
-      type(element_card), allocatable      :: edge(:)      !! CBAR and CROD
+      type(edge_card), allocatable         :: edge(:)      !! CBAR, CBEAM and CROD
+      type(plate_card), allocatable        :: plate(:)     !! of CQUAD4 and CTRIA3 with ZOFFS or T1 to T4
+      type(beam_property_card), allocatable :: beam_property(:)
+      type(beam_load_card), allocatable    :: beam_load(:)
       type(property_card), allocatable     :: pshell(:), paxis(:), psolid(:)
       type(prod_card), allocatable         :: prod(:)
       type(conrod_card), allocatable       :: conrod(:)

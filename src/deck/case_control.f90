@@ -15,6 +15,7 @@ module case_control
 
    public :: read_case_control, watch_also, offer_petsc
 
+   integer, parameter, public :: model_plane = 1, model_axisymmetric = 2, model_space = 3           !! MODEL =
    integer, parameter, public :: method_step = 1, method_newton = 2, method_back = 3                !! METHOD =
    integer, parameter, public :: pressure_sumf = 1, pressure_eq10 = 2                               !! PRESSURE =
    integer, parameter, public :: no_restart = -1, restart_stages = 0                                !! RESTART =, or a number
@@ -39,6 +40,7 @@ module case_control
       logical :: of_nastran = .false.                    !! SOL or CEND: the deck was written for NASTRAN
       logical :: lumped = .false.                        !! MASS = LUMPED: the mass of elements stands at their nodes
       logical :: mass_is_given = .false.                 !! MASS is
+      integer :: model = 0, model_line = 0               !! MODEL, 0: not given
       type(number_set), allocatable :: sets(:)
       type(parameters_type) :: parameters                !! of PARAM
       type(ignored_entries_type) :: ignored                     !! entries without effect
@@ -217,6 +219,9 @@ contains
       case ('AVERAGE')
          call choose(entry, '|YES|NO|', choice, errors)
          control%average = choice /= 2
+      case ('MODEL')
+         call choose(entry, '|PLANE|AXISYMMETRIC|SPACE|', control%model, errors)
+         control%model_line = entry%line
       case ('MASS')
          call choose(entry, '|CONSISTENT|LUMPED|', choice, errors)
          control%lumped = choice == 2

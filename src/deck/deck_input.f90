@@ -1,5 +1,6 @@
 !> A deck: its text, its case control, its bulk data. Read in one go, all errors collected.
 module deck_input
+   use beam_cards, only: read_beam_load, read_beam_property
    use bulk_data, only: bulk_data_type
    use card_reader, only: card_kind, card_reader_type
    use case_control, only: case_control_type, read_case_control, watch_also
@@ -47,13 +48,14 @@ contains
       call cards%add_kinds(['GRDSET'], read_grid_defaults)
       call cards%add_kinds(system_names, read_system)
       call cards%add_kinds(['CTRIA3', 'CTRIA6', 'CQUAD4', 'CQUAD8', 'CTETRA', 'CPENTA', 'CHEXA '], read_element)
-      call cards%add_kinds(['CBAR', 'CROD'], read_edge)
+      call cards%add_kinds(['CBAR ', 'CBEAM', 'CROD '], read_edge)
       call cards%add_kinds(['BLOCK2', 'BLOCK3'], read_block)
       call cards%add_kinds(['PMARK'], read_pmark)
       call cards%add_kinds(['PSHELL'], read_pshell)
       call cards%add_kinds(['PAXIS'], read_paxis)
       call cards%add_kinds(['PSOLID'], read_psolid)
       call cards%add_kinds(['PROD'], read_prod)
+      call cards%add_kinds(['PBAR  ', 'PBARL ', 'PBEAM ', 'PBEAML'], read_beam_property)
       call cards%add_kinds(['CONROD'], read_conrod)
       call cards%add_kinds(['CELAS1', 'CELAS2', 'CBUSH '], read_spring)
       call cards%add_kinds(['PELAS', 'PBUSH'], read_spring_property)
@@ -68,6 +70,7 @@ contains
       call cards%add_kinds(['PLOAD4', 'PLOADE', 'PLOAD ', 'PLOAD2'], read_pressure)
       call cards%add_kinds(['PLOADM', 'FORCEM'], read_surface_load)
       call cards%add_kinds(['GRAV'], read_gravity)
+      call cards%add_kinds(['PLOAD1'], read_beam_load)
       call cards%add_kinds(['SPCD'], read_displacement)
       call cards%add_kinds(['TEMP ', 'TEMPD'], read_temperature)
       call cards%add_kinds(['LOAD'], read_load)
@@ -93,7 +96,8 @@ contains
       type(bulk_data_type), intent(inout) :: bulk
 
       allocate (bulk%grid(cards%n_of('GRID')), bulk%system(2*cards%n_of('CORD1R')), bulk%element(cards%n_of('CHEXA')), &
-         bulk%edge(cards%n_of('CROD')), bulk%block(cards%n_of('BLOCK2')), bulk%pmark(cards%n_of('PMARK')), &
+         bulk%edge(cards%n_of('CROD')), bulk%plate(0), bulk%beam_property(cards%n_of('PBAR')), &
+         bulk%beam_load(cards%n_of('PLOAD1')), bulk%block(cards%n_of('BLOCK2')), bulk%pmark(cards%n_of('PMARK')), &
          bulk%pshell(cards%n_of('PSHELL')), bulk%paxis(cards%n_of('PAXIS')), bulk%psolid(cards%n_of('PSOLID')), &
          bulk%prod(cards%n_of('PROD')), bulk%conrod(cards%n_of('CONROD')), bulk%spring(cards%n_of('CBUSH')), &
          bulk%spring_property(2*cards%n_of('PBUSH')), bulk%mass(cards%n_of('CONM2')), bulk%mat1(cards%n_of('MAT1')), &
@@ -258,9 +262,10 @@ contains
       associate (properties => [without_repeats(bulk%block%property), without_repeats(bulk%element%property), &
                                 without_repeats(bulk%edge%property)], &
                  springs => bulk%spring_property, is_bush => bulk%spring%is_bush, system => bulk%system)
-         call count_unnamed([bulk%pshell%id, bulk%paxis%id, bulk%psolid%id, bulk%prod%id], properties, &
+         call count_unnamed([bulk%pshell%id, bulk%paxis%id, bulk%psolid%id, bulk%prod%id, bulk%beam_property%id], properties, &
             [spread('PSHELL', 1, size(bulk%pshell)), spread('PAXIS ', 1, size(bulk%paxis)), &
-             spread('PSOLID', 1, size(bulk%psolid)), spread('PROD  ', 1, size(bulk%prod))])
+             spread('PSOLID', 1, size(bulk%psolid)), spread('PROD  ', 1, size(bulk%prod)), &
+             spread('PBAR  ', 1, size(bulk%beam_property))])
          call count_unnamed(pack(springs%id, .not. springs%is_bush), pack(bulk%spring%property, .not. is_bush), &
                             spread('PELAS ', 1, count(.not. springs%is_bush)))
          call count_unnamed(pack(springs%id, springs%is_bush), pack(bulk%spring%property, is_bush), &

@@ -1,7 +1,7 @@
 !> The cards of the mesh: GRID and its defaults GRDSET, coordinate systems by three nodes (CORD1R, CORD1C, CORD1S) or three points
 !! (CORD2R, CORD2C, CORD2S), body elements, the edges CBAR and CROD, PMARK, and the blocks BLOCK2 and BLOCK3.
 module mesh_cards
-   use bulk_data, only: block_card, bulk_data_type, edge_cbar, edge_crod, system_card
+   use bulk_data, only: block_card, bulk_data_type, edge_cbar, edge_cbeam, edge_crod, plate_card, system_card
    use card_fields, only: card_fields_type
    use element_kinds, only: element_table, kind_hexa20, kind_penta15, kind_quad4, kind_quad8, kind_tria3, kind_tria6, max_nodes
    use field_rules, only: parse_integer, positive
@@ -104,11 +104,14 @@ contains
 
    !> CTRIA3, CTRIA6, CQUAD4, CQUAD8, CTETRA, CPENTA and CHEXA, the body elements; in a model of solids, faces of marked surfaces
    !! are those of the plane too. Any mid-side node makes the element one of second order. THETA turns the axes of a material, which
-   !! is isotropic here: read without effect. ZOFFS and corner thicknesses of plates must be blank.
+   !! is isotropic here: read without effect. ZOFFS and thicknesses at corners are those of shells, of second order they must be blank.
    subroutine read_element(card, bulk)
       type(card_fields_type), intent(inout) :: card
       type(bulk_data_type), intent(inout)   :: bulk
       integer :: kind
+
+      type(plate_card) :: plate
+      character(:), allocatable :: flag
 
       kind = findloc(element_table%card, card%name, dim=1, back=.true.) ! of second order, where there is one
       associate (element => bulk%element(card%i), n => element_table(kind)%n_nodes, corners => element_table(kind)%n_corners)
@@ -117,7 +120,16 @@ contains
          call card%field(node_names(:corners), element%nodes(:corners))
          call card%field(node_names(corners + 1:n), element%nodes(corners + 1:n), default=0)
          if (any(kind == [kind_tria3, kind_quad4, kind_tria6])) call card%skip(['THETA'])
-         if (any(kind == [kind_tria3, kind_quad4])) call card%blank(['ZOFFS'])
+         if (any(kind == [kind_tria3, kind_quad4])) then
+            call card%field('ZOFFS', plate%offset, default=0.0_wp)
+            if (kind == kind_tria3) call card%skip(['-', '-'])
+            call card%skip(['-    ', 'TFLAG'])
+            flag = card%text_at(corners + 6 + merge(2, 0, kind == kind_tria3))
+            if (flag /= '' .and. flag /= '0') call card%error('TFLAG', 'expected 0 or blank: T1 to T4 are thicknesses')
+            call card%field(['T1', 'T2', 'T3', 'T4'], plate%thickness(:corners), positive, default=0.0_wp)
+            plate%element = card%i
+            if (abs(plate%offset) > 0.0_wp .or. any(plate%thickness > 0.0_wp)) bulk%plate = [bulk%plate, plate]
+         end if
          if (kind == kind_tria6) call card%blank(['ZOFFS', 'T1   ', 'T2   ', 'T3   '])
          if (kind == kind_quad8) then
             call card%blank(['T1', 'T2', 'T3', 'T4'])
@@ -158,23 +170,33 @@ contains
       end if
    end subroutine check_end
 
-   !> CBAR: an edge of a marked surface; the orientation vector of a real bar (Gmsh writes one) has no meaning here, and of an edge
-   !! of second order Gmsh writes the mid-side node in its place. CROD: such an edge, or with a PROD a bar, such as a bolt.
+   !> CBAR, CBEAM: a beam, or with the PID of a PMARK an edge of a marked surface, whose orientation vector (Gmsh writes one) has no
+   !! meaning, and of an edge of second order Gmsh writes the mid-side node in its place. CROD: such an edge, or with a PROD a bar,
+   !! such as a bolt.
    subroutine read_edge(card, bulk)
       type(card_fields_type), intent(inout) :: card
       type(bulk_data_type), intent(inout)   :: bulk
-      real(wp) :: orientation(3)
+      character(8) :: word
       logical  :: ok
 
       associate (edge => bulk%edge(card%i))
-         edge%kind = merge(edge_crod, edge_cbar, card%name == 'CROD')
+         edge%kind = edge_crod
+         if (card%name == 'CBAR') edge%kind = edge_cbar
+         if (card%name == 'CBEAM') edge%kind = edge_cbeam
          call card%field('EID', edge%id)
          call card%field('PID', edge%property)
          call card%field(merge(['G1', 'G2'], ['GA', 'GB'], edge%kind == edge_crod), edge%nodes(:2))
-         if (edge%kind == edge_cbar) then
-            call card%field('X1', orientation(1), default=0.0_wp, whole=.true.)
-            call card%field(['X2', 'X3'], orientation(2:), default=0.0_wp)
+         if (edge%kind /= edge_crod) then
+            call card%field('X1', edge%orientation(1), default=0.0_wp, whole=.true.)
+            call card%field(['X2', 'X3'], edge%orientation(2:), default=0.0_wp, whole=.true.)
             call parse_integer(card%text_at(5), edge%nodes(3), ok)
+            if (ok .and. any(card%given(['X2', 'X3']))) edge%nodes(3) = 0
+            if (edge%nodes(3) > 0) edge%orientation = 0.0_wp
+            call card%word('OFFT', '|GGG|', word)
+            call card%components('PA', edge%pins(1), default=0)
+            call card%components('PB', edge%pins(2), default=0)
+            call card%field(['W1A', 'W2A', 'W3A'], edge%offset(:, 1), default=0.0_wp)
+            call card%field(['W1B', 'W2B', 'W3B'], edge%offset(:, 2), default=0.0_wp)
          end if
          call card%finish(edge%line)
       end associate

@@ -3,7 +3,7 @@ module property_cards
    use bulk_data, only: bulk_data_type, temperature_card
    use card_fields, only: card_fields_type
    use elasticity, only: axisymmetric, plane_strain, plane_stress, solid
-   use field_rules, only: not_negative, positive, real_range
+   use field_rules, only: not_negative, parse_real, positive, real_range
    use kinds, only: wp
    use nastran_compatibility, only: take_parameter
    use text_tools, only: real_text
@@ -50,24 +50,42 @@ contains
       end do
    end subroutine read_temperature
 
-   !> PSHELL: a membrane of thickness T; MID2 = -1 plane strain, else plane stress; MODES = YES on a continuation line
-   !! adds the incompatible modes of Wilson and Taylor. What bending out of the plane has means nothing in it.
+   !> PSHELL: in the plane a membrane of thickness T; MID2 = -1 plane strain, else plane stress; MODES = YES on a continuation line
+   !! adds the incompatible modes of Wilson and Taylor; what bending out of the plane has means nothing there. In space a shell:
+   !! MID1 membrane, MID2 and 12I/T**3 bending, MID3 and TS/T transverse shear, Z1 and Z2 where its stress is told.
    subroutine read_pshell(card, bulk)
       type(card_fields_type), intent(inout) :: card
       type(bulk_data_type), intent(inout)   :: bulk
       character(8) :: modes
-      integer :: bending
+      real(wp) :: number
+      integer  :: k
+      logical  :: is_number
 
       associate (property => bulk%pshell(card%i))
          call card%field('PID', property%id)
          call card%field('MID1', property%material)
          call card%field('T', property%thickness, positive)
-         call card%field('MID2', bending, default=0, least=-1)
-         call card%skip(['12I/T**3', 'MID3    ', 'TS/T    '])
-         call card%blank(['NSM'])
-         call card%word('MODES', '|NO|YES|', modes)
+         call card%field('MID2', property%bending, default=0, least=-1)
+         call card%field('12I/T**3', property%inertia_ratio, positive, default=1.0_wp)
+         call card%field('MID3', property%shear, default=0)
+         call card%field('TS/T', property%shear_ratio, positive, default=5.0_wp/6.0_wp)
+         call card%field('NSM', property%extra_mass, not_negative, default=0.0_wp)
+         modes = card%text_at(9) ! Z1, or MODES of a membrane
+         call parse_real(card%text_at(9), number, is_number)
+         if (is_number) then
+            call card%field('Z1', property%fibre(1), default=0.0_wp)
+            modes = 'NO'
+         else
+            call card%word('MODES', '|NO|YES|', modes)
+         end if
+         call card%field('Z2', property%fibre(2), default=0.0_wp)
+         call card%blank(['MID4'])
          call card%finish(property%line)
-         property%state = merge(plane_strain, plane_stress, bending == -1)
+         property%fibre_given = [is_number, card%text_at(10) /= '']
+         do k = 1, 2
+            if (.not. property%fibre_given(k)) property%fibre(k) = (k - 1.5_wp)*property%thickness
+         end do
+         property%state = merge(plane_strain, plane_stress, property%bending == -1)
          property%incompatible = modes == 'YES'
       end associate
    end subroutine read_pshell

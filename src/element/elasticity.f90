@@ -13,8 +13,10 @@ module elasticity
    integer, parameter, public :: plane_strain = 2   !! xx, yy, xy; eps_zz = 0, sigma_zz = nu (sigma_xx + sigma_yy)
    integer, parameter, public :: axisymmetric = 3   !! rr, zz, theta theta, rz; r = x and z = y, the axis of symmetry is y
    integer, parameter, public :: solid = 4          !! xx, yy, zz, xy, yz, zx
+   integer, parameter, public :: shell = 5          !! as solid, at the mean plane of the shell
+   integer, parameter, public :: beam = 6           !! as solid, the axial stress at the centroid
 
-   integer, parameter, public :: n_stresses(4) = [3, 3, 4, 6] !! components in every state
+   integer, parameter, public :: n_stresses(6) = [3, 3, 4, 6, 6, 6] !! components in every state
    integer, parameter, public :: max_stresses = 6
 
 contains

@@ -17,8 +17,9 @@ module element_kinds
    integer, parameter, public :: kind_tetra4 = 3, kind_penta6 = 4, kind_hexa8 = 5
    integer, parameter, public :: kind_tria6 = 6, kind_quad8 = 7     !! second order, serendipity
    integer, parameter, public :: kind_tetra10 = 8, kind_penta15 = 9, kind_hexa20 = 10
-   integer, parameter, public :: n_kinds = 10, n_linear_kinds = 5
-   integer, parameter, public :: kind_edge2 = n_kinds + 1, kind_edge3 = n_kinds + 2 !! sides of plane elements, of no body
+   integer, parameter, public :: n_kinds = 10, n_linear_kinds = 5   !! of bodies; shells are of the plane kinds
+   integer, parameter, public :: kind_edge2 = n_kinds + 1           !! a beam, and a side of plane elements
+   integer, parameter, public :: kind_edge3 = n_kinds + 2           !! a side of plane elements, of no body
    integer, parameter, public :: n_shapes = n_kinds + 2             !! kinds of body and edges: all that have shape functions
 
    integer, parameter, public :: max_nodes = 20, max_dofs = 60      !! of one element
@@ -29,7 +30,7 @@ module element_kinds
    !! sides of solids are faces, their right-hand normal pointing out of the body.
    type, public :: element_kind
       character(6) :: card                                          !! name of its card; findloc finds the linear kind first
-      integer :: dimension                                          !! of its space, 2 or 3
+      integer :: dimension                                          !! its own: 1 a beam, 2 plane or a shell, 3 a solid
       integer :: n_nodes
       integer :: n_corners
       integer :: linear                                             !! the kind of its corners alone, of a linear kind itself
@@ -56,7 +57,7 @@ module element_kinds
    integer, parameter :: penta(2, 12) = reshape([1, 2, 2, 3, 3, 1, 1, 4, 2, 5, 3, 6, 4, 5, 5, 6, 6, 4], [2, 12], pad=no)
    integer, parameter :: hexa(2, 12) = reshape([1, 2, 2, 3, 3, 4, 4, 1, 1, 5, 2, 6, 3, 7, 4, 8, 5, 6, 6, 7, 7, 8, 8, 5], [2, 12])
 
-   type(element_kind), parameter, public :: element_table(n_kinds) = [ &
+   type(element_kind), parameter, public :: element_table(n_kinds + 1) = [ &
       element_kind('CTRIA3', 2, 3, 3, kind_tria3, 1, 3, 3, 5, [in_turn(:3), no, no, 0], tria, [2, 2, 2, 0, 0, 0], &
          [2, 2, 2, 0, 0, 0], reshape([1, 2, no(:6), 2, 3, no(:6), 3, 1], [8, 6], pad=no)), &
       element_kind('CQUAD4', 2, 4, 4, kind_quad4, 4, 4, 4, 9, [in_turn(:4), no, no], quad, [2, 2, 2, 2, 0, 0], [2, 2, 2, 2, 0, 0], &
@@ -82,7 +83,9 @@ module element_kinds
                   3, 1, 4, 6, 9, 10, 15, 12], [8, 6], pad=no)), &
       element_kind('CHEXA ', 3, 20, 8, kind_hexa8, 8, 6, 12, 25, upright_last_20, hexa, [4, 4, 4, 4, 4, 4], [8, 8, 8, 8, 8, 8], &
          reshape([1, 4, 3, 2, 12, 11, 10, 9, 5, 6, 7, 8, 17, 18, 19, 20, 1, 2, 6, 5, 9, 14, 17, 13, 2, 3, 7, 6, 10, 15, 18, 14, &
-                  3, 4, 8, 7, 11, 16, 19, 15, 4, 1, 5, 8, 12, 13, 20, 16], [8, 6]))]
+                  3, 4, 8, 7, 11, 16, 19, 15, 4, 1, 5, 8, 12, 13, 20, 16], [8, 6])), &
+      element_kind('CBAR  ', 1, 2, 2, kind_edge2, 1, 0, 0, 3, [1, 2, no, no, 0, 0], reshape(no, [2, 12], pad=no), no(:6), no(:6), &
+         reshape(no, [8, 6], pad=no))]
 
    real(wp), parameter :: half = 0.5_wp, third = 1.0_wp/3.0_wp
    real(wp), parameter :: none(3, max_nodes) = 0.0_wp

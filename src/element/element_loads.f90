@@ -106,7 +106,7 @@ contains
       call shape_values(kind, point, values)
       call shape_derivatives(kind, point, dn)
       n = values(:max_side_nodes)
-      if (state == solid) then
+      if (state >= solid) then
          a = 0.0_wp
          b = 0.0_wp
          do i = 1, size(x, 2)

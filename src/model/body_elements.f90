@@ -1,15 +1,16 @@
 !> The elements of the bodies, each by its kind: stiffness, stresses, forces. The one place that knows which kinds there are.
 module body_elements
-   use elasticity, only: max_stresses, n_stresses, plane_strain, solid
+   use elasticity, only: max_stresses, n_stresses, plane_strain
    use element_kinds, only: element_table, max_felt_dofs, max_nodes, centre_point
    use element_loads, only: body_forces, nodal_thermal_forces
    use element_mapping, only: element_law, make_element_law
    use isoparametric, only: stiffness
    use kinds, only: wp
-   use model_data, only: corners_of, model_type, temperature_type
+   use model_data, only: corners_of, is_beam, is_shell, model_type, own_nodes, temperature_type
    use node_coupling, only: onto_unknowns, add_section_share, corner_displacements, extend_stiffness, felt_nodes, section_node
    use shape_functions, only: shape_values
    use stress_recovery, only: centre_stress, nodal_stress
+   use structural_elements, only: structural_stiffness, structural_stress, structural_thermal_forces, structural_weight
    use temperatures, only: element_rise
    implicit none
    private
@@ -41,6 +42,10 @@ contains
       integer, intent(in)          :: e
       real(wp), intent(inout)      :: k(:, :) !! dimension x felt nodes rows and columns are set
 
+      if (is_shell(model, e) .or. is_beam(model, e)) then
+         call structural_stiffness(model, e, k)
+         return
+      end if
       call stiffness(law_of(model, e), model%x(:model%dimension, corners_of(model, e)), k)
       call extend_stiffness(model, e, k)
    end subroutine felt_stiffness
@@ -61,14 +66,21 @@ contains
       end associate
    end function element_centre
 
-   !> Stress at the centre of element E under the displacements U at this TEMPERATURE: components as in elasticity [pressure].
+   !> Stress at the centre of element E under the displacements U at this TEMPERATURE: components as in elasticity [pressure]. Of beams
+   !! there is none here: zero.
    pure function element_stress(model, e, u, temperature) result(stress)
       type(model_type), intent(in)       :: model
       integer, intent(in)                :: e
       real(wp), intent(in)               :: u(:, :) !! (dimension, n_nodes) [length]
       type(temperature_type), intent(in) :: temperature
       real(wp) :: stress(n_stresses(model%properties(model%element_property(e))%state))
+      real(wp), allocatable :: structural(:, :)
 
+      if (is_shell(model, e) .or. is_beam(model, e)) then
+         call mean_plane_stress(model, e, u, temperature, structural)
+         stress = structural(:, size(structural, 2))
+         return
+      end if
       associate (nodes => corners_of(model, e))
          call centre_stress(law_of(model, e), model%x(:model%dimension, nodes), corner_displacements(model, e, u), stress, &
                             element_rise(model, e, temperature))
@@ -83,11 +95,36 @@ contains
       type(temperature_type), intent(in) :: temperature
       real(wp), intent(inout)            :: stress(:, :) !! (components, nodes) [pressure], set here
 
+      real(wp), allocatable :: structural(:, :)
+
+      if (is_shell(model, e) .or. is_beam(model, e)) then
+         call mean_plane_stress(model, e, u, temperature, structural)
+         stress(:, :size(structural, 2) - 1) = structural(:, :size(structural, 2) - 1)
+         return
+      end if
       associate (nodes => corners_of(model, e))
          call nodal_stress(law_of(model, e), model%x(:model%dimension, nodes), corner_displacements(model, e, u), stress, &
                            element_rise(model, e, temperature))
       end associate
    end subroutine element_nodal_stress
+
+   !> Of shell E the stresses in its mean plane at its corners and then at its centre; of a beam zero.
+   pure subroutine mean_plane_stress(model, e, u, temperature, stress)
+      type(model_type), intent(in)       :: model
+      integer, intent(in)                :: e
+      real(wp), intent(in)               :: u(:, :) !! (dimension, n_nodes) [length]
+      type(temperature_type), intent(in) :: temperature
+      real(wp), allocatable, intent(out) :: stress(:, :) !! (components, corners + 1) [pressure]
+      real(wp) :: at_height(max_stresses, 5, 1)
+      integer  :: n
+
+      n = size(corners_of(model, e))
+      allocate (stress(max_stresses, n + 1), source=0.0_wp)
+      if (is_beam(model, e)) return
+      call structural_stress(model, e, u(:, own_nodes(model, e)), element_rise(model, e, temperature), [0.0_wp], &
+                             at_height(:, :n + 1, :))
+      stress = at_height(:, :n + 1, 1)
+   end subroutine mean_plane_stress
 
    !> Stresses at nodes as whole_stress, of every node the mean of those that its elements have there; 0 where it has none.
    subroutine node_stresses(model, u, temperature, at_node)
@@ -162,7 +199,7 @@ contains
 
       full = 0.0_wp
       associate (property => model%properties(model%element_property(e)))
-         if (property%state == solid) then
+         if (size(stress) == max_stresses) then ! solids, shells, beams
             full = stress
          else
             full(:2) = stress(:2)
@@ -173,13 +210,17 @@ contains
       end associate
    end function full_stress
 
-   !> Nodal forces of element E under a body force B per mass, an acceleration with the sign of the force.
+   !> Forces on the own_nodes of element E under a body force B per mass, an acceleration with the sign of the force.
    pure subroutine element_weight(model, e, b, f)
       type(model_type), intent(in) :: model
       integer, intent(in)          :: e
       real(wp), intent(in)         :: b(:)     !! (dimension) [length/time^2]
       real(wp), intent(inout)      :: f(:, :)  !! (dimension, nodes) [force], set here
 
+      if (is_shell(model, e) .or. is_beam(model, e)) then
+         call structural_weight(model, e, b, f)
+         return
+      end if
       call body_forces(law_of(model, e), model%x(:model%dimension, corners_of(model, e)), &
                        model%properties(model%element_property(e))%rho*b, f)
    end subroutine element_weight
@@ -193,7 +234,7 @@ contains
       integer :: e, first, i, last, n
 
       f = 0.0_wp
-      allocate (p(model%dimension, size(model%element_nodes, 1) + 1, min(block, model%n_elements)))
+      allocate (p(model%dimension, max(8, size(model%element_nodes, 1)) + 1, min(block, model%n_elements))) ! 8: shells with rotations
       do first = 1, model%n_elements, block
          last = min(model%n_elements, first + block - 1)
          !$omp parallel do schedule(dynamic, 128) default(shared) if(last - first > few)
@@ -210,6 +251,10 @@ contains
             end do
             associate (node => section_node(model, e))
                if (node > 0) f(:, node) = f(:, node) + p(:, n + 1, e - first + 1)
+            end associate
+            if (.not. (is_shell(model, e) .or. is_beam(model, e))) cycle
+            associate (nodes => own_nodes(model, e))
+               f(:, nodes(n + 1:)) = f(:, nodes(n + 1:)) + p(:, n + 1:size(nodes), e - first + 1)
             end associate
          end do
       end do
@@ -235,13 +280,17 @@ contains
       end associate
    end subroutine element_forces
 
-   !> F: what element E at this TEMPERATURE pushes its nodes with.
+   !> F: what element E at this TEMPERATURE pushes its own_nodes with.
    pure subroutine element_thermal_forces(model, e, temperature, f)
       type(model_type), intent(in)       :: model
       integer, intent(in)                :: e
       type(temperature_type), intent(in) :: temperature
       real(wp), intent(inout)            :: f(:, :) !! (dimension, nodes) [force], set here
 
+      if (is_shell(model, e) .or. is_beam(model, e)) then
+         call structural_thermal_forces(model, e, element_rise(model, e, temperature), f)
+         return
+      end if
       associate (nodes => corners_of(model, e))
          call nodal_thermal_forces(law_of(model, e), model%x(:model%dimension, nodes), element_rise(model, e, temperature), f)
       end associate
@@ -256,7 +305,7 @@ contains
       integer  :: e
 
       do e = 1, model%n_elements
-         associate (nodes => corners_of(model, e))
+         associate (nodes => own_nodes(model, e))
             call element_thermal_forces(model, e, temperature, own)
             f(:, nodes) = f(:, nodes) + own(:, :size(nodes))
             call add_section_share(model, e, nodes, own, f)

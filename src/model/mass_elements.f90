@@ -4,13 +4,14 @@ module mass_elements
    use element_kinds, only: max_felt_dofs, max_nodes
    use isoparametric, only: lump, shape_products
    use kinds, only: wp
-   use model_data, only: bar_nodes, corners_of, model_type, point_mass_type
+   use model_data, only: bar_nodes, corners_of, is_beam, is_shell, model_type, own_nodes, point_mass_type
    use node_coupling, only: between_unknowns, onto_unknowns, unknown_nodes, extend_stiffness, felt_nodes
    use reference_nodes, only: rotation_at
+   use structural_elements, only: shell_mass, structural_mass
    implicit none
    private
 
-   public :: scalar_mass, bar_mass, inertia_at_rotation
+   public :: scalar_mass, whole_mass, bar_mass, inertia_at_rotation
    public :: coupled_dynamic_stiffness, coupled_bar_mass, coupled_point_mass, mass_nodes, n_masses
 
 contains
@@ -23,12 +24,22 @@ contains
       if (allocated(model%masses)) n_masses = size(model%masses)
    end function n_masses
 
-   !> Mass between the corners of element E, the same for every component of their displacements [force time^2/length].
+   !> Mass between the own_nodes of element E, no beam, the same for every component of their displacements [force time^2/length].
    pure subroutine scalar_mass(model, e, m)
       type(model_type), intent(in) :: model
       integer, intent(in)          :: e
       real(wp), intent(inout)      :: m(:, :) !! (nodes, nodes), set here
+      integer :: k
 
+      if (is_shell(model, e)) then
+         k = size(corners_of(model, e))
+         m(:2*k, :2*k) = 0.0_wp
+         call shell_mass(model, e, .false., m(:k, :k))
+         call shell_mass(model, e, .true., m(k + 1:2*k, k + 1:2*k))
+         if (model%lumped) call lump(m(:k, :k))
+         if (model%lumped) call lump(m(k + 1:2*k, k + 1:2*k))
+         return
+      end if
       associate (corners => corners_of(model, e))
          call shape_products(law_of(model, e), model%x(:model%dimension, corners), m)
          associate (n => size(corners))
@@ -38,6 +49,28 @@ contains
       end associate
    end subroutine scalar_mass
 
+   !> M between the felt_nodes of element E, components of node 1 first [force time^2/length].
+   pure subroutine whole_mass(model, e, m)
+      type(model_type), intent(in) :: model
+      integer, intent(in)          :: e
+      real(wp), intent(inout)      :: m(:, :) !! dimension x felt nodes rows and columns are set
+      real(wp) :: scalar(max_nodes, max_nodes)
+      integer  :: c, d, n
+
+      if (is_beam(model, e)) then
+         call structural_mass(model, e, m)
+         return
+      end if
+      d = model%dimension
+      n = size(own_nodes(model, e))
+      call scalar_mass(model, e, scalar)
+      m(:d*n, :d*n) = 0.0_wp
+      do c = 1, d
+         m(c:d*n:d, c:d*n:d) = scalar(:n, :n)
+      end do
+      call extend_stiffness(model, e, m)
+   end subroutine whole_mass
+
    !> K = [k] - SHIFT [m] between the unknowns of the coupled_nodes of element E, components of node 1 first [force/length].
    pure subroutine coupled_dynamic_stiffness(model, e, shift, k)
       type(model_type), intent(in) :: model
@@ -45,22 +78,14 @@ contains
       real(wp), intent(in)         :: shift   !! [1/time^2]
       real(wp), allocatable, intent(inout) :: k(:, :) !! as of coupled_stiffness; dimension x coupled nodes rows and columns are set
       real(wp), allocatable :: full(:, :)
-      real(wp) :: m(max_nodes, max_nodes)
-      integer  :: c, d, n
+      integer  :: n
 
       call coupled_stiffness(model, e, k)
       if (.not. abs(shift) > 0.0_wp) return
-      d = model%dimension
-      n = size(corners_of(model, e))
-      call scalar_mass(model, e, m)
       allocate (full(max_felt_dofs, max_felt_dofs))
-      full(:d*n, :d*n) = 0.0_wp
-      do c = 1, d
-         full(c:d*n:d, c:d*n:d) = m(:n, :n)
-      end do
-      call extend_stiffness(model, e, full)
+      call whole_mass(model, e, full)
       if (allocated(model%coupling%of_node)) call onto_unknowns(model, felt_nodes(model, e), full)
-      n = d*size(unknown_nodes(model, felt_nodes(model, e)))
+      n = model%dimension*size(unknown_nodes(model, felt_nodes(model, e)))
       k(:n, :n) = k(:n, :n) - shift*full(:n, :n)
    end subroutine coupled_dynamic_stiffness
 

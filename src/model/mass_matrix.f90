@@ -1,13 +1,13 @@
 !> The mass matrix of the structure: what forces its nodes need for an acceleration, F = [m] {a}. Bodies, bars and masses at nodes
-!! resist in every direction alike, so that one number between two nodes does for all components; elements behind the section of
-!! a solid bolt and the inertia of rotations come on top.
+!! resist in every direction alike, so that one number between two nodes does for all components; beams, elements behind the section
+!! of a solid bolt and the inertia of rotations come on top.
 module mass_matrix
-   use element_kinds, only: max_nodes
+   use element_kinds, only: max_felt_dofs, max_nodes
    use kinds, only: wp
    use lists, only: list_owners
-   use mass_elements, only: bar_mass, inertia_at_rotation, n_masses, scalar_mass
-   use model_data, only: corners_of, model_type, n_bars, n_points
-   use node_coupling, only: add_section_share, corner_displacements, section_node
+   use mass_elements, only: bar_mass, inertia_at_rotation, n_masses, scalar_mass, whole_mass
+   use model_data, only: is_beam, model_type, n_bars, n_points, own_nodes
+   use node_coupling, only: felt_nodes, section_node
    use reference_nodes, only: rotation_at
    implicit none
    private
@@ -21,7 +21,7 @@ module mass_matrix
       integer, allocatable  :: first(:)      !! (n_nodes + 1)
       integer, allocatable  :: column(:)
       real(wp), allocatable :: value(:)      !! [force time^2/length]
-      integer, allocatable  :: behind(:)     !! elements behind sections, which are not among these
+      integer, allocatable  :: whole(:)      !! elements that are not among these: beams, and those behind sections
       integer, allocatable  :: turning(:)    !! masses at nodes with rotations: of model%masses
    end type mass_matrix_type
 
@@ -35,11 +35,11 @@ contains
       integer  :: e, i
 
       call lay_out(model, mass)
-      mass%behind = pack([(e, e = 1, model%n_elements)], [(section_node(model, e) > 0, e = 1, model%n_elements)])
+      mass%whole = pack([(e, e = 1, model%n_elements)], [(has_own_matrix(model, e), e = 1, model%n_elements)])
       do e = 1, model%n_elements
-         if (section_node(model, e) > 0) cycle
+         if (has_own_matrix(model, e)) cycle
          call scalar_mass(model, e, m)
-         call add(corners_of(model, e), m)
+         call add(own_nodes(model, e), m)
       end do
       do i = 1, n_bars(model)
          associate (bar => model%bars(i))
@@ -73,6 +73,14 @@ contains
 
    end subroutine form_mass
 
+   !> Whether element E has more mass than one number between two nodes.
+   pure logical function has_own_matrix(model, e)
+      type(model_type), intent(in) :: model
+      integer, intent(in)          :: e
+
+      has_own_matrix = section_node(model, e) > 0 .or. is_beam(model, e)
+   end function has_own_matrix
+
    !> Which nodes share an element, or a bar with mass; every node is its own neighbour.
    subroutine lay_out(model, mass)
       type(model_type), intent(in)          :: model
@@ -94,10 +102,12 @@ contains
             call visit(node)
             do i = model%first_at(node), model%first_at(node + 1) - 1
                e = model%elements_at(i)
-               if (section_node(model, e) > 0) cycle
-               do k = 1, size(model%element_nodes, 1)
-                  if (model%element_nodes(k, e) > 0) call visit(model%element_nodes(k, e))
-               end do
+               if (has_own_matrix(model, e)) cycle
+               associate (nodes => own_nodes(model, e))
+                  do k = 1, size(nodes)
+                     call visit(nodes(k))
+                  end do
+               end associate
             end do
             do i = first_bar(node), first_bar(node + 1) - 1
                call visit(ends(1, bars_at(i)))
@@ -128,8 +138,8 @@ contains
       type(mass_matrix_type), intent(in) :: mass
       real(wp), contiguous, intent(in)   :: a(:, :) !! (dimension, n_nodes) of nodes, those of rotations and sections included
       real(wp), contiguous, intent(out)  :: f(:, :) !! likewise
-      real(wp) :: m(max_nodes, max_nodes), moved(model%dimension, max_nodes), s(3)
-      integer  :: i, k
+      real(wp) :: m(max_felt_dofs, max_felt_dofs), s(3)
+      integer  :: i, k, n
 
       !$omp parallel do default(shared) private(k, s) if(model%n_nodes > worth_threads)
       do i = 1, model%n_nodes
@@ -142,14 +152,11 @@ contains
          f(:, i) = s(:size(a, 1))
       end do
       !$omp end parallel do
-      do i = 1, size(mass%behind)
-         associate (corners => corners_of(model, mass%behind(i)))
-            associate (n => size(corners))
-               call scalar_mass(model, mass%behind(i), m)
-               moved(:, :n) = matmul(corner_displacements(model, mass%behind(i), a), m(:n, :n))
-               f(:, corners) = f(:, corners) + moved(:, :n)
-               call add_section_share(model, mass%behind(i), corners, moved(:, :n), f)
-            end associate
+      do i = 1, size(mass%whole)
+         associate (nodes => felt_nodes(model, mass%whole(i)))
+            n = model%dimension*size(nodes)
+            call whole_mass(model, mass%whole(i), m)
+            f(:, nodes) = f(:, nodes) + reshape(matmul(m(:n, :n), pack(a(:, nodes), .true.)), [model%dimension, size(nodes)])
          end associate
       end do
       do i = 1, size(mass%turning)

@@ -1,18 +1,20 @@
 !> The structure as it is solved: nodes, bodies, joints, supports, loads, all references resolved to positions.
 !! Built once from a deck; nothing in it changes afterwards.
 module model_data
+   use beam_element, only: beam_law
    use coordinate_systems, only: coordinate_system
    use elasticity, only: plane_stress
-   use element_kinds, only: element_table
+   use element_kinds, only: element_table, kind_edge2
    use interface_operator, only: at_first_end, interface_element, named_node
    use joint_laws, only: joint_law
    use kinds, only: wp
    use lists, only: id_table_type
+   use shell_element, only: shell_law
    implicit none
    private
 
-   public :: bar_nodes, corners_of, has_gaps, has_ground_springs, has_second_order, is_coarser, joint_centroid, joint_node_id, &
-             n_bars, n_points, n_rotations, n_sections, n_springs, node_kind, place_in_kind, supported
+   public :: bar_nodes, corners_of, has_gaps, has_ground_springs, has_second_order, is_beam, is_coarser, is_shell, joint_centroid, &
+             joint_node_id, n_bars, n_points, n_rotations, n_sections, n_springs, node_kind, own_nodes, place_in_kind, supported
 
    !> Section and material of body elements.
    type, public :: property_type
@@ -25,7 +27,17 @@ module model_data
       real(wp) :: reference = 0.0_wp         !! TREF, at which it has no thermal strain [temperature]
       real(wp) :: damping = 0.0_wp           !! GE, structural damping [-]
       logical  :: incompatible = .false.     !! modes of Wilson and Taylor
+      real(wp) :: extra_mass = 0.0_wp        !! NSM of a shell, a unit of area [force x time^2/length^3]
+      real(wp) :: fibre(2) = 0.0_wp          !! Z1, Z2 of a shell: heights above its mean plane where its stress is told [length]
    end type property_type
+
+   !> Shells and beams beside what all elements have. The PLACE of a plane element in space is that of its law among SHELLS, that of a
+   !! line among BEAMS.
+   type, public :: structural_type
+      integer, allocatable :: place(:)       !! (n_elements) 0: a body
+      type(shell_law), allocatable :: shells(:)
+      type(beam_law), allocatable  :: beams(:)
+   end type structural_type
 
    !> A marked surface: sides of elements, edges in the plane and faces of solids, each in the order of its element: a plane
    !! body on the left of the edge, the right-hand normal of a face out of the solid.
@@ -84,6 +96,7 @@ module model_data
       integer, allocatable  :: node(:)       !! (n), a node may stand here more than once
       real(wp), allocatable :: force(:, :)   !! (3, n)
       real(wp), allocatable :: moved(:, :)   !! (dimension, n_nodes) of held unknowns [length]; where any move
+      real(wp), allocatable :: beam(:, :)    !! (12, beams) what the ends of beams bear of loads along them [force], [moment]; where any
       type(temperature_type) :: temperature
    end type stage_load_type
 
@@ -128,13 +141,15 @@ module model_data
       integer  :: stage = 0                  !! position of the stage that tightens it; from its end on g is held as it then is
    end type section_type
 
-   !> The rotations of a reference node, which moves with others as a rigid body: they are components of a node of their own, x, y, z
-   !! in space, in the plane the first one alone, about z. What is kept there is the rotation times an arm, a displacement, so
-   !! that all unknowns have one unit; the force on it is the moment by the arm.
+   !> The rotations of a node of shells or beams, or of a reference node, which moves with others as a rigid body: they are components
+   !! of a node of their own, x, y, z in space, in the plane the first one alone, about z. What is kept there is the rotation times an
+   !! arm, a displacement, so that all unknowns have one unit; the force on it is the moment by the arm.
    type, public :: rotation_type
-      integer  :: point = 0                  !! the reference node
+      integer  :: point = 0                  !! the node
       integer  :: node = 0                   !! that of its rotations
-      real(wp) :: arm = 1.0_wp               !! root mean square of the distances of the nodes that move with it [length]
+      real(wp) :: arm = 1.0_wp               !! root mean square of the distances of the nodes that move with it, of an element's
+                                             !! nodes from it [length]
+      logical  :: of_element = .false.       !! whether shells or beams have it
    end type rotation_type
 
    !> What holds: an SPC1 card, the SPC cards of one set, the SPCM card of a surface, PS of GRID.
@@ -181,6 +196,7 @@ module model_data
       integer, allocatable  :: elements_at(:)        !! are the elements of node i
       type(coordinate_system), allocatable :: systems(:) !! as the deck has them
       type(property_type), allocatable :: properties(:)
+      type(structural_type) :: structural        !! where there are shells or beams
       type(surface_type), allocatable  :: surfaces(:)
       type(joint_type), allocatable    :: joints(:)
       type(interface_element), allocatable :: interface(:)
@@ -189,6 +205,7 @@ module model_data
       logical :: lumped = .false.            !! MASS = LUMPED: the mass of elements stands at their nodes
       type(section_type), allocatable      :: sections(:)
       type(rotation_type), allocatable     :: rotations(:)
+      integer, allocatable  :: rotation_of(:)        !! (points) which of these a node has, 0: none; where there are any
       integer, allocatable  :: node_section(:)       !! (n_nodes) the section that a node lies in, 0: none; where there are any
       integer, allocatable  :: element_section(:)    !! (n_elements) the section that an element touches from behind, likewise
       type(stage_load_type), allocatable   :: stage_loads(:)
@@ -327,6 +344,34 @@ contains
 
       nodes = model%element_nodes(:size(nodes), e)
    end function corners_of
+
+   !> Whether element E is a shell.
+   pure logical function is_shell(model, e)
+      type(model_type), intent(in) :: model
+      integer, intent(in)          :: e
+
+      is_shell = .false.
+      if (allocated(model%structural%place)) is_shell = model%structural%place(e) > 0 .and. model%element_kind(e) /= kind_edge2
+   end function is_shell
+
+   !> Whether element E is a beam.
+   pure logical function is_beam(model, e)
+      type(model_type), intent(in) :: model
+      integer, intent(in)          :: e
+
+      is_beam = model%element_kind(e) == kind_edge2
+   end function is_beam
+
+   !> The nodes of element E, of a shell or beam behind them the nodes of their rotations.
+   pure function own_nodes(model, e) result(nodes)
+      type(model_type), intent(in) :: model
+      integer, intent(in)          :: e
+      integer, allocatable :: nodes(:)
+
+      nodes = corners_of(model, e)
+      if (.not. allocated(model%structural%place)) return
+      if (model%structural%place(e) > 0) nodes = [nodes, model%rotations(model%rotation_of(nodes))%node]
+   end function own_nodes
 
    !> Whether MODEL has elements of second order.
    pure logical function has_second_order(model)

@@ -11,7 +11,7 @@ module node_coupling
    use element_kinds, only: element_table
    use interface_operator, only: interface_element
    use kinds, only: wp
-   use model_data, only: corners_of, model_type, n_sections, node_coupling_type
+   use model_data, only: corners_of, model_type, n_sections, node_coupling_type, own_nodes
    implicit none
    private
 
@@ -262,13 +262,13 @@ contains
       if (model%element_section(e) > 0) node = model%sections(model%element_section(e))%node
    end function section_node
 
-   !> The nodes whose displacements element E feels: its corners, and the node of a section that it touches from behind.
+   !> The nodes whose displacements element E feels: its own, and the node of a section that it touches from behind.
    pure function felt_nodes(model, e) result(nodes)
       type(model_type), intent(in) :: model
       integer, intent(in)          :: e
       integer, allocatable :: nodes(:)
 
-      nodes = corners_of(model, e)
+      nodes = own_nodes(model, e)
       if (section_node(model, e) > 0) nodes = [nodes, section_node(model, e)]
    end function felt_nodes
 

@@ -3,7 +3,7 @@
 module reference_nodes
    use coordinate_systems, only: directions_at
    use kinds, only: wp
-   use model_data, only: model_type, n_rotations
+   use model_data, only: model_type
    implicit none
    private
 
@@ -24,7 +24,8 @@ contains
       integer, intent(in)          :: point
 
       rotation = 0
-      if (n_rotations(model) > 0) rotation = findloc(model%rotations%point, point, dim=1)
+      if (.not. allocated(model%rotation_of)) return
+      if (point <= size(model%rotation_of)) rotation = model%rotation_of(point)
    end function rotation_at
 
    !> Where the rotation that NASTRAN calls component DIGIT, 4 to 6, stands among those of a node of rotations; 0: nowhere, in the

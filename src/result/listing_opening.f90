@@ -4,7 +4,7 @@ module listing_opening
    use case_control, only: method_newton, method_step, pressure_eq10
    use command_arguments, only: standard_input, version
    use deck_input, only: deck_type
-   use element_kinds, only: element_table, n_kinds
+   use element_kinds, only: element_table
    use element_mapping, only: has_modes
    use equation_solver, only: equation_system
    use facing_bodies, only: body_type, list_bodies
@@ -120,7 +120,7 @@ contains
       !> The body elements of every kind, and which formulation they are of.
       subroutine count_formulations(model)
          type(model_type), intent(in) :: model
-         integer(long) :: n(2, n_kinds) ! without and with incompatible modes
+         integer(long) :: n(2, size(element_table)) ! without and with incompatible modes
          integer :: e, k, m
 
          n = 0
@@ -131,7 +131,7 @@ contains
             end associate
             n(m, k) = n(m, k) + 1
          end do
-         do k = 1, n_kinds
+         do k = 1, size(element_table)
             associate (kind => element_table(k))
                if (n(1, k) > 0) call count_line('   '//trim(kind%card)//' OF '//integer_text(kind%n_nodes)//' NODES, '// &
                                                 trim(merge('PLAIN       ', 'SECOND ORDER', kind%linear == k)), n(1, k))

@@ -5,7 +5,7 @@
 module node_graph
    use lists, only: list_owners
    use mass_elements, only: mass_nodes, n_masses
-   use model_data, only: bar_nodes, model_type, n_bars
+   use model_data, only: bar_nodes, corners_of, model_type, n_bars
    use node_coupling, only: unknown_nodes, coupled_nodes, felt_nodes, section_node
    implicit none
    private
@@ -47,6 +47,7 @@ contains
                   call visit(model%element_nodes(k, e))
                end do
                call visit(section_node(model, e))
+               call visit_rotations(e)
             end do
             do i = first_list(node), first_list(node + 1) - 1
                do k = 1, size(joined, 1)
@@ -59,6 +60,18 @@ contains
       end do
 
    contains
+
+      !> The rotations of a shell or beam.
+      subroutine visit_rotations(e)
+         integer, intent(in) :: e
+         integer :: j
+
+         if (.not. allocated(model%structural%place)) return
+         if (model%structural%place(e) == 0) return
+         do j = 1, size(corners_of(model, e))
+            call visit(model%rotations(model%rotation_of(model%element_nodes(j, e)))%node)
+         end do
+      end subroutine visit_rotations
 
       subroutine visit(candidate)
          integer, intent(in) :: candidate

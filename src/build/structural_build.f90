@@ -1,0 +1,284 @@
+!> Shells and beams from their cards: what they are made of, how beams lie and hang on their nodes; and the rotations of nodes, those of
+!! shells and beams and those of reference nodes.
+module structural_build
+   use beam_element, only: beam_axes, beam_law, beam_length
+   use beam_sections, only: beam_section
+   use bulk_data, only: edge_card, edge_crod, has_component, property_card, rigid_card
+   use deck_check, only: checked_deck
+   use elasticity, only: beam, elasticity_matrix, max_stresses, plane_stress, shell
+   use kinds, only: wp
+   use lists, only: id_table_type
+   use model_data, only: corners_of, is_beam, model_type, n_rotations, rotation_type
+   use node_build, only: append_rotations
+   use node_coupling, only: couple_node
+   use reference_nodes, only: node_axes
+   use shell_element, only: shell_law
+   use text_tools, only: integer_text
+   implicit none
+   private
+
+   public :: build_rotations, build_structural, is_beam_edge, turn_rotations
+
+contains
+
+   !> Whether EDGE is a beam: a CBAR or CBEAM with the id of a section, which no PMARK has.
+   pure logical function is_beam_edge(deck, edge)
+      type(checked_deck), intent(in) :: deck
+      type(edge_card), intent(in)    :: edge
+
+      is_beam_edge = edge%kind /= edge_crod .and. edge%property > 0 .and. any(deck%bulk%beam_property%id == edge%property) &
+                     .and. all(deck%bulk%pmark%id /= edge%property)
+   end function is_beam_edge
+
+   !> Give rotations to the nodes of shells and beams, and to the reference nodes of rigid elements: a node for them each, behind those of
+   !! the deck. A model of revolution has none. Nodes that are not there are for others to name.
+   subroutine build_rotations(deck, model)
+      type(checked_deck), intent(in)  :: deck
+      type(model_type), intent(inout) :: model
+      type(rotation_type), allocatable :: rotations(:)
+      real(wp) :: square(model%n_nodes)
+      integer  :: count_of(model%n_nodes), e, i, n, node
+
+      if (model%axisymmetric) return
+      if (size(deck%bulk%rigid) == 0 .and. all(model%properties%state < shell)) return
+      allocate (rotations(size(deck%bulk%rigid) + model%n_nodes))
+      allocate (model%rotation_of(model%n_nodes), source=0)
+      n = 0
+      do i = 1, size(deck%bulk%rigid)
+         associate (card => deck%bulk%rigid(i))
+            node = model%node_table%find(card%node)
+            if (node == 0 .or. .not. turns(model, card)) cycle
+            if (model%rotation_of(node) > 0) cycle
+            n = n + 1
+            rotations(n) = rotation_type(point=node, arm=arm_of(model, node, card))
+            model%rotation_of(node) = n
+         end associate
+      end do
+      square = 0.0_wp
+      count_of = 0
+      do e = 1, model%n_elements
+         if (.not. has_rotations(model, e)) cycle
+         associate (nodes => corners_of(model, e))
+            if (any(nodes == 0)) cycle ! said already
+            do i = 1, size(nodes)
+               square(nodes(i)) = square(nodes(i)) + sum((model%x(:, nodes) - spread(model%x(:, nodes(i)), 2, size(nodes)))**2)
+               count_of(nodes(i)) = count_of(nodes(i)) + size(nodes) - 1
+            end do
+         end associate
+      end do
+      do node = 1, model%n_nodes
+         if (count_of(node) == 0) cycle
+         if (model%rotation_of(node) == 0) then
+            n = n + 1
+            model%rotation_of(node) = n
+            rotations(n) = rotation_type(point=node, arm=sqrt(square(node)/count_of(node)))
+            if (.not. rotations(n)%arm > 0.0_wp) rotations(n)%arm = 1.0_wp
+         end if
+         rotations(model%rotation_of(node))%of_element = .true.
+      end do
+      if (n > 0) model%rotations = rotations(:n)
+      if (n == 0) deallocate (model%rotation_of)
+      if (n > 0) call append_rotations(model)
+   end subroutine build_rotations
+
+   !> Whether element E is a shell or a beam, by its property.
+   pure logical function has_rotations(model, e)
+      type(model_type), intent(in) :: model
+      integer, intent(in)          :: e
+
+      has_rotations = .false.
+      if (model%element_property(e) > 0) &
+         has_rotations = any(model%properties(model%element_property(e))%state == [shell, beam])
+   end function has_rotations
+
+   !> Rotations in space are counted along the axes of their node.
+   subroutine turn_rotations(model)
+      type(model_type), intent(inout) :: model
+      integer :: k
+
+      if (.not. allocated(model%node_system) .or. model%dimension == 2) return
+      do k = 1, n_rotations(model)
+         associate (rotation => model%rotations(k))
+            if (rotation%point > size(model%node_system)) cycle
+            if (model%node_system(rotation%point) > 0) call couple_node(model%coupling, model%n_nodes, rotation%node, &
+               [rotation%node], reshape(node_axes(model, rotation%point), [3, 3, 1]))
+         end associate
+      end do
+   end subroutine turn_rotations
+
+   !> Whether the reference node of CARD has rotations that the model knows.
+   pure logical function turns(model, card)
+      type(model_type), intent(in) :: model
+      type(rigid_card), intent(in) :: card
+
+      turns = .not. card%is_mean .or. has_component(card%components, 6)
+      if (model%dimension == 3) turns = turns .or. has_component(card%components, 4) .or. has_component(card%components, 5)
+   end function turns
+
+   !> Root mean square of the distances of the nodes of CARD from POINT; 1 where they lie there [length].
+   pure real(wp) function arm_of(model, point, card) result(arm)
+      type(model_type), intent(in) :: model
+      integer, intent(in)          :: point
+      type(rigid_card), intent(in) :: card
+      integer :: k, n, node
+
+      arm = 0.0_wp
+      n = 0
+      do k = 1, size(card%nodes)
+         node = model%node_table%find(card%nodes(k))
+         if (node == 0) cycle
+         n = n + 1
+         arm = arm + sum((model%x(:, node) - model%x(:, point))**2)
+      end do
+      arm = sqrt(arm/max(n, 1))
+      if (arm <= 0.0_wp) arm = 1.0_wp
+   end function arm_of
+
+   !> Fill the shells and beams of MODEL, whose displacement systems are known.
+   subroutine build_structural(deck, model)
+      type(checked_deck), intent(in)  :: deck
+      type(model_type), intent(inout) :: model
+      type(shell_law), allocatable :: of_property(:)
+      type(id_table_type) :: edges, plates
+      integer, allocatable :: at(:)
+      integer :: e, i, n(2)
+
+      if (.not. any([(has_rotations(model, e), e = 1, model%n_elements)])) return
+      allocate (model%structural%place(model%n_elements), source=0)
+      allocate (of_property(size(model%properties)), at(size(deck%bulk%plate)))
+      do i = 1, size(deck%bulk%pshell)
+         if (model%properties(i)%state == shell) call find_shell(deck, deck%bulk%pshell(i), of_property(i)) ! they come first
+      end do
+      call edges%build(deck%bulk%edge%id)
+      call plates%build([(deck%bulk%element(deck%bulk%plate(i)%element)%id, i = 1, size(at))])
+      n = 0
+      do e = 1, model%n_elements
+         if (.not. has_rotations(model, e)) cycle
+         i = merge(2, 1, is_beam(model, e))
+         n(i) = n(i) + 1
+         model%structural%place(e) = n(i)
+      end do
+      allocate (model%structural%shells(n(1)), model%structural%beams(n(2)))
+      do e = 1, model%n_elements
+         if (model%structural%place(e) == 0) cycle
+         if (is_beam(model, e)) then
+            call build_beam(deck, deck%bulk%edge(edges%find(model%element_id(e))), model, e)
+            cycle
+         end if
+         associate (law => model%structural%shells(model%structural%place(e)))
+            law = of_property(model%element_property(e))
+            i = 0
+            if (size(at) > 0) i = plates%find(model%element_id(e))
+            if (i == 0) cycle
+            law%offset = deck%bulk%plate(i)%offset
+            where (deck%bulk%plate(i)%thickness > 0.0_wp) law%thickness = deck%bulk%plate(i)%thickness
+         end associate
+      end do
+   end subroutine build_structural
+
+   !> The LAW of shells of a PSHELL.
+   subroutine find_shell(deck, card, law)
+      type(checked_deck), intent(in)  :: deck
+      type(property_card), intent(in) :: card
+      type(shell_law), intent(out)    :: law
+      real(wp) :: d(max_stresses, max_stresses)
+      integer  :: bending, membrane, shear
+
+      if (card%bending == -1) call deck%field_error(card%line, 'MID2', &
+         '-1 is plane strain, but a shell in space stretches in both directions; expected the MAT1 of bending, mostly MID1')
+      if (card%bending == 0) call deck%field_error(card%line, 'MID2', &
+         'blank: a membrane without bending has no stiffness across its plane, and the model is one of space; '// &
+         'expected the MAT1 of bending, mostly MID1')
+      membrane = material_of(card%material)
+      bending = material_of(card%bending, 'MID2')
+      shear = material_of(card%shear, 'MID3')
+      if (any([membrane, bending] == 0)) return
+      associate (mat1 => deck%bulk%mat1)
+         call elasticity_matrix(plane_stress, mat1(membrane)%e, mat1(membrane)%nu, d)
+         law%d = d(:3, :3)
+         law%nu = mat1(membrane)%nu
+         law%expansion = mat1(membrane)%alpha
+         call elasticity_matrix(plane_stress, mat1(bending)%e, mat1(bending)%nu, d)
+         law%bending = card%inertia_ratio*d(:3, :3)
+         if (shear > 0) law%shear = 0.5_wp*mat1(shear)%e/(1.0_wp + mat1(shear)%nu)*card%shear_ratio
+      end associate
+      law%thickness = card%thickness
+
+   contains
+
+      !> Which MAT1 has this ID; 0: blank, or an error where the field is not that of MID1, of which it is said already.
+      integer function material_of(id, field) result(k)
+         integer, intent(in) :: id
+         character(*), intent(in), optional :: field
+
+         k = 0
+         if (id <= 0) return
+         k = findloc(deck%bulk%mat1%id, id, dim=1)
+         if (k == 0 .and. present(field)) call deck%field_error(card%line, field, 'there is no MAT1 '//integer_text(id))
+      end function material_of
+
+   end subroutine find_shell
+
+   !> The law of beam E, from its CARD, and whether it has a length and a plane 1.
+   subroutine build_beam(deck, card, model, e)
+      type(checked_deck), intent(in)  :: deck
+      type(edge_card), intent(in)     :: card
+      type(model_type), intent(inout) :: model
+      integer, intent(in)             :: e
+      real(wp) :: x(3, 2)
+      integer  :: c, end, k, other
+
+      if (any(model%element_nodes(:2, e) == 0)) return ! said already
+      x = model%x(:, model%element_nodes(:2, e))
+      associate (law => model%structural%beams(model%structural%place(e)), property => model%properties(model%element_property(e)))
+         k = findloc(deck%bulk%beam_property%id, card%property, dim=1)
+         call take_section(deck%bulk%beam_property(k)%section, law)
+         law%e = property%e
+         law%g = 0.5_wp*property%e/(1.0_wp + property%nu)
+         law%rho = property%rho
+         law%expansion = property%alpha
+         law%extra_mass = deck%bulk%parameters%mass_factor*deck%bulk%beam_property(k)%extra_mass
+         do end = 1, 2
+            law%offset(:, end) = matmul(node_axes(model, model%element_nodes(end, e)), card%offset(:, end))
+            do c = 1, 6
+               law%released(6*(end - 1) + c) = has_component(card%pins(end), c)
+            end do
+         end do
+         law%orientation = matmul(node_axes(model, model%element_nodes(1, e)), card%orientation)
+         if (card%nodes(3) > 0) then
+            other = model%node_table%find(card%nodes(3))
+            if (other == 0) then
+               call deck%field_error(card%line, 'X1', 'there is no GRID '//integer_text(card%nodes(3))//' to lie in plane 1, G0')
+               return
+            end if
+            law%orientation = model%x(:, other) - x(:, 1)
+         end if
+         if (.not. beam_length(law, x) > 0.0_wp) then
+            call deck%errors%add(card%line, 'beam '//integer_text(card%id)//' has no length')
+            return
+         end if
+         if (.not. norm2(law%orientation) > 0.0_wp) then
+            if (model%dimension == 3) then
+               call deck%field_error(card%line, 'X1', &
+                  'blank: where plane 1 of the beam lies is not given; expected a vector X1, X2, X3 or a node G0')
+               return
+            end if
+            law%orientation = [x(2, 1) - x(2, 2), x(1, 2) - x(1, 1), 0.0_wp] ! plane 1 is that of the model
+         end if
+         if (all(abs(beam_axes(law, x)) <= 0.0_wp)) call deck%field_error(card%line, 'X1', &
+            'the orientation of the beam lies along it, and gives no plane 1; expected a direction across the beam')
+      end associate
+   end subroutine build_beam
+
+   pure subroutine take_section(section, law)
+      type(beam_section), intent(in) :: section
+      type(beam_law), intent(inout)  :: law
+
+      law%area = section%area
+      law%inertia = section%inertia
+      law%torsion = section%torsion
+      law%shear = section%shear
+      law%point = section%point
+   end subroutine take_section
+
+end module structural_build

@@ -1,0 +1,311 @@
+!> Beams of constant section between two nodes of three displacements and three rotations: axial force, bending in two planes with
+!! transverse shear (Timoshenko), torsion of Saint-Venant. The stiffness is exact, and so are the nodal forces of loads along the beam,
+!! for the shape functions are the deflections of a beam that is loaded at its ends alone.
+!! Source: J. S. Przemieniecki, Theory of Matrix Structural Analysis, 1968, sections 5.6 and 11.6.
+!!
+!! Values at the ends of a beam, in its axes: u, v, w, theta_x, theta_y, theta_z of end A, then of end B. Nodal values are (3, 4):
+!! displacements of both nodes, then their rotations, in global axes [length], [rad]; forces likewise, then moments.
+module beam_element
+   use kinds, only: wp
+   use numbers, only: cross
+   implicit none
+   private
+
+   public :: beam_axes, beam_length, beam_shapes, beam_stiffness, beam_mass, beam_line_load, beam_point_load, beam_end_forces, &
+             beam_nodal_forces, beam_thermal_load
+
+   !> A beam: its section and how it hangs on its nodes. Plane 1 holds the beam and its direction y, which ORIENTATION gives.
+   type, public :: beam_law
+      real(wp) :: e = 0.0_wp, g = 0.0_wp       !! [pressure]
+      real(wp) :: area = 0.0_wp                !! [length^2]
+      real(wp) :: inertia(3) = 0.0_wp          !! I1, I2, I12: integrals of y^2, z^2, y z over the section [length^4]
+      real(wp) :: torsion = 0.0_wp             !! J [length^4]
+      real(wp) :: shear(2) = 0.0_wp            !! K1, K2: share of the area that bears shear along y, z; 0: rigid in shear [-]
+      real(wp) :: point(2, 4) = 0.0_wp         !! y, z of the stress points C, D, E, F [length]
+      real(wp) :: orientation(3) = 0.0_wp      !! v, in global axes
+      real(wp) :: offset(3, 2) = 0.0_wp        !! of the ends from their nodes, in global axes [length]
+      logical  :: released(12) = .false.       !! PA, PB: end values that bear no force
+      real(wp) :: rho = 0.0_wp                 !! mass density
+      real(wp) :: extra_mass = 0.0_wp          !! NSM, mass a unit of length
+      real(wp) :: expansion = 0.0_wp           !! alpha [1/temperature]
+   end type beam_law
+
+   real(wp), parameter :: gauss_at(4) = 0.5_wp + 0.5_wp*[-0.8611363115940526_wp, -0.3399810435848563_wp, &
+                                                         0.3399810435848563_wp, 0.8611363115940526_wp] ! exact to degree 7
+   real(wp), parameter :: gauss_weight(4) = 0.5_wp*[0.3478548451374538_wp, 0.6521451548625461_wp, &
+                                                    0.6521451548625461_wp, 0.3478548451374538_wp]
+
+contains
+
+   !> Length of a beam between nodes at X [length].
+   pure real(wp) function beam_length(law, x) result(length)
+      type(beam_law), intent(in) :: law
+      real(wp), intent(in)       :: x(3, 2)    !! [length]
+
+      length = norm2(x(:, 2) + law%offset(:, 2) - x(:, 1) - law%offset(:, 1))
+   end function beam_length
+
+   !> The directions x, y, z of a beam, columns: z = x cross orientation. All zero where the beam has no length, or the orientation lies
+   !! along it.
+   pure function beam_axes(law, x) result(axes)
+      type(beam_law), intent(in) :: law
+      real(wp), intent(in)       :: x(3, 2)    !! [length]
+      real(wp) :: axes(3, 3), across(3), along(3)
+
+      axes = 0.0_wp
+      if (beam_length(law, x) <= 0.0_wp) return
+      along = (x(:, 2) + law%offset(:, 2) - x(:, 1) - law%offset(:, 1))/beam_length(law, x)
+      across = cross(along, law%orientation)
+      if (norm2(across) <= 1.0e-6_wp*norm2(law%orientation)) return
+      axes(:, 1) = along
+      axes(:, 3) = across/norm2(across)
+      axes(:, 2) = cross(axes(:, 3), along)
+   end function beam_axes
+
+   !> 12 E I/(K A G L^2) of the planes 1 and 2: how soft the beam is in shear beside bending [-].
+   pure function shear_softness(law, length) result(phi)
+      type(beam_law), intent(in) :: law
+      real(wp), intent(in)       :: length
+      real(wp) :: phi(2)
+
+      phi = 0.0_wp
+      where (law%shear > 0.0_wp) phi = 12.0_wp*law%e*law%inertia(:2)/(law%shear*law%area*law%g*length**2)
+   end function shear_softness
+
+   !> The shape functions of bending in one plane at S = x/L: deflection V and rotation R from the deflection and rotation of end A,
+   !! then of end B.
+   pure subroutine beam_shapes(phi, length, s, v, r)
+      real(wp), intent(in)  :: phi, length, s
+      real(wp), intent(out) :: v(4), r(4)
+
+      v = [1.0_wp - 3.0_wp*s**2 + 2.0_wp*s**3 + phi*(1.0_wp - s), length*(s - 2.0_wp*s**2 + s**3 + 0.5_wp*phi*(s - s**2)), &
+           3.0_wp*s**2 - 2.0_wp*s**3 + phi*s, length*(s**3 - s**2 + 0.5_wp*phi*(s**2 - s))]/(1.0_wp + phi)
+      r = [6.0_wp*(s**2 - s)/length, 1.0_wp - 4.0_wp*s + 3.0_wp*s**2 + phi*(1.0_wp - s), &
+           6.0_wp*(s - s**2)/length, 3.0_wp*s**2 - 2.0_wp*s + phi*s]/(1.0_wp + phi)
+   end subroutine beam_shapes
+
+   !> How the movement u, v, w, theta_x, theta_y, theta_z at S = x/L follows from the end values.
+   pure function movement_at(law, length, s) result(m)
+      type(beam_law), intent(in) :: law
+      real(wp), intent(in)       :: length, s
+      real(wp) :: m(6, 12), phi(2), r(4), v(4)
+
+      m = 0.0_wp
+      phi = shear_softness(law, length)
+      m(1, [1, 7]) = [1.0_wp - s, s]
+      m(4, [4, 10]) = [1.0_wp - s, s]
+      call beam_shapes(phi(1), length, s, v, r)
+      m(2, [2, 6, 8, 12]) = v
+      m(6, [2, 6, 8, 12]) = r
+      call beam_shapes(phi(2), length, s, v, r) ! theta_y is minus the slope of w
+      m(3, [3, 5, 9, 11]) = v*[1.0_wp, -1.0_wp, 1.0_wp, -1.0_wp]
+      m(5, [3, 5, 9, 11]) = r*[-1.0_wp, 1.0_wp, -1.0_wp, 1.0_wp]
+   end function movement_at
+
+   !> [k] between the end values, nothing released. Where I12 is not zero the planes of bending are coupled; shear is that of I12 = 0.
+   pure function end_stiffness(law, length) result(k)
+      type(beam_law), intent(in) :: law
+      real(wp), intent(in)       :: length
+      real(wp) :: k(12, 12), bend(4, 4), phi(2), sign_of(4)
+      integer  :: at(4, 2), plane
+
+      k = 0.0_wp
+      k([1, 7], [1, 7]) = law%e*law%area/length*reshape([1.0_wp, -1.0_wp, -1.0_wp, 1.0_wp], [2, 2])
+      k([4, 10], [4, 10]) = law%g*law%torsion/length*reshape([1.0_wp, -1.0_wp, -1.0_wp, 1.0_wp], [2, 2])
+      phi = shear_softness(law, length)
+      at = reshape([2, 6, 8, 12, 3, 5, 9, 11], [4, 2])
+      sign_of = [1.0_wp, -1.0_wp, 1.0_wp, -1.0_wp]
+      do plane = 1, 2
+         bend = law%e*law%inertia(plane)*of_bending(phi(plane))
+         if (plane == 2) bend = bend*spread(sign_of, 1, 4)*spread(sign_of, 2, 4)
+         k(at(:, plane), at(:, plane)) = bend
+      end do
+      if (.not. abs(law%inertia(3)) > 0.0_wp) return
+      bend = law%e*law%inertia(3)*of_bending(sqrt((1.0_wp + phi(1))*(1.0_wp + phi(2))) - 1.0_wp)*spread(sign_of, 1, 4)
+      k(at(:, 1), at(:, 2)) = bend
+      k(at(:, 2), at(:, 1)) = transpose(bend)
+
+   contains
+
+      !> The stiffness of bending of a beam with E I = 1.
+      pure function of_bending(softness) result(b)
+         real(wp), intent(in) :: softness
+         real(wp) :: b(4, 4)
+
+         associate (l => length, f => softness)
+            b = reshape([12.0_wp, 6.0_wp*l, -12.0_wp, 6.0_wp*l, 6.0_wp*l, (4.0_wp + f)*l**2, -6.0_wp*l, (2.0_wp - f)*l**2, &
+                         -12.0_wp, -6.0_wp*l, 12.0_wp, -6.0_wp*l, 6.0_wp*l, (2.0_wp - f)*l**2, -6.0_wp*l, (4.0_wp + f)*l**2], &
+                        [4, 4])/(l**3*(1.0_wp + f))
+         end associate
+      end function of_bending
+
+   end function end_stiffness
+
+   !> The end values from the nodal values, a node's values as (3, 4) in one list.
+   pure function from_nodes(law, x) result(t)
+      type(beam_law), intent(in) :: law
+      real(wp), intent(in)       :: x(3, 2)
+      real(wp) :: t(12, 12), axes(3, 3), unit(3)
+      integer  :: c, end
+
+      t = 0.0_wp
+      axes = beam_axes(law, x)
+      do end = 1, 2
+         do c = 1, 3
+            unit = 0.0_wp
+            unit(c) = 1.0_wp
+            t(6*end - 5:6*end - 3, 3*end - 3 + c) = axes(c, :)
+            t(6*end - 5:6*end - 3, 3*end + 3 + c) = matmul(cross(unit, law%offset(:, end)), axes)
+            t(6*end - 2:6*end, 3*end + 3 + c) = axes(c, :)
+         end do
+      end do
+   end function from_nodes
+
+   !> Release end values: eliminate from [k] those that bear no force, from the forces F and the mass M on the way.
+   pure subroutine release(law, k, f, m)
+      type(beam_law), intent(in)        :: law
+      real(wp), intent(inout)           :: k(12, 12)
+      real(wp), intent(inout), optional :: f(12), m(12, 12)
+      real(wp), parameter :: rounding = 1.0e-12_wp
+      real(wp) :: ratio(12), whole(12)
+      integer  :: c, r
+
+      whole = [(k(r, r), r = 1, 12)]
+      do r = 1, 12
+         if (.not. law%released(r)) cycle
+         ratio = 0.0_wp
+         if (k(r, r) > rounding*whole(r)) ratio = k(r, :)/k(r, r) ! what another release has freed already bears nothing
+         ratio(r) = 1.0_wp
+         if (present(f)) f = f - ratio*f(r)
+         if (present(m)) then
+            ratio(r) = 0.0_wp
+            do c = 1, 12
+               if (c /= r) m(:, c) = m(:, c) - m(:, r)*ratio(c)
+            end do
+            do c = 1, 12
+               if (c /= r) m(c, :) = m(c, :) - m(r, :)*ratio(c)
+            end do
+            m(r, :) = 0.0_wp
+            m(:, r) = 0.0_wp
+         end if
+         do c = 1, 12
+            if (c /= r) k(:, c) = k(:, c) - k(:, r)*ratio(c)
+         end do
+         k(r, :) = 0.0_wp
+         k(:, r) = 0.0_wp
+      end do
+   end subroutine release
+
+   !> [k] between the nodal values.
+   pure function beam_stiffness(law, x) result(k)
+      type(beam_law), intent(in) :: law
+      real(wp), intent(in)       :: x(3, 2)    !! nodes [length]
+      real(wp) :: k(12, 12), t(12, 12)
+
+      k = end_stiffness(law, beam_length(law, x))
+      call release(law, k)
+      t = from_nodes(law, x)
+      k = matmul(transpose(t), matmul(k, t))
+   end function beam_stiffness
+
+   !> [m] between the nodal values: that of the shape functions with the rotary inertia of the section, or LUMPED: half of the mass at
+   !! each end, with the inertia of half the length.
+   pure function beam_mass(law, x, lumped) result(m)
+      type(beam_law), intent(in) :: law
+      real(wp), intent(in)       :: x(3, 2)    !! [length]
+      logical, intent(in)        :: lumped
+      real(wp) :: m(12, 12), k(12, 12), t(12, 12), moved(6, 12), own(6, 6), length
+      integer  :: i
+
+      length = beam_length(law, x)
+      own = 0.0_wp                             ! of the section, a unit of length
+      do i = 1, 3
+         own(i, i) = law%rho*law%area + law%extra_mass
+      end do
+      own(4, 4) = law%rho*(law%inertia(1) + law%inertia(2))
+      own(5, 5) = law%rho*law%inertia(2)
+      own(6, 6) = law%rho*law%inertia(1)
+      own(5, 6) = -law%rho*law%inertia(3)
+      own(6, 5) = own(5, 6)
+      m = 0.0_wp
+      if (lumped) then
+         m(:6, :6) = 0.5_wp*length*own
+         m(7:, 7:) = m(:6, :6)
+      else
+         do i = 1, size(gauss_at)
+            moved = movement_at(law, length, gauss_at(i))
+            m = m + gauss_weight(i)*length*matmul(transpose(moved), matmul(own, moved))
+         end do
+      end if
+      k = end_stiffness(law, length)
+      call release(law, k, m=m)
+      t = from_nodes(law, x)
+      m = matmul(transpose(t), matmul(m, t))
+   end function beam_mass
+
+   !> What the ends bear of a force and a moment on the beam that are Q(:, 1) a unit of length at S = FROM and Q(:, 2) at S = TO, linear
+   !! between them, and nothing elsewhere; in global axes [force], [force length].
+   pure function beam_line_load(law, x, q, from, to) result(f)
+      type(beam_law), intent(in) :: law
+      real(wp), intent(in)       :: x(3, 2)    !! [length]
+      real(wp), intent(in)       :: q(6, 2)    !! [force/length], [force]
+      real(wp), intent(in)       :: from, to   !! x/L
+      real(wp) :: f(12)
+      integer  :: i
+
+      f = 0.0_wp
+      do i = 1, size(gauss_at)
+         f = f + gauss_weight(i)*(to - from)*beam_length(law, x)*beam_point_load(law, x, &
+             (1.0_wp - gauss_at(i))*q(:, 1) + gauss_at(i)*q(:, 2), from + gauss_at(i)*(to - from))
+      end do
+   end function beam_line_load
+
+   !> The same of a force and a moment LOAD at S.
+   pure function beam_point_load(law, x, load, s) result(f)
+      type(beam_law), intent(in) :: law
+      real(wp), intent(in)       :: x(3, 2)    !! [length]
+      real(wp), intent(in)       :: load(6), s
+      real(wp) :: f(12), axes(3, 3)
+
+      axes = beam_axes(law, x)
+      f = matmul([matmul(load(:3), axes), matmul(load(4:), axes)], movement_at(law, beam_length(law, x), s))
+   end function beam_point_load
+
+   !> The same of a beam that is warmer than its reference temperature by RISE on the mean.
+   pure function beam_thermal_load(law, rise) result(f)
+      type(beam_law), intent(in) :: law
+      real(wp), intent(in)       :: rise       !! [temperature]
+      real(wp) :: f(12)
+
+      f = 0.0_wp
+      f([1, 7]) = law%e*law%area*law%expansion*rise*[-1.0_wp, 1.0_wp]
+   end function beam_thermal_load
+
+   !> The nodal forces (3, 4) of what the ends bear, F.
+   pure function beam_nodal_forces(law, x, f) result(nodal)
+      type(beam_law), intent(in) :: law
+      real(wp), intent(in)       :: x(3, 2)    !! [length]
+      real(wp), intent(in)       :: f(12)
+      real(wp) :: nodal(3, 4), k(12, 12), own(12)
+
+      own = f
+      k = end_stiffness(law, beam_length(law, x))
+      call release(law, k, f=own)
+      nodal = reshape(matmul(own, from_nodes(law, x)), [3, 4])
+   end function beam_nodal_forces
+
+   !> The forces and moments on the ends of a beam under the nodal values U and loads along it of which the ends bear F.
+   pure function beam_end_forces(law, x, u, f) result(s)
+      type(beam_law), intent(in) :: law
+      real(wp), intent(in)       :: x(3, 2)    !! [length]
+      real(wp), intent(in)       :: u(3, 4)    !! [length], [rad]
+      real(wp), intent(in)       :: f(12)
+      real(wp) :: s(12), k(12, 12), own(12)
+
+      own = f
+      k = end_stiffness(law, beam_length(law, x))
+      call release(law, k, f=own)
+      s = matmul(k, matmul(from_nodes(law, x), reshape(u, [12]))) - own
+   end function beam_end_forces
+
+end module beam_element
