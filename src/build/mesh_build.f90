@@ -9,6 +9,7 @@ module mesh_build
    use displacement_systems, only: build_systems
    use element_build, only: check_element_numbers, check_elements, check_one_state, collect_elements, is_face, &
                             resolve_properties
+   use elasticity, only: shell
    use element_kinds, only: element_table, max_side_nodes
    use kinds, only: wp
    use lists, only: list_owners
@@ -139,7 +140,7 @@ contains
       do i = 1, size(deck%bulk%edge)
          associate (edge => deck%bulk%edge(i))
             if (is_bar(deck, edge) .or. is_beam_edge(deck, edge)) cycle
-            if (model%dimension == 3) then
+            if (model%dimension == 3 .and. all(model%properties%state /= shell)) then
                call deck%errors%add(edge%line, 'a CBAR, or a CROD without a PROD, marks an edge of a plane body; surfaces of '// &
                                'solids are marked with CTRIA3 and CQUAD4 faces; the PID of a beam is that of a PBAR, PBARL, '// &
                                'PBEAM or PBEAML')

@@ -17,9 +17,10 @@ module model_build
    use node_coupling, only: section_node
    use pretension_section, only: build_sections
    use rbe2, only: build_dependents
+   use shell_faces, only: build_shell_faces, couple_shell_faces
    use spring_build, only: build_bars, build_masses, check_mass, build_springs
    use stage_plan, only: plan_stages, stage_plan_type
-   use structural_build, only: build_rotations, build_structural, turn_rotations
+   use structural_build, only: build_beams, build_rotations, build_shells, turn_rotations
    use support_build, only: build_supports
    use surface_build, only: build_surfaces
    use surface_sides, only: split_shared_surfaces
@@ -155,10 +156,12 @@ contains
       call build_mesh(checked, model, sides)
       call check_named_nodes(checked, model)
       if (checked%mesh_is_faulty()) return
+      call build_shells(checked, model)
       call build_surfaces(checked, sides, model)
       if (checked%mesh_is_faulty()) return
       ! what stands on the mesh: each is put together whatever is wrong with the others
       call split_shared_surfaces(checked, model)
+      call build_shell_faces(checked, model)
       call build_joints(checked, model)
       call build_gaps(checked, model)
       call build_bars(checked, model)
@@ -167,9 +170,10 @@ contains
       call build_sections(checked, model)
       call build_frames(checked, model)
       call turn_rotations(model)
-      call build_structural(checked, model)
+      call build_beams(checked, model)
       call build_springs(checked, model)
       call build_dependents(checked, model)
+      if (.not. errors%any()) call couple_shell_faces(model)
       call build_masses(checked, model)
       call build_loads(checked, model, oscillating)
       call build_temperatures(checked, model)

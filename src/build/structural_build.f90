@@ -8,7 +8,7 @@ module structural_build
    use elasticity, only: beam, elasticity_matrix, max_stresses, plane_stress, shell
    use kinds, only: wp
    use lists, only: id_table_type
-   use model_data, only: corners_of, is_beam, model_type, n_rotations, rotation_type
+   use model_data, only: corners_of, is_beam, is_shell, model_type, n_rotations, rotation_type
    use node_build, only: append_rotations
    use node_coupling, only: couple_node
    use reference_nodes, only: node_axes
@@ -17,7 +17,7 @@ module structural_build
    implicit none
    private
 
-   public :: build_rotations, build_structural, is_beam_edge, turn_rotations
+   public :: build_beams, build_rotations, build_shells, is_beam_edge, turn_rotations
 
 contains
 
@@ -134,23 +134,21 @@ contains
       if (arm <= 0.0_wp) arm = 1.0_wp
    end function arm_of
 
-   !> Fill the shells and beams of MODEL, whose displacement systems are known.
-   subroutine build_structural(deck, model)
+   !> Fill the shells of MODEL, and give its beams their places.
+   subroutine build_shells(deck, model)
       type(checked_deck), intent(in)  :: deck
       type(model_type), intent(inout) :: model
       type(shell_law), allocatable :: of_property(:)
-      type(id_table_type) :: edges, plates
-      integer, allocatable :: at(:)
+      type(id_table_type) :: plates
       integer :: e, i, n(2)
 
       if (.not. any([(has_rotations(model, e), e = 1, model%n_elements)])) return
       allocate (model%structural%place(model%n_elements), source=0)
-      allocate (of_property(size(model%properties)), at(size(deck%bulk%plate)))
+      allocate (of_property(size(model%properties)))
       do i = 1, size(deck%bulk%pshell)
          if (model%properties(i)%state == shell) call find_shell(deck, deck%bulk%pshell(i), of_property(i)) ! they come first
       end do
-      call edges%build(deck%bulk%edge%id)
-      call plates%build([(deck%bulk%element(deck%bulk%plate(i)%element)%id, i = 1, size(at))])
+      call plates%build([(deck%bulk%element(deck%bulk%plate(i)%element)%id, i = 1, size(deck%bulk%plate))])
       n = 0
       do e = 1, model%n_elements
          if (.not. has_rotations(model, e)) cycle
@@ -160,21 +158,32 @@ contains
       end do
       allocate (model%structural%shells(n(1)), model%structural%beams(n(2)))
       do e = 1, model%n_elements
-         if (model%structural%place(e) == 0) cycle
-         if (is_beam(model, e)) then
-            call build_beam(deck, deck%bulk%edge(edges%find(model%element_id(e))), model, e)
-            cycle
-         end if
+         if (.not. is_shell(model, e)) cycle
          associate (law => model%structural%shells(model%structural%place(e)))
             law = of_property(model%element_property(e))
             i = 0
-            if (size(at) > 0) i = plates%find(model%element_id(e))
+            if (size(deck%bulk%plate) > 0) i = plates%find(model%element_id(e))
             if (i == 0) cycle
             law%offset = deck%bulk%plate(i)%offset
             where (deck%bulk%plate(i)%thickness > 0.0_wp) law%thickness = deck%bulk%plate(i)%thickness
          end associate
       end do
-   end subroutine build_structural
+   end subroutine build_shells
+
+   !> Fill the beams of MODEL, whose displacement systems are known.
+   subroutine build_beams(deck, model)
+      type(checked_deck), intent(in)  :: deck
+      type(model_type), intent(inout) :: model
+      type(id_table_type) :: edges
+      integer :: e
+
+      if (.not. allocated(model%structural%beams)) return
+      if (size(model%structural%beams) == 0) return
+      call edges%build(deck%bulk%edge%id)
+      do e = 1, model%n_elements
+         if (is_beam(model, e)) call build_beam(deck, deck%bulk%edge(edges%find(model%element_id(e))), model, e)
+      end do
+   end subroutine build_beams
 
    !> The LAW of shells of a PSHELL.
    subroutine find_shell(deck, card, law)

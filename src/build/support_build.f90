@@ -5,7 +5,7 @@ module support_build
    use deck_cards, only: card_name
    use deck_check, only: checked_deck
    use kinds, only: wp
-   use model_data, only: model_type, n_bars, n_points, stage_load_type, support_group
+   use model_data, only: is_face_node, model_type, n_bars, n_points, stage_load_type, support_group
    use reference_nodes, only: component_place, place_of_component
    use surface_build, only: find_surface
    use surface_sides, only: nodes_of
@@ -83,6 +83,7 @@ contains
          if (surface == 0 .or. .not. active) return
          nodes = nodes_of(model%surfaces(surface))
          do k = 1, size(nodes)
+            if (is_face_node(model, nodes(k))) nodes(k) = model%faces(model%face_of(nodes(k)))%point
             call hold(model, nodes(k), support%components)
          end do
          return

@@ -6,7 +6,7 @@ module surface_build
    use kinds, only: wp
    use lists, only: id_table_type, sorted_order, list_owners
    use mesh_build, only: marked_sides
-   use model_data, only: has_second_order, model_type, surface_type
+   use model_data, only: corners_of, has_second_order, is_shell, model_type, surface_type
    use surface_sides, only: nodes_of
    use text_tools, only: integer_text
    implicit none
@@ -109,7 +109,7 @@ contains
             e = model%elements_at(j)
             if (e == owner) cycle ! a corner that stands on the card twice
             call side_of_element(model, e, nodes, side, same_sense)
-            if (side == 0) cycle
+            if (side < 0) cycle
             found = e
             if (owner == 0 .or. (same_sense .and. .not. owner_same)) then
                found = owner
@@ -124,6 +124,10 @@ contains
             return
          end if
       end associate
+      if (own_side == 0) then ! the face of a shell, on the side of the mark
+         call take_shell(sides%nodes(:sides%corners(i), i))
+         return
+      end if
       associate (kind => element_table(model%element_kind(owner)))
          associate (own => model%element_nodes(kind%side_nodes(:kind%side_size(own_side), own_side), owner))
             if (any(own == 0)) return ! said already
@@ -137,6 +141,21 @@ contains
             call check_mark(deck, sides, i, model, owner, own)
          end associate
       end associate
+
+   contains
+
+      subroutine take_shell(nodes)
+         integer, intent(in) :: nodes(:)
+
+         surface%n = surface%n + 1
+         surface%line(surface%n) = sides%line(i)
+         surface%corners(surface%n) = size(nodes)
+         surface%n_nodes(surface%n) = size(nodes)
+         surface%nodes(:size(nodes), surface%n) = nodes
+         surface%element(surface%n) = owner
+         surface%other(surface%n) = other
+      end subroutine take_shell
+
    end subroutine add_side
 
    !> The mid-side nodes of mark I, where it has any, are those of the side, with the nodes OWN, of element E. Gmsh writes that of an
@@ -197,7 +216,8 @@ contains
       end do
    end function side_name
 
-   !> Which SIDE of element E has the corners NODES, in any order; 0: none. SAME_SENSE: its own order goes round them as they stand.
+   !> Which SIDE of element E has the corners NODES, in any order; 0: the face of a shell; -1: none. SAME_SENSE: its own order goes round
+   !! them as they stand.
    pure subroutine side_of_element(model, e, nodes, side, same_sense)
       type(model_type), intent(in) :: model
       integer, intent(in)          :: e, nodes(:)
@@ -207,6 +227,16 @@ contains
 
       n = size(nodes)
       same_sense = .false.
+      if (is_shell(model, e) .and. n > 2) then
+         side = -1
+         associate (own => corners_of(model, e))
+            if (size(own) /= n) return
+            if (any([(all(own /= nodes(k)), k = 1, n)])) return
+            side = 0
+            same_sense = own(modulo(findloc(own, nodes(1), dim=1), n) + 1) == nodes(2)
+         end associate
+         return
+      end if
       associate (kind => element_table(model%element_kind(e)))
          do side = 1, kind%n_sides
             if (kind%side_corners(side) /= n) cycle
@@ -223,7 +253,7 @@ contains
             end associate
          end do
       end associate
-      side = 0
+      side = -1
    end subroutine side_of_element
 
    !> No side stands twice on a surface: its area would count twice.

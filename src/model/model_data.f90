@@ -13,8 +13,9 @@ module model_data
    implicit none
    private
 
-   public :: bar_nodes, corners_of, has_gaps, has_ground_springs, has_second_order, is_beam, is_coarser, is_shell, joint_centroid, &
-             joint_node_id, n_bars, n_points, n_rotations, n_sections, n_springs, node_kind, own_nodes, place_in_kind, supported
+   public :: bar_nodes, corners_of, has_gaps, has_ground_springs, has_second_order, is_beam, is_coarser, is_face_node, is_shell, &
+             joint_centroid, joint_node_id, n_bars, n_points, n_rotations, n_sections, n_springs, node_kind, own_nodes, &
+             place_in_kind, supported
 
    !> Section and material of body elements.
    type, public :: property_type
@@ -152,6 +153,13 @@ module model_data
       logical  :: of_element = .false.       !! whether shells or beams have it
    end type rotation_type
 
+   !> A node on the face of shells: it stands off POINT, a node of the shells, by a rigid LEVER.
+   type, public :: face_node_type
+      integer  :: point = 0
+      integer  :: node = 0
+      real(wp) :: lever(3) = 0.0_wp          !! [length]
+   end type face_node_type
+
    !> What holds: an SPC1 card, the SPC cards of one set, the SPCM card of a surface, PS of GRID.
    type, public :: support_group
       character(4) :: kind = ''              !! SPC, SPC1, SPCM, GRID
@@ -205,6 +213,8 @@ module model_data
       logical :: lumped = .false.            !! MASS = LUMPED: the mass of elements stands at their nodes
       type(section_type), allocatable      :: sections(:)
       type(rotation_type), allocatable     :: rotations(:)
+      type(face_node_type), allocatable    :: faces(:)
+      integer, allocatable  :: face_of(:)            !! (points) which of these a node is, 0: none; where there are any
       integer, allocatable  :: rotation_of(:)        !! (points) which of these a node has, 0: none; where there are any
       integer, allocatable  :: node_section(:)       !! (n_nodes) the section that a node lies in, 0: none; where there are any
       integer, allocatable  :: element_section(:)    !! (n_elements) the section that an element touches from behind, likewise
@@ -353,6 +363,16 @@ contains
       is_shell = .false.
       if (allocated(model%structural%place)) is_shell = model%structural%place(e) > 0 .and. model%element_kind(e) /= kind_edge2
    end function is_shell
+
+   !> Whether NODE stands on the face of shells.
+   pure logical function is_face_node(model, node)
+      type(model_type), intent(in) :: model
+      integer, intent(in)          :: node
+
+      is_face_node = .false.
+      if (.not. allocated(model%face_of)) return
+      if (node <= size(model%face_of)) is_face_node = model%face_of(node) > 0
+   end function is_face_node
 
    !> Whether element E is a beam.
    pure logical function is_beam(model, e)

@@ -5,7 +5,7 @@
 module node_graph
    use lists, only: list_owners
    use mass_elements, only: mass_nodes, n_masses
-   use model_data, only: bar_nodes, corners_of, model_type, n_bars
+   use model_data, only: bar_nodes, corners_of, is_face_node, model_type, n_bars
    use node_coupling, only: unknown_nodes, coupled_nodes, felt_nodes, section_node
    implicit none
    private
@@ -41,7 +41,7 @@ contains
          do node = 1, graph%n
             graph%first(node) = n + 1
             mark(node) = node
-            do i = model%first_at(node), model%first_at(node + 1) - 1
+            do i = model%first_at(node), merge(0, model%first_at(node + 1) - 1, is_face_node(model, node)) ! a face has no unknowns
                e = model%elements_at(i)
                do k = 1, size(model%element_nodes, 1)
                   call visit(model%element_nodes(k, e))

@@ -1,0 +1,198 @@
+!> The faces of shells. A marked surface of shells is not their mean plane: it lies half a thickness off it, on the side to which the
+!! normals of the mark's elements point; a marked edge of shells is as wide as they are thick. The nodes of such sides stand off the
+!! nodes of the shells by a rigid lever r and have no unknowns of their own: u + theta x r. All that stands on surfaces, joints, gaps,
+!! pressure, takes them as it takes other nodes.
+module shell_faces
+   use deck_check, only: checked_deck
+   use element_kinds, only: element_table
+   use kinds, only: wp
+   use lists, only: id_table_type
+   use model_data, only: corners_of, face_node_type, is_shell, model_type, surface_type
+   use node_build, only: append_nodes
+   use node_coupling, only: couple_node
+   use numbers, only: cross
+   use rbe3, only: by_rotation
+   use shell_element, only: shell_frame, shell_frame_of
+   use text_tools, only: integer_text
+   implicit none
+   private
+
+   public :: build_shell_faces, couple_shell_faces
+
+contains
+
+   !> Put the sides of surfaces that are of shells onto nodes of their own.
+   subroutine build_shell_faces(deck, model)
+      type(checked_deck), intent(in)  :: deck
+      type(model_type), intent(inout) :: model
+      type(face_node_type), allocatable :: faces(:)
+      integer :: k, n
+
+      if (.not. allocated(model%structural%place)) return
+      allocate (faces(0))
+      do k = 1, size(model%surfaces)
+         associate (surface => model%surfaces(k))
+            if (.not. any([(is_shell(model, surface%element(n)), n = 1, surface%n)])) cycle
+            do n = 1, surface%n
+               if (surface%other(n) == 0) cycle
+               call deck%errors%add(surface%line(n), 'surface '//integer_text(surface%id)// &
+                  ': an edge between two shells is no edge that a joint can stand on; expected the free edge of shells')
+               return
+            end do
+            call stand_off(model, surface, faces)
+         end associate
+      end do
+      if (size(faces) > 0) call append_faces(model, faces)
+   end subroutine build_shell_faces
+
+   !> Give the sides of SURFACE that are of shells nodes among FACES, the mean of what its sides have there.
+   subroutine stand_off(model, surface, faces)
+      type(model_type), intent(in)      :: model
+      type(surface_type), intent(inout) :: surface
+      type(face_node_type), allocatable, intent(inout) :: faces(:)
+      type(face_node_type), allocatable :: own(:)
+      integer  :: below(model%n_nodes), above(model%n_nodes), n_of(8*surface%n), c, i, n, nodes(4), s
+      real(wp) :: side
+      type(shell_frame) :: frame
+
+      allocate (own(8*surface%n))
+      below = 0
+      above = 0
+      n = 0
+      n_of = 0
+      do s = 1, surface%n
+         if (.not. is_shell(model, surface%element(s))) cycle
+         c = surface%corners(s)
+         nodes(:c) = surface%nodes(:c, s)
+         associate (corners => corners_of(model, surface%element(s)), &
+                    law => model%structural%shells(model%structural%place(surface%element(s))))
+            frame = shell_frame_of(model%x(:, corners), law%offset)
+            side = sign(0.5_wp, dot_product(frame%axes(:, 3), cross(model%x(:, nodes(min(2, c))) - model%x(:, nodes(1)), &
+                                                                     model%x(:, nodes(c)) - model%x(:, nodes(1)))))
+            do i = 1, c
+               associate (t => law%thickness(findloc(corners, nodes(i), dim=1)))
+                  if (c > 2) then
+                     call take(below, nodes(i), (law%offset + side*t)*frame%axes(:, 3), surface%nodes(i, s))
+                  else ! edge 1 to 2: 1 and 2 below the mean plane, then 2 and 1 above it
+                     call take(below, nodes(i), (law%offset - 0.5_wp*t)*frame%axes(:, 3), surface%nodes(i, s))
+                     call take(above, nodes(i), (law%offset + 0.5_wp*t)*frame%axes(:, 3), surface%nodes(5 - i, s))
+                  end if
+               end associate
+            end do
+         end associate
+         if (c == 2) surface%corners(s) = 4
+         surface%n_nodes(s) = surface%corners(s)
+      end do
+      do i = 1, n
+         own(i)%lever = own(i)%lever/n_of(i)
+      end do
+      faces = [faces, own(:n)]
+
+   contains
+
+      !> The node AT of the side stands off NODE by LEVER.
+      subroutine take(of_node, node, lever, at)
+         integer, intent(inout) :: of_node(:)
+         integer, intent(in)    :: node
+         real(wp), intent(in)   :: lever(3)
+         integer, intent(inout) :: at
+
+         if (of_node(node) == 0) then
+            n = n + 1
+            of_node(node) = n
+            own(n)%point = node
+         end if
+         associate (face => of_node(node))
+            own(face)%lever = own(face)%lever + lever
+            n_of(face) = n_of(face) + 1
+            at = model%n_nodes + size(faces) + face
+         end associate
+      end subroutine take
+
+   end subroutine stand_off
+
+   !> Append the nodes of FACES behind those of the deck: with the elements of the nodes that they stand off, for their material.
+   subroutine append_faces(model, faces)
+      type(model_type), intent(inout)  :: model
+      type(face_node_type), intent(in) :: faces(:)
+      real(wp) :: x(3, size(faces))
+      integer  :: k, n
+
+      n = model%n_nodes
+      model%faces = faces
+      do k = 1, size(faces)
+         model%faces(k)%node = n + k
+         x(:, k) = model%x(:, faces(k)%point) + faces(k)%lever
+         associate (at => model%first_at(faces(k)%point:faces(k)%point + 1))
+            model%elements_at = [model%elements_at, model%elements_at(at(1):at(2) - 1)]
+         end associate
+         model%first_at = [model%first_at, size(model%elements_at) + 1]
+      end do
+      model%duplicate = [model%duplicate, spread(0, 1, size(faces))]
+      call append_nodes(model, x)
+      allocate (model%face_of(model%n_nodes), source=0)
+      do k = 1, size(faces)
+         model%face_of(n + k) = k
+      end do
+   end subroutine append_faces
+
+   !> The nodes of the faces move with the nodes that they stand off, and with what these move with.
+   subroutine couple_shell_faces(model)
+      type(model_type), intent(inout) :: model
+      real(wp), allocatable :: t(:, :, :)
+      integer, allocatable  :: masters(:)
+      integer  :: k
+      real(wp), parameter :: unit(3, 3) = reshape([1.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 1.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 1.0_wp], [3, 3])
+
+      if (.not. allocated(model%faces)) return
+      if (.not. allocated(model%left_out)) allocate (model%left_out(model%dimension, model%n_nodes), source=.false.)
+      do k = 1, size(model%faces)
+         allocate (masters(0), t(3, 3, 0))
+         associate (face => model%faces(k))
+            call add(face%point, unit)
+            associate (rotation => model%rotations(model%rotation_of(face%point)))
+               call add(rotation%node, by_rotation(face%lever)/rotation%arm)
+            end associate
+            call couple_node(model%coupling, model%n_nodes, face%node, masters, t)
+            model%left_out(:, face%node) = .true.
+            model%held(:, face%node) = .true.
+         end associate
+         deallocate (masters, t)
+      end do
+
+   contains
+
+      !> The face moves by MATRIX times the displacement of NODE.
+      subroutine add(node, matrix)
+         integer, intent(in)  :: node
+         real(wp), intent(in) :: matrix(3, 3)
+         integer :: c, j
+
+         c = 0
+         if (allocated(model%coupling%of_node)) c = model%coupling%of_node(node)
+         if (c == 0) then
+            call add_part(node, matrix)
+            return
+         end if
+         do j = model%coupling%first(c), model%coupling%first(c + 1) - 1
+            call add_part(model%coupling%node(j), matmul(matrix, model%coupling%t(:, :, j)))
+         end do
+      end subroutine add
+
+      subroutine add_part(node, matrix)
+         integer, intent(in)  :: node
+         real(wp), intent(in) :: matrix(3, 3)
+         integer :: j
+
+         j = findloc(masters, node, dim=1)
+         if (j > 0) then
+            t(:, :, j) = t(:, :, j) + matrix
+         else
+            masters = [masters, node]
+            t = reshape([t, matrix], [3, 3, size(masters)])
+         end if
+      end subroutine add_part
+
+   end subroutine couple_shell_faces
+
+end module shell_faces
