@@ -133,18 +133,24 @@ contains
       type(temperature_type), intent(in) :: temperature
       real(wp), intent(out)              :: at_node(:, :) !! (max_stresses, points) [pressure]
       real(wp), allocatable :: shares(:, :, :)            ! (max_stresses, nodes, elements of a block)
+      integer, allocatable  :: n_at(:)                    ! bodies at each node
       integer :: e, first, i, last
 
       at_node = 0.0_wp
+      allocate (n_at(size(at_node, 2)), source=model%first_at(2:size(at_node, 2) + 1) - model%first_at(:size(at_node, 2)))
+      do e = 1, model%n_elements ! shells and beams have tables of their own
+         if (is_shell(model, e) .or. is_beam(model, e)) n_at(corners_of(model, e)) = n_at(corners_of(model, e)) - 1
+      end do
       allocate (shares(max_stresses, size(model%element_nodes, 1), min(block, model%n_elements)))
       do first = 1, model%n_elements, block
          last = min(model%n_elements, first + block - 1)
          !$omp parallel do schedule(dynamic, 128) default(shared) if(last - first > few)
          do e = first, last
-            call find_shares(e, shares(:, :, e - first + 1))
+            if (.not. (is_shell(model, e) .or. is_beam(model, e))) call find_shares(e, shares(:, :, e - first + 1))
          end do
          !$omp end parallel do
          do e = first, last
+            if (is_shell(model, e) .or. is_beam(model, e)) cycle
             do i = 1, element_table(model%element_kind(e))%n_nodes
                associate (node => model%element_nodes(i, e))
                   at_node(:, node) = at_node(:, node) + shares(:, i, e - first + 1)
@@ -168,7 +174,7 @@ contains
             rise(:size(nodes)) = element_rise(model, e, temperature)
             do i = 1, size(nodes)
                share(:, i) = full_stress(model, e, own(:c, i), rise(i))/ &
-                             real(model%first_at(nodes(i) + 1) - model%first_at(nodes(i)), wp)
+                             real(n_at(nodes(i)), wp)
             end do
          end associate
       end subroutine find_shares

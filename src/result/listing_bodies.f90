@@ -6,11 +6,13 @@ module listing_bodies
    use elasticity, only: max_stresses, n_stresses, principal_stresses, von_mises
    use interface_operator, only: named_node
    use kinds, only: wp
-   use listing_nodes, only: add_directed, direction_columns, direction_words, list_moments, list_rotations, shows_element, &
+   use listing_nodes, only: add_directed, in_units, direction_columns, &
+                            direction_words, list_moments, list_rotations, shows_element, &
                             shows_node
    use listing_table, only: axes, column, listing_table_type, noise, page_type, page_width
-   use model_data, only: has_ground_springs, has_second_order, model_type, n_bars, n_points, supported
+   use model_data, only: has_ground_springs, has_second_order, is_beam, is_shell, model_type, n_bars, n_points, supported
    use node_coupling, only: held_forces
+   use structural_results, only: list_structural
    use text_tools, only: clean
    implicit none
    private
@@ -32,7 +34,8 @@ contains
 
       call list_displacements(page, model, analysis)
       call list_rotations(page, model, analysis)
-      if (model%n_elements > 0) call list_stresses(page, principal, model, analysis)
+      if (has_bodies(model)) call list_stresses(page, principal, model, analysis)
+      call list_structural(page, model, analysis)
       if (principal .and. has_second_order(model)) call list_node_stresses(page, model, analysis)
       call list_reactions(page, model, analysis)
       call list_moments(page, model, analysis)
@@ -126,9 +129,10 @@ contains
 
       allocate (stress(max_stresses, model%n_elements), source=0.0_wp)
       allocate (centre(model%dimension, model%n_elements))
-      n = n_stresses(model%properties(model%element_property(model%n_elements))%state)
+      n = size(stress_names(model))
       !$omp parallel do schedule(dynamic, piece) default(shared) if(model%n_elements > few)
       do e = 1, model%n_elements
+         if (is_shell(model, e) .or. is_beam(model, e)) cycle
          stress(:n_stresses(model%properties(model%element_property(e))%state), e) = &
             element_stress(model, e, analysis%all_u, analysis%now%temperature)
          centre(:, e) = element_centre(model, e)
@@ -139,10 +143,27 @@ contains
                        [column('ELEMENT', 'i11'), column('CENTRE '//axes(:model%dimension), 'es13.5'), &
                         column(stress_names(model), 'es13.5')])
       call table%print_head(page%file)
-      list = pack([(e, e = 1, model%n_elements)], [(shows_element(page, model, e), e = 1, model%n_elements)])
+      list = pack([(e, e = 1, model%n_elements)], [(shows_body(page, model, e), e = 1, model%n_elements)])
       call print_rows(page, table, model%element_id(list), clean(centre(:, list)), clean(stress(:n, list), floor))
       if (principal) call list_principal(page, model, analysis, floor)
    end subroutine list_stresses
+
+   !> Whether MODEL has elements that are neither shells nor beams.
+   pure logical function has_bodies(model)
+      type(model_type), intent(in) :: model
+
+      has_bodies = model%n_elements > 0
+      if (allocated(model%structural%place)) has_bodies = any(model%structural%place == 0)
+   end function has_bodies
+
+   !> Whether the tables of bodies have element E.
+   pure logical function shows_body(page, model, e)
+      type(page_type), intent(in)  :: page
+      type(model_type), intent(in) :: model
+      integer, intent(in)          :: e
+
+      shows_body = shows_element(page, model, e) .and. .not. (is_shell(model, e) .or. is_beam(model, e))
+   end function shows_body
 
    !> Which of the stresses (xx, yy, zz, xy, yz, zx) the tables of MODEL have.
    pure function shown_stresses(model) result(shown)
@@ -207,7 +228,7 @@ contains
                        [column('ELEMENT', 'i11'), column([character(9) :: 'SIGMA 1', 'SIGMA 2', 'SIGMA 3', 'VON MISES'], 'es13.5')])
       call table%print_head(page%file)
       do e = 1, model%n_elements
-         if (.not. shows_element(page, model, e)) cycle
+         if (.not. shows_body(page, model, e)) cycle
          full = whole_stress(model, e, analysis%all_u, analysis%now%temperature)
          call table%add([model%element_id(e)])
          call table%add(clean(principal_stresses(full), floor))
@@ -282,14 +303,5 @@ contains
       end subroutine balance_line
 
    end subroutine list_reactions
-
-   !> The unit behind a heading, in brackets; empty where LABEL is blank.
-   pure function in_units(label) result(words)
-      character(*), intent(in)  :: label
-      character(:), allocatable :: words
-
-      words = ''
-      if (label /= '') words = '   ('//trim(label)//')'
-   end function in_units
 
 end module listing_bodies

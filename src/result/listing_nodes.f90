@@ -13,7 +13,8 @@ module listing_nodes
    implicit none
    private
 
-   public :: shows_node, shows_element, shows_interface, direction_columns, direction_words, add_directed, list_rotations, &
+   public :: in_units, shows_node, shows_element, shows_interface, direction_columns, direction_words, add_directed, &
+             list_rotations, &
              list_moments
 
    character(1), parameter :: numbers(3) = ['1', '2', '3']
@@ -162,5 +163,14 @@ contains
       call table%start(title, [column('NODE', 'i11'), direction_columns(page, part, m, behind=.true.)])
       call table%print_head(page%file)
    end subroutine start_table
+
+   !> The unit behind a heading, in brackets; empty where LABEL is blank.
+   pure function in_units(label) result(words)
+      character(*), intent(in)  :: label
+      character(:), allocatable :: words
+
+      words = ''
+      if (label /= '') words = '   ('//trim(label)//')'
+   end function in_units
 
 end module listing_nodes

@@ -15,6 +15,7 @@ module stage_answer
    use node_coupling, only: corner_displacements
    use normal_stiffness, only: branch_open, normal_state
    use numbers, only: first_largest, is_measure, cross
+   use structural_results, only: node_peaks
    use surface_build, only: surface_node_list, surface_nodes
    use text_tools, only: above, integer_text
    implicit none
@@ -211,7 +212,7 @@ contains
       type(model_type), intent(in)           :: model
       type(analysis_type), intent(in)        :: analysis
       type(stage_answer_type), intent(inout) :: answer
-      real(wp), allocatable :: at_node(:, :), size_of(:)
+      real(wp), allocatable :: at_node(:, :), size_of(:), structural(:), at_ends(:)
       integer :: e, node
 
       allocate (size_of(n_points(model)))
@@ -224,8 +225,10 @@ contains
       if (model%n_elements == 0) return
       allocate (at_node(max_stresses, n_points(model)))
       call node_stresses(model, analysis%all_u, analysis%now%temperature, at_node)
+      allocate (structural(size(size_of)), at_ends(model%n_elements))
+      call node_peaks(model, analysis%all_u, analysis%now%temperature, structural, at_ends, analysis)
       do node = 1, size(size_of)
-         size_of(node) = von_mises(at_node(:, node))
+         size_of(node) = max(von_mises(at_node(:, node)), structural(node))
       end do
       node = first_largest(size_of, model%used(:size(size_of)))
       answer%at_node = peak_type(.true., largest(size_of), model%node_id(node), model%x(:, node))
@@ -233,7 +236,7 @@ contains
       allocate (size_of(model%n_elements))
       !$omp parallel do schedule(dynamic, 512) default(shared) if(model%n_elements > 4096)
       do e = 1, model%n_elements
-         size_of(e) = von_mises(whole_stress(model, e, analysis%all_u, analysis%now%temperature))
+         size_of(e) = max(von_mises(whole_stress(model, e, analysis%all_u, analysis%now%temperature)), at_ends(e))
       end do
       !$omp end parallel do
       e = first_largest(size_of, size_of >= 0.0_wp)

@@ -8,7 +8,8 @@ module vtu_bodies
    use kinds, only: wp
    use listing_table, only: label_type
    use mode_values, only: modes_type
-   use model_data, only: corners_of, model_type, n_points, temperature_type
+   use model_data, only: corners_of, is_shell, model_type, n_points, temperature_type
+   use structural_results, only: face_stresses, node_peaks
    use temperatures, only: node_temperatures
    use text_tools, only: integer_text, real_text
    use vtu_file, only: cell_data, named, point_data, vtu_file_type
@@ -28,7 +29,7 @@ contains
       type(shown_type), intent(in)       :: shown
       real(wp), intent(in)               :: u(:, :) !! (dimension, n_nodes) [length]
       type(temperature_type), intent(in) :: temperature
-      real(wp), allocatable :: moved(:, :), at_node(:, :), at_centre(:, :), principal(:, :)
+      real(wp), allocatable :: moved(:, :), at_node(:, :), at_centre(:, :), principal(:, :), peaks(:), at_ends(:)
       integer :: i, m, n
 
       m = shown%n_points
@@ -41,10 +42,12 @@ contains
          principal(:, i) = principal_stresses(at_centre(:, i))
       end do
       call node_stresses(model, u, temperature, at_node)
+      allocate (peaks(model%n_nodes), at_ends(model%n_elements))
+      call node_peaks(model, u, temperature, peaks(:m), at_ends)
       call write_mesh(file, model, shown)
       call file%add(point_data, named('displacement', labels%length), moved)
       call file%add(point_data, named('stress', labels%pressure), at_node(:, :m))
-      call file%add(point_data, named('von_mises', labels%pressure), [(von_mises(at_node(:, i)), i = 1, m)])
+      call file%add(point_data, named('von_mises', labels%pressure), [(max(von_mises(at_node(:, i)), peaks(i)), i = 1, m)])
       if (shown%is_warm) then
          associate (t => node_temperatures(model, temperature))
             call file%add(point_data, 'temperature [deg]', t(:m))
@@ -54,8 +57,35 @@ contains
       call file%add(cell_data, 'property', model%properties(model%element_property(shown%elements))%id)
       call file%add(cell_data, named('stress_at_centre', labels%pressure), at_centre)
       call file%add(cell_data, named('principal_stress', labels%pressure), principal)
-      call file%add(cell_data, named('von_mises_at_centre', labels%pressure), [(von_mises(at_centre(:, i)), i = 1, n)])
+      call file%add(cell_data, named('von_mises_at_centre', labels%pressure), [(max(von_mises(at_centre(:, i)), &
+                                                                                at_ends(shown%elements(i))), i = 1, n)])
+      if (allocated(model%structural%place)) call write_faces(file, labels, model, shown, u, temperature)
    end subroutine write_bodies
+
+   !> Of shells the thickness and the von Mises stress at the centres of both faces; of other elements zero.
+   subroutine write_faces(file, labels, model, shown, u, temperature)
+      type(vtu_file_type), intent(inout) :: file
+      type(label_type), intent(in)       :: labels
+      type(model_type), intent(in)       :: model
+      type(shown_type), intent(in)       :: shown
+      real(wp), intent(in)               :: u(:, :) !! (dimension, n_nodes) [length]
+      type(temperature_type), intent(in) :: temperature
+      real(wp) :: thickness(size(shown%elements)), at_face(size(shown%elements), 2), stress(max_stresses, 5, 2)
+      integer  :: f, i, n
+
+      thickness = 0.0_wp
+      at_face = 0.0_wp
+      do i = 1, size(thickness)
+         if (.not. is_shell(model, shown%elements(i))) cycle
+         n = size(corners_of(model, shown%elements(i)))
+         call face_stresses(model, shown%elements(i), u, temperature, stress)
+         at_face(i, :) = [(von_mises(stress(:, n + 1, f)), f = 1, 2)]
+         thickness(i) = sum(model%structural%shells(model%structural%place(shown%elements(i)))%thickness(:n))/n
+      end do
+      call file%add(cell_data, named('thickness', labels%length), thickness)
+      call file%add(cell_data, named('von_mises_at_z1', labels%pressure), at_face(:, 1))
+      call file%add(cell_data, named('von_mises_at_z2', labels%pressure), at_face(:, 2))
+   end subroutine write_faces
 
    !> What the LABELS of a file are that is written in pieces, for write_piece.
    pure function notes_for_pieces(labels) result(notes)

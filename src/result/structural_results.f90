@@ -1,0 +1,253 @@
+!> What shells and beams bear: stresses at both faces of shells, forces and stresses at the ends of beams; their tables in the listing.
+module structural_results
+   use analysis_state, only: analysis_type
+   use beam_element, only: beam_end_forces, beam_law, beam_thermal_load
+   use elasticity, only: max_stresses, von_mises
+   use kinds, only: wp
+   use listing_nodes, only: in_units, shows_element
+   use listing_table, only: column, listing_table_type, noise, page_type
+   use model_data, only: corners_of, is_beam, is_shell, model_type, n_points, own_nodes, temperature_type
+   use shell_element, only: shell_frame, shell_frame_of
+   use structural_elements, only: beam_ends, nodal_values, structural_stress
+   use temperatures, only: element_rise
+   use text_tools, only: clean
+   implicit none
+   private
+
+   public :: end_forces, face_stresses, list_structural, node_peaks, section_stresses
+
+   real(wp), parameter :: one_plate = 0.94_wp ! cosine of 20 degrees: shells at a node whose normals differ more are not averaged
+
+contains
+
+   !> Stresses of shell E at its faces Z1 and Z2, (xx, yy, zz, xy, yz, zx) in global axes, at its corners and then at its centre.
+   pure subroutine face_stresses(model, e, u, temperature, stress)
+      type(model_type), intent(in)       :: model
+      integer, intent(in)                :: e
+      real(wp), intent(in)               :: u(:, :) !! (3, n_nodes) [length]
+      type(temperature_type), intent(in) :: temperature
+      real(wp), intent(out)              :: stress(max_stresses, 5, 2) !! (component, corner, face) [pressure]
+
+      stress = 0.0_wp
+      associate (n => size(corners_of(model, e)) + 1)
+         call structural_stress(model, e, u(:, own_nodes(model, e)), element_rise(model, e, temperature), &
+                                model%properties(model%element_property(e))%fibre, stress(:, :n, :))
+      end associate
+   end subroutine face_stresses
+
+   !> The forces in beam E at its ends, column 1 at end A, by which what lies beyond, towards B, acts on what lies before: N, Q along y and
+   !! z, T, M about y and z, in the axes of the beam [force], [force length].
+   pure function end_forces(model, analysis, e) result(forces)
+      type(model_type), intent(in)    :: model
+      type(analysis_type), intent(in) :: analysis
+      integer, intent(in)             :: e
+      real(wp) :: forces(6, 2), load(12), s(12)
+
+      associate (place => model%structural%place(e), now => analysis%now%temperature)
+         load = beam_thermal_load(model%structural%beams(place), sum(element_rise(model, e, now))/2.0_wp)
+         load = load + analysis%fraction*of_stage(analysis%stage) + (1.0_wp - analysis%fraction)*of_stage(analysis%stage - 1)
+         s = beam_end_forces(model%structural%beams(place), beam_ends(model, e), &
+                             nodal_values(model, e, analysis%all_u(:, own_nodes(model, e))), load)
+      end associate
+      forces = reshape([-s(:6), s(7:)], [6, 2])
+
+   contains
+
+      !> What the ends bear of the loads along the beam at the end of STAGE.
+      pure function of_stage(stage) result(f)
+         integer, intent(in) :: stage
+         real(wp) :: f(12)
+
+         f = 0.0_wp
+         if (stage < 1) return
+         if (allocated(model%stage_loads(stage)%beam)) f = model%stage_loads(stage)%beam(:, model%structural%place(e))
+      end function of_stage
+
+   end function end_forces
+
+   !> Axial stress of a beam at C, D, E, F and at the centroid under its FORCES at an end, as end_forces has them [pressure].
+   pure function section_stresses(law, forces) result(stress)
+      type(beam_law), intent(in) :: law
+      real(wp), intent(in)       :: forces(6)
+      real(wp) :: stress(5), bent(2), det
+
+      associate (i => law%inertia, n => forces(1), m_y => forces(5), m_z => forces(6))
+         stress = 0.0_wp
+         if (law%area > 0.0_wp) stress = n/law%area
+         bent = 0.0_wp                       ! E v'', E w'' from M_z = E (I1 v'' + I12 w''), -M_y = E (I12 v'' + I2 w'')
+         det = i(1)*i(2) - i(3)**2
+         if (det > 0.0_wp) then
+            bent = [i(2)*m_z + i(3)*m_y, -i(3)*m_z - i(1)*m_y]/det
+         else if (i(1) > 0.0_wp) then
+            bent(1) = m_z/i(1)
+         else if (i(2) > 0.0_wp) then
+            bent(2) = -m_y/i(2)
+         end if
+         stress(:4) = stress(:4) - matmul(bent, law%point)
+      end associate
+   end function section_stresses
+
+   !> The largest von Mises stress of shells, and where the ANALYSIS is given of beams, at every point of the model: of shells at either
+   !! face, the mean of those that make one plate there; of beams at the stress points. AT_CENTRE: at the centres of shells and the ends
+   !! of beams, of every element; 0: a body.
+   subroutine node_peaks(model, u, temperature, at_node, at_centre, analysis)
+      type(model_type), intent(in)       :: model
+      real(wp), intent(in)               :: u(:, :)      !! (dimension, n_nodes) [length]
+      type(temperature_type), intent(in) :: temperature
+      real(wp), intent(out)              :: at_node(:)   !! (points) [pressure]
+      real(wp), intent(out)              :: at_centre(:) !! (n_elements)
+      type(analysis_type), intent(in), optional :: analysis
+      real(wp), allocatable :: stress(:, :, :, :), normal(:, :)
+      type(shell_frame) :: frame
+      real(wp) :: forces(6, 2), largest
+      integer  :: e, end, node
+
+      at_node = 0.0_wp
+      at_centre = 0.0_wp
+      if (.not. allocated(model%structural%place)) return
+      allocate (stress(max_stresses, 5, 2, size(model%structural%shells)), normal(3, size(model%structural%shells)))
+      do e = 1, model%n_elements
+         if (is_shell(model, e)) then
+            associate (own => stress(:, :, :, model%structural%place(e)), n => size(corners_of(model, e)))
+               call face_stresses(model, e, u, temperature, own)
+               frame = shell_frame_of(model%x(:, corners_of(model, e)), 0.0_wp)
+               normal(:, model%structural%place(e)) = frame%axes(:, 3)
+               at_centre(e) = max(von_mises(own(:, n + 1, 1)), von_mises(own(:, n + 1, 2)))
+            end associate
+         else if (is_beam(model, e) .and. present(analysis)) then
+            forces = end_forces(model, analysis, e)
+            do end = 1, 2
+               largest = maxval(abs(section_stresses(model%structural%beams(model%structural%place(e)), forces(:, end))))
+               at_centre(e) = max(at_centre(e), largest)
+               node = model%element_nodes(end, e)
+               at_node(node) = max(at_node(node), largest)
+            end do
+         end if
+      end do
+      do node = 1, n_points(model)
+         call average(node)
+      end do
+
+   contains
+
+      !> The largest mean at NODE over the shells there that make one plate.
+      subroutine average(node)
+         integer, intent(in) :: node
+         real(wp) :: total(max_stresses, 2)
+         integer  :: corner, f, i, j, n
+
+         do i = model%first_at(node), model%first_at(node + 1) - 1
+            if (.not. is_shell(model, model%elements_at(i))) cycle
+            total = 0.0_wp
+            n = 0
+            do j = model%first_at(node), model%first_at(node + 1) - 1
+               if (.not. is_shell(model, model%elements_at(j))) cycle
+               associate (first => model%structural%place(model%elements_at(i)), &
+                          other => model%structural%place(model%elements_at(j)))
+                  if (abs(dot_product(normal(:, first), normal(:, other))) < one_plate) cycle
+                  corner = findloc(corners_of(model, model%elements_at(j)), node, dim=1)
+                  if (corner == 0) cycle
+                  n = n + 1
+                  do f = 1, 2 ! of one turned round the faces change places
+                     total(:, f) = total(:, f) + stress(:, corner, merge(f, 3 - f, dot_product(normal(:, first), &
+                                                                                              normal(:, other)) > 0.0_wp), other)
+                  end do
+               end associate
+            end do
+            if (n > 0) at_node(node) = max(at_node(node), von_mises(total(:, 1)/n), von_mises(total(:, 2)/n))
+         end do
+      end subroutine average
+
+   end subroutine node_peaks
+
+   !> The tables of shells and of beams, where there are any.
+   subroutine list_structural(page, model, analysis)
+      type(page_type), intent(inout)  :: page
+      type(model_type), intent(in)    :: model
+      type(analysis_type), intent(in) :: analysis
+
+      if (.not. allocated(model%structural%place)) return
+      if (size(model%structural%shells) > 0) call list_shells(page, model, analysis)
+      if (size(model%structural%beams) > 0) call list_beams(page, model, analysis)
+   end subroutine list_structural
+
+   subroutine list_shells(page, model, analysis)
+      type(page_type), intent(inout)  :: page
+      type(model_type), intent(in)    :: model
+      type(analysis_type), intent(in) :: analysis
+      type(listing_table_type) :: table
+      real(wp) :: stress(max_stresses, 5, 2), floor
+      integer  :: e, f, pass
+
+      call table%start('STRESSES AT THE FACES OF SHELLS, AT THEIR CENTRES'//page%now//in_units(page%labels%pressure), &
+         [column('ELEMENT', 'i11'), column('HEIGHT', 'es13.5'), column([character(9) :: 'SIGMA X', 'SIGMA Y', 'SIGMA Z', 'TAU XY', &
+          'TAU YZ', 'TAU ZX', 'VON MISES'], 'es13.5')])
+      call table%print_head(page%file)
+      floor = 0.0_wp
+      do pass = 1, 2 ! the largest, for what is but rounding
+         do e = 1, model%n_elements
+            if (.not. is_shell(model, e)) cycle
+            if (pass == 2 .and. .not. shows_element(page, model, e)) cycle
+            call face_stresses(model, e, analysis%all_u, analysis%now%temperature, stress)
+            associate (centre => stress(:, size(corners_of(model, e)) + 1, :))
+               if (pass == 1) floor = max(floor, noise*maxval(abs(centre)))
+               do f = 1, merge(2, 0, pass == 2)
+                  call table%add([model%element_id(e)])
+                  call table%add([model%properties(model%element_property(e))%fibre(f)])
+                  call table%add(clean(centre(:, f), floor))
+                  call table%add(clean([von_mises(centre(:, f))], floor))
+                  call table%print_row(page%file)
+               end do
+            end associate
+         end do
+      end do
+   end subroutine list_shells
+
+   subroutine list_beams(page, model, analysis)
+      type(page_type), intent(inout)  :: page
+      type(model_type), intent(in)    :: model
+      type(analysis_type), intent(in) :: analysis
+      type(listing_table_type) :: table, stresses
+      real(wp), allocatable :: forces(:, :, :)
+      real(wp) :: floor(2), stress_floor
+      integer  :: e, end
+
+      allocate (forces(6, 2, size(model%structural%beams)))
+      stress_floor = 0.0_wp
+      do e = 1, model%n_elements
+         if (.not. is_beam(model, e)) cycle
+         associate (place => model%structural%place(e))
+            forces(:, :, place) = end_forces(model, analysis, e)
+            do end = 1, 2
+               stress_floor = max(stress_floor, noise*maxval(abs(section_stresses(model%structural%beams(place), &
+                                                                                  forces(:, end, place)))))
+            end do
+         end associate
+      end do
+      floor = noise*[maxval(abs(forces(:3, :, :))), maxval(abs(forces(4:, :, :)))]
+      call table%start('FORCES IN BEAMS, AT BOTH ENDS, IN THE AXES OF THE BEAM'//page%now, &
+         [column('ELEMENT', 'i11'), column('NODE', 'i11'), column([character(7) :: 'AXIAL N', 'Q Y', 'Q Z'], 'es13.5', &
+          page%labels%force), column([character(6) :: 'TORQUE', 'M Y', 'M Z'], 'es13.5', page%labels%moment)])
+      call table%print_head(page%file)
+      call stresses%start('STRESSES IN BEAMS, AT BOTH ENDS'//page%now//in_units(page%labels%pressure), &
+         [column('ELEMENT', 'i11'), column('NODE', 'i11'), column([character(8) :: 'AT C', 'AT D', 'AT E', 'AT F', 'CENTROID'], &
+          'es13.5')])
+      do e = 1, model%n_elements
+         if (.not. is_beam(model, e)) cycle
+         if (.not. shows_element(page, model, e)) cycle
+         associate (place => model%structural%place(e))
+            do end = 1, 2
+               call table%add([model%element_id(e), model%node_id(model%element_nodes(end, e))])
+               call table%add(clean(forces(:3, end, place), floor(1)))
+               call table%add(clean(forces(4:, end, place), floor(2)))
+               call table%print_row(page%file)
+               call stresses%add([model%element_id(e), model%node_id(model%element_nodes(end, e))])
+               call stresses%add(clean(section_stresses(model%structural%beams(place), forces(:, end, place)), stress_floor))
+               call stresses%keep_row()
+            end do
+         end associate
+      end do
+      call stresses%print_kept(page%file)
+   end subroutine list_beams
+
+end module structural_results
