@@ -77,9 +77,10 @@ contains
       real(wp) :: own(3, 3), motion(3, 6)
       integer  :: c, digit, k, node, point
 
-      call find_node(deck, card%line, 2, card%node, model, without, point)
+      call find_node(deck, card%line, card%node_at, card%node, model, without, point)
       if (no_displacement(model, card%components) .and. .not. turn_others()) call deck%field_error(card%line, &
-         'CM', 'names no displacement that nodes of this model have; expected some of 1 to '//integer_text(model%dimension))
+         card%components_at, 'names no displacement that nodes of this model have; expected some of 1 to '// &
+         integer_text(model%dimension), called='CM')
       do k = 1, size(card%nodes)
          call find_node(deck, card%line, card%at(k), card%nodes(k), model, without, node)
          if (node == 0 .or. point == 0) cycle

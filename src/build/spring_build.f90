@@ -9,13 +9,14 @@ module spring_build
    use kinds, only: wp
    use model_data, only: a_spring, bar_type, model_type, n_bars
    use node_build, only: find_nodes
+   use reference_nodes, only: node_axes, rotation_at
    use text_tools, only: integer_text
    implicit none
    private
 
    public :: build_bars, is_bar, find_stage, build_springs, build_masses, check_mass
 
-   character(2), parameter :: axis_names(3) = ['T1', 'T2', 'T3']
+   character(2), parameter :: axis_names(6) = ['T1', 'T2', 'T3', 'R1', 'R2', 'R3']
 
 contains
 
@@ -139,7 +140,7 @@ contains
          call deck%report_repeated('PBUSH', pack(laws%id, laws%is_bush), pack(laws%line, laws%is_bush))
          if (size(cards) == 0) return
          n = size(model%bars)
-         allocate (bars(n + 3*size(cards)))
+         allocate (bars(n + 6*size(cards)))
          bars(:n) = model%bars
          do i = 1, size(cards)
             call build_spring(deck, cards(i), model, bars, n)
@@ -155,7 +156,7 @@ contains
       type(model_type), intent(inout) :: model
       type(bar_type), intent(inout)   :: bars(:)
       integer, intent(inout)          :: n
-      real(wp) :: stiffness(3), damping, directions(3, 3)
+      real(wp) :: stiffness(6), damping, directions(3, 3)
       integer  :: k, nodes(2)
       logical  :: ok
 
@@ -164,9 +165,10 @@ contains
          call find_nodes(deck, card%line, card%nodes, model, nodes)
          call find_axes(deck, card, model, nodes, stiffness, directions, ok)
          if (.not. ok) return
-         do k = 1, 3
+         do k = 1, 6
             if (stiffness(k) <= 0.0_wp) cycle
-            call add(axis_names(k), stiffness(k), spread(directions(:, k), 2, 2))
+            if (k > 3) call add_rotational(k, stiffness(k), spread(directions(:, k - 3), 2, 2))
+            if (k <= 3) call add(axis_names(k), stiffness(k), spread(directions(:, k), 2, 2), nodes)
          end do
       else
          do k = 1, 2
@@ -175,23 +177,56 @@ contains
             if (nodes(k) == 0) cycle
             if (card%components(k) == 3 .and. model%dimension == 2) call deck%field_error(card%line, 'C'//integer_text(k), &
                'a plane model has no component 3')
-            if (card%components(k) < 1 .or. card%components(k) > model%dimension) return ! said
-            directions(:, k) = direction_of(model, nodes(k), card%components(k))
+            if (card%components(k) < 1 .or. (card%components(k) > model%dimension .and. card%components(k) < 4)) return ! said
+            directions(:, k) = direction_of(model, nodes(k), card%components(k) - merge(3, 0, card%components(k) > 3))
          end do
          k = merge(1, 2, card%nodes(1) > 0) ! the first node that is not the ground
          if (any(nodes == 0 .and. card%nodes > 0) .or. all(card%nodes == 0)) return
          if (k == 1) directions(:, :2) = -directions(:, :2) ! NASTRAN's force is k (u_1 - u_2)
          if (k == 2) nodes = nodes([2, 1])
          if (k == 2) directions(:, 1) = directions(:, 2)
-         call add(axis_names(card%components(k)), stiffness(1), directions(:, :2))
-         bars(n)%ground_first = k == 2
+         if (card%components(k) > 3) then
+            call add_rotational(card%components(k), stiffness(1), directions(:, :2))
+         else
+            call add(axis_names(card%components(k)), stiffness(1), directions(:, :2), nodes)
+         end if
+         if (n > 0) bars(n)%ground_first = k == 2
       end if
 
    contains
 
-      subroutine add(axis, k_axis, along)
+      !> A spring between rotations about AXES, unit: between the nodes of these, whose components are rotations times an arm.
+      subroutine add_rotational(component, k_axis, axes)
+         integer, intent(in)  :: component
+         real(wp), intent(in) :: k_axis, axes(3, 2)
+         real(wp) :: along(3, 2)
+         integer  :: end, turned(2)
+
+         turned = 0
+         along = 0.0_wp
+         if (model%dimension == 2 .and. component /= 6) return ! turns nothing in the plane
+         do end = 1, 2
+            if (nodes(end) == 0) cycle
+            if (rotation_at(model, nodes(end)) == 0) then
+               call deck%errors%add(card%line, 'spring '//integer_text(card%id)//': node '// &
+                  integer_text(model%node_id(nodes(end)))// &
+                  ' has no rotations; expected a node of shells or beams, or the reference node of an RBE2')
+               return
+            end if
+            associate (rotation => model%rotations(rotation_at(model, nodes(end))))
+               turned(end) = rotation%node
+               along(:, end) = axes(:, end)/rotation%arm
+               if (model%dimension == 2) along(:, end) = [axes(3, end), 0.0_wp, 0.0_wp]/rotation%arm
+            end associate
+         end do
+         if (turned(2) == 0) along(:, 2) = along(:, 1)
+         call add(axis_names(component), k_axis, along, turned)
+      end subroutine add_rotational
+
+      subroutine add(axis, k_axis, along, nodes)
          character(2), intent(in) :: axis
          real(wp), intent(in)     :: k_axis, along(3, 2)
+         integer, intent(in)      :: nodes(2)
 
          n = n + 1
          bars(n)%id = card%id
@@ -210,11 +245,12 @@ contains
    subroutine find_stiffness(deck, card, stiffness, damping)
       type(checked_deck), intent(in) :: deck
       type(spring_card), intent(in)  :: card
-      real(wp), intent(out)          :: stiffness(3) !! [force/length]
+      real(wp), intent(out)          :: stiffness(6) !! [force/length], [moment]
       real(wp), intent(out)          :: damping      !! [-]
       integer :: k
 
-      stiffness = [card%stiffness, 0.0_wp, 0.0_wp]
+      stiffness = 0.0_wp
+      stiffness(1) = card%stiffness
       damping = card%damping
       if (card%property == 0) return
       associate (laws => deck%bulk%spring_property)
@@ -236,7 +272,7 @@ contains
       type(spring_card), intent(in)  :: card
       type(model_type), intent(in)   :: model
       integer, intent(in)            :: nodes(2)
-      real(wp), intent(in)           :: stiffness(3)
+      real(wp), intent(in)           :: stiffness(6)
       real(wp), intent(out)          :: directions(3, 3) !! columns, unit
       logical, intent(out)           :: ok
       integer :: system
@@ -273,8 +309,8 @@ contains
       is_turned = allocated(model%node_system)
       if (is_turned) is_turned = model%node_system(node) > 0
       if (is_turned) then
-         associate (coupling => model%coupling)
-            direction(:model%dimension) = coupling%t(:, component, coupling%first(coupling%of_node(node)))
+         associate (axes => node_axes(model, node))
+            direction = axes(:, component)
          end associate
       else
          direction(component) = 1.0_wp

@@ -109,7 +109,7 @@ module bulk_data
       integer  :: line = 0, id = 0
       logical  :: is_bush = .false.
       integer  :: field = 1                             ! data field of the id
-      real(wp) :: stiffness(3) = 0.0_wp
+      real(wp) :: stiffness(6) = 0.0_wp
       real(wp) :: damping = 0.0_wp                      ! GE of a PELAS
    end type spring_property_card
 
@@ -136,12 +136,13 @@ module bulk_data
       real(wp) :: value = 0.0_wp                        ! D of an SPC, which has one node
    end type support_card
 
-   !> RBE2: the NODES move with the reference node as a rigid body, each in its DIRECTIONS; RBE3: the COMPONENTS of the reference node
+   !> RBE2, RBAR: the NODES move with the reference node as a rigid body, each in its DIRECTIONS; RBE3: the COMPONENTS of the reference node
    !! are the mean of the NODES, each with its WEIGHT in its DIRECTIONS.
    type, public :: rigid_card
       integer :: line = 0, id = 0
       logical :: is_mean = .false.                      ! RBE3
-      integer :: node = 0, components = 0               ! the reference node; RBE2: the components are the directions
+      integer :: node = 0, components = 0               ! the reference node; RBE2, RBAR: the components are the directions
+      integer :: node_at = 2, components_at = 3         ! their data fields
       integer, allocatable  :: nodes(:), directions(:), at(:) ! AT(k): data field of NODES(k)
       real(wp), allocatable :: weight(:)
       integer, allocatable  :: um_nodes(:), um_components(:), um_at(:) ! of an RBE3 with UM: what depends in place of the COMPONENTS

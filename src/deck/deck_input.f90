@@ -63,7 +63,7 @@ contains
       call cards%add_kinds(['MAT1'], read_mat1)
       call cards%add_kinds(['SPC ', 'SPC1', 'SPCM'], read_support)
       call cards%add_kinds(['SPCADD'], read_sum)
-      call cards%add_kinds(['RBE2', 'RBE3'], read_rigid)
+      call cards%add_kinds(['RBE2', 'RBE3', 'RBAR'], read_rigid)
       call cards%add_kinds(['MPC'], read_equation)
       call cards%add_kinds(['MPCADD'], read_sum)
       call cards%add_kinds(['FORCE ', 'FORCE1', 'FORCE2', 'MOMENT'], read_force)

@@ -15,6 +15,7 @@ module mesh_cards
    character(6), parameter, public :: system_names(6) = ['CORD1R', 'CORD1C', 'CORD1S', 'CORD2R', 'CORD2C', 'CORD2S']
    character(3), parameter :: node_names(max_nodes) = ['G1 ', 'G2 ', 'G3 ', 'G4 ', 'G5 ', 'G6 ', 'G7 ', 'G8 ', 'G9 ', 'G10', &
       'G11', 'G12', 'G13', 'G14', 'G15', 'G16', 'G17', 'G18', 'G19', 'G20']
+   character(2), parameter :: thickness_names(4) = ['T1', 'T2', 'T3', 'T4']
    character(2), parameter :: side_names(6) = ['S1', 'S2', 'S3', 'S4', 'S5', 'S6'] ! of a block
    character(*), parameter, public :: complete_remedy = ' (in Gmsh set Mesh.SecondOrderIncomplete = 1)'
 
@@ -126,9 +127,13 @@ contains
             call card%skip(['-    ', 'TFLAG'])
             flag = card%text_at(corners + 6 + merge(2, 0, kind == kind_tria3))
             if (flag /= '' .and. flag /= '0') call card%error('TFLAG', 'expected 0 or blank: T1 to T4 are thicknesses')
-            call card%field(['T1', 'T2', 'T3', 'T4'], plate%thickness(:corners), positive, default=0.0_wp)
+            call card%field(thickness_names(:corners), plate%thickness(:corners), positive, default=0.0_wp)
             plate%element = card%i
-            if (abs(plate%offset) > 0.0_wp .or. any(plate%thickness > 0.0_wp)) bulk%plate = [bulk%plate, plate]
+            if (abs(plate%offset) > 0.0_wp .or. any(plate%thickness > 0.0_wp)) then
+               !$omp critical (plates) ! in any order: they are found by the numbers of their elements
+               bulk%plate = [bulk%plate, plate]
+               !$omp end critical (plates)
+            end if
          end if
          if (kind == kind_tria6) call card%blank(['ZOFFS', 'T1   ', 'T2   ', 'T3   '])
          if (kind == kind_quad8) then

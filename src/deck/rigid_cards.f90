@@ -22,6 +22,10 @@ contains
       integer  :: directions, first, last, node
       real(wp) :: weight
 
+      if (card%name == 'RBAR') then
+         call read_rigid_bar(card, bulk%rigid(card%i))
+         return
+      end if
       associate (rigid => bulk%rigid(card%i))
          rigid%line = card%line
          rigid%is_mean = card%name == 'RBE3'
@@ -51,6 +55,39 @@ contains
          end if
       end associate
    end subroutine read_rigid
+
+   !> RBAR: of nodes GA and GB one is independent, all its six components in CNA or CNB; the components CMA or CMB of the other, blank all
+   !! six, move with it as a rigid body.
+   subroutine read_rigid_bar(card, rigid)
+      type(card_fields_type), intent(inout) :: card
+      type(rigid_card), intent(inout)       :: rigid
+      integer :: nodes(2), independent(2), dependent(2), a, c
+
+      call card%field('EID', rigid%id)
+      call card%field(['GA', 'GB'], nodes)
+      call card%components('CNA', independent(1), default=0)
+      call card%components('CNB', independent(2), default=0)
+      call card%components('CMA', dependent(1), default=0)
+      call card%components('CMB', dependent(2), default=0)
+      call card%field('ALPHA', rigid%alpha, default=0.0_wp)
+      call card%finish(rigid%line)
+      rigid%alpha_at = 8
+      a = merge(2, 1, independent(1) == 0 .and. independent(2) > 0) ! the independent end
+      if (any([(.not. has_component(independent(a), c), c = 1, 6)]) .or. independent(3 - a) > 0) then
+         call card%error('CNA', 'expected all six components, 123456, independent at one end, in CNA or CNB')
+      else if (dependent(a) > 0) then
+         call card%error(merge('CMA', 'CMB', a == 1), 'components of the independent end; expected a blank')
+      end if
+      if (dependent(3 - a) == 0) dependent(3 - a) = 123456
+      rigid%node = nodes(a)
+      rigid%node_at = a + 1
+      rigid%components = dependent(3 - a)
+      rigid%components_at = 8 - a
+      rigid%nodes = [nodes(3 - a)]
+      rigid%at = [4 - a]
+      rigid%directions = [rigid%components]
+      rigid%weight = [1.0_wp]
+   end subroutine read_rigid_bar
 
    !> ALPHA in data field K, and TREF behind it where that is not behind field LAST.
    subroutine read_expansion(card, k, last, rigid)

@@ -14,7 +14,7 @@ contains
 
    !> CELAS1: a spring between component C1 of node G1 and C2 of G2, with a PELAS; CELAS2: with K. A node left blank is the ground.
    !! CBUSH: springs along the three axes of system CID between GA and GB or the ground, with a PBUSH. Where along the line between
-   !! them it stands, S, means nothing to nodes without rotations.
+   !! them it stands, S, has no effect: it acts between the displacements of its nodes, and between their rotations.
    subroutine read_spring(card, bulk)
       type(card_fields_type), intent(inout) :: card
       type(bulk_data_type), intent(inout)   :: bulk
@@ -67,27 +67,25 @@ contains
          field = 'C'//integer_text(k)
          associate (c => spring%components(k))
             if (c < 0 .or. c > 6) then
-               call card%error(field, 'there is no component '//integer_text(c)//'; expected 1, 2 or 3, blank or 0 at the ground')
+               call card%error(field, 'there is no component '//integer_text(c)//'; expected 1 to 6, blank or 0 at the ground')
             else if (spring%nodes(k) == 0) then
                cycle
             else if (c == 0) then
                call card%error(field, 'blank or 0, expected the component at G'//integer_text(k))
-            else if (c > 3) then
-               call card%error(field, 'component '//integer_text(c)//' is a rotation, which nodes of bodies do not have; '// &
-                               'expected 1, 2 or 3')
+            else if (all(spring%components > 0) .and. (c > 3 .neqv. spring%components(3 - k) > 3)) then
+               if (k == 1) call card%error(field, 'a displacement at one end and a rotation at the other; expected two of a kind')
             end if
          end associate
       end do
    end subroutine check_ends
 
-   !> PELAS: the stiffnesses K of one or two springs; PBUSH: K1, K2, K3 of a CBUSH along its axes. Factors of stresses have no effect.
+   !> PELAS: the stiffnesses K of one or two springs; PBUSH: K1, K2, K3 of a CBUSH along its axes, K4, K5, K6 about
+   !! them. Factors of stresses have no effect.
    subroutine read_spring_property(card, bulk)
       type(card_fields_type), intent(inout) :: card
       type(bulk_data_type), intent(inout)   :: bulk
       type(spring_property_card) :: second
-      real(wp)     :: rotational(3)
       character(8) :: flag
-      integer :: k
 
       associate (first => bulk%spring_property(card%i))
          first%is_bush = card%name == 'PBUSH'
@@ -95,12 +93,7 @@ contains
             first%line = card%line
             call card%field('PID', first%id)
             call card%word('FLAG', '|K|', flag)
-            call card%field(['K1', 'K2', 'K3'], first%stiffness, not_negative, default=0.0_wp)
-            call card%field(['K4', 'K5', 'K6'], rotational, default=0.0_wp)
-            do k = 1, 3
-               if (abs(rotational(k)) > 0.0_wp) call card%error('K'//integer_text(k + 3), &
-                  'against a rotation, which nodes of bodies do not have; expected blank')
-            end do
+            call card%field(['K1', 'K2', 'K3', 'K4', 'K5', 'K6'], first%stiffness, not_negative, default=0.0_wp)
             call check_rest(card, bulk)
             return
          end if

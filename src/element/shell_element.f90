@@ -161,22 +161,33 @@ contains
       type(shell_law), intent(in)   :: law
       type(shell_frame), intent(in) :: frame
       real(wp), intent(inout)       :: own(24, 24)
-      real(wp) :: k(16, 16)
-      integer  :: at(12), b, i
+      real(wp) :: k(16, 16), f(16)
+      integer  :: at(12), b
 
       call mode_stiffness(law, frame, k)
-      do i = 16, 13, -1
-         do b = 1, i - 1
-            k(:i - 1, b) = k(:i - 1, b) - k(:i - 1, i)*k(i, b)/k(i, i)
-         end do
-      end do
+      f = 0.0_wp
+      call condense(k, f)
       at = [(6*b - 5, 6*b - 4, 6*b, b = 1, 4)]
       do b = 1, 12
          own(at, at(b)) = k(:12, b)
       end do
    end subroutine add_quadrilateral
 
-   !> [k] between u, v, theta_z of the corners and the parameters of the four modes.
+   !> Eliminate the modes from [K] and the forces F: what is left of the first twelve; of the others enough to find them from these.
+   pure subroutine condense(k, f)
+      real(wp), intent(inout) :: k(16, 16), f(16)
+      integer :: i, j
+
+      do i = 16, 13, -1
+         f(:i - 1) = f(:i - 1) - k(:i - 1, i)*f(i)/k(i, i)
+         do j = 1, i - 1
+            k(:i - 1, j) = k(:i - 1, j) - k(:i - 1, i)*k(i, j)/k(i, i)
+         end do
+      end do
+   end subroutine condense
+
+   !> [k] between u, v, theta_z of the corners and the parameters of the four modes, with the mean thickness, under which the modes have no
+   !! part in constant strain.
    pure subroutine mode_stiffness(law, frame, k)
       type(shell_law), intent(in)   :: law
       type(shell_frame), intent(in) :: frame
@@ -186,14 +197,14 @@ contains
       integer  :: i, p
 
       k = 0.0_wp
+      t = sum(law%thickness)/4.0_wp
       associate (x => frame%x)
          g = 0.5_wp*((x(1, 3) - x(1, 1))*(x(2, 4) - x(2, 2)) - (x(1, 4) - x(1, 2))*(x(2, 3) - x(2, 1))) ! area
-         g = law%d(3, 3)*min(1.0_wp, drilling*(sum(law%thickness)/4.0_wp)**2/g)
+         g = law%d(3, 3)*min(1.0_wp, drilling*t**2/g)
       end associate
       call body_rule(kind_quad4, .false., rule)
       do p = 1, rule%n
          call mode_strains(frame, rule%point(:, p), b, r, volume)
-         t = thickness_at(law, frame, rule%point(:, p))
          do i = 1, 16
             k(:, i) = k(:, i) + rule%weight(p)*volume*t*(matmul(matmul(law%d, b(:, i)), b) + g*r*r(i))
          end do
@@ -431,7 +442,7 @@ contains
          own(1, i) = own(1, i) + frame%lever(i)*own(5, i)
          own(2, i) = own(2, i) - frame%lever(i)*own(4, i)
       end do
-      call find_membrane(law, frame, own, membrane)
+      call find_membrane(law, frame, rise, own, membrane)
       do i = 1, m + 1
          if (i <= m) call plate_strains(law, frame, node_point(:, i, corner_kind(m)), b, gamma, volume)
          if (i > m) call plate_strains(law, frame, centre_point(:, corner_kind(m)), b, gamma, volume)
@@ -450,14 +461,15 @@ contains
    end subroutine shell_stresses
 
    !> Strains of the mean plane at the corners and at the centre from OWN, of every corner u, v, w and rotations in the axes of the
-   !! element. The modes of a quadrilateral bear no force.
-   pure subroutine find_membrane(law, frame, own, strain)
+   !! element. The modes of a quadrilateral bear no force but that of warmth.
+   pure subroutine find_membrane(law, frame, rise, own, strain)
       type(shell_law), intent(in)   :: law
       type(shell_frame), intent(in) :: frame
+      real(wp), intent(in)          :: rise(:)   !! (corners) [temperature]
       real(wp), intent(in)          :: own(6, 4)
       real(wp), intent(out)         :: strain(3, 5)
-      real(wp) :: at_corner(3, 9, 3), b(3, 16), basic(3, 9), k(16, 16), q(16), r(16), area, volume
-      integer  :: i, j
+      real(wp) :: at_corner(3, 9, 3), b(3, 16), basic(3, 9), f(16), k(16, 16), q(16), r(16), area, volume
+      integer  :: i
 
       if (frame%n == 3) then
          q(:9) = pack(own([1, 2, 6], :3), .true.)
@@ -470,13 +482,10 @@ contains
       end if
       q(:12) = pack(own([1, 2, 6], :), .true.)
       call mode_stiffness(law, frame, k)
-      do i = 16, 13, -1
-         do j = 1, i - 1
-            k(:i - 1, j) = k(:i - 1, j) - k(:i - 1, i)*k(i, j)/k(i, i)
-         end do
-      end do
+      call warm_modes(law, frame, rise, f)
+      call condense(k, f)
       do i = 13, 16
-         q(i) = -dot_product(k(:i - 1, i), q(:i - 1))/k(i, i)
+         q(i) = (f(i) - dot_product(k(:i - 1, i), q(:i - 1)))/k(i, i)
       end do
       do i = 1, 5
          if (i <= 4) call mode_strains(frame, node_point(:, i, kind_quad4)/sqrt(3.0_wp), b, r, volume)
@@ -496,7 +505,7 @@ contains
       real(wp), intent(inout)     :: f(:, :)         !! (3, 2 corners) [force], [force length], set here
       type(shell_frame) :: frame
       type(integration_rule) :: rule
-      real(wp) :: at_corner(3, 9, 3), basic(3, 9), b(3, 12), gamma(2, 12), own(6, 4), q(12), area, t, volume
+      real(wp) :: at_corner(3, 9, 3), basic(3, 9), b(3, 12), gamma(2, 12), own(6, 4), q(12), k(16, 16), f_modes(16), area, t, volume
       integer  :: a, m, p
 
       frame = shell_frame_of(x, law%offset)
@@ -506,7 +515,10 @@ contains
          call membrane_strains(law%nu, frame%x(:, :3), area, basic, at_corner)
          q(:9) = area*sum(law%thickness(:3))*sum(rise)/9.0_wp*law%expansion*matmul(transpose(basic), law%d(:, 1) + law%d(:, 2))
       else
-         call warm_quadrilateral(law, frame, rise, q)
+         call warm_modes(law, frame, rise, f_modes)
+         call mode_stiffness(law, frame, k)
+         call condense(k, f_modes)
+         q = f_modes(:12)
       end if
       own([1, 2, 6], :m) = reshape(q(:3*m), [3, m])
       if (abs(slope) > 0.0_wp) then
@@ -526,33 +538,25 @@ contains
       end do
    end subroutine shell_thermal_forces
 
-   !> The forces F of a warm membrane on u, v, theta_z of the corners of a quadrilateral, its modes condensed.
-   pure subroutine warm_quadrilateral(law, frame, rise, f)
+   !> The forces F of a warm membrane on u, v, theta_z of the corners of a quadrilateral and on its modes.
+   pure subroutine warm_modes(law, frame, rise, f)
       type(shell_law), intent(in)   :: law
       type(shell_frame), intent(in) :: frame
       real(wp), intent(in)          :: rise(:) !! (4)
-      real(wp), intent(out)         :: f(12)
+      real(wp), intent(out)         :: f(16)
       type(integration_rule) :: rule
-      real(wp) :: b(3, 16), k(16, 16), n(max_nodes), q(16), r(16), volume
-      integer  :: i, j, p
+      real(wp) :: b(3, 16), n(max_nodes), r(16), volume
+      integer  :: p
 
-      q = 0.0_wp
+      f = 0.0_wp
       call body_rule(kind_quad4, .false., rule)
       do p = 1, rule%n
          call mode_strains(frame, rule%point(:, p), b, r, volume)
          call shape_values(kind_quad4, rule%point(:, p), n)
-         q = q + rule%weight(p)*volume*dot_product(n(:4), law%thickness)*dot_product(n(:4), rise)*law%expansion* &
+         f = f + rule%weight(p)*volume*sum(law%thickness)/4.0_wp*dot_product(n(:4), rise)*law%expansion* &
              matmul(law%d(:, 1) + law%d(:, 2), b)
       end do
-      call mode_stiffness(law, frame, k)
-      do i = 16, 13, -1
-         q(:i - 1) = q(:i - 1) - k(:i - 1, i)*q(i)/k(i, i)
-         do j = 1, i - 1
-            k(:i - 1, j) = k(:i - 1, j) - k(:i - 1, i)*k(i, j)/k(i, i)
-         end do
-      end do
-      f = q(:12)
-   end subroutine warm_quadrilateral
+   end subroutine warm_modes
 
    !> M = integral of q N_i N_j over an element, q between its VALUES at the corners as the shape functions.
    pure subroutine shell_products(x, values, m)

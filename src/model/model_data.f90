@@ -15,7 +15,7 @@ module model_data
 
    public :: bar_nodes, corners_of, has_gaps, has_ground_springs, has_second_order, is_beam, is_coarser, is_face_node, is_shell, &
              joint_centroid, joint_node_id, n_bars, n_points, n_rotations, n_sections, n_springs, node_kind, own_nodes, &
-             place_in_kind, supported
+             place_in_kind, point_of, supported
 
    !> Section and material of body elements.
    type, public :: property_type
@@ -318,6 +318,15 @@ contains
       if (node_kind(model, node) /= a_point) place = place - n_points(model)
       if (node_kind(model, node) == an_overlap) place = place - n_rotations(model)
    end function place_in_kind
+
+   !> The point whose rotations NODE is; else itself.
+   pure integer function point_of(model, node) result(point)
+      type(model_type), intent(in) :: model
+      integer, intent(in)          :: node
+
+      point = node
+      if (node_kind(model, node) == a_rotation) point = model%rotations(place_in_kind(model, node))%point
+   end function point_of
 
    !> How many reference nodes with rotations there are.
    pure integer function n_rotations(model)

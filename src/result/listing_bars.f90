@@ -4,7 +4,7 @@ module listing_bars
    use bolt_locking, only: bar_tension, elongation_now, overlap_now, section_tension
    use kinds, only: wp
    use listing_table, only: column, listing_table_type, noise, page_type
-   use model_data, only: a_bar, a_spring, bar_nodes, model_type, n_bars, n_sections, n_springs
+   use model_data, only: a_bar, a_spring, bar_nodes, model_type, n_bars, n_sections, n_springs, point_of
    use text_tools, only: clean
    implicit none
    private
@@ -50,7 +50,7 @@ contains
       type(analysis_type), intent(in)         :: analysis
       type(listing_table_type), intent(inout) :: table
       real(wp) :: floor
-      integer  :: i, id(2)
+      integer  :: i, id(2), k
 
       if (n_springs(model) == 0) return
       if (table%is_empty()) call table%start( &
@@ -62,7 +62,9 @@ contains
          associate (spring => model%bars(i))
             if (spring%kind == a_bar) cycle
             id = 0
-            id(:size(bar_nodes(spring))) = model%node_id(bar_nodes(spring))
+            do k = 1, size(bar_nodes(spring))
+               id(k) = model%node_id(point_of(model, spring%nodes(k)))
+            end do
             if (spring%ground_first) id = id([2, 1])
             call table%add([analysis%increment, spring%id, id])
             call table%add('  '//spring%axis//'  ')

@@ -10,7 +10,8 @@ module listing_bodies
                             direction_words, list_moments, list_rotations, shows_element, &
                             shows_node
    use listing_table, only: axes, column, listing_table_type, noise, page_type, page_width
-   use model_data, only: has_ground_springs, has_second_order, is_beam, is_shell, model_type, n_bars, n_points, supported
+   use model_data, only: a_point, has_ground_springs, has_second_order, is_beam, is_shell, model_type, n_bars, n_points, &
+                         node_kind, supported
    use node_coupling, only: held_forces
    use structural_results, only: list_structural
    use text_tools, only: clean
@@ -273,7 +274,7 @@ contains
       end do
       ground = 0.0_wp
       do i = 1, n_bars(model)
-         if (model%bars(i)%nodes(2) > 0) cycle
+         if (model%bars(i)%nodes(2) > 0 .or. node_kind(model, model%bars(i)%nodes(1)) /= a_point) cycle
          ground = ground + bar_tension(model, analysis, i)*model%bars(i)%direction(:model%dimension, 1)
       end do
       loads = sum(analysis%now%load(:, :n_points(model)), dim=2)

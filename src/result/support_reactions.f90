@@ -6,7 +6,7 @@ module support_reactions
    use interface_operator, only: at_first_end, named_node
    use kinds, only: wp
    use listing_table, only: axes, column, label_type, listing_table_type
-   use model_data, only: has_ground_springs, model_type, n_bars, n_points, n_rotations
+   use model_data, only: a_rotation, has_ground_springs, model_type, n_bars, n_points, n_rotations, node_kind, place_in_kind
    use node_coupling, only: forces_on_unknowns
    use numbers, only: cross
    use output_file, only: output_file_type
@@ -75,8 +75,15 @@ contains
          answer%parts(n)%kind = 'SPRINGS'
          do i = 1, n_bars(model)
             associate (bar => model%bars(i))
-               if (bar%nodes(2) == 0) call act(answer%parts(n), model%x(:, bar%nodes(1)), &
-                                               bar_tension(model, analysis, i)*bar%direction(:, 1))
+               if (bar%nodes(2) > 0) cycle
+               if (node_kind(model, bar%nodes(1)) == a_rotation) then
+                  answer%parts(n)%nodes = answer%parts(n)%nodes + 1
+                  answer%parts(n)%centre = answer%parts(n)%centre + model%x(:, bar%nodes(1))
+                  call add_moment(model, place_in_kind(model, bar%nodes(1)), bar_tension(model, analysis, i)* &
+                                  bar%direction(:model%dimension, 1), answer%parts(n))
+               else
+                  call act(answer%parts(n), model%x(:, bar%nodes(1)), bar_tension(model, analysis, i)*bar%direction(:, 1))
+               end if
             end associate
          end do
       end if
