@@ -55,7 +55,8 @@ contains
       end do
       call build_systems(deck, model%systems)
       call collect_nodes(deck, model%systems, blocks, raw)
-      if (any(abs(raw%x(3, :raw%n)) > 0.0_wp) .and. size(deck%bulk%paxis) == 0) model%dimension = 3
+      if (any(abs(raw%x(3, :raw%n)) > 0.0_wp) .and. size(deck%bulk%paxis) == 0 .and. all(deck%bulk%block%dimension == 3)) &
+         model%dimension = 3 ! PAXIS and BLOCK2 are of the plane
       call take_model(deck, model)
       call order_nodes(raw, model, position)
       call resolve_properties(deck, model)

@@ -20,7 +20,7 @@ module model_build
    use shell_faces, only: build_shell_faces, couple_shell_faces
    use spring_build, only: build_bars, build_masses, check_mass, build_springs
    use stage_plan, only: plan_stages, stage_plan_type
-   use structural_build, only: build_beams, build_rotations, build_shells, turn_rotations
+   use structural_build, only: build_beams, build_rotations, build_shells, leave_out_idle, turn_rotations
    use support_build, only: build_supports
    use surface_build, only: build_surfaces
    use surface_sides, only: split_shared_surfaces
@@ -173,6 +173,7 @@ contains
       call build_beams(checked, model)
       call build_springs(checked, model)
       call build_dependents(checked, model)
+      call leave_out_idle(model)
       if (.not. errors%any()) call couple_shell_faces(model)
       call build_masses(checked, model)
       call build_loads(checked, model, oscillating)

@@ -1,5 +1,5 @@
 !> The faces of shells. A marked surface of shells is not their mean plane: it lies half a thickness off it, on the side to which the
-!! normals of the mark's elements point; a marked edge of shells is as wide as they are thick. The nodes of such sides stand off the
+!! normals of the mark's elements point; a marked edge of shells is as wide as they are thick, and is cut into strips. The nodes of such sides stand off the
 !! nodes of the shells by a rigid lever r and have no unknowns of their own: u + theta x r. All that stands on surfaces, joints, gaps,
 !! pressure, takes them as it takes other nodes.
 module shell_faces
@@ -18,6 +18,8 @@ module shell_faces
    private
 
    public :: build_shell_faces, couple_shell_faces
+
+   integer, parameter :: strips = 8 ! over the thickness at an edge: of even strips nodes have 1 + 2/strips^2 of the moment of inertia
 
 contains
 
@@ -51,18 +53,20 @@ contains
       type(surface_type), intent(inout) :: surface
       type(face_node_type), allocatable, intent(inout) :: faces(:)
       type(face_node_type), allocatable :: own(:)
-      integer  :: below(model%n_nodes), above(model%n_nodes), n_of(8*surface%n), c, i, n, nodes(4), s
+      integer, allocatable :: n_of(:), of_node(:, :)
+      integer  :: c, i, n, nodes(4), row, s
       real(wp) :: side
       type(shell_frame) :: frame
 
-      allocate (own(8*surface%n))
-      below = 0
-      above = 0
+      call cut_edges(surface)
+      allocate (own(4*surface%n), of_node(0:strips, model%n_nodes))
+      allocate (n_of(4*surface%n), source=0)
+      of_node = 0
       n = 0
-      n_of = 0
       do s = 1, surface%n
          if (.not. is_shell(model, surface%element(s))) cycle
-         c = surface%corners(s)
+         c = count(surface%nodes(:, s) > 0)
+         row = merge(-surface%nodes(3, s), 0, c == 2)
          nodes(:c) = surface%nodes(:c, s)
          associate (corners => corners_of(model, surface%element(s)), &
                     law => model%structural%shells(model%structural%place(surface%element(s))))
@@ -72,15 +76,15 @@ contains
             do i = 1, c
                associate (t => law%thickness(findloc(corners, nodes(i), dim=1)))
                   if (c > 2) then
-                     call take(below, nodes(i), (law%offset + side*t)*frame%axes(:, 3), surface%nodes(i, s))
-                  else ! edge 1 to 2: 1 and 2 below the mean plane, then 2 and 1 above it
-                     call take(below, nodes(i), (law%offset - 0.5_wp*t)*frame%axes(:, 3), surface%nodes(i, s))
-                     call take(above, nodes(i), (law%offset + 0.5_wp*t)*frame%axes(:, 3), surface%nodes(5 - i, s))
+                     call take(0, nodes(i), (law%offset + side*t)*frame%axes(:, 3), surface%nodes(i, s))
+                  else ! edge 1 to 2: 1 and 2 on the lower line of the strip, then 2 and 1 on the upper one
+                     call take(row - 1, nodes(i), height(t, row - 1)*frame%axes(:, 3), surface%nodes(i, s))
+                     call take(row, nodes(i), height(t, row)*frame%axes(:, 3), surface%nodes(5 - i, s))
                   end if
                end associate
             end do
          end associate
-         if (c == 2) surface%corners(s) = 4
+         surface%corners(s) = max(3, merge(4, c, c == 2))
          surface%n_nodes(s) = surface%corners(s)
       end do
       do i = 1, n
@@ -90,19 +94,27 @@ contains
 
    contains
 
-      !> The node AT of the side stands off NODE by LEVER.
-      subroutine take(of_node, node, lever, at)
-         integer, intent(inout) :: of_node(:)
-         integer, intent(in)    :: node
+      !> The height of a line of strips above the nodes.
+      pure real(wp) function height(t, line)
+         real(wp), intent(in) :: t
+         integer, intent(in)  :: line
+
+         height = model%structural%shells(model%structural%place(surface%element(s)))%offset + &
+                  t*(real(line, wp)/strips - 0.5_wp)
+      end function height
+
+      !> The node AT of the side stands off NODE by LEVER, on this line of strips.
+      subroutine take(line, node, lever, at)
+         integer, intent(in)    :: line, node
          real(wp), intent(in)   :: lever(3)
          integer, intent(inout) :: at
 
-         if (of_node(node) == 0) then
+         if (of_node(line, node) == 0) then
             n = n + 1
-            of_node(node) = n
+            of_node(line, node) = n
             own(n)%point = node
          end if
-         associate (face => of_node(node))
+         associate (face => of_node(line, node))
             own(face)%lever = own(face)%lever + lever
             n_of(face) = n_of(face) + 1
             at = model%n_nodes + size(faces) + face
@@ -110,6 +122,31 @@ contains
       end subroutine take
 
    end subroutine stand_off
+
+   !> Every edge of SURFACE stands in it as many times as there are strips over the thickness, with minus the number of the strip behind
+   !! its two nodes.
+   pure subroutine cut_edges(surface)
+      type(surface_type), intent(inout) :: surface
+      integer, allocatable :: from(:), strip(:)
+      integer :: k, s
+
+      associate (copies => merge(strips, 1, surface%corners(:surface%n) == 2))
+         if (all(copies == 1)) return
+         allocate (from(0), strip(0))
+         do s = 1, surface%n
+            from = [from, spread(s, 1, copies(s))]
+            strip = [strip, [(k, k = 1, copies(s))]]
+         end do
+      end associate
+      surface%n = size(from)
+      surface%nodes = surface%nodes(:, from)
+      surface%corners = surface%corners(from)
+      surface%n_nodes = surface%n_nodes(from)
+      surface%element = surface%element(from)
+      surface%other = surface%other(from)
+      surface%line = surface%line(from)
+      where (surface%corners == 2) surface%nodes(3, :) = -strip
+   end subroutine cut_edges
 
    !> Append the nodes of FACES behind those of the deck: with the elements of the nodes that they stand off, for their material.
    subroutine append_faces(model, faces)

@@ -17,7 +17,7 @@ module structural_build
    implicit none
    private
 
-   public :: build_beams, build_rotations, build_shells, is_beam_edge, turn_rotations
+   public :: build_beams, build_rotations, build_shells, is_beam_edge, leave_out_idle, turn_rotations
 
 contains
 
@@ -90,6 +90,20 @@ contains
       if (model%element_property(e) > 0) &
          has_rotations = any(model%properties(model%element_property(e))%state == [shell, beam])
    end function has_rotations
+
+   !> In the plane the node of rotations has one component, about z.
+   subroutine leave_out_idle(model)
+      type(model_type), intent(inout) :: model
+      integer :: k
+
+      if (model%dimension == 3) return
+      do k = 1, n_rotations(model)
+         if (.not. model%rotations(k)%of_element) cycle
+         if (.not. allocated(model%left_out)) allocate (model%left_out(model%dimension, model%n_nodes), source=.false.)
+         model%left_out(2, model%rotations(k)%node) = .true.
+         model%held(2, model%rotations(k)%node) = .true.
+      end do
+   end subroutine leave_out_idle
 
    !> Rotations in space are counted along the axes of their node.
    subroutine turn_rotations(model)
@@ -196,8 +210,8 @@ contains
       if (card%bending == -1) call deck%field_error(card%line, 'MID2', &
          '-1 is plane strain, but a shell in space stretches in both directions; expected the MAT1 of bending, mostly MID1')
       if (card%bending == 0) call deck%field_error(card%line, 'MID2', &
-         'blank: a membrane without bending has no stiffness across its plane, and the model is one of space; '// &
-         'expected the MAT1 of bending, mostly MID1')
+         'blank: a membrane without bending has no stiffness across its plane, and the model is one of space (some X3 is '// &
+         'not zero, it has solids, or MODEL = SPACE); expected the MAT1 of bending, mostly MID1')
       membrane = material_of(card%material)
       bending = material_of(card%bending, 'MID2')
       shear = material_of(card%shear, 'MID3')

@@ -25,6 +25,7 @@ contains
       type(card_fields_type), intent(inout) :: card
       type(bulk_data_type), intent(inout)   :: bulk
 
+      bulk%beam_property(card%i)%name = card%name(:6)
       select case (card%name)
       case ('PBAR');  call read_pbar(card, bulk%beam_property(card%i))
       case ('PBEAM'); call read_pbeam(card, bulk%beam_property(card%i))

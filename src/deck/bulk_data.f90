@@ -57,6 +57,7 @@ module bulk_data
    !> PBAR, PBARL, PBEAM, PBEAML.
    type, public :: beam_property_card
       integer  :: line = 0, id = 0, material = 0
+      character(6) :: name = ''
       type(beam_section) :: section
       real(wp) :: extra_mass = 0.0_wp                   ! NSM, by length
    end type beam_property_card

@@ -265,7 +265,7 @@ contains
          call count_unnamed([bulk%pshell%id, bulk%paxis%id, bulk%psolid%id, bulk%prod%id, bulk%beam_property%id], properties, &
             [spread('PSHELL', 1, size(bulk%pshell)), spread('PAXIS ', 1, size(bulk%paxis)), &
              spread('PSOLID', 1, size(bulk%psolid)), spread('PROD  ', 1, size(bulk%prod)), &
-             spread('PBAR  ', 1, size(bulk%beam_property))])
+             bulk%beam_property%name])
          call count_unnamed(pack(springs%id, .not. springs%is_bush), pack(bulk%spring%property, .not. is_bush), &
                             spread('PELAS ', 1, count(.not. springs%is_bush)))
          call count_unnamed(pack(springs%id, springs%is_bush), pack(bulk%spring%property, is_bush), &

@@ -1,0 +1,145 @@
+# Beams, shells and joints on their faces and edges against closed forms.
+
+# beam_force NAME ELEMENT END K: of the forces in beams, at its first or second end, the K-th; rotation NAME NODE C
+beam_force() { table "$1" 'FORCES IN BEAMS' | awk -v e="$2" -v end="$3" -v k="$4" '$1 == e && ++n == end { v = $(2 + k) } END { print v }'; }
+beam_stress() { table "$1" 'STRESSES IN BEAMS' | awk -v e="$2" -v end="$3" -v k="$4" '$1 == e && ++n == end { v = $(2 + k) } END { print v }'; }
+rotation() { table "$1" 'ROTATIONS OF REFERENCE NODES' | awk -v node="$2" -v c="$3" '$1 == node { v = $(1 + c) } END { print v }'; }
+
+# ---- a cantilever in the plane and in space, with shear: P L^3/(3 E I) + P L/(K A G) ----
+
+bar='PBARL,1,1,,BAR;+,20.0,40.0;MAT1,1,210000.0,,0.3,7.85-9'
+i1='20*40^3/12' i2='40*20^3/12' shear='5/6*800*210000/2.6'
+for model in PLANE SPACE; do
+   cards cantilever_beam <<DECK
+MODEL = $model;SPC = 1;SUBCASE 1;  LOAD = 1;BEGIN BULK;GRID,1,,0.0,0.0,0.0;GRID,2,,300.0,0.0,0.0;GRID,3,,1000.0,0.0,0.0
+CBAR,1,1,1,2,0.0,1.0,0.0;CBAR,2,1,2,3,0.0,1.0,0.0;$bar;SPC1,1,123456,1;FORCE,1,3,,1000.0,0.0,1.0,0.0;ENDDATA
+DECK
+   run cantilever_beam && {
+      near "$model: tip of a beam" "$(moved cantilever_beam 3 2)" "1000*1000^3/(3*210000*$i1) + 1000*1000/($shear)" 3e-6
+      near "$model: its rotation" "$(rotation cantilever_beam 3 $([ $model = PLANE ] && echo 1 || echo 3))" "1000*1000^2/(2*210000*$i1)" 3e-6
+      near "$model: moment at the support" "$(beam_force cantilever_beam 1 1 6)" 1e6 3e-6
+      near "$model: stress above" "$(beam_stress cantilever_beam 1 1 1)" "-1e6*20/($i1)" 3e-6
+   }
+done
+
+# ---- loads along a beam held at both ends: q L^4/(384 E I) + q L^2/(8 K A G) at its middle, q L^2/12 at its ends ----
+
+cards clamped_beam <<DECK
+MODEL = SPACE;SPC = 1;SUBCASE 1;  LOAD = 1;BEGIN BULK;GRID,1,,0.0,0.0,0.0;GRID,2,,500.0,0.0,0.0;GRID,3,,1000.0,0.0,0.0
+CBAR,1,1,1,2,0.0,0.0,1.0;CBEAM,2,1,2,3,0.0,0.0,1.0;$bar;SPC1,1,123456,1,3;PLOAD1,1,1,FZ,FR,0.0,-2.0,1.0,-2.0
+PLOAD1,1,2,FYE,LE,0.0,-2.0,500.0,-2.0;ENDDATA
+DECK
+run clamped_beam && {
+   near 'held at both ends: middle' "$(moved clamped_beam 2 3)" "-2*1000^4/(384*210000*$i1) - 2*1000^2/(8*($shear))" 3e-6
+   near 'held at both ends: moment' "$(beam_force clamped_beam 1 1 6)" '-2*1000^2/12' 3e-6
+   near 'held at both ends: moment in the middle' "$(beam_force clamped_beam 1 2 6)" '2*1000^2/24' 3e-6
+}
+
+# ---- a pin, a hinge with a spring, a rigid bar, an offset ----
+
+# A pinned at node 2 by PB: the right beam carries nothing of the moment; the tip force of a propped cantilever is 5/16 of a load in the middle
+cards propped <<DECK
+MODEL = SPACE;SPC = 1;SUBCASE 1;  LOAD = 1;BEGIN BULK;GRID,1,,0.0,0.0,0.0;GRID,2,,500.0,0.0,0.0;GRID,3,,1000.0,0.0,0.0
+CBAR,1,1,1,2,0.0,1.0,0.0;CBAR,2,1,2,3,0.0,1.0,0.0;+,,56;PBAR,1,1,800.0,1.0+5,1.0+5,1.5+5;MAT1,1,210000.0,,0.3;SPC1,1,123456,1,3
+FORCE,1,2,,1000.0,0.0,1.0,0.0;ENDDATA
+DECK
+run propped && {
+   near 'pinned end: no moment' "$(beam_force propped 2 2 6)" 0 0 1e-6
+   near 'pinned end: force' "$(beam_force propped 2 2 2)" '-1000*5/16' 3e-6
+}
+# two beams in line with a rotational spring between them: the tip turns by M L/(E I) twice and M/k
+cards hinge <<DECK
+MODEL = SPACE;SPC = 1;SUBCASE 1;  LOAD = 1;BEGIN BULK;GRID,1,,0.0,0.0,0.0;GRID,2,,500.0,0.0,0.0;GRID,12,,500.0,0.0,0.0;GRID,3,,1000.0,0.0,0.0
+CBAR,1,1,1,2,0.0,1.0,0.0;CBAR,2,1,12,3,0.0,1.0,0.0;PBAR,1,1,800.0,1.0+5,1.0+5,1.5+5;MAT1,1,210000.0,,0.3;SPC1,1,123456,1
+CBUSH,9,9,2,12,,,,0;PBUSH,9,K,1.0+9,1.0+9,1.0+9,1.0+12,1.0+12,4.0+8;MOMENT,1,3,,2.0+6,0.0,0.0,1.0;ENDDATA
+DECK
+run hinge && near 'hinge with a spring' "$(rotation hinge 3 3)" '2e6*1000/(210000*1e5) + 2e6/4e8' 3e-6
+sed -e 's/^CBUSH.*/CELAS2,9,4.0+8,2,6,12,6\nRBE2,8,2,12345,12/' -e '/^PBUSH/d' "$work/hinge.bdf" > "$work/hinge_celas.bdf"
+run hinge_celas && near 'CELAS2 between rotations, RBE2 for the rest' "$(rotation hinge_celas 3 3)" '2e6*1000/(210000*1e5) + 2e6/4e8' 3e-6
+near 'moment of the spring' "$(table hinge_celas 'FORCES OF SPRINGS' | awk '$2 == 9 { print sqrt($6*$6) }')" 2e6 3e-6
+# a rigid arm of 100 at the tip: RBAR, and the same by an offset of the beam
+cards rigid_arm <<DECK
+MODEL = SPACE;SPC = 1;SUBCASE 1;  LOAD = 1;BEGIN BULK;GRID,1,,0.0,0.0,0.0;GRID,2,,500.0,0.0,0.0;GRID,3,,500.0,100.0,0.0
+CBAR,1,1,1,2,0.0,1.0,0.0;RBAR,5,2,3,123456;PBAR,1,1,800.0,1.0+5,1.0+5,1.5+5;MAT1,1,210000.0,,0.3;SPC1,1,123456,1
+FORCE,1,3,,1000.0,1.0,0.0,0.0;ENDDATA
+DECK
+run rigid_arm && {
+   near 'rigid arm: along' "$(moved rigid_arm 3 1)" '1000*500/(210000*800) + 1000*100^2*500/(210000*1e5)' 3e-6
+   near 'rigid arm: across' "$(moved rigid_arm 2 2)" '-1000*100*500^2/(2*210000*1e5)' 3e-6
+}
+sed -e '/^RBAR/d' -e '/^GRID,3/d' -e 's/^CBAR.*/CBAR,1,1,1,2,0.0,1.0,0.0,GGG\n+,,,0.0,-100.0,0.0,0.0,-100.0,0.0/' -e 's/FORCE,1,3/FORCE,1,2/' "$work/rigid_arm.bdf" > "$work/offset_beam.bdf"
+run offset_beam && near 'offset of a beam' "$(moved offset_beam 2 1)" '1000*500/(210000*800) + 1000*100^2*500/(210000*1e5)' 3e-6
+
+# ---- warm beams, and beams that oscillate: (n pi)^2/(2 pi L^2) sqrt(E I/(rho A)) ----
+
+cards warm_beam <<DECK
+MODEL = SPACE;SPC = 1;SUBCASE 1;  TEMPERATURE(LOAD) = 5;BEGIN BULK;GRID,1,,0.0,0.0,0.0;GRID,2,,500.0,0.0,0.0
+CBAR,1,1,1,2,0.0,1.0,0.0;PBAR,1,1,800.0,1.0+5,1.0+5,1.5+5;MAT1,1,210000.0,,0.3,,1.2-5,20.0;SPC1,1,123456,1;SPC1,1,12345,2;TEMPD,5,70.0;ENDDATA
+DECK
+run warm_beam && near 'a warm beam, held' "$(beam_force warm_beam 1 1 1)" '-210000*800*1.2e-5*50' 3e-6
+{
+   printf 'MODEL = SPACE\nSPC = 1\nSUBCASE 1\n  MODES = 3\nBEGIN BULK\nEIGRL,3,,,6\n'
+   for k in 0 1 2 3 4 5 6 7 8; do printf 'GRID,%d,,%s,0.0,0.0\n' $((k + 1)) "$((125 * k)).0"; done
+   for k in 1 2 3 4 5 6 7 8; do printf 'CBAR,%d,1,%d,%d,0.0,1.0,0.0\n' $k $k $((k + 1)); done
+   printf 'PBAR,1,1,100.0,1.0+3,2.0+3,2.5+3\nMAT1,1,210000.0,,0.3,7.85-9\nSPC1,1,1234,1\nSPC1,1,23,9\nENDDATA\n'
+} > "$work/modes_beam.bdf"
+run modes_beam && {
+   near 'modes of a beam: first' "$(mode modes_beam 1 frequency)" "$pi/2/1000^2*sqrt(210000*1000/(7.85e-9*100))" 2e-4
+   near 'modes of a beam: across' "$(mode modes_beam 2 frequency)" "$pi/2/1000^2*sqrt(210000*2000/(7.85e-9*100))" 2e-4
+   near 'modes of a beam: second' "$(mode modes_beam 3 frequency)" "4*$pi/2/1000^2*sqrt(210000*1000/(7.85e-9*100))" 1e-3
+}
+
+# ---- plates: the middle of one that is held at its edges, its first frequency, both solvers ----
+
+# shell_deck NAME AWK-VARIABLES...: a deck of plates.awk
+shell_deck() { awk "${@:2}" -f tests/exact/plates.awk > "$work/$1.bdf"; }
+shell_deck thick -v case=plate -v n=8 -v edges=s -v load=p -v aspect=1 -v thickness=0.02 -v pressure=1.0
+run thick && near 'plate on its edges, 8 x 8' "$(moved thick 1 3)" '0.004062*2^4/(1.7472e7*0.02^3/(12*(1 - 0.3^2)))' 6e-3
+sed 's/^MODEL = SPACE/&\nSOLVER = TREE/' "$work/thick.bdf" > "$work/thick_tree.bdf"
+sed 's/^MODEL = SPACE/&\nSOLVER = SKYLINE/' "$work/thick.bdf" > "$work/thick_skyline.bdf"
+run thick_tree && run thick_skyline && same 'TREE and SKYLINE: displacements' "$(table thick_tree 'DISPLACEMENTS OF NODES')" "$(table thick_skyline 'DISPLACEMENTS OF NODES')"
+sed -e 's/^  LOAD = 1/  MODES = 3/' -e '/^PLOAD2/d' -e 's/^BEGIN BULK/&\nEIGRL,3,,,2/' -e 's/^MAT1.*/MAT1,1,17472000.0,,0.3,0.001/' "$work/thick.bdf" > "$work/plate_modes.bdf"
+# 2 pi f = 2 pi^2/a^2 sqrt(D/(rho t)), a = 2
+run plate_modes && near 'first frequency of a plate on its edges' "$(mode plate_modes 1 frequency)" "$pi/4*sqrt(1.7472e7*0.02^2/(12*(1 - 0.3^2)*0.001))" 6e-3
+
+# ---- joints on the faces of shells: two sheets, pressed evenly ----
+
+# sheets NAME LINES: 4 x 4 sheets of 100 x 100, 10 thick, the lower one held; LINES are those of case control
+sheets() {
+   awk -v lines="$2" 'BEGIN {
+      n = 4; gsub(";", "\n", lines); print lines "\nSPC = 1\nSUBCASE 1\n  LOAD = 1\n  INCR = 3\nBEGIN BULK\nJINCR,3,5"
+      for (s = 0; s < 2; s++) for (i = 0; i <= n; i++) for (j = 0; j <= n; j++) {
+         printf "GRID,%d,,%.1f,%.1f,%.1f\n", s*100 + i*(n + 1) + j + 1, 25*i, 25*j, 10*s
+         if (s == 0) printf "SPC1,1,123456,%d\n", i*(n + 1) + j + 1
+      }
+      for (m = 0; m < 2; m++) for (s = 0; s < 2; s++) for (i = 0; i < n; i++) for (j = 0; j < n; j++) {
+         a = s*100 + i*(n + 1) + j + 1; b = a + n + 1; c = b + 1; d = a + 1
+         if (m == 1 && s == 1) printf "CQUAD4,%d,12,%d,%d,%d,%d\n", ++e, d, c, b, a
+         else printf "CQUAD4,%d,%d,%d,%d,%d,%d\n", ++e, m == 0 ? 1 : 11, a, b, c, d
+      }
+      print "PMARK,11\nPMARK,12\nPSHELL,1,1,10.0,1,,1\nMAT1,1,210000.0,,0.3\nJOINT,1,1,11,12\nPJOINT,1,1,1,1,0.3\nJNORM,1,4.6-3,0.5,1.0+6"
+      print "JSHEAR,1,20000.0\nPLOAD4,1,17,-2.0,,,,THRU,32\nENDDATA" }' > "$work/$1.bdf"
+}
+for method in STEP NEWTON BACK; do
+   sheets sheets "METHOD = $method" && run sheets && {
+      ask "$method: sheets pressed evenly" sheets rows "increment = $([ $method = BACK ] && echo 1 || echo 5)" all 'pressure = 2.0 within 2e-9 and area > 0'
+      [ $method = STEP ] || ask "$method: their law" sheets rows "increment = $([ $method = BACK ] && echo 1 || echo 5)" all 'lambda = 4.6e-3*2.0^0.5 within 1e-9*lambda'
+   }
+done
+# A couple on the upper sheet: shear on its lower face turns it, u + theta x r; forces balance and so do moments
+near 'sheets: the balance of forces' "$(total sheets 'SUM: LEFT UNBALANCED')" 0 0 1e-6
+
+# A wall that stands on its edge on a rigid base: pressure F/(L t) and, linear law, a couple across bends it: p = F/A +- 6 M/(L t^2)
+cards wall <<'DECK'
+METHOD = NEWTON;SPC = 1;SUBCASE 1;  LOAD = 1;BEGIN BULK
+GRID,1,,0.0,0.0,0.0;GRID,2,,50.0,0.0,0.0;GRID,3,,100.0,0.0,0.0;GRID,4,,0.0,0.0,60.0;GRID,5,,50.0,0.0,60.0;GRID,6,,100.0,0.0,60.0
+CQUAD4,1,1,1,2,5,4;CQUAD4,2,1,2,3,6,5;CBAR,11,7,1,2;CBAR,12,7,2,3;PMARK,7;PSHELL,1,1,12.0,1,,1;MAT1,1,210000.0,,0.3
+JOINT,1,1,7;PJOINT,1,1,1,1;JNORM,1,1.0-3,1.0,1.0+5;JSHEAR,1,50000.0;RBE2,20,5,123456,4,6;SPC1,1,1,5;FORCE,1,5,,3600.0,0.0,0.0,-1.0
+MOMENT,1,5,,4800.0,1.0,0.0,0.0;ENDDATA
+DECK
+run wall && {
+   near 'a wall on its edge: area' "$(value wall print 'sum(area)')" 1200 1e-9
+   near 'a wall on its edge: force' "$(value wall print 'sum(force)')" 3600 1e-7
+   near 'a wall on its edge: moment about its middle' "$(value wall print 'sum(force*y)')" -4800 1e-6
+   near 'a wall on its edge: highest pressure' "$(value wall print 'max(pressure)')" '3 + 6*4800/(100*12^2)/(1 + 2/8^2)' 3e-3
+}
