@@ -32,7 +32,8 @@ contains
       if (is_face) is_face = .not. any(model%properties%id == card%property .and. model%properties%state == shell)
    end function is_face
 
-   !> Every PSHELL, PAXIS and PSOLID with its material, and the sections of beams behind them. In space a PSHELL is that of shells.
+   !> Every PSHELL, PAXIS and PSOLID with its material, and the sections of beams behind them. In space a PSHELL with the
+   !! material of bending is that of shells.
    subroutine resolve_properties(deck, model)
       type(checked_deck), intent(in)  :: deck
       type(model_type), intent(inout) :: model
@@ -48,7 +49,7 @@ contains
       do i = 1, size(cards)
          associate (card => cards(i), property => model%properties(i))
             property = property_type(id=card%id, state=card%state, thickness=card%thickness, incompatible=card%incompatible)
-            if (model%dimension == 3 .and. i <= size(deck%bulk%pshell)) then
+            if (model%dimension == 3 .and. i <= size(deck%bulk%pshell) .and. card%bending > 0) then
                property%state = shell
                property%fibre = card%fibre
                property%extra_mass = deck%bulk%parameters%mass_factor*card%extra_mass
@@ -157,12 +158,13 @@ contains
       character(:), allocatable :: wanted
 
       if (model%dimension == 3 .and. element_table(kind)%dimension == 2 .and. any(deck%bulk%block%line == line)) then
-         call deck%errors%add(line, 'BLOCK2: the model is one of space; BLOCK2 makes plane bodies only')
+         call deck%errors%add(line, 'BLOCK2: the model is one of space; plane bodies and solids cannot be mixed')
          return
       end if
       if (property > 0) then
          if (model%properties(property)%state == shell .and. element_table(kind)%linear /= kind) then
             call deck%errors%add(line, 'a shell of second order; expected CTRIA3 or CQUAD4 for shells in a model of space')
+            property = 0
             return
          end if
          if (model%properties(property)%state /= beam .and. &
@@ -272,6 +274,7 @@ contains
             if (doubtful_blocks%find(model%element_line(e)) > 0) return
             if (model%element_kind(e) == kind_edge2) return ! a beam: its length is asked for with its offsets
             if (model%dimension == 3 .and. element_table(model%element_kind(e))%dimension == 2) then
+               if (size(nodes) > 4) return ! of second order: said already
                is_sound = smallest_jacobian(model%element_kind(e), flat_coordinates(model%x(:, nodes))) > 0.0_wp
             else
                is_sound = smallest_jacobian(model%element_kind(e), model%x(:model%dimension, nodes)) > 0.0_wp

@@ -55,8 +55,7 @@ contains
       end do
       call build_systems(deck, model%systems)
       call collect_nodes(deck, model%systems, blocks, raw)
-      if (any(abs(raw%x(3, :raw%n)) > 0.0_wp) .and. size(deck%bulk%paxis) == 0 .and. all(deck%bulk%block%dimension == 3)) &
-         model%dimension = 3 ! PAXIS and BLOCK2 are of the plane
+      if (any(abs(raw%x(3, :raw%n)) > 0.0_wp) .and. .not. is_plane(deck)) model%dimension = 3
       call take_model(deck, model)
       call order_nodes(raw, model, position)
       call resolve_properties(deck, model)
@@ -69,6 +68,17 @@ contains
       call check_elements(deck, model)
       call collect_sides(deck, blocks, raw, position, model, sides)
    end subroutine build_mesh
+
+   !> Whether a deck without solids is one of the plane whatever X3 its nodes have: it has a PAXIS, a BLOCK2, or a PSHELL and none with the
+   !! material of bending.
+   pure logical function is_plane(deck)
+      type(checked_deck), intent(in) :: deck
+
+      associate (bulk => deck%bulk)
+         is_plane = size(bulk%paxis) > 0 .or. any(bulk%block%dimension == 2) .or. &
+                    (size(bulk%pshell) > 0 .and. all(bulk%pshell%bending <= 0))
+      end associate
+   end function is_plane
 
    !> MODEL of case control says what the model is, where the deck does not say otherwise.
    subroutine take_model(deck, model)

@@ -156,6 +156,12 @@ contains
       type(id_table_type) :: plates
       integer :: e, i, n(2)
 
+      do i = 1, size(deck%bulk%plate)
+         associate (card => deck%bulk%element(deck%bulk%plate(i)%element))
+            if (all(model%properties%id /= card%property .or. model%properties%state /= shell)) call deck%field_error(card%line, &
+               'ZOFFS', 'this and thicknesses at corners are for shells in a model of space; expected blanks')
+         end associate
+      end do
       if (.not. any([(has_rotations(model, e), e = 1, model%n_elements)])) return
       allocate (model%structural%place(model%n_elements), source=0)
       allocate (of_property(size(model%properties)))
@@ -207,11 +213,6 @@ contains
       real(wp) :: d(max_stresses, max_stresses)
       integer  :: bending, membrane, shear
 
-      if (card%bending == -1) call deck%field_error(card%line, 'MID2', &
-         '-1 is plane strain, but a shell in space stretches in both directions; expected the MAT1 of bending, mostly MID1')
-      if (card%bending == 0) call deck%field_error(card%line, 'MID2', &
-         'blank: a membrane without bending has no stiffness across its plane, and the model is one of space (some X3 is '// &
-         'not zero, it has solids, or MODEL = SPACE); expected the MAT1 of bending, mostly MID1')
       membrane = material_of(card%material)
       bending = material_of(card%bending, 'MID2')
       shear = material_of(card%shear, 'MID3')

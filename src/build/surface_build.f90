@@ -84,7 +84,8 @@ contains
          call deck%field_error(sides%line(i), 'S'//integer_text(sides%of_block(i)), words)
       else
          if (sides%corners(i) > 2) &
-            words = words//': in a model of solids plane elements mark surfaces, and plane bodies cannot be mixed in'
+            words = words//': in a model of space plane elements mark surfaces, and plane bodies cannot be mixed in; '// &
+               'shells have MID2 on their PSHELL'
          call deck%field_error(sides%line(i), 'PID', words)
       end if
    end subroutine report_missing
