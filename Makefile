@@ -4,6 +4,11 @@ FC        ?= gfortran
 ifeq ($(origin FC),default)
 FC         = gfortran
 endif
+# a `make` without -j builds on all cores
+ifeq ($(filter -j%,$(MAKEFLAGS)),)
+MAKEFLAGS += -j$(shell nproc)
+endif
+
 BUILD      = build
 BIN        = bin
 WARNINGS   = -std=f2018 -Wall -Wextra
