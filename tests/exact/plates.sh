@@ -143,3 +143,56 @@ run wall && {
    near 'a wall on its edge: moment about its middle' "$(value wall print 'sum(force*y)')" -4800 1e-6
    near 'a wall on its edge: highest pressure' "$(value wall print 'max(pressure)')" '3 + 6*4800/(100*12^2)/(1 + 2/8^2)' 3e-3
 }
+
+# ---- a square tube of shells, with rigid ends, beside the same as one beam: bent, twisted, oscillating ----
+
+tube() { # NAME
+   awk 'BEGIN {
+      print "MODEL = SPACE\nSPC = 1\nSUBCASE 1\n  LOAD = 1\n  MODES = 3\nBEGIN BULK\nEIGRL,3,,,5\nMAT1,1,210000.0,,0.3,7.85-9\nPSHELL,1,1,4.0,1,,1"
+      m = 4; n = 40; h = 100; l = 2000
+      for (k = 0; k <= n; k++) for (i = 0; i < 4*m; i++) {
+         s = i % m; side = int(i/m); u = h*(s/m - 0.5)
+         y = side == 0 ? u : side == 1 ? h/2 : side == 2 ? -u : -h/2; z = side == 0 ? -h/2 : side == 1 ? u : side == 2 ? h/2 : -u
+         printf "GRID,%d,,%.6f,%.6f,%.6f\n", k*4*m + i + 1, l*k/n, y, z
+      }
+      for (k = 0; k < n; k++) for (i = 0; i < 4*m; i++) { j = (i + 1) % (4*m)
+         printf "CQUAD4,%d,1,%d,%d,%d,%d\n", ++e, k*4*m + i + 1, (k + 1)*4*m + i + 1, (k + 1)*4*m + j + 1, k*4*m + j + 1 }
+      printf "GRID,9001,,0.0,0.0,0.0\nGRID,9002,,%d.0,0.0,0.0\n", l
+      for (end = 0; end < 2; end++) { printf "RBE2,%d,%d,123456", 9101 + end, 9001 + end; for (i = 1; i <= 4*m; i++) printf ",%s%d", (i == 6 || i == 14 ? "\n+," : ""), end*n*4*m + i; print "" }
+      print "SPC1,1,123456,9001\nFORCE,1,9002,,1000.0,0.0,1.0,0.0\nMOMENT,1,9002,,1.0+6,1.0,0.0,0.0\nENDDATA" }' > "$work/$1.bdf"
+}
+tube tube
+{
+   printf 'MODEL = SPACE\nSPC = 1\nSUBCASE 1\n  LOAD = 1\n  MODES = 3\nBEGIN BULK\nEIGRL,3,,,5\nMAT1,1,210000.0,,0.3,7.85-9\nPBARL,1,1,,BOX\n+,104.0,104.0,4.0,4.0\n'
+   for k in 0 1 2 3 4 5 6 7 8 9 10; do printf 'GRID,%d,,%d.0,0.0,0.0\n' $((9002 + 10 - k)) $((200 * k)); done
+   for k in 1 2 3 4 5 6 7 8 9 10; do printf 'CBAR,%d,1,%d,%d,0.0,1.0,0.0\n' $k $((9013 - k)) $((9012 - k)); done
+   printf 'SPC1,1,123456,9012\nFORCE,1,9002,,1000.0,0.0,1.0,0.0\nMOMENT,1,9002,,1.0+6,1.0,0.0,0.0\nENDDATA\n'
+} > "$work/tube_beam.bdf"
+run tube && run tube_beam && {
+   near 'a tube of shells, bent' "$(moved tube 9002 2)" "$(moved tube_beam 9002 2)" 1e-2
+   near 'twisted' "$(rotation tube 9002 1)" "$(rotation tube_beam 9002 1)" 1e-2
+   near 'its slope' "$(rotation tube 9002 3)" "$(rotation tube_beam 9002 3)" 1e-2
+   near 'its first frequency' "$(mode tube 1 frequency)" "$(mode tube_beam 1 frequency)" 1e-2
+   near 'its third frequency' "$(mode tube 3 frequency)" "$(mode tube_beam 3 frequency)" 2e-2
+}
+
+# ---- the lap of two sheets turned in space, and in metres ----
+
+sed 's/^JNORM.*/JNORM,1,8.0-4,0.5,2.1+5/' input/lap_sheets.bdf > "$work/lap.bdf"
+awk 'function fixed(s) { return sprintf("%.12f", s) }
+   /^GRID/ { x = substr($0, 25, 8); y = substr($0, 33, 8); z = substr($0, 41, 8)
+      printf "GRID,%d,,%s,%s,%s\n", substr($0, 9, 8), fixed((2*x + 3*y + 6*z)/7), fixed((3*x - 6*y + 2*z)/7), fixed((6*x + 2*y - 3*z)/7); next }
+   /^FORCE/ { printf "FORCE,%d,%d,,%s,%s,%s,%s\n", substr($0, 9, 8), substr($0, 17, 8), substr($0, 33, 8), fixed(2/7), fixed(3/7), fixed(6/7); next }
+   /^SPC1/ && /3456/ && !/123456/ { sub(/3456 /, "3456 "); print; next }
+   /^BEGIN/ { print; print "CORD2R,7,,0.0,0.0,0.0,0.857142857142857,0.285714285714286,-0.428571428571429\n+,0.285714285714286,0.428571428571429,0.857142857142857"; next }
+   { print }' "$work/lap.bdf" | awk -F, '/^GRID,/ { print $0 ",7"; next } { print }' > "$work/lap_turned.bdf"
+awk 'function scaled(at, f) { return sprintf("%.12f", substr($0, at, 8)*f) }
+   /^GRID/ { printf "GRID,%d,,%s,%s,%s\n", substr($0, 9, 8), scaled(25, 1e-3), scaled(33, 1e-3), scaled(41, 1e-3); next }
+   /^PSHELL/ { print "PSHELL,1,1,0.005,1,,1"; next } /^MAT1/ { print "MAT1,1,2.1+11,,0.3"; next } /^PROD/ { print "PROD,90,1,58.0-6"; next }
+   /^JNORM/ { print "JNORM,1,8.0-10,0.5,2.1+14"; next } /^JSHEAR/ { print "JSHEAR,1,3.0+13"; next } { print }' "$work/lap.bdf" > "$work/lap_metres.bdf"
+run lap && run lap_turned && run lap_metres && {
+   same_rows 'lap of sheets, turned in space' lap lap_turned 1e-7 $resultant
+   # lambda = c p**m with p in Pa: c/1000/(1E6)**m = 8.0-10
+   ask 'lap of sheets, in metres' lap with "$work/lap_metres.joint.csv" \
+      all 'stage = other.stage and increment = other.increment and branch = other.branch and abs(lambda - 1000*other.lambda) <= 1e-7*max(abs(lambda))'
+}
