@@ -12,7 +12,7 @@ module shell_faces
    use node_coupling, only: couple_node
    use numbers, only: cross
    use rbe3, only: by_rotation
-   use shell_element, only: shell_frame, shell_frame_of
+   use shell_geometry, only: shell_frame, shell_frame_of
    use text_tools, only: integer_text
    implicit none
    private

@@ -177,7 +177,7 @@ contains
             if (nodes(k) == 0) cycle
             if (card%components(k) == 3 .and. model%dimension == 2) call deck%field_error(card%line, 'C'//integer_text(k), &
                'a plane model has no component 3')
-            if (card%components(k) < 1 .or. (card%components(k) > model%dimension .and. card%components(k) < 4)) return ! said
+            if (all(card%components(k) /= [1, 2, model%dimension, 4, 5, 6])) return ! said
             directions(:, k) = direction_of(model, nodes(k), card%components(k) - merge(3, 0, card%components(k) > 3))
          end do
          k = merge(1, 2, card%nodes(1) > 0) ! the first node that is not the ground

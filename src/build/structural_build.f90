@@ -12,7 +12,7 @@ module structural_build
    use node_build, only: append_rotations
    use node_coupling, only: couple_node
    use reference_nodes, only: node_axes
-   use shell_element, only: shell_law
+   use shell_geometry, only: shell_law
    use text_tools, only: integer_text
    implicit none
    private
