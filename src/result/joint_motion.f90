@@ -121,8 +121,7 @@ contains
       type(analysis_type), intent(in) :: analysis
       type(joint_type), intent(in)    :: joint
       type(joint_frame), intent(in)   :: frame
-      real(wp) :: q(6)
-      real(wp) :: area, arm(3), d(3), inertia(3, 3), mean(3), moment(3), place(3)
+      real(wp) :: q(6), area, arm(3), d(3), inertia(3, 3), mean(3), moment(3), place(3)
       integer  :: i
 
       q = 0.0_wp
@@ -171,8 +170,7 @@ contains
       real(wp), intent(in) :: inertia(3, 3) !! [J] about the centroid of the elements
       real(wp), intent(in) :: moment(3)
       real(wp), intent(in) :: least         !! below it J is that of one place
-      real(wp) :: turn(3)
-      real(wp) :: determinant, j, minors(3, 3)
+      real(wp) :: turn(3), determinant, j, minors(3, 3)
 
       turn = 0.0_wp
       j = 0.5_wp*(inertia(1, 1) + inertia(2, 2) + inertia(3, 3))
@@ -208,8 +206,7 @@ contains
       type(joint_type), intent(in)  :: joint
       type(joint_frame), intent(in) :: frame
       real(wp), intent(in)          :: k(:, :) !! (3, n) of all interface elements, in their own axes [force/length]
-      real(wp) :: total(6)
-      real(wp) :: moved(3)
+      real(wp) :: total(6), moved(3)
       integer  :: c, i
 
       total = 0.0_wp

@@ -199,8 +199,7 @@ contains
       now%force(:model%dimension, :) = analysis%now%load(:, now%node)
       unbalanced = clean(free_norm(analysis%unbalanced, analysis%held), noise*page%largest_force)
       do j = min(1, size(model%joints)), size(model%joints)
-         call table%add([analysis%increment])
-         call table%add([analysis%increment_fraction, analysis%fraction])
+         call table%add([analysis%increment], [analysis%increment_fraction, analysis%fraction])
          if (j > 0) call add_joint(model, analysis, now, j, noise*page%largest_force, table)
          if (j == 0) call table%skip(9)
          call table%add([unbalanced])
@@ -231,16 +230,10 @@ contains
          end do
          at_lambda = joint%first - 1 + first_largest(above(lambda, noise*analysis%largest_lambda))
          at_p = joint%first - 1 + first_largest(above(p, noise*analysis%largest_p))
-         call table%add([joint%id, n_open])
-         call table%add([clean(maxval(lambda), noise*analysis%largest_lambda)])
-         call table%add([joint_node_id(model, at_lambda, 1)])
-         call table%add([clean(maxval(p), noise*analysis%largest_p)])
+         call table%add([joint%id, n_open], [clean(maxval(lambda), noise*analysis%largest_lambda)])
+         call table%add([joint_node_id(model, at_lambda, 1)], [clean(maxval(p), noise*analysis%largest_p)])
          call table%add([joint_node_id(model, at_p, 1)])
-         if (is_closed(model, joint)) then
-            call table%skip(1)
-         else
-            call table%add([clean(force, floor)])
-         end if
+         call table%add([clean(force, floor)], where=[.not. is_closed(model, joint)])
          if (joint%determinate) then
             applied = carried_resultant(model, joint, now)
             call table%add(clean([applied, force - applied], floor))

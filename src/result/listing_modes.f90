@@ -73,10 +73,8 @@ contains
       size_of_it = maxval(abs(model%x))
       columns = [column('MASS', 'es13.5'), along('CENTRE', d, 'es13.5', page%labels%length)]
       columns = [columns, column(moments(shown), 'es13.5')]
-      call table%start('MASS OF THE STRUCTURE', columns)
-      call table%print_head(page%file)
-      call table%add([modes%mass])
-      call table%add(clean(modes%centre(:d), no_part*size_of_it))
+      call table%start('MASS OF THE STRUCTURE', columns, page%file)
+      call table%add([modes%mass, clean(modes%centre(:d), no_part*size_of_it)])
       call table%add(clean(modes%inertia(shown), no_part*modes%mass*size_of_it**2))
       call table%print_row(page%file)
    end subroutine list_mass
@@ -104,8 +102,7 @@ contains
 
       call table%start('FREQUENCIES', [column('MODE', 'i6'), column('FREQUENCY', 'es15.5', '1/TIME'), &
                        column('OMEGA', 'es15.5', 'RAD/TIME'), column('GENERALISED MASS', 'es18.5'), column('RESIDUAL', 'es12.1'), &
-                       column('LOSS FACTOR', 'es15.5')])
-      call table%print_head(page%file)
+                       column('LOSS FACTOR', 'es15.5')], page%file)
       do m = 1, size(modes%modes)
          associate (mode => modes%modes(m))
             call table%add([modes%n_before + m])
@@ -131,8 +128,7 @@ contains
 
       d = model%dimension
       call table%start('PARTICIPATION AND EFFECTIVE MASS', [column('MODE', 'i6'), along('PARTICIPATION', d, 'es18.5'), &
-                       along('MASS ALONG', d, 'es15.5')])
-      call table%print_head(page%file)
+                       along('MASS ALONG', d, 'es15.5')], page%file)
       sums = 0.0_wp
       do m = 1, size(modes%modes)
          associate (mode => modes%modes(m))
@@ -167,8 +163,7 @@ contains
       call table%start('RESPONSE TO THE OSCILLATING LOAD, LARGEST AMPLITUDES OF '//integer_text(size(response%frequency))// &
                        ' FREQUENCIES', [column('NODE', 'i11'), column('ALONG', 'a7'), &
                        column('AMPLITUDE', 'es15.5', page%labels%length), column('AT FREQUENCY', 'es15.5', '1/TIME'), &
-                       column('PHASE', 'f10.2', 'DEGREES')])
-      call table%print_head(page%file)
+                       column('PHASE', 'f10.2', 'DEGREES')], page%file)
       do i = 1, size(response%node)
          do c = 1, size(response%amplitude, 1)
             at = first_largest(response%amplitude(c, i, :))
@@ -211,8 +206,7 @@ contains
 
       call table%start('STRAIN ENERGY OF THE MODES, PERCENT; WHAT HAS LESS THAN '//real_text(percent*least_share)// &
                        ' IS NOT LISTED', [column('MODE', 'i6'), column('PART', 'a8'), column('NUMBER', 'i11'), &
-                        column('ALL', 'f10.2'), column('NORMAL', 'f10.2'), column('SHEAR', 'f10.2')])
-      call table%print_head(page%file)
+                        column('ALL', 'f10.2'), column('NORMAL', 'f10.2'), column('SHEAR', 'f10.2')], page%file)
       do m = 1, size(modes%modes)
          associate (energy => modes%modes(m)%energy)
             do i = 1, size(energy%body)

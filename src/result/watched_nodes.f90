@@ -270,12 +270,10 @@ contains
       call file%put('')
       call table%start('', [column('WATCHED', 'i11'), column('U'//axes(:d), 'es13.4', labels%length), &
                             column('CHANGE '//axes(:d), 'es13.4', labels%length), column('LOAD', 'es13.4', labels%force), &
-                            column('ALONG IT', 'es13.4', labels%length), column('STIFFNESS', 'es13.4', labels%stiffness)])
-      call table%print_head(file)
+                            column('ALONG IT', 'es13.4', labels%length), column('STIFFNESS', 'es13.4', labels%stiffness)], file)
       do k = 1, size(answer%nodes)
          associate (node => answer%nodes(k))
-            call table%add([model%node_id(node%node)])
-            call table%add(clean([node%u(:d), node%change(:d)]))
+            call table%add([model%node_id(node%node)], clean([node%u(:d), node%change(:d)]))
             if (node%is_loaded) call table%add(clean([norm2(node%load), node%along]))
             if (node%moves) call table%add([node%stiffness])
             call table%print_row(file)
@@ -285,13 +283,11 @@ contains
       call file%put('')
       call table%start('', [column('GIVES WAY', 'a11'), column('NUMBER', 'i11'), &
                             column([character(8) :: 'SHARE %', 'NORMAL %', 'SHEAR %'], 'f11.4'), &
-                            column([character(12) :: 'FROM ELEMENT', 'TO ELEMENT'], 'i14')])
-      call table%print_head(file)
+                            column([character(12) :: 'FROM ELEMENT', 'TO ELEMENT'], 'i14')], file)
       do k = 1, size(answer%parts)
          associate (part => answer%parts(k))
             call table%add(' '//part%kind)
-            call table%add([part%id])
-            call table%add(clean(100.0_wp*[sum(part%share), part%share]))
+            call table%add([part%id], clean(100.0_wp*[sum(part%share), part%share]))
             if (part%kind == 'BODY') call table%add([part%first, part%last])
             call table%print_row(file)
          end associate
@@ -310,12 +306,9 @@ contains
       do k = 1, size(answer%nodes)
          associate (node => answer%nodes(k))
             line%length = 0
-            call line%add([stage, model%node_id(node%node)])
-            call line%add(clean([model%x(:, node%node), node%u, node%change, node%load]))
-            if (node%is_loaded) call line%add(clean([node%along, norm2(node%load)]))
-            if (.not. node%is_loaded) call line%add(',')
-            if (node%moves) call line%add([node%stiffness])
-            if (.not. node%moves) call line%add('')
+            call line%add([stage, model%node_id(node%node)], clean([model%x(:, node%node), node%u, node%change, node%load]))
+            call line%add(clean([node%along, norm2(node%load)]), where=spread(node%is_loaded, 1, 2))
+            call line%add([node%stiffness], where=[node%moves])
             call file%put(line%text(:line%length))
          end associate
       end do
@@ -323,8 +316,7 @@ contains
          line%length = 0
          call line%add([stage])
          call line%add(trim(answer%parts(k)%kind))
-         call line%add([answer%parts(k)%id])
-         call line%add(clean([answer%parts(k)%share, sum(answer%parts(k)%share)*answer%work]))
+         call line%add([answer%parts(k)%id], clean([answer%parts(k)%share, sum(answer%parts(k)%share)*answer%work]))
          call shares%put(line%text(:line%length))
       end do
    end subroutine write_watched
