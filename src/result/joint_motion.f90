@@ -186,19 +186,6 @@ contains
       end if
    end function smallest_turn
 
-   !> What rigid movement C of 1, along an axis or about it, moves at interface element I, in the axes of FRAME.
-   pure function rigid_mode(model, frame, i, c) result(moved)
-      type(model_type), intent(in)  :: model
-      type(joint_frame), intent(in) :: frame
-      integer, intent(in)           :: i, c
-      real(wp) :: moved(3), axis(3)
-
-      axis = 0.0_wp
-      axis(modulo(c - 1, 3) + 1) = 1.0_wp
-      moved = axis
-      if (c > 3) moved = cross(axis, arm_of(model, frame, i))
-   end function rigid_mode
-
    !> What resists each of the six rigid movements while the five others are held: {m}^T [k] {m} summed over the elements
    !! [force/length; force x length].
    pure function stiffness_about(model, joint, frame, k) result(total)
@@ -206,13 +193,16 @@ contains
       type(joint_type), intent(in)  :: joint
       type(joint_frame), intent(in) :: frame
       real(wp), intent(in)          :: k(:, :) !! (3, n) of all interface elements, in their own axes [force/length]
-      real(wp) :: total(6), moved(3)
+      real(wp) :: total(6), moved(3) ! by a rigid movement of 1 along an axis or about it
       integer  :: c, i
 
       total = 0.0_wp
       do i = joint%first, joint%last
          do c = 1, 6
-            moved = matmul(frame%axes, rigid_mode(model, frame, i, c))
+            moved = 0.0_wp
+            moved(modulo(c - 1, 3) + 1) = 1.0_wp
+            if (c > 3) moved = cross(moved, arm_of(model, frame, i))
+            moved = matmul(frame%axes, moved)
             moved = matmul(moved, model%interface(i)%axes)
             total(c) = total(c) + dot_product(k(:, i), moved**2)
          end do

@@ -24,7 +24,7 @@ module listing
                           watch_balance, watch_ranges, watch_shear_laws, watch_unloading
    use restart_stream, only: restart_stream_type
    use stage_entries, only: output_all, output_joint, output_last
-   use stage_plan, only: planned_stage, stage_plan_type
+   use stage_plan, only: stage_plan_type
    use text_tools, only: above, clean, integer_text, plural, upper
    implicit none
    private
@@ -57,25 +57,15 @@ contains
       listing%method = deck%control%method
       listing%poor_condition = ''
       listing%divided = ''
-      if (deck%control%length_unit /= '') call set_labels(trim(deck%control%length_unit), trim(deck%control%force_unit), &
-                                                          listing%page%labels)
+      if (deck%control%length_unit /= '') then
+         associate (length => trim(deck%control%length_unit), force => trim(deck%control%force_unit))
+            listing%page%labels = label_type(length=length, force=force, pressure=force//'/'//length//'2', area=length//'2', &
+               stiffness=force//'/'//length, moment=force//' '//length, slope=force//'/'//length//'2/'//length)
+         end associate
+      end if
       call write_opening(listing%page, deck, model, plan, system)
       call start_watch(model, listing%watch)
    end subroutine start_listing
-
-   !> The units that stand over the columns, of those of LENGTH and FORCE.
-   pure subroutine set_labels(length, force, labels)
-      character(*), intent(in)        :: length, force
-      type(label_type), intent(inout) :: labels
-
-      labels%length = length
-      labels%force = force
-      labels%pressure = force//'/'//length//'2'
-      labels%area = length//'2'
-      labels%stiffness = force//'/'//length
-      labels%moment = force//' '//length
-      labels%slope = force//'/'//length//'2/'//length
-   end subroutine set_labels
 
    !> Note the increment just completed; print its tables where OUTPUT = ALL or JOINT.
    subroutine list_increment(listing, model, plan, analysis)
@@ -116,7 +106,8 @@ contains
             call watch_unloading(model, plan, analysis, listing%watch)
          end if
          if (stage%condensed .and. analysis%increment == 1) call list_condensed(page, model, analysis)
-         if (shows_increment(stage, analysis%increment)) then
+         if (stage%output == output_all .or. stage%output == output_joint .or. &
+             (stage%output == output_last .and. analysis%increment == size(stage%fractions))) then
             write (words, '(2(a, f8.5))') '   SHARE', analysis%increment_fraction, '   LOAD', analysis%fraction
             call page%file%put('')
             call page%file%put(' '//page%stage//', INCREMENT '//integer_text(analysis%increment)//trim(words))
@@ -126,15 +117,6 @@ contains
          if (stage%output == output_all) call list_bodies(page, stage%stress, model, analysis)
       end associate
    end subroutine list_increment
-
-   !> Whether tables of the increment of this number of STAGE are printed.
-   pure logical function shows_increment(stage, increment)
-      type(planned_stage), intent(in) :: stage
-      integer, intent(in)             :: increment
-
-      shows_increment = stage%output == output_all .or. stage%output == output_joint .or. &
-                        (stage%output == output_last .and. increment == size(stage%fractions))
-   end function shows_increment
 
    !> Print the tables of the end of the stage just completed, which are those of its last increment, and then its own.
    subroutine list_stage(listing, model, plan, analysis)

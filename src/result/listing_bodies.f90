@@ -31,10 +31,13 @@ contains
       logical, intent(in)             :: principal
       type(model_type), intent(in)    :: model
       type(analysis_type), intent(in) :: analysis
+      logical :: has_bodies
 
       call list_displacements(page, model, analysis)
       call list_rotations(page, model, analysis)
-      if (has_bodies(model)) call list_stresses(page, principal, model, analysis)
+      has_bodies = model%n_elements > 0
+      if (allocated(model%structural%place)) has_bodies = any(model%structural%place == 0)
+      if (has_bodies) call list_stresses(page, principal, model, analysis)
       call list_structural(page, model, analysis)
       if (principal .and. has_second_order(model)) call list_node_stresses(page, model, analysis)
       call list_reactions(page, model, analysis)
@@ -143,14 +146,6 @@ contains
       call print_rows(page, table, model%element_id(list), clean(centre(:, list)), clean(stress(:n, list), floor))
       if (principal) call list_principal(page, model, analysis, floor)
    end subroutine list_stresses
-
-   !> Whether MODEL has elements that are neither shells nor beams.
-   pure logical function has_bodies(model)
-      type(model_type), intent(in) :: model
-
-      has_bodies = model%n_elements > 0
-      if (allocated(model%structural%place)) has_bodies = any(model%structural%place == 0)
-   end function has_bodies
 
    !> Whether the tables of bodies have element E.
    pure logical function shows_body(page, model, e)

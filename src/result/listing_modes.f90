@@ -33,19 +33,6 @@ contains
                          trim(merge('LUMPED MASS    ', 'CONSISTENT MASS', model%lumped)))
       if (size(model%interface) > 0) call page%file%put('  INTERFACE ELEMENTS THAT TOUCH: '// &
          integer_text(modes%n_touching)//' OF '//integer_text(size(model%interface))//'; THE OTHERS TAKE NO PART')
-      call say_count(page, modes)
-      call list_mass(page, model, modes)
-      if (size(modes%modes) == 0) return
-      call list_frequencies(page, plan, modes)
-      call list_participation(page, model, modes)
-      call list_energies(page, model, modes)
-   end subroutine list_modes
-
-   !> That no mode is missing, and how that is known.
-   subroutine say_count(page, modes)
-      type(page_type), intent(inout) :: page
-      type(modes_type), intent(in)   :: modes
-
       if (modes%counted_at < huge(1.0_wp)) then
          call page%file%put('  MODES BELOW THE FREQUENCY '//real_text(modes%counted_at)//': '//integer_text(modes%n_counted)// &
                             ', COUNTED BY THE SIGNS OF THE PIVOTS; NONE IS MISSING')
@@ -54,7 +41,12 @@ contains
       end if
       if (modes%n_before > 0) call page%file%put('  BELOW THE RANGE: '//integer_text(modes%n_before))
       if (size(modes%modes) == 0) call page%file%put('  THERE IS NONE IN THE RANGE')
-   end subroutine say_count
+      call list_mass(page, model, modes)
+      if (size(modes%modes) == 0) return
+      call list_frequencies(page, plan, modes)
+      call list_participation(page, model, modes)
+      call list_energies(page, model, modes)
+   end subroutine list_modes
 
    !> Mass, centre and moments of inertia of the structure.
    subroutine list_mass(page, model, modes)
@@ -85,12 +77,8 @@ contains
       integer, intent(in)                :: d
       character(*), intent(in), optional :: unit
       type(column_type), allocatable :: columns(:)
-      integer :: c
 
-      allocate (columns(d))
-      do c = 1, d
-         columns(c) = column(heading//' '//axes(c), form, unit)
-      end do
+      columns = [column(heading//' '//axes(:d), form, unit)]
    end function along
 
    subroutine list_frequencies(page, plan, modes)
@@ -105,8 +93,7 @@ contains
                        column('LOSS FACTOR', 'es15.5')], page%file)
       do m = 1, size(modes%modes)
          associate (mode => modes%modes(m))
-            call table%add([modes%n_before + m])
-            call table%add([mode%frequency, mode%omega, mode%mass, clean(mode%residual, noise)])
+            call table%add([modes%n_before + m], [mode%frequency, mode%omega, mode%mass, clean(mode%residual, noise)])
             if (plan%has_losses .and. .not. mode%is_rigid) call table%add([mode%loss])
             call table%print_row(page%file)
          end associate
@@ -232,8 +219,7 @@ contains
          if (share < least_share) return
          call table%add([modes%n_before + m])
          call table%add(kind)
-         call table%add([id])
-         call table%add([percent*share])
+         call table%add([id], [percent*share])
          if (present(of_joint)) call table%add(percent*of_joint)
          call table%print_row(page%file)
       end subroutine add_row

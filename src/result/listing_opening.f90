@@ -37,11 +37,18 @@ contains
       type(model_type), intent(in)      :: model
       type(stage_plan_type), intent(in) :: plan
       class(equation_system), intent(in) :: system
+      character(:), allocatable :: words
 
+      words = 'FROM THE STANDARD INPUT'
+      associate (path => deck%text%files(1)%path) ! without its folder
+         if (path /= standard_input) words = path(index(path, '/', back=.true.) + 1:)
+      end associate
+      words = 'DECK '//words//'   JOINTFEM '//version
+      if (allocated(page%date)) words = words//'   '//page%date
       call page%file%put(' '//repeat('-', page_width - 1))
       call page%file%put('  J O I N T F E M      TANGENT-STIFFNESS FINITE ELEMENT ANALYSIS OF JOINTED STRUCTURES')
       call page%file%put('  '//cut(deck%control%title, page_width - 2))
-      call page%file%put('  '//cut(origin_words(page, deck), page_width - 2))
+      call page%file%put('  '//cut(words, page_width - 2))
       call page%file%put(' '//repeat('-', page_width - 1))
       call write_echo(page%file, deck)
       call write_summary(page%file, deck, model, system)
@@ -51,20 +58,6 @@ contains
       call write_shear_laws(page%file, model)
       call write_stages(page, model, plan)
    end subroutine write_opening
-
-   !> Where the listing comes from: the deck without its folder, the version, and the date where it is asked for.
-   pure function origin_words(page, deck) result(words)
-      type(page_type), intent(in) :: page
-      type(deck_type), intent(in) :: deck
-      character(:), allocatable   :: words
-
-      words = 'FROM THE STANDARD INPUT'
-      associate (path => deck%text%files(1)%path)
-         if (path /= standard_input) words = path(index(path, '/', back=.true.) + 1:)
-      end associate
-      words = 'DECK '//words//'   JOINTFEM '//version
-      if (allocated(page%date)) words = words//'   '//page%date
-   end function origin_words
 
    !> What the model has of everything, and how it is solved.
    subroutine write_summary(file, deck, model, system)
@@ -337,10 +330,11 @@ contains
       type(page_type), intent(inout) :: page
       type(model_type), intent(in)   :: model
       type(listing_table_type) :: table
-      integer :: j, lists(size(model%joints))
+      integer :: i, j, lists(size(model%joints)) ! interface elements that hang on lists of nodes
       integer, allocatable :: shown(:)
 
-      lists = [(n_lists(model, j), j = 1, size(model%joints))]
+      lists = [(count([(model%interface(i)%n_1 > 1 .or. named_node(model%interface(i), 2) < 0, &
+                        i = model%joints(j)%first, model%joints(j)%last)]), j = 1, size(model%joints))]
       shown = pack([(j, j = 1, size(model%joints))], model%joints%cover%fitted .and. &
                    (lists > 0 .or. model%joints%cover%share < whole_share))
       if (size(shown) == 0) return
@@ -362,17 +356,5 @@ contains
          end associate
       end do
    end subroutine write_covers
-
-   !> How many interface elements of joint J hang on lists of nodes.
-   pure integer function n_lists(model, j)
-      type(model_type), intent(in) :: model
-      integer, intent(in)          :: j
-      integer :: i
-
-      n_lists = 0
-      do i = model%joints(j)%first, model%joints(j)%last
-         if (model%interface(i)%n_1 > 1 .or. named_node(model%interface(i), 2) < 0) n_lists = n_lists + 1
-      end do
-   end function n_lists
 
 end module listing_opening

@@ -96,7 +96,7 @@ contains
       character(12), allocatable :: names(:)
       real(wp), allocatable :: scale(:)
       real(wp) :: k_floor, load_floor
-      integer  :: i, first, last, n
+      integer  :: i, first, k, last, n
 
       associate (condensed => analysis%record%condensed)
          if (condensed%problem /= '') then
@@ -108,8 +108,15 @@ contains
          load_floor = noise*max(page%largest_force, maxval(abs(condensed%load)))
          allocate (names(n))
          allocate (scale(n), source=1.0_wp)
-         do i = 1, n
-            call name_unknown(model, condensed%node(i), condensed%direction(i), names(i), scale(i))
+         do i = 1, n ! 12Y, or 900RZ where it is a rotation of node 900: by its arm its rows hold moments
+            associate (node => condensed%node(i), d => condensed%direction(i))
+               k = 0
+               if (n_rotations(model) > 0) k = findloc(model%rotations%node, node, dim=1)
+               if (k == 0) names(i) = integer_text(model%node_id(node))//axes(d)
+               if (k == 0) cycle
+               names(i) = integer_text(model%node_id(model%rotations(k)%point))//'R'//axes(merge(d, 3, model%dimension == 3))
+               scale(i) = model%rotations(k)%arm
+            end associate
          end do
          do first = 1, n, across
             last = min(n, first + across - 1)
@@ -131,25 +138,5 @@ contains
          end do
       end associate
    end subroutine list_condensed
-
-   !> The NAME of component D of NODE: 12Y, or 900RZ where it is a rotation of node 900, and the SCALE to it from what is kept: 1, the
-   !! arm of the rotation, so that its rows hold moments.
-   subroutine name_unknown(model, node, d, name, scale)
-      type(model_type), intent(in) :: model
-      integer, intent(in)          :: node, d
-      character(*), intent(out)    :: name
-      real(wp), intent(out)        :: scale
-      integer :: k
-
-      scale = 1.0_wp
-      k = 0
-      if (n_rotations(model) > 0) k = findloc(model%rotations%node, node, dim=1)
-      if (k == 0) then
-         name = integer_text(model%node_id(node))//axes(d)
-      else
-         name = integer_text(model%node_id(model%rotations(k)%point))//'R'//axes(merge(d, 3, model%dimension == 3))
-         scale = model%rotations(k)%arm
-      end if
-   end subroutine name_unknown
 
 end module listing_states

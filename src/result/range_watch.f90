@@ -193,6 +193,7 @@ contains
       type(stage_plan_type), intent(in)     :: plan
       type(analysis_type), intent(in)       :: analysis
       type(range_watch_type), intent(inout) :: watch
+      character(:), allocatable :: words
       integer :: j, which
 
       do j = 1, size(model%joints)
@@ -200,9 +201,12 @@ contains
             associate (tally => watch%tallies(which, j))
                if (tally%n == 0) cycle
                watch%n_warnings = watch%n_warnings + 1
+               words = 'WITHOUT A POSITIVE SLOPE'
+               if (which == beyond_p) words = 'BEYOND P = '//real_text(tally%bound)
+               if (which == beyond_d) words = 'BEYOND D = '//real_text(tally%bound)
                call keep_two_parts(watch, '  WARNING: JOINT '//integer_text(model%joints(j)%id)//', STAGE '// &
                   integer_text(plan%stages(analysis%stage)%id)//': '//upper(plural(tally%n, 'element'))//' '// &
-                  words_of(which, tally%bound)//' OF THE SHEAR LAW, FIRST NODE '//integer_text(tally%node)//' (INCREMENT '// &
+                  words//' OF THE SHEAR LAW, FIRST NODE '//integer_text(tally%node)//' (INCREMENT '// &
                   integer_text(tally%increment)//'),', &
                   ' WORST '//integer_text(tally%worst_node)//': P = '//real_text(tally%p)//', D = '//real_text(tally%d))
             end associate
@@ -223,17 +227,6 @@ contains
          call watch%rows%keep_line('          '//second)
       end if
    end subroutine keep_two_parts
-
-   !> The BOUND of kind WHICH in words.
-   pure function words_of(which, bound) result(words)
-      integer, intent(in)       :: which
-      real(wp), intent(in)      :: bound
-      character(:), allocatable :: words
-
-      words = 'WITHOUT A POSITIVE SLOPE'
-      if (which == beyond_p) words = 'BEYOND P = '//real_text(bound)
-      if (which == beyond_d) words = 'BEYOND D = '//real_text(bound)
-   end function words_of
 
    !> Note the joints of which an element has come to where the loading curve is steeper than the line E_u that it would unload
    !! along.

@@ -132,7 +132,8 @@ contains
       n_bodies = size(parts)
       n_joints = size(model%joints)
       parts = [parts, [(yielding_type('JOINT', model%joints(i)%id), i = 1, n_joints)], &
-               [(yielding_type(words_of_bar(model, i), bar_number(model, i)), i = 1, n_bars(model))]]
+               [(yielding_type(words_of_bar(model, i), merge(model%bars(i)%bolt, model%bars(i)%id, &
+                                                             model%bars(i)%bolt > 0)), i = 1, n_bars(model))]]
       do i = 1, size(model%interface)
          work = local_force(model, analysis, i)
          work = 0.5_wp*(work - before%force(:, i))*(analysis%movement(:, i) - before%movement(:, i))
@@ -146,19 +147,13 @@ contains
       end do
       all_amounts = sum([(sum(abs(parts(i)%share)), i = 1, size(parts))])
       answer%work = sum([(sum(parts(i)%share), i = 1, size(parts))])
-      if (abs(answer%work) <= cancels*all_amounts .or. all_amounts <= rounding(analysis)) parts = parts(:0)
+      if (abs(answer%work) <= cancels*all_amounts .or. &
+          all_amounts <= cancels**2*analysis%largest_load*maxval(abs(analysis%all_u))) parts = parts(:0) ! what rounding alone makes
       do i = 1, size(parts)
          parts(i)%share = parts(i)%share/answer%work
       end do
       call move_alloc(parts, answer%parts)
    end subroutine share_work
-
-   !> Work that rounding alone may make [force x length].
-   pure real(wp) function rounding(analysis)
-      type(analysis_type), intent(in) :: analysis
-
-      rounding = cancels**2*analysis%largest_load*maxval(abs(analysis%all_u))
-   end function rounding
 
    !> The bodies, as PARTS with their works: forces at their nodes by movements of these, what warmth pushes taken off the forces.
    subroutine share_of_bodies(model, analysis, change, parts)
@@ -224,14 +219,6 @@ contains
       if (model%bars(i)%kind == a_spring) words = 'SPRING'
       if (model%bars(i)%bolt > 0) words = 'BOLT'
    end function words_of_bar
-
-   pure integer function bar_number(model, i) result(number)
-      type(model_type), intent(in) :: model
-      integer, intent(in)          :: i
-
-      number = model%bars(i)%id
-      if (model%bars(i)%bolt > 0) number = model%bars(i)%bolt
-   end function bar_number
 
    !> Before the first stage all is at rest.
    pure subroutine start_watched(model, before)
