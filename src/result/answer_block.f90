@@ -4,7 +4,7 @@ module answer_block
    use listing_table, only: axes, column, heading, label_type, listing_table_type
    use model_data, only: joint_node_id, model_type
    use output_file, only: output_file_type
-   use stage_answer, only: bolt_answer_type, joint_answer, peak_type, stage_answer_type
+   use stage_answer, only: bolt_answer_type, peak_type, stage_answer_type
    use text_tools, only: clean
    implicit none
    private

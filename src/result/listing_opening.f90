@@ -22,7 +22,7 @@ module listing_opening
    use shear_loops, only: loop_closure, worst_closure
    use shear_stiffness, only: cubic_of
    use stage_plan, only: stage_plan_type
-   use text_tools, only: clean, integer_text, plural, real_text, upper
+   use text_tools, only: clean, integer_text, real_text, upper
    implicit none
    private
 
