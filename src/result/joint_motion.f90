@@ -89,17 +89,16 @@ contains
       end do
    end function find_frame
 
-   !> What JOINT transmits now.
-   pure function find_resultant(model, analysis, joint) result(total)
+   !> What JOINT of this FRAME transmits now.
+   pure function find_resultant(model, analysis, joint, frame) result(total)
       type(model_type), intent(in)    :: model
       type(analysis_type), intent(in) :: analysis
       type(joint_type), intent(in)    :: joint
+      type(joint_frame), intent(in)   :: frame
       type(joint_resultant) :: total
-      type(joint_frame) :: frame
       real(wp) :: force(3)
       integer  :: i
 
-      frame = find_frame(model, joint)
       do i = joint%first, joint%last
          associate (element => model%interface(i), state => analysis%states(i))
             force = element_force(element, state)

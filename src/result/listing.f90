@@ -199,20 +199,20 @@ contains
       type(listing_table_type), intent(inout) :: table
       real(wp), allocatable :: lambda(:), p(:)
       real(wp) :: force, applied
-      integer  :: i, at_lambda, at_p, n_open
+      integer  :: i, at_lambda, at_p
 
       associate (joint => model%joints(j), state => analysis%states%normal)
-         n_open = 0; force = 0.0_wp
          allocate (lambda(joint%first:joint%last), p(joint%first:joint%last))
+         lambda = state(joint%first:joint%last)%lambda
+         p = state(joint%first:joint%last)%pressure
+         force = 0.0_wp
          do i = joint%first, joint%last
-            lambda(i) = state(i)%lambda
-            p(i) = state(i)%pressure
-            if (state(i)%branch == branch_open) n_open = n_open + 1
             force = force + state(i)%sumf*dot_product(model%interface(i)%axes(:, 3), joint%normal)
          end do
          at_lambda = joint%first - 1 + first_largest(above(lambda, noise*analysis%largest_lambda))
          at_p = joint%first - 1 + first_largest(above(p, noise*analysis%largest_p))
-         call table%add([joint%id, n_open], [clean(maxval(lambda), noise*analysis%largest_lambda)])
+         call table%add([joint%id, count(state(joint%first:joint%last)%branch == branch_open)], &
+                        [clean(maxval(lambda), noise*analysis%largest_lambda)])
          call table%add([joint_node_id(model, at_lambda, 1)], [clean(maxval(p), noise*analysis%largest_p)])
          call table%add([joint_node_id(model, at_p, 1)])
          call table%add([clean(force, floor)], where=[.not. is_closed(model, joint)])

@@ -183,7 +183,7 @@ contains
       do j = 1, size(model%joints)
          associate (joint => model%joints(j))
             frame = find_frame(model, joint)
-            total = find_resultant(model, analysis, joint)
+            total = find_resultant(model, analysis, joint, frame)
             call table%add([analysis%increment, joint%id])
             if (model%dimension == 3) then
                call table%add(clean([total%normal, total%force], floor))

@@ -291,7 +291,7 @@ contains
       real(wp) :: least(6)
 
       answer%frame = find_frame(model, joint)
-      total = find_resultant(model, analysis, joint)
+      total = find_resultant(model, analysis, joint, answer%frame)
       associate (frame => answer%frame)
          if (model%axisymmetric) total%shear(1) = 0.0_wp ! all round the ring it balances
          answer%normal = above(total%normal, floor)
