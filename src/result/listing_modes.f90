@@ -63,23 +63,13 @@ contains
       d = model%dimension
       allocate (shown, source=pack([(c, c = 1, 6)], [(d == 3 .or. (c == 3 .and. .not. model%axisymmetric), c = 1, 6)]))
       size_of_it = maxval(abs(model%x))
-      columns = [column('MASS', 'es13.5'), along('CENTRE', d, 'es13.5', page%labels%length)]
+      columns = [column('MASS', 'es13.5'), column('CENTRE '//axes(:d), 'es13.5', page%labels%length)]
       columns = [columns, column(moments(shown), 'es13.5')]
       call table%start('MASS OF THE STRUCTURE', columns, page%file)
       call table%add([modes%mass, clean(modes%centre(:d), no_part*size_of_it)])
       call table%add(clean(modes%inertia(shown), no_part*modes%mass*size_of_it**2))
       call table%print_row(page%file)
    end subroutine list_mass
-
-   !> A column for each of the first D axes.
-   pure function along(heading, d, form, unit) result(columns)
-      character(*), intent(in)           :: heading, form
-      integer, intent(in)                :: d
-      character(*), intent(in), optional :: unit
-      type(column_type), allocatable :: columns(:)
-
-      columns = [column(heading//' '//axes(:d), form, unit)]
-   end function along
 
    subroutine list_frequencies(page, plan, modes)
       type(page_type), intent(inout)        :: page
@@ -114,8 +104,8 @@ contains
       integer  :: d, m
 
       d = model%dimension
-      call table%start('PARTICIPATION AND EFFECTIVE MASS', [column('MODE', 'i6'), along('PARTICIPATION', d, 'es18.5'), &
-                       along('MASS ALONG', d, 'es15.5')], page%file)
+      call table%start('PARTICIPATION AND EFFECTIVE MASS', [column('MODE', 'i6'), column('PARTICIPATION '//axes(:d), 'es18.5'), &
+                       column('MASS ALONG '//axes(:d), 'es15.5')], page%file)
       sums = 0.0_wp
       do m = 1, size(modes%modes)
          associate (mode => modes%modes(m))

@@ -222,9 +222,8 @@ contains
       integer :: j
 
       call table%start('INITIAL GAPS, NEGATIVE: INTERFERENCE', &
-                       [column('JOINT', 'i11'), column('GIVEN BY', 'a10'), &
-                        column(['SMALLEST', 'LARGEST '], 'es15.5', page%labels%length), column(['OPEN   ', 'PRESSED'], 'i9')], &
-                       page%file)
+                       [column('JOINT', 'i11'), column('GIVEN BY', 'a10'), column(['SMALLEST', 'LARGEST '], 'es15.5', &
+                        page%labels%length), column(['OPEN   ', 'PRESSED'], 'i9')], page%file)
       do j = 1, size(model%joints)
          associate (joint => model%joints(j), gaps => model%interface(model%joints(j)%first:model%joints(j)%last)%gap)
             if (joint%gap_kind == '') cycle
