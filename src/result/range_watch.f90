@@ -212,7 +212,7 @@ contains
       watch%tallies = tally_type()
    end subroutine say_ranges
 
-   !> Keep the line of a warning, or of a NOTE, which is not counted; where it and its SECOND part are too long for one line, a line each.
+   !> Keep the line of a warning, or of a NOTE, which is not counted; where it and its SECOND part are too long for one line, one each.
    pure subroutine warn(watch, first, second)
       type(range_watch_type), intent(inout) :: watch
       character(*), intent(in)              :: first
