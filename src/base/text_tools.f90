@@ -155,10 +155,11 @@ contains
       if (power == 0) printed = anint(printed)
    end function clean
 
-   !> WORDS as they stand, behind a comma where they are not the first field.
-   pure subroutine add_text(self, words)
+   !> WORDS as they stand, behind a comma where they are not the first field, and REALS behind them.
+   pure recursive subroutine add_text(self, words, reals)
       class(csv_line_type), intent(inout) :: self
       character(*), intent(in)            :: words
+      real(wp), intent(in), optional      :: reals(:)
       character(:), allocatable :: longer
       integer :: n
 
@@ -175,30 +176,38 @@ contains
       end if
       self%text(self%length + 1:self%length + n) = words
       self%length = self%length + n
+      if (present(reals)) call self%add_reals(reals)
    end subroutine add_text
 
-   !> VALUES as i0, a field each.
-   pure subroutine add_integers(self, values)
+   !> VALUES as i0, a field each, empty but WHERE there are any; REALS behind them.
+   pure subroutine add_integers(self, values, reals, where)
       class(csv_line_type), intent(inout) :: self
       integer, intent(in)                 :: values(:)
+      real(wp), intent(in), optional      :: reals(:)
+      logical, intent(in), optional       :: where(:) !! (values) default: all
       character(integer_width) :: digits
       integer :: i, n
 
       do i = 1, size(values)
          call write_integer(values(i), digits, n)
+         if (present(where)) n = merge(n, 0, where(i))
          call self%add_text(digits(:n))
       end do
+      if (present(reals)) call self%add_reals(reals)
    end subroutine add_integers
 
-   !> VALUES with the 17 digits that make them come back the same, as es24.16e3 without blanks, a field each.
-   pure subroutine add_reals(self, values)
+   !> VALUES with the 17 digits that make them come back the same, as es24.16e3 without blanks, a field each, empty but WHERE there are
+   !! any.
+   pure recursive subroutine add_reals(self, values, where)
       class(csv_line_type), intent(inout) :: self
       real(wp), intent(in)                :: values(:)
+      logical, intent(in), optional       :: where(:)
       character(full_width) :: field
       integer :: i, n
 
       do i = 1, size(values)
          call write_full(values(i), field, n)
+         if (present(where)) n = merge(n, 0, where(i))
          call self%add_text(field(:n))
       end do
    end subroutine add_reals

@@ -36,8 +36,7 @@ contains
       if (present(first)) item%first = first
       if (present(last)) item%last = last
       do i = self%n, max(1, self%n - 20), -1
-         if (self%items(i)%line == line .and. self%items(i)%first == item%first &
-             .and. self%items(i)%message == message) return
+         if (self%items(i)%line == line .and. self%items(i)%first == item%first .and. self%items(i)%message == message) return
       end do
       if (.not. allocated(self%items)) allocate (self%items(16))
       if (self%n == size(self%items)) then

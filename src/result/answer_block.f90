@@ -4,7 +4,7 @@ module answer_block
    use listing_table, only: axes, column, heading, label_type, listing_table_type
    use model_data, only: joint_node_id, model_type
    use output_file, only: output_file_type
-   use stage_answer, only: bolt_answer_type, joint_answer, peak_type, stage_answer_type
+   use stage_answer, only: bolt_answer_type, peak_type, stage_answer_type
    use text_tools, only: clean
    implicit none
    private
@@ -37,8 +37,7 @@ contains
       type(listing_table_type) :: table
 
       call table%start('', [column('', 'a33'), column('VALUE', 'es13.4'), column('', 'a13'), column('AT', 'a8'), &
-                            column('NUMBER', 'i11'), column(axes(:model%dimension), 'es13.5', labels%length)])
-      call table%print_head(file)
+                            column('NUMBER', 'i11'), column(axes(:model%dimension), 'es13.5', labels%length)], file)
       call row('LARGEST DISPLACEMENT', labels%length, 'NODE', answer%displacement)
       call row('LARGEST VON MISES, CENTRES', labels%pressure, 'ELEMENT', answer%at_centre)
       call row('LARGEST VON MISES, NODES', labels%pressure, 'NODE', answer%at_node)
@@ -78,22 +77,15 @@ contains
       call table%start('', [column('JOINT', 'i11'), column('CONTACT %', 'f10.2'), column('P MAX', 'es12.4', labels%pressure), &
                             column('AT NODE', 'i11'), column('GAP MAX', 'es12.4', labels%length), column('AT NODE', 'i11'), &
                             column('SLIPPING', 'i9'), column(['N', 'T'], 'es12.4', labels%force), &
-                            column('M', 'es12.4', labels%moment), column('MU N/T', 'f11.3'), column('', 'a')])
-      call table%print_head(file)
+                            column('M', 'es12.4', labels%moment), column('MU N/T', 'f11.3'), column('', 'a')], file)
       do j = 1, size(answer%joints)
          associate (joint => answer%joints(j))
-            call table%add([model%joints(j)%id])
-            call table%add([100.0_wp*joint%contact, joint%pressure])
+            call table%add([model%joints(j)%id], [100.0_wp*joint%contact, joint%pressure])
             call add_node(joint%pressed_at)
             call table%add([joint%gap])
             call add_node(joint%open_at)
-            call table%add([joint%slipping])
-            call table%add([joint%normal, joint%shear, joint%moment])
-            if (joint%has_safety) then
-               call table%add([min(joint%safety, 999999.0_wp)])
-            else
-               call table%skip(1)
-            end if
+            call table%add([joint%slipping], [joint%normal, joint%shear, joint%moment])
+            call table%add([min(joint%safety, 999999.0_wp)], where=[joint%has_safety])
             if (joint%frame%closed) call table%add('  CLOSED')
             call table%print_row(file)
          end associate
@@ -105,8 +97,7 @@ contains
       subroutine add_node(i)
          integer, intent(in) :: i
 
-         if (i > 0) call table%add([joint_node_id(model, i, 1)])
-         if (i == 0) call table%skip(1)
+         call table%add([joint_node_id(model, max(i, 1), 1)], where=[i > 0])
       end subroutine add_node
 
    end subroutine print_joints
@@ -129,8 +120,7 @@ contains
       unit(4:) = labels%moment
       call file%put('')
       call table%start('', [column('JOINT', 'i11'), column('STIFFNESS', 'a10'), &
-                            column(pack(names, shown), 'es14.4', pack(unit, shown))])
-      call table%print_head(file)
+                            column(pack(names, shown), 'es14.4', pack(unit, shown))], file)
       do j = 1, size(answer%joints)
          associate (joint => answer%joints(j))
             call row('TANGENT', joint%tangent, joint%frame%exists)
@@ -144,15 +134,10 @@ contains
          character(*), intent(in) :: kind
          real(wp), intent(in)     :: stiffness(6)
          logical, intent(in)      :: is_there(6)
-         integer :: k
 
          call table%add([model%joints(j)%id])
          call table%add(kind)
-         do k = 1, 6
-            if (.not. shown(k)) cycle
-            if (is_there(k)) call table%add([stiffness(k)])
-            if (.not. is_there(k)) call table%skip(1)
-         end do
+         call table%add(pack(stiffness, shown), where=pack(is_there, shown))
          call table%print_row(file)
       end subroutine row
 
@@ -169,8 +154,7 @@ contains
       call file%put('')
       call table%start('', [column([character(7) :: 'BOLT', 'ELEMENT', 'SURFACE'], 'i11'), &
                             column([character(6) :: 'FORCE', 'CHANGE', 'LOAD'], 'es13.4', labels%force), &
-                            column('CHANGE/LOAD', 'f13.5'), column('BENDING', 'es13.4', labels%moment)])
-      call table%print_head(file)
+                            column('CHANGE/LOAD', 'f13.5'), column('BENDING', 'es13.4', labels%moment)], file)
       do i = 1, size(bolts)
          associate (bolt => bolts(i))
             call table%add([bolt%bolt%id])

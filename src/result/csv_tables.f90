@@ -86,25 +86,21 @@ contains
 
       gaps = has_gaps(model)
       slides = can_slide(model)
-      call line%add([plan%stages(analysis%stage)%id, analysis%increment])
-      call line%add(clean([analysis%fraction]))
+      call line%add([plan%stages(analysis%stage)%id, analysis%increment], clean([analysis%fraction]))
       same = line%length                  ! the columns that all rows have in common
       do i = 1, size(model%interface)
          line%length = same
          associate (element => model%interface(i), state => analysis%states(i)%normal)
             call line%add([model%joints(element%joint)%id, element%id, joint_node_id(model, i, 1), joint_node_id(model, i, 2)])
             call line%add(clean([at_first_end(element, model%x), element%area]))
-            call line%add(branch_name(state%branch))
-            call line%add(clean([state%lambda, state%pressure, state%sumf, state%k_n]))
+            call line%add(branch_name(state%branch), clean([state%lambda, state%pressure, state%sumf, state%k_n]))
          end associate
          do k = 1, 2
             associate (state => analysis%states(i)%shear(k))
                if (model%joints(model%interface(i)%joint)%law%shear(k)%given) then
-                  call line%add(branch_name(state%branch))
-                  call line%add(clean([state%delta, state%tau, state%k_s]))
+                  call line%add(branch_name(state%branch), clean([state%delta, state%tau, state%k_s]))
                else                       ! without a shear law the movement alone is a result
-                  call line%add('')
-                  call line%add(clean([analysis%movement(k, i), 0.0_wp, 0.0_wp]))
+                  call line%add('', clean([analysis%movement(k, i), 0.0_wp, 0.0_wp]))
                end if
             end associate
          end do
@@ -155,9 +151,8 @@ contains
       type(csv_line_type), intent(inout) :: line
       type(peak_type), intent(in)        :: peak
 
-      call add_where(line, [peak%is_there], [peak%value])
-      if (peak%is_there) call line%add([peak%id])
-      if (.not. peak%is_there) call line%add('')
+      call line%add(clean([peak%value]), where=[peak%is_there])
+      call line%add([peak%id], where=[peak%is_there])
    end subroutine add_peak
 
    !> What a row says of joint J.
@@ -170,18 +165,15 @@ contains
       associate (joint => answer%joints(j), frame => answer%joints(j)%frame)
          call line%add(clean([model%joints(j)%area, frame%centroid]))
          call line%add(merge('1', '0', frame%closed))
-         call add_where(line, spread(.not. frame%closed, 1, 3), clean(frame%axes(:, 3)))
+         call line%add(clean(frame%axes(:, 3)), where=spread(.not. frame%closed, 1, 3))
          call line%add(clean([joint%contact, joint%pressure]))
          call add_node(joint%pressed_at)
          call line%add(clean([joint%gap]))
          call add_node(joint%open_at)
-         call line%add([joint%slipping])
-         call line%add(clean([joint%normal, joint%shear, joint%moment]))
-         call add_where(line, [joint%has_safety], [joint%safety])
-         call add_where(line, frame%exists, joint%force)
-         call add_where(line, frame%exists, joint%movement)
-         call add_where(line, frame%exists, joint%tangent)
-         call add_where(line, joint%has_secant, joint%secant)
+         call line%add([joint%slipping], clean([joint%normal, joint%shear, joint%moment]))
+         call line%add(clean([joint%safety]), where=[joint%has_safety])
+         call line%add(clean([joint%force, joint%movement, joint%tangent]), where=[frame%exists, frame%exists, frame%exists])
+         call line%add(clean(joint%secant), where=joint%has_secant)
       end associate
 
    contains
@@ -190,8 +182,7 @@ contains
       subroutine add_node(i)
          integer, intent(in) :: i
 
-         if (i > 0) call line%add([joint_node_id(model, i, 1)])
-         if (i == 0) call line%add('')
+         call line%add([joint_node_id(model, max(i, 1), 1)], where=[i > 0])
       end subroutine add_node
 
    end subroutine add_joint
@@ -209,12 +200,9 @@ contains
       do i = 1, size(bolts)
          associate (bolt => bolts(i))
             line%length = 0
-            call line%add([stage, increment])
-            call line%add(clean([fraction]))
-            call line%add([bolt%bolt%id])
-            call line%add(clean([bolt%force, bolt%change, bolt%load_change]))
-            call add_where(line, [bolt%has_ratio], [bolt%ratio])
-            call add_where(line, [bolt%has_moment], [bolt%moment])
+            call line%add([stage, increment], clean([fraction]))
+            call line%add([bolt%bolt%id], clean([bolt%force, bolt%change, bolt%load_change]))
+            call line%add(clean([bolt%ratio, bolt%moment]), where=[bolt%has_ratio, bolt%has_moment])
             call line%add(clean([bolt%bolt%longer]))
             call line%add([bolt%bolt%element])
             if (bolt%bolt%section > 0) call line%add([model%sections(bolt%bolt%section)%surface])
@@ -223,19 +211,6 @@ contains
          end associate
       end do
    end subroutine write_bolts
-
-   !> VALUES, an empty field for those that are not there.
-   subroutine add_where(line, is_there, values)
-      type(csv_line_type), intent(inout) :: line
-      logical, intent(in)                :: is_there(:)
-      real(wp), intent(in)               :: values(:)
-      integer :: k
-
-      do k = 1, size(values)
-         if (is_there(k)) call line%add(clean(values(k:k)))
-         if (.not. is_there(k)) call line%add('')
-      end do
-   end subroutine add_where
 
    !> The rows of STAGE, a mode each: effective masses are those of the mode; the loss factor where PLAN has losses.
    subroutine write_modes(file, stage, plan, modes)
@@ -249,14 +224,9 @@ contains
       do m = 1, size(modes%modes)
          associate (mode => modes%modes(m))
             line%length = 0
-            call line%add([stage, modes%n_before + m])
-            call line%add([mode%frequency, mode%omega, mode%residual])
+            call line%add([stage, modes%n_before + m], [mode%frequency, mode%omega, mode%residual])
             call line%add(above(mode%effective, no_mass*modes%mass))
-            if (plan%has_losses .and. .not. mode%is_rigid) then
-               call line%add([mode%loss])
-            else
-               call line%add('')
-            end if
+            call line%add([mode%loss], where=[plan%has_losses .and. .not. mode%is_rigid])
             call file%put(line%text(:line%length))
          end associate
       end do
@@ -296,8 +266,7 @@ contains
          line%length = 0
          call line%add([stage, modes%n_before + m])
          call line%add(kind)
-         call line%add([id])
-         call line%add(shares)
+         call line%add([id], shares)
          call file%put(line%text(:line%length))
       end subroutine put
 
@@ -314,9 +283,8 @@ contains
       do i = 1, size(found%loops)
          associate (loop => found%loops(i))
             line%length = 0
-            call line%add([stage, found%mode])
-            call line%add(clean([loop%q*found%peak, sqrt(loop%omega_squared)/two_pi, loop%loss, loop%slipping, loop%open, &
-                                 loop%distortion]))
+            call line%add([stage, found%mode], clean([loop%q*found%peak, sqrt(loop%omega_squared)/two_pi, loop%loss, &
+                                                      loop%slipping, loop%open, loop%distortion]))
             call file%put(line%text(:line%length))
          end associate
       end do
@@ -333,10 +301,8 @@ contains
       do i = 1, size(found%loops)
          do k = 1, size(found%loops(i)%way, 2)
             line%length = 0
-            call line%add([stage, found%mode])
-            call line%add([found%loops(i)%q*found%peak])
-            call line%add([k - 1])
-            call line%add(clean(found%loops(i)%way(:, k)))
+            call line%add([stage, found%mode], [found%loops(i)%q*found%peak])
+            call line%add([k - 1], clean(found%loops(i)%way(:, k)))
             call file%put(line%text(:line%length))
          end do
       end do
@@ -353,11 +319,8 @@ contains
       if (.not. allocated(found%answers)) return
       do i = 1, size(found%answers, 2)
          line%length = 0
-         call line%add([stage, found%mode])
-         call line%add([found%answers(1, i)])
-         if (found%answers(2, i) >= 0.0_wp) call line%add(clean(found%answers(2:3, i)))
-         if (found%answers(2, i) < 0.0_wp) call line%add('')
-         if (found%answers(2, i) < 0.0_wp) call line%add('')
+         call line%add([stage, found%mode], [found%answers(1, i)])
+         call line%add(clean(found%answers(2:3, i)), where=spread(found%answers(2, i) >= 0.0_wp, 1, 2))
          call line%add(found%answers(4:5, i))
          call file%put(line%text(:line%length))
       end do
@@ -376,11 +339,9 @@ contains
          do k = 1, size(answer%node)
             do d = 1, size(answer%amplitude, 1)
                line%length = 0
-               call line%add([stage])
-               call line%add(clean([answer%frequency(f)]))
+               call line%add([stage], clean([answer%frequency(f)]))
                call line%add([answer%node(k)])
-               call line%add(component_names(d))
-               call line%add(clean([answer%amplitude(d, k, f), answer%phase(d, k, f)]))
+               call line%add(component_names(d), clean([answer%amplitude(d, k, f), answer%phase(d, k, f)]))
                call file%put(line%text(:line%length))
             end do
          end do

@@ -89,17 +89,16 @@ contains
       end do
    end function find_frame
 
-   !> What JOINT transmits now.
-   pure function find_resultant(model, analysis, joint) result(total)
+   !> What JOINT of this FRAME transmits now.
+   pure function find_resultant(model, analysis, joint, frame) result(total)
       type(model_type), intent(in)    :: model
       type(analysis_type), intent(in) :: analysis
       type(joint_type), intent(in)    :: joint
+      type(joint_frame), intent(in)   :: frame
       type(joint_resultant) :: total
-      type(joint_frame) :: frame
       real(wp) :: force(3)
       integer  :: i
 
-      frame = find_frame(model, joint)
       do i = joint%first, joint%last
          associate (element => model%interface(i), state => analysis%states(i))
             force = element_force(element, state)
@@ -121,8 +120,7 @@ contains
       type(analysis_type), intent(in) :: analysis
       type(joint_type), intent(in)    :: joint
       type(joint_frame), intent(in)   :: frame
-      real(wp) :: q(6)
-      real(wp) :: area, arm(3), d(3), inertia(3, 3), mean(3), moment(3), place(3)
+      real(wp) :: q(6), area, arm(3), d(3), inertia(3, 3), mean(3), moment(3), place(3)
       integer  :: i
 
       q = 0.0_wp
@@ -171,8 +169,7 @@ contains
       real(wp), intent(in) :: inertia(3, 3) !! [J] about the centroid of the elements
       real(wp), intent(in) :: moment(3)
       real(wp), intent(in) :: least         !! below it J is that of one place
-      real(wp) :: turn(3)
-      real(wp) :: determinant, j, minors(3, 3)
+      real(wp) :: turn(3), determinant, j, minors(3, 3)
 
       turn = 0.0_wp
       j = 0.5_wp*(inertia(1, 1) + inertia(2, 2) + inertia(3, 3))
@@ -188,19 +185,6 @@ contains
       end if
    end function smallest_turn
 
-   !> What rigid movement C of 1, along an axis or about it, moves at interface element I, in the axes of FRAME.
-   pure function rigid_mode(model, frame, i, c) result(moved)
-      type(model_type), intent(in)  :: model
-      type(joint_frame), intent(in) :: frame
-      integer, intent(in)           :: i, c
-      real(wp) :: moved(3), axis(3)
-
-      axis = 0.0_wp
-      axis(modulo(c - 1, 3) + 1) = 1.0_wp
-      moved = axis
-      if (c > 3) moved = cross(axis, arm_of(model, frame, i))
-   end function rigid_mode
-
    !> What resists each of the six rigid movements while the five others are held: {m}^T [k] {m} summed over the elements
    !! [force/length; force x length].
    pure function stiffness_about(model, joint, frame, k) result(total)
@@ -208,14 +192,16 @@ contains
       type(joint_type), intent(in)  :: joint
       type(joint_frame), intent(in) :: frame
       real(wp), intent(in)          :: k(:, :) !! (3, n) of all interface elements, in their own axes [force/length]
-      real(wp) :: total(6)
-      real(wp) :: moved(3)
+      real(wp) :: total(6), moved(3) ! by a rigid movement of 1 along an axis or about it
       integer  :: c, i
 
       total = 0.0_wp
       do i = joint%first, joint%last
          do c = 1, 6
-            moved = matmul(frame%axes, rigid_mode(model, frame, i, c))
+            moved = 0.0_wp
+            moved(modulo(c - 1, 3) + 1) = 1.0_wp
+            if (c > 3) moved = cross(moved, arm_of(model, frame, i))
+            moved = matmul(frame%axes, moved)
             moved = matmul(moved, model%interface(i)%axes)
             total(c) = total(c) + dot_product(k(:, i), moved**2)
          end do

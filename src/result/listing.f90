@@ -24,7 +24,7 @@ module listing
                           watch_balance, watch_ranges, watch_shear_laws, watch_unloading
    use restart_stream, only: restart_stream_type
    use stage_entries, only: output_all, output_joint, output_last
-   use stage_plan, only: planned_stage, stage_plan_type
+   use stage_plan, only: stage_plan_type
    use text_tools, only: above, clean, integer_text, plural, upper
    implicit none
    private
@@ -57,25 +57,15 @@ contains
       listing%method = deck%control%method
       listing%poor_condition = ''
       listing%divided = ''
-      if (deck%control%length_unit /= '') call set_labels(trim(deck%control%length_unit), trim(deck%control%force_unit), &
-                                                          listing%page%labels)
+      if (deck%control%length_unit /= '') then
+         associate (length => trim(deck%control%length_unit), force => trim(deck%control%force_unit))
+            listing%page%labels = label_type(length=length, force=force, pressure=force//'/'//length//'2', area=length//'2', &
+               stiffness=force//'/'//length, moment=force//' '//length, slope=force//'/'//length//'2/'//length)
+         end associate
+      end if
       call write_opening(listing%page, deck, model, plan, system)
       call start_watch(model, listing%watch)
    end subroutine start_listing
-
-   !> The units that stand over the columns, of those of LENGTH and FORCE.
-   pure subroutine set_labels(length, force, labels)
-      character(*), intent(in)        :: length, force
-      type(label_type), intent(inout) :: labels
-
-      labels%length = length
-      labels%force = force
-      labels%pressure = force//'/'//length//'2'
-      labels%area = length//'2'
-      labels%stiffness = force//'/'//length
-      labels%moment = force//' '//length
-      labels%slope = force//'/'//length//'2/'//length
-   end subroutine set_labels
 
    !> Note the increment just completed; print its tables where OUTPUT = ALL or JOINT.
    subroutine list_increment(listing, model, plan, analysis)
@@ -116,7 +106,8 @@ contains
             call watch_unloading(model, plan, analysis, listing%watch)
          end if
          if (stage%condensed .and. analysis%increment == 1) call list_condensed(page, model, analysis)
-         if (shows_increment(stage, analysis%increment)) then
+         if (stage%output == output_all .or. stage%output == output_joint .or. &
+             (stage%output == output_last .and. analysis%increment == size(stage%fractions))) then
             write (words, '(2(a, f8.5))') '   SHARE', analysis%increment_fraction, '   LOAD', analysis%fraction
             call page%file%put('')
             call page%file%put(' '//page%stage//', INCREMENT '//integer_text(analysis%increment)//trim(words))
@@ -126,15 +117,6 @@ contains
          if (stage%output == output_all) call list_bodies(page, stage%stress, model, analysis)
       end associate
    end subroutine list_increment
-
-   !> Whether tables of the increment of this number of STAGE are printed.
-   pure logical function shows_increment(stage, increment)
-      type(planned_stage), intent(in) :: stage
-      integer, intent(in)             :: increment
-
-      shows_increment = stage%output == output_all .or. stage%output == output_joint .or. &
-                        (stage%output == output_last .and. increment == size(stage%fractions))
-   end function shows_increment
 
    !> Print the tables of the end of the stage just completed, which are those of its last increment, and then its own.
    subroutine list_stage(listing, model, plan, analysis)
@@ -199,8 +181,7 @@ contains
       now%force(:model%dimension, :) = analysis%now%load(:, now%node)
       unbalanced = clean(free_norm(analysis%unbalanced, analysis%held), noise*page%largest_force)
       do j = min(1, size(model%joints)), size(model%joints)
-         call table%add([analysis%increment])
-         call table%add([analysis%increment_fraction, analysis%fraction])
+         call table%add([analysis%increment], [analysis%increment_fraction, analysis%fraction])
          if (j > 0) call add_joint(model, analysis, now, j, noise*page%largest_force, table)
          if (j == 0) call table%skip(9)
          call table%add([unbalanced])
@@ -218,29 +199,23 @@ contains
       type(listing_table_type), intent(inout) :: table
       real(wp), allocatable :: lambda(:), p(:)
       real(wp) :: force, applied
-      integer  :: i, at_lambda, at_p, n_open
+      integer  :: i, at_lambda, at_p
 
       associate (joint => model%joints(j), state => analysis%states%normal)
-         n_open = 0; force = 0.0_wp
          allocate (lambda(joint%first:joint%last), p(joint%first:joint%last))
+         lambda = state(joint%first:joint%last)%lambda
+         p = state(joint%first:joint%last)%pressure
+         force = 0.0_wp
          do i = joint%first, joint%last
-            lambda(i) = state(i)%lambda
-            p(i) = state(i)%pressure
-            if (state(i)%branch == branch_open) n_open = n_open + 1
             force = force + state(i)%sumf*dot_product(model%interface(i)%axes(:, 3), joint%normal)
          end do
          at_lambda = joint%first - 1 + first_largest(above(lambda, noise*analysis%largest_lambda))
          at_p = joint%first - 1 + first_largest(above(p, noise*analysis%largest_p))
-         call table%add([joint%id, n_open])
-         call table%add([clean(maxval(lambda), noise*analysis%largest_lambda)])
-         call table%add([joint_node_id(model, at_lambda, 1)])
-         call table%add([clean(maxval(p), noise*analysis%largest_p)])
+         call table%add([joint%id, count(state(joint%first:joint%last)%branch == branch_open)], &
+                        [clean(maxval(lambda), noise*analysis%largest_lambda)])
+         call table%add([joint_node_id(model, at_lambda, 1)], [clean(maxval(p), noise*analysis%largest_p)])
          call table%add([joint_node_id(model, at_p, 1)])
-         if (is_closed(model, joint)) then
-            call table%skip(1)
-         else
-            call table%add([clean(force, floor)])
-         end if
+         call table%add([clean(force, floor)], where=[.not. is_closed(model, joint)])
          if (joint%determinate) then
             applied = carried_resultant(model, joint, now)
             call table%add(clean([applied, force - applied], floor))

@@ -36,8 +36,7 @@ contains
                           column('FREQUENCY', 'es14.5', '1/TIME'), column('SHIFT', 'f10.4', 'PERCENT'), &
                           column('LOSS FACTOR', 'es14.4'), column('SLIPPING', 'f10.2', 'PERCENT'), &
                           column('OPEN', 'f8.2', 'PERCENT'), column('CENTRE', 'f9.4'), column('NOT CLOSED', 'f12.6'), &
-                          column('DISTORTION', 'f12.5'), column('LOOPS', 'i7')])
-         call table%print_head(page%file)
+                          column('DISTORTION', 'f12.5'), column('LOOPS', 'i7')], page%file)
          do i = 1, size(found%loops)
             associate (loop => found%loops(i))
                call table%add([loop%q*found%peak, sqrt(loop%omega_squared)/two_pi])
@@ -67,8 +66,7 @@ contains
       integer :: i
 
       call table%start('RESPONSE OF THIS MODE ALONE BY ITS BACKBONE: RESONANCES', &
-                       [column('AMPLITUDE', 'es14.5', page%labels%length), column('FREQUENCY', 'es14.5', '1/TIME')])
-      call table%print_head(page%file)
+                       [column('AMPLITUDE', 'es14.5', page%labels%length), column('FREQUENCY', 'es14.5', '1/TIME')], page%file)
       do i = 1, size(found%answers, 2)
          if (found%answers(3, i) > -90.0_wp .or. found%answers(5, i) < -90.0_wp) cycle
          call table%add(found%answers(1:2, i))
@@ -87,14 +85,12 @@ contains
       integer :: i, j
 
       call table%start('SHARE OF THE LOSS BY JOINT', [column('AMPLITUDE', 'es14.5', page%labels%length), column('JOINT', 'i11'), &
-                                                      column('SHARE', 'f10.2', 'PERCENT')])
-      call table%print_head(page%file)
+                                                      column('SHARE', 'f10.2', 'PERCENT')], page%file)
       do i = 1, size(found%loops)
          if (.not. found%loops(i)%loss > 0.0_wp) cycle
          do j = 1, size(model%joints)
             call table%add([found%loops(i)%q*found%peak])
-            call table%add([model%joints(j)%id])
-            call table%add([clean(percent*found%loops(i)%lost(j), tiny_share)])
+            call table%add([model%joints(j)%id], [clean(percent*found%loops(i)%lost(j), tiny_share)])
             call table%print_row(page%file)
          end do
       end do

@@ -6,9 +6,8 @@ module listing_bodies
    use elasticity, only: max_stresses, n_stresses, principal_stresses, von_mises
    use interface_operator, only: named_node
    use kinds, only: wp
-   use listing_nodes, only: add_directed, in_units, direction_columns, &
-                            direction_words, list_moments, list_rotations, shows_element, &
-                            shows_node
+   use listing_nodes, only: add_directed, in_units, direction_columns, direction_words, list_moments, list_rotations, &
+                            shows_element, shows_node
    use listing_table, only: axes, column, listing_table_type, noise, page_type, page_width
    use model_data, only: a_point, has_ground_springs, has_second_order, is_beam, is_shell, model_type, n_bars, n_points, &
                          node_kind, supported
@@ -32,10 +31,13 @@ contains
       logical, intent(in)             :: principal
       type(model_type), intent(in)    :: model
       type(analysis_type), intent(in) :: analysis
+      logical :: has_bodies
 
       call list_displacements(page, model, analysis)
       call list_rotations(page, model, analysis)
-      if (has_bodies(model)) call list_stresses(page, principal, model, analysis)
+      has_bodies = model%n_elements > 0
+      if (allocated(model%structural%place)) has_bodies = any(model%structural%place == 0)
+      if (has_bodies) call list_stresses(page, principal, model, analysis)
       call list_structural(page, model, analysis)
       if (principal .and. has_second_order(model)) call list_node_stresses(page, model, analysis)
       call list_reactions(page, model, analysis)
@@ -53,8 +55,7 @@ contains
 
       call table%start('DISPLACEMENTS OF NODES'//direction_words(page)//page%now//in_units(page%labels%length), &
                        [column('NODE', 'i11'), column(axes(:model%dimension), 'es13.5'), &
-                        direction_columns(page, 'U', model%dimension)])
-      call table%print_head(page%file)
+                        direction_columns(page, 'U', model%dimension)], page%file)
       floor = noise*maxval(abs(analysis%all_u(:, :n_points(model))))
       if (.not. page%along_cd) then
          list = pack([(node, node = 1, n_points(model))], &
@@ -65,8 +66,7 @@ contains
       end if
       do node = 1, n_points(model)
          if (.not. model%used(node) .or. .not. shows_node(page, node)) cycle
-         call table%add([model%node_id(node)])
-         call table%add(clean(model%x(:model%dimension, node)))
+         call table%add([model%node_id(node)], clean(model%x(:model%dimension, node)))
          call add_directed(page, model, node, analysis%all_u(:, node), floor, table)
          call table%print_row(page%file)
       end do
@@ -108,8 +108,7 @@ contains
          mine = table
          used = 0
          do k = from, until
-            call mine%add([id(k)])
-            call mine%add(x(:, k))
+            call mine%add([id(k)], x(:, k))
             call mine%add(values(:, k))
             call mine%take_line(lines, used)
          end do
@@ -142,20 +141,11 @@ contains
       floor = noise*maxval(abs(stress))
       call table%start('STRESSES AT THE CENTRES OF ELEMENTS'//page%now//in_units(page%labels%pressure), &
                        [column('ELEMENT', 'i11'), column('CENTRE '//axes(:model%dimension), 'es13.5'), &
-                        column(stress_names(model), 'es13.5')])
-      call table%print_head(page%file)
+                        column(stress_names(model), 'es13.5')], page%file)
       list = pack([(e, e = 1, model%n_elements)], [(shows_body(page, model, e), e = 1, model%n_elements)])
       call print_rows(page, table, model%element_id(list), clean(centre(:, list)), clean(stress(:n, list), floor))
       if (principal) call list_principal(page, model, analysis, floor)
    end subroutine list_stresses
-
-   !> Whether MODEL has elements that are neither shells nor beams.
-   pure logical function has_bodies(model)
-      type(model_type), intent(in) :: model
-
-      has_bodies = model%n_elements > 0
-      if (allocated(model%structural%place)) has_bodies = any(model%structural%place == 0)
-   end function has_bodies
 
    !> Whether the tables of bodies have element E.
    pure logical function shows_body(page, model, e)
@@ -204,13 +194,10 @@ contains
       floor = noise*maxval(abs(stress))
       shown = shown_stresses(model)
       call table%start('STRESSES AT NODES, MEAN OF THEIR ELEMENTS'//page%now//in_units(page%labels%pressure), &
-                       [column('NODE', 'i11'), column([character(10) :: stress_names(model), 'VON MISES'], 'es13.5')])
-      call table%print_head(page%file)
+                       [column('NODE', 'i11'), column([character(10) :: stress_names(model), 'VON MISES'], 'es13.5')], page%file)
       do node = 1, n_points(model)
          if (model%first_at(node + 1) == model%first_at(node) .or. .not. shows_node(page, node)) cycle
-         call table%add([model%node_id(node)])
-         call table%add(clean(stress(shown, node), floor))
-         call table%add(clean([von_mises(stress(:, node))], floor))
+         call table%add([model%node_id(node)], clean([stress(shown, node), von_mises(stress(:, node))], floor))
          call table%print_row(page%file)
       end do
    end subroutine list_node_stresses
@@ -226,14 +213,12 @@ contains
       integer  :: e
 
       call table%start('PRINCIPAL STRESSES AT THE CENTRES OF ELEMENTS'//page%now//in_units(page%labels%pressure), &
-                       [column('ELEMENT', 'i11'), column([character(9) :: 'SIGMA 1', 'SIGMA 2', 'SIGMA 3', 'VON MISES'], 'es13.5')])
-      call table%print_head(page%file)
+                       [column('ELEMENT', 'i11'), &
+                        column([character(9) :: 'SIGMA 1', 'SIGMA 2', 'SIGMA 3', 'VON MISES'], 'es13.5')], page%file)
       do e = 1, model%n_elements
          if (.not. shows_body(page, model, e)) cycle
          full = whole_stress(model, e, analysis%all_u, analysis%now%temperature)
-         call table%add([model%element_id(e)])
-         call table%add(clean(principal_stresses(full), floor))
-         call table%add([clean(von_mises(full), floor)])
+         call table%add([model%element_id(e)], clean([principal_stresses(full), von_mises(full)], floor))
          call table%print_row(page%file)
       end do
    end subroutine list_principal
@@ -251,8 +236,7 @@ contains
 
       call table%start('REACTIONS AT SUPPORTS'//direction_words(page)//page%now//in_units(page%labels%force), &
                        [column('NODE', 'i11'), column(axes(:model%dimension), 'es13.5'), &
-                        direction_columns(page, 'R', model%dimension)])
-      call table%print_head(page%file)
+                        direction_columns(page, 'R', model%dimension)], page%file)
       floor = noise*max(page%largest_force, tiny(1.0_wp))
       supports = 0.0_wp
       allocate (held, source=held_forces(model, analysis%all_unbalanced))
@@ -261,8 +245,7 @@ contains
          reaction = -held(:, node)
          supports = supports + reaction
          if (.not. shows_node(page, node)) cycle
-         call table%add([model%node_id(node)])
-         call table%add(clean(model%x(:model%dimension, node)))
+         call table%add([model%node_id(node)], clean(model%x(:model%dimension, node)))
          call add_directed(page, model, node, reaction, floor, table)
          call table%print_row(page%file)
       end do
@@ -281,8 +264,8 @@ contains
       first = merge(2, 1, model%axisymmetric)
       call table%start('BALANCE OF FORCES'//page%now//in_units(page%labels%force), &
                        [column('', 'a35'), column(axes(first:model%dimension), 'es13.5'), &
-                        column(merge('  (THE RADIAL FORCES BALANCE ROUND THE RING)', repeat(' ', 44), model%axisymmetric), 'a')])
-      call table%print_head(page%file)
+                        column(merge('  (THE RADIAL FORCES BALANCE ROUND THE RING)', repeat(' ', 44), model%axisymmetric), 'a')], &
+                       page%file)
       call balance_line('LOADS', loads(first:), min(floor, of_a_sum*sum(abs(analysis%now%load))))
       call balance_line('SUPPORTS', supports(first:), floor)
       call balance_line('RIGID BASES, THROUGH THE JOINTS', base(first:), floor)
@@ -298,8 +281,7 @@ contains
          character(33) :: name
 
          name = words
-         call table%add(name)
-         call table%add(clean(resultant, floor))
+         call table%add(name, clean(resultant, floor))
          call table%print_row(page%file)
       end subroutine balance_line
 

@@ -36,8 +36,7 @@ contains
                               column(axes(:model%dimension), 'es13.5', labels%length), column('AREA', 'es13.5', labels%area), &
                               column('BRANCH', 'a8'), column('LAMBDA', 'es13.5', labels%length), &
                               column('P', 'es13.5', labels%pressure), column('FORCE', 'es13.5', labels%force), &
-                              column(k_n(:3 - model%dimension), 'es13.5', labels%stiffness(:12))])
-            call table%print_head(page%file)
+                              column(k_n(:3 - model%dimension), 'es13.5', labels%stiffness(:12))], page%file)
             lambda_floor = noise*analysis%largest_lambda
             p_floor = noise*analysis%largest_p
             force_floor = p_floor*joint%area
@@ -79,13 +78,12 @@ contains
                           [column([character(7) :: 'ELEMENT', 'NODE 1'], 'i11'), &
                            column([character(6) :: 'LAMBDA', 'C P**M'], 'es13.5', labels%length), &
                            column('K_N, USED', 'es13.5', labels%stiffness(:12)), &
-                           column(pack(['CLOSING', 'GAP    '], has_gaps(model)), 'es13.5', labels%length), column('KIND', 'a9')])
-         call table%print_head(page%file)
+                           column(pack(['CLOSING', 'GAP    '], has_gaps(model)), 'es13.5', labels%length), column('KIND', 'a9')], &
+                          page%file)
          do i = joint%first, joint%last
             if (.not. shows_interface(page, model, i)) cycle
             associate (state => analysis%states(i)%normal)
-               call table%add([model%interface(i)%id, joint_node_id(model, i, 1)])
-               call table%add([clean(state%lambda, lambda_floor), &
+               call table%add([model%interface(i)%id, joint_node_id(model, i, 1)], [clean(state%lambda, lambda_floor), &
                                clean(loading_deflection(joint%law%normal, max(0.0_wp, state%pressure)), lambda_floor), &
                                clean(state%k_n)])
                if (has_gaps(model)) call table%add(clean([state%lambda + state%gap, state%gap], lambda_floor))
@@ -145,20 +143,15 @@ contains
                              [column([character(7) :: 'ELEMENT', 'NODE 1'], 'i11'), column('BRANCH', 'a8'), &
                               column([character(9) :: 'DELTA', 'TAU', 'FORCE', 'K_S, USED', 'LIMIT'], 'es13.5', &
                                      [labels%length, labels%pressure, labels%force, labels%stiffness, labels%pressure], &
-                                     unit_shift=1), column('', 'a')])
-            call table%print_head(page%file)
+                                     unit_shift=1), column('', 'a')], page%file)
             do i = joint%first, joint%last
                if (.not. shows_interface(page, model, i)) cycle
                associate (state => analysis%states(i)%shear(k), element => model%interface(i))
                   call table%add([element%id, joint_node_id(model, i, 1)])
-                  call table%add(branch_name(state%branch))
-                  call table%add([clean(state%delta, delta_floor), clean(state%tau, tau_floor), &
+                  call table%add(branch_name(state%branch), [clean(state%delta, delta_floor), clean(state%tau, tau_floor), &
                                   clean(state%tau*element%area, tau_floor*element%area), clean(state%k_s)])
-                  if (joint%law%has_friction) then
-                     call table%add([clean(friction_limit(joint%law, analysis%states(i)%normal%pressure), tau_floor)])
-                  else
-                     call table%skip(1)
-                  end if
+                  call table%add([clean(friction_limit(joint%law, analysis%states(i)%normal%pressure), tau_floor)], &
+                                 where=[joint%law%has_friction])
                   if (analysis%states(i)%slips) call table%add('  SLIPS')
                   call table%print_row(page%file)
                end associate
@@ -190,7 +183,7 @@ contains
       do j = 1, size(model%joints)
          associate (joint => model%joints(j))
             frame = find_frame(model, joint)
-            total = find_resultant(model, analysis, joint)
+            total = find_resultant(model, analysis, joint, frame)
             call table%add([analysis%increment, joint%id])
             if (model%dimension == 3) then
                call table%add(clean([total%normal, total%force], floor))
@@ -293,8 +286,7 @@ contains
       columns = [column('JOINT', 'i11', heading_shift=-1), column(names, ['es14.5', 'es13.5', 'es13.5']), &
                  column(names, ['es15.5', 'es13.5', 'es13.5'])]
       if (slides) columns = [columns, column('LOST', 'es15.5')]
-      call table%start('', columns)
-      call table%print_head(page%file)
+      call table%start('', columns, page%file)
       if (page%labels%moment /= '') call page%file%put('                 ('//trim(page%labels%moment)//')')
       do j = 1, size(model%joints)
          associate (energy => analysis%energy(j))

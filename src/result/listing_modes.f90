@@ -33,19 +33,6 @@ contains
                          trim(merge('LUMPED MASS    ', 'CONSISTENT MASS', model%lumped)))
       if (size(model%interface) > 0) call page%file%put('  INTERFACE ELEMENTS THAT TOUCH: '// &
          integer_text(modes%n_touching)//' OF '//integer_text(size(model%interface))//'; THE OTHERS TAKE NO PART')
-      call say_count(page, modes)
-      call list_mass(page, model, modes)
-      if (size(modes%modes) == 0) return
-      call list_frequencies(page, plan, modes)
-      call list_participation(page, model, modes)
-      call list_energies(page, model, modes)
-   end subroutine list_modes
-
-   !> That no mode is missing, and how that is known.
-   subroutine say_count(page, modes)
-      type(page_type), intent(inout) :: page
-      type(modes_type), intent(in)   :: modes
-
       if (modes%counted_at < huge(1.0_wp)) then
          call page%file%put('  MODES BELOW THE FREQUENCY '//real_text(modes%counted_at)//': '//integer_text(modes%n_counted)// &
                             ', COUNTED BY THE SIGNS OF THE PIVOTS; NONE IS MISSING')
@@ -54,7 +41,12 @@ contains
       end if
       if (modes%n_before > 0) call page%file%put('  BELOW THE RANGE: '//integer_text(modes%n_before))
       if (size(modes%modes) == 0) call page%file%put('  THERE IS NONE IN THE RANGE')
-   end subroutine say_count
+      call list_mass(page, model, modes)
+      if (size(modes%modes) == 0) return
+      call list_frequencies(page, plan, modes)
+      call list_participation(page, model, modes)
+      call list_energies(page, model, modes)
+   end subroutine list_modes
 
    !> Mass, centre and moments of inertia of the structure.
    subroutine list_mass(page, model, modes)
@@ -71,29 +63,13 @@ contains
       d = model%dimension
       allocate (shown, source=pack([(c, c = 1, 6)], [(d == 3 .or. (c == 3 .and. .not. model%axisymmetric), c = 1, 6)]))
       size_of_it = maxval(abs(model%x))
-      columns = [column('MASS', 'es13.5'), along('CENTRE', d, 'es13.5', page%labels%length)]
+      columns = [column('MASS', 'es13.5'), column('CENTRE '//axes(:d), 'es13.5', page%labels%length)]
       columns = [columns, column(moments(shown), 'es13.5')]
-      call table%start('MASS OF THE STRUCTURE', columns)
-      call table%print_head(page%file)
-      call table%add([modes%mass])
-      call table%add(clean(modes%centre(:d), no_part*size_of_it))
+      call table%start('MASS OF THE STRUCTURE', columns, page%file)
+      call table%add([modes%mass, clean(modes%centre(:d), no_part*size_of_it)])
       call table%add(clean(modes%inertia(shown), no_part*modes%mass*size_of_it**2))
       call table%print_row(page%file)
    end subroutine list_mass
-
-   !> A column for each of the first D axes.
-   pure function along(heading, d, form, unit) result(columns)
-      character(*), intent(in)           :: heading, form
-      integer, intent(in)                :: d
-      character(*), intent(in), optional :: unit
-      type(column_type), allocatable :: columns(:)
-      integer :: c
-
-      allocate (columns(d))
-      do c = 1, d
-         columns(c) = column(heading//' '//axes(c), form, unit)
-      end do
-   end function along
 
    subroutine list_frequencies(page, plan, modes)
       type(page_type), intent(inout)        :: page
@@ -104,12 +80,10 @@ contains
 
       call table%start('FREQUENCIES', [column('MODE', 'i6'), column('FREQUENCY', 'es15.5', '1/TIME'), &
                        column('OMEGA', 'es15.5', 'RAD/TIME'), column('GENERALISED MASS', 'es18.5'), column('RESIDUAL', 'es12.1'), &
-                       column('LOSS FACTOR', 'es15.5')])
-      call table%print_head(page%file)
+                       column('LOSS FACTOR', 'es15.5')], page%file)
       do m = 1, size(modes%modes)
          associate (mode => modes%modes(m))
-            call table%add([modes%n_before + m])
-            call table%add([mode%frequency, mode%omega, mode%mass, clean(mode%residual, noise)])
+            call table%add([modes%n_before + m], [mode%frequency, mode%omega, mode%mass, clean(mode%residual, noise)])
             if (plan%has_losses .and. .not. mode%is_rigid) call table%add([mode%loss])
             call table%print_row(page%file)
          end associate
@@ -130,9 +104,8 @@ contains
       integer  :: d, m
 
       d = model%dimension
-      call table%start('PARTICIPATION AND EFFECTIVE MASS', [column('MODE', 'i6'), along('PARTICIPATION', d, 'es18.5'), &
-                       along('MASS ALONG', d, 'es15.5')])
-      call table%print_head(page%file)
+      call table%start('PARTICIPATION AND EFFECTIVE MASS', [column('MODE', 'i6'), column('PARTICIPATION '//axes(:d), 'es18.5'), &
+                       column('MASS ALONG '//axes(:d), 'es15.5')], page%file)
       sums = 0.0_wp
       do m = 1, size(modes%modes)
          associate (mode => modes%modes(m))
@@ -167,8 +140,7 @@ contains
       call table%start('RESPONSE TO THE OSCILLATING LOAD, LARGEST AMPLITUDES OF '//integer_text(size(response%frequency))// &
                        ' FREQUENCIES', [column('NODE', 'i11'), column('ALONG', 'a7'), &
                        column('AMPLITUDE', 'es15.5', page%labels%length), column('AT FREQUENCY', 'es15.5', '1/TIME'), &
-                       column('PHASE', 'f10.2', 'DEGREES')])
-      call table%print_head(page%file)
+                       column('PHASE', 'f10.2', 'DEGREES')], page%file)
       do i = 1, size(response%node)
          do c = 1, size(response%amplitude, 1)
             at = first_largest(response%amplitude(c, i, :))
@@ -211,8 +183,7 @@ contains
 
       call table%start('STRAIN ENERGY OF THE MODES, PERCENT; WHAT HAS LESS THAN '//real_text(percent*least_share)// &
                        ' IS NOT LISTED', [column('MODE', 'i6'), column('PART', 'a8'), column('NUMBER', 'i11'), &
-                        column('ALL', 'f10.2'), column('NORMAL', 'f10.2'), column('SHEAR', 'f10.2')])
-      call table%print_head(page%file)
+                        column('ALL', 'f10.2'), column('NORMAL', 'f10.2'), column('SHEAR', 'f10.2')], page%file)
       do m = 1, size(modes%modes)
          associate (energy => modes%modes(m)%energy)
             do i = 1, size(energy%body)
@@ -238,8 +209,7 @@ contains
          if (share < least_share) return
          call table%add([modes%n_before + m])
          call table%add(kind)
-         call table%add([id])
-         call table%add([percent*share])
+         call table%add([id], [percent*share])
          if (present(of_joint)) call table%add(percent*of_joint)
          call table%print_row(page%file)
       end subroutine add_row

@@ -14,8 +14,7 @@ module listing_nodes
    private
 
    public :: in_units, shows_node, shows_element, shows_interface, direction_columns, direction_words, add_directed, &
-             list_rotations, &
-             list_moments
+             list_rotations, list_moments
 
    character(1), parameter :: numbers(3) = ['1', '2', '3']
 
@@ -81,8 +80,7 @@ contains
       type(page_type), intent(in)             :: page
       type(model_type), intent(in)            :: model
       integer, intent(in)                     :: node
-      real(wp), intent(in)                    :: vector(:)
-      real(wp), intent(in)                    :: floor
+      real(wp), intent(in)                    :: vector(:), floor
       type(listing_table_type), intent(inout) :: table
       real(wp) :: directions(3, 3)
       integer  :: system
@@ -160,8 +158,7 @@ contains
       character(*), intent(in)                :: title, part
       integer, intent(in)                     :: m !! axes: 3, or z alone
 
-      call table%start(title, [column('NODE', 'i11'), direction_columns(page, part, m, behind=.true.)])
-      call table%print_head(page%file)
+      call table%start(title, [column('NODE', 'i11'), direction_columns(page, part, m, behind=.true.)], page%file)
    end subroutine start_table
 
    !> The unit behind a heading, in brackets; empty where LABEL is blank.

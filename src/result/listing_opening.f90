@@ -22,7 +22,7 @@ module listing_opening
    use shear_loops, only: loop_closure, worst_closure
    use shear_stiffness, only: cubic_of
    use stage_plan, only: stage_plan_type
-   use text_tools, only: clean, integer_text, plural, real_text, upper
+   use text_tools, only: clean, integer_text, real_text, upper
    implicit none
    private
 
@@ -37,11 +37,18 @@ contains
       type(model_type), intent(in)      :: model
       type(stage_plan_type), intent(in) :: plan
       class(equation_system), intent(in) :: system
+      character(:), allocatable :: words
 
+      words = 'FROM THE STANDARD INPUT'
+      associate (path => deck%text%files(1)%path) ! without its folder
+         if (path /= standard_input) words = path(index(path, '/', back=.true.) + 1:)
+      end associate
+      words = 'DECK '//words//'   JOINTFEM '//version
+      if (allocated(page%date)) words = words//'   '//page%date
       call page%file%put(' '//repeat('-', page_width - 1))
       call page%file%put('  J O I N T F E M      TANGENT-STIFFNESS FINITE ELEMENT ANALYSIS OF JOINTED STRUCTURES')
       call page%file%put('  '//cut(deck%control%title, page_width - 2))
-      call page%file%put('  '//cut(origin_words(page, deck), page_width - 2))
+      call page%file%put('  '//cut(words, page_width - 2))
       call page%file%put(' '//repeat('-', page_width - 1))
       call write_echo(page%file, deck)
       call write_summary(page%file, deck, model, system)
@@ -51,20 +58,6 @@ contains
       call write_shear_laws(page%file, model)
       call write_stages(page, model, plan)
    end subroutine write_opening
-
-   !> Where the listing comes from: the deck without its folder, the version, and the date where it is asked for.
-   pure function origin_words(page, deck) result(words)
-      type(page_type), intent(in) :: page
-      type(deck_type), intent(in) :: deck
-      character(:), allocatable   :: words
-
-      words = 'FROM THE STANDARD INPUT'
-      associate (path => deck%text%files(1)%path)
-         if (path /= standard_input) words = path(index(path, '/', back=.true.) + 1:)
-      end associate
-      words = 'DECK '//words//'   JOINTFEM '//version
-      if (allocated(page%date)) words = words//'   '//page%date
-   end function origin_words
 
    !> What the model has of everything, and how it is solved.
    subroutine write_summary(file, deck, model, system)
@@ -76,8 +69,7 @@ contains
 
       call heading(file, 'MODEL SUMMARY')
       call count_line('NODES', int(n_points(model), long))
-      if (.not. all(model%used)) call count_line('   OF THESE WITHOUT AN ELEMENT, LEFT OUT', &
-                                                 count(.not. model%used, kind=long))
+      if (.not. all(model%used)) call count_line('   OF THESE WITHOUT AN ELEMENT, LEFT OUT', count(.not. model%used, kind=long))
       if (model%n_filled > 0) call count_line('   OF THESE PUT AT THE MIDDLE OF EDGES', int(model%n_filled, long))
       if (any(model%duplicate > 0)) call count_line('   OF THESE DOUBLED AT SPLIT SURFACES', count(model%duplicate > 0, kind=long))
       call count_line('BODY ELEMENTS', int(model%n_elements, long))
@@ -90,8 +82,7 @@ contains
       call count_line('SUPPORTED COMPONENTS', &
                       sum([(count(supported(model, i), kind=long), i = 1, n_points(model) + n_rotations(model))]))
       if (size(deck%bulk%rigid) > 0) call count_line('RIGID ELEMENTS', size(deck%bulk%rigid, kind=long))
-      if (allocated(model%left_out)) call count_line('COMPONENTS DEPENDENT OR IDLE', &
-                                                     count(model%left_out, kind=long))
+      if (allocated(model%left_out)) call count_line('COMPONENTS DEPENDENT OR IDLE', count(model%left_out, kind=long))
       call count_line('UNKNOWNS', int(system%n, long))
       do i = 1, size(system%description%words)
          if (system%description%words(i) /= '') call count_line(trim(system%description%words(i)), system%description%numbers(i))
@@ -169,12 +160,10 @@ contains
       call table%start('BODIES', [column('BODY', 'i11'), column([character(8) :: 'ELEMENTS', 'NODES'], 'i11'), &
                                   column([character(12) :: 'FROM ELEMENT', 'TO ELEMENT'], 'i13'), &
                                   column('FROM '//axes(:d), 'es12.4', page%labels%length), &
-                                  column('TO '//axes(:d), 'es12.4', page%labels%length)])
-      call table%print_head(page%file)
+                                  column('TO '//axes(:d), 'es12.4', page%labels%length)], page%file)
       do i = 1, size(bodies)
          associate (b => bodies(i))
-            call table%add([i, b%n_elements, b%n_nodes, b%first, b%last])
-            call table%add(clean([b%low(:d), b%high(:d)]))
+            call table%add([i, b%n_elements, b%n_nodes, b%first, b%last], clean([b%low(:d), b%high(:d)]))
             call table%print_row(page%file)
          end associate
       end do
@@ -233,16 +222,13 @@ contains
       integer :: j
 
       call table%start('INITIAL GAPS, NEGATIVE: INTERFERENCE', &
-                       [column('JOINT', 'i11'), column('GIVEN BY', 'a10'), &
-                        column(['SMALLEST', 'LARGEST '], 'es15.5', page%labels%length), column(['OPEN   ', 'PRESSED'], 'i9')])
-      call table%print_head(page%file)
+                       [column('JOINT', 'i11'), column('GIVEN BY', 'a10'), column(['SMALLEST', 'LARGEST '], 'es15.5', &
+                        page%labels%length), column(['OPEN   ', 'PRESSED'], 'i9')], page%file)
       do j = 1, size(model%joints)
-         associate (joint => model%joints(j), &
-                    gaps => model%interface(model%joints(j)%first:model%joints(j)%last)%gap)
+         associate (joint => model%joints(j), gaps => model%interface(model%joints(j)%first:model%joints(j)%last)%gap)
             if (joint%gap_kind == '') cycle
             call table%add([joint%id])
-            call table%add(trim(joint%gap_kind))
-            call table%add(clean([minval(gaps), maxval(gaps)]))
+            call table%add(trim(joint%gap_kind), clean([minval(gaps), maxval(gaps)]))
             call table%add([count(gaps > 0.0_wp), count(gaps < 0.0_wp)])
             call table%print_row(page%file)
          end associate
@@ -259,12 +245,10 @@ contains
       type(cubic) :: curve
       integer :: b, j, k
 
-      if (.not. any(model%joints%law%shear(1)%given .or. model%joints%law%shear(2)%given .or. &
-                    model%joints%law%has_friction)) return
+      if (.not. any(model%joints%law%shear(1)%given .or. model%joints%law%shear(2)%given .or. model%joints%law%has_friction)) return
       call table%start('SHEAR LAWS: TAU = (C11 + C12 P) D + (C21 + C22 P) D**2 + (C31 + C32 P) D**3', &
                        [column('JOINT', 'i11', heading_shift=-1), column('AXIS', 'a4'), column('BRANCH', 'a8'), &
-                        column(['C11', 'C12', 'C21', 'C22', 'C31', 'C32'], 'es13.5')])
-      call table%print_head(file)
+                        column(['C11', 'C12', 'C21', 'C22', 'C31', 'C32'], 'es13.5')], file)
       do j = 1, size(model%joints)
          associate (law => model%joints(j)%law)
             do k = 1, model%dimension - 1
@@ -325,8 +309,7 @@ contains
       call table%start('STAGES', [column('STAGE', 'i11', heading_shift=-1), column('INCREMENTS', 'i11'), &
                                   column(['FIRST SHARE', 'LAST SHARE '], 'es14.5'), &
                                   column('TOTAL LOAD '//axes(:model%dimension), 'es15.5', page%labels%force), &
-                                  column('   LABEL', 'a')])
-      call table%print_head(page%file)
+                                  column('   LABEL', 'a')], page%file)
       do s = 1, size(plan%stages)
          associate (stage => plan%stages(s), loads => model%stage_loads(s))
             total = sum(loads%force(:, :loads%n), dim=2, mask=spread(loads%node(:loads%n) <= n_points(model), 1, 3)) ! no moments
@@ -346,16 +329,16 @@ contains
       type(page_type), intent(inout) :: page
       type(model_type), intent(in)   :: model
       type(listing_table_type) :: table
-      integer :: j, lists(size(model%joints))
+      integer :: i, j, lists(size(model%joints)) ! interface elements that hang on lists of nodes
       integer, allocatable :: shown(:)
 
-      lists = [(n_lists(model, j), j = 1, size(model%joints))]
+      lists = [(count([(model%interface(i)%n_1 > 1 .or. named_node(model%interface(i), 2) < 0, &
+                        i = model%joints(j)%first, model%joints(j)%last)]), j = 1, size(model%joints))]
       shown = pack([(j, j = 1, size(model%joints))], model%joints%cover%fitted .and. &
                    (lists > 0 .or. model%joints%cover%share < whole_share))
       if (size(shown) == 0) return
       call table%start('JOINTS OF FACES THAT DO NOT MATCH', [column('JOINT', 'i11'), column(['PAIRS', 'LISTS'], 'i9'), &
-                       column('SIDE1 COVERED', 'f15.6'), column('FARTHEST APART', 'es17.5', page%labels%length)])
-      call table%print_head(page%file)
+                       column('SIDE1 COVERED', 'f15.6'), column('FARTHEST APART', 'es17.5', page%labels%length)], page%file)
       do j = 1, size(shown)
          associate (joint => model%joints(shown(j)))
             call table%add([joint%id, joint%last - joint%first + 1 - lists(shown(j)), lists(shown(j))])
@@ -372,17 +355,5 @@ contains
          end associate
       end do
    end subroutine write_covers
-
-   !> How many interface elements of joint J hang on lists of nodes.
-   pure integer function n_lists(model, j)
-      type(model_type), intent(in) :: model
-      integer, intent(in)          :: j
-      integer :: i
-
-      n_lists = 0
-      do i = model%joints(j)%first, model%joints(j)%last
-         if (model%interface(i)%n_1 > 1 .or. named_node(model%interface(i), 2) < 0) n_lists = n_lists + 1
-      end do
-   end function n_lists
 
 end module listing_opening

@@ -119,8 +119,7 @@ contains
          call page%file%put(line)
          call page%file%put('      NODE            X  +'//repeat('---------+', 10))
          do i = joint%first, joint%last
-            write (line, '(i10, es13.5)') joint_node_id(model, i, 1), &
-               clean(at_first_end(model%interface(i), model%x(1:1, :)))
+            write (line, '(i10, es13.5)') joint_node_id(model, i, 1), clean(at_first_end(model%interface(i), model%x(1:1, :)))
             line(26:26) = '|'
             line(25 + width:25 + width) = '|'
             call mark((state(i)%lambda - lambda_least)/(lambda_most - lambda_least), '+')

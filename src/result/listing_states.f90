@@ -34,14 +34,12 @@ contains
                              [column([character(7) :: 'ELEMENT', 'NODE 1'], 'i11'), column('BRANCH', 'a8'), &
                               column(['SIGMAF', 'SUMF  '], 'es13.5', labels%force), &
                               column('LAMBDA A', 'es13.5', labels%length), column('P A', 'es13.5', labels%pressure), &
-                              column('LAMBDA B', 'es13.5', labels%length)])
-            call table%print_head(page%file)
+                              column('LAMBDA B', 'es13.5', labels%length)], page%file)
             do i = joint%first, joint%last
                if (.not. shows_interface(page, model, i)) cycle
                associate (state => analysis%states(i)%normal, element => model%interface(i))
                   call table%add([element%id, joint_node_id(model, i, 1)])
-                  call table%add(branch_name(state%branch))
-                  call table%add(clean([state%sigmaf, state%sumf], p_floor*element%area))
+                  call table%add(branch_name(state%branch), clean([state%sigmaf, state%sumf], p_floor*element%area))
                   call table%add([clean(state%lambda_a, lambda_floor), clean(state%p_a, p_floor), &
                                   clean(state%lambda_b, lambda_floor)])
                   call table%print_row(page%file)
@@ -70,8 +68,7 @@ contains
          call table%start('STATE OF SHEAR IN DIRECTION '//axes(k)//' OF JOINT '//integer_text(joint%id)//page%now, &
                           [column([character(7) :: 'ELEMENT', 'NODE 1'], 'i11'), column('BRANCH', 'a8'), column('SENSE', 'i6'), &
                            column('D', 'es13.5', length), column('TAU', 'es13.5', pressure), column('D_R', 'es13.5', length), &
-                           column([character(5) :: 'TAU_R', 'O', 'B0', 'C0'], 'es13.5', pressure)])
-         call table%print_head(page%file)
+                           column([character(5) :: 'TAU_R', 'O', 'B0', 'C0'], 'es13.5', pressure)], page%file)
          do i = joint%first, joint%last
             if (.not. shows_interface(page, model, i)) cycle
             associate (state => analysis%states(i)%shear(k), element => model%interface(i))
@@ -82,11 +79,7 @@ contains
                call table%add([nint(state%sense)])
                call table%add([clean(curve_deflection(state), delta_floor), clean(state%sense*state%tau, tau_floor), &
                                clean(state%d_r, delta_floor), clean([state%tau_r, state%offset], tau_floor)])
-               if (state%branch == branch_unload) call table%add([shift])
-               if (state%branch == branch_reload) then
-                  call table%skip(1)
-                  call table%add([shift])
-               end if
+               call table%add([shift, shift], where=state%branch == [branch_unload, branch_reload])
                call table%print_row(page%file)
             end associate
          end do
@@ -103,7 +96,7 @@ contains
       character(12), allocatable :: names(:)
       real(wp), allocatable :: scale(:)
       real(wp) :: k_floor, load_floor
-      integer  :: i, first, last, n
+      integer  :: i, first, k, last, n
 
       associate (condensed => analysis%record%condensed)
          if (condensed%problem /= '') then
@@ -115,14 +108,20 @@ contains
          load_floor = noise*max(page%largest_force, maxval(abs(condensed%load)))
          allocate (names(n))
          allocate (scale(n), source=1.0_wp)
-         do i = 1, n
-            call name_unknown(model, condensed%node(i), condensed%direction(i), names(i), scale(i))
+         do i = 1, n ! 12Y, or 900RZ where it is a rotation of node 900: by its arm its rows hold moments
+            associate (node => condensed%node(i), d => condensed%direction(i))
+               k = 0
+               if (n_rotations(model) > 0) k = findloc(model%rotations%node, node, dim=1)
+               if (k == 0) names(i) = integer_text(model%node_id(node))//axes(d)
+               if (k == 0) cycle
+               names(i) = integer_text(model%node_id(model%rotations(k)%point))//'R'//axes(merge(d, 3, model%dimension == 3))
+               scale(i) = model%rotations(k)%arm
+            end associate
          end do
          do first = 1, n, across
             last = min(n, first + across - 1)
             call table%start('[K_B] CONDENSED ON THE INTERFACE, '//page%stage, &
-                             [column('UNKNOWN', 'a13'), column(names(first:last), 'es13.5', page%labels%stiffness)])
-            call table%print_head(page%file)
+                             [column('UNKNOWN', 'a13'), column(names(first:last), 'es13.5', page%labels%stiffness)], page%file)
             do i = 1, n
                call table%add(adjustr(names(i)))
                call table%add(clean(condensed%k(i, first:last), k_floor)*scale(i)*scale(first:last))
@@ -131,8 +130,7 @@ contains
          end do
          call table%start('LOAD CONDENSED ON THE INTERFACE, '//page%stage//': AN INCREMENT BRINGS ITS SHARE OF THE DIFFERENCE', &
                           [column('UNKNOWN', 'a13'), column([character(10) :: 'BEFORE', 'AFTER', 'DIFFERENCE'], 'es13.5', &
-                           page%labels%force)])
-         call table%print_head(page%file)
+                           page%labels%force)], page%file)
          do i = 1, n
             call table%add(adjustr(names(i)))
             call table%add(clean([condensed%load(i, :), condensed%load(i, 2) - condensed%load(i, 1)], load_floor)*scale(i))
@@ -140,25 +138,5 @@ contains
          end do
       end associate
    end subroutine list_condensed
-
-   !> The NAME of component D of NODE: 12Y, or 900RZ where it is a rotation of node 900, and the SCALE to it from what is kept: 1, the
-   !! arm of the rotation, so that its rows hold moments.
-   subroutine name_unknown(model, node, d, name, scale)
-      type(model_type), intent(in) :: model
-      integer, intent(in)          :: node, d
-      character(*), intent(out)    :: name
-      real(wp), intent(out)        :: scale
-      integer :: k
-
-      scale = 1.0_wp
-      k = 0
-      if (n_rotations(model) > 0) k = findloc(model%rotations%node, node, dim=1)
-      if (k == 0) then
-         name = integer_text(model%node_id(node))//axes(d)
-      else
-         name = integer_text(model%node_id(model%rotations(k)%point))//'R'//axes(merge(d, 3, model%dimension == 3))
-         scale = model%rotations(k)%arm
-      end if
-   end subroutine name_unknown
 
 end module listing_states

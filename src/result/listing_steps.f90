@@ -3,7 +3,7 @@ module listing_steps
    use analysis_state, only: analysis_type
    use kinds, only: wp
    use law_error, only: distance_type, normal_distance, shear_distance
-   use listing_table, only: axes, column, listing_table_type, noise, page_type
+   use listing_table, only: axes, column, column_type, listing_table_type, noise, page_type
    use model_data, only: joint_node_id, model_type
    use stage_plan, only: stage_plan_type, where_in_plan
    use step_method, only: reanalyses_shown
@@ -32,6 +32,7 @@ contains
       type(analysis_type), intent(in)         :: analysis
       type(listing_table_type), intent(inout) :: table
       type(farthest_type), intent(inout)      :: farthest
+      type(column_type), allocatable :: columns(:)
       type(distance_type) :: normal, shear
       logical :: has_shear
       integer :: j
@@ -40,17 +41,13 @@ contains
       has_shear = any([(model%joints(j)%law%shear%given, j = 1, size(model%joints))])
       if (table%is_empty()) then
          associate (p => page%labels%pressure, length => page%labels%length)
-            if (has_shear) then
-               call table%start(title('LAMBDA, |TAU - TAU LAW| OF THE LARGEST TAU'), &
-                  [column('INCR', 'i6'), column('JOINT', 'i11'), column('LAMBDA OFF %', 'f13.3'), column('AT NODE', 'i11'), &
-                   column(['LAMBDA    ', 'LAMBDA LAW'], 'es13.5', length), column('TAU OFF %', 'f11.3'), column('AT NODE', 'i11'), &
-                   column('ALONG', 'a6'), column(['TAU    ', 'TAU LAW'], 'es13.5', p)])
-            else
-               call table%start(title('LAMBDA'), &
-                  [column('INCR', 'i6'), column('JOINT', 'i11'), column('LAMBDA OFF %', 'f13.3'), column('AT NODE', 'i11'), &
-                   column(['LAMBDA    ', 'LAMBDA LAW'], 'es13.5', length)])
-            end if
+            columns = [column('INCR', 'i6'), column('JOINT', 'i11'), column('LAMBDA OFF %', 'f13.3'), column('AT NODE', 'i11'), &
+                       column(['LAMBDA    ', 'LAMBDA LAW'], 'es13.5', length)]
+            if (has_shear) columns = [columns, column('TAU OFF %', 'f11.3'), column('AT NODE', 'i11'), column('ALONG', 'a6'), &
+                                      column(['TAU    ', 'TAU LAW'], 'es13.5', p)]
          end associate
+         call table%start('DISTANCE FROM THE LAWS, '//page%stage//': LARGEST |LAMBDA - LAMBDA LAW| OF THE LARGEST LAMBDA'// &
+                          trim(merge(', |TAU - TAU LAW| OF THE LARGEST TAU', repeat(' ', 36), has_shear)), columns)
       end if
       do j = 1, size(model%joints)
          normal = normal_distance(model, analysis, j)
@@ -64,13 +61,6 @@ contains
       end do
 
    contains
-
-      pure function title(what) result(words)
-         character(*), intent(in)  :: what
-         character(:), allocatable :: words
-
-         words = 'DISTANCE FROM THE LAWS, '//page%stage//': LARGEST |LAMBDA - LAMBDA LAW| OF THE LARGEST '//what
-      end function title
 
       !> The columns of one DISTANCE, of values of which LARGEST is the largest so far.
       subroutine add(distance, largest)
@@ -119,7 +109,7 @@ contains
       type(analysis_type), intent(in)         :: analysis
       type(listing_table_type), intent(inout) :: table
       real(wp) :: delta_floor, tau_floor
-      integer  :: i, k
+      integer  :: i, k, side
 
       if (size(analysis%record%slips) == 0) return
       associate (length => page%labels%length, pressure => page%labels%pressure)
@@ -140,9 +130,9 @@ contains
                call table%add([analysis%increment, slip%reanalysis, model%interface(slip%element)%id, &
                                joint_node_id(model, slip%element, 1)])
                call table%add(axes(k))
-               call table%add([clean(slip%delta(k, 1), delta_floor), clean(slip%tau(k, 1), tau_floor), &
-                               clean(slip%limit(1), tau_floor), clean(slip%delta(k, 2), delta_floor), &
-                               clean(slip%tau(k, 2), tau_floor), clean(slip%limit(2), tau_floor)])
+               do side = 1, 2 ! before and after
+                  call table%add([clean(slip%delta(k, side), delta_floor), clean([slip%tau(k, side), slip%limit(side)], tau_floor)])
+               end do
                call table%keep_row()
             end do
          end associate

@@ -1,10 +1,8 @@
 !> The page of the listing, and the tables on it. A table is a list of columns, each said once: its heading, the edit descriptor
 !! of its values, its unit. The line of headings, the line of units and every row come from it:
 !!
-!!    call table%start('REACTIONS', [column('NODE', 'i11'), column('R'//axes, 'es13.5', labels%force)])
-!!    call table%print_head(file)
-!!    call table%add([node])
-!!    call table%add(reaction)
+!!    call table%start('REACTIONS', [column('NODE', 'i11'), column('R'//axes, 'es13.5', labels%force)], file)
+!!    call table%add([node], reaction)
 !!    call table%print_row(file)
 !!
 !! The values of a row are added from left to right. The tables of a whole stage keep their rows until they are printed.
@@ -102,11 +100,13 @@ contains
       is_empty = self%n_kept == 0
    end function is_empty
 
-   !> Begin a table of these COLUMNS, without rows. TITLE is empty where the headings follow other words.
-   pure subroutine start(self, title, columns)
+   !> Begin a table of these COLUMNS, without rows; its head goes into FILE where that is given. TITLE is empty where the headings
+   !! follow other words.
+   subroutine start(self, title, columns, file)
       class(listing_table_type), intent(inout) :: self
       character(*), intent(in)                 :: title
       type(column_type), intent(in)            :: columns(:)
+      type(output_file_type), intent(inout), optional :: file
       integer :: i
 
       self%title = title
@@ -116,6 +116,7 @@ contains
       end do
       self%used = 0
       self%n_kept = 0
+      if (present(file)) call self%print_head(file)
    end subroutine start
 
    !> Title, headings, and units where there are any.
@@ -151,16 +152,22 @@ contains
       line(last - len(words) + 1:last) = words
    end subroutine place
 
-   !> The next values of the row. What its column cannot hold is printed with an exponent and fewer digits, behind a blank.
-   pure subroutine add_integers(self, values)
+   !> The next values of the row, those WHERE there are any, and REALS behind them. What its column cannot hold is printed with an
+   !! exponent and fewer digits, behind a blank.
+   pure subroutine add_integers(self, values, reals, where)
       class(listing_table_type), intent(inout) :: self
       integer, intent(in)                      :: values(:)
+      real(wp), intent(in), optional           :: reals(:)
+      logical, intent(in), optional            :: where(:) !! (values) default: all
       character(integer_width) :: digits
       integer :: i, length
 
       do i = 1, size(values)
-         call write_integer(values(i), digits, length)
          self%used = self%used + 1
+         if (present(where)) then
+            if (.not. where(i)) cycle
+         end if
+         call write_integer(values(i), digits, length)
          associate (column => self%columns(self%used))
             if (length > column%width) then
                call place(self%row, fitted_text(real(values(i), wp), column%width - 1), column%last)
@@ -169,15 +176,20 @@ contains
             end if
          end associate
       end do
+      if (present(reals)) call self%add_reals(reals)
    end subroutine add_integers
 
-   pure subroutine add_reals(self, values)
+   pure subroutine add_reals(self, values, where)
       class(listing_table_type), intent(inout) :: self
       real(wp), intent(in)                     :: values(:)
+      logical, intent(in), optional            :: where(:)
       integer :: i
 
       do i = 1, size(values)
          self%used = self%used + 1
+         if (present(where)) then
+            if (.not. where(i)) cycle
+         end if
          associate (column => self%columns(self%used))
             if (column%is_short) then
                call write_short(values(i), self%row(column%last - short_width + 1:column%last))
@@ -201,10 +213,11 @@ contains
       field = adjustr(field)
    end function in_form
 
-   !> WORDS with all their blanks, at the end of their column.
-   pure subroutine add_text(self, words)
+   !> WORDS with all their blanks, at the end of their column, and REALS behind them.
+   pure subroutine add_text(self, words, reals)
       class(listing_table_type), intent(inout) :: self
       character(*), intent(in)                 :: words
+      real(wp), intent(in), optional           :: reals(:)
 
       self%used = self%used + 1
       associate (column => self%columns(self%used))
@@ -214,6 +227,7 @@ contains
             call place(self%row, words, column%last)
          end if
       end associate
+      if (present(reals)) call self%add_reals(reals)
    end subroutine add_text
 
    !> The next N columns stay blank.

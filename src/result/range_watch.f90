@@ -93,8 +93,7 @@ contains
                if (state%branch /= branch_unload .or. cubic_slope(curves%unload, state%d_r, p) >= &
                    (1.0_wp - rounding)*cubic_slope(curves%load, state%d_r, p)) cycle
                watch%soft_unloading(law) = .true.
-               watch%n_warnings = watch%n_warnings + 1
-               call watch%rows%keep_line('  WARNING: NODE '//integer_text(joint_node_id(model, i, 1))//', '// &
+               call warn(watch, '  WARNING: NODE '//integer_text(joint_node_id(model, i, 1))//', '// &
                   upper(where_in_plan(plan, analysis%stage, analysis%increment))//': SHEAR LAW OF JOINT '// &
                   integer_text(model%joints(model%interface(i)%joint)%id)//', '//axes(k)// &
                   ': UNLOADING IS LESS STEEP THAN LOADING AT P = '//real_text(p)//', D = '//real_text(state%d_r))
@@ -122,8 +121,7 @@ contains
                if (i < 2*(j - 1) + k) cycle
                closure = worst_closure(law, model%joints(j)%p_av)
                if (.not. closure%is_known .or. closure%share <= wide_gap) cycle
-               watch%n_warnings = watch%n_warnings + 1
-               call watch%rows%keep_line('  WARNING: SHEAR LAW OF JOINT '//integer_text(model%joints(j)%id)//', '//axes(k)// &
+               call warn(watch, '  WARNING: SHEAR LAW OF JOINT '//integer_text(model%joints(j)%id)//', '//axes(k)// &
                   ': RELOADING MISSES POINT A BY MORE THAN 5 PER CENT OF TAU_R, CYCLES CREEP: SEE ITS CLOSURE ABOVE')
             end associate
          end do
@@ -193,16 +191,19 @@ contains
       type(stage_plan_type), intent(in)     :: plan
       type(analysis_type), intent(in)       :: analysis
       type(range_watch_type), intent(inout) :: watch
+      character(:), allocatable :: words
       integer :: j, which
 
       do j = 1, size(model%joints)
          do which = beyond_p, no_slope
             associate (tally => watch%tallies(which, j))
                if (tally%n == 0) cycle
-               watch%n_warnings = watch%n_warnings + 1
-               call keep_two_parts(watch, '  WARNING: JOINT '//integer_text(model%joints(j)%id)//', STAGE '// &
+               words = 'WITHOUT A POSITIVE SLOPE'
+               if (which == beyond_p) words = 'BEYOND P = '//real_text(tally%bound)
+               if (which == beyond_d) words = 'BEYOND D = '//real_text(tally%bound)
+               call warn(watch, '  WARNING: JOINT '//integer_text(model%joints(j)%id)//', STAGE '// &
                   integer_text(plan%stages(analysis%stage)%id)//': '//upper(plural(tally%n, 'element'))//' '// &
-                  words_of(which, tally%bound)//' OF THE SHEAR LAW, FIRST NODE '//integer_text(tally%node)//' (INCREMENT '// &
+                  words//' OF THE SHEAR LAW, FIRST NODE '//integer_text(tally%node)//' (INCREMENT '// &
                   integer_text(tally%increment)//'),', &
                   ' WORST '//integer_text(tally%worst_node)//': P = '//real_text(tally%p)//', D = '//real_text(tally%d))
             end associate
@@ -211,29 +212,22 @@ contains
       watch%tallies = tally_type()
    end subroutine say_ranges
 
-   !> Keep a line of two parts, or where it is too long a line each.
-   subroutine keep_two_parts(watch, first, second)
+   !> Keep the line of a warning, or of a NOTE, which is not counted; where it and its SECOND part are too long for one line, one each.
+   pure subroutine warn(watch, first, second)
       type(range_watch_type), intent(inout) :: watch
-      character(*), intent(in)              :: first, second
+      character(*), intent(in)              :: first
+      character(*), intent(in), optional    :: second
 
-      if (len(first) + len(second) <= page_width) then
+      if (index(first, '  NOTE:') /= 1) watch%n_warnings = watch%n_warnings + 1
+      if (.not. present(second)) then
+         call watch%rows%keep_line(first)
+      else if (len(first) + len(second) <= page_width) then
          call watch%rows%keep_line(first//second)
       else
          call watch%rows%keep_line(first)
          call watch%rows%keep_line('          '//second)
       end if
-   end subroutine keep_two_parts
-
-   !> The BOUND of kind WHICH in words.
-   pure function words_of(which, bound) result(words)
-      integer, intent(in)       :: which
-      real(wp), intent(in)      :: bound
-      character(:), allocatable :: words
-
-      words = 'WITHOUT A POSITIVE SLOPE'
-      if (which == beyond_p) words = 'BEYOND P = '//real_text(bound)
-      if (which == beyond_d) words = 'BEYOND D = '//real_text(bound)
-   end function words_of
+   end subroutine warn
 
    !> Note the joints of which an element has come to where the loading curve is steeper than the line E_u that it would unload
    !! along.
@@ -252,8 +246,7 @@ contains
                slope = normal_tangent(law, 1.0_wp, p, state%p_av)
                if (law%e_u >= slope*(1.0_wp - rounding)) cycle
                watch%soft_line(j) = .true.
-               watch%n_warnings = watch%n_warnings + 1
-               call watch%rows%keep_line('  WARNING: NODE '//integer_text(joint_node_id(model, i, 1))//', '// &
+               call warn(watch, '  WARNING: NODE '//integer_text(joint_node_id(model, i, 1))//', '// &
                   upper(where_in_plan(plan, analysis%stage, analysis%increment))//': E_U = '//real_text(law%e_u)//' OF JOINT '// &
                   integer_text(model%joints(j)%id)//' IS BELOW THE LOADING SLOPE '//real_text(slope)//' AT P = '//real_text(p)// &
                   trim(merge(': NEGATIVE SET', '              ', p/law%e_u > loading_deflection(law, max(p, 0.0_wp)))))
@@ -276,13 +269,11 @@ contains
       words = '  WARNING: '//upper(where_in_plan(plan, analysis%stage, analysis%increment))//': '
       unbalanced = free_norm(analysis%unbalanced, analysis%held)
       if (unbalanced > much*largest_force) then
-         watch%n_warnings = watch%n_warnings + 1
-         call watch%rows%keep_line(words//real_text(unbalanced)//' OF FORCE ARE LEFT UNBALANCED BY REMOVED ELEMENTS: '// &
+         call warn(watch, words//real_text(unbalanced)//' OF FORCE ARE LEFT UNBALANCED BY REMOVED ELEMENTS: '// &
                              'SEE CARRY = YES, METHOD = NEWTON')
       end if
       if (.not. analysis%record%is_settled) then
-         watch%n_warnings = watch%n_warnings + 1
-         call watch%rows%keep_line(words//'THE SECANTS HAVE NOT SETTLED IN '//integer_text(analysis%record%n_iterations)// &
+         call warn(watch, words//'THE SECANTS HAVE NOT SETTLED IN '//integer_text(analysis%record%n_iterations)// &
                                    ' ITERATIONS, THE RESULTS ARE THOSE OF THE LAST: SEE AVERAGE = YES')
       end if
       excess = 0.0_wp
@@ -294,8 +285,7 @@ contains
          end associate
       end do
       if (excess > much*limit .and. excess > 0.0_wp) then
-         watch%n_warnings = watch%n_warnings + 1
-         call watch%rows%keep_line(words//'FRICTION LIMITS ARE STILL EXCEEDED BY '//real_text(excess)//' IN ALL: SEE NREAN')
+         call warn(watch, words//'FRICTION LIMITS ARE STILL EXCEEDED BY '//real_text(excess)//' IN ALL: SEE NREAN')
       end if
    end subroutine watch_balance
 
@@ -316,8 +306,7 @@ contains
                  integer_text(power)//', of its 16 digits about '//integer_text(max(0, 16 - power))//' are left'
          second = 'softest at '//unknown_name(model, condition%node, condition%direction)
       end associate
-      watch%n_warnings = watch%n_warnings + 1
-      call keep_two_parts(watch, '  WARNING: '//upper(first)//': ', upper(second))
+      call warn(watch, '  WARNING: '//upper(first)//': ', upper(second))
       words = first//': '//second
    end subroutine note_condition
 
@@ -336,9 +325,8 @@ contains
       second = 'then made as a whole from where they led'
       if (.not. analysis%record%is_whole) then
          second = 'it did not converge as a whole, and the answer depends on the parts: more increments tell by how much'
-         watch%n_warnings = watch%n_warnings + 1
       end if
-      call keep_two_parts(watch, merge('  NOTE:    ', '  WARNING: ', analysis%record%is_whole)//upper(first)//', ', upper(second))
+      call warn(watch, merge('  NOTE:    ', '  WARNING: ', analysis%record%is_whole)//upper(first)//', ', upper(second))
       words = first//', '//second
    end subroutine note_division
 

@@ -4,7 +4,7 @@ module results
    use answer_block, only: print_answer
    use backbone, only: backbone_type
    use c_library, only: close_file, lock_folder
-   use csv_tables, only: backbone_table, bend_table, bolt_table, energy_table, history_ending, joint_table, loop_table, &
+   use csv_tables, only: backbone_table, bend_table, bolt_table, energy_table, joint_table, loop_table, &
                          modes_table, reaction_table, response_table, split_table, stage_table, table_endings, watch_table, &
                          write_answers, write_backbone, write_bolts, write_energies, write_headers, write_history, write_loops, &
                          write_modes, write_response, write_stage

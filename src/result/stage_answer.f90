@@ -153,8 +153,7 @@ contains
       real(wp), intent(in)           :: u(:, :) !! (dimension, n_nodes) of all nodes [length]
       type(temperature_type), intent(in) :: temperature
       type(surface_node_list) :: list
-      real(wp) :: centroid(3), force(3), thermal(3, max_nodes), total(3)
-      real(wp) :: k(max_felt_dofs, max_felt_dofs), p(max_felt_dofs)
+      real(wp) :: centroid(3), force(3), thermal(3, max_nodes), total(3), k(max_felt_dofs, max_felt_dofs), p(max_felt_dofs)
       integer  :: d, e, i, j, n, s
 
       d = model%dimension
@@ -292,7 +291,7 @@ contains
       real(wp) :: least(6)
 
       answer%frame = find_frame(model, joint)
-      total = find_resultant(model, analysis, joint)
+      total = find_resultant(model, analysis, joint, answer%frame)
       associate (frame => answer%frame)
          if (model%axisymmetric) total%shear(1) = 0.0_wp ! all round the ring it balances
          answer%normal = above(total%normal, floor)
@@ -318,8 +317,7 @@ contains
    subroutine find_bolt_answers(model, analysis, largest_force, before, answers)
       type(model_type), intent(in)    :: model
       type(analysis_type), intent(in) :: analysis
-      real(wp), intent(in)            :: largest_force
-      real(wp), intent(in)            :: before(:)
+      real(wp), intent(in)            :: largest_force, before(:)
       type(bolt_answer_type), allocatable, intent(out) :: answers(:)
       type(bolt_type), allocatable :: bolts(:)
       integer :: i

@@ -181,8 +181,7 @@ contains
 
       call table%start('STRESSES AT THE FACES OF SHELLS, AT THEIR CENTRES'//page%now//in_units(page%labels%pressure), &
          [column('ELEMENT', 'i11'), column('HEIGHT', 'es13.5'), column([character(9) :: 'SIGMA X', 'SIGMA Y', 'SIGMA Z', 'TAU XY', &
-          'TAU YZ', 'TAU ZX', 'VON MISES'], 'es13.5')])
-      call table%print_head(page%file)
+          'TAU YZ', 'TAU ZX', 'VON MISES'], 'es13.5')], page%file)
       floor = 0.0_wp
       do pass = 1, 2 ! the largest, for what is but rounding
          do e = 1, model%n_elements
@@ -192,10 +191,8 @@ contains
             associate (centre => stress(:, size(corners_of(model, e)) + 1, :))
                if (pass == 1) floor = max(floor, noise*maxval(abs(centre)))
                do f = 1, merge(2, 0, pass == 2)
-                  call table%add([model%element_id(e)])
-                  call table%add([model%properties(model%element_property(e))%fibre(f)])
-                  call table%add(clean(centre(:, f), floor))
-                  call table%add(clean([von_mises(centre(:, f))], floor))
+                  call table%add([model%element_id(e)], [model%properties(model%element_property(e))%fibre(f), &
+                                                         clean([centre(:, f), von_mises(centre(:, f))], floor)])
                   call table%print_row(page%file)
                end do
             end associate
@@ -227,8 +224,7 @@ contains
       floor = noise*[maxval(abs(forces(:3, :, :))), maxval(abs(forces(4:, :, :)))]
       call table%start('FORCES IN BEAMS, AT BOTH ENDS, IN THE AXES OF THE BEAM'//page%now, &
          [column('ELEMENT', 'i11'), column('NODE', 'i11'), column([character(7) :: 'AXIAL N', 'Q Y', 'Q Z'], 'es13.5', &
-          page%labels%force), column([character(6) :: 'TORQUE', 'M Y', 'M Z'], 'es13.5', page%labels%moment)])
-      call table%print_head(page%file)
+          page%labels%force), column([character(6) :: 'TORQUE', 'M Y', 'M Z'], 'es13.5', page%labels%moment)], page%file)
       call stresses%start('STRESSES IN BEAMS, AT BOTH ENDS'//page%now//in_units(page%labels%pressure), &
          [column('ELEMENT', 'i11'), column('NODE', 'i11'), column([character(8) :: 'AT C', 'AT D', 'AT E', 'AT F', 'CENTROID'], &
           'es13.5')])

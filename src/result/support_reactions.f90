@@ -219,8 +219,7 @@ contains
       call file%put('')
       call table%start('', [column('REACTIONS', 'a9'), column('NUMBER', 'i11'), column('NODES', 'i8'), &
                             column('R'//axes(:d), 'es12.4', labels%force), column('M'//axes(first:), 'es11.3', labels%moment), &
-                            column('MC'//axes(first:), 'es11.3', labels%moment)])
-      call table%print_head(file)
+                            column('MC'//axes(first:), 'es11.3', labels%moment)], file)
       do i = 1, min(size(answer%parts), most_rows)
          call row(answer%parts(i))
       end do
@@ -238,10 +237,8 @@ contains
          type(reaction_type), intent(in) :: part
 
          call table%add(' '//part%kind)
-         if (part%id > 0) call table%add([part%id])
-         if (part%id == 0) call table%skip(1)
-         call table%add([part%nodes])
-         call table%add(clean([part%force(:d), part%moment(first:), part%about_centre(first:)]))
+         call table%add([part%id], where=[part%id > 0])
+         call table%add([part%nodes], clean([part%force(:d), part%moment(first:), part%about_centre(first:)]))
          call table%print_row(file)
       end subroutine row
 
@@ -268,8 +265,7 @@ contains
 
          call line%add([stage])
          call line%add(trim(part%kind))
-         call line%add([part%id, part%line, part%nodes])
-         call line%add(clean([part%centre, part%force, part%moment, part%about_centre]))
+         call line%add([part%id, part%line, part%nodes], clean([part%centre, part%force, part%moment, part%about_centre]))
          call file%put(line%text(:line%length))
       end subroutine row
 

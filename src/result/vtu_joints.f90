@@ -37,9 +37,22 @@ contains
       type(model_type), intent(in)       :: model
       type(analysis_type), intent(in)    :: analysis
       type(grid_type) :: grid
-      integer :: j, n
+      integer :: cells, j, n, points
 
-      call make_room(model, grid)
+      points = 0 ! as many points and cells as there can be
+      cells = 0
+      do j = 1, size(model%joints)
+         if (model%joints(j)%side_1 > 0) then
+            associate (surface => model%surfaces(model%joints(j)%side_1))
+               points = points + sum(surface%n_nodes(:surface%n))
+               cells = cells + surface%n
+            end associate
+         end if
+         points = points + model%joints(j)%last - model%joints(j)%first + 1
+         cells = cells + model%joints(j)%last - model%joints(j)%first + 1
+      end do
+      allocate (grid%x(3, points), grid%element(points), grid%corners(points), grid%ends(cells), grid%types(cells))
+      allocate (grid%u(3, points), grid%values(n_values, points), source=0.0_wp)
       do j = 1, size(model%joints)
          if (model%joints(j)%side_1 > 0) then
             call add_faces(model, analysis, model%joints(j), model%surfaces(model%joints(j)%side_1), grid)
@@ -63,28 +76,6 @@ contains
          call file%add(point_data, named('area', labels%area), values(8, :))
       end associate
    end subroutine write_joints
-
-   !> Room for as many points and cells as there can be.
-   subroutine make_room(model, grid)
-      type(model_type), intent(in)   :: model
-      type(grid_type), intent(inout) :: grid
-      integer :: cells, j, points
-
-      points = 0
-      cells = 0
-      do j = 1, size(model%joints)
-         if (model%joints(j)%side_1 > 0) then
-            associate (surface => model%surfaces(model%joints(j)%side_1))
-               points = points + sum(surface%n_nodes(:surface%n))
-               cells = cells + surface%n
-            end associate
-         end if
-         points = points + model%joints(j)%last - model%joints(j)%first + 1
-         cells = cells + model%joints(j)%last - model%joints(j)%first + 1
-      end do
-      allocate (grid%x(3, points), grid%element(points), grid%corners(points), grid%ends(cells), grid%types(cells))
-      allocate (grid%u(3, points), grid%values(n_values, points), source=0.0_wp)
-   end subroutine make_room
 
    !> JOINT as the faces of SURFACE, its side 1, that have an element at any of their nodes.
    subroutine add_faces(model, analysis, joint, surface, grid)

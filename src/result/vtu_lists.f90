@@ -90,8 +90,7 @@ contains
    !> The index PATH of pieces NAMES, as seen from its folder; the arrays are those in the header of the file FIRST, one of the pieces.
    !! OK is false, and no index is left by us, where it cannot be read or written.
    subroutine write_index(path, first, names, ok)
-      character(*), intent(in) :: path, first
-      character(*), intent(in) :: names(:)
+      character(*), intent(in) :: path, first, names(:)
       logical, intent(out)     :: ok
       type(output_file_type)    :: file
       character(:), allocatable :: header

@@ -158,24 +158,20 @@ contains
          longest = max(longest, len(part%files(k)%part))
       end do
       ok = .not. any([(part%files(k)%failed(), k = 1, size(part%files))])
-      if (ok) call write_into(longest)
+      if (ok) then
+         block
+            character(longest) :: names(size(part%files))
+
+            do k = 1, size(names)
+               names(k) = part%files(k)%part
+            end do
+            call results%dealt%write(analysis%all_u, analysis%now%temperature, notes_for_pieces(results%labels), names, ok)
+         end block
+      end if
       if (ok) return
       do k = 1, size(part%files)
          call part%files(k)%discard()
       end do
-
-   contains
-
-      subroutine write_into(longest)
-         integer, intent(in) :: longest
-         character(longest) :: names(size(part%files))
-
-         do k = 1, size(names)
-            names(k) = part%files(k)%part
-         end do
-         call results%dealt%write(analysis%all_u, analysis%now%temperature, notes_for_pieces(results%labels), names, ok)
-      end subroutine write_into
-
    end subroutine write_pieces
 
    !> Write the file of the natural MODES about the end of the stage with this number.

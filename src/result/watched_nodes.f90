@@ -132,7 +132,8 @@ contains
       n_bodies = size(parts)
       n_joints = size(model%joints)
       parts = [parts, [(yielding_type('JOINT', model%joints(i)%id), i = 1, n_joints)], &
-               [(yielding_type(words_of_bar(model, i), bar_number(model, i)), i = 1, n_bars(model))]]
+               [(yielding_type(words_of_bar(model, i), merge(model%bars(i)%bolt, model%bars(i)%id, &
+                                                             model%bars(i)%bolt > 0)), i = 1, n_bars(model))]]
       do i = 1, size(model%interface)
          work = local_force(model, analysis, i)
          work = 0.5_wp*(work - before%force(:, i))*(analysis%movement(:, i) - before%movement(:, i))
@@ -146,19 +147,13 @@ contains
       end do
       all_amounts = sum([(sum(abs(parts(i)%share)), i = 1, size(parts))])
       answer%work = sum([(sum(parts(i)%share), i = 1, size(parts))])
-      if (abs(answer%work) <= cancels*all_amounts .or. all_amounts <= rounding(analysis)) parts = parts(:0)
+      if (abs(answer%work) <= cancels*all_amounts .or. &
+          all_amounts <= cancels**2*analysis%largest_load*maxval(abs(analysis%all_u))) parts = parts(:0) ! what rounding alone makes
       do i = 1, size(parts)
          parts(i)%share = parts(i)%share/answer%work
       end do
       call move_alloc(parts, answer%parts)
    end subroutine share_work
-
-   !> Work that rounding alone may make [force x length].
-   pure real(wp) function rounding(analysis)
-      type(analysis_type), intent(in) :: analysis
-
-      rounding = cancels**2*analysis%largest_load*maxval(abs(analysis%all_u))
-   end function rounding
 
    !> The bodies, as PARTS with their works: forces at their nodes by movements of these, what warmth pushes taken off the forces.
    subroutine share_of_bodies(model, analysis, change, parts)
@@ -225,14 +220,6 @@ contains
       if (model%bars(i)%bolt > 0) words = 'BOLT'
    end function words_of_bar
 
-   pure integer function bar_number(model, i) result(number)
-      type(model_type), intent(in) :: model
-      integer, intent(in)          :: i
-
-      number = model%bars(i)%id
-      if (model%bars(i)%bolt > 0) number = model%bars(i)%bolt
-   end function bar_number
-
    !> Before the first stage all is at rest.
    pure subroutine start_watched(model, before)
       type(model_type), intent(in)   :: model
@@ -270,12 +257,10 @@ contains
       call file%put('')
       call table%start('', [column('WATCHED', 'i11'), column('U'//axes(:d), 'es13.4', labels%length), &
                             column('CHANGE '//axes(:d), 'es13.4', labels%length), column('LOAD', 'es13.4', labels%force), &
-                            column('ALONG IT', 'es13.4', labels%length), column('STIFFNESS', 'es13.4', labels%stiffness)])
-      call table%print_head(file)
+                            column('ALONG IT', 'es13.4', labels%length), column('STIFFNESS', 'es13.4', labels%stiffness)], file)
       do k = 1, size(answer%nodes)
          associate (node => answer%nodes(k))
-            call table%add([model%node_id(node%node)])
-            call table%add(clean([node%u(:d), node%change(:d)]))
+            call table%add([model%node_id(node%node)], clean([node%u(:d), node%change(:d)]))
             if (node%is_loaded) call table%add(clean([norm2(node%load), node%along]))
             if (node%moves) call table%add([node%stiffness])
             call table%print_row(file)
@@ -285,13 +270,11 @@ contains
       call file%put('')
       call table%start('', [column('GIVES WAY', 'a11'), column('NUMBER', 'i11'), &
                             column([character(8) :: 'SHARE %', 'NORMAL %', 'SHEAR %'], 'f11.4'), &
-                            column([character(12) :: 'FROM ELEMENT', 'TO ELEMENT'], 'i14')])
-      call table%print_head(file)
+                            column([character(12) :: 'FROM ELEMENT', 'TO ELEMENT'], 'i14')], file)
       do k = 1, size(answer%parts)
          associate (part => answer%parts(k))
             call table%add(' '//part%kind)
-            call table%add([part%id])
-            call table%add(clean(100.0_wp*[sum(part%share), part%share]))
+            call table%add([part%id], clean(100.0_wp*[sum(part%share), part%share]))
             if (part%kind == 'BODY') call table%add([part%first, part%last])
             call table%print_row(file)
          end associate
@@ -310,12 +293,9 @@ contains
       do k = 1, size(answer%nodes)
          associate (node => answer%nodes(k))
             line%length = 0
-            call line%add([stage, model%node_id(node%node)])
-            call line%add(clean([model%x(:, node%node), node%u, node%change, node%load]))
-            if (node%is_loaded) call line%add(clean([node%along, norm2(node%load)]))
-            if (.not. node%is_loaded) call line%add(',')
-            if (node%moves) call line%add([node%stiffness])
-            if (.not. node%moves) call line%add('')
+            call line%add([stage, model%node_id(node%node)], clean([model%x(:, node%node), node%u, node%change, node%load]))
+            call line%add(clean([node%along, norm2(node%load)]), where=spread(node%is_loaded, 1, 2))
+            call line%add([node%stiffness], where=[node%moves])
             call file%put(line%text(:line%length))
          end associate
       end do
@@ -323,8 +303,7 @@ contains
          line%length = 0
          call line%add([stage])
          call line%add(trim(answer%parts(k)%kind))
-         call line%add([answer%parts(k)%id])
-         call line%add(clean([answer%parts(k)%share, sum(answer%parts(k)%share)*answer%work]))
+         call line%add([answer%parts(k)%id], clean([answer%parts(k)%share, sum(answer%parts(k)%share)*answer%work]))
          call shares%put(line%text(:line%length))
       end do
    end subroutine write_watched

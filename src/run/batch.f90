@@ -94,7 +94,7 @@ contains
       logical, intent(out)         :: ok
       type(output_file_type) :: file
       type(csv_line_type) :: line
-      integer :: i, k
+      integer :: i
 
       call file%start(path)
       call file%put('deck,status,stages,increments,iterations,u_max,mises_max,contact,safety,frequency,watched,along,stiffness,'// &
@@ -104,16 +104,10 @@ contains
             line%length = 0
             call line%add('"'//row%name//'"')
             call line%add([row%status, row%counts])
-            do k = 1, size(row%figures)
-               if (row%is_there(k)) call line%add(clean(row%figures(k:k)))
-               if (.not. row%is_there(k)) call line%add('')
-            end do
-            if (row%node > 0) call line%add([row%node])
-            if (row%node == 0) call line%add('')
-            if (row%is_loaded) call line%add(clean([row%along]))
-            if (.not. row%is_loaded) call line%add('')
-            if (row%moves) call line%add([row%stiffness])
-            if (.not. row%moves) call line%add('')
+            call line%add(clean(row%figures), where=row%is_there)
+            call line%add([row%node], where=[row%node > 0])
+            call line%add(clean([row%along]), where=[row%is_loaded])
+            call line%add([row%stiffness], where=[row%moves])
             call line%add([row%seconds])
             call file%put(line%text(:line%length))
          end associate
@@ -128,24 +122,21 @@ contains
       type(output_file_type)   :: screen
       type(listing_table_type) :: table
       character(name_width) :: name
-      integer :: i, k
+      integer :: i
 
       call screen%start('')
       call heading(screen, 'ALL RUNS')
       call table%start('', [column('', 'a41'), column('STATUS', 'i7'), column('INCREMENTS', 'i11'), column('U MAX', 'es12.4'), &
                             column('MISES MAX', 'es12.4'), column('CONTACT %', 'f10.2'), column('MU N/T', 'f10.3'), &
-                            column('FREQUENCY', 'es12.4'), column('STIFFNESS', 'es12.4')])
-      call table%print_head(screen)
+                            column('FREQUENCY', 'es12.4'), column('STIFFNESS', 'es12.4')], screen)
       do i = 1, batch%n
          associate (row => batch%rows(i))
             name = row%name(max(1, len(row%name) - name_width + 1):)
             call table%add(' '//name)
             call table%add([row%status, row%counts(2)])
-            do k = 1, size(row%figures)
-               if (row%is_there(k)) call table%add([merge(100.0_wp, 1.0_wp, k == 3)*merge(min(row%figures(k), 99999.0_wp), &
-                                                                                         row%figures(k), k == 4)])
-               if (.not. row%is_there(k)) call table%skip(1)
-            end do
+            associate (f => row%figures)
+               call table%add([f(1), f(2), 100.0_wp*f(3), min(f(4), 99999.0_wp), f(5)], where=row%is_there)
+            end associate
             if (row%moves) call table%add([row%stiffness])
             call table%print_row(screen)
          end associate
