@@ -1,4 +1,5 @@
-!> The kinds of body element: their nodes and sides, their names in NASTRAN decks and VTK files.
+!> The kinds of body element: their nodes and sides, their names in NASTRAN decks and VTK files. Shells are of the plane kinds, a beam is an
+!! edge of two nodes.
 !! Corners are numbered as on the cards: plane elements counter-clockwise; solids with the base counter-clockwise as seen
 !! from the opposite face or corner, then that face in the same sense. Behind the corners of a second-order kind come the nodes at
 !! the middle of its edges, in the order of the edges here.
@@ -17,9 +18,8 @@ module element_kinds
    integer, parameter, public :: kind_tetra4 = 3, kind_penta6 = 4, kind_hexa8 = 5
    integer, parameter, public :: kind_tria6 = 6, kind_quad8 = 7     !! second order, serendipity
    integer, parameter, public :: kind_tetra10 = 8, kind_penta15 = 9, kind_hexa20 = 10
-   integer, parameter, public :: n_kinds = 10, n_linear_kinds = 5   !! of bodies; shells are of the plane kinds
-   integer, parameter, public :: kind_edge2 = n_kinds + 1           !! a beam, and a side of plane elements
-   integer, parameter, public :: kind_edge3 = n_kinds + 2           !! a side of plane elements, of no body
+   integer, parameter, public :: n_kinds = 10, n_linear_kinds = 5
+   integer, parameter, public :: kind_edge2 = n_kinds + 1, kind_edge3 = n_kinds + 2 !! sides of plane elements, of no body
    integer, parameter, public :: n_shapes = n_kinds + 2             !! kinds of body and edges: all that have shape functions
 
    integer, parameter, public :: max_nodes = 20, max_dofs = 60      !! of one element

@@ -55,6 +55,7 @@ contains
       real(wp) :: tangent(3, 3, size(laws%states))
       logical  :: is_loose
 
+      direction = 0.0_wp ! what it is where the equations cannot be solved
       is_loose = loose_joint(model, laws%states) > 0
       tangent = laws%tangent
       call solve_laws(model, residual, is_loose .and. (attempt%floats .or. .not. attempt%settled), analysis, system, attempt, &
