@@ -10,6 +10,7 @@ module spring_build
    use model_data, only: a_spring, bar_type, model_type, n_bars
    use node_build, only: find_nodes
    use reference_nodes, only: node_axes, rotation_at
+   use structural_build, only: is_cut_beam
    use text_tools, only: integer_text
    implicit none
    private
@@ -38,6 +39,7 @@ contains
       n = 0
       do i = 1, size(deck%bulk%edge)
          associate (edge => deck%bulk%edge(i))
+            if (is_cut_beam(deck, edge)) call add_cut_beam(edge)
             if (.not. is_bar(deck, edge)) cycle
             n = n + 1
             prod = findloc(deck%bulk%prod%id, edge%property, dim=1)
@@ -59,6 +61,24 @@ contains
       do i = 1, size(deck%bulk%bolt)
          if (deck%bulk%bolt(i)%element > 0) call tighten(deck, deck%bulk%bolt(i), model) ! else a solid bolt
       end do
+
+   contains
+
+      !> The bar that is the axial part of a beam with a BOLT; the beam has its mass.
+      subroutine add_cut_beam(edge)
+         type(edge_card), intent(in) :: edge
+
+         associate (property => deck%bulk%beam_property(findloc(deck%bulk%beam_property%id, edge%property, dim=1)))
+            if (all(deck%bulk%mat1%id /= property%material)) return ! said already
+            n = n + 1
+            model%bars(n)%id = edge%id
+            model%bars(n)%nodes = [model%node_table%find(edge%nodes(1)), model%node_table%find(edge%nodes(2))]
+            call build_bar(deck, edge%line, prod_card(line=property%line, material=property%material, &
+                                                      area=property%section%area), model, model%bars(n))
+            model%bars(n)%mass = 0.0_wp
+         end associate
+      end subroutine add_cut_beam
+
    end subroutine build_bars
 
    !> The stiffness and mass of BAR, whose card is on LINE and whose nodes are known, with the section of PROD.
@@ -103,7 +123,7 @@ contains
       k = findloc(model%bars%id, card%element, dim=1)
       call find_stage(deck, card, stage)
       if (k == 0) call deck%field_error(card%line, 'EID', 'there is no CROD '//integer_text(card%element)// &
-                                           ' with a PROD, nor a CONROD')
+                                           ' with a PROD, nor a CONROD, CBAR or CBEAM')
       if (k == 0 .or. stage == 0) return
       associate (bar => model%bars(k))
          if (bar%bolt > 0) then

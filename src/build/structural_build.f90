@@ -17,7 +17,7 @@ module structural_build
    implicit none
    private
 
-   public :: build_beams, build_rotations, build_shells, is_beam_edge, leave_out_idle, turn_rotations
+   public :: build_beams, build_rotations, build_shells, is_beam_edge, is_cut_beam, leave_out_idle, turn_rotations
 
 contains
 
@@ -29,6 +29,15 @@ contains
       is_beam_edge = edge%kind /= edge_crod .and. edge%property > 0 .and. any(deck%bulk%beam_property%id == edge%property) &
                      .and. all(deck%bulk%pmark%id /= edge%property)
    end function is_beam_edge
+
+   !> Whether EDGE is a beam with a BOLT.
+   pure logical function is_cut_beam(deck, edge)
+      type(checked_deck), intent(in) :: deck
+      type(edge_card), intent(in)    :: edge
+
+      is_cut_beam = is_beam_edge(deck, edge)
+      if (is_cut_beam) is_cut_beam = any(deck%bulk%bolt%element == edge%id)
+   end function is_cut_beam
 
    !> Give rotations to the nodes of shells and beams, and to the reference nodes of rigid elements: a node for them each, behind those of
    !! the deck. A model of revolution has none. Nodes that are not there are for others to name.
@@ -261,6 +270,7 @@ contains
          law%g = 0.5_wp*property%e/(1.0_wp + property%nu)
          law%rho = property%rho
          law%expansion = property%alpha
+         law%is_cut = any(deck%bulk%bolt%element == card%id)
          law%extra_mass = deck%bulk%parameters%mass_factor*deck%bulk%beam_property(k)%extra_mass
          do end = 1, 2
             law%offset(:, end) = matmul(node_axes(model, model%element_nodes(end, e)), card%offset(:, end))
@@ -277,6 +287,8 @@ contains
             end if
             law%orientation = model%x(:, other) - x(:, 1)
          end if
+         if (law%is_cut .and. (any(abs(law%offset) > 0.0_wp) .or. any(law%released([1, 7])))) call deck%errors%add(card%line, &
+            'beam '//integer_text(card%id)//' is a bolt; expected no offsets, and no pin along it')
          if (.not. beam_length(law, x) > 0.0_wp) then
             call deck%errors%add(card%line, 'beam '//integer_text(card%id)//' has no length')
             return

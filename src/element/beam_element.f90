@@ -25,6 +25,7 @@ module beam_element
       real(wp) :: orientation(3) = 0.0_wp      !! v, in global axes
       real(wp) :: offset(3, 2) = 0.0_wp        !! of the ends from their nodes, in global axes [length]
       logical  :: released(12) = .false.       !! PA, PB: end values that bear no force
+      logical  :: is_cut = .false.             !! a bolt: its axial force is that of a bar beside it
       real(wp) :: rho = 0.0_wp                 !! mass density
       real(wp) :: extra_mass = 0.0_wp          !! NSM, mass a unit of length
       real(wp) :: expansion = 0.0_wp           !! alpha [1/temperature]
@@ -110,7 +111,7 @@ contains
       integer  :: at(4, 2), plane
 
       k = 0.0_wp
-      k([1, 7], [1, 7]) = law%e*law%area/length*reshape([1.0_wp, -1.0_wp, -1.0_wp, 1.0_wp], [2, 2])
+      if (.not. law%is_cut) k([1, 7], [1, 7]) = law%e*law%area/length*reshape([1.0_wp, -1.0_wp, -1.0_wp, 1.0_wp], [2, 2])
       k([4, 10], [4, 10]) = law%g*law%torsion/length*reshape([1.0_wp, -1.0_wp, -1.0_wp, 1.0_wp], [2, 2])
       phi = shear_softness(law, length)
       at = reshape([2, 6, 8, 12, 3, 5, 9, 11], [4, 2])
@@ -278,7 +279,7 @@ contains
       real(wp) :: f(12)
 
       f = 0.0_wp
-      f([1, 7]) = law%e*law%area*law%expansion*rise*[-1.0_wp, 1.0_wp]
+      if (.not. law%is_cut) f([1, 7]) = law%e*law%area*law%expansion*rise*[-1.0_wp, 1.0_wp]
    end function beam_thermal_load
 
    !> The nodal forces (3, 4) of what the ends bear, F.

@@ -2,11 +2,12 @@
 module structural_results
    use analysis_state, only: analysis_type
    use beam_element, only: beam_end_forces, beam_law, beam_thermal_load
+   use bolt_locking, only: bar_tension
    use elasticity, only: max_stresses, von_mises
    use kinds, only: wp
    use listing_nodes, only: in_units, shows_element
    use listing_table, only: column, listing_table_type, noise, page_type
-   use model_data, only: corners_of, is_beam, is_shell, model_type, n_points, own_nodes, temperature_type
+   use model_data, only: a_bar, corners_of, is_beam, is_shell, model_type, n_points, own_nodes, temperature_type
    use shell_geometry, only: shell_frame, shell_frame_of
    use structural_elements, only: beam_ends, nodal_values, structural_stress
    use temperatures, only: element_rise
@@ -50,6 +51,8 @@ contains
                              nodal_values(model, e, analysis%all_u(:, own_nodes(model, e))), load)
       end associate
       forces = reshape([-s(:6), s(7:)], [6, 2])
+      if (model%structural%beams(model%structural%place(e))%is_cut) forces(1, :) = bar_tension(model, analysis, &
+         findloc(model%bars%id == model%element_id(e) .and. model%bars%kind == a_bar, .true., dim=1))
 
    contains
 

@@ -70,6 +70,18 @@ run rigid_arm && {
 sed -e '/^RBAR/d' -e '/^GRID,3/d' -e 's/^CBAR.*/CBAR,1,1,1,2,0.0,1.0,0.0,GGG\n+,,,0.0,-100.0,0.0,0.0,-100.0,0.0/' -e 's/FORCE,1,3/FORCE,1,2/' "$work/rigid_arm.bdf" > "$work/offset_beam.bdf"
 run offset_beam && near 'offset of a beam' "$(moved offset_beam 2 1)" '1000*500/(210000*800) + 1000*100^2*500/(210000*1e5)' 3e-6
 
+# a beam as a bolt: preload against a spring of k, then 500 on both: N = 1000 + 500 (E A/L)/(E A/L + k)
+cards bolt_beam <<'DECK'
+MODEL = SPACE;SPC = 1;SUBCASE 1;SUBCASE 2;  LOAD = 1;BEGIN BULK;GRID,1,,0.0,0.0,0.0;GRID,2,,100.0,0.0,0.0
+CBAR,1,1,1,2,0.0,1.0,0.0;PBAR,1,1,50.0,200.0,200.0,400.0;MAT1,1,210000.0,,0.3;SPC1,1,123456,1;CELAS2,9,45000.0,2,1
+BOLT,1,1,1000.0,1;FORCE,1,2,,500.0,1.0,0.0,0.0;FORCE,1,2,,30.0,0.0,1.0,0.0;ENDDATA
+DECK
+run bolt_beam && {
+   near 'a beam as a bolt: its force' "$(beam_force bolt_beam 1 3 1)" '1000 + 500*105000/(105000 + 45000)' 3e-6
+   near 'a beam as a bolt: it bends' "$(moved bolt_beam 2 2)" '30*100^3/(3*210000*200)' 3e-6
+   near 'a beam as a bolt: along it' "$(moved bolt_beam 2 1)" '-1000/45000 + 500/150000' 3e-6
+}
+
 # ---- warm beams, and beams that oscillate: (n pi)^2/(2 pi L^2) sqrt(E I/(rho A)) ----
 
 cards warm_beam <<DECK
