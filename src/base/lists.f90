@@ -16,6 +16,7 @@ module lists
       integer, allocatable :: direct(:)    ! direct(id) is the position of id, 0: none; where the numbers lie close enough
    contains
       procedure :: build
+      procedure :: add
       procedure :: find
       procedure :: list_repeated
    end type id_table_type
@@ -43,6 +44,20 @@ contains
          self%direct(ids(k)) = k
       end do
    end subroutine build
+
+   !> Other numbers IDS of these POSITIONS; one that the table has already keeps its position.
+   pure subroutine add(self, ids, positions)
+      class(id_table_type), intent(inout) :: self
+      integer, intent(in)                 :: ids(:), positions(:)
+      integer, allocatable :: order(:)
+
+      self%ids = [self%ids, ids]
+      self%positions = [self%positions, positions]
+      call sorted_order(self%ids, order)
+      self%ids = self%ids(order)
+      self%positions = self%positions(order)
+      if (allocated(self%direct)) deallocate (self%direct)
+   end subroutine add
 
    !> The position of ID, 0 where it is not in the table. Of repeated ids the first.
    pure integer function find(self, id) result(position)

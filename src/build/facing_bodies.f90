@@ -6,14 +6,14 @@ module facing_bodies
    use kinds, only: wp
    use lists, only: join, list_owners, root_of
    use model_build, only: find_bodies
-   use model_data, only: corners_of, model_type, n_bars, n_points, supported
+   use model_data, only: corners_of, is_shell, model_type, n_bars, n_points, supported
    use numbers, only: cross
    use spatial_search, only: box_search_type, position_search_type
    use text_tools, only: clean, integer_text, real_text
    implicit none
    private
 
-   public :: list_bodies, body_words, box_words, list_outer_sides, find_facing, loose_words
+   public :: list_bodies, body_words, box_words, list_outer_sides, find_facing, loose_words, rounded
 
    real(wp), parameter :: reach = 0.1_wp       ! of the longest edge of a side: as far as a JOINT looks without TOL
    real(wp), parameter :: opposed = -0.5_wp    ! cosine between the normals of facing sides, at most
@@ -27,9 +27,10 @@ module facing_bodies
       real(wp) :: low(3) = huge(1.0_wp), high(3) = -huge(1.0_wp) !! the box around it [length]
    end type body_type
 
-   !> A side of an element that no other element has.
+   !> A side of an element that no other element has, or one of the two faces of a shell.
    type, public :: outer_side
-      integer  :: element = 0, side = 0, body = 0
+      integer  :: element = 0, body = 0
+      integer  :: side = 0                     !! 0: the face of a shell along its normal, -1: the other one
       integer  :: n = 0                        !! corners
       integer  :: corners(4) = 0               !! positions of nodes
       real(wp) :: centre(3) = 0.0_wp           !! [length]
@@ -104,12 +105,25 @@ contains
 
       n = 0
       do e = 1, model%n_elements
-         n = n + element_table(model%element_kind(e))%n_sides
+         n = n + merge(2, element_table(model%element_kind(e))%n_sides, is_shell(model, e))
       end do
       allocate (corners(4, n), element(n), side(n), least(1, n), is_outer(n))
       corners = 0
       i = 0
       do e = 1, model%n_elements
+         if (is_shell(model, e)) then
+            associate (own => corners_of(model, e))
+               do s = 0, -1, -1
+                  i = i + 1
+                  element(i) = e
+                  side(i) = s
+                  corners(:size(own), i) = own
+                  if (s == -1) corners(:size(own), i) = own(size(own):1:-1)
+                  least(1, i) = 0 ! compared with no side
+               end do
+            end associate
+            cycle
+         end if
          associate (kind => element_table(model%element_kind(e)))
             do s = 1, kind%n_sides
                i = i + 1
@@ -123,6 +137,7 @@ contains
       call list_owners(model%n_nodes, least, first, owners)
       do i = 1, n
          is_outer(i) = .true.
+         if (side(i) <= 0) cycle
          do j = first(least(1, i)), first(least(1, i) + 1) - 1
             if (owners(j) == i) cycle
             is_outer(i) = is_outer(i) .and. .not. are_same(corners(:, i), corners(:, owners(j)))
@@ -174,6 +189,12 @@ contains
       end select
       side%area = norm2(vector)
       side%normal = vector/max(side%area, tiny(1.0_wp))
+      if (side%side <= 0) then
+         associate (law => model%structural%shells(model%structural%place(side%element)))
+            side%centre = side%centre + side%normal* &
+                          (0.5_wp*sum(law%thickness(:side%n))/side%n + merge(1, -1, side%side == 0)*law%offset)
+         end associate
+      end if
       if (side%n > 2) return
       if (model%axisymmetric) then
          side%area = side%area*two_pi*side%centre(1)
@@ -197,8 +218,8 @@ contains
       allocate (boxes(3, 2, size(sides)), sees(size(sides)), pairs(0))
       do i = 1, size(sides)
          associate (x => model%x(:, sides(i)%corners(:sides(i)%n)))
-            boxes(:, 1, i) = minval(x, dim=2)
-            boxes(:, 2, i) = maxval(x, dim=2)
+            boxes(:, 1, i) = min(minval(x, dim=2), sides(i)%centre) ! that of a shell's face is off its nodes
+            boxes(:, 2, i) = max(maxval(x, dim=2), sides(i)%centre)
          end associate
       end do
       call search%build(boxes)

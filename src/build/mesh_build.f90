@@ -15,6 +15,7 @@ module mesh_build
    use lists, only: list_owners
    use model_data, only: model_type
    use node_build, only: fill_mid_sides, collect_nodes, find_nodes, order_nodes, raw_nodes
+   use placed_nodes, only: add_reference_nodes, find_places
    use spring_build, only: is_bar
    use structural_build, only: is_beam_edge
    use text_tools, only: integer_text
@@ -39,9 +40,9 @@ contains
 
    !> Fill the mesh part of MODEL; SIDES are the marked sides found on the way.
    subroutine build_mesh(deck, model, sides)
-      type(checked_deck), intent(in)  :: deck
-      type(model_type), intent(inout) :: model
-      type(marked_sides), intent(out) :: sides
+      type(checked_deck), intent(inout) :: deck
+      type(model_type), intent(inout)   :: model
+      type(marked_sides), intent(out)   :: sides
       type(block_type), allocatable :: blocks(:)
       type(raw_nodes) :: raw
       integer, allocatable :: position(:) ! raw node -> node of the model
@@ -57,7 +58,9 @@ contains
       call collect_nodes(deck, model%systems, blocks, raw)
       if (any(abs(raw%x(3, :raw%n)) > 0.0_wp) .and. .not. is_plane(deck)) model%dimension = 3
       call take_model(deck, model)
+      call add_reference_nodes(deck, blocks, raw)
       call order_nodes(raw, model, position)
+      if (any(deck%rigid%surface > 0) .or. size(deck%bulk%place) > 0) call find_places(deck, blocks, raw, position, model)
       call resolve_properties(deck, model)
       call collect_elements(deck, blocks, raw, position, model)
       call fill_mid_sides(deck, model)

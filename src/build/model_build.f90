@@ -16,7 +16,7 @@ module model_build
    use model_data, only: model_type, n_bars, n_rotations, n_sections, stage_load_type
    use node_coupling, only: section_node
    use pretension_section, only: build_sections
-   use rbe2, only: build_dependents
+   use rbe2, only: build_dependents, name_surface_nodes
    use shell_faces, only: build_shell_faces, couple_shell_faces
    use spring_build, only: build_bars, build_masses, check_mass, build_springs
    use stage_plan, only: plan_stages, stage_plan_type
@@ -159,6 +159,7 @@ contains
       call build_shells(checked, model)
       call build_surfaces(checked, sides, model)
       if (checked%mesh_is_faulty()) return
+      call name_surface_nodes(checked, model)
       ! what stands on the mesh: each is put together whatever is wrong with the others
       call split_shared_surfaces(checked, model)
       call build_shell_faces(checked, model)

@@ -149,17 +149,30 @@ contains
       type(model_type), intent(inout) :: model
       real(wp), intent(in)            :: x(:, :) !! (3, new nodes) [length]
       real(wp), allocatable :: all_x(:, :)
-      integer :: k, n
+      integer :: highest, k, n
 
       n = model%n_nodes
       allocate (all_x(3, n + size(x, 2)))
       all_x(:, :n) = model%x
       all_x(:, n + 1:) = x
       call move_alloc(all_x, model%x)
-      model%node_id = [model%node_id, (model%node_id(n) + min(k, huge(1) - model%node_id(n)), k = 1, size(x, 2))]
+      highest = highest_number(model)
+      model%node_id = [model%node_id, (highest + min(k, huge(1) - highest), k = 1, size(x, 2))]
       model%n_nodes = n + size(x, 2)
       call model%node_table%build(model%node_id)
+      if (.not. allocated(model%placed)) return
+      associate (named => model%placed%id > 0)
+         call model%node_table%add(pack(model%placed%id, named), pack(model%placed%node, named))
+      end associate
    end subroutine append_nodes
+
+   !> The highest number that a node of MODEL has, those of NODEAT included.
+   pure integer function highest_number(model)
+      type(model_type), intent(in) :: model
+
+      highest_number = model%node_id(model%n_nodes)
+      if (allocated(model%placed)) highest_number = max(highest_number, maxval([0, model%placed%id]))
+   end function highest_number
 
    !> The NODES of the model with the numbers ID, which a card of an element, edge or interface element names from its data field
    !! FIRST on; 0, and an error, where there is none. An id of 0 is no node: a field that is blank or could not be read.
@@ -323,9 +336,9 @@ contains
       integer :: i, n, node
 
       n = model%n_nodes
-      if (model%node_id(n) > huge(1) - n_new) then
+      if (highest_number(model) > huge(1) - n_new) then
          call deck%errors%add(0, 'the mid-side nodes that are left blank are numbered behind node '// &
-                              integer_text(model%node_id(n))//', and their numbers would pass 2147483647')
+                              integer_text(highest_number(model))//', and their numbers would pass 2147483647')
          where (model%element_nodes > n) model%element_nodes = 0
          return
       end if

@@ -10,11 +10,12 @@ module rbe2
    use rbe3, only: add_mean, by_rotation, find_node, no_displacement
    use reference_nodes, only: component_place, node_axes, place_of_component, rotation_at, third_axis
    use support_build, only: check_sums, summed_sets
+   use surface_build, only: find_surface, surface_node_list, surface_nodes
    use text_tools, only: integer_text
    implicit none
    private
 
-   public :: build_dependents
+   public :: build_dependents, name_surface_nodes
 
 contains
 
@@ -34,14 +35,14 @@ contains
          deck%control%stages(1)%equations%line, 'MPC: there is no MPC or MPCADD with set '//integer_text(set))
       call check_sums(deck, 'MPCADD', deck%bulk%equation_sum, deck%bulk%equation%set, 'MPC')
       allocate (active, source=summed_sets(deck%bulk%equation_sum, set))
-      if (size(deck%bulk%rigid) + size(deck%bulk%equation) == 0) return
+      if (size(deck%rigid) + size(deck%bulk%equation) == 0) return
       allocate (without(model%n_nodes), source=.false.)
-      do i = 1, size(deck%bulk%rigid)
-         call check_expansion(deck, deck%bulk%rigid(i))
-         if (deck%bulk%rigid(i)%is_mean) then
-            call add_mean(deck, deck%bulk%rigid(i), model, list, without)
+      do i = 1, size(deck%rigid)
+         call check_expansion(deck, deck%rigid(i))
+         if (deck%rigid(i)%is_mean) then
+            call add_mean(deck, deck%rigid(i), model, list, without)
          else
-            call add_rigid(deck, deck%bulk%rigid(i), model, list, without)
+            call add_rigid(deck, deck%rigid(i), model, list, without)
          end if
       end do
       do i = 1, size(deck%bulk%equation)
@@ -56,6 +57,34 @@ contains
       end do
       if (.not. deck%errors%any()) call eliminate(list, without, model)
    end subroutine build_dependents
+
+   !> The nodes of RBE2M and RBE3M are those of their surface: of RBE3M with their areas of influence as weights, so that what acts on the
+   !! reference node is spread evenly over the area; of RBE2M without GN, which may be one of them.
+   subroutine name_surface_nodes(deck, model)
+      type(checked_deck), intent(inout) :: deck
+      type(model_type), intent(in)      :: model
+      type(surface_node_list) :: list
+      logical, allocatable :: counts(:)
+      integer :: i, surface
+
+      do i = 1, size(deck%rigid)
+         associate (card => deck%rigid(i))
+            if (card%surface == 0) cycle
+            call find_surface(deck, card%line, 'PID', card%surface, model, surface)
+            if (surface == 0) cycle
+            call surface_nodes(model, model%surfaces(surface), list)
+            if (card%is_mean) then ! mid-side nodes alone have an area on triangles of second order
+               counts = abs(list%area) > 1.0e-12_wp*maxval(abs(list%area))
+            else
+               counts = model%node_id(list%node) /= card%node
+            end if
+            card%nodes = pack(model%node_id(list%node), counts)
+            card%weight = pack(list%area, counts)
+            card%at = spread(card%at(1), 1, size(card%nodes))
+            card%directions = spread(card%directions(1), 1, size(card%nodes))
+         end associate
+      end do
+   end subroutine name_surface_nodes
 
    !> A rigid element that grows where there are temperatures: that is not done.
    subroutine check_expansion(deck, card)
@@ -83,6 +112,7 @@ contains
          integer_text(model%dimension), called='CM')
       do k = 1, size(card%nodes)
          call find_node(deck, card%line, card%at(k), card%nodes(k), model, without, node)
+         if (node == 0 .and. card%surface > 0) return ! one of a surface stands for all
          if (node == 0 .or. point == 0) cycle
          if (node == point) then
             call deck%field_error(card%line, card%at(k), 'node '//integer_text(card%node)//' is the independent node GN; '// &

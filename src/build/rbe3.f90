@@ -137,9 +137,10 @@ contains
       logical  :: determined(6)
 
       before = list%n
-      call find_node(deck, card%line, 3, card%node, model, without, point)
+      call find_node(deck, card%line, card%node_at, card%node, model, without, point)
       do i = 1, size(card%nodes)
          call find_node(deck, card%line, card%at(i), card%nodes(i), model, without, nodes(i))
+         if (nodes(i) == 0 .and. card%surface > 0) return ! one of a surface stands for all
       end do
       if (no_displacement(model, card%components) .and. .not. has_component(card%components, 6)) &
          call deck%field_error(card%line, 'REFC', 'names no component that nodes of this model have')
@@ -157,7 +158,7 @@ contains
                   'open, as nodes on a line leave the rotation about it')
                return
             end if
-            call add_dependence(list, place, card%line, 3)
+            call add_dependence(list, place, card%line, card%node_at)
             do i = 1, size(nodes)
                do c = 1, model%dimension
                   call add_term(list, component_place(nodes(i), c), place%scale*dot_product(direction, t(:, c, i)))
@@ -196,8 +197,8 @@ contains
          end do
       end do
       ok = n == list%n - first + 1
-      if (.not. ok) call deck%field_error(card%line, 4, 'UM names '//integer_text(n)//' components, but REFC has '// &
-         integer_text(list%n - first + 1)//'; expected as many')
+      if (.not. ok) call deck%field_error(card%line, card%components_at, 'UM names '//integer_text(n)// &
+         ' components, but REFC has '//integer_text(list%n - first + 1)//'; expected as many')
       if (.not. ok) return
       call solve_for(list, first, places(:n), at(:n), ok)
       if (.not. ok) call deck%field_error(card%line, card%um_at(1), 'the components behind UM do not follow from the others; '// &

@@ -49,12 +49,12 @@ contains
       integer  :: count_of(model%n_nodes), e, i, n, node
 
       if (model%axisymmetric) return
-      if (size(deck%bulk%rigid) == 0 .and. all(model%properties%state < shell)) return
-      allocate (rotations(size(deck%bulk%rigid) + model%n_nodes))
+      if (size(deck%rigid) == 0 .and. all(model%properties%state < shell)) return
+      allocate (rotations(size(deck%rigid) + model%n_nodes))
       allocate (model%rotation_of(model%n_nodes), source=0)
       n = 0
-      do i = 1, size(deck%bulk%rigid)
-         associate (card => deck%bulk%rigid(i))
+      do i = 1, size(deck%rigid)
+         associate (card => deck%rigid(i))
             node = model%node_table%find(card%node)
             if (node == 0 .or. .not. turns(model, card)) cycle
             if (model%rotation_of(node) > 0) cycle

@@ -55,9 +55,24 @@ contains
             if (n > 0 .or. card%id == 0 .or. marks%find(card%id) < k) cycle ! the last: a number given twice, said elsewhere
             call deck%field_error(card%line, 'PID', 'surface '//integer_text(card%id)//' has no '// &
                trim(merge('face: expected a CTRIA3, CQUAD4', 'edge: expected a CBAR, CROD    ', model%dimension == 3))// &
-               ' or side of a block with this PID')
+               ' or side of a block with this PID'//gmsh_words())
          end associate
       end do
+
+   contains
+
+      !> Why a mesh of Gmsh may lack the face.
+      function gmsh_words() result(words)
+         character(:), allocatable :: words
+         integer :: f
+
+         words = ''
+         do f = 1, deck%text%n_files
+            if (index(deck%text%files(f)%bytes(:min(200, len(deck%text%files(f)%bytes))), 'Created by Gmsh') > 0) words = &
+               '; Gmsh writes a face once: of one in two physical groups only the first has it'
+         end do
+      end function gmsh_words
+
    end subroutine build_surfaces
 
    !> Which SURFACE of MODEL the FIELD of the card on LINE names by its ID; 0, and an error, where there is none.

@@ -220,11 +220,9 @@ contains
       type(limit_type), intent(in)         :: limits(:)
       logical, allocatable, intent(out)    :: are_named(:) !! (n_nodes)
       type(deck_error_list), intent(inout) :: errors
-      logical, allocatable :: are_in(:)
       integer :: at, i
 
       allocate (are_named(model%n_nodes), source=.false.)
-      allocate (are_in(model%n_nodes))
       do i = 1, size(limits)
          associate (only => limits(i))
             if (only%is_mark) then
@@ -233,8 +231,7 @@ contains
             else
                at = find_set(sets, only%id)
                if (at > 0) then
-                  call numbers_in_set(sets(at), model%node_id, are_in, errors)
-                  are_named = are_named .or. are_in
+                  call find_set_nodes(sets(at), model, are_named, errors)
                end if
             end if
             if (at == 0) call errors%add(only%line, key//': there is no '//trim(merge('PMARK', 'SET  ', only%is_mark))//' '// &
@@ -242,5 +239,30 @@ contains
          end associate
       end do
    end subroutine find_limited_nodes
+
+   !> The nodes of SET are named too: those of its numbers, of NODEAT also, and those of the marked surfaces that it names.
+   subroutine find_set_nodes(set, model, are_named, errors)
+      type(number_set), intent(in)         :: set
+      type(model_type), intent(in)         :: model
+      logical, intent(inout)               :: are_named(:) !! (n_nodes)
+      type(deck_error_list), intent(inout) :: errors
+      integer, allocatable :: marks(:), numbers(:)
+      logical, allocatable :: are_in(:)
+      integer :: at, i
+
+      allocate (numbers, source=model%node_id)
+      if (allocated(model%placed)) numbers = [numbers, model%placed%id]
+      allocate (are_in(size(numbers)))
+      call numbers_in_set(set, numbers, are_in, marks, errors)
+      are_named = are_named .or. are_in(:model%n_nodes)
+      do i = model%n_nodes + 1, size(numbers)
+         if (are_in(i) .and. numbers(i) > 0) are_named(model%placed(i - model%n_nodes)%node) = .true.
+      end do
+      do i = 1, size(marks)
+         at = findloc(model%surfaces%id, marks(i), dim=1)
+         if (at > 0) are_named(nodes_of(model%surfaces(at))) = .true.
+         if (at == 0) call errors%add(set%line, 'SET '//integer_text(set%id)//': there is no PMARK '//integer_text(marks(i)))
+      end do
+   end subroutine find_set_nodes
 
 end module vibration_build

@@ -144,12 +144,19 @@ module bulk_data
       logical :: is_mean = .false.                      ! RBE3
       integer :: node = 0, components = 0               ! the reference node; RBE2, RBAR: the components are the directions
       integer :: node_at = 2, components_at = 3         ! their data fields
+      integer :: surface = 0                            ! RBE2M, RBE3M: the nodes are those of this PMARK; 0: listed
       integer, allocatable  :: nodes(:), directions(:), at(:) ! AT(k): data field of NODES(k)
       real(wp), allocatable :: weight(:)
       integer, allocatable  :: um_nodes(:), um_components(:), um_at(:) ! of an RBE3 with UM: what depends in place of the COMPONENTS
       real(wp) :: alpha = 0.0_wp                        ! coefficient of thermal expansion
       integer  :: alpha_at = 0                          ! its data field
    end type rigid_card
+
+   !> NODEAT: another number for the node that is nearest to X.
+   type, public :: place_card
+      integer  :: line = 0, id = 0, surface = 0         ! SURFACE: a PMARK whose nodes alone are looked at; 0: all
+      real(wp) :: x(3) = 0.0_wp
+   end type place_card
 
    !> MPC: the sum of FACTOR(k) times COMPONENT(k) of NODE(k) is zero; the first term depends on the others.
    type, public :: equation_card
@@ -354,6 +361,7 @@ module bulk_data
       type(support_card), allocatable      :: support(:)
       type(set_sum_card), allocatable      :: support_sum(:), equation_sum(:)
       type(rigid_card), allocatable        :: rigid(:)
+      type(place_card), allocatable        :: place(:)
       type(equation_card), allocatable     :: equation(:)
       type(force_card), allocatable        :: force(:)
       type(pressure_card), allocatable     :: pressure(:)

@@ -1,4 +1,4 @@
-!> SET n = 1, 3, 10 THRU 20, 30 THRU 50 EXCEPT 35, 36: numbers to which case control gives a name. A set is kept as it is
+!> SET n = 1, 3, 10 THRU 20, 30 THRU 50 EXCEPT 35, 36, PMARK 4: numbers to which case control gives a name. A set is kept as it is
 !! written; what is wrong with one that nothing uses does no harm. The nodes of a SET or of a marked surface, PMARK, limit tables.
 module case_sets
    use case_entries, only: entry_type
@@ -22,8 +22,8 @@ module case_sets
       integer :: id = 0, line = 0
    end type limit_type
 
-   character(*), parameter :: expected = ', expected ALL, or numbers and N THRU M with commas between them, behind a THRU also '// &
-                                         'EXCEPT and numbers'
+   character(*), parameter :: expected = ', expected ALL, or numbers, N THRU M and PMARK N with commas between them, behind a '// &
+                                         'THRU also EXCEPT and numbers'
 
 contains
 
@@ -65,16 +65,18 @@ contains
       if (allocated(sets)) at = findloc(sets%id, id, dim=1, back=.true.)
    end function find_set
 
-   !> Which of NUMBERS are in SET.
-   subroutine numbers_in_set(set, numbers, are_in, errors)
+   !> Which of NUMBERS are in SET, and the marked surfaces that it names.
+   subroutine numbers_in_set(set, numbers, are_in, marks, errors)
       type(number_set), intent(in)         :: set
       integer, intent(in)                  :: numbers(:)
       logical, intent(out)                 :: are_in(:)
+      integer, allocatable, intent(out)    :: marks(:) !! their PMARK
       type(deck_error_list), intent(inout) :: errors
       character(:), allocatable :: word
-      integer :: at, first, last
+      integer :: at, first, last, mark
       logical :: ok, excepts
 
+      allocate (marks(0))
       are_in = .false.
       excepts = .false.
       first = 0
@@ -85,6 +87,13 @@ contains
       do while (word /= '')
          if (word == 'ALL') then
             are_in = .true.
+         else if (word == 'PMARK') then
+            call next_word(set%text, at, word)
+            call parse_integer(word, mark, ok)
+            if (.not. ok .or. mark < 1) exit
+            marks = [marks, mark]
+            first = 0
+            last = 0
          else if (word == 'EXCEPT' .and. last > first) then
             excepts = .true.
          else if (word == 'THRU' .and. first > 0 .and. last == first) then

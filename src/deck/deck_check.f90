@@ -1,7 +1,7 @@
 !> A deck that was read, while what its cards say is put together: errors about fields that were read long ago, numbers given twice,
 !! laws of joints whose parts are missing.
 module deck_check
-   use bulk_data, only: bulk_data_type
+   use bulk_data, only: bulk_data_type, rigid_card
    use card_fields, only: number_of
    use card_reader, only: card_kind
    use case_control, only: case_control_type
@@ -21,6 +21,7 @@ module deck_check
       type(bulk_data_type), pointer     :: bulk => null()
       type(deck_error_list), pointer    :: errors => null()
       type(card_kind), pointer, private :: kinds(:) => null()
+      type(rigid_card), allocatable     :: rigid(:) !! those of BULK; of marked surfaces with their nodes when these are known
    contains
       procedure :: start
       procedure, private :: kind_of_line, named_field_error, numbered_field_error
@@ -33,7 +34,7 @@ module deck_check
    ! the cards that nodes, elements, properties and marked surfaces come from
    character(8), parameter :: mesh_cards(*) = [character(8) :: 'GRID', 'GRDSET', 'CORD1R', 'CORD1C', 'CORD1S', 'CORD2R', 'CORD2C', &
       'CORD2S', 'BLOCK2', 'BLOCK3', 'CTRIA3', 'CTRIA6', 'CQUAD4', 'CQUAD8', 'CTETRA', 'CPENTA', 'CHEXA', 'CBAR', 'CROD', 'CONROD', &
-      'PSHELL', 'PAXIS', 'PSOLID', 'PROD', 'PMARK', 'MAT1']
+      'NODEAT', 'PSHELL', 'PAXIS', 'PSOLID', 'PROD', 'PMARK', 'MAT1']
 
 contains
 
@@ -48,6 +49,7 @@ contains
       self%bulk => deck%bulk
       self%kinds => deck%kinds
       self%errors => errors
+      self%rigid = deck%bulk%rigid
    end subroutine start
 
    !> Which kind of card begins on LINE.
@@ -101,6 +103,7 @@ contains
             call self%report_repeated('BLOCK3', pack(bulk%block%id, .not. plane), pack(bulk%block%line, .not. plane))
          end associate
          call self%report_repeated('BOLT', bulk%bolt%id, bulk%bolt%line)
+         call self%report_repeated('NODEAT', bulk%place%id, bulk%place%line)
          call self%report_repeated('JOINT', bulk%joint%id, bulk%joint%line)
          call self%report_repeated('PJOINT', bulk%pjoint%id, bulk%pjoint%line)
          call self%report_repeated('JNORM', bulk%jnorm%id, bulk%jnorm%line)

@@ -17,7 +17,7 @@ module deck_input
    use nastran_compatibility, only: is_idle_card
    use property_cards, only: read_conrod, read_mat1, read_paxis, read_parameter, read_prod, read_pshell, read_psolid, &
                              read_temperature
-   use rigid_cards, only: read_equation, read_rigid
+   use rigid_cards, only: read_equation, read_place, read_rigid
    use spring_cards, only: read_mass, read_spring, read_spring_property
    use support_cards, only: read_displacement, read_sum, read_support
    use vibration_cards, only: read_eigrl, read_freq1, read_freq4, read_jampl, read_tabdmp1
@@ -63,7 +63,8 @@ contains
       call cards%add_kinds(['MAT1'], read_mat1)
       call cards%add_kinds(['SPC ', 'SPC1', 'SPCM'], read_support)
       call cards%add_kinds(['SPCADD'], read_sum)
-      call cards%add_kinds(['RBE2', 'RBE3', 'RBAR'], read_rigid)
+      call cards%add_kinds(['RBE2 ', 'RBE3 ', 'RBAR ', 'RBE2M', 'RBE3M'], read_rigid)
+      call cards%add_kinds(['NODEAT'], read_place)
       call cards%add_kinds(['MPC'], read_equation)
       call cards%add_kinds(['MPCADD'], read_sum)
       call cards%add_kinds(['FORCE ', 'FORCE1', 'FORCE2', 'MOMENT'], read_force)
@@ -102,6 +103,7 @@ contains
          bulk%prod(cards%n_of('PROD')), bulk%conrod(cards%n_of('CONROD')), bulk%spring(cards%n_of('CBUSH')), &
          bulk%spring_property(2*cards%n_of('PBUSH')), bulk%mass(cards%n_of('CONM2')), bulk%mat1(cards%n_of('MAT1')), &
          bulk%support(2*cards%n_of('SPC')), bulk%support_sum(cards%n_of('SPCADD')), bulk%rigid(cards%n_of('RBE2')), &
+         bulk%place(cards%n_of('NODEAT')), &
          bulk%equation(cards%n_of('MPC')), bulk%equation_sum(cards%n_of('MPCADD')), bulk%force(cards%n_of('FORCE')), &
          bulk%pressure(cards%n_of('PLOAD')), bulk%surface_load(cards%n_of('PLOADM')), bulk%gravity(cards%n_of('GRAV')), &
          bulk%displacement(2*cards%n_of('SPCD')), bulk%temperature(4*cards%n_of('TEMP')), bulk%load(cards%n_of('LOAD')), &

@@ -1,5 +1,5 @@
 !> The cards of dependent nodes: RBE2 (nodes that move with one as a rigid body), RBE3 (one that moves as the weighted mean of others),
-!! MPC (an equation between components).
+!! both with listed nodes or those of a marked surface, RBAR, MPC (an equation between components); NODEAT, a node by its place.
 module rigid_cards
    use bulk_data, only: bulk_data_type, has_component, rigid_card
    use card_fields, only: card_fields_type
@@ -8,7 +8,7 @@ module rigid_cards
    implicit none
    private
 
-   public :: read_rigid, read_equation
+   public :: read_rigid, read_place, read_equation
 
    character(*), parameter :: a_node = 'a node number'
 
@@ -25,6 +25,9 @@ contains
       if (card%name == 'RBAR') then
          call read_rigid_bar(card, bulk%rigid(card%i))
          return
+      else if (card%name == 'RBE2M' .or. card%name == 'RBE3M') then
+         call read_rigid_surface(card, bulk%rigid(card%i), bulk)
+         return
       end if
       associate (rigid => bulk%rigid(card%i))
          rigid%line = card%line
@@ -32,6 +35,8 @@ contains
          allocate (rigid%nodes(0), rigid%at(0), rigid%directions(0), rigid%weight(0))
          call card%field('EID', rigid%id)
          if (rigid%is_mean) then
+            rigid%node_at = 3
+            rigid%components_at = 4
             call card%blank(['-'])
             call card%field('REFGRID', rigid%node)
             call card%components('REFC', rigid%components)
@@ -55,6 +60,41 @@ contains
          end if
       end associate
    end subroutine read_rigid
+
+   !> RBE2M, RBE3M: an RBE2 or RBE3 of the nodes of surface PID. Without GN or REFGRID the reference node is a new one.
+   subroutine read_rigid_surface(card, rigid, bulk)
+      type(card_fields_type), intent(inout) :: card
+      type(rigid_card), intent(inout)       :: rigid
+      type(bulk_data_type), intent(inout)   :: bulk
+      integer :: directions, c
+
+      rigid%is_mean = card%name == 'RBE3M'
+      call card%field('EID', rigid%id)
+      call card%field(trim(merge('REFGRID', 'GN     ', rigid%is_mean)), rigid%node, default=0, least=0)
+      call card%components(trim(merge('REFC', 'CM  ', rigid%is_mean)), rigid%components)
+      directions = rigid%components
+      if (rigid%is_mean) call card%components('C', directions)
+      if (rigid%is_mean .and. any([(has_component(directions, c), c = 4, 6)])) call bulk%ignored%add('456 in C of RBE3')
+      call card%field('PID', rigid%surface)
+      call card%finish(rigid%line)
+      rigid%nodes = [integer ::]                   ! name_surface_nodes finds them
+      rigid%at = [merge(5, 4, rigid%is_mean)]
+      rigid%directions = [directions]
+      rigid%weight = [real(wp) ::]
+   end subroutine read_rigid_surface
+
+   !> NODEAT: the node nearest to a place, on surface PID where that is given.
+   subroutine read_place(card, bulk)
+      type(card_fields_type), intent(inout) :: card
+      type(bulk_data_type), intent(inout)   :: bulk
+
+      associate (place => bulk%place(card%i))
+         call card%field('ID', place%id)
+         call card%field(['X', 'Y', 'Z'], place%x, default=0.0_wp)
+         call card%field('PID', place%surface, default=0)
+         call card%finish(place%line)
+      end associate
+   end subroutine read_place
 
    !> RBAR: of nodes GA and GB one is independent, all its six components in CNA or CNB; the components CMA or CMB of the other, blank all
    !! six, move with it as a rigid body.

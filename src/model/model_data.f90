@@ -160,6 +160,15 @@ module model_data
       real(wp) :: lever(3) = 0.0_wp          !! [length]
    end type face_node_type
 
+   !> A node that the deck names by place, NODEAT, or the reference node of an RBE2M or RBE3M.
+   type, public :: placed_node
+      integer  :: id = 0                     !! of NODEAT; 0: a reference node
+      integer  :: element = 0                !! of which rigid element; 0: NODEAT
+      integer  :: surface = 0                !! PMARK, 0: none
+      integer  :: node = 0
+      real(wp) :: x(3) = 0.0_wp              !! the place that NODEAT gives [length]
+   end type placed_node
+
    !> What holds: an SPC1 card, the SPC cards of one set, the SPCM card of a surface, PS of GRID.
    type, public :: support_group
       character(4) :: kind = ''              !! SPC, SPC1, SPCM, GRID
@@ -193,6 +202,7 @@ module model_data
                                              !! others, or are of reference nodes and move nothing; held too; where any are
       type(node_coupling_type) :: coupling   !! of displacements with unknowns
       integer, allocatable  :: node_system(:) !! (n_nodes) the system CD of a node, 0: global axes; where any has one
+      type(placed_node), allocatable :: placed(:) !! where the deck names nodes by place; not allocated: nowhere
       type(id_table_type)   :: node_table
       integer :: n_elements = 0
       integer, allocatable  :: element_id(:)

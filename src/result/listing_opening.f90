@@ -53,6 +53,7 @@ contains
       call write_echo(page%file, deck)
       call write_summary(page%file, deck, model, system)
       call write_bodies(page, model)
+      if (allocated(model%placed)) call write_placed(page, model)
       if (size(model%joints) > 0) call write_joints(page, model)
       if (has_gaps(model)) call write_gaps(page, model)
       call write_shear_laws(page%file, model)
@@ -168,6 +169,27 @@ contains
          end associate
       end do
    end subroutine write_bodies
+
+   !> The nodes that the deck names by place, NODEAT with its distance from there, and the reference nodes of RBE2M and RBE3M.
+   subroutine write_placed(page, model)
+      type(page_type), intent(inout) :: page
+      type(model_type), intent(in)   :: model
+      type(listing_table_type) :: table
+      integer :: d, i
+
+      d = model%dimension
+      call table%start('NODES BY PLACE AND SURFACE', [column([character(8) :: 'NODE', 'NODEAT', 'ELEMENT', 'PMARK'], 'i11'), &
+                       column(axes(:d), 'es14.5', page%labels%length), column('DISTANCE', 'es12.3', page%labels%length)], page%file)
+      do i = 1, size(model%placed)
+         associate (placed => model%placed(i))
+            associate (x => model%x(:, placed%node))
+               call table%add([model%node_id(placed%node), placed%id, placed%element, placed%surface], &
+                              clean([x(:d), merge(norm2(x - placed%x), 0.0_wp, placed%id > 0)]))
+            end associate
+            call table%print_row(page%file)
+         end associate
+      end do
+   end subroutine write_placed
 
    !> WORDS, a list with commas, in as many lines as it takes; none where there are no words.
    subroutine write_folded(file, words)

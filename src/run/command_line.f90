@@ -30,6 +30,7 @@ module command_line
 
    type, public :: command_type
       logical :: check_only = .false.       !! --check
+      logical :: suggest    = .false.       !! --joints
       logical :: quiet      = .false.       !! -q
       logical :: times      = .false.       !! --times
       logical :: dated      = .false.       !! --date
@@ -86,6 +87,8 @@ contains
             return
          case ('--check')
             command%check_only = .true.
+         case ('--joints')
+            command%suggest = .true.
          case ('-q')
             command%quiet = .true.
          case ('--times')
@@ -344,6 +347,7 @@ contains
          ''//nl// &
          '   -o DIR        where the results go (default: here)'//nl// &
          '   --check       read and check the decks, solve nothing'//nl// &
+         '   --joints      print cards for joints where bodies face each other, solve nothing'//nl// &
          '   -q            no progress on the terminal'//nl// &
          '   --threads N   at most N threads (default: all cores; the results do not depend on it)'//nl// &
          '   --set N=V     put V in the place of ${N} in the decks; N=V,V,V: a run with each value, named beam_N=V'//nl// &

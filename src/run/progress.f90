@@ -10,6 +10,7 @@ module progress
    use, intrinsic :: iso_fortran_env, only: error_unit
    use kinds, only: long, wp
    use restart_stream, only: restart_stream_type
+   use output_file, only: output_file_type
    use results, only: results_type
    use stage_plan, only: stage_plan_type
    use terminal_line, only: clear_line, open_line, show_line
@@ -44,14 +45,15 @@ module progress
 
    ! how a run ended that did not come to its last increment, and the exit status that this is
    integer, parameter, public :: goes_on = 0, is_unreadable = 1, would_overwrite = 2, has_errors = 3, was_checked = 4, &
-                                 is_unsolved = 5, is_unwritten = 6, is_refused = 7
-   integer, parameter, public :: status_of(0:7) = [0, 1, 1, 2, 0, 3, 4, 1]
+                                 is_unsolved = 5, is_unwritten = 6, is_refused = 7, was_searched = 8
+   integer, parameter, public :: status_of(0:8) = [0, 1, 1, 2, 0, 3, 4, 1, 0]
 
    !> The run of one deck.
    type, public :: run_type
       type(failure_type) :: failure            !! the structure cannot be solved
       type(deck_argument) :: argument
-      logical :: check_only = .false., is_dated = .false.
+      logical :: check_only = .false., is_dated = .false., suggests = .false. !! suggests: --joints
+      type(output_file_type) :: suggestions    !! of --joints, for the standard output
       type(deck_error_list) :: errors
       type(results_type) :: results
       type(progress_type) :: progress

@@ -16,6 +16,7 @@ module run_boxes
    use failures, only: failure_type
    use finite_state, only: check_precision, check_state
    use incomplete_results, only: watch_ends
+   use joint_suggestions, only: suggest_joints
    use kinds, only: wp
    use law_error, only: follow_laws
    use load_path, only: recover_bodies
@@ -30,7 +31,7 @@ module run_boxes
    use oscillating_structure, only: let_go, oscillating_type, start_oscillation
    use progress, only: phase_backbone, phase_build, phase_factor, phase_increments, phase_modes, phase_order, phase_recover, &
                        phase_write, goes_on, has_errors, is_over, is_unreadable, is_unwritten, run_type, was_checked, &
-                       would_overwrite
+                       was_searched, would_overwrite
    use restart_file, only: open_restart_file, take_up, write_restart
    use results, only: list_results => print_increment, print_backbone, print_modes, print_response, &
                       print_stage_results => print_stage, remove_old_results, start_results
@@ -160,7 +161,8 @@ contains
       integer :: i
 
       run%argument = argument
-      run%check_only = command%check_only
+      run%check_only = command%check_only .or. command%suggest
+      run%suggests = command%suggest
       run%is_dated = command%dated
       call run%progress%start(argument%name, command%quiet, command%times, argument%number, argument%of)
       call read_deck(argument%path, deck, run%errors, readable, argument%parameters, command%watched)
@@ -173,7 +175,7 @@ contains
       end do
       if (is_over(run)) return
       if (command%resume) call open_restart_file(deck, run)
-      if (.not. (is_over(run) .or. command%check_only)) call remove_old_results(argument%base)
+      if (.not. (is_over(run) .or. run%check_only)) call remove_old_results(argument%base)
    end subroutine read_data
 
    !> Bodies, joints, supports, loads, stages.
@@ -195,12 +197,16 @@ contains
       if (.not. run%errors%any()) loose = loose_words(model)
       if (run%errors%any()) then
          run%ending = has_errors
+      else if (run%suggests) then
+         call run%suggestions%start('')
+         call suggest_joints(run%argument%name, deck, model, run%suggestions)
+         run%ending = was_searched
       else if (loose /= '') then
          call run%failure%raise(loose)
       else if (run%check_only) then
          run%ending = was_checked
       end if
-      if (run%errors%any()) return
+      if (run%errors%any() .or. run%suggests) return
       if (unit_words(deck) /= '') call say_line(run%argument%name//': '//unit_words(deck))
       if (deck%control%method /= method_newton) return
       drops = pack(model%joints%id, (model%joints%law%shear(1)%given .or. model%joints%law%shear(2)%given) .and. &

@@ -14,7 +14,7 @@ module run_end
    use listing_steps, only: distance_words
    use model_data, only: model_type, n_points
    use progress, only: phase_write, has_errors, is_over, is_refused, is_unreadable, is_unsolved, is_unwritten, run_type, &
-                       status_of, was_checked, would_overwrite
+                       status_of, was_checked, was_searched, would_overwrite
    use range_watch, only: tetra_words
    use restart_file, only: restart_name
    use results, only: discard_results, finish_results, listing_ending, show_answers
@@ -112,6 +112,10 @@ contains
                              plural(model%n_elements, 'body element')//', '// &
                              plural(size(model%interface), 'interface element')//', '//plural(size(plan%stages), 'stage')// &
                              new_line('a'), ok)
+            if (.not. ok) call miss_output(name)
+         case (was_searched)
+            call say_of_deck(run, deck)
+            call run%suggestions%finish(ok)
             if (.not. ok) call miss_output(name)
          case (is_unsolved)
             write (error_unit, '(4a)') name, ': ', run%failure%message, &

@@ -1,0 +1,264 @@
+!> Cards for the joints that a deck may be missing (--joints): a JOINT wherever outer sides of two bodies face each other, with the marks
+!! of both sides, and a support for the flat underside of a model that has none.
+module joint_suggestions
+   use deck_input, only: deck_type
+   use element_kinds, only: element_table
+   use facing_bodies, only: body_type, body_words, box_words, facing_type, find_facing, list_bodies, list_outer_sides, outer_side, &
+                            rounded
+   use kinds, only: wp
+   use lists, only: list_owners
+   use model_data, only: model_type
+   use output_file, only: output_file_type
+   use text_tools, only: clean, integer_text, real_text
+   implicit none
+   private
+
+   public :: suggest_joints
+
+   !> Numbers that the deck does not have, and those of its cards that the suggestions name.
+   type :: next_numbers
+      integer :: element = 0, mark = 0, joint = 0, law = 1
+   end type next_numbers
+
+contains
+
+   !> Print the suggestions for MODEL of DECK, which is named NAME, into FILE: cards in free format, and comments about them.
+   subroutine suggest_joints(name, deck, model, file)
+      character(*), intent(in)              :: name
+      type(deck_type), intent(in)           :: deck
+      type(model_type), intent(in)          :: model
+      type(output_file_type), intent(inout) :: file
+      type(body_type), allocatable   :: bodies(:)
+      type(outer_side), allocatable  :: sides(:)
+      type(facing_type), allocatable :: pairs(:)
+      type(next_numbers)   :: next
+      integer, allocatable :: sees(:), mark(:)
+      integer :: body(model%n_elements), i, n_new, p
+
+      call list_bodies(model, body, bodies)
+      call list_outer_sides(model, body, sides)
+      call find_facing(model, sides, pairs, sees)
+      call find_marks(model, sides, mark)
+      next = free_numbers(deck, model)
+      call file%put('$ '//name//': '//integer_text(size(bodies))//' bodies')
+      do i = 1, size(bodies)
+         call file%put('$ '//body_words(i, bodies(i)))
+      end do
+      n_new = 0
+      do p = 1, size(pairs)
+         call suggest_pair(pairs(p))
+      end do
+      if (size(pairs) == 0) call file%put('$ no two bodies have sides that face each other within a tenth of the edge of a side')
+      if (n_new > 0 .and. all(deck%bulk%pjoint%id /= next%law)) call file%put( &
+         '$ PJOINT '//integer_text(next%law)//', the laws of these joints, is not in the deck: --help PJOINT')
+      if (size(deck%bulk%support) == 0) call suggest_support(deck, model, sides, sees, mark, next, file)
+
+   contains
+
+      !> The cards of one pair of bodies, unless there is a joint between them there.
+      subroutine suggest_pair(pair)
+         type(facing_type), intent(in) :: pair
+         integer :: marks(2), k
+         logical :: own(size(sides), 2), is_new(2)
+
+         call file%put('$')
+         call file%put('$ bodies '//integer_text(pair%body(1))//' and '//integer_text(pair%body(2))//' face each other: '// &
+            integer_text(pair%n(1))//' and '//integer_text(pair%n(2))//' sides, areas '//number(pair%area(1))//' and '// &
+            number(pair%area(2))//', gap '//number(pair%gap(1))//' to '//number(pair%gap(2))//', normal '//box_words(pair%normal))
+         if (minval(pair%n) == 0) then
+            call file%put('$ only body '//integer_text(pair%body(maxloc(pair%n, dim=1)))// &
+                          ' sees the other; a mark of its sides alone would have no side opposite')
+            return
+         end if
+         do k = 1, 2
+            own(:, k) = sides%body == pair%body(k) .and. sees == pair%body(3 - k)
+         end do
+         do i = 1, size(deck%bulk%joint)
+            associate (joint => deck%bulk%joint(i))
+               if (all([(covers(joint%sides, own(:, k)), k = 1, 2)]) .or. &
+                   (joint%sides(2) == 0 .and. any([(covers(joint%sides, own(:, k)), k = 1, 2)]))) then
+                  call file%put('$ JOINT '//integer_text(joint%id)//' of the deck connects them there')
+                  return
+               end if
+            end associate
+         end do
+         do k = 1, 2
+            call take_mark(deck, pack(mark, own(:, k)), next, marks(k), is_new(k))
+         end do
+         do k = 1, 2
+            if (is_new(k)) call file%put('PMARK,'//integer_text(marks(k)))
+         end do
+         call file%put('JOINT,'//integer_text(next%joint)//','//integer_text(next%law)//','//integer_text(marks(1))//','// &
+                       integer_text(marks(2))//','//number(reach_of(pair)))
+         next%joint = next%joint + 1
+         n_new = n_new + 1
+         do k = 1, 2
+            if (is_new(k)) call put_sides(model, pack(sides, own(:, k)), marks(k), next, file)
+         end do
+      end subroutine suggest_pair
+
+      !> Whether more than half of the area of THESE sides has marks of the sides of a joint.
+      pure logical function covers(joint_sides, these)
+         integer, intent(in) :: joint_sides(2)
+         logical, intent(in) :: these(:)
+
+         covers = sum(sides%area, mask=these .and. mark > 0 .and. (mark == joint_sides(1) .or. mark == joint_sides(2))) > &
+                  0.5_wp*sum(sides%area, mask=these)
+      end function covers
+
+      !> TOL: twice the largest gap, at least a hundredth of a side.
+      real(wp) function reach_of(pair)
+         type(facing_type), intent(in) :: pair
+
+         reach_of = max(2.0_wp*pair%gap(2), 0.01_wp*minval(sides%size, mask=sides%body == pair%body(1)))
+      end function reach_of
+
+   end subroutine suggest_joints
+
+   !> Which MARK of the deck each of SIDES has, the last of several; 0: none.
+   subroutine find_marks(model, sides, mark)
+      type(model_type), intent(in)      :: model
+      type(outer_side), intent(in)      :: sides(:)
+      integer, allocatable, intent(out) :: mark(:)
+      integer, allocatable :: first(:), owners(:)
+      integer :: i, j, k, s
+
+      allocate (mark(size(sides)), source=0)
+      call list_owners(model%n_elements, reshape(sides%element, [1, size(sides)]), first, owners)
+      do k = 1, size(model%surfaces)
+         associate (surface => model%surfaces(k))
+            do s = 1, surface%n
+               do j = first(surface%element(s)), first(surface%element(s) + 1) - 1
+                  i = owners(j)
+                  if (surface%corners(s) /= sides(i)%n) cycle
+                  if (same_side(surface%nodes(:sides(i)%n, s), sides(i))) mark(i) = surface%id
+               end do
+            end do
+         end associate
+      end do
+
+   contains
+
+      !> Whether SIDE has the corners OWN, or those that a split put opposite, or the nodes of shells below them, in the same sense.
+      pure logical function same_side(own, side)
+         integer, intent(in)          :: own(:)
+         type(outer_side), intent(in) :: side
+         integer :: at, c, below(size(own))
+
+         below = own
+         if (allocated(model%face_of)) then
+            do c = 1, size(own)
+               if (model%face_of(own(c)) > 0) below(c) = model%faces(model%face_of(own(c)))%point
+            end do
+         end if
+         same_side = .false.
+         do at = 1, size(own)
+            same_side = same_side .or. all([(any([side%corners(c), model%duplicate(side%corners(c))] == &
+                                                 below(1 + modulo(at + c - 2, size(own)))), c = 1, size(own))])
+         end do
+      end function same_side
+
+   end subroutine find_marks
+
+   !> Numbers behind those of the deck.
+   pure function free_numbers(deck, model) result(next)
+      type(deck_type), intent(in)  :: deck
+      type(model_type), intent(in) :: model
+      type(next_numbers) :: next
+
+      associate (bulk => deck%bulk)
+         next%element = 1 + maxval([0, model%element_id, bulk%edge%id, bulk%element%id, bulk%rigid%id, &
+                                  bulk%conrod%id, bulk%spring%id])
+         next%mark = 1 + maxval([0, bulk%pmark%id, bulk%pshell%id, bulk%paxis%id, bulk%psolid%id, bulk%prod%id, &
+                               bulk%beam_property%id])
+         next%joint = 1 + maxval([0, bulk%joint%id])
+         if (size(bulk%pjoint) > 0) next%law = bulk%pjoint(1)%id
+      end associate
+   end function free_numbers
+
+   !> The MARK for sides that have the marks NOW: that of the deck, where all have this one and no other side has, else a new one.
+   subroutine take_mark(deck, now, next, mark, is_new)
+      type(deck_type), intent(in)       :: deck
+      integer, intent(in)               :: now(:)
+      type(next_numbers), intent(inout) :: next
+      integer, intent(out)              :: mark
+      logical, intent(out)              :: is_new
+
+      mark = now(1)
+      is_new = mark == 0 .or. any(now /= mark) .or. all(deck%bulk%pmark%id /= mark)
+      if (.not. is_new) return
+      mark = next%mark
+      next%mark = next%mark + 1
+   end subroutine take_mark
+
+   !> The cards of marked SIDES: CBAR edges in the plane, faces in space, with their mid-side nodes.
+   subroutine put_sides(model, sides, mark, next, file)
+      type(model_type), intent(in)          :: model
+      type(outer_side), intent(in)          :: sides(:)
+      integer, intent(in)                   :: mark
+      type(next_numbers), intent(inout)     :: next
+      type(output_file_type), intent(inout) :: file
+      character(:), allocatable :: line
+      integer, allocatable :: nodes(:)
+      integer :: i, k
+
+      do i = 1, size(sides)
+         nodes = sides(i)%corners(:sides(i)%n)
+         if (sides(i)%side > 0) then
+            associate (kind => element_table(model%element_kind(sides(i)%element)), side => sides(i)%side)
+               nodes = model%element_nodes(kind%side_nodes(:kind%side_size(side), side), sides(i)%element)
+            end associate
+         end if
+         select case (sides(i)%n)
+         case (2)
+            line = 'CBAR'
+         case (3)
+            line = trim(merge('CTRIA6', 'CTRIA3', size(nodes) > 3))
+         case default
+            line = trim(merge('CQUAD8', 'CQUAD4', size(nodes) > 4))
+         end select
+         line = line//','//integer_text(next%element)//','//integer_text(mark)
+         do k = 1, size(nodes)
+            if (k == 7) line = line//new_line('a')//'+'
+            line = line//','//integer_text(model%node_id(nodes(k)))
+         end do
+         call file%put_lines(line//new_line('a'))
+         next%element = next%element + 1
+      end do
+   end subroutine put_sides
+
+   !> A support for the flat sides at the lowest z, in the plane y, that look down and see no other body.
+   subroutine suggest_support(deck, model, sides, sees, mark, next, file)
+      type(deck_type), intent(in)           :: deck
+      type(model_type), intent(in)          :: model
+      type(outer_side), intent(in)          :: sides(:)
+      integer, intent(in)                   :: sees(:), mark(:)
+      type(next_numbers), intent(inout)     :: next
+      type(output_file_type), intent(inout) :: file
+      logical  :: lowest(size(sides)), is_new
+      real(wp) :: extent
+      integer  :: d, id
+
+      d = model%dimension
+      if (size(sides) == 0) return
+      extent = maxval(sides%centre(d)) - minval(sides%centre(d))
+      lowest = sides%centre(d) <= minval(sides%centre(d)) + 1.0e-6_wp*extent .and. sides%normal(d) < -0.999_wp .and. sees == 0
+      if (.not. any(lowest)) return
+      call take_mark(deck, pack(mark, lowest), next, id, is_new)
+      call file%put('$')
+      call file%put('$ nothing is supported; the lowest flat sides have an area of '//number(sum(sides%area, mask=lowest)))
+      if (is_new) call file%put('PMARK,'//integer_text(id))
+      call file%put('SPCM,1,'//trim(merge('12 ', '123', d == 2))//','//integer_text(id))
+      if (is_new) call put_sides(model, pack(sides, lowest), id, next, file)
+   end subroutine suggest_support
+
+   !> VALUE with three digits, as a real number of a card.
+   pure function number(value) result(words)
+      real(wp), intent(in)      :: value
+      character(:), allocatable :: words
+
+      words = real_text(rounded(clean(value)))
+      if (scan(words, '.E') == 0) words = words//'.0'
+   end function number
+
+end module joint_suggestions

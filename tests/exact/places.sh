@@ -1,0 +1,106 @@
+# RBE2M, RBE3M, NODEAT, SET with PMARK: the same as by lists of nodes; and --joints, whose cards make the joint that they suggest.
+
+placed_row() { table "$1" 'NODES BY PLACE AND SURFACE' | awk -v name="$2" -v c="$3" '$2 == name { print $c }'; }
+
+# a block on its joint, moved by a tool point over its upper side
+block='BLOCK3,1,1,2,2,2,0.0,0.0,0.0;+,20.0,20.0,30.0;+,,,,,20,30;PMARK,20;PMARK,30;PSOLID,1,1;MAT1,1,9500.,,.25
+JOINT,1,1,20;PJOINT,1,1,2,2,.3;JNORM,1,8.-3,.5;JSHEAR,2,60.;JINCR,5,3'
+head='METHOD = NEWTON;LOAD = 1;INCR = 5'
+top='3,6,9,12,15;+,18,21,24,27'
+by_place() { # NAME GRID-AND-RIGID NODE [ENTRIES]
+   cards "$1" <<DECK
+$head;${4:-OUTPUT = ALL};BEGIN BULK;$block
+$2;FORCE,1,$3,,100.0,1.0,2.0,-30.0;MOMENT,1,$3,,700.0,0.0,1.0,0.0;ENDDATA
+DECK
+   run "$1"
+}
+by_place rigid_list "GRID,901,,12.0,9.0,40.0;RBE2,905,901,123456,$top" 901
+by_place rigid_mark "GRID,901,,12.0,9.0,40.0;RBE2M,905,901,123456,30" 901 &&
+   same_rows 'RBE2M with GN' rigid_mark rigid_list 1e-12 $resultant
+by_place rigid_list "GRID,901,,10.0,10.0,30.0;RBE2,905,901,123456,3,6,9,12,18;+,21,24,27,15" 901
+by_place rigid_mark 'RBE2M,905,,123456,30;NODEAT,7001,10.,10.,30.' 7001 && {
+   same_rows 'RBE2M with a node of its own' rigid_mark rigid_list 1e-9 $resultant
+   same 'NODEAT: the new node, not node 15, which lies in its place' "$(placed_row rigid_mark 7001 1)" 7002
+}
+by_place rigid_mark 'RBE2M,905,15,123456,30' 15 && same_rows 'RBE2M with GN on its surface' rigid_mark rigid_list 1e-9 $resultant
+# weights are areas of influence: 1 at corners, 2 along edges, 4 in the middle
+by_place mean_list 'GRID,901,,12.0,9.0,40.0;RBE3,905,,901,123456,1.,123,3,9;+,21,27,2.,123,6,12,18,24;+,4.,123,15' 901
+by_place mean_mark 'GRID,901,,12.0,9.0,40.0;RBE3M,905,901,123456,123,30' 901 && same_rows 'RBE3M' mean_mark mean_list 1e-9 $resultant
+by_place mean_list 'GRID,901,,10.0,10.0,30.0;RBE3,905,,901,123456,1.,123,3,9;+,21,27,2.,123,6,12,18,24;+,4.,123,15' 901
+by_place mean_mark 'RBE3M,905,0,123456,123,30' 28 && {
+   same_rows 'RBE3M: its node stands at the centroid, behind the last' mean_mark mean_list 1e-9 $resultant
+   same 'RBE3M: the node' "$(placed_row mean_mark 0 1)" 28
+   near 'RBE3M: x of the centroid' "$(placed_row mean_mark 0 5)" 10 1e-12
+   near 'RBE3M: z of the centroid' "$(placed_row mean_mark 0 7)" 30 1e-12
+}
+
+# NODEAT, the nearest of all and of a surface; WATCH, by its number and by a surface
+by_place near 'RBE2M,905,15,123456,30;NODEAT,7001,10.,10.,14.;NODEAT,7002,10.,10.,14.,30;NODEAT,7003,5.,5.,30.' 7002 'WATCH = SET 4;SET 4 = 7001, PMARK 30' && {
+   same 'NODEAT: of all nodes' "$(placed_row near 7001 1)" 14
+   same 'NODEAT: of a surface' "$(placed_row near 7002 1)" 15
+   near 'NODEAT: distance' "$(placed_row near 7001 8)" 1 1e-9
+   same 'NODEAT: of equally near ones the lowest' "$(placed_row near 7003 1)" 3
+   same 'SET of NODEAT and PMARK' "$(awk -F, 'NR > 1 { n = n " " $2 } END { print n }' "$work/near.watch.csv")" ' 3 6 9 12 14 15 18 21 24 27'
+}
+by_place near_list 'RBE2M,905,15,123456,30' 15 && same_rows 'force on NODEAT' near near_list 0 $resultant
+
+# an even traction by RBE3M on faces of second order: the pressure of the joint is even
+for order in 1 2; do
+   cards even <<DECK
+$head;SPC = 1;BEGIN BULK;BLOCK3,1,1,3,2,2,0.0,0.0,0.0;+,30.0,20.0,30.0;+,,,,,20,30,,$order
+PMARK,20;PMARK,30;PSOLID,1,1;MAT1,1,9500.,,.25;JOINT,1,1,20;PJOINT,1,1;JNORM,1,8.-3,.5;JINCR,5,2;SPC1,1,12,1;SPC1,1,2,25
+RBE3M,905,,123,123,30;NODEAT,99,15.,10.,30.1,;FORCE,1,99,,1200.0,0.0,0.0,-1.0;ENDDATA
+DECK
+   run even && ask "RBE3M: even pressure, order $order" even rows 'increment = 2' all 'pressure = 2.0 within 1e-9'
+done
+
+# a beam and a bolt between two such nodes: CBAR and CROD take the numbers of NODEAT
+cards spanned <<'DECK'
+METHOD = NEWTON;SPC = 1;SUBCASE 1;SUBCASE 2;LOAD = 1;BEGIN BULK
+BLOCK3,1,1,2,2,1,0.0,0.0,0.0;+,20.0,20.0,10.0;+,,,,,10,11;BLOCK3,2,1,2,2,1,0.0,0.0,10.0;+,20.0,20.0,20.0,,,,101,101;+,,,,,12,13
+PSOLID,1,1;MAT1,1,210000.,,.3;PMARK,10;PMARK,11;PMARK,12;PMARK,13;JOINT,1,1,12,11;PJOINT,1,1;JNORM,1,8.-3,.5
+RBE3M,501,,123456,123,10;RBE3M,502,,123456,123,13;NODEAT,9001,10.,10.,-.1;NODEAT,9002,10.,10.,20.1
+CROD,601,6,9001,9002;PROD,6,1,50.;BOLT,1,601,2000.,1;SPC1,1,123,1,5,13;SPC1,1,12,101,103;FORCE,1,9002,,500.,0.,0.,1.;ENDDATA
+DECK
+run spanned && same 'bolt between NODEATs' "$(awk -F, 'NR > 1 && $1 == 1 { v = $5 } END { print v + 0 }' "$work/spanned.bolt.csv")" 2000
+
+# ---- --joints: the two blocks meshed apart, its cards pasted into the deck ----
+
+cards apart <<'DECK'
+METHOD = NEWTON;LOAD = 1;INCR = 5;SPC = 1
+BEGIN BULK
+BLOCK3,1,1,2,2,2,0.0,0.0,0.0;+,20.0,20.0,10.0;BLOCK3,2,1,3,3,1,0.0,0.0,10.02;+,20.0,20.0,20.0,,,,101,101;+,,,,,,13
+PSOLID,1,1;MAT1,1,9500.,,.25;PMARK,13;PJOINT,7,1;JNORM,1,8.-3,.5;JINCR,5,2;PLOADM,1,3.0,13;SPC1,1,12,101;SPC1,1,2,125;ENDDATA
+DECK
+"$program" --joints "$work/apart.bdf" > "$work/apart.cards" 2> "$work/apart.log"
+same '--joints: exit status' $? 0
+says '--joints: the pair' "$work/apart.cards" 'face each other: 9 and 4 sides, areas 400.0 and 400.0, gap 0.02'
+same '--joints: cards of faces' "$(grep -c '^CQUAD4' "$work/apart.cards")" 13
+says '--joints: the law of the deck' "$work/apart.cards" '^JOINT,1,7,'
+same '--joints writes nothing' "$(ls "$work"/apart.*.csv "$work"/apart.out 2> /dev/null)" ''
+{ sed '/^ENDDATA/d' "$work/apart.bdf"; cat "$work/apart.cards"; echo 'SPC1,1,123,1,7,19,25'; echo ENDDATA; } > "$work/pasted.bdf"
+run pasted && near '--joints: its joint bears the load' "$(value pasted rows 'increment = 2' print 'sum(force)' | tail -1)" 1200 1e-6
+"$program" --joints "$work/pasted.bdf" > "$work/pasted.cards"
+says '--joints: what is there' "$work/pasted.cards" 'JOINT 1 of the deck connects them there'
+sed '/^SPC = 1/d; /^SPC1/d' "$work/apart.bdf" > "$work/loose.bdf"
+sed -i 's/;SPC = 1//' "$work/loose.bdf"
+"$program" --joints "$work/loose.bdf" > "$work/loose.cards"
+says '--joints: a support' "$work/loose.cards" '^SPCM,1,123,'
+same '--joints: its faces' "$(grep -c '^CQUAD4' "$work/loose.cards")" 17
+
+# shells: the faces that lie on each other, half a thickness off the nodes, and a surface of Gmsh's mesh that is missing
+cards sheets <<'DECK'
+METHOD = NEWTON;SPC = 1;LOAD = 1;INCR = 5;MODEL = SPACE;BEGIN BULK
+GRID,1,,0.,0.,0.;GRID,2,,10.,0.,0.;GRID,3,,10.,10.,0.;GRID,4,,0.,10.,0.;GRID,5,,0.,0.,4.;GRID,6,,10.,0.,4.;GRID,7,,10.,10.,4.;GRID,8,,0.,10.,4.
+CQUAD4,1,1,1,2,3,4;CQUAD4,2,2,8,7,6,5;PSHELL,1,1,3.,1,,1;PSHELL,2,1,5.,1,,1;MAT1,1,9500.,,.25
+PJOINT,7,1;JNORM,1,8.-3,.5;JINCR,5,2;PLOAD2,1,3.0,2;SPC1,1,123456,1,2,3,4;SPC1,1,126,5,6,7,8;ENDDATA
+DECK
+"$program" --joints "$work/sheets.bdf" > "$work/sheets.cards"
+says '--joints: faces of shells' "$work/sheets.cards" 'face each other: 1 and 1 sides, areas 100.0 and 100.0, gap 0.0 to 0.0'
+{ sed '/^ENDDATA/d' "$work/sheets.bdf"; cat "$work/sheets.cards"; echo ENDDATA; } > "$work/pasted.bdf"
+run pasted && near '--joints: the joint of the sheets bears the load' "$(value pasted rows 'increment = 2' print 'sum(force)' | tail -1)" 300 1e-6
+"$program" --joints "$work/pasted.bdf" > "$work/pasted.cards"
+says '--joints: the sheets have it' "$work/pasted.cards" 'JOINT 1 of the deck connects them there'
+sed "s|gmsh/|$PWD/input/gmsh/|; s/^PMARK   42\r*$/&\nPMARK   199/" input/bracket.bdf > "$work/groups.bdf"
+run groups 2 > "$work/groups.said"
+says 'a face in two groups of Gmsh' "$work/groups.log" 'Gmsh writes a face once'
