@@ -78,6 +78,7 @@ part 'runs that are killed and go on' tests/solver/restart.sh "$program" "$build
 part 'decks made at random' tests/random/fuzz.sh -s 1984 -n 2000 -j 1 "$build/test/fuzz" checked="$checked"
 part 'decks in which every pair of features meets' tests/random/pairs.sh -s 1984 -n 100 "$program" "$build/test/pairs"
 part 'decks of pairs that showed an error once' tests/random/pairs.sh -s 1 -f 102,3740,4498,4529 -n 1 "$program" "$build/test/pairs-again"
+part 'decks of pairs with shells' tests/random/pairs.sh -x -s 1984 -n 40 "$program" "$build/test/pairs-shells"
 part 'the two fuzzers themselves' tests/random/selftest.sh "$program" "$build/test/random-selftest"
 part 'decks on other processors, built otherwise' tests/compare/processors.sh "$program" "$compare" "$build" 46
 part 'worked examples of the tour' tests/source/tour.sh "$query" "$build/tour"

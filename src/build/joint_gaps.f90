@@ -336,7 +336,7 @@ contains
    end subroutine start_table
 
    !> NODES: by node of SIDE1, zero where none is given. An element that hangs on several has their mean. A node on which none hangs, as
-   !! a corner of a flat face of six nodes, is on SIDE1 all the same.
+   !! a corner of a flat face of six nodes, is on SIDE1 all the same. On the face of a shell the card names the nodes of the shell.
    subroutine gaps_by_node(deck, card, joint, model)
       type(checked_deck), intent(in)  :: deck
       type(jgap_card), intent(in)     :: card
@@ -344,11 +344,13 @@ contains
       type(model_type), intent(inout) :: model
       real(wp), allocatable :: gap(:, :)
       integer, allocatable  :: given_at(:) ! 0: not on SIDE1, -1: not given
+      integer, allocatable  :: on_side(:)  ! the node itself, of a shell that of its face on SIDE1
       integer :: i, node
       character(:), allocatable :: words
 
       allocate (gap(1, model%n_nodes), source=0.0_wp)
       allocate (given_at(model%n_nodes), source=0)
+      allocate (on_side(model%n_nodes), source=[(i, i = 1, model%n_nodes)])
       do i = joint%first, joint%last
          given_at(nodes_of_end(model%interface(i), 1)) = -1
       end do
@@ -359,10 +361,16 @@ contains
             end do
          end associate
       end if
+      if (allocated(model%faces)) then
+         do i = 1, size(model%faces)
+            if (given_at(model%faces(i)%node) == -1) on_side(model%faces(i)%point) = model%faces(i)%node
+         end do
+      end if
       do i = 1, size(card%node)
          if (card%node(i) == 0) cycle
          words = ''
          node = model%node_table%find(card%node(i))
+         if (node > 0) node = on_side(node)
          if (node == 0) then
             words = 'there is no GRID '//integer_text(card%node(i))
          else if (given_at(node) == 0) then

@@ -260,7 +260,7 @@ contains
    end subroutine check_nodes
 
    !> The temperatures AT all nodes in SET, and which are GIVEN: by TEMP, else by TEMPD; the twin of a node of a split surface has
-   !! the same, and a node put at the middle of an edge the mean of its ends.
+   !! the same, a node on the face of a shell that of the shell, a node put at the middle of an edge the mean of its ends.
    subroutine fill_in(deck, model, set, at, given)
       type(checked_deck), intent(in)    :: deck
       type(model_type), intent(in)      :: model
@@ -304,6 +304,13 @@ contains
                at(nodes(k)) = 0.5_wp*sum(at(corners))
                given(nodes(k)) = .true.
             end do
+         end associate
+      end do
+      if (.not. allocated(model%faces)) return
+      do k = 1, size(model%faces)
+         associate (face => model%faces(k))
+            at(face%node) = at(face%point)
+            given(face%node) = given(face%point)
          end associate
       end do
    end subroutine fill_in

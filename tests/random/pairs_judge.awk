@@ -244,6 +244,7 @@ function match_rows(v,   r, b, x, y, z, d, best, s) {
 function same_joints(v,   r, b, k, names, n, stress, s, f, spinning, q, scale) {
    if (n_rows[v] != n_rows[1] || per[v] != per[1]) { failed("variant " variant[v] " has " n_rows[v] " rows, the model " n_rows[1]); return }
    match_rows(v)
+   tied = 0
    s = length_of[v]; f = force_of[v]; stress = f / s ^ 2
    spinning = variant[v] == "q" && kind == "space"
    n = split("area:" s * s " lambda:" s " pressure:" stress " force:" f " k_n:" f / s \
@@ -253,6 +254,7 @@ function same_joints(v,   r, b, k, names, n, stress, s, f, spinning, q, scale) {
       split(names[k], q, ":")
       scale = largest(1, q[1])
       if (q[1] ~ /^delta/ && scale < 1e-5 * largest_closing()) scale = 1e-5 * largest_closing() # below, a movement is rounding of the closing
+      if (q[1] ~ /^tau/ && scale < 1e-8 * largest(1, "pressure")) scale = 1e-8 * largest(1, "pressure") # a rigid top that nothing pushes aside
       if (q[1] == "delta_y" && scale < largest(1, "delta_x")) scale = largest(1, "delta_x")
       if (q[1] == "tau_y" && scale < largest(1, "tau_x")) scale = largest(1, "tau_x")
       if (q[1] == "delta_x" && scale < largest(1, "delta_y")) scale = largest(1, "delta_y")
@@ -263,7 +265,10 @@ function same_joints(v,   r, b, k, names, n, stress, s, f, spinning, q, scale) {
    for (r = 1; r <= n_rows[v]; r++) {
       b = row_of[1 + (r - 1) % per[v]] + int((r - 1) / per[v]) * per[v]
       if (value[v, r, "branch"] != value[1, b, "branch"]) { failed(sprintf("%s: branch %s for %s, row %d", variant[v], value[v, r, "branch"], value[1, b, "branch"], b)); break }
-      if (value[v, r, "slip"] != value[1, b, "slip"]) { failed(sprintf("%s: slip %s for %s, row %d", variant[v], value[v, r, "slip"], value[1, b, "slip"], b)); break }
+      # BACK stops where pressures change by 1E-6: an element so near to the limit slips or not
+      if (value[v, r, "slip"] != value[1, b, "slip"] && method == "BACK" && \
+          abs(sqrt(value[1, b, "tau_x"] ^ 2 + value[1, b, "tau_y"] ^ 2) - mu * value[1, b, "pressure"]) < 1e-5 * mu * largest(1, "pressure")) tied = 1
+      else if (value[v, r, "slip"] != value[1, b, "slip"]) { failed(sprintf("%s: slip %s for %s, row %d", variant[v], value[v, r, "slip"], value[1, b, "slip"], b)); break }
       if (!spinning && value[v, r, "branch_x"] != value[1, b, "branch_x"]) { failed(sprintf("%s: branch_x %s for %s, row %d", variant[v], value[v, r, "branch_x"], value[1, b, "branch_x"], b)); break }
    }
 }
@@ -283,6 +288,8 @@ function compare(v, name, unit, scale,   r, b, x, worst_, at) {
 function compare_resultant(v, name, unit,   r, b, x, y, scale, worst_, at) {
    worst_ = 0
    scale = largest(1, name "_x") + largest(1, name "_y")
+   if (name == "delta" && scale < 1e-5 * largest_closing()) scale = 1e-5 * largest_closing()
+   if (name == "tau" && scale < 1e-8 * largest(1, "pressure")) scale = 1e-8 * largest(1, "pressure")
    if (scale == 0) return
    for (r = 1; r <= n_rows[v]; r++) {
       b = row_of[1 + (r - 1) % per[v]] + int((r - 1) / per[v]) * per[v]
@@ -317,6 +324,7 @@ function answers(v,   r, n, j, s, k, names, q, unit, x, y, scale, of, f, stress)
    for (k = split("u_max:" s " mises_centre:" stress " mises_max:" stress " contact:1 p_max:" stress " gap_max:" s " slipping:1 n:" f " t:" f " m:" f * s " force_n:" f \
                   " move_n:" s " tangent_n:" f / s " moment_n:" f * s " tangent_twist:" f * s, names, " "); k; k--) {
       split(names[k], q, ":")
+      if (tied && q[1] ~ /^slipping|^tangent/) continue
       scale = 0
       for (r = 1; r <= n; r++) {
          x = abs(answer[1, r, q[1]])

@@ -105,9 +105,31 @@ function block_3(b, nx, ny, nz, z0, z1, order, tri,   i, j, k, x, y, z, c, n, s,
    for (i = 0; i <= nx; i++) for (j = 0; j <= ny; j++) if (nz > 1) within[b, at[b, i, j, 1]] = 1
 }
 
+# Block B of one layer of shells of thickness T on the height Z0, their nodes off the middle by OFFSET; quadrilaterals or triangles
+function block_s(b, nx, ny, z0, t, offset, tri,   i, j, p, q, r, s) {
+   for (i = 0; i <= nx; i++) for (j = 0; j <= ny; j++) {
+      at[b, i, j, 0] = at[b, i, j, 1] = node(gx[i], gy[j], z0 + t / 2 - offset)
+      on_bottom[b, nn] = on_top[b, nn] = 1
+   }
+   for (i = 0; i < nx; i++) for (j = 0; j < ny; j++) {
+      p = at[b, i, j, 0]; q = at[b, i + 1, j, 0]; r = at[b, i + 1, j + 1, 0]; s = at[b, i, j + 1, 0]
+      if (tri) {
+         element("CTRIA3", b, p " " q " " r); e_offset[ne] = offset
+         element("CTRIA3", b, p " " r " " s); e_offset[ne] = offset
+         element("CTRIA3", 10 * b + 1, p " " r " " q); element("CTRIA3", 10 * b + 1, p " " s " " r)
+         element("CTRIA3", 10 * b + 2, p " " q " " r); element("CTRIA3", 10 * b + 2, p " " r " " s)
+      } else {
+         element("CQUAD4", b, p " " q " " r " " s); e_offset[ne] = offset
+         element("CQUAD4", 10 * b + 1, p " " s " " r " " q)
+         element("CQUAD4", 10 * b + 2, p " " q " " r " " s)
+      }
+   }
+}
+
 function forget(   k) {
    split("", X); split("", Y); split("", Z); split("", mid); split("", at); split("", on_bottom); split("", on_top); split("", within)
-   split("", depends)
+   split("", depends); split("", e_offset)
+   shell_thickness = 0
    split("", e_node); split("", held); split("", sign_of)
    nn = ne = n_frames = n_loads = n_mpc = n_springs = n_spc = n_temps = 0
    rbe2 = rbe3 = bolt = 0
@@ -186,7 +208,10 @@ function make_model(   b, i, j, n, x0, x1, y0, z, length_, width, h, e, list, to
       layers[b] = nz
       shares = on["split"] && b > 1 # the nodes of the block below: a joint splits them
       next_shares = on["split"] && b < n_blocks
-      if (space) block_3(b, nx, ny, nz, z, z + h, ord, triangles)
+      if (on["shell"] && b == n_blocks) {
+         h = shell_thickness = between(0.1, 0.2) * length_
+         block_s(b, nx, ny, z, h, random(2) ? between(-0.3, 0.3) * h : 0, triangles)
+      } else if (space) block_3(b, nx, ny, nz, z, z + h, ord, triangles)
       else block_2(b, nx, nz, z, z + h, ord, triangles)
       bottom_at[b] = z; top_at[b] = z + h
       order_of[b] = ord

@@ -163,9 +163,11 @@ function write_variant(name,   i, k, s, j, file, n, text, f, set, e, kept, t, cd
    if (name == "q" && !axi) card("CORD2R,90,," point(0, 0, 0) "," point(0, 0, 1) "," point(1, 0, 0))
    for (f = 1; f <= n_frames; f++)
       card("CORD2" f_kind[f] "," f ",," point(f_a[f, 1], f_a[f, 2], f_a[f, 3]) "," point(f_b[f, 1], f_b[f, 2], f_b[f, 3]) "," point(f_c[f, 1], f_c[f, 2], f_c[f, 3]))
-   for (e = 1; e <= ne; e++) card(e_type[e] "," eid[e] "," e_pid[e] connection(e, name == "r"))
+   for (e = 1; e <= ne; e++)
+      card(e_type[e] "," eid[e] "," e_pid[e] connection(e, name == "r") (e_offset[e] ? ",," real(e_offset[e] * s_l) : ""))
    for (k = 1; k <= n_blocks; k++) {
       if (axi) put("PAXIS," k "," k)
+      else if (shell_thickness && k == n_blocks) put("PSHELL," k "," k "," real(shell_thickness * s_l) "," k ",," k)
       else if (space) put("PSOLID," k "," k ",,,," (on["tri"] && k == 1 || order_of[k] == 2 ? "" : "MODES"))
       else put("PSHELL," k "," k "," real(thick * s_l) (k == 1 ? ",,,,,\n+,YES" : ""))
       put("MAT1," k "," real(modulus * (k == 2 ? 0.6 : 1) * stress) ",," (k == 2 ? ".33" : ".27") "," real(density * s_f / s_l ^ 4) "," real(expansion * k) ",20.")
