@@ -274,7 +274,7 @@ usage '--plot without a value' '--plot : expected the name' all.dat --plot
 
 # ---- the worked examples of the manual ----
 
-# block HEADING N: the Nth block between ``` below ### HEADING in section 9 of input/README.md
+# block HEADING N: the Nth block between ``` below ### HEADING in input/README.md
 block() {
    awk -v heading="### $1" -v wanted="$2" '/^### / { on = $0 == heading } !on { next }
       /^```/ { inside = !inside; n += inside; next } inside && n == wanted' "$here/../../input/README.md"

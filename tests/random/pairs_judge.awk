@@ -80,7 +80,7 @@ function judge(   v, n, text) {
       if (slips_all_over() && tolerance < 1e-5) tolerance = 1e-5
       if (on["vtu"]) paraview()
       for (v = 2; v <= n_variants; v++) {
-         # without MU shear stress drops where an element opens, and the answer is not one (JSHEAR, remark 10)
+         # without MU shear stress drops where an element opens, and the answer is not one (input/README.md, The shear law, opening)
          if (drops && has_opened()) break
          n_rows[v] = 0
          read_joints(v)
