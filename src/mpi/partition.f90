@@ -4,7 +4,7 @@
 module partition
    use body_parts, only: extract, nodes_of_elements
    use kinds, only: wp
-   use model_data, only: corners_of, model_type
+   use model_data, only: corners_of, is_beam, is_shell, model_type
    use nested_dissection, only: part_by_metis
    use node_coupling, only: is_coupled, section_node
    use node_graph, only: node_graph_type
@@ -108,12 +108,12 @@ contains
       subdomain%held = model%held(:, nodes)
    end subroutine subdomain_of
 
-   !> Whether element E has nodes that move with the unknowns of others, in axes of their own, or at the section of a bolt.
+   !> Whether element E has nodes that move with the unknowns of others, in axes of their own, at the section of a bolt, or with rotations.
    pure logical function is_entangled(model, e)
       type(model_type), intent(in) :: model
       integer, intent(in)          :: e
 
-      is_entangled = section_node(model, e) > 0
+      is_entangled = section_node(model, e) > 0 .or. is_shell(model, e) .or. is_beam(model, e)
       if (.not. is_entangled) is_entangled = is_coupled(model, corners_of(model, e))
    end function is_entangled
 

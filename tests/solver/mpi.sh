@@ -49,7 +49,7 @@ decks() {
    folders_of_decks "$work/decks"
    if [ "${ALL:-}" ]; then set -- input/*.bdf tests/solver/*.bdf
    else set -- input/{prism_history,friction_once,gib,flange_warm,bracket_spiders,solid_bolt}.bdf \
-      input/{meshed_apart,column_tetra10,one_element,normal_loop}.bdf tests/solver/{boxes,moved_newton}.bdf
+      input/{meshed_apart,column_tetra10,one_element,normal_loop,frame,lap_sheets,box_column}.bdf tests/solver/{boxes,moved_newton}.bdf
    fi
    for deck; do
       name=$(basename "$deck" .bdf)
