@@ -1,5 +1,6 @@
 !> Loads along beams, PLOAD1 and gravity: what the ends of each beam bear, and the forces and moments on its nodes.
 module beam_loads
+   use acceleration_fields, only: acceleration_at, acceleration_field
    use beam_cards, only: load_types
    use beam_element, only: beam_axes, beam_length, beam_line_load, beam_nodal_forces, beam_point_load
    use bulk_data, only: beam_load_card
@@ -93,20 +94,24 @@ contains
       end associate
    end function at_ends
 
-   !> Add the weight of all beams to LOADS; that on the nodes is with the weight of all bodies.
-   subroutine add_beam_gravity(model, acceleration, loads)
+   !> What an acceleration FIELD makes on all beams: to LOADS what their ends bear, to FORCE what their nodes bear.
+   subroutine add_beam_gravity(model, field, loads, force)
       type(model_type), intent(in)         :: model
-      real(wp), intent(in)                 :: acceleration(3) !! [length/time^2]
+      type(acceleration_field), intent(in) :: field
       type(stage_load_type), intent(inout) :: loads
-      real(wp) :: q(6, 2)
-      integer  :: e
+      real(wp), intent(inout)              :: force(:, :) !! (3, n_nodes)
+      real(wp) :: q(6, 2), x(3, 2)
+      integer  :: e, end
 
       do e = 1, model%n_elements
          if (.not. is_beam(model, e)) cycle
+         x = beam_ends(model, e)
          associate (law => model%structural%beams(model%structural%place(e)))
             q = 0.0_wp
-            q(:3, :) = spread((law%rho*law%area + law%extra_mass)*acceleration, 2, 2)
-            call add(model, e, beam_line_load(law, beam_ends(model, e), q, 0.0_wp, 1.0_wp), loads)
+            do end = 1, 2
+               q(:3, end) = (law%rho*law%area + law%extra_mass)*acceleration_at(field, x(:, end) + law%offset(:, end))
+            end do
+            call add(model, e, beam_line_load(law, x, q, 0.0_wp, 1.0_wp), loads, force)
          end associate
       end do
    end subroutine add_beam_gravity

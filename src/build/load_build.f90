@@ -1,17 +1,20 @@
 !> Loads: which forces act, and which displacements are prescribed, at the end of every stage. FORCE, FORCE1 and FORCE2 are
 !! vectors in global axes; MOMENT acts on the rotations of reference nodes.
 module load_build
+   use acceleration_fields, only: acceleration_at, acceleration_field
    use beam_loads, only: add_beam_gravity, add_beam_loads, check_beam_loads
    use body_elements, only: element_weight
-   use bulk_data, only: force_card
+   use bulk_data, only: force_card, gravity_card
    use case_entries, only: set_reference
    use deck_check, only: checked_deck
    use displacement_systems, only: system_of_id, to_global
    use element_kinds, only: max_nodes, max_side_nodes
    use kinds, only: wp
    use load_checks, only: check_load_cards, check_plane, has_set, nor_others
-   use model_data, only: corners_of, model_type, own_nodes, stage_load_type, surface_type
+   use mass_elements, only: scalar_mass
+   use model_data, only: corners_of, is_beam, model_type, own_nodes, stage_load_type, surface_type
    use node_coupling, only: add_section_share
+   use numbers, only: cross
    use pressure_loads, only: add_pressure, find_pressed_sides, pressed_side
    use reference_nodes, only: node_axes, rotation_at, rotation_component
    use support_build, only: add_moves, check_kept, keep_moved
@@ -219,7 +222,7 @@ contains
       real(wp), intent(in)                 :: factor
       type(stage_load_type), intent(inout) :: loads
       real(wp), allocatable :: spread_out(:, :)
-      real(wp) :: acceleration(3)
+      type(acceleration_field) :: field
       integer  :: i, node, s
 
       associate (bulk => deck%bulk)
@@ -247,11 +250,10 @@ contains
          do i = 1, size(bulk%gravity)
             if (bulk%gravity(i)%set /= set) cycle
             s = system_of_id(deck, bulk%gravity(i)%system)
-            acceleration = factor*bulk%gravity(i)%acceleration
-            if (s > 0) acceleration = matmul(model%systems(s)%axes, acceleration)
-            call add_gravity(model, acceleration, spread_out)
-            call add_beam_gravity(model, acceleration, loads)
-            call add_mass_weights(model, acceleration, spread_out)
+            field = field_of(model, bulk%gravity(i), s, factor)
+            call add_gravity(model, field, spread_out)
+            call add_beam_gravity(model, field, loads, spread_out)
+            call add_mass_weights(model, field, spread_out)
          end do
       end associate
       call add_beam_loads(deck, model, set, factor, loads, spread_out)
@@ -327,34 +329,73 @@ contains
       end do
    end subroutine add_surface_force
 
-   !> Nodal forces of the weight of all bodies.
-   pure subroutine add_gravity(model, acceleration, force)
-      type(model_type), intent(in) :: model
-      real(wp), intent(in)         :: acceleration(3)
-      real(wp), intent(inout)      :: force(:, :) !! (3, n_nodes)
-      real(wp) :: f(model%dimension, max_nodes)
-      integer  :: e
+   !> The field of CARD, in system S, times FACTOR: of RFORCE a = -(w x (w x r)) - dw/dt x r, r from its node; forces have its sense.
+   function field_of(model, card, s, factor) result(field)
+      type(model_type), intent(in)   :: model
+      type(gravity_card), intent(in) :: card
+      integer, intent(in)            :: s
+      real(wp), intent(in)           :: factor
+      type(acceleration_field) :: field
+      real(wp) :: axes(3, 3), spin(3, 3)
+      integer  :: c, node
+
+      axes = reshape([1.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 1.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 1.0_wp], [3, 3])
+      if (s > 0) axes = model%systems(s)%axes
+      field%uniform = factor*matmul(axes, card%acceleration)
+      if (.not. card%is_spin) return
+      field%is_uniform = .false.
+      node = 0
+      if (card%node > 0) node = model%node_table%find(card%node)
+      if (node > 0) field%origin = model%x(:, node)
+      associate (w => matmul(axes, card%spin), rate => matmul(axes, card%spin_rate), unit => spin)
+         do c = 1, 3
+            unit(:, c) = 0.0_wp
+            unit(c, c) = 1.0_wp
+            field%gradient(:, c) = -factor*(cross(w, cross(w, unit(:, c))) + cross(rate, unit(:, c)))
+         end do
+      end associate
+      if (model%axisymmetric) field%gradient(:, 3) = 0.0_wp
+   end function field_of
+
+   !> Nodal forces of the masses of all bodies but beams under an acceleration FIELD.
+   subroutine add_gravity(model, field, force)
+      type(model_type), intent(in)         :: model
+      type(acceleration_field), intent(in) :: field
+      real(wp), intent(inout)              :: force(:, :) !! (3, n_nodes)
+      real(wp) :: a(3, 2*max_nodes), f(model%dimension, 2*max_nodes), m(2*max_nodes, 2*max_nodes)
+      integer  :: e, k
 
       do e = 1, model%n_elements
-         if (any(corners_of(model, e) == 0) .or. model%element_property(e) == 0) cycle
+         if (any(corners_of(model, e) == 0) .or. model%element_property(e) == 0 .or. is_beam(model, e)) cycle
          associate (nodes => own_nodes(model, e), d => model%dimension)
-            call element_weight(model, e, acceleration(:d), f)
+            if (field%is_uniform) then
+               call element_weight(model, e, field%uniform(:d), f)
+            else ! of the mass between the displacements alone: at constant speed rotations do not accelerate
+               associate (corners => corners_of(model, e))
+                  call scalar_mass(model, e, m)
+                  f = 0.0_wp
+                  do k = 1, size(corners)
+                     a(:, k) = acceleration_at(field, model%x(:, corners(k)))
+                  end do
+                  f(:, :size(corners)) = matmul(a(:d, :size(corners)), m(:size(corners), :size(corners)))
+               end associate
+            end if
             force(:d, nodes) = force(:d, nodes) + f(:, :size(nodes))
             call add_section_share(model, e, nodes, f, force)
          end associate
       end do
    end subroutine add_gravity
 
-   !> The weight of masses at nodes.
-   pure subroutine add_mass_weights(model, acceleration, force)
-      type(model_type), intent(in) :: model
-      real(wp), intent(in)         :: acceleration(3)
-      real(wp), intent(inout)      :: force(:, :) !! (3, n_nodes)
+   !> The forces of masses at nodes.
+   pure subroutine add_mass_weights(model, field, force)
+      type(model_type), intent(in)         :: model
+      type(acceleration_field), intent(in) :: field
+      real(wp), intent(inout)              :: force(:, :) !! (3, n_nodes)
       integer :: i
 
       do i = 1, size(model%masses)
          associate (node => model%masses(i)%node)
-            force(:, node) = force(:, node) + model%masses(i)%mass*acceleration
+            force(:, node) = force(:, node) + model%masses(i)%mass*acceleration_at(field, model%x(:, node))
          end associate
       end do
    end subroutine add_mass_weights

@@ -1,7 +1,7 @@
 !> Load cards against the model: nodes, surfaces, sets and masses that are there, directions that the model has. Temperatures:
 !! how warm the nodes are at the end of every stage.
 module load_checks
-   use bulk_data, only: bulk_data_type, has_component
+   use bulk_data, only: bulk_data_type, gravity_card, has_component
    use coordinate_systems, only: rectangular
    use deck_check, only: checked_deck
    use displacement_systems, only: find_system
@@ -103,6 +103,10 @@ contains
          associate (card => deck%bulk%gravity(i))
             call find_system(deck, card%line, 'CID', card%system, model%systems, system)
             acceleration = card%acceleration
+            if (card%is_spin) then
+               call check_spin(card)
+               cycle
+            end if
             if (system > 0) then
                if (model%systems(system)%kind /= rectangular) call deck%field_error(card%line, 'CID', integer_text(card%system)// &
                   ' is not rectangular, but gravity has one direction everywhere')
@@ -115,6 +119,38 @@ contains
                call deck%errors%add(card%line, 'GRAV: no body has a mass; give RHO on its MAT1')
          end associate
       end do
+
+   contains
+
+      !> RFORCE: an axis along z in the plane, along y of revolution, and a mass.
+      subroutine check_spin(card)
+         type(gravity_card), intent(in) :: card
+         real(wp) :: axis(3), size_of
+
+         axis = abs(card%spin) + abs(card%spin_rate)
+         if (card%node > 0) then
+            if (model%node_table%find(card%node) == 0) call deck%field_error(card%line, 'G', 'there is no GRID '// &
+                                                                             integer_text(card%node))
+         end if
+         if (system > 0) then
+            if (model%systems(system)%kind /= rectangular) call deck%field_error(card%line, 'CID', integer_text(card%system)// &
+               ' is not rectangular, but the axis has one direction everywhere')
+            axis = abs(matmul(model%systems(system)%axes, card%spin)) + abs(matmul(model%systems(system)%axes, card%spin_rate))
+         end if
+         size_of = maxval(axis)
+         if (model%axisymmetric) then
+            if (maxval(axis([1, 3])) > 1.0e-12_wp*size_of) call deck%field_error(card%line, 'R1', &
+               'a ring turns about y; expected R1 and R3 zero')
+            if (any(abs(card%spin_rate) > 0.0_wp)) call deck%field_error(card%line, 'RACC', &
+               'not zero, but a model of revolution has no forces round the axis')
+         else if (model%dimension == 2) then
+            if (maxval(axis(:2)) > 1.0e-12_wp*size_of) call deck%field_error(card%line, 'R1', &
+               'a plane model turns about z; expected R1 and R2 zero')
+         end if
+         if (all(model%properties%rho <= 0.0_wp) .and. all(deck%bulk%mass%mass <= 0.0_wp)) &
+            call deck%errors%add(card%line, 'RFORCE: no body has a mass; give RHO on its MAT1')
+      end subroutine check_spin
+
    end subroutine check_gravity
 
    !> SPCD moves components that are held.

@@ -3,7 +3,7 @@
 !! The cards of loads: FORCE, FORCE1, FORCE2, MOMENT, PLOAD4, PLOADE, PLOAD, PLOADM, FORCEM, GRAV, LOAD, BOLT. A routine for each
 !! array of the bulk data, a table for each kind.
 module load_cards
-   use bulk_data, only: bulk_data_type, of_edge, of_face, of_marks, of_nodes, pressure_card
+   use bulk_data, only: bulk_data_type, gravity_card, of_edge, of_face, of_marks, of_nodes, pressure_card
    use card_fields, only: card_fields_type
    use field_rules, only: positive
    use kinds, only: wp
@@ -219,6 +219,10 @@ contains
       real(wp) :: a, direction(3)
       integer  :: body
 
+      if (card%name == 'RFORCE') then
+         call read_spin(card, bulk%gravity(card%i))
+         return
+      end if
       associate (gravity => bulk%gravity(card%i))
          call card%field('SID', gravity%set)
          call card%field('CID', gravity%system, default=0, least=0)
@@ -230,6 +234,29 @@ contains
          gravity%acceleration = a*direction
       end associate
    end subroutine read_gravity
+
+   !> RFORCE: angular velocity 2 pi A R and acceleration 2 pi RACC R about an axis through node G.
+   subroutine read_spin(card, gravity)
+      type(card_fields_type), intent(inout) :: card
+      type(gravity_card), intent(inout)     :: gravity
+      real(wp), parameter :: two_pi = 6.283185307179586_wp
+      real(wp) :: a, rate, direction(3)
+      integer  :: method, body
+
+      gravity%is_spin = .true.
+      call card%field('SID', gravity%set)
+      call card%field('G', gravity%node, default=0, least=0)
+      call card%field('CID', gravity%system, default=0, least=0)
+      call card%field('A', a, default=0.0_wp)
+      call card%field(['R1', 'R2', 'R3'], direction, default=0.0_wp)
+      call card%field('METHOD', method, default=1, most=2) ! both as the mass is distributed
+      call card%field('RACC', rate, default=0.0_wp)
+      call card%field('MB', body, default=0, least=-1, most=0)
+      call card%finish(gravity%line)
+      call card%check_direction('R1', 'the rotation', direction)
+      gravity%spin = two_pi*a*direction
+      gravity%spin_rate = two_pi*rate*direction
+   end subroutine read_spin
 
    !> LOAD: S (S1 L1 + S2 L2 + ...), the sets L being those of load cards other than LOAD.
    subroutine read_load(card, bulk)
