@@ -49,7 +49,8 @@ contains
       self%bulk => deck%bulk
       self%kinds => deck%kinds
       self%errors => errors
-      self%rigid = deck%bulk%rigid
+      allocate (self%rigid(0))
+      if (allocated(deck%bulk%rigid)) self%rigid = deck%bulk%rigid
    end subroutine start
 
    !> Which kind of card begins on LINE.
