@@ -52,6 +52,7 @@ help:
 	@echo 'make accept CASE=name    take the results of input/name.bdf as the new reference; TABLES="stage bolt": of these too'
 	@echo 'make accept ACCEPT=failed   those of all decks that failed the last make check'
 	@echo 'make manual     the verification manual, reference_output/README.md, from runs'
+	@echo 'make modules    the list of the modules, src/modules.md, from their first lines'
 	@echo 'make bench      speed and memory, MODELS=small: only of small models'
 	@echo 'make coverage   which lines of src no test runs'
 	@echo 'make mutants    which single changes of src no test notices: N=150 SEED=1 JOBS=1'
@@ -212,6 +213,11 @@ accept: bin/jointfem
 .PHONY: manual
 manual: bin/jointfem $(QUERY)
 	@tests/manual/make.sh bin/jointfem $(QUERY) $(BUILD)/manual-runs reference_output/README.md
+
+# The list of the modules, from their first lines
+.PHONY: modules
+modules:
+	@tests/source/modules.sh src/README.md src > $(BUILD)/modules.part && mv $(BUILD)/modules.part src/modules.md
 
 # Speed and pictures ----------------------------------------------------------------------------------------------
 

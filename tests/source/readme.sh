@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# src/README.md against src: every module stands once in the table of its folder, and no other; the folders use each other as it
-# shows; its snippets stand word for word in the patches; what it names is there; its links lead somewhere. And the index of the decks.
+# src/README.md against src: the list of the modules, src/modules.md, is current; the snippets of the README stand word for word in the
+# patches; what the README names is there; its links lead somewhere. And the index of the decks.
 #
 #    readme.sh README SOURCE_FOLDER
 set -u
@@ -9,14 +9,9 @@ readme=$1 source=$2 here=tests/source
 passed=0 failed=0
 check() { if [ -z "$2" ]; then passed=$((passed + 1)); else echo "$1:"; echo "$2"; failed=$((failed + 1)); fi; }
 
-modules=$(cd "$source" && ls */*.f90 | sed 's/\.f90$//' | sort)
-told=$(awk '/^### `/ { folder = $2; gsub(/`/, "", folder) } /^## / { folder = "" }
-   folder != "" && /^\| `/ { split($0, part, "`"); print folder "/" part[2] }' "$readme" | sort)
-check "modules that are not in the tables of $readme (<), or there and gone or twice (>)" "$(diff <(echo "$modules") <(echo "$told"))"
-check 'modules without a sentence' "$(grep -E '^\| `[a-z0-9_]+` \| *\|$' "$readme")"
-check "what the folders use, in $readme (<) and in $source (>)" \
-   "$(diff <(awk '/^What uses what/ { on = 1 } on && /^```/ { if (on++ == 2) exit; next } on == 2' "$readme") \
-           <(awk -f $here/folder_uses.awk "$source"/*/*.f90))"
+check "src/modules.md is not current (<): make modules" \
+   "$(diff "$source/modules.md" <($here/modules.sh "$readme" "$source"))"
+check 'modules whose first line does not say what they are' "$(grep -E '\) \| *\|$' "$source/modules.md")"
 
 # the index of decks: every deck once, with the largest displacement of its reference
 decks=$(awk '/^## / { on = /^## The decks of this folder/ }
