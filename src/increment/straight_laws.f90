@@ -14,7 +14,7 @@ module straight_laws
    use kinds, only: wp
    use model_data, only: model_type
    use newton_trial, only: trial_type
-   use normal_curve, only: loading_deflection, normal_law, pressure_floor
+   use normal_curve, only: loading_deflection, loading_pressure, normal_law, normal_tangent, pressure_floor
    use normal_stiffness, only: branch_open, follow_normal, normal_state, touches
    use shear_path, only: follow_shear
    use shear_stiffness, only: shear_state
@@ -270,15 +270,14 @@ contains
       if (lambda <= before%lambda_a - before%p_a/law%e_u) return
       lambda = (goal - area*(before%p_a - law%e_u*before%lambda_a))/(rho + area*law%e_u)
       if (lambda <= before%lambda_a) return
-      bounds = [min(0.5_wp*goal/area, (0.5_wp*goal/(rho*law%c))**(1.0_wp/law%m)), &
-                min(goal/area, (goal/(rho*law%c))**(1.0_wp/law%m))]
+      bounds = min([0.5_wp, 1.0_wp]*goal/area, loading_pressure(law, [0.5_wp, 1.0_wp]*goal/rho))
       p = bounds(2)
       do step = 1, most_steps
          lambda = loading_deflection(law, p)
          excess = area*p + rho*lambda - goal
          if (abs(excess) <= near*goal) return
          bounds(merge(2, 1, excess > 0.0_wp)) = p
-         p = p - excess/(area + rho*law%m*lambda/p)
+         p = p - excess/(area + rho*area/normal_tangent(law, area, p, p_av=p))
          if (p <= bounds(1) .or. p >= bounds(2)) p = 0.5_wp*sum(bounds)
       end do
    end function normal_rest

@@ -1,11 +1,12 @@
 #!/usr/bin/env bash
 # src/README.md against src: the list of the modules, src/modules.md, is current; the snippets of the README stand word for word in the
-# patches; what the README names is there; its links lead somewhere. And the index of the decks.
+# patches; what the README names is there. The links of all pages, and the index of the decks.
 #
 #    readme.sh README SOURCE_FOLDER
 set -u
 export LC_ALL=C
 readme=$1 source=$2 here=tests/source
+pages="$readme $source/additions.md"
 passed=0 failed=0
 check() { if [ -z "$2" ]; then passed=$((passed + 1)); else echo "$1:"; echo "$2"; failed=$((failed + 1)); fi; }
 
@@ -38,22 +39,23 @@ snippets=$(awk '/^```diff / { file = $2; n = 0; next }
       next
    }
    file != "" { block[++n] = $0 }
-   END { if (blocks == 0) print "there are none" }' "$readme")
+   END { if (blocks == 0) print "there are none" }' $pages)
 check 'snippets' "$snippets"
 
 # names with an underscore in the charts, and all names between back-quotes, are words of the source, of the examples or of the tests
 named=$(awk '/^```/ { fence = !fence; is_text = $0 == "```"; next }
    fence && is_text { while (match($0, /[a-z][a-z0-9]*_[a-z0-9_]*/)) { print substr($0, RSTART, RLENGTH); $0 = substr($0, RSTART + RLENGTH) } }
-   !fence { n = split($0, part, "`"); for (i = 2; i <= n; i += 2) if (part[i] ~ /^[a-z][a-z0-9_%]*$/) print part[i] }' "$readme" | sort -u)
+   !fence { n = split($0, part, "`"); for (i = 2; i <= n; i += 2) if (part[i] ~ /^[a-z][a-z0-9_%]*$/) print part[i] }' $pages | sort -u)
 words=$(cat "$source"/*.f90 "$source"/*/*.f90 $here/*.patch | grep -oE '[a-z][a-z0-9_%]*' | sort -u)
 folders=$(ls "$source" | sort)
 check 'names that are nowhere in the source' "$(comm -23 <(echo "$named") <(printf '%s\n%s\nk_b\nk_s\nk_int\n' "$words" "$folders" | sort -u))"
 
-paths=$(grep -oE '`(src|input|tests)/[a-z0-9_./]+`' "$readme" | tr -d '`' | sort -u)
+paths=$(grep -ohE '`(src|input|tests)/[a-z0-9_./]+`' $pages | tr -d '`' | sort -u)
 check 'files that are not there' "$(for path in $paths; do [ -e "$path" ] || grep -qx "+++ b/$path" $here/*.patch || echo "$path"; done)"
 
-links=$(grep -oE '\]\([^)#]+' "$readme" | cut -c3- | sort -u)
-check 'links that lead nowhere' "$(cd "$(dirname "$readme")" && for link in $links; do [ -e "$link" ] || echo "$link"; done)"
+# all pages but the sources of the verification manual
+all_pages=$(find README.md input reference_output src tests -name '*.md' -not -path 'tests/manual/*' | sort)
+check 'links that lead nowhere' "$(awk -f $here/links.awk $all_pages)"
 
 echo "$passed passed, $failed failed"
 [ $failed -eq 0 ]
