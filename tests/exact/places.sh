@@ -66,23 +66,23 @@ run spanned && same 'bolt between NODEATs' "$(awk -F, 'NR > 1 && $1 == 1 { v = $
 
 # ---- --joints: the two blocks meshed apart, its cards pasted into the deck ----
 
-cards apart <<'DECK'
+cards loose_blocks <<'DECK'
 METHOD = NEWTON;LOAD = 1;INCR = 5;SPC = 1
 BEGIN BULK
 BLOCK3,1,1,2,2,2,0.0,0.0,0.0;+,20.0,20.0,10.0;BLOCK3,2,1,3,3,1,0.0,0.0,10.02;+,20.0,20.0,20.0,,,,101,101;+,,,,,,13
 PSOLID,1,1;MAT1,1,9500.,,.25;PMARK,13;PJOINT,7,1;JNORM,1,8.-3,.5;JINCR,5,2;PLOADM,1,3.0,13;SPC1,1,12,101;SPC1,1,2,125;ENDDATA
 DECK
-"$program" --joints "$work/apart.bdf" > "$work/apart.cards" 2> "$work/apart.log"
+"$program" --joints "$work/loose_blocks.bdf" > "$work/loose_blocks.cards" 2> "$work/loose_blocks.log"
 same '--joints: exit status' $? 0
-says '--joints: the pair' "$work/apart.cards" 'face each other: 9 and 4 sides, areas 400.0 and 400.0, gap 0.02'
-same '--joints: cards of faces' "$(grep -c '^CQUAD4' "$work/apart.cards")" 13
-says '--joints: the law of the deck' "$work/apart.cards" '^JOINT,1,7,'
-same '--joints writes nothing' "$(ls "$work"/apart.*.csv "$work"/apart.out 2> /dev/null)" ''
-{ sed '/^ENDDATA/d' "$work/apart.bdf"; cat "$work/apart.cards"; echo 'SPC1,1,123,1,7,19,25'; echo ENDDATA; } > "$work/pasted.bdf"
+says '--joints: the pair' "$work/loose_blocks.cards" 'face each other: 9 and 4 sides, areas 400.0 and 400.0, gap 0.02'
+same '--joints: cards of faces' "$(grep -c '^CQUAD4' "$work/loose_blocks.cards")" 13
+says '--joints: the law of the deck' "$work/loose_blocks.cards" '^JOINT,1,7,'
+same '--joints writes nothing' "$(ls "$work"/loose_blocks.*.csv "$work"/loose_blocks.out 2> /dev/null)" ''
+{ sed '/^ENDDATA/d' "$work/loose_blocks.bdf"; cat "$work/loose_blocks.cards"; echo 'SPC1,1,123,1,7,19,25'; echo ENDDATA; } > "$work/pasted.bdf"
 run pasted && near '--joints: its joint bears the load' "$(value pasted rows 'increment = 2' print 'sum(force)' | tail -1)" 1200 1e-6
 "$program" --joints "$work/pasted.bdf" > "$work/pasted.cards"
 says '--joints: what is there' "$work/pasted.cards" 'JOINT 1 of the deck connects them there'
-sed '/^SPC = 1/d; /^SPC1/d' "$work/apart.bdf" > "$work/loose.bdf"
+sed '/^SPC = 1/d; /^SPC1/d' "$work/loose_blocks.bdf" > "$work/loose.bdf"
 sed -i 's/;SPC = 1//' "$work/loose.bdf"
 "$program" --joints "$work/loose.bdf" > "$work/loose.cards"
 says '--joints: a support' "$work/loose.cards" '^SPCM,1,123,'

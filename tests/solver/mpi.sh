@@ -42,52 +42,55 @@ on_processes() {
    timeout 900 mpirun -q --oversubscribe -n "$n" "$distributed" -q -o "$folder" "$@" < /dev/null
 }
 
-decks() {
-   local deck name way solver n folder words
-   compare_within 1e-8
-   mkdir -p "$work"/{tree,petsc1,petsc2,mumps2}
-   folders_of_decks "$work/decks"
-   if [ "${ALL:-}" ]; then set -- input/*.bdf tests/solver/*.bdf
-   else set -- input/{prism_history,friction_once,gib,flange_warm,bracket_spiders,solid_bolt}.bdf \
-      input/{meshed_apart,column_tetra10,one_element,normal_loop,frame,lap_sheets,box_column}.bdf tests/solver/{boxes,moved_newton}.bdf
-   fi
-   for deck; do
-      name=$(basename "$deck" .bdf)
-      with_solver "$deck" TREE > "$work/decks/$name.bdf"
-      if ! "$program" -q -o "$work/tree" "$work/decks/$name.bdf" > "$work/tree/$name.log" 2>&1; then
-         echo "$name: does not run by TREE"; failed=$((failed + 1))
-         continue
-      fi
-      for way in 'PETSC 1' 'PETSC 2' 'MUMPS 2'; do
-         read -r solver n <<< "$way"
-         folder=$work/${solver,,}$n
-         with_solver "$deck" $solver > "$work/decks/$name.bdf"
-         if words=$(on_processes $n "$folder" "$work/decks/$name.bdf" 2>&1) &&
-            words=$(same_history "$work/tree/$name" "$folder/$name"); then
-            pass
-         else
-            failed=$((failed + 1))
-            echo "$name by $solver on $n: $words" | head -n 5
-         fi
+# compare_ways ORIGINAL WAY... -- NAME...: $work/decks/SOLVER/NAME.bdf by every WAY, `SOLVER PROCESSES`, all decks in one run of the program;
+# their histories against those in $work/ORIGINAL
+compare_ways() {
+   local original=$1 way solver n folder name words ways=()
+   shift
+   while [ "$1" != -- ]; do ways+=("$1"); shift; done
+   shift
+   for way in "${ways[@]}"; do
+      read -r solver n <<< "$way"
+      folder=$work/${solver,,}$n
+      mkdir -p "$folder"
+      on_processes "$n" "$folder" "${@/#/$work/decks/$solver/}" > "$folder.log" 2>&1
+      [ "$folder" = "$work/$original" ] && continue
+      for name; do
+         name=${name%.bdf}
+         if words=$(same_history "$work/$original/$name" "$folder/$name"); then pass
+         else fail "$name by $solver on $n: $(grep -hF "$name.bdf" "$folder.log" | head -n 3) $(head -n 5 <<< "$words")"; fi
       done
    done
 }
 
+# decks_by SOLVER DECK...: into $work/decks/SOLVER
+decks_by() {
+   local solver=$1 deck
+   shift
+   folders_of_decks "$work/decks/$solver"
+   for deck; do with_solver "$deck" "$solver" > "$work/decks/$solver/$(basename "$deck")"; done
+}
+
+decks() {
+   local deck solver
+   compare_within 1e-8
+   mkdir -p "$work/tree"
+   if [ "${ALL:-}" ]; then set -- input/*.bdf tests/solver/*.bdf
+   else set -- input/{prism_history,friction_once,gib,flange_warm,bracket_spiders,solid_bolt}.bdf \
+      input/{meshed_apart,column_tetra10,one_element,normal_loop,frame,lap_sheets,box_column}.bdf tests/solver/{boxes,moved_newton}.bdf
+   fi
+   for solver in TREE PETSC MUMPS; do decks_by $solver "$@"; done
+   "$program" -q -o "$work/tree" "$work"/decks/TREE/*.bdf > "$work/tree.log" 2>&1 || fail "decks by TREE: $(tail -n 3 "$work/tree.log")"
+   compare_ways tree 'PETSC 1' 'PETSC 2' 'MUMPS 2' -- "${@##*/}"
+}
+
 ranks() {
-   local name way solver n folder words deck mib
+   local name deck mib solver
    compare_within 1e-9
-   mkdir -p "$work"/{petsc1,petsc2,petsc3,mumps1,mumps3,auto,serial,limited}
-   folders_of_decks "$work/decks"
-   for name in prism_history flange_sector solid_bolt meshed_apart column_tetra10 one_element; do
-      for way in 'PETSC 1' 'PETSC 2' 'PETSC 3' 'MUMPS 1' 'MUMPS 3'; do
-         read -r solver n <<< "$way"
-         folder=$work/${solver,,}$n
-         with_solver "input/$name.bdf" $solver > "$work/decks/$name.bdf"
-         words=$(on_processes $n "$folder" "$work/decks/$name.bdf" 2>&1) || { fail "$name by $way: $words"; continue; }
-         [ "$way" = 'PETSC 1' ] && continue
-         if words=$(same_history "$work/petsc1/$name" "$folder/$name"); then pass; else fail "$name by $way: $words"; fi
-      done
-   done
+   mkdir -p "$work"/{auto,serial,limited}
+   set -- input/{prism_history,flange_sector,solid_bolt,meshed_apart,column_tetra10,one_element}.bdf
+   for solver in PETSC MUMPS; do decks_by $solver "$@"; done
+   compare_ways petsc1 'PETSC 1' 'PETSC 2' 'PETSC 3' 'MUMPS 1' 'MUMPS 3' -- "${@##*/}"
 
    for deck in input/prism10.bdf input/flange_pair.bdf tests/solver/boxes.bdf; do
       name=$(basename "$deck" .bdf)
