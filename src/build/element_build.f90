@@ -64,6 +64,7 @@ contains
                if (property%state < axisymmetric .and. card%thickness > 0.0_wp) & ! a membrane
                   property%rho = property%rho + deck%bulk%parameters%mass_factor*card%extra_mass/card%thickness
                property%alpha = deck%bulk%mat1(k)%alpha
+               property%strength = deck%bulk%mat1(k)%strength
                property%damping = deck%bulk%mat1(k)%damping
                property%reference = deck%bulk%mat1(k)%reference
             else if (card%material > 0) then

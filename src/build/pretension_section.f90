@@ -64,6 +64,7 @@ contains
       else
          call face_as_the_first(model, s, model%sections(k))
          if (model%sections(k)%area <= 0.0_wp) return ! a body without its property: said already
+         model%sections(k)%strength = model%properties(model%element_property(model%surfaces(s)%element(1)))%strength
          call surface_nodes(model, model%surfaces(s), list)
          allocate (centroid, source=matmul(model%x(:, list%node), list%area)/sum(list%area))
          fault = not_flat(model, model%sections(k), list, centroid)

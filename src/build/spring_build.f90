@@ -105,6 +105,8 @@ contains
       end if
       bar%direction = spread(along/length, 2, 2)
       bar%stiffness = deck%bulk%mat1(material)%e*prod%area/length
+      bar%area = prod%area
+      bar%strength = deck%bulk%mat1(material)%strength
       bar%mass = deck%bulk%parameters%mass_factor*(deck%bulk%mat1(material)%rho*prod%area + prod%extra_mass)*length
       bar%expansion = deck%bulk%mat1(material)%alpha*length
       bar%reference = deck%bulk%mat1(material)%reference

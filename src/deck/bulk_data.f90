@@ -128,6 +128,7 @@ module bulk_data
       real(wp) :: e = 0.0_wp, nu = 0.0_wp, rho = 0.0_wp
       real(wp) :: alpha = 0.0_wp, reference = 0.0_wp    ! A and TREF
       real(wp) :: damping = 0.0_wp                      ! GE
+      real(wp) :: strength = 0.0_wp                     ! ST, 0: blank
    end type mat1_card
 
    !> SPC, SPC1 and SPCM alike: nodes FIRST(k) to LAST(k), or all nodes of a marked surface.

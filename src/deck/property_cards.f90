@@ -156,8 +156,8 @@ contains
       end associate
    end subroutine read_conrod
 
-   !> MAT1: of E, G and NU two are enough, G = E/(2 (1 + NU)), and for bars E; all three must agree within one per cent. Stress
-   !! limits and the system of the material mean nothing to an isotropic elastic one.
+   !> MAT1: of E, G and NU two are enough, G = E/(2 (1 + NU)), and for bars E; all three must agree within one per cent. Of the
+   !! stress limits that of tension is what bolts are compared with; the system of the material means nothing to an isotropic one.
    subroutine read_mat1(card, bulk)
       type(card_fields_type), intent(inout) :: card
       type(bulk_data_type), intent(inout)   :: bulk
@@ -172,7 +172,8 @@ contains
          call card%field('A', mat1%alpha, default=0.0_wp)
          call card%field('TREF', mat1%reference, default=0.0_wp)
          call card%field('GE', mat1%damping, not_negative, default=0.0_wp)
-         call card%skip(['ST   ', 'SC   ', 'SS   ', 'MCSID'])
+         call card%field('ST', mat1%strength, not_negative, default=0.0_wp)
+         call card%skip(['SC   ', 'SS   ', 'MCSID'])
          call card%finish(mat1%line)
          if (mat1%damping > 0.0_wp) call bulk%ignored%wait('GE of MAT1', card%line, needs_response=.false.)
       end associate

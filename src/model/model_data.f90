@@ -27,6 +27,7 @@ module model_data
       real(wp) :: alpha = 0.0_wp             !! thermal expansion [1/temperature]
       real(wp) :: reference = 0.0_wp         !! TREF, at which it has no thermal strain [temperature]
       real(wp) :: damping = 0.0_wp           !! GE, structural damping [-]
+      real(wp) :: strength = 0.0_wp          !! ST, 0: not given [pressure]
       logical  :: incompatible = .false.     !! modes of Wilson and Taylor
       real(wp) :: extra_mass = 0.0_wp        !! NSM of a shell, a unit of area [force x time^2/length^3]
       real(wp) :: fibre(2) = 0.0_wp          !! Z1, Z2 of a shell: heights above its mean plane where its stress is told [length]
@@ -115,6 +116,8 @@ module model_data
       character(2) :: axis = ''              !! of a spring: T1, T2 or T3, as the card numbers its components
       integer  :: bolt = 0                   !! BOLT id, 0: none
       real(wp) :: preload = 0.0_wp           !! of a bolt [force]
+      real(wp) :: area = 0.0_wp              !! of a bar [length^2]
+      real(wp) :: strength = 0.0_wp          !! ST of its material, 0: not given [pressure]
       integer  :: stage = 0                  !! position of the stage that tightens it; a bolt is elastic from its end on
       real(wp) :: mass = 0.0_wp              !! (rho A + NSM) L of a bar [force x time^2/length]
       real(wp) :: expansion = 0.0_wp         !! alpha L [length/temperature]
@@ -138,6 +141,7 @@ module model_data
       integer  :: point = 0                  !! a node of the section
       real(wp) :: direction(3) = 0.0_wp      !! unit, from the side behind to the marked side: g > 0 shortens the bolt
       real(wp) :: area = 0.0_wp              !! [length^2]
+      real(wp) :: strength = 0.0_wp          !! ST of its material, 0: not given [pressure]
       real(wp) :: preload = 0.0_wp           !! tension [force]
       integer  :: stage = 0                  !! position of the stage that tightens it; from its end on g is held as it then is
    end type section_type

@@ -1,10 +1,11 @@
 !> The answer at the end of a stage as a block of short tables, the same in the listing and on the screen.
 module answer_block
+   use bolt_answers, only: bolt_answer_type
    use kinds, only: wp
    use listing_table, only: axes, column, heading, label_type, listing_table_type
    use model_data, only: joint_node_id, model_type
    use output_file, only: output_file_type
-   use stage_answer, only: bolt_answer_type, peak_type, stage_answer_type
+   use stage_answer, only: peak_type, stage_answer_type
    use text_tools, only: clean
    implicit none
    private
@@ -25,7 +26,7 @@ contains
       call print_peaks(file, labels, model, answer)
       if (size(answer%joints) > 0) call print_joints(file, labels, model, answer)
       if (size(answer%joints) > 0) call print_stiffnesses(file, labels, model, answer)
-      if (size(answer%bolts) > 0) call print_bolts(file, labels, model, answer%bolts)
+      if (size(answer%bolts) > 0) call print_bolts(file, labels, answer%bolts)
    end subroutine print_answer
 
    !> Displacement and stress.
@@ -143,10 +144,10 @@ contains
 
    end subroutine print_stiffnesses
 
-   subroutine print_bolts(file, labels, model, bolts)
+   !> Forces of the stage; and since each bolt was tightened, with its stress and what it clamps.
+   subroutine print_bolts(file, labels, bolts)
       type(output_file_type), intent(inout) :: file
       type(label_type), intent(in)          :: labels
-      type(model_type), intent(in)          :: model
       type(bolt_answer_type), intent(in)    :: bolts(:)
       type(listing_table_type) :: table
       integer :: i
@@ -157,18 +158,29 @@ contains
                             column('CHANGE/LOAD', 'f13.5'), column('BENDING', 'es13.4', labels%moment)], file)
       do i = 1, size(bolts)
          associate (bolt => bolts(i))
-            call table%add([bolt%bolt%id])
-            if (bolt%bolt%section > 0) then
-               call table%skip(1)
-               call table%add([model%sections(bolt%bolt%section)%surface])
-            else
-               call table%add([bolt%bolt%element])
-               call table%skip(1)
-            end if
+            call table%add([bolt%id])
+            call table%add([bolt%element, bolt%surface], where=[bolt%element, bolt%surface] > 0)
             call table%add([bolt%force, bolt%change, bolt%load_change])
-            if (bolt%has_ratio) call table%add([bolt%ratio])
-            if (.not. bolt%has_ratio) call table%skip(1)
-            if (bolt%has_moment) call table%add([bolt%moment])
+            call table%add([bolt%ratio, bolt%moment], where=[bolt%has_ratio, bolt%has_moment])
+            call table%print_row(file)
+         end associate
+      end do
+      if (.not. any(bolts%is_locked)) return
+      call file%put('')
+      call table%start('', [column('BOLT', 'i11'), &
+                            column([character(9) :: 'TIGHTENED', 'LARGEST', 'ALL LOADS'], 'es12.4', labels%force), &
+                            column('SHARE', 'f9.5'), column('STRESS', 'es12.4', labels%pressure), &
+                            column('AND BENDING', 'es12.4', labels%pressure), column('OF ST %', 'f9.2'), column('JOINT', 'i9'), &
+                            column('CLAMPING', 'es12.4', labels%force), column('LOSS %', 'f9.2'), column('MU N/T', 'f11.3')], file)
+      do i = 1, size(bolts)
+         associate (bolt => bolts(i))
+            if (.not. bolt%is_locked) cycle
+            call table%add([bolt%id], [bolt%tightened, bolt%largest, bolt%load])
+            call table%add([bolt%share, bolt%stress, bolt%edge_stress, 100.0_wp*bolt%use], &
+                           where=[bolt%has_share, .true., bolt%has_moment, bolt%has_strength])
+            call table%add([bolt%joint], where=[bolt%joint > 0])
+            call table%add([bolt%clamping, 100.0_wp*bolt%loss, min(bolt%safety, 999999.0_wp)], &
+                           where=[bolt%joint > 0, bolt%joint > 0, bolt%has_safety])
             call table%print_row(file)
          end associate
       end do

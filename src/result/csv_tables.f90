@@ -10,12 +10,13 @@ module csv_tables
    use element_mapping, only: two_pi
    use kinds, only: wp
    use backbone, only: backbone_type
+   use bolt_answers, only: bolt_answer_type
    use modal_response, only: response_type
    use mode_values, only: modes_type
    use model_data, only: has_gaps, joint_node_id, model_type
    use normal_stiffness, only: branch_name
    use output_file, only: output_file_type
-   use stage_answer, only: bolt_answer_type, peak_type, stage_answer_type
+   use stage_answer, only: peak_type, stage_answer_type
    use stage_plan, only: stage_plan_type, vibration_plan_type
    use text_tools, only: csv_line_type, above, clean
    implicit none
@@ -50,7 +51,8 @@ contains
                'force_x,force_y,force_n,moment_x,moment_y,moment_n,move_x,move_y,move_n,turn_x,turn_y,turn_n,'// &
                'tangent_x,tangent_y,tangent_n,tangent_tilt_x,tangent_tilt_y,tangent_twist,'// &
                'secant_x,secant_y,secant_n,secant_tilt_x,secant_tilt_y,secant_twist')
-      call put(bolt_table, 'stage,increment,load,bolt,force,change,load_change,ratio,bending,longer,element,surface')
+      call put(bolt_table, 'stage,increment,load,bolt,force,change,load_change,ratio,bending,longer,element,surface,'// &
+               'tightened,largest,all_loads,share,stress,edge_stress,use,joint,clamping,loss,safety')
       call put(modes_table, 'stage,mode,frequency,omega,residual,mass_x,mass_y,mass_z,loss_factor')
       call put(energy_table, 'stage,mode,kind,id,normal,shear')
       call put(backbone_table, 'stage,mode,amplitude,frequency,loss_factor,slipping,open,distortion')
@@ -188,25 +190,26 @@ contains
    end subroutine add_joint
 
    !> A row a bolt after INCREMENT of the stage with the number STAGE, of whose load a FRACTION is on.
-   subroutine write_bolts(file, stage, increment, fraction, model, bolts)
+   subroutine write_bolts(file, stage, increment, fraction, bolts)
       type(output_file_type), intent(inout) :: file
       integer, intent(in)                   :: stage, increment
       real(wp), intent(in)                  :: fraction
-      type(model_type), intent(in)          :: model
       type(bolt_answer_type), intent(in)    :: bolts(:)
       type(csv_line_type) :: line
       integer :: i
 
       do i = 1, size(bolts)
-         associate (bolt => bolts(i))
+         associate (bolt => bolts(i), locked => bolts(i)%is_locked, clamps => bolts(i)%joint > 0)
             line%length = 0
             call line%add([stage, increment], clean([fraction]))
-            call line%add([bolt%bolt%id], clean([bolt%force, bolt%change, bolt%load_change]))
+            call line%add([bolt%id], clean([bolt%force, bolt%change, bolt%load_change]))
             call line%add(clean([bolt%ratio, bolt%moment]), where=[bolt%has_ratio, bolt%has_moment])
-            call line%add(clean([bolt%bolt%longer]))
-            call line%add([bolt%bolt%element])
-            if (bolt%bolt%section > 0) call line%add([model%sections(bolt%bolt%section)%surface])
-            if (bolt%bolt%section == 0) call line%add([0])
+            call line%add(clean([bolt%longer]))
+            call line%add([bolt%element, bolt%surface])
+            call line%add(clean([bolt%tightened, bolt%largest, bolt%load, bolt%share, bolt%stress, bolt%edge_stress, bolt%use]), &
+                          where=[locked, locked, locked, bolt%has_share, .true., bolt%has_moment, bolt%has_strength])
+            call line%add([bolt%joint], where=[clamps])
+            call line%add(clean([bolt%clamping, bolt%loss, bolt%safety]), where=[clamps, clamps, bolt%has_safety])
             call file%put(line%text(:line%length))
          end associate
       end do

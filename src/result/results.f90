@@ -3,6 +3,7 @@ module results
    use analysis_state, only: analysis_type
    use answer_block, only: print_answer
    use backbone, only: backbone_type
+   use bolt_answers, only: bolt_answer_type, bolt_history, find_bolt_answers, keep_bolts, n_bolts, record_bolts, start_bolts
    use c_library, only: close_file, lock_folder
    use csv_tables, only: backbone_table, bend_table, bolt_table, energy_table, joint_table, loop_table, &
                          modes_table, reaction_table, response_table, split_table, stage_table, table_endings, watch_table, &
@@ -22,7 +23,7 @@ module results
    use model_data, only: model_type
    use output_file, only: output_file_type
    use restart_stream, only: restart_stream_type
-   use stage_answer, only: n_bolts, bolt_answer_type, fault_of_answer, find_answer, find_bolt_answers, stage_answer_type
+   use stage_answer, only: fault_of_answer, find_answer, stage_answer_type
    use stage_plan, only: any_backbone, any_modes, any_response, any_watched, stage_plan_type, where_in_plan
    use support_reactions, only: find_reactions, print_reactions, reactions_type, write_reactions
    use text_tools, only: real_text
@@ -56,7 +57,7 @@ module results
       logical, private       :: has_table(size(table_endings)) = .false.
       type(output_file_type) :: screen        !! the answers, for the standard output at the end
       type(vtu_results_type) :: vtu
-      real(wp), allocatable, private :: bolts_before(:) ! their forces at the end of the stage before
+      type(bolt_history), private :: bolts
       type(watch_state), private :: watched_before      ! likewise, where nodes are watched
       character(:), allocatable :: missing_vtu !! why there are no files for ParaView though they were asked for; '': there are
       character(:), allocatable :: base !! what the names of the files begin with, folder included
@@ -80,7 +81,7 @@ contains
       call all_complete()
       results%base = base
       results%missing_vtu = ''
-      allocate (results%bolts_before(n_bolts(model)), source=0.0_wp)
+      call start_bolts(model, results%bolts)
       if (any_watched(plan)) call start_watched(model, results%watched_before)
       if (base == '') call start_listing(results%listing, '', deck, model, plan, system)
       if (base /= '') call start_listing(results%listing, base//listing_ending, deck, model, plan, system)
@@ -116,12 +117,11 @@ contains
       results%digest%increments = results%digest%increments + 1
       results%digest%iterations = results%digest%iterations + analysis%record%n_iterations
       if (plan%stages(analysis%stage)%steps) call write_vtu(results%vtu, model, plan, analysis)
+      call find_bolt_answers(model, analysis, results%listing%page%largest_force, results%bolts, bolts)
       if (results%base == '') return
       call write_history(results%tables(joint_table), model, plan, analysis)
       if (n_bolts(model) == 0) return
-      call find_bolt_answers(model, analysis, results%listing%page%largest_force, results%bolts_before, bolts)
-      call write_bolts(results%tables(bolt_table), plan%stages(analysis%stage)%id, analysis%increment, analysis%fraction, model, &
-                       bolts)
+      call write_bolts(results%tables(bolt_table), plan%stages(analysis%stage)%id, analysis%increment, analysis%fraction, bolts)
    end subroutine print_increment
 
    !> The stage just completed. FAILURE is raised where a figure of its answer is beyond all measure.
@@ -138,7 +138,7 @@ contains
 
       call list_stage(results%listing, model, plan, analysis)
       associate (stage => plan%stages(analysis%stage), page => results%listing%page)
-         call find_answer(model, analysis, results%listing%method, page%largest_force, results%bolts_before, answer)
+         call find_answer(model, analysis, results%listing%method, page%largest_force, results%bolts, answer)
          fault = fault_of_answer(model, answer)
          if (fault /= '') call failure%raise(where_in_plan(plan, analysis%stage, analysis%increment)//': '//fault// &
                                              ' is beyond all measure; are loads, lengths and stiffnesses in consistent units?')
@@ -165,7 +165,7 @@ contains
          end if
       end associate
       call note_stage(answer, results%digest)
-      results%bolts_before = answer%bolts%force
+      call keep_bolts(answer%bolts, results%bolts)
       if (any_watched(plan)) call keep_watched(model, analysis, results%watched_before)
       if (.not. plan%stages(analysis%stage)%steps) call write_vtu(results%vtu, model, plan, analysis)
    end subroutine print_stage
@@ -317,7 +317,7 @@ contains
       end do
       call results%screen%record(stream)
       call record_vtu(results%vtu, stream)
-      call stream%item(results%bolts_before)
+      call record_bolts(stream, results%bolts)
       call record_watched(stream, results%watched_before)
       associate (d => results%digest)
          call stream%item(d%stages, d%increments, d%iterations, d%u_max, d%mises_max, d%contact)

@@ -1,40 +1,23 @@
-!> The answer at the end of a stage: the numbers that an engineer asks for, of the bodies, of each joint, and of each bolt, be
-!! it a bar or of solids: what it bears, and of which load. What only rounding makes of them is zero, what means nothing is
-!! absent.
+!> The answer at the end of a stage: the numbers that an engineer asks for, of the bodies, of each joint, and of each bolt. What only
+!! rounding makes of them is zero, what means nothing is absent.
 module stage_answer
    use analysis_state, only: analysis_type
-   use body_elements, only: element_centre, element_thermal_forces, felt_stiffness, node_stresses, whole_stress
-   use bolt_locking, only: bar_tension, elongation_now, overlap_now, section_tension
+   use body_elements, only: element_centre, node_stresses, whole_stress
+   use bolt_answers, only: bolt_answer_type, bolt_history, find_bolt_answers, remainder
    use elasticity, only: max_stresses, von_mises
-   use element_kinds, only: max_felt_dofs, max_nodes
    use joint_motion, only: find_frame, find_resultant, joint_frame, joint_resultant, rigid_movement, stiffness_about
    use kinds, only: wp
    use law_error, only: tangents_now
    use listing_table, only: noise
-   use model_data, only: corners_of, joint_type, model_type, n_bars, n_points, n_sections, section_type, temperature_type
-   use node_coupling, only: corner_displacements
+   use model_data, only: joint_type, model_type, n_points
    use normal_stiffness, only: branch_open, normal_state
-   use numbers, only: first_largest, is_measure, cross
+   use numbers, only: first_largest, is_measure
    use structural_results, only: node_peaks
-   use surface_build, only: surface_node_list, surface_nodes
    use text_tools, only: above, integer_text
    implicit none
    private
 
-   public :: n_bolts, find_bolts, load_along, bending_moment, find_answer, find_bolt_answers, stands_apart, fault_of_answer
-
-   type, public :: bolt_type
-      integer  :: id = 0                  !! of its BOLT card
-      integer  :: element = 0             !! its CROD; 0: a solid bolt
-      integer  :: section = 0             !! of a solid bolt, its position among the sections of the model
-      logical  :: is_tightened = .false.  !! in this stage
-      real(wp) :: direction(3) = 0.0_wp   !! along it, unit
-      real(wp) :: force = 0.0_wp          !! tension [force]
-      real(wp) :: longer = 0.0_wp         !! a CROD: elongation; a solid bolt: minus what it was shortened by [length]
-   end type bolt_type
-
-   ! of forces and movements: what is left of sums and differences that would be zero but for rounding and for what iterations leave
-   real(wp), parameter :: remainder = 1.0e-7_wp
+   public :: find_answer, stands_apart, fault_of_answer
 
    !> The largest of some kind of value, and where.
    type, public :: peak_type
@@ -60,16 +43,6 @@ module stage_answer
       logical  :: has_secant(6) = .false.
    end type joint_answer
 
-   type, public :: bolt_answer_type
-      type(bolt_type) :: bolt
-      real(wp) :: force = 0.0_wp               !! tension [force]
-      real(wp) :: change = 0.0_wp              !! since the end of the stage before [force]
-      real(wp) :: load_change = 0.0_wp         !! of the load along it [force]
-      logical  :: has_ratio = .false., has_moment = .false.
-      real(wp) :: ratio = 0.0_wp               !! change over load_change
-      real(wp) :: moment = 0.0_wp              !! bending [force x length]
-   end type bolt_answer_type
-
    type, public :: stage_answer_type
       type(peak_type) :: displacement          !! the length of the vector [length]
       type(peak_type) :: at_centre, at_node    !! von Mises [pressure]
@@ -79,118 +52,13 @@ module stage_answer
 
 contains
 
-   !> How many bolts there are.
-   pure integer function n_bolts(model) result(n)
-      type(model_type), intent(in) :: model
-
-      n = n_sections(model)
-      if (n_bars(model) > 0) n = n + count(model%bars%bolt > 0)
-   end function n_bolts
-
-   !> All bolts as they are now: first those of CROD elements, then solid ones.
-   pure function find_bolts(model, analysis) result(bolts)
-      type(model_type), intent(in)    :: model
-      type(analysis_type), intent(in) :: analysis
-      type(bolt_type), allocatable :: bolts(:)
-      integer :: i, n
-
-      allocate (bolts(n_bolts(model)))
-      n = 0
-      do i = 1, n_bars(model)
-         associate (bar => model%bars(i))
-            if (bar%bolt == 0) cycle
-            n = n + 1
-            bolts(n) = bolt_type(id=bar%bolt, element=bar%id, is_tightened=bar%stage == analysis%stage, &
-                                 direction=bar%direction(:, 1), &
-                                 force=bar_tension(model, analysis, i), longer=elongation_now(model, analysis, i))
-         end associate
-      end do
-      do i = 1, n_sections(model)
-         associate (section => model%sections(i))
-            bolts(n + i) = bolt_type(id=section%bolt, section=i, is_tightened=section%stage == analysis%stage, &
-                                     direction=section%direction, force=section_tension(model, analysis, i), &
-                                     longer=-overlap_now(model, analysis, i))
-         end associate
-      end do
-   end function find_bolts
-
-   !> The load of the deck along DIRECTION when FRACTION of STAGE is done: of its nodal forces that way and of those against it
-   !! the larger sum, so that of loads that balance each other one half counts [force]. Preloads are none of it.
-   real(wp) function load_along(model, direction, stage, fraction) result(load)
-      type(model_type), intent(in) :: model
-      real(wp), intent(in)         :: direction(3)
-      integer, intent(in)          :: stage    !! position; before the first there is no load
-      real(wp), intent(in)         :: fraction
-      real(wp), allocatable :: component(:)
-
-      allocate (component(model%n_nodes), source=0.0_wp)
-      if (stage > 0) call add(stage, fraction)
-      if (stage > 1) call add(stage - 1, 1.0_wp - fraction)
-      load = max(sum(component, mask=component > 0.0_wp), -sum(component, mask=component < 0.0_wp))
-
-   contains
-
-      subroutine add(s, share)
-         integer, intent(in)  :: s
-         real(wp), intent(in) :: share
-         integer :: i
-
-         if (share <= 0.0_wp) return
-         associate (loads => model%stage_loads(s))
-            do i = 1, loads%n
-               component(loads%node(i)) = component(loads%node(i)) + share*dot_product(loads%force(:, i), direction)
-            end do
-         end associate
-      end subroutine add
-
-   end function load_along
-
-   !> Bending moment at the section of a solid bolt: what the elements behind it exert on the nodes of the section, about the
-   !! centroid of its area, across the bolt [force x length]. Weight of these elements is neglected.
-   pure real(wp) function bending_moment(model, section, u, temperature) result(moment)
-      type(model_type), intent(in)   :: model
-      type(section_type), intent(in) :: section
-      real(wp), intent(in)           :: u(:, :) !! (dimension, n_nodes) of all nodes [length]
-      type(temperature_type), intent(in) :: temperature
-      type(surface_node_list) :: list
-      real(wp) :: centroid(3), force(3), thermal(3, max_nodes), total(3), k(max_felt_dofs, max_felt_dofs), p(max_felt_dofs)
-      integer  :: d, e, i, j, n, s
-
-      d = model%dimension
-      s = findloc(model%surfaces%id, section%surface, dim=1)
-      call surface_nodes(model, model%surfaces(s), list)
-      centroid = 0.0_wp
-      do i = 1, list%n
-         centroid = centroid + list%area(i)*model%x(:, list%node(i))/sum(list%area)
-      end do
-      total = 0.0_wp
-      do j = model%first_at(section%node), model%first_at(section%node + 1) - 1
-         e = model%elements_at(j)
-         call felt_stiffness(model, e, k)
-         call element_thermal_forces(model, e, temperature, thermal(:d, :))
-         associate (nodes => corners_of(model, e))
-            n = d*size(nodes)
-            p(:n) = matmul(k(:n, :n), reshape(corner_displacements(model, e, u), [n]))
-            do i = 1, size(nodes)
-               if (model%node_section(nodes(i)) /= model%element_section(e)) cycle
-               force = 0.0_wp
-               force(:d) = p(d*(i - 1) + 1:d*i) - thermal(:d, i)
-               total = total + cross(model%x(:, nodes(i)) - centroid, force)
-            end do
-         end associate
-      end do
-      total = total - dot_product(total, section%direction)*section%direction
-      moment = norm2(total)
-      if (model%axisymmetric) moment = 0.0_wp ! all round the ring it balances
-   end function bending_moment
-
    !> The answer at the end of the stage just completed, the bodies recovered.
-   subroutine find_answer(model, analysis, method, largest_force, before, answer)
+   subroutine find_answer(model, analysis, method, largest_force, bolts, answer)
       type(model_type), intent(in)    :: model
       type(analysis_type), intent(in) :: analysis
       integer, intent(in)             :: method        !! of case control
       real(wp), intent(in)            :: largest_force !! ever applied at a node, for the noise [force]
-      real(wp), intent(in)            :: before(:)     !! forces of the bolts at the end of the stage before
+      type(bolt_history), intent(inout)    :: bolts
       type(stage_answer_type), intent(out) :: answer
       real(wp), allocatable :: k(:, :)
       integer :: j
@@ -202,7 +70,7 @@ contains
          call describe_joint(model, analysis, model%joints(j), answer%joints(j))
          call describe_stiffness(model, analysis, model%joints(j), k, remainder*largest_force, answer%joints(j))
       end do
-      call find_bolt_answers(model, analysis, largest_force, before, answer%bolts)
+      call find_bolt_answers(model, analysis, largest_force, bolts, answer%bolts)
    end subroutine find_answer
 
    !> Largest displacement of a node; largest von Mises stress at the centre of an element, and at a node as the mean of its
@@ -313,37 +181,6 @@ contains
       end associate
    end subroutine describe_stiffness
 
-   !> The bolts after the increment just completed. The bending of solid ones is known where the bodies are, at the end of a stage.
-   subroutine find_bolt_answers(model, analysis, largest_force, before, answers)
-      type(model_type), intent(in)    :: model
-      type(analysis_type), intent(in) :: analysis
-      real(wp), intent(in)            :: largest_force, before(:)
-      type(bolt_answer_type), allocatable, intent(out) :: answers(:)
-      type(bolt_type), allocatable :: bolts(:)
-      integer :: i
-
-      allocate (bolts, source=find_bolts(model, analysis))
-      allocate (answers(size(bolts)))
-      do i = 1, size(bolts)
-         associate (answer => answers(i), bolt => bolts(i), floor => remainder*largest_force)
-            answer%bolt = bolt
-            answer%force = above(bolt%force, floor)
-            answer%change = above(bolt%force - before(i), floor)
-            answer%load_change = above(load_along(model, bolt%direction, analysis%stage, analysis%fraction) &
-                                       - load_along(model, bolt%direction, analysis%stage - 1, 1.0_wp), floor)
-            answer%has_ratio = .not. bolt%is_tightened .and. abs(answer%load_change) > 0.0_wp
-            if (answer%has_ratio) answer%ratio = answer%change/answer%load_change
-            answer%has_moment = bolt%section > 0 .and. analysis%fraction >= 1.0_wp
-            if (answer%has_moment) then
-               associate (section => model%sections(bolt%section))
-                  answer%moment = above(bending_moment(model, section, analysis%all_u, analysis%now%temperature), &
-                                        floor*sqrt(section%area))
-               end associate
-            end if
-         end associate
-      end do
-   end subroutine find_bolt_answers
-
    !> The first figure of ANSWER that is beyond all measure, in words; '' where all are numbers.
    pure function fault_of_answer(model, answer) result(words)
       type(model_type), intent(in)        :: model
@@ -370,8 +207,9 @@ contains
       do i = 1, size(answer%bolts)
          associate (bolt => answer%bolts(i))
             if (words /= '') return
-            if (.not. all(is_measure([bolt%force, bolt%change, bolt%load_change, bolt%ratio, bolt%moment]))) &
-               words = 'the force of bolt '//integer_text(bolt%bolt%id)
+            if (.not. all(is_measure([bolt%force, bolt%change, bolt%load_change, bolt%ratio, bolt%moment, bolt%stress, &
+                                      bolt%share, bolt%use, bolt%clamping, bolt%loss, bolt%safety]))) &
+               words = 'the force of bolt '//integer_text(bolt%id)
          end associate
       end do
    end function fault_of_answer
