@@ -27,7 +27,7 @@ module restart_stream
 
    public :: open_restart
 
-   integer, parameter, public :: layout = 5 !! changes with every change of what is kept, or how
+   integer, parameter, public :: layout = 6 !! changes with every change of what is kept, or how
    character(*), parameter    :: magic = 'JOINTFEM RESTART'
    integer(int32), parameter  :: order_mark = int(z'01020304', int32), other_order = int(z'04030201', int32)
    integer, parameter, public :: version_length = 16

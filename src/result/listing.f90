@@ -10,7 +10,7 @@ module listing
    use kinds, only: wp
    use listing_bars, only: note_bars, note_sections, note_springs
    use listing_bodies, only: list_bodies
-   use listing_joints, only: list_energy, list_interface, note_passes, note_resultants
+   use joint_tables, only: list_energy, list_interface, note_passes, note_resultants
    use listing_opening, only: write_opening
    use listing_plot, only: plot_joints
    use listing_states, only: list_condensed, list_states
@@ -88,6 +88,7 @@ contains
       listing%n_increments = listing%n_increments + 1
       listing%n_removed = listing%n_removed + analysis%record%n_removed
       associate (stage => plan%stages(analysis%stage), page => listing%page)
+         page%stage_id = stage%id
          page%stage = 'STAGE '//integer_text(stage%id)
          page%now = ', '//page%stage//', INCREMENT '//integer_text(analysis%increment)//stage%shown_words
          page%along_cd = stage%along_cd

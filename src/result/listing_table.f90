@@ -1,21 +1,23 @@
-!> The page of the listing, and the tables on it. A table is a list of columns, each said once: its heading, the edit descriptor
-!! of its values, its unit. The line of headings, the line of units and every row come from it:
+!> The tables of the results, for the listing, the screen and CSV files. A table is a list of columns, each said once: its heading, the
+!! edit descriptor of its values, its unit, its name in the CSV file. The lines of headings and units, the titles of the CSV file and
+!! every row of either come from it:
 !!
-!!    call table%start('REACTIONS', [column('NODE', 'i11'), column('R'//axes, 'es13.5', labels%force)], file)
-!!    call table%add([node], reaction)
-!!    call table%print_row(file)
+!!    call table%start('REACTIONS', [csv('stage'), column('NODE', 'i11', name='node'), column('R'//axes, 'es13.5', labels%force)], file)
+!!    call table%add([stage, node], reaction)
+!!    call table%print_row(file, csv_file)
 !!
-!! The values of a row are added from left to right. The tables of a whole stage keep their rows until they are printed.
+!! The values of a row are added from left to right, those of a column without a heading go into the CSV file alone, those of a
+!! column without a name into the listing alone. The tables of a whole stage keep their rows until they are printed.
 module listing_table
    use kinds, only: wp
    use number_text, only: integer_width, short_width, write_integer, write_short
    use output_file, only: output_file_type
    use restart_stream, only: restart_stream_type
-   use text_tools, only: fitted_text
+   use text_tools, only: clean, csv_line_type, fitted_text
    implicit none
    private
 
-   public :: column, heading, cut, in_form
+   public :: column, csv, csv_titles, heading, cut, in_form
 
    integer, parameter, public      :: page_width = 132
    real(wp), parameter, public     :: noise = 1.0e-9_wp !! of the largest number of its kind: below it only rounding is printed
@@ -27,10 +29,22 @@ module listing_table
       character(20) :: slope = ''     !! of pressure over length
    end type label_type
 
-   !> The page as all tables find it.
+   ! the CSV files in the order of their endings
+   integer, parameter, public :: joint_table = 1, stage_table = 2, bolt_table = 3, modes_table = 4, energy_table = 5, &
+                                 response_table = 6, backbone_table = 7, loop_table = 8, bend_table = 9, watch_table = 10, &
+                                 split_table = 11, reaction_table = 12
+   character(*), parameter, public :: history_ending = '.joint.csv'
+   character(22), parameter, public :: table_endings(12) = [character(22) :: history_ending, '.stage.csv', '.bolt.csv', &
+      '.modes.csv', '.modes.energy.csv', '.response.csv', '.backbone.csv', '.loop.csv', '.backbone.response.csv', '.watch.csv', &
+      '.watch.energy.csv', '.reaction.csv']
+
+   !> The files as all tables find them.
    type, public :: page_type
-      type(output_file_type) :: file
+      type(output_file_type) :: file          !! the listing
+      type(output_file_type) :: screen        !! the answers, for the standard output at the end
+      type(output_file_type) :: tables(size(table_endings)) !! open: those that the deck asks for
       type(label_type)       :: labels
+      integer :: stage_id = 0                 !! number of the stage
       character(:), allocatable :: stage, now !! where the run is: 'STAGE 2'; ', STAGE 2, INCREMENT 5' behind a title
       real(wp) :: largest_force = 0.0_wp      !! ever applied, for the noise
       logical, allocatable :: shown(:)        !! nodes that the tables of this stage are limited to; not allocated: all
@@ -41,11 +55,13 @@ module listing_table
    type, public :: column_type
       private
       character(48) :: heading = ''
+      character(16) :: name = ''      ! in the CSV file
       character(12) :: form = ''      ! as long as leaves no undefined bytes behind: columns are copied to restart files as they are
       character(20) :: unit = ''
       integer :: width = 0            ! 0: text from here on
       integer :: last = 0             ! character of the row that its values end at
       integer :: heading_shift = 0, unit_shift = 0
+      logical :: is_listed = .true.
       logical :: is_short = .false.   ! as number_text writes it, fast
    end type column_type
 
@@ -53,10 +69,11 @@ module listing_table
       private
       character(:), allocatable :: title
       character(page_width) :: row = ''
+      type(csv_line_type) :: line     ! the same row in the CSV file
       type(column_type), allocatable :: columns(:)
       integer :: used = 0             ! columns of the row
-      integer :: n_kept = 0
-      character(page_width), allocatable :: kept(:)
+      integer :: n_kept = 0           ! characters of
+      character(:), allocatable :: kept ! rows, each with its end
    contains
       procedure :: is_empty
       procedure :: start
@@ -76,13 +93,17 @@ contains
 
    !> A column. Its values are written as FORM says, an edit descriptor: i11, es13.5, f9.4, a8; 'a' is text up to the end of the
    !! row. Heading and unit end where the values end, or as many characters behind that as is said.
-   elemental function column(heading, form, unit, heading_shift, unit_shift) result(item)
+   elemental function column(heading, form, unit, heading_shift, unit_shift, name, is_listed) result(item)
       character(*), intent(in)           :: heading, form
-      character(*), intent(in), optional :: unit          !! default: none
+      character(*), intent(in), optional :: unit, name    !! default: none
       integer, intent(in), optional      :: heading_shift, unit_shift
+      logical, intent(in), optional      :: is_listed     !! default: yes
       type(column_type) :: item
       integer :: point
 
+      if (present(name)) item%name = name
+      if (present(is_listed)) item%is_listed = is_listed
+      if (.not. item%is_listed) return
       item%heading = heading
       item%form = '('//form//')'
       if (present(unit)) item%unit = unit
@@ -92,6 +113,27 @@ contains
       if (form /= 'a') read (form(scan(form, '0123456789'):point - 1), *) item%width
       item%is_short = index(form, 'es') == 1 .and. form(point:) == '.5' .and. item%width >= short_width
    end function column
+
+   !> A column of the CSV file alone.
+   elemental function csv(name) result(item)
+      character(*), intent(in) :: name
+      type(column_type) :: item
+
+      item = column('', '', name=name, is_listed=.false.)
+   end function csv
+
+   !> The first line of the CSV file of a table with these COLUMNS.
+   pure function csv_titles(columns) result(titles)
+      type(column_type), intent(in) :: columns(:)
+      character(:), allocatable     :: titles
+      integer :: i
+
+      titles = ''
+      do i = 1, size(columns)
+         if (columns(i)%name /= '') titles = titles//','//trim(columns(i)%name)
+      end do
+      titles = titles(2:)
+   end function csv_titles
 
    !> Whether nothing is kept: a table of a stage begins anew.
    pure logical function is_empty(self)
@@ -130,6 +172,7 @@ contains
       units = ''
       do i = 1, size(self%columns)
          associate (column => self%columns(i))
+            if (.not. column%is_listed) cycle
             if (column%width == 0) then
                headings(column%last + 1:) = column%heading
             else
@@ -160,15 +203,17 @@ contains
       real(wp), intent(in), optional           :: reals(:)
       logical, intent(in), optional            :: where(:) !! (values) default: all
       character(integer_width) :: digits
+      logical :: is_there
       integer :: i, length
 
+      is_there = .true.
       do i = 1, size(values)
          self%used = self%used + 1
-         if (present(where)) then
-            if (.not. where(i)) cycle
-         end if
-         call write_integer(values(i), digits, length)
+         if (present(where)) is_there = where(i)
          associate (column => self%columns(self%used))
+            if (column%name /= '') call self%line%add([values(i)], where=[is_there])
+            if (.not. (column%is_listed .and. is_there)) cycle
+            call write_integer(values(i), digits, length)
             if (length > column%width) then
                call place(self%row, fitted_text(real(values(i), wp), column%width - 1), column%last)
             else
@@ -179,22 +224,26 @@ contains
       if (present(reals)) call self%add_reals(reals)
    end subroutine add_integers
 
-   pure subroutine add_reals(self, values, where)
+   !> In the listing what is below FLOOR is zero.
+   pure subroutine add_reals(self, values, floor, where)
       class(listing_table_type), intent(inout) :: self
       real(wp), intent(in)                     :: values(:)
+      real(wp), intent(in), optional           :: floor
       logical, intent(in), optional            :: where(:)
+      logical :: is_there
       integer :: i
 
+      is_there = .true.
       do i = 1, size(values)
          self%used = self%used + 1
-         if (present(where)) then
-            if (.not. where(i)) cycle
-         end if
-         associate (column => self%columns(self%used))
+         if (present(where)) is_there = where(i)
+         associate (column => self%columns(self%used), value => clean(values(i), floor))
+            if (column%name /= '') call self%line%add([clean(values(i))], where=[is_there])
+            if (.not. (column%is_listed .and. is_there)) cycle
             if (column%is_short) then
-               call write_short(values(i), self%row(column%last - short_width + 1:column%last))
+               call write_short(value, self%row(column%last - short_width + 1:column%last))
             else
-               call place(self%row, in_form(values(i), column%form, column%width), column%last)
+               call place(self%row, in_form(value, column%form, column%width), column%last)
             end if
          end associate
       end do
@@ -213,7 +262,7 @@ contains
       field = adjustr(field)
    end function in_form
 
-   !> WORDS with all their blanks, at the end of their column, and REALS behind them.
+   !> WORDS with all their blanks, at the end of their column, and REALS behind them; the CSV file has WORDS without the blanks.
    pure subroutine add_text(self, words, reals)
       class(listing_table_type), intent(inout) :: self
       character(*), intent(in)                 :: words
@@ -221,32 +270,49 @@ contains
 
       self%used = self%used + 1
       associate (column => self%columns(self%used))
-         if (column%width == 0) then
-            self%row(column%last + 1:) = words
-         else
-            call place(self%row, words, column%last)
-         end if
+         if (column%name /= '') call self%line%add(trim(adjustl(words)))
+         if (column%is_listed .and. column%width == 0) self%row(column%last + 1:) = words
+         if (column%is_listed .and. column%width > 0) call place(self%row, words, column%last)
       end associate
       if (present(reals)) call self%add_reals(reals)
    end subroutine add_text
 
-   !> The next N columns stay blank.
+   !> The next N columns stay empty.
    pure subroutine skip(self, n)
       class(listing_table_type), intent(inout) :: self
       integer, intent(in)                      :: n
+      integer :: i
 
+      do i = self%used + 1, self%used + n
+         if (self%columns(i)%name /= '') call self%line%add('')
+      end do
       self%used = self%used + n
    end subroutine skip
 
-   !> The row is complete: print it.
-   subroutine print_row(self, file)
+   !> The row is complete, columns to which nothing was added stay empty: print it into FILE, and into the CSV file where that is open.
+   subroutine print_row(self, file, csv_file, is_listed)
       class(listing_table_type), intent(inout) :: self
-      type(output_file_type), intent(inout)    :: file
+      type(output_file_type), intent(inout), optional :: file, csv_file
+      logical, intent(in), optional :: is_listed !! not in the CSV file alone; default: yes
+      logical :: lists
 
-      call file%put(self%row)
-      self%row = ''
-      self%used = 0
+      if (present(csv_file)) then
+         call self%skip(size(self%columns) - self%used)
+         if (csv_file%is_open) call csv_file%put(self%line%text(:self%line%length))
+      end if
+      lists = present(file)
+      if (present(is_listed)) lists = lists .and. is_listed
+      if (lists) call file%put(self%row)
+      call begin_row(self)
    end subroutine print_row
+
+   pure subroutine begin_row(self)
+      class(listing_table_type), intent(inout) :: self
+
+      self%row = ''
+      self%line%length = 0
+      self%used = 0
+   end subroutine begin_row
 
    !> The row is complete: a line of it behind the first USED characters of LINES, without the blanks at its end. There must be room.
    pure subroutine take_line(self, lines, used)
@@ -258,8 +324,7 @@ contains
       length = len_trim(self%row)
       lines(used + 1:used + length + 1) = self%row(:length)//new_line('a')
       used = used + length + 1
-      self%row = ''
-      self%used = 0
+      call begin_row(self)
    end subroutine take_line
 
    !> The row is complete: keep it until the table is printed.
@@ -267,41 +332,37 @@ contains
       class(listing_table_type), intent(inout) :: self
 
       call self%keep_line(self%row)
-      self%row = ''
-      self%used = 0
+      call begin_row(self)
    end subroutine keep_row
 
    !> Keep a LINE that runs through all columns.
    pure subroutine keep_line(self, line)
       class(listing_table_type), intent(inout) :: self
       character(*), intent(in)                 :: line
-      character(page_width), allocatable :: longer(:)
+      integer, parameter :: room = 8192 ! characters at first
+      character(:), allocatable :: longer
+      integer :: length
 
-      if (.not. allocated(self%kept)) allocate (self%kept(64))
-      if (self%n_kept == size(self%kept)) then ! an array constructor that finds no memory would end the program without a word
-         allocate (longer(2*self%n_kept))
-         longer(:self%n_kept) = self%kept
+      length = len_trim(line(:min(len(line), page_width)))
+      if (.not. allocated(self%kept)) allocate (character(room) :: self%kept)
+      if (self%n_kept + length + 1 > len(self%kept)) then
+         allocate (character(2*len(self%kept) + length + 1) :: longer)
+         longer(:self%n_kept) = self%kept(:self%n_kept)
          call move_alloc(longer, self%kept)
       end if
-      self%n_kept = self%n_kept + 1
-      self%kept(self%n_kept) = line
+      self%kept(self%n_kept + 1:self%n_kept + length + 1) = line(:length)//new_line('a')
+      self%n_kept = self%n_kept + length + 1
    end subroutine keep_line
 
    !> Print what was kept, under title and headings where the table has some, and forget it.
    subroutine print_kept(self, file)
       class(listing_table_type), intent(inout) :: self
       type(output_file_type), intent(inout)    :: file
-      integer :: i
 
       if (self%n_kept == 0) return
-      if (allocated(self%columns)) then
-         call self%print_head(file)
-      else
-         call file%put('')
-      end if
-      do i = 1, self%n_kept
-         call file%put(self%kept(i))
-      end do
+      if (allocated(self%columns)) call self%print_head(file)
+      if (.not. allocated(self%columns)) call file%put('')
+      call file%put_lines(self%kept(:self%n_kept))
       self%n_kept = 0
    end subroutine print_kept
 
@@ -309,7 +370,8 @@ contains
    subroutine record(self, stream)
       class(listing_table_type), intent(inout) :: self
       type(restart_stream_type), intent(inout) :: stream
-      integer :: i, n
+      character(:), allocatable :: kept
+      integer :: n
 
       call stream%any_text(self%title)
       n = -1
@@ -320,15 +382,11 @@ contains
          if (n >= 0) allocate (self%columns(n))
       end if
       if (n >= 0) call stream%item(self%columns)
-      call stream%extent(self%n_kept, page_width)
-      if (.not. allocated(self%kept)) allocate (self%kept(max(64, self%n_kept)))
-      if (size(self%kept) < self%n_kept) then
-         deallocate (self%kept)
-         allocate (self%kept(self%n_kept))
-      end if
-      do i = 1, self%n_kept
-         call stream%text(self%kept(i))
-      end do
+      if (stream%writes .and. self%n_kept > 0) kept = self%kept(:self%n_kept)
+      call stream%any_text(kept)
+      self%n_kept = 0
+      if (allocated(kept)) self%n_kept = len(kept)
+      if (allocated(kept)) call move_alloc(kept, self%kept)
    end subroutine record
 
    !> A heading of a table, with an empty line before it.

@@ -20,6 +20,8 @@ module output_file
       procedure :: start
       procedure :: put
       procedure :: put_lines
+      procedure :: length
+      procedure :: text_behind
       procedure :: failed
       procedure :: finish
       procedure :: discard
@@ -70,6 +72,22 @@ contains
       self%buffer(self%used + 1:self%used + len(text)) = text
       self%used = self%used + len(text)
    end subroutine put_lines
+
+   !> How many characters wait in the memory: for the standard output all of them.
+   pure integer function length(self)
+      class(output_file_type), intent(in) :: self
+
+      length = self%used
+   end function length
+
+   !> Those behind the first N.
+   pure function text_behind(self, n) result(text)
+      class(output_file_type), intent(in) :: self
+      integer, intent(in)                 :: n
+      character(self%used - n) :: text
+
+      text = self%buffer(n + 1:self%used)
+   end function text_behind
 
    !> Empty the buffer into the file; for the standard output, make the buffer larger.
    subroutine make_room(self, needed)

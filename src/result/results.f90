@@ -1,14 +1,11 @@
 !> The results of one deck, as the main program sees them: opened, fed after every increment, closed.
 module results
    use analysis_state, only: analysis_type
-   use answer_block, only: print_answer
+   use answer_tables, only: bolt_columns, print_answer, print_bolts, print_reactions, print_watched, reaction_columns, &
+                            split_columns, stage_columns, watch_columns
    use backbone, only: backbone_type
    use bolt_answers, only: bolt_answer_type, bolt_history, find_bolt_answers, keep_bolts, n_bolts, record_bolts, start_bolts
    use c_library, only: close_file, lock_folder
-   use csv_tables, only: backbone_table, bend_table, bolt_table, energy_table, joint_table, loop_table, &
-                         modes_table, reaction_table, response_table, split_table, stage_table, table_endings, watch_table, &
-                         write_answers, write_backbone, write_bolts, write_energies, write_headers, write_history, write_loops, &
-                         write_modes, write_response, write_stage
    use deck_input, only: deck_type
    use distribution, only: subdomain_output_type, distribute_bodies
    use equation_solver, only: equation_system
@@ -16,22 +13,23 @@ module results
    use incomplete_results, only: all_complete, give_up_parts, remove_old, what_is_in_the_way
    use kinds, only: wp
    use listing, only: finish_listing, list_increment, list_stage, listing_type, record_listing, start_listing
-   use listing_backbone, only: list_backbone
-   use listing_modes, only: list_modes, list_response
+   use joint_tables, only: history_titles, write_history
+   use listing_table, only: backbone_table, bend_table, bolt_table, csv_titles, energy_table, joint_table, loop_table, &
+                            modes_table, &
+                            reaction_table, response_table, split_table, stage_table, table_endings, watch_table
    use modal_response, only: response_type
    use mode_values, only: modes_type
    use model_data, only: model_type
-   use output_file, only: output_file_type
    use restart_stream, only: restart_stream_type
    use stage_answer, only: fault_of_answer, find_answer, stage_answer_type
    use stage_plan, only: any_backbone, any_modes, any_response, any_watched, stage_plan_type, where_in_plan
-   use support_reactions, only: find_reactions, print_reactions, reactions_type, write_reactions
+   use support_reactions, only: find_reactions, reactions_type
    use text_tools, only: real_text
+   use vibration_tables, only: backbone_columns, bend_columns, energy_columns, list_backbone, list_modes, list_response, &
+                               loop_columns, modes_columns, response_columns
    use vtu_lists, only: is_vtu_ending, remove_old_vtu
-   use vtu_results, only: discard_vtu, finish_vtu, record_vtu, start_vtu, vtu_names, vtu_results_type, &
-                          write_modes_vtu => write_modes, write_vtu
-   use watched_nodes, only: find_watched, keep_watched, print_watched, record_watched, start_watched, watch_answer, watch_state, &
-                            write_watched
+   use vtu_results, only: discard_vtu, finish_vtu, record_vtu, start_vtu, vtu_names, vtu_results_type, write_modes, write_vtu
+   use watched_nodes, only: find_watched, keep_watched, record_watched, start_watched, watch_answer, watch_state
    implicit none
    private
 
@@ -53,9 +51,7 @@ module results
       type(digest_type)      :: digest
       type(watch_answer)     :: watched       !! of the last stage that has any
       type(listing_type)     :: listing
-      type(output_file_type) :: tables(size(table_endings))
       logical, private       :: has_table(size(table_endings)) = .false.
-      type(output_file_type) :: screen        !! the answers, for the standard output at the end
       type(vtu_results_type) :: vtu
       type(bolt_history), private :: bolts
       type(watch_state), private :: watched_before      ! likewise, where nodes are watched
@@ -76,7 +72,6 @@ contains
       type(results_type), intent(inout) :: results
       logical, intent(out)              :: ok
       class(subdomain_output_type), allocatable :: dealt
-      integer :: i
 
       call all_complete()
       results%base = base
@@ -88,22 +83,49 @@ contains
       if (base /= '' .and. any(plan%stages%vtu)) call distribute_bodies(model, system, dealt)
       call start_vtu(results%vtu, base, results%listing%page%labels, plan, dealt)
       ok = .not. results%listing%page%file%failed()
-      if (base == '') return
-      call results%screen%start('')
-      do i = 1, size(table_endings)
-         if (i == bolt_table .and. n_bolts(model) == 0) cycle
-         if (any(i == [modes_table, energy_table]) .and. .not. any_modes(plan)) cycle
-         if (any(i == [backbone_table, loop_table]) .and. .not. any_backbone(plan)) cycle
-         if (any(i == [watch_table, split_table]) .and. .not. any_watched(plan)) cycle
-         if (i == response_table .and. .not. any_response(plan)) cycle
-         if (i == bend_table .and. .not. (any_backbone(plan) .and. any_response(plan))) cycle
-         call results%tables(i)%start(base//trim(table_endings(i)))
-         results%has_table(i) = .true.
-         ok = ok .and. .not. results%tables(i)%failed()
-      end do
-      if (.not. ok) return
-      call write_headers(results%tables, model)
+      call results%listing%page%screen%start('')
+      if (base /= '') call start_tables(model, plan, results, ok)
    end subroutine start_results
+
+   !> Open the CSV files that PLAN asks for, with the titles of their columns.
+   subroutine start_tables(model, plan, results, ok)
+      type(model_type), intent(in)      :: model
+      type(stage_plan_type), intent(in) :: plan
+      type(results_type), intent(inout) :: results
+      logical, intent(inout)            :: ok
+
+      associate (labels => results%listing%page%labels, d => model%dimension)
+         call open_table(joint_table, .true., history_titles(model))
+         call open_table(stage_table, .true., csv_titles(stage_columns(labels)))
+         call open_table(bolt_table, n_bolts(model) > 0, csv_titles(bolt_columns(labels, 1)))
+         call open_table(modes_table, any_modes(plan), csv_titles(modes_columns()))
+         call open_table(energy_table, any_modes(plan), csv_titles(energy_columns()))
+         call open_table(response_table, any_response(plan), csv_titles(response_columns()))
+         call open_table(backbone_table, any_backbone(plan), csv_titles(backbone_columns(labels)))
+         call open_table(loop_table, any_backbone(plan), csv_titles(loop_columns()))
+         call open_table(bend_table, any_backbone(plan) .and. any_response(plan), csv_titles(bend_columns(labels)))
+         call open_table(watch_table, any_watched(plan), csv_titles(watch_columns(labels, d)))
+         call open_table(split_table, any_watched(plan), csv_titles(split_columns()))
+         call open_table(reaction_table, .true., csv_titles(reaction_columns(labels, d)))
+      end associate
+
+   contains
+
+      subroutine open_table(i, is_wanted, titles)
+         integer, intent(in)      :: i
+         logical, intent(in)      :: is_wanted
+         character(*), intent(in) :: titles
+
+         if (.not. is_wanted) return
+         results%has_table(i) = .true.
+         associate (table => results%listing%page%tables(i))
+            call table%start(results%base//trim(table_endings(i)))
+            ok = ok .and. .not. table%failed()
+            call table%put(titles)
+         end associate
+      end subroutine open_table
+
+   end subroutine start_tables
 
    !> The increment just completed.
    subroutine print_increment(model, plan, analysis, results)
@@ -119,9 +141,9 @@ contains
       if (plan%stages(analysis%stage)%steps) call write_vtu(results%vtu, model, plan, analysis)
       call find_bolt_answers(model, analysis, results%listing%page%largest_force, results%bolts, bolts)
       if (results%base == '') return
-      call write_history(results%tables(joint_table), model, plan, analysis)
+      call write_history(results%listing%page, model, analysis)
       if (n_bolts(model) == 0) return
-      call write_bolts(results%tables(bolt_table), plan%stages(analysis%stage)%id, analysis%increment, analysis%fraction, bolts)
+      call print_bolts(results%listing%page, analysis, bolts, in_answer=.false.)
    end subroutine print_increment
 
    !> The stage just completed. FAILURE is raised where a figure of its answer is beyond all measure.
@@ -133,8 +155,8 @@ contains
       type(failure_type), intent(inout) :: failure
       type(stage_answer_type) :: answer
       type(reactions_type)    :: reactions
-      type(watch_answer)      :: watch
       character(:), allocatable :: fault, title
+      integer :: before
 
       call list_stage(results%listing, model, plan, analysis)
       associate (stage => plan%stages(analysis%stage), page => results%listing%page)
@@ -145,24 +167,16 @@ contains
          title = 'ANSWER AT THE END OF '//page%stage//'   '//stage%label
          if (analysis%record%ends_early) title = 'ANSWER WHERE THE RUN ENDED EARLY, '//page%stage//', LOAD '// &
                                           real_text(analysis%fraction)//'   '//stage%label
-         call print_answer(page%file, page%labels, title, model, answer)
+         before = page%screen%length()
+         call print_answer(page, title, model, answer)
+         call print_bolts(page, analysis, answer%bolts, in_answer=.true.)
          call find_reactions(model, analysis, page%largest_force, reactions)
-         call print_reactions(page%file, page%labels, model, reactions)
+         call print_reactions(page, model, reactions)
          if (allocated(stage%watched)) then
-            call find_watched(model, analysis, stage%watched, results%watched_before, watch)
-            results%watched = watch
-            call print_watched(page%file, page%labels, model, watch)
+            call find_watched(model, analysis, stage%watched, results%watched_before, results%watched)
+            call print_watched(page, model, results%watched)
          end if
-         if (results%base /= '') then
-            call print_answer(results%screen, page%labels, title, model, answer)
-            call print_reactions(results%screen, page%labels, model, reactions)
-            call write_stage(results%tables(stage_table), stage%id, model, answer)
-            call write_reactions(results%tables(reaction_table), stage%id, reactions)
-         end if
-         if (results%base /= '' .and. allocated(stage%watched)) then
-            call print_watched(results%screen, page%labels, model, watch)
-            call write_watched(results%tables(watch_table), results%tables(split_table), stage%id, model, watch)
-         end if
+         call page%file%put_lines(page%screen%text_behind(before)) ! the listing has the same answer
       end associate
       call note_stage(answer, results%digest)
       call keep_bolts(answer%bolts, results%bolts)
@@ -198,12 +212,10 @@ contains
       do m = size(modes%modes), 1, -1
          if (.not. modes%modes(m)%is_rigid) results%digest%frequency = modes%modes(m)%frequency
       end do
-      associate (planned => plan%stages(stage))
-         call list_modes(results%listing%page, model, planned%vibration, modes)
-         if (results%base == '') return
-         call write_modes(results%tables(modes_table), planned%id, planned%vibration, modes)
-         call write_energies(results%tables(energy_table), planned%id, model, modes)
-         if (planned%vtu) call write_modes_vtu(results%vtu, model, planned%id, modes)
+      associate (planned => plan%stages(stage), page => results%listing%page)
+         page%stage_id = planned%id
+         call list_modes(page, model, planned%vibration, modes)
+         if (results%base /= '' .and. planned%vtu) call write_modes(results%vtu, model, planned%id, modes)
       end associate
    end subroutine print_modes
 
@@ -215,12 +227,9 @@ contains
       type(backbone_type), intent(in)   :: found
       type(results_type), intent(inout) :: results
 
+      results%listing%page%stage_id = plan%stages(stage)%id
       call list_backbone(results%listing%page, model, found)
       if (found%problem /= '') results%listing%watch%n_warnings = results%listing%watch%n_warnings + 1
-      if (results%base == '') return
-      call write_backbone(results%tables(backbone_table), plan%stages(stage)%id, found)
-      call write_loops(results%tables(loop_table), plan%stages(stage)%id, found)
-      if (allocated(found%answers)) call write_answers(results%tables(bend_table), plan%stages(stage)%id, found)
    end subroutine print_backbone
 
    !> The response to an oscillating load about that state.
@@ -230,11 +239,11 @@ contains
       type(response_type), intent(in)   :: response
       type(results_type), intent(inout) :: results
 
+      results%listing%page%stage_id = plan%stages(stage)%id
       call list_response(results%listing%page, response)
       associate (watch => results%listing%watch)
          watch%n_warnings = watch%n_warnings + size(response%missed) + merge(1, 0, size(response%frequency) == 0)
       end associate
-      if (results%base /= '') call write_response(results%tables(response_table), plan%stages(stage)%id, response)
    end subroutine print_response
 
    !> Give the files their names. All or none: OK is false where one could not be written. But for files for ParaView, the largest:
@@ -251,7 +260,7 @@ contains
       call remove_all(results%base) ! of two runs of one name the last to come here leaves all of its files, and no others
       ok = .true.
       do i = 1, size(table_endings)
-         if (ok .and. results%tables(i)%is_open) call results%tables(i)%finish(ok)
+         if (ok .and. results%listing%page%tables(i)%is_open) call results%listing%page%tables(i)%finish(ok)
       end do
       if (ok) then
          call finish_vtu(results%vtu, has_vtu)
@@ -286,9 +295,9 @@ contains
       do i = joint_table + 1, size(table_endings)
          if (results%has_table(i)) names = names//', '//trim(table_endings(i))
       end do
-      call results%screen%put('')
-      call results%screen%put(' RESULTS: '//names//vtu_names(results%vtu))
-      call results%screen%finish(ok)
+      call results%listing%page%screen%put('')
+      call results%listing%page%screen%put(' RESULTS: '//names//vtu_names(results%vtu))
+      call results%listing%page%screen%finish(ok)
    end subroutine show_answers
 
    !> Leave nothing behind that could be taken for a result; of another run nothing is touched.
@@ -298,9 +307,9 @@ contains
 
       call results%listing%page%file%discard()
       do i = 1, size(table_endings)
-         call results%tables(i)%discard()
+         call results%listing%page%tables(i)%discard()
       end do
-      call results%screen%discard()
+      call results%listing%page%screen%discard()
       call discard_vtu(results%vtu)
       call give_up_parts()
    end subroutine discard_results
@@ -313,9 +322,9 @@ contains
 
       call record_listing(stream, results%listing)
       do i = 1, size(table_endings)
-         if (results%tables(i)%is_open) call results%tables(i)%record(stream)
+         if (results%listing%page%tables(i)%is_open) call results%listing%page%tables(i)%record(stream)
       end do
-      call results%screen%record(stream)
+      call results%listing%page%screen%record(stream)
       call record_vtu(results%vtu, stream)
       call record_bolts(stream, results%bolts)
       call record_watched(stream, results%watched_before)

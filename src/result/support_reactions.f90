@@ -5,19 +5,16 @@ module support_reactions
    use bolt_locking, only: bar_tension
    use interface_operator, only: at_first_end, named_node
    use kinds, only: wp
-   use listing_table, only: axes, column, label_type, listing_table_type
    use model_data, only: a_rotation, has_ground_springs, model_type, n_bars, n_points, n_rotations, node_kind, place_in_kind
    use node_coupling, only: forces_on_unknowns
    use numbers, only: cross
-   use output_file, only: output_file_type
-   use text_tools, only: above, clean, csv_line_type
+   use text_tools, only: above
    implicit none
    private
 
-   public :: find_reactions, print_reactions, write_reactions
+   public :: find_reactions
 
-   integer, parameter  :: most_rows = 40           ! of the block; the file has all
-   real(wp), parameter :: remainder = 1.0e-7_wp    ! of the largest force: what less is left of sums is rounding
+   real(wp), parameter :: remainder = 1.0e-7_wp ! of the largest force: what less is left of sums is rounding
 
    !> A resultant.
    type, public :: reaction_type
@@ -204,71 +201,5 @@ contains
       part%moment = above(part%moment, floor)
       part%about_centre = above(part%about_centre, floor)
    end subroutine settle
-
-   !> A table behind the answer of a stage; its last line is the balance.
-   subroutine print_reactions(file, labels, model, answer)
-      type(output_file_type), intent(inout) :: file
-      type(label_type), intent(in)          :: labels
-      type(model_type), intent(in)          :: model
-      type(reactions_type), intent(in)      :: answer
-      type(listing_table_type) :: table
-      integer :: d, first, i
-
-      d = model%dimension
-      first = merge(1, 3, d == 3) ! of the moments
-      call file%put('')
-      call table%start('', [column('REACTIONS', 'a9'), column('NUMBER', 'i11'), column('NODES', 'i8'), &
-                            column('R'//axes(:d), 'es12.4', labels%force), column('M'//axes(first:), 'es11.3', labels%moment), &
-                            column('MC'//axes(first:), 'es11.3', labels%moment)], file)
-      do i = 1, min(size(answer%parts), most_rows)
-         call row(answer%parts(i))
-      end do
-      if (size(answer%parts) > most_rows) call file%put('  ... ALL OF THEM IN THE CSV FILE')
-      if (size(answer%parts) > 1) call row(answer%total)
-      call row(answer%loads)
-      call table%add(' LEFT')
-      call table%skip(2)
-      call table%add(clean(answer%left(:d)))
-      call table%print_row(file)
-
-   contains
-
-      subroutine row(part)
-         type(reaction_type), intent(in) :: part
-
-         call table%add(' '//part%kind)
-         call table%add([part%id], where=[part%id > 0])
-         call table%add([part%nodes], clean([part%force(:d), part%moment(first:), part%about_centre(first:)]))
-         call table%print_row(file)
-      end subroutine row
-
-   end subroutine print_reactions
-
-   !> The rows of the stage with the number STAGE.
-   subroutine write_reactions(file, stage, answer)
-      type(output_file_type), intent(inout) :: file
-      integer, intent(in)                   :: stage
-      type(reactions_type), intent(in)      :: answer
-      integer :: i
-
-      do i = 1, size(answer%parts)
-         call row(answer%parts(i))
-      end do
-      call row(answer%total)
-      call row(answer%loads)
-
-   contains
-
-      subroutine row(part)
-         type(reaction_type), intent(in) :: part
-         type(csv_line_type) :: line
-
-         call line%add([stage])
-         call line%add(trim(part%kind))
-         call line%add([part%id, part%line, part%nodes], clean([part%centre, part%force, part%moment, part%about_centre]))
-         call file%put(line%text(:line%length))
-      end subroutine row
-
-   end subroutine write_reactions
 
 end module support_reactions

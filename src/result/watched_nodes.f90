@@ -15,16 +15,13 @@ module watched_nodes
    use bolt_locking, only: bar_tension
    use interface_operator, only: joint_movement
    use kinds, only: wp
-   use listing_table, only: axes, column, label_type, listing_table_type
    use model_build, only: find_bodies
    use model_data, only: a_spring, bar_nodes, corners_of, model_type, n_bars, n_points
-   use output_file, only: output_file_type
    use restart_stream, only: restart_stream_type
-   use text_tools, only: clean, csv_line_type
    implicit none
    private
 
-   public :: start_watched, find_watched, keep_watched, print_watched, write_watched, record_watched, words_of_bar
+   public :: start_watched, find_watched, keep_watched, record_watched
 
    real(wp), parameter :: cancels = 1.0e-9_wp   ! of the sum of amounts: forces or works that leave no more cancel
    real(wp), parameter :: rests = 1.0e-7_wp     ! of the largest movement over the stage: what moves less along the load is at rest
@@ -243,70 +240,6 @@ contains
       end do
       before%tension = [(bar_tension(model, analysis, i), i = 1, n_bars(model))]
    end subroutine keep_watched
-
-   !> Two tables behind the answer of a stage.
-   subroutine print_watched(file, labels, model, answer)
-      type(output_file_type), intent(inout) :: file
-      type(label_type), intent(in)          :: labels
-      type(model_type), intent(in)          :: model
-      type(watch_answer), intent(in)        :: answer
-      type(listing_table_type) :: table
-      integer :: d, k
-
-      d = model%dimension
-      call file%put('')
-      call table%start('', [column('WATCHED', 'i11'), column('U'//axes(:d), 'es13.4', labels%length), &
-                            column('CHANGE '//axes(:d), 'es13.4', labels%length), column('LOAD', 'es13.4', labels%force), &
-                            column('ALONG IT', 'es13.4', labels%length), column('STIFFNESS', 'es13.4', labels%stiffness)], file)
-      do k = 1, size(answer%nodes)
-         associate (node => answer%nodes(k))
-            call table%add([model%node_id(node%node)], clean([node%u(:d), node%change(:d)]))
-            if (node%is_loaded) call table%add(clean([norm2(node%load), node%along]))
-            if (node%moves) call table%add([node%stiffness])
-            call table%print_row(file)
-         end associate
-      end do
-      if (size(answer%parts) == 0) return
-      call file%put('')
-      call table%start('', [column('GIVES WAY', 'a11'), column('NUMBER', 'i11'), &
-                            column([character(8) :: 'SHARE %', 'NORMAL %', 'SHEAR %'], 'f11.4'), &
-                            column([character(12) :: 'FROM ELEMENT', 'TO ELEMENT'], 'i14')], file)
-      do k = 1, size(answer%parts)
-         associate (part => answer%parts(k))
-            call table%add(' '//part%kind)
-            call table%add([part%id], clean(100.0_wp*[sum(part%share), part%share]))
-            if (part%kind == 'BODY') call table%add([part%first, part%last])
-            call table%print_row(file)
-         end associate
-      end do
-   end subroutine print_watched
-
-   !> The rows of the stage with the number STAGE: of its nodes into FILE, of its shares into SHARES.
-   subroutine write_watched(file, shares, stage, model, answer)
-      type(output_file_type), intent(inout) :: file, shares
-      integer, intent(in)                   :: stage
-      type(model_type), intent(in)          :: model
-      type(watch_answer), intent(in)        :: answer
-      type(csv_line_type) :: line
-      integer :: k
-
-      do k = 1, size(answer%nodes)
-         associate (node => answer%nodes(k))
-            line%length = 0
-            call line%add([stage, model%node_id(node%node)], clean([model%x(:, node%node), node%u, node%change, node%load]))
-            call line%add(clean([node%along, norm2(node%load)]), where=spread(node%is_loaded, 1, 2))
-            call line%add([node%stiffness], where=[node%moves])
-            call file%put(line%text(:line%length))
-         end associate
-      end do
-      do k = 1, size(answer%parts)
-         line%length = 0
-         call line%add([stage])
-         call line%add(trim(answer%parts(k)%kind))
-         call line%add([answer%parts(k)%id], clean([answer%parts(k)%share, sum(answer%parts(k)%share)*answer%work]))
-         call shares%put(line%text(:line%length))
-      end do
-   end subroutine write_watched
 
    !> BEFORE passes through a restart file.
    subroutine record_watched(stream, before)

@@ -3,11 +3,10 @@ module batch
    use command_line, only: command_type
    use, intrinsic :: iso_fortran_env, only: error_unit
    use kinds, only: long, wp
-   use listing_table, only: column, heading, listing_table_type
+   use listing_table, only: column, column_type, csv, csv_titles, heading, listing_table_type
    use model_data, only: model_type
    use output_file, only: output_file_type
    use progress, only: run_type, status_of
-   use text_tools, only: clean, csv_line_type
    implicit none
    private
 
@@ -78,70 +77,43 @@ contains
       type(command_type), intent(in) :: command
       type(batch_type), intent(in)   :: batch
       logical, intent(out)           :: ok
-      logical :: shown
-
-      ok = .true.
-      if (command%summary /= '') call write_summary(command%summary, batch, ok)
-      if (.not. ok) write (error_unit, '(3a)') 'the summary ', command%summary, ' cannot be written'
-      if (batch%n < 2 .or. command%check_only) return
-      call print_batch(batch, shown)
-      ok = ok .and. shown
-   end subroutine end_batch
-
-   subroutine write_summary(path, batch, ok)
-      character(*), intent(in)     :: path
-      type(batch_type), intent(in) :: batch
-      logical, intent(out)         :: ok
-      type(output_file_type) :: file
-      type(csv_line_type) :: line
-      integer :: i
-
-      call file%start(path)
-      call file%put('deck,status,stages,increments,iterations,u_max,mises_max,contact,safety,frequency,watched,along,stiffness,'// &
-                    'seconds')
-      do i = 1, batch%n
-         associate (row => batch%rows(i))
-            line%length = 0
-            call line%add('"'//row%name//'"')
-            call line%add([row%status, row%counts])
-            call line%add(clean(row%figures), where=row%is_there)
-            call line%add([row%node], where=[row%node > 0])
-            call line%add(clean([row%along]), where=[row%is_loaded])
-            call line%add([row%stiffness], where=[row%moves])
-            call line%add([row%seconds])
-            call file%put(line%text(:line%length))
-         end associate
-      end do
-      call file%finish(ok)
-   end subroutine write_summary
-
-   !> The table on the standard output.
-   subroutine print_batch(batch, ok)
-      type(batch_type), intent(in) :: batch
-      logical, intent(out)         :: ok
-      type(output_file_type)   :: screen
+      type(output_file_type)   :: screen, summary
       type(listing_table_type) :: table
+      type(column_type), allocatable :: columns(:)
       character(name_width) :: name
       integer :: i
+      logical :: shown
 
       call screen%start('')
+      if (command%summary /= '') call summary%start(command%summary)
       call heading(screen, 'ALL RUNS')
-      call table%start('', [column('', 'a41'), column('STATUS', 'i7'), column('INCREMENTS', 'i11'), column('U MAX', 'es12.4'), &
-                            column('MISES MAX', 'es12.4'), column('CONTACT %', 'f10.2'), column('MU N/T', 'f10.3'), &
-                            column('FREQUENCY', 'es12.4'), column('STIFFNESS', 'es12.4')], screen)
+      columns = [csv('deck'), column('', 'a41'), column('STATUS', 'i7', name='status'), csv('stages'), &
+                 column('INCREMENTS', 'i11', name='increments'), csv('iterations'), &
+                 column('U MAX', 'es12.4', name='u_max'), column('MISES MAX', 'es12.4', name='mises_max'), &
+                 csv('contact'), column('CONTACT %', 'f10.2'), csv('safety'), column('MU N/T', 'f10.3'), &
+                 column('FREQUENCY', 'es12.4', name='frequency'), csv(['watched', 'along  ']), &
+                 column('STIFFNESS', 'es12.4', name='stiffness'), csv('seconds')]
+      call table%start('', columns, screen)
+      if (summary%is_open) call summary%put(csv_titles(columns))
       do i = 1, batch%n
-         associate (row => batch%rows(i))
+         associate (row => batch%rows(i), f => batch%rows(i)%figures)
             name = row%name(max(1, len(row%name) - name_width + 1):)
+            call table%add('"'//row%name//'"')
             call table%add(' '//name)
-            call table%add([row%status, row%counts(2)])
-            associate (f => row%figures)
-               call table%add([f(1), f(2), 100.0_wp*f(3), min(f(4), 99999.0_wp), f(5)], where=row%is_there)
-            end associate
-            if (row%moves) call table%add([row%stiffness])
-            call table%print_row(screen)
+            call table%add([row%status, row%counts])
+            call table%add([f(1:3), 100.0_wp*f(3), f(4), min(f(4), 99999.0_wp), f(5)], where=row%is_there([1, 2, 3, 3, 4, 4, 5]))
+            call table%add([row%node], where=[row%node > 0])
+            call table%add([row%along, row%stiffness], where=[row%is_loaded, row%moves])
+            call table%add([row%seconds])
          end associate
+         call table%print_row(screen, summary)
       end do
-      call screen%finish(ok)
-   end subroutine print_batch
+      ok = .true.
+      if (command%summary /= '') call summary%finish(ok)
+      if (.not. ok) write (error_unit, '(3a)') 'the summary ', command%summary, ' cannot be written'
+      if (batch%n < 2 .or. command%check_only) return
+      call screen%finish(shown)
+      ok = ok .and. shown
+   end subroutine end_batch
 
 end module batch

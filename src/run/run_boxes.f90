@@ -238,8 +238,8 @@ contains
       if (run%is_dated) run%results%listing%page%date = date(:4)//'-'//date(5:6)//'-'//date(7:8)//' '//time(:2)//':'//time(3:4)
       call start_results(run%argument%base, deck, model, plan, system, run%results, ok)
       if (ok .and. run%argument%of > 1 .and. run%argument%base /= '') then
-         call run%results%screen%put('')
-         call run%results%screen%put(' DECK: '//run%argument%name)
+         call run%results%listing%page%screen%put('')
+         call run%results%listing%page%screen%put(' DECK: '//run%argument%name)
       end if
       if (.not. ok) run%ending = is_unwritten
    end subroutine form_bodies

@@ -5,13 +5,13 @@ module run_end
    use c_library, only: end_run, write_bytes
    use command_arguments, only: complain_of_input
    use command_line, only: command_type, is_result_of
-   use csv_tables, only: history_ending
    use deck_input, only: deck_type
    use distribution, only: leave_processes
    use error_report, only: print_errors
    use incomplete_results, only: what_is_in_the_way
    use, intrinsic :: iso_fortran_env, only: error_unit
    use listing_steps, only: distance_words
+   use listing_table, only: history_ending
    use model_data, only: model_type, n_points
    use progress, only: phase_write, has_errors, is_over, is_refused, is_unreadable, is_unsolved, is_unwritten, run_type, &
                        status_of, was_checked, was_searched, would_overwrite

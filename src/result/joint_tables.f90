@@ -1,5 +1,5 @@
 !> Tables of the joints: interface elements, resultants, re-analyses or iterations, energies.
-module listing_joints
+module joint_tables
    use analysis_state, only: analysis_type
    use case_control, only: method_back, method_newton
    use interface_operator, only: at_first_end
@@ -7,17 +7,72 @@ module listing_joints
    use joint_motion, only: find_frame, find_resultant, joint_frame, joint_resultant
    use kinds, only: wp
    use listing_nodes, only: shows_interface
-   use listing_table, only: axes, column, column_type, heading, listing_table_type, noise, page_type
+   use listing_table, only: axes, column, column_type, heading, joint_table, listing_table_type, noise, page_type
    use model_data, only: has_gaps, joint_node_id, model_type
    use normal_curve, only: loading_deflection
    use normal_stiffness, only: branch_name, branch_open, force_reached
-   use text_tools, only: clean, integer_text
+   use text_tools, only: clean, csv_line_type, integer_text
    implicit none
    private
 
-   public :: list_interface, note_resultants, note_passes, list_energy
+   public :: history_titles, write_history, list_interface, note_resultants, note_passes, list_energy
 
 contains
+
+   !> The titles of the columns of NAME.joint.csv. GAP and SLID only where the deck has any.
+   pure function history_titles(model) result(titles)
+      type(model_type), intent(in) :: model
+      character(:), allocatable    :: titles
+
+      titles = 'stage,increment,load,joint,element,node1,node2,x,y,z,area,branch,lambda,pressure,force,k_n,'// &
+               'branch_x,delta_x,tau_x,k_sx,branch_y,delta_y,tau_y,k_sy,slip'
+      if (has_gaps(model)) titles = titles//',gap'
+      if (can_slide(model)) titles = titles//',slid_x,slid_y'
+   end function history_titles
+
+   !> One row an interface element, for the increment just completed, in the file of the joints. node2 is 0 for the rigid base; a direction without
+   !! shear stiffness has no branch.
+   subroutine write_history(page, model, analysis)
+      type(page_type), intent(inout)  :: page
+      type(model_type), intent(in)    :: model
+      type(analysis_type), intent(in) :: analysis
+      type(csv_line_type) :: line
+      integer  :: i, k, same
+      logical  :: gaps, slides
+
+      gaps = has_gaps(model)
+      slides = can_slide(model)
+      call line%add([page%stage_id, analysis%increment], clean([analysis%fraction]))
+      same = line%length                  ! the columns that all rows have in common
+      do i = 1, size(model%interface)
+         line%length = same
+         associate (element => model%interface(i), state => analysis%states(i)%normal)
+            call line%add([model%joints(element%joint)%id, element%id, joint_node_id(model, i, 1), joint_node_id(model, i, 2)])
+            call line%add(clean([at_first_end(element, model%x), element%area]))
+            call line%add(branch_name(state%branch), clean([state%lambda, state%pressure, state%sumf, state%k_n]))
+         end associate
+         do k = 1, 2
+            associate (state => analysis%states(i)%shear(k))
+               if (model%joints(model%interface(i)%joint)%law%shear(k)%given) then
+                  call line%add(branch_name(state%branch), clean([state%delta, state%tau, state%k_s]))
+               else                       ! without a shear law the movement alone is a result
+                  call line%add('', clean([analysis%movement(k, i), 0.0_wp, 0.0_wp]))
+               end if
+            end associate
+         end do
+         call line%add(merge('1', '0', analysis%states(i)%slips))
+         if (gaps) call line%add(clean([model%interface(i)%gap]))
+         if (slides) call line%add(clean(analysis%states(i)%shear%slid))
+         call page%tables(joint_table)%put(line%text(:line%length))
+      end do
+   end subroutine write_history
+
+   !> Whether any joint has a coefficient of friction.
+   pure logical function can_slide(model)
+      type(model_type), intent(in) :: model
+
+      can_slide = any(model%joints%law%has_friction)
+   end function can_slide
 
    !> The interface elements, joint by joint.
    subroutine list_interface(page, model, analysis)
@@ -301,4 +356,4 @@ contains
       end do
    end subroutine list_energy
 
-end module listing_joints
+end module joint_tables

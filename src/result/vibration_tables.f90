@@ -1,0 +1,391 @@
+!> The tables of the oscillation about the state at the end of a stage: natural modes, backbone, response; in the listing, and in the CSV
+!! files NAME.modes.csv, .modes.energy.csv, .backbone.csv, .backbone.response.csv, .loop.csv and .response.csv.
+module vibration_tables
+   use backbone, only: backbone_type
+   use element_mapping, only: two_pi
+   use kinds, only: wp
+   use listing_table, only: axes, backbone_table, bend_table, column, column_type, csv, energy_table, label_type, &
+                            listing_table_type, loop_table, modes_table, noise, page_type, response_table
+   use modal_response, only: missed_peak, response_type
+   use mode_values, only: modes_type
+   use model_data, only: model_type
+   use numbers, only: first_largest
+   use output_file, only: output_file_type
+   use stage_plan, only: vibration_plan_type
+   use text_tools, only: above, integer_text, real_text, upper
+   implicit none
+   private
+
+   public :: modes_columns, energy_columns, backbone_columns, bend_columns, loop_columns, response_columns, list_modes, &
+             list_backbone, list_response, write_response
+
+   character(1), parameter :: xyz(3) = ['x', 'y', 'z']
+   real(wp), parameter :: percent = 100.0_wp
+   real(wp), parameter :: least_share = 1.0e-4_wp  ! of the strain energy: what has less has no row in the listing
+   real(wp), parameter :: no_part = 1.0e-9_wp      ! of the largest mass or participation possible: rounding
+   real(wp), parameter :: no_mass = 1.0e-12_wp     ! of the mass of the structure: rounding, in full precision
+   real(wp), parameter :: tiny_share = 1.0e-7_wp   ! of an amplitude, of a loss: rounding
+
+contains
+
+   !> A row a mode; its effective masses stand in a table of their own in the listing.
+   function modes_columns() result(columns)
+      type(column_type), allocatable :: columns(:)
+
+      columns = [csv('stage'), column('MODE', 'i6', name='mode'), column('FREQUENCY', 'es15.5', '1/TIME', name='frequency'), &
+                 column('OMEGA', 'es15.5', 'RAD/TIME', name='omega'), column('GENERALISED MASS', 'es18.5'), &
+                 column('RESIDUAL', 'es12.1', name='residual'), csv('mass_'//xyz), &
+                 column('LOSS FACTOR', 'es15.5', name='loss_factor')]
+   end function modes_columns
+
+   !> A row a body, joint and bar: its share of the strain energy of a mode; what bodies and bars have stands under normal.
+   function energy_columns() result(columns)
+      type(column_type), allocatable :: columns(:)
+
+      columns = [csv('stage'), column('MODE', 'i6', name='mode'), column('PART', 'a8', name='kind'), &
+                 column('NUMBER', 'i11', name='id'), column([character(6) :: 'ALL', 'NORMAL', 'SHEAR'], 'f10.2'), csv(['normal', &
+                                                                                                                       'shear '])]
+   end function energy_columns
+
+   !> A row an amplitude.
+   function backbone_columns(labels) result(columns)
+      type(label_type), intent(in)   :: labels
+      type(column_type), allocatable :: columns(:)
+
+      columns = [csv(['stage', 'mode ']), column('AMPLITUDE', 'es14.5', labels%length, name='amplitude'), &
+                 column('FREQUENCY', 'es14.5', '1/TIME', name='frequency'), column('SHIFT', 'f10.4', 'PERCENT'), &
+                 column('LOSS FACTOR', 'es14.4', name='loss_factor'), csv(['slipping', 'open    ']), &
+                 column('SLIPPING', 'f10.2', 'PERCENT'), column('OPEN', 'f8.2', 'PERCENT'), column('CENTRE', 'f9.4'), &
+                 column('NOT CLOSED', 'f12.6'), column('DISTORTION', 'f12.5', name='distortion'), column('LOOPS', 'i7')]
+   end function backbone_columns
+
+   !> A row an amplitude of the response of the mode alone, ascending; the listing has the resonances.
+   function bend_columns(labels) result(columns)
+      type(label_type), intent(in)   :: labels
+      type(column_type), allocatable :: columns(:)
+
+      columns = [csv(['stage', 'mode ']), column('AMPLITUDE', 'es14.5', labels%length, name='amplitude'), &
+                 column('FREQUENCY', 'es14.5', '1/TIME', name='below'), &
+                 csv([character(11) :: 'phase_below', 'above', 'phase_above'])]
+   end function bend_columns
+
+   !> A row a point of the last loop of each amplitude, from its upper turning point on.
+   function loop_columns() result(columns)
+      type(column_type), allocatable :: columns(:)
+
+      columns = csv([character(9) :: 'stage', 'mode', 'amplitude', 'point', 'alpha', 'q'])
+   end function loop_columns
+
+   !> A row a frequency, node and component.
+   function response_columns() result(columns)
+      type(column_type), allocatable :: columns(:)
+
+      columns = csv([character(9) :: 'stage', 'frequency', 'node', 'component', 'amplitude', 'phase'])
+   end function response_columns
+
+   !> How they were found; frequencies; masses; where the strain energy is.
+   subroutine list_modes(page, model, plan, modes)
+      type(page_type), intent(inout)        :: page
+      type(model_type), intent(in)          :: model
+      type(vibration_plan_type), intent(in) :: plan
+      type(modes_type), intent(in)          :: modes
+
+      call page%file%put('')
+      call page%file%put(' NATURAL MODES ABOUT THE END OF '//page%stage//'   '// &
+                         trim(merge('JOINTS AS THEY LOAD  ', 'JOINTS AS THEY UNLOAD', plan%on_loading))//', '// &
+                         trim(merge('SUPPORTS LET GO      ', 'SUPPORTS AS THEY ARE ', plan%free))//', '// &
+                         trim(merge('LUMPED MASS    ', 'CONSISTENT MASS', model%lumped)))
+      if (size(model%interface) > 0) call page%file%put('  INTERFACE ELEMENTS THAT TOUCH: '// &
+         integer_text(modes%n_touching)//' OF '//integer_text(size(model%interface))//'; THE OTHERS TAKE NO PART')
+      if (modes%counted_at < huge(1.0_wp)) then
+         call page%file%put('  MODES BELOW THE FREQUENCY '//real_text(modes%counted_at)//': '//integer_text(modes%n_counted)// &
+                            ', COUNTED BY THE SIGNS OF THE PIVOTS; NONE IS MISSING')
+      else
+         call page%file%put('  THE STRUCTURE HAS '//integer_text(modes%n_counted)//' MODES IN ALL, AND ALL HAVE BEEN FOUND')
+      end if
+      if (modes%n_before > 0) call page%file%put('  BELOW THE RANGE: '//integer_text(modes%n_before))
+      if (size(modes%modes) == 0) call page%file%put('  THERE IS NONE IN THE RANGE')
+      call list_mass(page, model, modes)
+      if (size(modes%modes) == 0) return
+      call list_frequencies(page, plan, modes)
+      call list_participation(page, model, modes)
+      call list_energies(page, model, modes)
+   end subroutine list_modes
+
+   !> Mass, centre and moments of inertia of the structure.
+   subroutine list_mass(page, model, modes)
+      type(page_type), intent(inout) :: page
+      type(model_type), intent(in)   :: model
+      type(modes_type), intent(in)   :: modes
+      character(4), parameter :: moments(6) = ['I XX', 'I YY', 'I ZZ', 'I XY', 'I YZ', 'I ZX']
+      type(listing_table_type) :: table
+      integer, allocatable :: shown(:)
+      real(wp) :: size_of_it
+      integer  :: c, d
+
+      d = model%dimension
+      shown = pack([(c, c = 1, 6)], [(d == 3 .or. (c == 3 .and. .not. model%axisymmetric), c = 1, 6)])
+      size_of_it = maxval(abs(model%x))
+      call table%start('MASS OF THE STRUCTURE', [column('MASS', 'es13.5'), column('CENTRE '//axes(:d), 'es13.5', &
+                                                                                  page%labels%length), &
+                                                 column(moments(shown), 'es13.5')], page%file)
+      call table%add([modes%mass])
+      call table%add(modes%centre(:d), no_part*size_of_it)
+      call table%add(modes%inertia(shown), no_part*modes%mass*size_of_it**2)
+      call table%print_row(page%file)
+   end subroutine list_mass
+
+   subroutine list_frequencies(page, plan, modes)
+      type(page_type), intent(inout)        :: page
+      type(vibration_plan_type), intent(in) :: plan
+      type(modes_type), intent(in)          :: modes
+      type(listing_table_type) :: table
+      integer :: m
+
+      call table%start('FREQUENCIES', modes_columns(), page%file)
+      do m = 1, size(modes%modes)
+         associate (mode => modes%modes(m))
+            call table%add([page%stage_id, modes%n_before + m], [mode%frequency, mode%omega, mode%mass])
+            call table%add([mode%residual], noise)
+            call table%add(above(mode%effective, no_mass*modes%mass))
+            call table%add([mode%loss], where=[plan%has_losses .and. .not. mode%is_rigid])
+         end associate
+         call table%print_row(page%file, page%tables(modes_table))
+      end do
+      if (any(modes%modes%is_rigid)) call page%file%put('  FREQUENCY 0: THE STRUCTURE, OR A PART OF IT, MOVES WITHOUT STRAIN')
+      if (plan%amplitude > 0.0_wp) call page%file%put('  LOSS FACTORS WHERE THE LARGEST DISPLACEMENT OF THE MODE IS '// &
+                                                      real_text(plan%amplitude))
+      if (plan%has_losses .and. plan%amplitude <= 0.0_wp) call page%file%put( &
+         '  LOSS FACTORS OF MATERIALS (GE, PARAM G) ALONE: WHAT JOINTS LOSE DEPENDS ON AN AMPLITUDE')
+   end subroutine list_frequencies
+
+   subroutine list_participation(page, model, modes)
+      type(page_type), intent(inout) :: page
+      type(model_type), intent(in)   :: model
+      type(modes_type), intent(in)   :: modes
+      type(listing_table_type) :: table
+      real(wp) :: sums(3)
+      integer  :: d, m
+
+      d = model%dimension
+      call table%start('PARTICIPATION AND EFFECTIVE MASS', [column('MODE', 'i6'), column('PARTICIPATION '//axes(:d), 'es18.5'), &
+                       column('MASS ALONG '//axes(:d), 'es15.5')], page%file)
+      sums = 0.0_wp
+      do m = 1, size(modes%modes)
+         associate (mode => modes%modes(m), largest => sqrt(modes%mass/modes%modes(m)%mass))
+            call table%add([modes%n_before + m])
+            call table%add(above(mode%participation(:d), sqrt(no_part)*largest), no_part*largest)
+            call table%add(mode%effective(:d), no_part*modes%mass)
+            call table%print_row(page%file)
+            sums = sums + mode%effective
+         end associate
+      end do
+      if (.not. modes%mass > 0.0_wp) return
+      call table%add('SUM')
+      call table%skip(d)
+      call table%add(sums(:d), no_part*modes%mass)
+      call table%print_row(page%file)
+   end subroutine list_participation
+
+   !> A motion without strain has no rows.
+   subroutine list_energies(page, model, modes)
+      type(page_type), intent(inout) :: page
+      type(model_type), intent(in)   :: model
+      type(modes_type), intent(in)   :: modes
+      type(listing_table_type) :: table
+      integer :: i, m
+
+      call table%start('STRAIN ENERGY OF THE MODES, PERCENT; WHAT HAS LESS THAN '//real_text(percent*least_share)// &
+                       ' IS NOT LISTED', energy_columns(), page%file)
+      do m = 1, size(modes%modes)
+         if (modes%modes(m)%is_rigid) cycle
+         associate (energy => modes%modes(m)%energy)
+            do i = 1, size(energy%body)
+               call put('BODY', i, [energy%body(i), 0.0_wp])
+            end do
+            do i = 1, size(energy%normal)
+               call put('JOINT', model%joints(i)%id, [energy%normal(i), energy%shear(i)])
+            end do
+            do i = 1, size(energy%bar)
+               call put('BAR', model%bars(i)%id, [energy%bar(i), 0.0_wp])
+            end do
+         end associate
+      end do
+
+   contains
+
+      subroutine put(kind, id, shares)
+         character(*), intent(in) :: kind
+         integer, intent(in)      :: id
+         real(wp), intent(in)     :: shares(2)
+
+         call table%add([page%stage_id, modes%n_before + m])
+         call table%add(kind)
+         call table%add([id], [percent*sum(shares)])
+         call table%add(percent*shares, where=spread(kind == 'JOINT', 1, 2))
+         call table%add(shares)
+         call table%print_row(page%file, page%tables(energy_table), is_listed=sum(shares) >= least_share)
+      end subroutine put
+
+   end subroutine list_energies
+
+   !> The backbone FOUND, an amplitude a row, and what every joint has of the loss.
+   subroutine list_backbone(page, model, found)
+      type(page_type), intent(inout)  :: page
+      type(model_type), intent(in)    :: model
+      type(backbone_type), intent(in) :: found
+      type(listing_table_type) :: table
+      real(wp) :: linear
+      integer  :: i, k
+
+      call page%file%put('')
+      call page%file%put(' BACKBONE OF MODE '//integer_text(found%mode)//' ABOUT THE END OF '//page%stage// &
+                         '   LOOPS UNDER +/- ALPHA [M] PHI, BY NEWTON')
+      if (size(found%loops) > 0) then
+         linear = sqrt(found%omega_squared)/two_pi
+         call page%file%put('  AMPLITUDE: OF THE MODE AT NODE '//integer_text(model%node_id(found%node))// &
+                            '; SHIFT: AGAINST THE FREQUENCY THAT MODES HAS FOUND; LOSS FACTOR: THAT OF THE JOINTS, TWICE ZETA')
+         call table%start('FREQUENCY AND LOSS OVER AMPLITUDE', backbone_columns(page%labels), page%file)
+         do i = 1, size(found%loops)
+            associate (loop => found%loops(i), frequency => sqrt(found%loops(i)%omega_squared)/two_pi)
+               call table%add([page%stage_id, found%mode], [loop%q*found%peak, frequency])
+               call table%add([percent*(sqrt(loop%omega_squared)/(two_pi*linear) - 1.0_wp)], percent*tiny_share)
+               call table%add([loop%loss, loop%slipping, loop%open, percent*loop%slipping, percent*loop%open])
+               call table%add([loop%centre, loop%gap, loop%distortion], tiny_share)
+               call table%add([loop%n_loops])
+            end associate
+            call table%print_row(page%file, page%tables(backbone_table))
+         end do
+         if (size(model%joints) > 1) call list_shares(page, model, found)
+         if (allocated(found%answers)) call list_resonances(page, found)
+      end if
+      if (found%is_limited) then
+         call page%file%put('  WARNING: LARGER AMPLITUDES ARE NOT BORNE; THE LAST ONE IS THAT OF THE LARGEST LOAD FOUND')
+         call page%file%put('  '//upper(found%problem))
+      else if (found%problem /= '') then
+         call page%file%put('  WARNING: NO BACKBONE: '//upper(found%problem))
+      end if
+      call table%start('', loop_columns())
+      do i = 1, size(found%loops)
+         do k = 1, size(found%loops(i)%way, 2)
+            call table%add([page%stage_id, found%mode], [found%loops(i)%q*found%peak])
+            call table%add([k - 1], found%loops(i)%way(:, k))
+            call table%print_row(csv_file=page%tables(loop_table))
+         end do
+      end do
+   end subroutine list_backbone
+
+   !> Where the mode alone, of the backbone's frequency and loss, has its resonances under the load that oscillates.
+   subroutine list_resonances(page, found)
+      type(page_type), intent(inout)  :: page
+      type(backbone_type), intent(in) :: found
+      real(wp), parameter :: at_resonance = -90.0_wp
+      type(listing_table_type) :: table
+      integer :: i
+
+      call table%start('RESPONSE OF THIS MODE ALONE BY ITS BACKBONE: RESONANCES', bend_columns(page%labels), page%file)
+      do i = 1, size(found%answers, 2)
+         associate (answer => found%answers(:, i))
+            call table%add([page%stage_id, found%mode], answer(1:1))
+            call table%add(answer(2:3), where=spread(answer(2) >= 0.0_wp, 1, 2))
+            call table%add(answer(4:5))
+            call table%print_row(page%file, page%tables(bend_table), &
+                                 is_listed=answer(3) <= at_resonance .and. answer(5) >= at_resonance)
+         end associate
+      end do
+      if (.not. any(found%answers(3, :) <= at_resonance)) call page%file%put( &
+         '  NONE UP TO THE LARGEST AMPLITUDE: THE BRANCHES DO NOT MEET')
+   end subroutine list_resonances
+
+   !> What every joint has of the loss.
+   subroutine list_shares(page, model, found)
+      type(page_type), intent(inout)  :: page
+      type(model_type), intent(in)    :: model
+      type(backbone_type), intent(in) :: found
+      type(listing_table_type) :: table
+      integer :: i, j
+
+      call table%start('SHARE OF THE LOSS BY JOINT', [column('AMPLITUDE', 'es14.5', page%labels%length), column('JOINT', 'i11'), &
+                                                      column('SHARE', 'f10.2', 'PERCENT')], page%file)
+      do i = 1, size(found%loops)
+         if (.not. found%loops(i)%loss > 0.0_wp) cycle
+         do j = 1, size(model%joints)
+            call table%add([found%loops(i)%q*found%peak])
+            call table%add([model%joints(j)%id])
+            call table%add([percent*found%loops(i)%lost(j)], tiny_share)
+            call table%print_row(page%file)
+         end do
+      end do
+   end subroutine list_shares
+
+   !> Where and at which frequency every component asked for has its largest amplitude.
+   subroutine list_response(page, response)
+      type(page_type), intent(inout)  :: page
+      type(response_type), intent(in) :: response
+      type(listing_table_type) :: table
+      integer :: at, c, i
+
+      if (size(response%frequency) == 0) then
+         call page%file%put('')
+         call page%file%put('  WARNING: NO RESPONSE TO THE OSCILLATING LOAD: NO MODE FOUND IS IN THE RANGE OF FREQ4')
+         return
+      end if
+      call table%start('RESPONSE TO THE OSCILLATING LOAD, LARGEST AMPLITUDES OF '//integer_text(size(response%frequency))// &
+                       ' FREQUENCIES', [column('NODE', 'i11'), column('ALONG', 'a7'), &
+                       column('AMPLITUDE', 'es15.5', page%labels%length), column('AT FREQUENCY', 'es15.5', '1/TIME'), &
+                       column('PHASE', 'f10.2', 'DEGREES')], page%file)
+      do i = 1, size(response%node)
+         do c = 1, size(response%amplitude, 1)
+            at = first_largest(response%amplitude(c, i, :))
+            call table%add([response%node(i)])
+            call table%add(axes(c), [response%amplitude(c, i, at), response%frequency(at), response%phase(c, i, at)])
+            call table%print_row(page%file)
+         end do
+      end do
+      if (.not. response%is_complete) call page%file%put( &
+         '  BY THESE MODES ALONE: THE STRUCTURE IS NOT HELD, AND HAS NO STATIC ANSWER')
+      do i = 1, size(response%missed)
+         call page%file%put(missed_words(response, response%missed(i)))
+      end do
+      call write_response(page%tables(response_table), page%stage_id, response)
+   end subroutine list_response
+
+   !> The line that warns of a PEAK between the frequencies asked for.
+   pure function missed_words(response, peak) result(words)
+      type(response_type), intent(in) :: response
+      type(missed_peak), intent(in)   :: peak
+      character(:), allocatable       :: words
+      character(12) :: amplitude, beside, frequency
+
+      write (frequency, '(es12.5)') peak%frequency
+      write (amplitude, '(es12.5)') peak%amplitude
+      write (beside, '(es12.5)') peak%beside
+      if (peak%amplitude <= 0.0_wp) amplitude = 'NO BOUND'
+      words = '  WARNING: MODE '//integer_text(peak%mode)//' HAS ITS PEAK BETWEEN THE FREQUENCIES ASKED FOR: AT '// &
+              trim(adjustl(frequency))//' NODE '//integer_text(response%node(peak%node))//' '//axes(peak%component)//' '// &
+              trim(adjustl(amplitude))//', BESIDE IT '//trim(adjustl(beside))//'; SEE FREQ4'
+   end function missed_words
+
+   !> The rows of the response in the stage with the number STAGE: frequency by frequency, at each node by node, of each its components.
+   subroutine write_response(file, stage, response)
+      type(output_file_type), intent(inout) :: file
+      integer, intent(in)                   :: stage
+      type(response_type), intent(in)       :: response
+      type(listing_table_type) :: table
+      integer :: d, f, k
+
+      call table%start('', response_columns())
+      do f = 1, size(response%frequency)
+         do k = 1, size(response%node)
+            do d = 1, size(response%amplitude, 1)
+               call table%add([stage])
+               call table%add([response%frequency(f)])
+               call table%add([response%node(k)])
+               call table%add(xyz(d), [response%amplitude(d, k, f), response%phase(d, k, f)])
+               call table%print_row(csv_file=file)
+            end do
+         end do
+      end do
+   end subroutine write_response
+
+end module vibration_tables
