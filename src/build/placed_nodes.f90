@@ -152,7 +152,7 @@ contains
       integer, allocatable  :: sides(:, :)
       logical, allocatable  :: is_meant(:) ! raw nodes
       real(wp) :: rounding
-      integer  :: i, n, n_given
+      integer  :: i, k, n, n_given
 
       n = raw%n
       n_given = n - count(deck%bulk%rigid%surface > 0 .and. deck%bulk%rigid%node == 0)
@@ -176,6 +176,10 @@ contains
             if (card%surface > 0) then
                call list_sides(deck, blocks, raw, table, card%surface, .false., sides)
                is_meant(pack(sides, sides > 0)) = .true.
+               do k = 1, size(deck%rigid)
+                  if (deck%rigid(k)%surface /= card%surface) cycle
+                  if (table%find(deck%rigid(k)%node) > 0) is_meant(table%find(deck%rigid(k)%node)) = .true.
+               end do
             end if
             if (.not. any(is_meant)) then
                call deck%field_error(card%line, 'PID', 'surface '//integer_text(card%surface)//' has no nodes; '// &

@@ -23,6 +23,7 @@ module bolt_answers
    real(wp), parameter, public :: remainder = 1.0e-7_wp
 
    real(wp), parameter :: about_as_near = 0.45_wp ! of the length of a bolt: how much farther off its own joint may be than another
+   real(wp), parameter :: along_it = 0.01_wp      ! of the whole load: what acts along a bolt of this load is one
    real(wp), parameter :: pi = acos(-1.0_wp)
 
    !> What does not change of a bolt.
@@ -311,7 +312,8 @@ contains
             answer%change = above(force(i) - history%before(i), floor)
             answer%load_change = above(load_along(model, bolt%direction, stage, analysis%fraction) &
                                        - load_along(model, bolt%direction, stage - 1, 1.0_wp), floor)
-            answer%has_ratio = bolt%stage /= stage .and. abs(answer%load_change) > 0.0_wp
+            answer%has_ratio = bolt%stage /= stage .and. abs(answer%load_change) > &
+               along_it*whole_load(model, stage - 1, stage, analysis%fraction)
             if (answer%has_ratio) answer%ratio = answer%change/answer%load_change
             answer%is_locked = bolt%stage < stage .or. (bolt%stage == stage .and. completed)
             if (.not. answer%is_locked) cycle
