@@ -30,16 +30,18 @@ contains
       type(marked_sides), intent(in)  :: sides
       type(model_type), intent(inout) :: model
       type(id_table_type)  :: marks
-      integer, allocatable :: surface(:), first(:), members(:)
+      integer, allocatable :: surface(:), first(:), members(:), said(:) ! marks that are missing
       integer :: i, k, most_nodes
 
       most_nodes = 2*(model%dimension - 1)                     ! of a side
       if (has_second_order(model)) most_nodes = merge(3, max_side_nodes, model%dimension == 2)
       call marks%build(deck%bulk%pmark%id)
-      allocate (model%surfaces(size(deck%bulk%pmark)), surface(sides%n))
+      allocate (model%surfaces(size(deck%bulk%pmark)), surface(sides%n), said(0))
       do i = 1, sides%n
          surface(i) = marks%find(sides%mark(i))
-         if (surface(i) == 0 .and. sides%mark(i) > 0) call report_missing(deck, sides, i)
+         if (surface(i) > 0 .or. sides%mark(i) <= 0 .or. any(said == sides%mark(i))) cycle
+         call report_missing(deck, sides, i)
+         said = [said, sides%mark(i)]
       end do
       call list_owners(size(model%surfaces), reshape(surface, [1, sides%n]), first, members)
       do k = 1, size(model%surfaces)
@@ -95,6 +97,8 @@ contains
       character(:), allocatable :: words
 
       words = 'there is no PMARK '//integer_text(sides%mark(i))
+      if (count(sides%mark == sides%mark(i)) > 1) &
+         words = words//' for '//integer_text(count(sides%mark == sides%mark(i)))//' sides'
       if (sides%of_block(i) > 0) then
          call deck%field_error(sides%line(i), 'S'//integer_text(sides%of_block(i)), words)
       else

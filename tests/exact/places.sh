@@ -22,6 +22,8 @@ by_place rigid_mark 'RBE2M,905,,123456,30;NODEAT,7001,10.,10.,30.' 7001 && {
    same_rows 'RBE2M with a node of its own' rigid_mark rigid_list 1e-9 $resultant
    same 'NODEAT: the new node, not node 15, which lies in its place' "$(placed_row rigid_mark 7001 1)" 7002
 }
+by_place rigid_mark 'RBE2M,905,,123456,30;NODEAT,7001,10.,10.,30.,30' 7001 &&
+   same 'NODEAT on a surface: the new node of its RBE2M' "$(placed_row rigid_mark 7001 1)" 7002
 by_place rigid_mark 'RBE2M,905,15,123456,30' 15 && same_rows 'RBE2M with GN on its surface' rigid_mark rigid_list 1e-9 $resultant
 # weights are areas of influence: 1 at corners, 2 along edges, 4 in the middle
 by_place mean_list 'GRID,901,,12.0,9.0,40.0;RBE3,905,,901,123456,1.,123,3,9;+,21,27,2.,123,6,12,18,24;+,4.,123,15' 901

@@ -22,6 +22,17 @@ pin_in_bore() { # it bears about as much on any mesh
    ask "$1" "$2" rows 'stage = 2' rows 'increment = 4' all 'max(pressure) > 104 and max(pressure) < 109 and min(pressure) = 0'
 }
 
+column_foot() { # the joint bears the bolts, which stand upright but for the mesh, then 2 kN along x and as much along y; the stiffness at the tool is about that of any mesh
+   ask "$1" "$2" by stage rows 'increment = max(increment)' rows 'stage = 1' all 'sum(force) = 100000 within 1'
+   ask "$1" "$2" by stage rows 'increment = max(increment)' rows 'stage = 3' \
+      all 'abs(sum(tau_x*area)) = 2000 within 100 and abs(sum(tau_y*area)) = 2000 within 100'
+   if "$query" "$work/$2.watch.csv" all 'stiffness = if(stage = 2, 88000, 68000) within 4000' > "$work/said" 2>&1; then
+      passed=$((passed + 1))
+   else
+      fail "$1: stiffness"
+   fi
+}
+
 # carries WORDS EXAMPLE DECK: run it, judge it
 carries() {
    local name
@@ -85,7 +96,7 @@ for kind in 0 1 2 3 4; do
       pulled "bar of ${meshes[kind]}, $format field" "${kinds[kind]}" "$mesh"
    done
 done
-for example in two_blocks post_on_plate pin_in_bore; do carries "$example: the mesh as shipped" $example input/$example.bdf; done
+for example in two_blocks post_on_plate pin_in_bore column_foot; do carries "$example: the mesh as shipped" $example input/$example.bdf; done
 
 # bar_anew KIND FORMAT COMPLETE: the mesh $work/gmsh/bar.bdf of the kind and format of these positions
 bar_anew() {
@@ -119,6 +130,8 @@ if command -v gmsh > /dev/null; then
    anew two_blocks 's/MeshSize {:} = .*;/MeshSize {:} = 9;/'
    anew post_on_plate 's/^size = .*;/size = 6;/'
    anew pin_in_bore 's/{1, 2} = 11;/{1, 2} = 19;/; s/{11} = 17;/{11} = 28;/' 2
+   mkdir -p "$work/surfaces" && cp -R input/surfaces/mm_n "$work/surfaces" # which the deck includes
+   anew column_foot 's/{column()}; } } = 100;/{column()}; } } = 80;/' 0
    if tests/programs/column.sh "$program" "$work/column"; then passed=$((passed + 1)); else fail "a flanged column"; fi
    tests/programs/gmsh_fine.sh "$work"
    carries 'two_blocks: 50,000 nodes' two_blocks "$work/two_blocks_fine.bdf"
