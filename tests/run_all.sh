@@ -99,6 +99,7 @@ part 'published surfaces' tests/fit/surfaces.sh "$program"
 part 'files for ParaView' tests/programs/vtu.sh "$program" "$build/vtu" "$build"/check/{post_on_plate,column_tetra10}.pvd
 part 'meshes from Gmsh' tests/programs/gmsh.sh "$program" "$query" "$build/gmsh"
 part 'decks to and from pyNastran' tests/programs/pynastran.sh "$program" "$build/pynastran"
+part 'meshes of Abaqus and Salome by meshio' tests/programs/meshio.sh "$program" "$query" "$build/meshio"
 part 'pictures of a deck, flow charts' tests/programs/figures.sh "$program" "$build/test/figures"
 part 'the benchmark, without measuring' tests/bench/test_bench.sh "$program" "$build/test/bench"
 everything_so_far

@@ -41,7 +41,7 @@ done
 seeds=()
 for deck in "$root"/input/*.bdf "$root"/tests/{random,bad/base,exact,solver,programs}/*.bdf "$folder"/meshes/*.bdf; do
    case ${deck##*/} in
-   hexa_on_tetra.bdf | pin_in_bore.bdf | two_blocks.bdf | bracket*.bdf | flange*_*.bdf | flanged_column.bdf | solid_bolt.bdf | \
+   hexa_on_tetra.bdf | pin_in_bore.bdf | two_blocks.bdf | bracket*.bdf | flange*_*.bdf | flanged_column.bdf | column_foot.bdf | solid_bolt.bdf | \
       slideway_crown.bdf | column_modes_*.bdf | post_on_plate.bdf | boxes.bdf | strips.bdf | largest.bdf | bar_tetra10_large.bdf)
       [[ $deck = */bad/base/two_blocks.bdf ]] || continue ;;
    esac
