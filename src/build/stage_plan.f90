@@ -6,7 +6,7 @@ module stage_plan
    use deck_errors, only: deck_error_list
    use deck_input, only: deck_type
    use kinds, only: wp
-   use stage_entries, only: output_all, output_last
+   use stage_entries, only: output_all, output_last, output_request
    use text_tools, only: integer_text
    implicit none
    private
@@ -70,9 +70,7 @@ module stage_plan
    type, public :: planned_stage
       integer :: id = 0
       character(:), allocatable :: label
-      integer :: output = 0                 !! output_* of case_control
-      logical :: plot = .false., vtu = .false., steps = .false., stress = .false., state = .false., condensed = .false.
-      logical :: along_cd = .false.         !! tables of nodes have the directions of their systems CD
+      type(output_request) :: output
       logical, allocatable :: shown(:)      !! nodes that its tables are limited to; not allocated: all
       integer, allocatable :: watched(:)    !! positions of the nodes of WATCH; not allocated: none
       character(:), allocatable :: shown_words !! of that, behind a title
@@ -175,14 +173,7 @@ contains
             stage%id = given%id
             stage%label = given%label
             stage%output = given%output
-            stage%plot = given%plot
-            stage%vtu = given%vtu .or. given%steps
-            stage%steps = given%steps
             stage%shown_words = ''
-            stage%stress = given%stress
-            stage%state = given%state
-            stage%condensed = given%condensed
-            stage%along_cd = given%along_cd
             stage%fractions = [1.0_wp]
             if (given%increments%id == 0) cycle
             k = findloc(deck%bulk%jincr%id, given%increments%id, dim=1)
@@ -269,8 +260,10 @@ contains
       integer, intent(in)               :: stage, increment
 
       associate (planned => plan%stages(stage))
-         shows_bodies = planned%output == output_all .or. planned%steps
-         if (increment == size(planned%fractions)) shows_bodies = shows_bodies .or. planned%output == output_last .or. planned%vtu
+         associate (asked => planned%output)
+            shows_bodies = asked%level == output_all .or. asked%steps
+            if (increment == size(planned%fractions)) shows_bodies = shows_bodies .or. asked%level == output_last .or. asked%vtu
+         end associate
       end associate
    end function shows_bodies
 

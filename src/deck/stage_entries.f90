@@ -31,6 +31,17 @@ module stage_entries
       type(limit_type), allocatable :: response(:) !! nodes whose response is asked; not allocated: none
    end type vibration_entries_type
 
+   !> OUTPUT of a stage: what is printed of it.
+   type, public :: output_request
+      integer :: level = output_last
+      logical :: plot = .false., vtu = .false.
+      logical :: steps = .false.          !! files for ParaView after every increment
+      logical :: stress = .false.         !! principal stresses and von Mises in the listing
+      logical :: state = .false.          !! what the interface elements remember
+      logical :: condensed = .false.      !! [k_b] condensed on the interface
+      logical :: along_cd = .false.       !! vectors at nodes along their systems CD
+   end type output_request
+
    !> One SUBCASE: a stage of the load history.
    type, public :: stage_type
       integer :: id = 0, line = 0
@@ -39,13 +50,7 @@ module stage_entries
       type(set_reference) :: increments, supports
       type(set_reference) :: temperature  !! at the end of the stage; none: all is at its TREF
       type(set_reference) :: equations    !! between components, MPC
-      integer :: output = output_last
-      logical :: plot = .false., vtu = .false.
-      logical :: steps = .false.          !! files for ParaView after every increment
-      logical :: stress = .false.         !! principal stresses and von Mises in the listing
-      logical :: state = .false.          !! what the interface elements remember
-      logical :: condensed = .false.      !! [k_b] condensed on the interface
-      logical :: along_cd = .false.       !! vectors at nodes along their systems CD
+      type(output_request) :: output
       type(limit_type), allocatable :: only(:) !! not allocated: the tables have all nodes and elements
       type(limit_type), allocatable :: watch(:) !! nodes whose movement the answer gives; not allocated: none
       type(vibration_entries_type) :: vibration !! MODES and what goes with it
@@ -122,15 +127,8 @@ contains
       integer :: comma, levels
       logical :: ok, twice
 
-      stage%output = output_last
-      stage%plot = .false.
-      stage%vtu = .false.
-      stage%steps = .false.
+      stage%output = output_request()
       if (allocated(stage%only)) deallocate (stage%only)
-      stage%stress = .false.
-      stage%state = .false.
-      stage%condensed = .false.
-      stage%along_cd = .false.
       levels = 0
       twice = .false.
       word = ''
@@ -141,17 +139,17 @@ contains
          levels = levels + 1
          word = trim(adjustl(rest(:comma - 1)))
          select case (word)
-         case ('ALL');    stage%output = output_all
-         case ('JOINT');  stage%output = output_joint
-         case ('LAST');   stage%output = output_last
-         case ('NONE');   stage%output = output_none
-         case ('PLOT');   call switch_on(stage%plot)
-         case ('STRESS'); call switch_on(stage%stress)
-         case ('VTU');    call switch_on(stage%vtu)
-         case ('STEPS');  call switch_on(stage%steps)
-         case ('STATE');  call switch_on(stage%state)
-         case ('CONDENSED'); call switch_on(stage%condensed)
-         case ('CD');     call switch_on(stage%along_cd)
+         case ('ALL');    stage%output%level = output_all
+         case ('JOINT');  stage%output%level = output_joint
+         case ('LAST');   stage%output%level = output_last
+         case ('NONE');   stage%output%level = output_none
+         case ('PLOT');   call switch_on(stage%output%plot)
+         case ('STRESS'); call switch_on(stage%output%stress)
+         case ('VTU');    call switch_on(stage%output%vtu)
+         case ('STEPS');  call switch_on(stage%output%steps)
+         case ('STATE');  call switch_on(stage%output%state)
+         case ('CONDENSED'); call switch_on(stage%output%condensed)
+         case ('CD');     call switch_on(stage%output%along_cd)
          case default
             call read_limit(word, entry%line, stage%only, ok)
             levels = levels - 1
@@ -162,6 +160,7 @@ contains
          end select
          rest = rest(min(comma + 1, len(rest) + 1):)
       end do
+      stage%output%vtu = stage%output%vtu .or. stage%output%steps
       if (levels > 1 .or. twice) call value_error(entry, 'one of ALL, JOINT, LAST, NONE, and with commas '//beside, errors)
 
    contains

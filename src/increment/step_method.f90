@@ -150,7 +150,7 @@ contains
       if (failure%raised .or. analysis%crosses_gaps .or. .not. any(model%joints%law%has_friction)) return
       allocate (excess(2, size(model%interface)))
       allocate (relief, mold=analysis%u)
-      is_listed = plan%stages(analysis%stage)%output >= output_joint
+      is_listed = plan%stages(analysis%stage)%output%level >= output_joint
       call find_excess(model, analysis, excess, total)
       do reanalysis = 1, most_reanalyses
          if (total <= 0.0_wp) return

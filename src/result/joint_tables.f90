@@ -1,21 +1,27 @@
-!> Tables of the joints: interface elements, resultants, re-analyses or iterations, energies.
+!> Tables of the interface elements: the history of all in NAME.joint.csv, those of each joint in the listing, and its plot.
 module joint_tables
    use analysis_state, only: analysis_type
-   use case_control, only: method_back, method_newton
+   use branch_starts, only: branch_shift
    use interface_operator, only: at_first_end
    use joint_laws, only: friction_limit
-   use joint_motion, only: find_frame, find_resultant, joint_frame, joint_resultant
+   use joint_motion, only: find_frame, is_closed, joint_frame
    use kinds, only: wp
-   use listing_nodes, only: shows_interface
-   use listing_table, only: axes, column, column_type, heading, joint_table, listing_table_type, noise, page_type
-   use model_data, only: has_gaps, joint_node_id, model_type
+   use listing_table, only: axes, column, column_type, heading, joint_table, listing_table_type, noise, page_type, page_width, shows
+   use model_data, only: has_gaps, joint_node_id, joint_type, model_type
    use normal_curve, only: loading_deflection
-   use normal_stiffness, only: branch_name, branch_open, force_reached
+   use normal_stiffness, only: branch_name, branch_open, branch_reload, branch_unload, force_reached, normal_state
+   use shear_stiffness, only: curve_deflection
+   use stage_entries, only: output_request
    use text_tools, only: clean, csv_line_type, integer_text
    implicit none
    private
 
-   public :: history_titles, write_history, list_interface, note_resultants, note_passes, list_energy
+   public :: history_titles, write_history, list_joints, plot_joints
+
+   ! subjects of the tables
+   integer, parameter :: of_elements = 1, of_stiffness = 2, of_removed = 3, of_shear = 4, of_state = 5, of_shear_state = 6
+
+   integer, parameter :: width = 101 ! columns of the field of a plot: 0 to 100 per cent
 
 contains
 
@@ -27,11 +33,11 @@ contains
       titles = 'stage,increment,load,joint,element,node1,node2,x,y,z,area,branch,lambda,pressure,force,k_n,'// &
                'branch_x,delta_x,tau_x,k_sx,branch_y,delta_y,tau_y,k_sy,slip'
       if (has_gaps(model)) titles = titles//',gap'
-      if (can_slide(model)) titles = titles//',slid_x,slid_y'
+      if (any(model%joints%law%has_friction)) titles = titles//',slid_x,slid_y'
    end function history_titles
 
-   !> One row an interface element, for the increment just completed, in the file of the joints. node2 is 0 for the rigid base; a direction without
-   !! shear stiffness has no branch.
+   !> One row an interface element in the file of the joints, for the increment just completed. node2 is 0 for the rigid base; a
+   !! direction without shear stiffness has no branch.
    subroutine write_history(page, model, analysis)
       type(page_type), intent(inout)  :: page
       type(model_type), intent(in)    :: model
@@ -41,7 +47,7 @@ contains
       logical  :: gaps, slides
 
       gaps = has_gaps(model)
-      slides = can_slide(model)
+      slides = any(model%joints%law%has_friction)
       call line%add([page%stage_id, analysis%increment], clean([analysis%fraction]))
       same = line%length                  ! the columns that all rows have in common
       do i = 1, size(model%interface)
@@ -67,293 +73,311 @@ contains
       end do
    end subroutine write_history
 
-   !> Whether any joint has a coefficient of friction.
-   pure logical function can_slide(model)
-      type(model_type), intent(in) :: model
-
-      can_slide = any(model%joints%law%has_friction)
-   end function can_slide
-
-   !> The interface elements, joint by joint.
-   subroutine list_interface(page, model, analysis)
+   !> The tables of the interface elements, joint by joint; what the elements remember where that is ASKED.
+   subroutine list_joints(page, asked, model, analysis)
       type(page_type), intent(inout)  :: page
+      type(output_request), intent(in) :: asked
       type(model_type), intent(in)    :: model
       type(analysis_type), intent(in) :: analysis
-      character(9), parameter  :: k_n(1) = ['K_N, USED'] ! in space only in the joint history
-      type(listing_table_type) :: table
-      real(wp) :: lambda_floor, p_floor, force_floor
-      integer  :: i, j
+      integer :: j
 
       do j = 1, size(model%joints)
-         associate (joint => model%joints(j), state => analysis%states%normal, labels => page%labels)
-            call table%start('INTERFACE ELEMENTS OF JOINT '//integer_text(joint%id)//page%now, &
-                             [column([character(7) :: 'ELEMENT', 'NODE 1', 'NODE 2'], 'i11'), &
-                              column(axes(:model%dimension), 'es13.5', labels%length), column('AREA', 'es13.5', labels%area), &
-                              column('BRANCH', 'a8'), column('LAMBDA', 'es13.5', labels%length), &
-                              column('P', 'es13.5', labels%pressure), column('FORCE', 'es13.5', labels%force), &
-                              column(k_n(:3 - model%dimension), 'es13.5', labels%stiffness(:12))], page%file)
-            lambda_floor = noise*analysis%largest_lambda
-            p_floor = noise*analysis%largest_p
-            force_floor = p_floor*joint%area
-            do i = joint%first, joint%last
-               if (.not. shows_interface(page, model, i)) cycle
-               associate (element => model%interface(i))
-                  call table%add([element%id, joint_node_id(model, i, 1), joint_node_id(model, i, 2)])
-                  call table%add(clean(at_first_end(element, model%x(:model%dimension, :))))
-                  call table%add([element%area])
-                  call table%add(branch_name(state(i)%branch))
-                  call table%add([clean(state(i)%lambda, lambda_floor), clean(state(i)%pressure, p_floor), &
-                                  clean(state(i)%sumf, force_floor)])
-                  if (model%dimension == 2) call table%add([clean(state(i)%k_n)])
-                  call table%print_row(page%file)
-               end associate
-            end do
-            call list_stiffness(page, model, analysis, j)
-            if (allocated(analysis%exact)) call list_removed(page, model, analysis, j)
-            if (any(joint%law%shear%given)) call list_shear(page, model, analysis, j)
-         end associate
+         call list_elements(page, of_elements, model, analysis, j)
+         call list_elements(page, of_stiffness, model, analysis, j)
+         if (allocated(analysis%exact)) call list_elements(page, of_removed, model, analysis, j) ! STEP
+         call list_directions(of_shear)
       end do
-   end subroutine list_interface
-
-   !> Normal stiffness of the interface elements of joint J: what the increment used, and of which kind, and how far lambda is from
-   !! the loading curve at the present p; where there are gaps, of which closing it is the rest.
-   subroutine list_stiffness(page, model, analysis, j)
-      type(page_type), intent(inout)  :: page
-      type(model_type), intent(in)    :: model
-      type(analysis_type), intent(in) :: analysis
-      integer, intent(in)             :: j
-      character(7), parameter  :: kinds(4) = [character(7) :: '0', 'SECANT', 'TANGENT', 'E_U'] ! in the order of analysis_state
-      type(listing_table_type) :: table
-      real(wp) :: lambda_floor
-      integer  :: i
-
-      lambda_floor = noise*analysis%largest_lambda
-      associate (joint => model%joints(j), labels => page%labels)
-         call table%start('NORMAL STIFFNESS OF JOINT '//integer_text(joint%id)//page%now, &
-                          [column([character(7) :: 'ELEMENT', 'NODE 1'], 'i11'), &
-                           column([character(6) :: 'LAMBDA', 'C P**M'], 'es13.5', labels%length), &
-                           column('K_N, USED', 'es13.5', labels%stiffness(:12)), &
-                           column(pack(['CLOSING', 'GAP    '], has_gaps(model)), 'es13.5', labels%length), column('KIND', 'a9')], &
-                          page%file)
-         do i = joint%first, joint%last
-            if (.not. shows_interface(page, model, i)) cycle
-            associate (state => analysis%states(i)%normal)
-               call table%add([model%interface(i)%id, joint_node_id(model, i, 1)], [clean(state%lambda, lambda_floor), &
-                               clean(loading_deflection(joint%law%normal, max(0.0_wp, state%pressure)), lambda_floor), &
-                               clean(state%k_n)])
-               if (has_gaps(model)) call table%add(clean([state%lambda + state%gap, state%gap], lambda_floor))
-               call table%add(trim(kinds(analysis%record%kind(i))))
-               call table%print_row(page%file)
-            end associate
-         end do
-      end associate
-   end subroutine list_stiffness
-
-   !> STEP: the elements of joint J that the increment has removed, and the force that decided it, which they no longer have.
-   subroutine list_removed(page, model, analysis, j)
-      type(page_type), intent(inout)  :: page
-      type(model_type), intent(in)    :: model
-      type(analysis_type), intent(in) :: analysis
-      integer, intent(in)             :: j
-      type(listing_table_type) :: table
-      real(wp) :: lambda_floor, p_floor
-      integer  :: i
-
-      lambda_floor = noise*analysis%largest_lambda
-      p_floor = noise*analysis%largest_p
-      associate (joint => model%joints(j), labels => page%labels)
-         call table%start('ELEMENTS REMOVED FROM JOINT '//integer_text(joint%id)//page%now, &
-                          [column([character(7) :: 'ELEMENT', 'NODE 1'], 'i11'), &
-                           column([character(13) :: 'SIGMAF', 'SUMF, DECIDED'], ['es13.5', 'es15.5'], labels%force), &
-                           column('LAMBDA B', 'es13.5', labels%length)])
-         do i = joint%first, joint%last
-            if (.not. shows_interface(page, model, i)) cycle
-            associate (state => analysis%states(i)%normal, area => model%interface(i)%area)
-               if (state%branch /= branch_open .or. force_reached(state) >= 0.0_wp) cycle
-               call table%add([model%interface(i)%id, joint_node_id(model, i, 1)])
-               call table%add([clean([state%sigmaf, force_reached(state)], p_floor*area), clean(state%lambda_b, lambda_floor)])
-               call table%keep_row()
-            end associate
-         end do
-         call table%print_kept(page%file)
-      end associate
-   end subroutine list_removed
-
-   !> Shear of the interface elements of joint J. LIMIT is mu p.
-   subroutine list_shear(page, model, analysis, j)
-      type(page_type), intent(inout)  :: page
-      type(model_type), intent(in)    :: model
-      type(analysis_type), intent(in) :: analysis
-      integer, intent(in)             :: j
-      type(listing_table_type) :: table
-      real(wp) :: delta_floor, tau_floor
-      integer  :: i, k
-
-      associate (joint => model%joints(j), labels => page%labels)
-         delta_floor = noise*analysis%largest_lambda
-         tau_floor = noise*analysis%largest_p
-         do k = 1, model%dimension - 1
-            if (.not. joint%law%shear(k)%given) cycle
-            call table%start('SHEAR IN DIRECTION '//axes(k)//' OF JOINT '//integer_text(joint%id)//page%now, &
-                             [column([character(7) :: 'ELEMENT', 'NODE 1'], 'i11'), column('BRANCH', 'a8'), &
-                              column([character(9) :: 'DELTA', 'TAU', 'FORCE', 'K_S, USED', 'LIMIT'], 'es13.5', &
-                                     [labels%length, labels%pressure, labels%force, labels%stiffness, labels%pressure], &
-                                     unit_shift=1), column('', 'a')], page%file)
-            do i = joint%first, joint%last
-               if (.not. shows_interface(page, model, i)) cycle
-               associate (state => analysis%states(i)%shear(k), element => model%interface(i))
-                  call table%add([element%id, joint_node_id(model, i, 1)])
-                  call table%add(branch_name(state%branch), [clean(state%delta, delta_floor), clean(state%tau, tau_floor), &
-                                  clean(state%tau*element%area, tau_floor*element%area), clean(state%k_s)])
-                  call table%add([clean(friction_limit(joint%law, analysis%states(i)%normal%pressure), tau_floor)], &
-                                 where=[joint%law%has_friction])
-                  if (analysis%states(i)%slips) call table%add('  SLIPS')
-                  call table%print_row(page%file)
-               end associate
-            end do
-         end do
-      end associate
-   end subroutine list_shear
-
-   !> Note the resultants of all joints after the increment just completed: force of side 1 on side 2, moment about the
-   !! centroid of the joint's area.
-   subroutine note_resultants(page, model, analysis, table)
-      type(page_type), intent(in)             :: page
-      type(model_type), intent(in)            :: model
-      type(analysis_type), intent(in)         :: analysis
-      type(listing_table_type), intent(inout) :: table
-      character(12) :: headings(7)
-      type(joint_frame)     :: frame
-      type(joint_resultant) :: total
-      real(wp) :: floor
-      integer  :: j
-
-      headings = [character(12) :: 'NORMAL FORCE', 'FORCE '//axes, 'MOMENT '//axes]
-      if (model%dimension == 2) headings(2:5) = [character(12) :: 'SHEAR FORCE', 'FORCE X', 'FORCE Y', 'MOMENT Z']
-      if (table%is_empty()) call table%start( &
-         'RESULTANTS OF JOINTS, SIDE 1 ON SIDE 2 (MOMENT ABOUT THE CENTROID OF THE JOINT), '//page%stage, &
-         [column('INCR', 'i6'), column('JOINT', 'i11'), column(headings(:4), 'es15.5', page%labels%force), &
-          column(headings(5:2*model%dimension + 1), 'es15.5', page%labels%moment)])
-      floor = noise*page%largest_force
+      if (.not. asked%state) return
       do j = 1, size(model%joints)
-         associate (joint => model%joints(j))
-            frame = find_frame(model, joint)
-            total = find_resultant(model, analysis, joint, frame)
-            call table%add([analysis%increment, joint%id])
-            if (model%dimension == 3) then
-               call table%add(clean([total%normal, total%force], floor))
-               call table%add(clean(total%moment, floor*frame%extent))
-            else
-               call table%add(clean([total%normal, total%along(1), total%force(:2)], floor))
-               call table%add([clean(total%moment(3), floor*frame%extent)])
-            end if
-            call table%keep_row()
-         end associate
-      end do
-   end subroutine note_resultants
-
-   !> Note the re-analyses after the Coulomb check, or the iterations, of the increment just completed.
-   subroutine note_passes(page, method, analysis, table)
-      type(page_type), intent(in)             :: page
-      integer, intent(in)                     :: method
-      type(analysis_type), intent(in)         :: analysis
-      type(listing_table_type), intent(inout) :: table
-      integer, parameter :: shown = 8 ! of many passes
-      character(6) :: increment
-      integer :: i
-
-      if (table%is_empty()) then
-         select case (method)
-         case (method_newton)
-            call table%start('CONVERGENCE HISTORY, '//page%stage//': UNBALANCED FORCE BEFORE AND AFTER EACH ITERATION', &
-                             [column(['INCR', 'PART'], 'i6'), column('ITER', 'i8'), column(['BEFORE', 'AFTER '], 'es14.3'), &
-                              column('STEP', 'f9.4'), column('CHANGES', 'i9')])
-         case (method_back)
-            call table%start('ITERATIONS, '//page%stage// &
-                             ': LARGEST DEFLECTION, LARGEST PRESSURE OF THE LAWS THERE, LARGEST CHANGE', &
-                             [column(['INCR', 'ITER'], 'i6'), column(['LAMBDA  ', 'PRESSURE', 'CHANGE  '], 'es14.5')])
-         case default
-            call table%start('RE-ANALYSES AFTER THE COULOMB CHECK, '//page%stage//': EXCESS OVER THE LIMITS', &
-                             [column(['INCR', 'PASS'], 'i6'), column(['BEFORE', 'AFTER '], 'es14.5'), &
-                              column('REMOVED %', 'f10.2', heading_shift=1), column('SLIPPING', 'i9', heading_shift=3)])
-         end select
-      end if
-      do i = 1, analysis%record%n_iterations
-         if (analysis%record%n_iterations > 3*shown .and. i > shown .and. i < analysis%record%n_iterations) then
-            write (increment, '(i6)') analysis%increment
-            if (i == shown + 1) call table%keep_line( &
-               increment//'   ... '//integer_text(analysis%record%n_iterations - shown - 1)//' MORE ...')
-            cycle
-         end if
-         associate (iteration => analysis%record%iterations(i))
-            if (iteration%part > 0) then
-               call table%add([analysis%increment, iteration%part, i])
-               call add_unbalanced(iteration%before)
-               call add_unbalanced(iteration%after)
-               call table%add([iteration%step])
-               call table%add([iteration%changes])
-            else
-               call table%add([analysis%increment, i])
-               if (iteration%part < 0) call table%add([iteration%step])
-               call table%add([iteration%before, iteration%after])
-               if (iteration%part == 0) then
-                  call table%add([100.0_wp*(1.0_wp - iteration%after/max(iteration%before, tiny(1.0_wp)))])
-                  call table%add([iteration%changes])
-               end if
-            end if
-            call table%keep_row()
-         end associate
+         call list_elements(page, of_state, model, analysis, j)
+         call list_directions(of_shear_state)
       end do
 
    contains
 
-      !> Below the tolerance the digits of an unbalanced FORCE are those of rounding.
-      subroutine add_unbalanced(force)
-         real(wp), intent(in) :: force
+      subroutine list_directions(subject)
+         integer, intent(in) :: subject
+         integer :: k
 
-         if (force <= analysis%tolerance) then
-            call table%add('BELOW TOL')
+         do k = 1, model%dimension - 1
+            if (model%joints(j)%law%shear(k)%given) call list_elements(page, subject, model, analysis, j, k)
+         end do
+      end subroutine list_directions
+
+   end subroutine list_joints
+
+   !> The table of SUBJECT of joint J, in direction K where it is one of shear: a row an element.
+   subroutine list_elements(page, subject, model, analysis, j, k)
+      type(page_type), intent(inout)  :: page
+      integer, intent(in)             :: subject
+      type(model_type), intent(in)    :: model
+      type(analysis_type), intent(in) :: analysis
+      integer, intent(in)             :: j
+      integer, intent(in), optional   :: k
+      character(43), parameter :: titles(6) = [character(43) :: 'INTERFACE ELEMENTS', 'NORMAL STIFFNESS', &
+         'ELEMENTS REMOVED FROM JOINT', 'SHEAR IN DIRECTION', 'STATE OF THE INTERFACE ELEMENTS', 'STATE OF SHEAR IN DIRECTION']
+      type(listing_table_type)  :: table
+      character(:), allocatable :: title
+      integer :: i
+
+      title = trim(titles(subject))
+      if (present(k)) title = title//' '//axes(k)
+      if (subject /= of_removed) title = title//' OF JOINT'
+      call table%start(title//' '//integer_text(model%joints(j)%id)//page%now, &
+                       [column([character(7) :: 'ELEMENT', 'NODE 1'], 'i11'), columns_of(page, subject, model)])
+      if (subject /= of_removed) call table%print_head(page%file)
+      do i = model%joints(j)%first, model%joints(j)%last
+         if (.not. shows(page, model%interface(i)%node)) cycle
+         associate (state => analysis%states(i)%normal)
+            if (subject == of_removed .and. (state%branch /= branch_open .or. force_reached(state) >= 0.0_wp)) cycle
+         end associate
+         call table%add([model%interface(i)%id, joint_node_id(model, i, 1)])
+         if (present(k)) then
+            call add_shear(table, subject, model, analysis, i, k)
          else
-            call table%add([force])
+            call add_normal(table, subject, model, analysis, i)
          end if
-      end subroutine add_unbalanced
+         if (subject == of_removed) call table%keep_row()
+         if (subject /= of_removed) call table%print_row(page%file)
+      end do
+      call table%print_kept(page%file) ! no elements removed: no table
+   end subroutine list_elements
 
-   end subroutine note_passes
+   !> The columns of a table of SUBJECT behind element and node.
+   function columns_of(page, subject, model) result(columns)
+      type(page_type), intent(in)    :: page
+      integer, intent(in)            :: subject
+      type(model_type), intent(in)   :: model
+      type(column_type), allocatable :: columns(:)
 
-   !> Work done on the joints in the stage, by normal forces, by shear and on friction; of the first two the difference is lost where
-   !! the stage closes a loop, what friction takes is lost at once.
-   subroutine list_energy(page, model, analysis)
+      associate (labels => page%labels, d => model%dimension)
+         select case (subject)
+         case (of_elements) ! K_N in space only in the joint history
+            columns = [column('NODE 2', 'i11'), column(axes(:d), 'es13.5', labels%length), column('AREA', 'es13.5', labels%area), &
+                       column('BRANCH', 'a8'), column('LAMBDA', 'es13.5', labels%length), column('P', 'es13.5', labels%pressure), &
+                       column('FORCE', 'es13.5', labels%force), &
+                       column('K_N, USED', 'es13.5', labels%stiffness(:12), is_listed=d == 2)]
+         case (of_stiffness)
+            columns = [column([character(6) :: 'LAMBDA', 'C P**M'], 'es13.5', labels%length), &
+                       column('K_N, USED', 'es13.5', labels%stiffness(:12)), &
+                       column(['CLOSING', 'GAP    '], 'es13.5', labels%length, is_listed=has_gaps(model)), column('KIND', 'a9')]
+         case (of_removed)
+            columns = [column([character(13) :: 'SIGMAF', 'SUMF, DECIDED'], ['es13.5', 'es15.5'], labels%force), &
+                       column('LAMBDA B', 'es13.5', labels%length)]
+         case (of_shear)
+            columns = [column('BRANCH', 'a8'), column([character(9) :: 'DELTA', 'TAU', 'FORCE', 'K_S, USED', 'LIMIT'], 'es13.5', &
+                       [labels%length, labels%pressure, labels%force, labels%stiffness, labels%pressure], unit_shift=1), &
+                       column('', 'a')]
+         case (of_state)
+            columns = [column('BRANCH', 'a8'), column(['SIGMAF', 'SUMF  '], 'es13.5', labels%force), &
+                       column([character(8) :: 'LAMBDA A', 'P A', 'LAMBDA B'], 'es13.5', &
+                              [labels%length, labels%pressure, labels%length])]
+         case default
+            columns = [column('BRANCH', 'a8'), column('SENSE', 'i6'), column(['D  ', 'TAU', 'D_R'], 'es13.5', &
+                       [labels%length, labels%pressure, labels%length]), &
+                       column([character(5) :: 'TAU_R', 'O', 'B0', 'C0'], 'es13.5', labels%pressure)]
+         end select
+      end associate
+   end function columns_of
+
+   !> What the tables of the normal way have of interface element I. The normal stiffness is what the increment used, and of which kind;
+   !! beside it stands how far lambda is from the loading curve at the present p, and where there are gaps of which closing it is the
+   !! rest. Elements removed: the force that decided it, which they no longer have.
+   subroutine add_normal(table, subject, model, analysis, i)
+      type(listing_table_type), intent(inout) :: table
+      integer, intent(in)                     :: subject
+      type(model_type), intent(in)            :: model
+      type(analysis_type), intent(in)         :: analysis
+      integer, intent(in)                     :: i
+      character(7), parameter :: kinds(4) = [character(7) :: '0', 'SECANT', 'TANGENT', 'E_U'] ! in the order of analysis_state
+      real(wp) :: lambda_floor, p_floor
+
+      lambda_floor = noise*analysis%largest_lambda
+      p_floor = noise*analysis%largest_p
+      associate (element => model%interface(i), joint => model%joints(model%interface(i)%joint), state => analysis%states(i)%normal)
+         select case (subject)
+         case (of_elements)
+            call table%add([joint_node_id(model, i, 2)], at_first_end(element, model%x(:model%dimension, :)))
+            call table%add([element%area])
+            call table%add(branch_name(state%branch))
+            call table%add([state%lambda], lambda_floor)
+            call table%add([state%pressure], p_floor)
+            call table%add([state%sumf], p_floor*joint%area)
+            call table%add([state%k_n])
+         case (of_stiffness)
+            call table%add([state%lambda, loading_deflection(joint%law%normal, max(0.0_wp, state%pressure))], lambda_floor)
+            call table%add([state%k_n])
+            call table%add([state%lambda + state%gap, state%gap], lambda_floor)
+            call table%add(trim(kinds(analysis%record%kind(i))))
+         case (of_removed)
+            call table%add([state%sigmaf, force_reached(state)], p_floor*element%area)
+            call table%add([state%lambda_b], lambda_floor)
+         case (of_state)
+            call table%add(branch_name(state%branch))
+            call table%add([state%sigmaf, state%sumf], p_floor*element%area)
+            call table%add([state%lambda_a], lambda_floor)
+            call table%add([state%p_a], p_floor)
+            call table%add([state%lambda_b], lambda_floor)
+         end select
+      end associate
+   end subroutine add_normal
+
+   !> Likewise of the shear way in direction K. LIMIT is mu p; D and TAU of the state count in the sense of the loading, like point A.
+   subroutine add_shear(table, subject, model, analysis, i, k)
+      type(listing_table_type), intent(inout) :: table
+      integer, intent(in)                     :: subject
+      type(model_type), intent(in)            :: model
+      type(analysis_type), intent(in)         :: analysis
+      integer, intent(in)                     :: i, k
+      real(wp) :: delta_floor, tau_floor, shift
+
+      delta_floor = noise*analysis%largest_lambda
+      tau_floor = noise*analysis%largest_p
+      associate (element => model%interface(i), law => model%joints(model%interface(i)%joint)%law, &
+                 state => analysis%states(i)%shear(k), &
+                 p => analysis%states(i)%normal%pressure)
+         call table%add(branch_name(state%branch))
+         if (subject == of_shear) then
+            call table%add([state%delta], delta_floor)
+            call table%add([state%tau], tau_floor)
+            call table%add([state%tau*element%area], tau_floor*element%area)
+            call table%add([state%k_s])
+            call table%add([friction_limit(law, p)], tau_floor, where=[law%has_friction])
+            call table%add(trim(merge('  SLIPS', '       ', analysis%states(i)%slips)))
+         else
+            shift = branch_shift(law%shear(k), state, max(0.0_wp, p), analysis%turns(k, i))
+            call table%add([nint(state%sense)])
+            call table%add([curve_deflection(state)], delta_floor)
+            call table%add([state%sense*state%tau], tau_floor)
+            call table%add([state%d_r], delta_floor)
+            call table%add([state%tau_r, state%offset], tau_floor)
+            call table%add([shift, shift], tau_floor, where=state%branch == [branch_unload, branch_reload])
+         end if
+      end associate
+   end subroutine add_shear
+
+   !> A plot a joint; a map where it has a plane in space.
+   subroutine plot_joints(page, model, analysis)
       type(page_type), intent(inout)  :: page
       type(model_type), intent(in)    :: model
       type(analysis_type), intent(in) :: analysis
-      character(10), parameter :: names(3) = [character(10) :: 'PUT IN', 'GIVEN BACK', 'KEPT']
-      type(listing_table_type) :: table
-      type(column_type), allocatable :: columns(:)
-      real(wp) :: floor
-      integer  :: j, k
-      logical  :: slides
+      integer :: j
 
-      if (size(model%joints) == 0) return
-      slides = any(model%joints%law%has_friction)
-      call heading(page%file, 'ENERGY OF JOINTS, '//page%stage)
-      call page%file%put('                 ------------- NORMAL -------------------   -------------- SHEAR -------------------'// &
-                         trim(merge('   SLIDING', '          ', slides)))
-      columns = [column('JOINT', 'i11', heading_shift=-1), column(names, ['es14.5', 'es13.5', 'es13.5']), &
-                 column(names, ['es15.5', 'es13.5', 'es13.5'])]
-      if (slides) columns = [columns, column('LOST', 'es15.5')]
-      call table%start('', columns, page%file)
-      if (page%labels%moment /= '') call page%file%put('                 ('//trim(page%labels%moment)//')')
       do j = 1, size(model%joints)
-         associate (energy => analysis%energy(j))
-            floor = noise*sum(energy%put_in)
-            call table%add([model%joints(j)%id])
-            do k = 2, 1, -1
-               call table%add(clean([energy%put_in(k), energy%given_back(k), energy%put_in(k) - energy%given_back(k)], floor))
-            end do
-            if (slides) call table%add(clean([energy%put_in(3)], floor))
-            call table%print_row(page%file)
+         if (model%dimension == 3 .and. .not. is_closed(model, model%joints(j))) then
+            call map_joint(page, model, analysis, model%joints(j))
+         else
+            call plot_joint(page, model, analysis, model%joints(j))
+         end if
+      end do
+   end subroutine plot_joints
+
+   !> The pressure of JOINT over its plane, seen against its normal: x of the joint to the right, y upwards. A character has the
+   !! largest pressure of the interface elements there: tenths of the largest of all, which is *; - where all are open.
+   subroutine map_joint(page, model, analysis, joint)
+      type(page_type), intent(inout)  :: page
+      type(model_type), intent(in)    :: model
+      type(analysis_type), intent(in) :: analysis
+      type(joint_type), intent(in)    :: joint
+      real(wp), parameter :: upright = 2.0_wp ! height of a character over its width
+      character(width), allocatable :: rows(:)
+      character(page_width) :: line
+      type(joint_frame)     :: frame
+      real(wp) :: place(3, joint%first:joint%last), low(3), high(3), step, p_most
+      integer  :: column, i, row
+
+      frame = find_frame(model, joint)
+      do i = joint%first, joint%last
+         place(:, i) = at_first_end(model%interface(i), model%x) - frame%centroid
+         place(:, i) = matmul(place(:, i), frame%axes)
+      end do
+      low = minval(place, dim=2)
+      high = maxval(place, dim=2)
+      step = sqrt(joint%area/(joint%last - joint%first + 1))/upright ! a row for every row of nodes of an even mesh
+      step = max(step, (high(1) - low(1))/(width - 1), (high(2) - low(2))/(width - 1))
+      allocate (rows(0:nint((high(2) - low(2))/(upright*step))))
+      rows = ''
+      p_most = max(maxval(analysis%states(joint%first:joint%last)%normal%pressure), tiny(1.0_wp))
+      do i = joint%first, joint%last
+         column = 1 + nint((place(1, i) - low(1))/step)
+         row = nint((high(2) - place(2, i))/(upright*step))
+         associate (sign => map_sign(analysis%states(i)%normal, p_most), there => rows(row)(column:column))
+            if (rank_of(sign) > rank_of(there)) there = sign
          end associate
       end do
-   end subroutine list_energy
+      call heading(page%file, 'MAP OF JOINT '//integer_text(joint%id)//page%now)
+      write (line, '(2x, a, es13.5, 1x, a)') '0 TO 9: TENTHS OF P, *: P =', clean(p_most), trim(page%labels%pressure)
+      call page%file%put(trim(line)//', -: OPEN')
+      write (line, '(2x, 4(a, es13.5), 1x, a)') 'X FROM', clean(low(1)), ' TO', clean(high(1)), ', Y FROM', clean(low(2)), &
+         ' (BELOW) TO', clean(high(2)), trim(page%labels%length)
+      call page%file%put(trim(line)//' FROM THE CENTROID OF THE JOINT')
+      call page%file%put('')
+      do row = 0, ubound(rows, 1)
+         call page%file%put('   |'//rows(row))
+      end do
+   end subroutine map_joint
+
+   !> What a map shows of an interface element in this STATE.
+   pure character(1) function map_sign(state, p_most) result(sign)
+      type(normal_state), intent(in) :: state
+      real(wp), intent(in)           :: p_most
+
+      sign = '-'
+      if (state%branch == branch_open) return
+      sign = achar(iachar('0') + max(0, min(9, int(10.0_wp*(1.0_wp + noise)*state%pressure/p_most))))
+      if (state%pressure >= (1.0_wp - noise)*p_most) sign = '*'
+   end function map_sign
+
+   !> Which of two signs at one place is shown: that of the higher rank.
+   pure integer function rank_of(sign) result(rank)
+      character(1), intent(in) :: sign
+
+      rank = index('-0123456789*', sign)
+   end function rank_of
+
+   !> A line an interface element of JOINT, P as *, LAMBDA as +, both as # where they meet.
+   subroutine plot_joint(page, model, analysis, joint)
+      type(page_type), intent(inout)  :: page
+      type(model_type), intent(in)    :: model
+      type(analysis_type), intent(in) :: analysis
+      type(joint_type), intent(in)    :: joint
+      character(page_width) :: line
+      real(wp) :: p_most, lambda_most, lambda_least
+      integer  :: i
+
+      associate (state => analysis%states%normal)
+         p_most = max(maxval(state(joint%first:joint%last)%pressure), tiny(1.0_wp))
+         lambda_least = min(0.0_wp, minval(state(joint%first:joint%last)%lambda))
+         lambda_most = max(0.0_wp, maxval(state(joint%first:joint%last)%lambda), lambda_least + tiny(1.0_wp))
+         call heading(page%file, 'PLOT OF JOINT '//integer_text(joint%id)//page%now)
+         write (line, '(2x, a, es13.5, 1x, a)') '*  P       FROM  0.00000E+00 TO', clean(p_most), trim(page%labels%pressure)
+         call page%file%put(line)
+         write (line, '(2x, a, es13.5, a, es13.5, 1x, a)') '+  LAMBDA  FROM', clean(lambda_least), ' TO', &
+            clean(lambda_most), trim(page%labels%length)
+         call page%file%put(line)
+         call page%file%put('      NODE            X  +'//repeat('---------+', 10))
+         do i = joint%first, joint%last
+            write (line, '(i10, es13.5)') joint_node_id(model, i, 1), clean(at_first_end(model%interface(i), model%x(1:1, :)))
+            line(26:26) = '|'
+            line(25 + width:25 + width) = '|'
+            call mark((state(i)%lambda - lambda_least)/(lambda_most - lambda_least), '+')
+            call mark(state(i)%pressure/p_most, '*')
+            call page%file%put(line)
+         end do
+         call page%file%put('                         +'//repeat('---------+', 10))
+      end associate
+
+   contains
+
+      subroutine mark(share, sign)
+         real(wp), intent(in)     :: share
+         character(1), intent(in) :: sign
+         integer :: column
+
+         column = 26 + nint(min(1.0_wp, max(0.0_wp, share))*(width - 1))
+         line(column:column) = merge('#', sign, line(column:column) == '+')
+      end subroutine mark
+
+   end subroutine plot_joint
 
 end module joint_tables

@@ -1,31 +1,24 @@
 !> The listing NAME.out: increments of each stage, and the tables that OUTPUT asks for.
 module listing
-   use analysis_state, only: analysis_type, free_norm
+   use analysis_state, only: analysis_type
+   use body_tables, only: list_bodies
    use case_control, only: method_back
    use deck_input, only: deck_type
-   use determinate_joints, only: carried_resultant
    use equation_solver, only: equation_system
    use failures, only: failure_type
-   use joint_motion, only: is_closed
+   use joint_tables, only: list_joints, plot_joints
    use kinds, only: wp
-   use listing_bars, only: note_bars, note_sections, note_springs
-   use listing_bodies, only: list_bodies
-   use joint_tables, only: list_energy, list_interface, note_passes, note_resultants
    use listing_opening, only: write_opening
-   use listing_plot, only: plot_joints
-   use listing_states, only: list_condensed, list_states
-   use listing_steps, only: farthest_type, note_distances, note_slips
-   use listing_table, only: column, label_type, listing_table_type, noise, page_type
-   use model_data, only: joint_node_id, model_type, stage_load_type
+   use listing_table, only: axes, column, heading, label_type, listing_table_type, noise, page_type
+   use model_data, only: model_type, n_rotations
    use node_coupling, only: held_forces
-   use normal_stiffness, only: branch_open
-   use numbers, only: first_largest
    use range_watch, only: note_condition, note_division, range_watch_type, record_watch, say_ranges, start_watch, &
                           watch_balance, watch_ranges, watch_shear_laws, watch_unloading
    use restart_stream, only: restart_stream_type
    use stage_entries, only: output_all, output_joint, output_last
    use stage_plan, only: stage_plan_type
-   use text_tools, only: above, clean, integer_text, plural, upper
+   use stage_tables, only: farthest_type, n_stage_tables, note_stage_tables, pass_rows
+   use text_tools, only: clean, integer_text, plural, upper
    implicit none
    private
 
@@ -34,7 +27,7 @@ module listing
    type, public :: listing_type
       type(page_type) :: page
       integer :: method = 0
-      type(listing_table_type) :: increments, distances, resultants, passes, slips, bars, springs, sections ! of the stage so far
+      type(listing_table_type) :: tables(n_stage_tables) !! of the stage so far
       type(farthest_type) :: farthest !! from the laws
       character(:), allocatable :: poor_condition !! the last warning of it, '': none
       character(:), allocatable :: divided        !! what is said of the last increment that was, '': none
@@ -91,7 +84,7 @@ contains
          page%stage_id = stage%id
          page%stage = 'STAGE '//integer_text(stage%id)
          page%now = ', '//page%stage//', INCREMENT '//integer_text(analysis%increment)//stage%shown_words
-         page%along_cd = stage%along_cd
+         page%along_cd = stage%output%along_cd
          if (analysis%increment == 1) then
             if (allocated(page%shown)) deallocate (page%shown)
             if (allocated(stage%shown)) page%shown = stage%shown
@@ -101,14 +94,7 @@ contains
             max(page%largest_force, maxval(abs(held_forces(model, analysis%all_unbalanced)))) ! what moves the supports
          if (any(model%interface%gap < 0.0_wp)) page%largest_force = &
             max(page%largest_force, maxval(abs(analysis%states%normal%sumf)))              ! what interference presses
-         call note_increment(page, trim(stage%label), model, analysis, listing%increments)
-         call note_distances(page, model, plan, analysis, listing%distances, listing%farthest)
-         call note_resultants(page, model, analysis, listing%resultants)
-         call note_passes(page, listing%method, analysis, listing%passes)
-         call note_slips(page, model, analysis, listing%slips)
-         call note_bars(page, model, analysis, listing%bars)
-         call note_springs(page, model, analysis, listing%springs)
-         call note_sections(page, model, analysis, listing%sections)
+         call note_stage_tables(page, listing%method, model, plan, analysis, listing%tables, listing%farthest)
          if (analysis%record%condition%is_new) call note_condition(model, plan, analysis, listing%watch, listing%poor_condition)
          call note_division(plan, analysis, listing%watch, listing%divided)
          call watch_ranges(model, analysis, listing%watch)
@@ -116,16 +102,15 @@ contains
             call watch_shear_laws(model, plan, analysis, listing%watch)
             call watch_unloading(model, plan, analysis, listing%watch)
          end if
-         if (stage%condensed .and. analysis%increment == 1) call list_condensed(page, model, analysis)
-         if (stage%output == output_all .or. stage%output == output_joint .or. &
-             (stage%output == output_last .and. analysis%increment == size(stage%fractions))) then
+         if (stage%output%condensed .and. analysis%increment == 1) call list_condensed(page, model, analysis)
+         if (stage%output%level >= merge(output_last, output_joint, analysis%increment == size(stage%fractions))) then
             write (words, '(2(a, f8.5))') '   SHARE', analysis%increment_fraction, '   LOAD', analysis%fraction
             call page%file%put('')
             call page%file%put(' '//page%stage//', INCREMENT '//integer_text(analysis%increment)//trim(words))
          end if
          if (analysis%increment == size(stage%fractions)) return ! list_stage prints its tables
-         if (stage%output == output_all .or. stage%output == output_joint) call list_joints(page, stage%state, model, analysis)
-         if (stage%output == output_all) call list_bodies(page, stage%stress, model, analysis)
+         if (stage%output%level >= output_joint) call list_joints(page, stage%output, model, analysis)
+         if (stage%output%level == output_all) call list_bodies(page, stage%output, model, analysis)
       end associate
    end subroutine list_increment
 
@@ -135,106 +120,107 @@ contains
       type(model_type), intent(in)      :: model
       type(stage_plan_type), intent(in) :: plan
       type(analysis_type), intent(in)   :: analysis
+      integer :: i
 
       associate (stage => plan%stages(analysis%stage), page => listing%page)
-         if (stage%output >= output_last) call list_joints(page, stage%state, model, analysis)
-         if (stage%plot) call plot_joints(page, model, analysis)
-         if (stage%output == output_all .or. stage%output == output_last) call list_bodies(page, stage%stress, model, analysis)
-         call listing%increments%print_kept(page%file)
-         call listing%distances%print_kept(page%file)
+         if (stage%output%level >= output_last) call list_joints(page, stage%output, model, analysis)
+         if (stage%output%plot) call plot_joints(page, model, analysis)
+         if (any(stage%output%level == [output_all, output_last])) call list_bodies(page, stage%output, model, analysis)
          call say_ranges(model, plan, analysis, listing%watch)
          call watch_balance(model, plan, analysis, page%largest_force, listing%watch)
-         call listing%watch%rows%print_kept(page%file)
-         call listing%passes%print_kept(page%file)
-         call listing%slips%print_kept(page%file)
-         call listing%resultants%print_kept(page%file)
-         call listing%bars%print_kept(page%file)
-         call listing%springs%print_kept(page%file)
-         call listing%sections%print_kept(page%file)
+         do i = 1, n_stage_tables
+            if (i == pass_rows) call listing%watch%rows%print_kept(page%file)
+            call listing%tables(i)%print_kept(page%file)
+         end do
          call list_energy(page, model, analysis)
       end associate
    end subroutine list_stage
 
-   !> The interface elements, and WITH_STATE what they remember.
-   subroutine list_joints(page, with_state, model, analysis)
+   !> Work done on the joints in the stage, by normal forces, by shear and on friction; of the first two the difference is lost where
+   !! the stage closes a loop, what friction takes is lost at once.
+   subroutine list_energy(page, model, analysis)
       type(page_type), intent(inout)  :: page
-      logical, intent(in)             :: with_state
       type(model_type), intent(in)    :: model
       type(analysis_type), intent(in) :: analysis
+      character(10), parameter :: names(3) = [character(10) :: 'PUT IN', 'GIVEN BACK', 'KEPT']
+      type(listing_table_type) :: table
+      real(wp) :: floor
+      integer  :: j, k
+      logical  :: slides
 
-      call list_interface(page, model, analysis)
-      if (with_state) call list_states(page, model, analysis)
-   end subroutine list_joints
-
-   !> Note the increment just completed, of the stage with LABEL: a row a joint, or one where there are none.
-   subroutine note_increment(page, label, model, analysis, table)
-      type(page_type), intent(in)             :: page
-      character(*), intent(in)                :: label
-      type(model_type), intent(in)            :: model
-      type(analysis_type), intent(in)         :: analysis
-      type(listing_table_type), intent(inout) :: table
-      type(stage_load_type) :: now !! the load that acts
-      real(wp) :: unbalanced
-      integer  :: j
-
-      associate (labels => page%labels)
-         ! in this table the unit of LAMBDA stands two characters behind its numbers
-         if (table%is_empty()) call table%start('INCREMENTS OF '//page%stage//'   '//label, &
-            [column('INCR', 'i6'), column('SHARE', 'f8.5'), column('LOAD', 'f7.4'), column('JOINT', 'i11'), column('OPEN', 'i5'), &
-             column('LAMBDA MAX', 'es13.5', labels%length, unit_shift=2), column('AT NODE', 'i11'), &
-             column('P MAX', 'es13.5', labels%pressure), column('AT NODE', 'i11'), &
-             column('JOINT FORCE', 'es13.5', labels%force), column('APPLIED TO', 'es12.5', labels%force), &
-             column(['DIFFERENCE', 'UNBALANCED'], 'es11.3', labels%force)])
-      end associate
-      now%n = size(analysis%loaded)
-      allocate (now%node, source=analysis%loaded)
-      allocate (now%force(3, now%n), source=0.0_wp)
-      now%force(:model%dimension, :) = analysis%now%load(:, now%node)
-      unbalanced = clean(free_norm(analysis%unbalanced, analysis%held), noise*page%largest_force)
-      do j = min(1, size(model%joints)), size(model%joints)
-         call table%add([analysis%increment], [analysis%increment_fraction, analysis%fraction])
-         if (j > 0) call add_joint(model, analysis, now, j, noise*page%largest_force, table)
-         if (j == 0) call table%skip(9)
-         call table%add([unbalanced])
-         call table%keep_row()
+      if (size(model%joints) == 0) return
+      slides = any(model%joints%law%has_friction)
+      call heading(page%file, 'ENERGY OF JOINTS, '//page%stage)
+      call page%file%put('                 ------------- NORMAL -------------------   -------------- SHEAR -------------------'// &
+                         trim(merge('   SLIDING', '          ', slides)))
+      call table%start('', [column('JOINT', 'i11', heading_shift=-1), column(names, ['es14.5', 'es13.5', 'es13.5']), &
+                            column(names, ['es15.5', 'es13.5', 'es13.5']), column('LOST', 'es15.5', is_listed=slides)], page%file)
+      if (page%labels%moment /= '') call page%file%put('                 ('//trim(page%labels%moment)//')')
+      do j = 1, size(model%joints)
+         associate (energy => analysis%energy(j))
+            floor = noise*sum(energy%put_in)
+            call table%add([model%joints(j)%id])
+            do k = 2, 1, -1
+               call table%add([energy%put_in(k), energy%given_back(k), energy%put_in(k) - energy%given_back(k)], floor)
+            end do
+            call table%add(energy%put_in(3:), floor)
+            call table%print_row(page%file)
+         end associate
       end do
-   end subroutine note_increment
+   end subroutine list_energy
 
-   !> What a row of the table of increments says of joint J.
-   subroutine add_joint(model, analysis, now, j, floor, table)
-      type(model_type), intent(in)            :: model
-      type(analysis_type), intent(in)         :: analysis
-      type(stage_load_type), intent(in)       :: now   !! the load that acts
-      integer, intent(in)                     :: j
-      real(wp), intent(in)                    :: floor !! of forces
-      type(listing_table_type), intent(inout) :: table
-      real(wp), allocatable :: lambda(:), p(:)
-      real(wp) :: force, applied
-      integer  :: i, at_lambda, at_p
+   !> [k_b] condensed on the unknowns of the joints, and the loads that these feel before and after the stage; columns in groups.
+   subroutine list_condensed(page, model, analysis)
+      type(page_type), intent(inout)  :: page
+      type(model_type), intent(in)    :: model
+      type(analysis_type), intent(in) :: analysis
+      integer, parameter :: across = 8
+      type(listing_table_type) :: table
+      character(12), allocatable :: names(:)
+      real(wp), allocatable :: scale(:)
+      real(wp) :: k_floor, load_floor
+      integer  :: i, first, k, last, n
 
-      associate (joint => model%joints(j), state => analysis%states%normal)
-         allocate (lambda(joint%first:joint%last), p(joint%first:joint%last))
-         lambda = state(joint%first:joint%last)%lambda
-         p = state(joint%first:joint%last)%pressure
-         force = 0.0_wp
-         do i = joint%first, joint%last
-            force = force + state(i)%sumf*dot_product(model%interface(i)%axes(:, 3), joint%normal)
-         end do
-         at_lambda = joint%first - 1 + first_largest(above(lambda, noise*analysis%largest_lambda))
-         at_p = joint%first - 1 + first_largest(above(p, noise*analysis%largest_p))
-         call table%add([joint%id, count(state(joint%first:joint%last)%branch == branch_open)], &
-                        [clean(maxval(lambda), noise*analysis%largest_lambda)])
-         call table%add([joint_node_id(model, at_lambda, 1)], [clean(maxval(p), noise*analysis%largest_p)])
-         call table%add([joint_node_id(model, at_p, 1)])
-         call table%add([clean(force, floor)], where=[.not. is_closed(model, joint)])
-         if (joint%determinate) then
-            applied = carried_resultant(model, joint, now)
-            call table%add(clean([applied, force - applied], floor))
-         else
-            call table%skip(2)
+      associate (condensed => analysis%record%condensed)
+         if (condensed%problem /= '') then
+            call heading(page%file, '[K_B] CONDENSED ON THE INTERFACE, '//page%stage//': NOT PRINTED, '//upper(condensed%problem))
+            return
          end if
+         n = size(condensed%node)
+         k_floor = noise*maxval(abs(condensed%k))
+         load_floor = noise*max(page%largest_force, maxval(abs(condensed%load)))
+         allocate (names(n))
+         allocate (scale(n), source=1.0_wp)
+         do i = 1, n ! 12Y, or 900RZ where it is a rotation of node 900: by its arm its rows hold moments
+            associate (node => condensed%node(i), d => condensed%direction(i))
+               k = 0
+               if (n_rotations(model) > 0) k = findloc(model%rotations%node, node, dim=1)
+               if (k == 0) names(i) = integer_text(model%node_id(node))//axes(d)
+               if (k == 0) cycle
+               names(i) = integer_text(model%node_id(model%rotations(k)%point))//'R'//axes(merge(d, 3, model%dimension == 3))
+               scale(i) = model%rotations(k)%arm
+            end associate
+         end do
+         do first = 1, n, across
+            last = min(n, first + across - 1)
+            call table%start('[K_B] CONDENSED ON THE INTERFACE, '//page%stage, &
+                             [column('UNKNOWN', 'a13'), column(names(first:last), 'es13.5', page%labels%stiffness)], page%file)
+            do i = 1, n
+               call table%add(adjustr(names(i)))
+               call table%add(clean(condensed%k(i, first:last), k_floor)*scale(i)*scale(first:last))
+               call table%print_row(page%file)
+            end do
+         end do
+         call table%start('LOAD CONDENSED ON THE INTERFACE, '//page%stage//': AN INCREMENT BRINGS ITS SHARE OF THE DIFFERENCE', &
+                          [column('UNKNOWN', 'a13'), column([character(10) :: 'BEFORE', 'AFTER', 'DIFFERENCE'], 'es13.5', &
+                           page%labels%force)], page%file)
+         do i = 1, n
+            call table%add(adjustr(names(i)))
+            call table%add(clean([condensed%load(i, :), condensed%load(i, 2) - condensed%load(i, 1)], load_floor)*scale(i))
+            call table%print_row(page%file)
+         end do
       end associate
-   end subroutine add_joint
+   end subroutine list_condensed
 
    !> Close the listing under its name.
    subroutine finish_listing(listing, plan, failure, ok)
@@ -260,7 +246,7 @@ contains
    subroutine record_listing(stream, listing)
       type(restart_stream_type), intent(inout) :: stream
       type(listing_type), intent(inout)        :: listing
-      integer :: n_shown
+      integer :: i, n_shown
 
       associate (page => listing%page, farthest => listing%farthest)
          call page%file%record(stream)
@@ -280,14 +266,9 @@ contains
          call stream%any_text(listing%divided)
          call stream%item(page%largest_force, farthest%relative, farthest%node, listing%n_increments, listing%n_removed)
       end associate
-      call listing%increments%record(stream)
-      call listing%distances%record(stream)
-      call listing%resultants%record(stream)
-      call listing%passes%record(stream)
-      call listing%slips%record(stream)
-      call listing%bars%record(stream)
-      call listing%springs%record(stream)
-      call listing%sections%record(stream)
+      do i = 1, n_stage_tables
+         call listing%tables(i)%record(stream)
+      end do
       call record_watch(stream, listing%watch)
    end subroutine record_listing
 

@@ -17,7 +17,7 @@ module listing_table
    implicit none
    private
 
-   public :: column, csv, csv_titles, heading, cut, in_form
+   public :: column, csv, csv_titles, heading, cut, in_form, in_units, shows
 
    integer, parameter, public      :: page_width = 132
    real(wp), parameter, public     :: noise = 1.0e-9_wp !! of the largest number of its kind: below it only rounding is printed
@@ -398,6 +398,24 @@ contains
       call file%put(' '//cut(words, page_width - 1))
       call file%put('')
    end subroutine heading
+
+   !> The unit behind a heading, in brackets; empty where LABEL is blank.
+   pure function in_units(label) result(words)
+      character(*), intent(in)  :: label
+      character(:), allocatable :: words
+
+      words = ''
+      if (label /= '') words = '   ('//trim(label)//')'
+   end function in_units
+
+   !> Whether tables that are limited to some nodes have a row for what has these NODES.
+   pure logical function shows(page, nodes)
+      type(page_type), intent(in) :: page
+      integer, intent(in)         :: nodes(:)
+
+      shows = .true.
+      if (allocated(page%shown)) shows = any(page%shown(nodes))
+   end function shows
 
    !> At most WIDTH characters of LINE, tabs and other controls as blanks.
    pure function cut(line, width) result(part)

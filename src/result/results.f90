@@ -80,7 +80,7 @@ contains
       if (any_watched(plan)) call start_watched(model, results%watched_before)
       if (base == '') call start_listing(results%listing, '', deck, model, plan, system)
       if (base /= '') call start_listing(results%listing, base//listing_ending, deck, model, plan, system)
-      if (base /= '' .and. any(plan%stages%vtu)) call distribute_bodies(model, system, dealt)
+      if (base /= '' .and. any(plan%stages%output%vtu)) call distribute_bodies(model, system, dealt)
       call start_vtu(results%vtu, base, results%listing%page%labels, plan, dealt)
       ok = .not. results%listing%page%file%failed()
       call results%listing%page%screen%start('')
@@ -138,7 +138,7 @@ contains
       call list_increment(results%listing, model, plan, analysis)
       results%digest%increments = results%digest%increments + 1
       results%digest%iterations = results%digest%iterations + analysis%record%n_iterations
-      if (plan%stages(analysis%stage)%steps) call write_vtu(results%vtu, model, plan, analysis)
+      if (plan%stages(analysis%stage)%output%steps) call write_vtu(results%vtu, model, plan, analysis)
       call find_bolt_answers(model, analysis, results%listing%page%largest_force, results%bolts, bolts)
       if (results%base == '') return
       call write_history(results%listing%page, model, analysis)
@@ -181,7 +181,7 @@ contains
       call note_stage(answer, results%digest)
       call keep_bolts(answer%bolts, results%bolts)
       if (any_watched(plan)) call keep_watched(model, analysis, results%watched_before)
-      if (.not. plan%stages(analysis%stage)%steps) call write_vtu(results%vtu, model, plan, analysis)
+      if (.not. plan%stages(analysis%stage)%output%steps) call write_vtu(results%vtu, model, plan, analysis)
    end subroutine print_stage
 
    !> The stage just completed in the DIGEST.
@@ -215,7 +215,7 @@ contains
       associate (planned => plan%stages(stage), page => results%listing%page)
          page%stage_id = planned%id
          call list_modes(page, model, planned%vibration, modes)
-         if (results%base /= '' .and. planned%vtu) call write_modes(results%vtu, model, planned%id, modes)
+         if (results%base /= '' .and. planned%output%vtu) call write_modes(results%vtu, model, planned%id, modes)
       end associate
    end subroutine print_modes
 

@@ -5,8 +5,7 @@ module structural_results
    use bolt_locking, only: bar_tension
    use elasticity, only: max_stresses, von_mises
    use kinds, only: wp
-   use listing_nodes, only: in_units, shows_element
-   use listing_table, only: column, listing_table_type, noise, page_type
+   use listing_table, only: column, in_units, listing_table_type, noise, page_type, shows
    use model_data, only: a_bar, corners_of, is_beam, is_shell, model_type, n_points, own_nodes, temperature_type
    use shell_geometry, only: shell_frame, shell_frame_of
    use structural_elements, only: beam_ends, nodal_values, structural_stress
@@ -189,7 +188,7 @@ contains
       do pass = 1, 2 ! the largest, for what is but rounding
          do e = 1, model%n_elements
             if (.not. is_shell(model, e)) cycle
-            if (pass == 2 .and. .not. shows_element(page, model, e)) cycle
+            if (pass == 2 .and. .not. shows(page, corners_of(model, e))) cycle
             call face_stresses(model, e, analysis%all_u, analysis%now%temperature, stress)
             associate (centre => stress(:, size(corners_of(model, e)) + 1, :))
                if (pass == 1) floor = max(floor, noise*maxval(abs(centre)))
@@ -233,7 +232,7 @@ contains
           'es13.5')])
       do e = 1, model%n_elements
          if (.not. is_beam(model, e)) cycle
-         if (.not. shows_element(page, model, e)) cycle
+         if (.not. shows(page, corners_of(model, e))) cycle
          associate (place => model%structural%place(e))
             do end = 1, 2
                call table%add([model%element_id(e), model%node_id(model%element_nodes(end, e))])

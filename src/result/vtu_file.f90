@@ -51,13 +51,10 @@ module vtu_file
 
    integer, parameter :: wrong_call = -huge(0) ! a status of our own
 
-   type :: array_type
-      character(:), allocatable :: name
-      character(:), allocatable :: number      ! VTK's word for the kind: Float64, Int32, UInt8
-      integer :: section    = 0
-      integer :: components = 1
-      integer(int64) :: offset = 0             ! of its length, from data_start [bytes]
-   end type array_type
+   !> The lines of a section of the header, one an array.
+   type :: section_type
+      character(:), allocatable :: lines
+   end type section_type
 
    type, public :: vtu_file_type
       private
@@ -67,7 +64,7 @@ module vtu_file
       integer :: status = 0                  ! of the first call that failed
       integer :: n_points = -1, n_cells = -1 ! -1: not yet given
       integer(int64) :: n_bytes = 0          ! of data so far
-      type(array_type), allocatable :: arrays(:)
+      type(section_type) :: sections(size(section_tags))
       logical, public :: is_open = .false.
       logical :: waits = .false.             ! complete, for its name
       logical :: is_named = .false.          ! it has it
@@ -118,13 +115,15 @@ contains
    subroutine open_part(self, part)
       class(vtu_file_type), intent(inout) :: self
       character(*), intent(in)            :: part
+      integer :: i
 
       self%part = part
       self%n_points = -1
       self%n_cells = -1
       self%n_bytes = 0
-      if (allocated(self%arrays)) deallocate (self%arrays)
-      allocate (self%arrays(0))
+      do i = 1, size(self%sections)
+         self%sections(i)%lines = ''
+      end do
       open (newunit=self%unit, file=self%part, status='old', action='write', access='stream', form='unformatted', &
             iostat=self%status)
       self%is_open = self%status == 0
@@ -199,6 +198,7 @@ contains
       integer, intent(in)                :: n          !! tuples, as it has to be
       type(*), intent(in), contiguous, target :: values(..) !! (n) or (components, n)
       integer(int8), pointer :: as_bytes(:)
+      character(20)  :: offset
       integer        :: components
       integer(int64) :: n_bytes
 
@@ -208,31 +208,17 @@ contains
       ! an empty array constructor has an extent of -1 in gfortran 12
       call require(self, self%is_open .and. components > 0 .and. max(0, size(values, rank(values))) == n)
       if (self%status /= 0) return
-      call add_array(self%arrays, name, number, section, components, self%n_bytes)
+      write (offset, '(i0)') self%n_bytes
+      associate (lines => self%sections(section)%lines)
+         lines = lines//'        <DataArray type="'//number//'" Name="'//xml_text(name)//'"'
+         if (components > 1) & ! some readers make a matrix of one column where the 1 is spelled out
+            lines = lines//' NumberOfComponents="'//integer_text(components)//'"'
+         lines = lines//' format="appended" offset="'//trim(offset)//'"/>'//newline
+      end associate
       call c_f_pointer(c_loc(values), as_bytes, [n_bytes])
       write (self%unit, iostat=self%status) n_bytes, as_bytes
       self%n_bytes = self%n_bytes + storage_size(n_bytes)/8 + n_bytes
    end subroutine write_array
-
-   !> One more of ARRAYS. (An array constructor would leak the words of its elements in gfortran 12.)
-   pure subroutine add_array(arrays, name, number, section, components, offset)
-      type(array_type), allocatable, intent(inout) :: arrays(:)
-      character(*), intent(in)   :: name, number
-      integer, intent(in)        :: section, components
-      integer(int64), intent(in) :: offset
-      type(array_type), allocatable :: more(:)
-
-      allocate (more(size(arrays) + 1))
-      more(:size(arrays)) = arrays
-      associate (added => more(size(more)))
-         added%name = name
-         added%number = number
-         added%section = section
-         added%components = components
-         added%offset = offset
-      end associate
-      call move_alloc(more, arrays)
-   end subroutine add_array
 
    !> The file has failed unless a call FITS what went before.
    pure subroutine require(self, fits)
@@ -256,7 +242,7 @@ contains
       integer(int64) :: n_written
 
       if (.not. self%is_open) return
-      header = header_text(self%n_points, self%n_cells, self%arrays)
+      header = header_text(self%n_points, self%n_cells, self%sections)
       call require(self, self%n_cells >= 0 .and. len(header) == data_start)
       if (self%status == 0) write (self%unit, iostat=self%status) closing
       if (self%status == 0) write (self%unit, pos=1, iostat=self%status) header
@@ -326,32 +312,21 @@ contains
    end subroutine record
 
    !> The header, at least data_start bytes long: longer where the arrays are too many.
-   pure function header_text(n_points, n_cells, arrays) result(text)
-      integer, intent(in)          :: n_points, n_cells
-      type(array_type), intent(in) :: arrays(:)
-      character(:), allocatable    :: text
+   pure function header_text(n_points, n_cells, sections) result(text)
+      integer, intent(in)            :: n_points, n_cells
+      type(section_type), intent(in) :: sections(:)
+      character(:), allocatable      :: text
       character(*), parameter :: last = '  <AppendedData encoding="raw">'//newline//'_'
       character(*), parameter :: orders(0:1) = [character(12) :: 'BigEndian', 'LittleEndian']
-      character(20) :: offset
-      integer :: section, i
+      integer :: i
 
       text = '<?xml version="1.0"?>'//newline//'<VTKFile type="UnstructuredGrid" version="1.0" byte_order="'// &
              trim(orders(transfer(1_int32, 1_int8)))//'" header_type="UInt64">'//newline// &
              '  <UnstructuredGrid>'//newline//'    <Piece NumberOfPoints="'//integer_text(n_points)// &
              '" NumberOfCells="'//integer_text(n_cells)//'">'//newline
-      do section = 1, size(section_tags)
-         text = text//'      <'//trim(section_tags(section))//'>'//newline
-         do i = 1, size(arrays)
-            associate (array => arrays(i))
-               if (array%section /= section) cycle
-               text = text//'        <DataArray type="'//array%number//'" Name="'//xml_text(array%name)//'"'
-               if (array%components > 1) & ! some readers make a matrix of one column where the 1 is spelled out
-                  text = text//' NumberOfComponents="'//integer_text(array%components)//'"'
-               write (offset, '(i0)') array%offset
-               text = text//' format="appended" offset="'//trim(offset)//'"/>'//newline
-            end associate
-         end do
-         text = text//'      </'//trim(section_tags(section))//'>'//newline
+      do i = 1, size(sections)
+         text = text//'      <'//trim(section_tags(i))//'>'//newline//sections(i)%lines// &
+                '      </'//trim(section_tags(i))//'>'//newline
       end do
       text = text//'    </Piece>'//newline//'  </UnstructuredGrid>'//newline
       text = text//repeat(' ', max(0, data_start - len(text) - len(last)))//last

@@ -37,7 +37,7 @@ contains
       type(model_type), intent(in)       :: model
       type(analysis_type), intent(in)    :: analysis
       type(grid_type) :: grid
-      integer :: cells, j, n, points
+      integer :: cells, i, j, n, points
 
       points = 0 ! as many points and cells as there can be
       cells = 0
@@ -57,7 +57,9 @@ contains
          if (model%joints(j)%side_1 > 0) then
             call add_faces(model, analysis, model%joints(j), model%surfaces(model%joints(j)%side_1), grid)
          else
-            call add_points(model, analysis, model%joints(j), grid)
+            do i = model%joints(j)%first, model%joints(j)%last ! of a joint of single elements
+               call add_element(model, analysis, i, grid)
+            end do
          end if
       end do
       n = grid%n_points
@@ -172,19 +174,6 @@ contains
       near = [n]                                          ! an edge has one
       if (corners > 2) near = [corners + k, corners + modulo(k - 2, corners) + 1]
    end function beside
-
-   !> JOINT as a point an interface element.
-   subroutine add_points(model, analysis, joint, grid)
-      type(model_type), intent(in)    :: model
-      type(analysis_type), intent(in) :: analysis
-      type(joint_type), intent(in)    :: joint
-      type(grid_type), intent(inout)  :: grid
-      integer :: i
-
-      do i = joint%first, joint%last
-         call add_element(model, analysis, i, grid)
-      end do
-   end subroutine add_points
 
    !> Interface element I as a point.
    subroutine add_element(model, analysis, i, grid)

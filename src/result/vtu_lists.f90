@@ -87,18 +87,19 @@ contains
       call remove_old(name//ending)
    end subroutine remove_list
 
-   !> The index PATH of pieces NAMES, as seen from its folder; the arrays are those in the header of the file FIRST, one of the pieces.
-   !! OK is false, and no index is left by us, where it cannot be read or written.
-   subroutine write_index(path, first, names, ok)
-      character(*), intent(in) :: path, first, names(:)
+   !> The index of the deck NAME, its folder included, with this ENDING: of so many pieces, whose arrays are those in the header of the
+   !! first. OK is false, and no index is left by us, where it cannot be read or written.
+   subroutine write_index(name, ending, n_pieces, ok)
+      character(*), intent(in) :: name, ending
+      integer, intent(in)      :: n_pieces
       logical, intent(out)     :: ok
       type(output_file_type)    :: file
       character(:), allocatable :: header
       integer :: i
 
-      call read_header(first, header, ok)
+      call read_header(name//piece_ending(ending, 0), header, ok)
       if (.not. ok) return
-      call file%start(path)
+      call file%start(name//ending)
       call file%put('<?xml version="1.0"?>')
       i = index(header, '<VTKFile')
       call file%put(replaced(header(i:i + index(header(i:), '>') - 1), '"UnstructuredGrid"', '"PUnstructuredGrid"'))
@@ -106,8 +107,9 @@ contains
       call put_section('Points')
       call put_section('PointData')
       call put_section('CellData')
-      do i = 1, size(names)
-         call file%put('    <Piece Source="'//xml_text(trim(names(i)))//'"/>')
+      do i = 1, n_pieces
+         call file%put('    <Piece Source="'//xml_text(name(index(name, '/', back=.true.) + 1:)//piece_ending(ending, &
+                                                                                                              i - 1))//'"/>')
       end do
       call file%put('  </PUnstructuredGrid>')
       call file%put('</VTKFile>')

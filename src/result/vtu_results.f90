@@ -23,6 +23,8 @@ module vtu_results
 
    public :: start_vtu, write_vtu, write_modes, finish_vtu, discard_vtu, record_vtu, vtu_names
 
+   integer, parameter :: of_bodies = 0, of_joints = 1, of_modes = 2 ! parts of one time
+
    !> A file of the run, or the pieces of one.
    type :: part_type
       type(vtu_file_type), allocatable :: files(:)
@@ -30,7 +32,7 @@ module vtu_results
       logical :: is_indexed = .false.             ! which has it
       character(48) :: ending = ''                ! of its name
       real(wp) :: time = 0.0_wp                   ! of its stage the number less one, and how much of its load is on
-      integer  :: part = 0                        ! 0 the bodies, 1 the joints, 2 the natural modes
+      integer  :: part = of_bodies
    end type part_type
 
    type, public :: vtu_results_type
@@ -60,12 +62,12 @@ contains
       results%labels = labels
       results%n = 0
       results%is_listed = .false.
-      results%many = size(plan%stages) > 1 .or. any(plan%stages%steps)
+      results%many = size(plan%stages) > 1 .or. any(plan%stages%output%steps)
       if (allocated(results%dealt)) deallocate (results%dealt)
       if (present(dealt)) call move_alloc(dealt, results%dealt)
       most = 0
       do s = 1, size(plan%stages)
-         most = most + merge(size(plan%stages(s)%fractions), 1, plan%stages(s)%steps)
+         most = most + merge(size(plan%stages(s)%fractions), 1, plan%stages(s)%output%steps)
       end do
       if (allocated(results%parts)) deallocate (results%parts)
       allocate (results%parts(2*most + size(plan%stages)))
@@ -77,48 +79,55 @@ contains
       type(model_type), intent(in)          :: model
       type(stage_plan_type), intent(in)     :: plan
       type(analysis_type), intent(in)       :: analysis
+      character(:), allocatable :: words
+      real(wp) :: time
 
-      if (results%name == '' .or. .not. plan%stages(analysis%stage)%vtu) return
-      if (model%n_elements > 0) then
-         if (allocated(results%dealt)) then
-            call name_next('.pvtu', 0, results%dealt%n)
+      associate (stage => plan%stages(analysis%stage))
+         if (results%name == '' .or. .not. stage%output%vtu) return
+         words = ''
+         if (stage%output%steps) words = '.'//integer_text(analysis%increment)
+         time = real(stage%id - 1, wp) + analysis%fraction
+         if (model%n_elements > 0 .and. allocated(results%dealt)) then
+            call begin_part(results, stage%id, words//'.pvtu', time, of_bodies, results%dealt%n)
             call write_pieces(results, results%parts(results%n), analysis)
-         else
-            call name_next('.vtu', 0, 1)
+         else if (model%n_elements > 0) then
+            call begin_part(results, stage%id, words//'.vtu', time, of_bodies)
             associate (file => results%parts(results%n)%files(1))
-               call file%start(path_of(results, results%n, 1))
                call write_bodies(file, results%labels, model, all_shown(model), analysis%all_u, analysis%now%temperature)
                call file%complete()
             end associate
          end if
-      end if
-      if (size(model%interface) > 0) then
-         call name_next('.joint.vtu', 1, 1)
+         if (size(model%interface) == 0) return
+         call begin_part(results, stage%id, words//'.joint.vtu', time, of_joints)
          associate (file => results%parts(results%n)%files(1))
-            call file%start(path_of(results, results%n, 1))
             call write_joints(file, results%labels, model, analysis)
             call file%complete()
          end associate
-      end if
-
-   contains
-
-      subroutine name_next(ending, part, n_files)
-         character(*), intent(in) :: ending
-         integer, intent(in)      :: part, n_files
-
-         results%n = results%n + 1
-         associate (next => results%parts(results%n), stage => plan%stages(analysis%stage))
-            next%time = real(stage%id - 1, wp) + analysis%fraction
-            next%part = part
-            next%ending = ending
-            if (stage%steps) next%ending = '.'//integer_text(analysis%increment)//next%ending
-            if (results%many) next%ending = '.'//integer_text(stage%id)//next%ending
-            call make_room(next, n_files, ending == '.pvtu')
-         end associate
-      end subroutine name_next
-
+      end associate
    end subroutine write_vtu
+
+   !> The next part of RESULTS, of the stage with the number STAGE; its file is open, but for PIECES.
+   subroutine begin_part(results, stage, ending, time, part, pieces)
+      type(vtu_results_type), intent(inout) :: results
+      integer, intent(in)                   :: stage, part
+      character(*), intent(in)              :: ending !! of its name, behind the number of the stage where there are several
+      real(wp), intent(in)                  :: time
+      integer, intent(in), optional         :: pieces
+
+      results%n = results%n + 1
+      associate (next => results%parts(results%n))
+         next%time = time
+         next%part = part
+         next%ending = ending
+         if (results%many) next%ending = '.'//integer_text(stage)//ending
+         if (present(pieces)) then
+            call make_room(next, pieces, .true.)
+         else
+            call make_room(next, 1, .false.)
+            call next%files(1)%start(path_of(results, results%n, 1))
+         end if
+      end associate
+   end subroutine begin_part
 
    !> PART has so many files, none of them open; where it IS_INDEX they are pieces.
    pure subroutine make_room(part, n_files, is_index)
@@ -182,16 +191,10 @@ contains
       type(modes_type), intent(in)          :: modes
 
       if (results%name == '' .or. model%n_elements == 0) return
-      results%n = results%n + 1
-      associate (part => results%parts(results%n))
-         part%time = real(stage, wp)
-         part%part = 2
-         part%ending = '.modes.vtu'
-         if (results%many) part%ending = '.'//integer_text(stage)//part%ending
-         call make_room(part, 1, .false.)
-         call part%files(1)%start(results%name//trim(part%ending))
-         call write_shapes(part%files(1), model, modes)
-         call part%files(1)%complete()
+      call begin_part(results, stage, '.modes.vtu', real(stage, wp), of_modes)
+      associate (file => results%parts(results%n)%files(1))
+         call write_shapes(file, model, modes)
+         call file%complete()
       end associate
    end subroutine write_modes
 
@@ -207,7 +210,10 @@ contains
          do k = 1, size(results%parts(i)%files)
             if (ok) call results%parts(i)%files(k)%finish(ok)
          end do
-         if (ok .and. results%parts(i)%is_index) call write_index_of(results, i, ok)
+         associate (part => results%parts(i))
+            if (ok .and. part%is_index) call write_index(results%name, trim(part%ending), size(part%files), part%is_indexed)
+            ok = ok .and. (part%is_indexed .or. .not. part%is_index)
+         end associate
       end do
       if (ok .and. results%many .and. results%n > 0) then
          base = results%name(index(results%name, '/', back=.true.) + 1:)
@@ -218,25 +224,6 @@ contains
       end if
       if (.not. ok) call discard_vtu(results)
    end subroutine finish_vtu
-
-   !> The index of part I, whose pieces have their names.
-   subroutine write_index_of(results, i, ok)
-      type(vtu_results_type), intent(inout) :: results
-      integer, intent(in)                   :: i
-      logical, intent(out)                  :: ok
-      character(len(results%name) + len(results%parts%ending) + 12) :: names(size(results%parts(i)%files))
-      character(:), allocatable :: base
-      integer :: k
-
-      base = results%name(index(results%name, '/', back=.true.) + 1:)
-      associate (part => results%parts(i))
-         do k = 1, size(names)
-            names(k) = base//piece_ending(trim(part%ending), k - 1)
-         end do
-         call write_index(results%name//trim(part%ending), path_of(results, i, 1), names, ok)
-         part%is_indexed = ok
-      end associate
-   end subroutine write_index_of
 
    !> The files by their endings, each behind a comma: of many their list alone.
    pure function vtu_names(results) result(words)

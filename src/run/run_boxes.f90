@@ -317,7 +317,7 @@ contains
       call note_largest(analysis)
       call follow_laws(model, analysis)
       call watch_condition(system, analysis%record%condition)
-      if (plan%stages(analysis%stage)%condensed .and. analysis%increment == 1) &
+      if (plan%stages(analysis%stage)%output%condensed .and. analysis%increment == 1) &
          call condense_on_joints(model, system, analysis%before%condensed_load, analysis%after%condensed_load, &
                                  analysis%record%condensed)
       call run%progress%enter(phase_recover)

@@ -10,7 +10,6 @@ module run_end
    use error_report, only: print_errors
    use incomplete_results, only: what_is_in_the_way
    use, intrinsic :: iso_fortran_env, only: error_unit
-   use listing_steps, only: distance_words
    use listing_table, only: history_ending
    use model_data, only: model_type, n_points
    use progress, only: phase_write, has_errors, is_over, is_refused, is_unreadable, is_unsolved, is_unwritten, run_type, &
@@ -19,6 +18,7 @@ module run_end
    use restart_file, only: restart_name
    use results, only: discard_results, finish_results, listing_ending, show_answers
    use stage_plan, only: stage_plan_type
+   use stage_tables, only: distance_words
    use terminal_line, only: clear_line
    use text_tools, only: plural
    implicit none

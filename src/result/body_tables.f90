@@ -1,17 +1,19 @@
-!> Tables of the bodies: displacements, stresses, reactions, and the balance of the outer forces.
-module listing_bodies
+!> Tables of the bodies: displacements, rotations, stresses, reactions, and the balance of the outer forces. Where OUTPUT limits a stage
+!! to some nodes, they have the rows of these, and of the elements that have any of them. Vectors at nodes stand along the axes of the
+!! model, or with OUTPUT = CD along those of the displacement system of each node, whose number stands behind its row.
+module body_tables
    use analysis_state, only: analysis_type, element_force
    use body_elements, only: element_centre, element_stress, node_stresses, whole_stress
    use bolt_locking, only: bar_tension
    use elasticity, only: max_stresses, n_stresses, principal_stresses, von_mises
    use interface_operator, only: named_node
    use kinds, only: wp
-   use listing_nodes, only: add_directed, in_units, direction_columns, direction_words, list_moments, list_rotations, &
-                            shows_element, shows_node
-   use listing_table, only: axes, column, listing_table_type, noise, page_type, page_width
-   use model_data, only: a_point, has_ground_springs, has_second_order, is_beam, is_shell, model_type, n_bars, n_points, &
-                         node_kind, supported
+   use listing_table, only: axes, column, column_type, in_units, listing_table_type, noise, page_type, page_width, shows
+   use model_data, only: a_point, corners_of, has_ground_springs, has_second_order, is_beam, is_shell, model_type, n_bars, &
+                         n_points, n_rotations, node_kind, supported
    use node_coupling, only: held_forces
+   use reference_nodes, only: node_axes
+   use stage_entries, only: output_request
    use structural_results, only: list_structural
    use text_tools, only: clean
    implicit none
@@ -25,10 +27,10 @@ module listing_bodies
 
 contains
 
-   !> Displacements, stresses, with PRINCIPAL also the principal ones and of elements of second order those at nodes, reactions.
-   subroutine list_bodies(page, principal, model, analysis)
+   !> Displacements, stresses, reactions; where stresses are ASKED also principal ones, and those at nodes of elements of second order.
+   subroutine list_bodies(page, asked, model, analysis)
       type(page_type), intent(inout)  :: page
-      logical, intent(in)             :: principal
+      type(output_request), intent(in) :: asked
       type(model_type), intent(in)    :: model
       type(analysis_type), intent(in) :: analysis
       logical :: has_bodies
@@ -37,9 +39,9 @@ contains
       call list_rotations(page, model, analysis)
       has_bodies = model%n_elements > 0
       if (allocated(model%structural%place)) has_bodies = any(model%structural%place == 0)
-      if (has_bodies) call list_stresses(page, principal, model, analysis)
+      if (has_bodies) call list_stresses(page, asked%stress, model, analysis)
       call list_structural(page, model, analysis)
-      if (principal .and. has_second_order(model)) call list_node_stresses(page, model, analysis)
+      if (asked%stress .and. has_second_order(model)) call list_node_stresses(page, model, analysis)
       call list_reactions(page, model, analysis)
       call list_moments(page, model, analysis)
    end subroutine list_bodies
@@ -59,13 +61,13 @@ contains
       floor = noise*maxval(abs(analysis%all_u(:, :n_points(model))))
       if (.not. page%along_cd) then
          list = pack([(node, node = 1, n_points(model))], &
-                     [(model%used(node) .and. shows_node(page, node), node = 1, n_points(model))])
+                     [(model%used(node) .and. shows(page, [node]), node = 1, n_points(model))])
          call print_rows(page, table, model%node_id(list), clean(model%x(:model%dimension, list)), &
                          clean(analysis%all_u(:, list), floor))
          return
       end if
       do node = 1, n_points(model)
-         if (.not. model%used(node) .or. .not. shows_node(page, node)) cycle
+         if (.not. model%used(node) .or. .not. shows(page, [node])) cycle
          call table%add([model%node_id(node)], clean(model%x(:model%dimension, node)))
          call add_directed(page, model, node, analysis%all_u(:, node), floor, table)
          call table%print_row(page%file)
@@ -153,7 +155,7 @@ contains
       type(model_type), intent(in) :: model
       integer, intent(in)          :: e
 
-      shows_body = shows_element(page, model, e) .and. .not. (is_shell(model, e) .or. is_beam(model, e))
+      shows_body = shows(page, corners_of(model, e)) .and. .not. (is_shell(model, e) .or. is_beam(model, e))
    end function shows_body
 
    !> Which of the stresses (xx, yy, zz, xy, yz, zx) the tables of MODEL have.
@@ -196,7 +198,7 @@ contains
       call table%start('STRESSES AT NODES, MEAN OF THEIR ELEMENTS'//page%now//in_units(page%labels%pressure), &
                        [column('NODE', 'i11'), column([character(10) :: stress_names(model), 'VON MISES'], 'es13.5')], page%file)
       do node = 1, n_points(model)
-         if (model%first_at(node + 1) == model%first_at(node) .or. .not. shows_node(page, node)) cycle
+         if (model%first_at(node + 1) == model%first_at(node) .or. .not. shows(page, [node])) cycle
          call table%add([model%node_id(node)], clean([stress(shown, node), von_mises(stress(:, node))], floor))
          call table%print_row(page%file)
       end do
@@ -244,7 +246,7 @@ contains
          if (.not. any(supported(model, node)) .or. .not. model%used(node)) cycle
          reaction = -held(:, node)
          supports = supports + reaction
-         if (.not. shows_node(page, node)) cycle
+         if (.not. shows(page, [node])) cycle
          call table%add([model%node_id(node)], clean(model%x(:model%dimension, node)))
          call add_directed(page, model, node, reaction, floor, table)
          call table%print_row(page%file)
@@ -287,4 +289,108 @@ contains
 
    end subroutine list_reactions
 
-end module listing_bodies
+   !> Columns of a vector whose parts are called PART, along M directions: the first ones, or BEHIND the last ones.
+   function direction_columns(page, part, m, behind) result(columns)
+      type(page_type), intent(in)   :: page
+      character(*), intent(in)      :: part
+      integer, intent(in)           :: m
+      logical, intent(in), optional :: behind !! default: the first ones
+      type(column_type), allocatable :: columns(:)
+      character(1), parameter :: numbers(3) = ['1', '2', '3']
+      integer :: first
+
+      first = 1
+      if (present(behind)) first = merge(4 - m, 1, behind)
+      associate (names => merge(numbers, axes, page%along_cd))
+         columns = [column(part//names(first:first + m - 1), 'es13.5'), column('CD', 'i11', is_listed=page%along_cd)]
+      end associate
+   end function direction_columns
+
+   !> What stands behind the title of such a table.
+   pure function direction_words(page) result(words)
+      type(page_type), intent(in) :: page
+      character(:), allocatable :: words
+
+      words = ''
+      if (page%along_cd) words = ' ALONG THEIR SYSTEMS CD (0: X, Y, Z)'
+   end function direction_words
+
+   !> Add the VECTOR at NODE in global axes to the row of TABLE, what is below FLOOR as zero, and the node's system where it counts.
+   subroutine add_directed(page, model, node, vector, floor, table)
+      type(page_type), intent(in)             :: page
+      type(model_type), intent(in)            :: model
+      integer, intent(in)                     :: node
+      real(wp), intent(in)                    :: vector(:), floor
+      type(listing_table_type), intent(inout) :: table
+      real(wp) :: directions(3, 3)
+      integer  :: system
+
+      if (.not. page%along_cd) then
+         call table%add(clean(vector, floor))
+         return
+      end if
+      directions = node_axes(model, node)
+      system = 0
+      if (allocated(model%node_system)) system = model%node_system(node)
+      if (system > 0) system = model%systems(system)%id
+      if (size(vector) == 1) then ! about z of a plane model
+         call table%add(clean(vector*directions(3, 3), floor))
+      else
+         associate (d => size(vector))
+            call table%add(clean(matmul(vector, directions(:d, :d)), floor))
+         end associate
+      end if
+      call table%add([system])
+   end subroutine add_directed
+
+   !> Rotations in radians about the global axes, or those of the systems CD.
+   subroutine list_rotations(page, model, analysis)
+      type(page_type), intent(inout)  :: page
+      type(model_type), intent(in)    :: model
+      type(analysis_type), intent(in) :: analysis
+      type(listing_table_type) :: table
+      real(wp) :: floor
+      integer  :: i, m
+
+      if (n_rotations(model) == 0) return
+      m = merge(3, 1, model%dimension == 3)
+      call table%start('ROTATIONS OF REFERENCE NODES'//direction_words(page)//page%now//'   (RADIANS)', &
+                       [column('NODE', 'i11'), direction_columns(page, 'THETA ', m, behind=.true.)], page%file)
+      associate (rotations => model%rotations)
+         floor = noise*maxval(abs(analysis%all_u)) ! of displacements
+         do i = 1, size(rotations)
+            call table%add([model%node_id(rotations(i)%point)])
+            call add_directed(page, model, rotations(i)%point, analysis%all_u(:m, rotations(i)%node)/rotations(i)%arm, &
+                              floor/rotations(i)%arm, table)
+            call table%print_row(page%file)
+         end do
+      end associate
+   end subroutine list_rotations
+
+   !> Moments of supports about these axes, where any rotation is supported.
+   subroutine list_moments(page, model, analysis)
+      type(page_type), intent(inout)  :: page
+      type(model_type), intent(in)    :: model
+      type(analysis_type), intent(in) :: analysis
+      type(listing_table_type) :: table
+      real(wp), allocatable :: held(:, :)
+      real(wp) :: floor
+      integer  :: i, m
+
+      if (.not. any([(any(supported(model, model%rotations(i)%node)), i = 1, n_rotations(model))])) return
+      m = merge(3, 1, model%dimension == 3)
+      call table%start('MOMENTS AT SUPPORTS'//direction_words(page)//page%now, &
+                       [column('NODE', 'i11'), direction_columns(page, 'M', m, behind=.true.)], page%file)
+      held = held_forces(model, analysis%all_unbalanced)
+      do i = 1, size(model%rotations)
+         associate (rotation => model%rotations(i))
+            if (.not. any(supported(model, rotation%node))) cycle
+            floor = noise*max(page%largest_force, tiny(1.0_wp))*rotation%arm
+            call table%add([model%node_id(rotation%point)])
+            call add_directed(page, model, rotation%point, -held(:m, rotation%node)*rotation%arm, floor, table)
+            call table%print_row(page%file)
+         end associate
+      end do
+   end subroutine list_moments
+
+end module body_tables
