@@ -198,6 +198,7 @@ contains
       integer, intent(in)                :: n          !! tuples, as it has to be
       type(*), intent(in), contiguous, target :: values(..) !! (n) or (components, n)
       integer(int8), pointer :: as_bytes(:)
+      character(:), allocatable :: line
       character(20)  :: offset
       integer        :: components
       integer(int64) :: n_bytes
@@ -209,12 +210,9 @@ contains
       call require(self, self%is_open .and. components > 0 .and. max(0, size(values, rank(values))) == n)
       if (self%status /= 0) return
       write (offset, '(i0)') self%n_bytes
-      associate (lines => self%sections(section)%lines)
-         lines = lines//'        <DataArray type="'//number//'" Name="'//xml_text(name)//'"'
-         if (components > 1) & ! some readers make a matrix of one column where the 1 is spelled out
-            lines = lines//' NumberOfComponents="'//integer_text(components)//'"'
-         lines = lines//' format="appended" offset="'//trim(offset)//'"/>'//newline
-      end associate
+      line = '        <DataArray type="'//number//'" Name="'//xml_text(name)//'"'
+      if (components > 1) line = line//' NumberOfComponents="'//integer_text(components)//'"' ! of a 1 some readers make a matrix
+      self%sections(section)%lines = self%sections(section)%lines//line//' format="appended" offset="'//trim(offset)//'"/>'//newline
       call c_f_pointer(c_loc(values), as_bytes, [n_bytes])
       write (self%unit, iostat=self%status) n_bytes, as_bytes
       self%n_bytes = self%n_bytes + storage_size(n_bytes)/8 + n_bytes
