@@ -25,6 +25,7 @@ module newton_direction
       real(wp), allocatable :: load(:, :)         !! (dimension, retained), then [force]
       real(wp), allocatable :: move(:, :)         !! of held components, that is still to be made, likewise [length]
       integer, allocatable  :: flips(:)           !! changes of branch, by interface element
+      real(wp) :: growth = 0.0_wp                 !! this increment over the last one of the stage, 0: there is none that goes on
       logical :: seats = .false.                  !! interference at rest, there is no load
       real(wp) :: seat_force = 0.0_wp             !! then what counts as one: p_av on the elements pressed [force]
       integer :: loose = 0                        !! a joint that is open or slips all over at its end, 0: none

@@ -22,7 +22,7 @@ module newton_method
    implicit none
    private
 
-   public :: newton_increment, cross_gaps, seat_joints
+   public :: newton_increment, cross_gaps, seat_joints, tolerance_of
 
    character(*), parameter, public :: no_balance = &
       'stiffnesses differ so much, or bodies moved so far, that rounding leaves no balance of forces'
@@ -31,6 +31,8 @@ module newton_method
    real(wp), parameter :: progress = 0.9_wp            ! of it: what counts as less
    integer, parameter  :: most_halvings = 12
    real(wp), parameter :: far_below = 1.0e-3_wp        ! TOL: what is left there is not worth another iteration
+   real(wp), parameter :: half = 0.5_wp                ! of what the load leaves unbalanced: more than that is no good guess
+   real(wp), parameter :: loose_end = 1.0e-2_wp, tight_end = 1.0e-4_wp, least_tolerance = 1.0e-12_wp ! what a direction may leave
    real(wp), parameter :: away = 100.0_wp              ! times what was unbalanced at first: iterations lead away
    real(wp), parameter, public :: idle = 10.0_wp*pressure_floor !! of p_av: what interference presses by less, it does not press
 
@@ -68,6 +70,11 @@ contains
       analysis%tolerance = max(analysis%tolerance, analysis%load_tolerance*free_norm(forces_on_unknowns(model, &
                                analysis%now%load), all_held(model, analysis)), tiny(1.0_wp))
       attempt%where = where_in_plan(plan, analysis%stage, analysis%increment)
+      if (analysis%increment > 1) then
+         associate (fractions => plan%stages(analysis%stage)%fractions, i => analysis%increment)
+            attempt%growth = fractions(i)/fractions(i - 1)
+         end associate
+      end if
       call find_equilibrium(model, analysis, system, attempt, failure)
       if (.not. failure%raised) then
          call check_lifted(model, before, analysis, attempt%where, system, failure)
@@ -208,8 +215,9 @@ contains
       analysis%record%n_removed = max(0, count(analysis%states%normal%branch == branch_open) - before_open)
    end subroutine find_equilibrium
 
-   !> An ATTEMPT to where so much of the increment is LEFT: by straight laws; where these go round in circles, by a line search along the
-   !! tangents; once more with the joints held where one has slipped all over.
+   !> An ATTEMPT to where so much of the increment is LEFT: by straight laws, from where the last increment leads to if it goes on, else
+   !! from the committed state; where these go round in circles, by a line search along the tangents; once more with the
+   !! joints held where one has slipped all over.
    subroutine try_part(model, system, analysis, left, attempt, from)
       type(model_type), intent(in)          :: model
       class(equation_system), intent(inout) :: system
@@ -219,7 +227,8 @@ contains
       real(wp), intent(in), optional        :: from(:, :) !! (dimension, retained) displacements to iterate from, supports moved [length]
       integer :: i
 
-      do i = 1, 3
+      do i = merge(0, 1, attempt%growth > 0.0_wp), 3
+         if (i > 0) attempt%growth = 0.0_wp
          call start_attempt(model, system, analysis, left, attempt)
          attempt%searches = i > 1
          attempt%settled = i == 2
@@ -272,7 +281,8 @@ contains
       attempt%trouble = none
    end subroutine start_attempt
 
-   !> Iterations of ATTEMPT from the committed state; converged, they are committed. The first one moves the supports.
+   !> Iterations of ATTEMPT from the committed state, or from a guess, none where it is a poor one; converged, they are committed. The
+   !! first one moves the supports.
    subroutine iterate(model, system, analysis, attempt, from)
       type(model_type), intent(in)          :: model
       class(equation_system), intent(inout) :: system
@@ -285,6 +295,7 @@ contains
       real(wp), allocatable :: direction(:, :), residual(:, :)
       real(wp) :: step
       integer  :: iteration
+      logical  :: guessed
 
       allocate (now, next)
       allocate (direction, mold=analysis%u)
@@ -299,15 +310,21 @@ contains
          call forces_in_bodies(system, now%u, now%body)
       end if
       call evaluate(model, system, attempt%load, analysis, now)
+      guessed = present(from)
+      if (attempt%growth > 0.0_wp) then
+         call extrapolate(model, system, analysis, attempt, way, now, next, guessed)
+         if (.not. guessed) return
+      end if
       do iteration = 0, most_iterations
          call judge(model, system, iteration, analysis, attempt, way, now)
          if (attempt%converged .or. way%ends) exit
-         if (present(from) .and. iteration == 0) then
+         if (guessed .and. iteration == 0) then
             call laws_at(model, system, now, laws)
          else if (iteration == 0) then
             call first_laws(model, system, analysis, now, analysis%increment <= 1 .and. .not. attempt%searches, laws)
          end if
          residual = residual_of(system, attempt%load, now, laws)
+         system%coupled%tolerance = tolerance_of(way%sizes(:iteration), far_below*analysis%tolerance, system%coupled%price > 0)
          call find_direction(model, residual, analysis, system, attempt, laws, direction)
          if (attempt%trouble%raised) exit
          step = 1.0_wp
@@ -316,13 +333,7 @@ contains
          else
             call take_step(model, system, attempt%load, analysis, now, direction, next)
          end if
-         if (way%moves) then
-            way%moves = .false.
-            attempt%move = 0.0_wp
-            analysis%tolerance = max(analysis%tolerance, &
-                                     analysis%load_tolerance*support_force(model, system, analysis, next%u, attempt%left))
-            way%load_size = analysis%tolerance/analysis%load_tolerance ! what the supports take is a load here
-         end if
+         if (way%moves) call note_move(model, system, next%u, analysis, attempt, way)
          call note_iteration(now, next, step, analysis, attempt)
          if (.not. next%size < huge(1.0_wp)) exit
          call renew_laws(model, system, analysis, next, free_norm(residual, analysis%held), attempt, way, laws)
@@ -333,6 +344,64 @@ contains
       if (now%size > max(far_below*analysis%tolerance, way%noise)) call refine(model, system, analysis, attempt, now, next)
       call commit(model, system, now, analysis)
    end subroutine iterate
+
+   !> NOW goes on from the committed state as the last increment went, as far as the work of the unbalanced forces falls: under a load that
+   !! goes on, elements go on on their branches, and slide on. FOUND: less is unbalanced there.
+   subroutine extrapolate(model, system, analysis, attempt, way, now, next, found)
+      type(model_type), intent(in)          :: model
+      class(equation_system), intent(in)    :: system
+      type(analysis_type), intent(inout)    :: analysis
+      type(attempt_type), intent(inout)     :: attempt
+      type(progress_type), intent(inout)    :: way
+      type(trial_type), allocatable, intent(inout) :: now, next
+      logical, intent(out)                  :: found
+      real(wp), allocatable :: direction(:, :)
+      real(wp) :: step
+
+      allocate (direction, source=merge(attempt%growth*analysis%du, attempt%move, system%number(:, system%retained) > 0))
+      if (way%moves) then
+         call take_step(model, system, attempt%load, analysis, now, direction, next)
+         call note_move(model, system, next%u, analysis, attempt, way)
+         found = next%size <= half*way%load_size
+      else
+         call search(model, system, attempt%load, analysis, now, direction, next, step)
+         found = next%size <= half*now%size
+      end if
+      call swap(now, next)
+   end subroutine extrapolate
+
+   !> The supports have been moved, to the displacements U: what they take is a load here.
+   subroutine note_move(model, system, u, analysis, attempt, way)
+      type(model_type), intent(in)       :: model
+      class(equation_system), intent(in) :: system
+      real(wp), intent(in)               :: u(:, :)
+      type(analysis_type), intent(inout) :: analysis
+      type(attempt_type), intent(inout)  :: attempt
+      type(progress_type), intent(inout) :: way
+
+      way%moves = .false.
+      attempt%move = 0.0_wp
+      analysis%tolerance = max(analysis%tolerance, &
+                               analysis%load_tolerance*support_force(model, system, analysis, u, attempt%left))
+      way%load_size = analysis%tolerance/analysis%load_tolerance
+   end subroutine note_move
+
+   !> What a direction may leave of the unbalanced forces, as a share, where the trials so far have left these SIZES: little of what Newton's
+   !! method leaves, whose error is squared from one iteration to the next, but no less than is ENOUGH. Early in an increment that is much where a
+   !! factorisation is DEAR. Source: Eisenstat, Walker, SIAM J. Sci. Comput. 17 (1996) 16-32, choice 2.
+   pure real(wp) function tolerance_of(sizes, enough, dear) result(tolerance)
+      real(wp), intent(in) :: sizes(0:) !! [force]
+      real(wp), intent(in) :: enough    !! [force]
+      logical, intent(in)  :: dear
+      integer :: n
+
+      n = ubound(sizes, 1)
+      tolerance = merge(loose_end, tight_end, dear)
+      if (n > 0) then
+         if (sizes(n - 1) < huge(1.0_wp)) tolerance = min(tolerance, (sizes(n)/sizes(n - 1))**2)
+      end if
+      tolerance = max(tolerance, min(tight_end, 0.1_wp*enough/max(sizes(n), tiny(1.0_wp))), least_tolerance)
+   end function tolerance_of
 
    !> Whether the trial NOW is in equilibrium, or iterations lead nowhere. Forces in the bodies are differences of large numbers: what rounding
    !! leaves of them is no residual, and where it is no small part of the load, a body has moved away and nothing is in
@@ -475,6 +544,7 @@ contains
 
       allocate (direction, mold=analysis%u)
       call laws_at(model, system, now, laws)
+      system%coupled%tolerance = tight_end
       call find_direction(model, now%residual, analysis, system, attempt, laws, direction)
       if (attempt%trouble%raised) return
       call take_step(model, system, attempt%load, analysis, now, direction, next)

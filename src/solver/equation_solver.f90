@@ -42,15 +42,23 @@ module equation_solver
       integer :: digits = exact_digits               !! that the next solution needs, where a solver iterates
    end type solver_options
 
-   !> Coupled systems that have been solved with the factor there is as preconditioner, in steps of GMRES.
+   !> A direction in which a coupled system was solved.
+   type, public :: solver_direction
+      real(wp), allocatable :: u(:, :)               !! (dimension, retained) [length]
+      real(wp), allocatable :: force(:, :)           !! the stiffness that is factorised times it [force]
+      real(wp), allocatable :: product(:, :)         !! that of the coupled system times it [force]
+   end type solver_direction
+
+   !> Coupled systems that have been solved with the factor there is as preconditioner, in steps of conjugate residuals.
    type, public :: coupled_tally
       real(wp) :: tolerance = 1.0e-4_wp              !! of the residual
       integer :: most_steps = 25                     !! with a new factor
       integer :: price = 0                           !! steps that cost what a factorisation does; 0: it is always cheaper
       logical :: serves = .false.                    !! whether there is a factor of the bodies as they are
-      integer :: own = 0                             !! steps with the factor of the system's own symmetric part
+      real(wp) :: own = 0.0_wp                       !! steps for a digit with the factor of the system's own symmetric part
       integer :: extra = 0                           !! above these, in the last system
       integer :: spent = 0, solved = 0               !! in all since the factorisation, that included, for so many systems
+      type(solver_direction), allocatable :: kept(:) !! of the last systems since the factorisation
    end type coupled_tally
 
    type, abstract, public :: equation_system

@@ -4,7 +4,7 @@
 module equations
    use bar_elements, only: coupled_bar_stiffness
    use case_control, only: solver_auto
-   use equation_solver, only: equation_system, exact_digits, solver_options
+   use equation_solver, only: equation_system, exact_digits, solver_direction, solver_options
    use failures, only: failure_type
    use interface_operator, only: add_force, add_global_force, global_stiffness, interface_element, joint_movement, relative_movement
    use kinds, only: wp
@@ -22,7 +22,9 @@ module equations
    public :: equation_system, start_equations, form_body_stiffness, add_bar, lock_unknown, condense_load, &
              form_structure_stiffness, solve_equations, forces_in_bodies, recover_displacements, solve_coupled
 
-   integer, parameter :: digits = 7 ! of a step, where it is iterated itself
+   integer, parameter  :: digits = 7              ! of a step, where it is iterated itself
+   integer, parameter  :: most_kept = 24          ! directions of earlier coupled systems
+   real(wp), parameter :: dependent = 1.0e-10_wp  ! of a direction: less is nothing new
 
 contains
 
@@ -253,9 +255,9 @@ contains
    end subroutine put
 
    !> Displacements U of the retained nodes with ([k_b] + sum of (K_INT + REST)) U = F on the free components, K_INT being symmetric:
-   !! by GMRES with a factor as preconditioner. That is the one there is while its steps beyond those of a new one cost less than
-   !! a factorisation, and no more each time than on the average since it was made; else that of [k_b] + sum of K_INT. The
-   !! residual is brought below the tolerance of the system's tally times that of U = 0, or as far as its most steps go: the caller
+   !! by conjugate residuals with a factor as preconditioner. That is the one there is while its steps beyond those of a new one cost
+   !! less than a factorisation, and no more each time than on the average since it was made; else that of [k_b] + sum of K_INT.
+   !! The residual is brought below the tolerance of the system's tally times that of U = 0, or as far as its most steps go: the caller
    !! iterates anyway.
    subroutine solve_coupled(model, k_int, rest, f, where, system, u, failure)
       type(model_type), intent(in)          :: model
@@ -265,37 +267,41 @@ contains
       class(equation_system), intent(inout) :: system
       real(wp), intent(inout)               :: u(:, :)     !! likewise [length]
       type(failure_type), intent(inout)     :: failure
-      real(wp) :: change(3, 3, size(rest, 3))
-      integer  :: i, steps
+      real(wp) :: change(3, 3, size(rest, 3)), digits_wanted
+      integer  :: i, own, steps
 
       if (failure%raised) return
       associate (tally => system%coupled)
+         digits_wanted = -log10(tally%tolerance)
          if (tally%serves .and. tally%price > 0 .and. tally%extra*tally%solved <= tally%spent) then
             do i = 1, size(rest, 3)
                change(:, :, i) = global_stiffness(system%interface(i), k_int(:, :, i) + rest(:, :, i)) - system%k_int(:, :, i)
             end do
-            call iterate_coupled(model, system, change, f, tally%own + tally%price, u, steps, failure)
+            own = nint(tally%own*digits_wanted)
+            call iterate_coupled(model, system, change, f, own + tally%price, u, steps, failure)
             if (failure%raised) return
-            tally%extra = max(0, steps - tally%own)
+            tally%extra = max(0, steps - own)
             tally%spent = tally%spent + tally%extra
             tally%solved = tally%solved + 1
-            if (steps <= tally%own + tally%price) return
+            if (steps <= own + tally%price) return
          end if
+         if (allocated(tally%kept)) deallocate (tally%kept)
          call form_structure_stiffness(model, k_int, where, system, failure)
          do i = 1, size(rest, 3)
             change(:, :, i) = global_stiffness(system%interface(i), rest(:, :, i))
          end do
          call iterate_coupled(model, system, change, f, tally%most_steps, u, steps, failure)
-         tally%own = steps
+         tally%own = steps/digits_wanted
          tally%extra = 0
          tally%spent = tally%price
          tally%solved = 1
       end associate
    end subroutine solve_coupled
 
-   !> U with ([k] + sum of CHANGE) U = F by GMRES, [k] being the stiffness in SYSTEM, in so many STEPS; more than MOST_STEPS where these
-   !! have not brought the residual below the tolerance of the tally times that of U = 0.
-   !! Source: Saad, Schultz, SIAM J. Sci. Stat. Comput. 7 (1986) 856-869, preconditioned from the right.
+   !> U with ([k] + sum of CHANGE) U = F by generalised conjugate residuals, [k] being the stiffness in SYSTEM, in so many STEPS; more than
+   !! MOST_STEPS where these have not brought the residual below the tolerance of the tally times that of U = 0. Directions of earlier
+   !! systems with the same [k] are kept: as [k] times a direction is known, they cost no solution. Sources: Eisenstat, Elman, Schultz,
+   !! SIAM J. Numer. Anal. 20 (1983) 345-357, preconditioned from the right; Parks et al., SIAM J. Sci. Comput. 28 (2006) 1651-1674.
    subroutine iterate_coupled(model, system, change, f, most_steps, u, steps, failure)
       type(model_type), intent(in)          :: model
       class(equation_system), intent(inout) :: system
@@ -305,67 +311,77 @@ contains
       real(wp), intent(inout)               :: u(:, :)
       integer, intent(out)                  :: steps
       type(failure_type), intent(inout)     :: failure
-      real(wp), allocatable :: basis(:, :, :), shifted(:, :), h(:, :), cosine(:), sine(:), g(:), y(:)
-      real(wp) :: rotated, size_of_f
-      integer  :: i, j, last
+      type(solver_direction), allocatable :: directions(:)
+      logical  :: held(size(f, 1), size(f, 2))
+      real(wp) :: left(size(f, 1), size(f, 2)), enough
+      integer  :: i, n, n_kept
 
       steps = 0
-      last = 0
+      u = 0.0_wp
       if (failure%raised) return
-      associate (held => system%held_now())
-         allocate (basis(size(f, 1), size(f, 2), most_steps + 1), h(most_steps + 1, most_steps), source=0.0_wp)
-         allocate (shifted, source=f)
-         allocate (cosine(most_steps), sine(most_steps), g(most_steps + 1), source=0.0_wp)
-         basis(:, :, 1) = merge(0.0_wp, f, held)
-         size_of_f = norm2(basis(:, :, 1))
-         u = 0.0_wp
-         if (size_of_f <= 0.0_wp) return
-         basis(:, :, 1) = basis(:, :, 1)/size_of_f
-         g(1) = size_of_f
-         do j = 1, most_steps
-            last = j
-            shifted = basis(:, :, j)
-            call solve_equations(model, system, shifted, u, failure, digits=digits)
-            if (failure%raised) return
-            shifted = 0.0_wp
-            do i = 1, size(system%interface)
-               associate (element => system%interface(i))
-                  call add_global_force(element, matmul(change(:, :, i), relative_movement(element, u)), shifted)
+      held = system%held_now()
+      left = merge(0.0_wp, f, held)
+      enough = system%coupled%tolerance*norm2(left)
+      if (enough <= 0.0_wp) return
+      n_kept = 0
+      if (allocated(system%coupled%kept)) n_kept = size(system%coupled%kept)
+      allocate (directions(n_kept + most_steps))
+      if (n_kept > 0) directions(:n_kept) = system%coupled%kept
+      n = 0
+      do i = 1, n_kept ! places of those without use are taken by the next ones
+         if (i > n + 1) directions(n + 1) = directions(i)
+         call add_direction(directions(:n + 1))
+      end do
+      do while (norm2(left) > enough)
+         steps = steps + 1
+         if (steps > most_steps) exit
+         associate (new => directions(n + 1))
+            new%force = left
+            new%u = f
+            call solve_equations(model, system, left, new%u, failure, digits=digits)
+         end associate
+         if (failure%raised) return
+         i = n
+         call add_direction(directions(:n + 1))
+         if (n == i) steps = most_steps ! no direction leads on
+      end do
+      system%coupled%kept = directions(max(0, n - most_kept) + 1:n)
+
+   contains
+
+      !> The last of these DIRECTIONS becomes one of N orthogonal ones, and takes from LEFT what it can, unless nothing of it is left.
+      subroutine add_direction(directions)
+         type(solver_direction), intent(inout) :: directions(:)
+         real(wp) :: length, share, product(size(f, 1), size(f, 2)) ! of the whole stiffness with the direction
+         integer  :: j
+
+         associate (new => directions(size(directions)))
+            product = 0.0_wp
+            do j = 1, size(system%interface)
+               associate (element => system%interface(j))
+                  call add_global_force(element, matmul(change(:, :, j), relative_movement(element, new%u)), product)
                end associate
             end do
-            basis(:, :, j + 1) = basis(:, :, j) + merge(0.0_wp, shifted, held)
-            do i = 1, j
-               h(i, j) = sum(basis(:, :, i)*basis(:, :, j + 1))
-               basis(:, :, j + 1) = basis(:, :, j + 1) - h(i, j)*basis(:, :, i)
+            product = merge(0.0_wp, product, held) + new%force
+            length = norm2(product)
+            do j = 1, size(directions) - 1
+               share = sum(directions(j)%product*product)
+               product = product - share*directions(j)%product
+               new%u = new%u - share*directions(j)%u
+               new%force = new%force - share*directions(j)%force
             end do
-            h(j + 1, j) = norm2(basis(:, :, j + 1))
-            if (h(j + 1, j) > 0.0_wp) basis(:, :, j + 1) = basis(:, :, j + 1)/h(j + 1, j)
-            do i = 1, j - 1                                  ! Givens rotations keep h triangular
-               rotated = cosine(i)*h(i, j) + sine(i)*h(i + 1, j)
-               h(i + 1, j) = -sine(i)*h(i, j) + cosine(i)*h(i + 1, j)
-               h(i, j) = rotated
-            end do
-            rotated = hypot(h(j, j), h(j + 1, j))
-            if (rotated <= 0.0_wp) exit
-            cosine(j) = h(j, j)/rotated
-            sine(j) = h(j + 1, j)/rotated
-            h(j, j) = rotated
-            g(j + 1) = -sine(j)*g(j)
-            g(j) = cosine(j)*g(j)
-            if (abs(g(j + 1)) <= system%coupled%tolerance*size_of_f) exit
-         end do
-         steps = j
-         allocate (y(last), source=0.0_wp)
-         do i = last, 1, -1
-            if (abs(h(i, i)) <= 0.0_wp) cycle
-            y(i) = (g(i) - dot_product(h(i, i + 1:last), y(i + 1:)))/h(i, i)
-         end do
-         shifted = 0.0_wp
-         do i = 1, last
-            shifted = shifted + y(i)*basis(:, :, i)
-         end do
-      end associate
-      call solve_equations(model, system, shifted, u, failure, digits=digits)
+            if (.not. norm2(product) > dependent*length) return
+            length = norm2(product)
+            new%product = product/length
+            new%u = new%u/length
+            new%force = new%force/length
+            share = sum(new%product*left)
+            left = left - share*new%product
+            u = u + share*new%u
+            n = n + 1
+         end associate
+      end subroutine add_direction
+
    end subroutine iterate_coupled
 
 end module equations
