@@ -13,12 +13,15 @@ module incomplete_results
    implicit none
    private
 
-   public :: create_part, name_part, remove_incomplete, give_up_parts, remove_old, all_complete, watch_ends, what_is_in_the_way
+   public :: create_part, name_part, remove_incomplete, give_up_parts, remove_old, all_complete, watch_ends, what_is_in_the_way, &
+             say_at_interrupts
 
    character(*), parameter, public :: suffix = '.part' !! that a file has until it is complete
 
    character(:), allocatable :: names     ! one after the other, each with a null character at its end
    character(:), allocatable :: in_the_way ! of the first file that could not be created: what has its name, in words
+
+   character(:), allocatable :: last_words ! at an interrupt, with the end of their line
 
    logical, volatile        :: is_changing = .false. ! the files are about to be others than NAMES has
    integer(c_int), volatile :: interrupt = 0         ! that came then
@@ -50,6 +53,15 @@ module incomplete_results
    end interface
 
 contains
+
+   !> WORDS are said from now on where an interrupt ends the program; none where they are empty.
+   subroutine say_at_interrupts(words)
+      character(*), intent(in) :: words
+
+      is_changing = .true.
+      last_words = words//new_line('a')
+      call end_of_change()
+   end subroutine say_at_interrupts
 
    !> Create the file PART, which will be PATH. DESCRIPTOR is below zero where that fails, or where PATH is there and is no file
    !! that could be replaced: a folder, a pipe, a device.
@@ -177,10 +189,14 @@ contains
    !! changes that has to wait.
    subroutine end_by_interrupt(signal) bind(c)
       integer(c_int), value :: signal
+      logical :: ok
 
       interrupt = signal
       if (is_changing) return
       call remove_incomplete()
+      if (allocated(last_words)) then
+         if (len(last_words) > 1) call write_bytes(2, new_line('a')//last_words, ok)
+      end if
       call end_by_signal(signal)
    end subroutine end_by_interrupt
 

@@ -12,13 +12,13 @@ module restart_file
    use deck_input, only: deck_type
    use deck_text, only: checksum_of
    use equation_solver, only: equation_system
-   use incomplete_results, only: create_part, name_part
+   use incomplete_results, only: create_part, name_part, say_at_interrupts
    use, intrinsic :: iso_fortran_env, only: error_unit
    use model_data, only: model_type
    use progress, only: goes_on, is_over, is_refused, run_type
    use restart_stream, only: open_restart, restart_stream_type
    use results, only: record_results, restart_ending, results_type
-   use stage_plan, only: stage_plan_type
+   use stage_plan, only: stage_plan_type, where_in_plan
    use terminal_line, only: say_line
    use text_tools, only: integer_text
    implicit none
@@ -88,6 +88,7 @@ contains
       call lock_again(model, analysis, system)
       call system%forget_past()
       analysis%goes_on = analysis%increment < size(plan%stages(analysis%stage)%fractions)
+      call say_at_interrupts(run%argument%name//': interrupted; '//restart_name(run%argument%base)//' stays as it was')
       call run%progress%skip(sum([(size(plan%stages(s)%fractions), s = 1, analysis%stage - 1)]) + analysis%increment)
       words = ': taken up from '//restart_name(run%argument%base)//' behind stage '// &
               integer_text(plan%stages(analysis%stage)%id)//', increment '//integer_text(analysis%increment)
@@ -128,6 +129,8 @@ contains
       if (.not. (ok .or. run%misses_restart)) write (error_unit, '(4a)') run%argument%name, ': the restart file ', &
          restart_name(run%argument%base), ' cannot be written; the run goes on'
       run%misses_restart = run%misses_restart .or. .not. ok
+      if (ok) call say_at_interrupts(run%argument%name//': interrupted; '//restart_name(run%argument%base)// &
+         ' keeps the state behind '//where_in_plan(plan, analysis%stage, analysis%increment)//': --resume goes on from there')
       call system%forget_past()
    end subroutine write_restart
 

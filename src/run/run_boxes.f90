@@ -15,7 +15,7 @@ module run_boxes
    use facing_bodies, only: loose_words
    use failures, only: failure_type
    use finite_state, only: check_precision, check_state
-   use incomplete_results, only: watch_ends
+   use incomplete_results, only: say_at_interrupts, watch_ends
    use joint_suggestions, only: suggest_joints
    use kinds, only: wp
    use law_error, only: follow_laws
@@ -164,6 +164,7 @@ contains
       run%check_only = command%check_only .or. command%suggest
       run%suggests = command%suggest
       run%is_dated = command%dated
+      call say_at_interrupts(argument%name//': interrupted; nothing of this run is kept (RESTART would keep its stages)')
       call run%progress%start(argument%name, command%quiet, command%times, argument%number, argument%of)
       call read_deck(argument%path, deck, run%errors, readable, argument%parameters, command%watched)
       if (.not. readable) then

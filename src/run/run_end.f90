@@ -8,7 +8,7 @@ module run_end
    use deck_input, only: deck_type
    use distribution, only: leave_processes
    use error_report, only: print_errors
-   use incomplete_results, only: what_is_in_the_way
+   use incomplete_results, only: say_at_interrupts, what_is_in_the_way
    use, intrinsic :: iso_fortran_env, only: error_unit
    use listing_table, only: history_ending
    use model_data, only: model_type, n_points
@@ -69,6 +69,7 @@ contains
       if (run%failure%raised) run%ending = is_unsolved
       if (run%misses_restart) exit_status = max(exit_status, status_of(is_unwritten))
       call clear_line()
+      call say_at_interrupts('')
       call say_how_it_ended(run, deck, model, plan)
       exit_status = max(exit_status, status_of(run%ending))
    end subroutine finish_run

@@ -78,7 +78,14 @@ for signal in INT TERM HUP; do
    timeout --preserve-status -s $signal 0.6 "$program" -o results long.bdf >"$work/stdout" 2>"$work/stderr"; status=$?
    check "a run that has got SIG$signal" $((128 + $(kill -l $signal)))
 done
+if grep -q 'long.bdf: interrupted; nothing of this run is kept' "$work/stderr"; then pass; else fail 'a run that is interrupted says what is kept'; fi
 holds results 'a run that is interrupted leaves no file, and those of a killed one alone' $killed
+sed 's/^SPC = 1/RESTART = 1\n&/' long.bdf > keeps.bdf
+timeout --preserve-status -s INT 1.5 "$program" -o results keeps.bdf >"$work/stdout" 2>"$work/stderr"; status=$?
+check 'an interrupted run that has a restart file' 130
+if grep -q 'keeps.restart keeps the state behind stage 1, increment [1-9][0-9]*: --resume goes on from there' "$work/stderr"; then pass
+else fail 'an interrupted run names its restart file'; fi
+rm -f results/keeps.restart
 rm -f results/*.part
 mv short.bdf long.bdf
 run -o results long.bdf;              check 'the same deck again, with fewer increments' 0
