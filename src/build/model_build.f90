@@ -7,6 +7,7 @@ module model_build
    use deck_input, only: deck_type
    use determinate_joints, only: find_determinate_joints, find_first_pressures
    use displacement_systems, only: build_frames
+   use free_structure, only: check_balance, hold_free_structure
    use joint_build, only: build_joints
    use joint_gaps, only: build_gaps
    use lists, only: join, root_of
@@ -168,6 +169,7 @@ contains
       call build_bars(checked, model)
       call build_rotations(checked, model)
       call build_supports(checked, model)
+      call hold_free_structure(checked, model)
       call build_sections(checked, model)
       call build_frames(checked, model)
       call turn_rotations(model)
@@ -178,6 +180,7 @@ contains
       if (.not. errors%any()) call couple_shell_faces(model)
       call build_masses(checked, model)
       call build_loads(checked, model, oscillating)
+      if (.not. errors%any()) call check_balance(checked, model)
       call build_temperatures(checked, model)
       call find_shown_nodes(deck, model, plan, errors)
       call plan_vibrations(checked, model, oscillating, plan)

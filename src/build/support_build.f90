@@ -13,7 +13,7 @@ module support_build
    implicit none
    private
 
-   public :: build_supports, support_sets, add_moves, keep_moved, check_kept, summed_sets, check_sums
+   public :: build_supports, hold, support_sets, add_moves, keep_moved, check_kept, summed_sets, check_sums
 
    integer, parameter :: most_places = 12 ! of one node: six components, of a split node twice
 

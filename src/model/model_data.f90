@@ -175,7 +175,7 @@ module model_data
 
    !> What holds: an SPC1 card, the SPC cards of one set, the SPCM card of a surface, PS of GRID.
    type, public :: support_group
-      character(4) :: kind = ''              !! SPC, SPC1, SPCM, GRID
+      character(4) :: kind = ''              !! SPC, SPC1, SPCM, GRID; FREE: what holds a structure without supports
       integer :: id = 0                      !! SPCM: the PMARK; else the set; GRID: 0
       integer :: line = 0                    !! of the (first) card in the deck text
    end type support_group
@@ -201,6 +201,7 @@ module model_data
       logical, allocatable  :: used(:)       !! (n_nodes) whether any element holds the node
       logical, allocatable  :: held(:, :)    !! (dimension, n_nodes) supported, component by component of its unknowns
       type(support_group), allocatable :: support_groups(:)
+      logical :: floats = .false.            !! nothing but that one holds it
       integer, allocatable  :: support_of(:, :) !! (dimension, nodes at that time) the first of these that holds it, 0: none
       logical, allocatable  :: left_out(:, :) !! (dimension, n_nodes) no unknowns though not supported: components that depend on
                                              !! others, or are of reference nodes and move nothing; held too; where any are

@@ -168,3 +168,19 @@ DECK
       ask "relieved to $load, $solver: contact" touching rows 'stage = 2' count 5 all 'branch != "OPEN"'
    done
 done
+
+# Without supports at all: two beams with a joint are as they are when their supports are let go, from the same state; a plate, a ring, a
+# beam have their rigid movements.
+mkdir -p "$work/vibration"
+cp input/vibration/beams.inc "$work/vibration"
+run_input lap_beams && sed -i '/^SPC1 /d' "$work/vibration/beams.inc" && sed '/^SPC = /d' input/lap_beams.bdf > "$work/unheld.bdf" && run unheld && {
+   for m in 6 7 8 9; do near "without supports: mode $m" "$(mode unheld $m frequency)" "$(mode lap_beams $m frequency)" 1e-9 1e-9; done
+   near 'without supports: bolts' "$(tail -n 1 "$work/unheld.bolt.csv" | cut -d, -f5)" "$(tail -n 1 "$work/lap_beams.bolt.csv" | cut -d, -f5)" 1e-9
+}
+for case in '3 BLOCK2,1,1,4,2,0.,0.;+,100.,50.;PSHELL,1,1,20.' '1 BLOCK2,1,1,4,2,5.,0.;+,100.,50.;PAXIS,1,1' \
+   '6 GRID,1,,0.,,1.;GRID,2,,50.,,1.;GRID,3,,100.,,1.;CBAR,1,1,1,2,0.,1.,0.;CBAR,2,1,2,3,0.,1.,0.;PBAR,1,1,10.,20.,30.,40.'; do
+   cards rigid <<DECK
+MODES(FREE) = 4;BEGIN BULK;${case#* };MAT1,1,9500.,,.25,1.-9;EIGRL,4,,,7;ENDDATA
+DECK
+   run rigid && same "without supports: ${case%% *} rigid movements" "$(awk -F, 'NR > 1 && $3 == 0' "$work/rigid.modes.csv" | wc -l)" "${case%% *}"
+done

@@ -1,0 +1,150 @@
+!> A structure without any support that oscillates: its modes are those of the free structure, and for the state that they are
+!! about it is held by just as many components as it has rigid movements, which a load that balances itself does not feel.
+module free_structure
+   use bulk_data, only: rigid_card
+   use deck_check, only: checked_deck
+   use interface_operator, only: named_node
+   use kinds, only: wp
+   use lists, only: join, root_of
+   use model_data, only: a_point, a_rotation, corners_of, is_face_node, model_type, node_kind, place_in_kind, support_group
+   use numbers, only: cross, first_largest
+   use support_build, only: hold
+   implicit none
+   private
+
+   public :: hold_free_structure, check_balance
+
+   real(wp), parameter :: balanced = 1.0e-6_wp ! resultant over the sum of the forces that a load may have
+
+contains
+
+   !> Hold the structure of MODEL where nothing does and some stage has MODES(FREE): all of a node with rotations, else three nodes of the
+   !! largest body that stand far apart, 3, 2 and 1 components. Nodes that depend on others, or are turned, are passed over.
+   subroutine hold_free_structure(deck, model)
+      type(checked_deck), intent(in)  :: deck
+      type(model_type), intent(inout) :: model
+      integer  :: parent(model%n_nodes), members(model%n_nodes), a, b, c, e, i, k
+      logical  :: may_be(model%n_nodes)
+      real(wp) :: along(3), off(model%n_nodes), turn(3)
+
+      if (.not. any(deck%control%stages%vibration%free) .or. any(model%held)) return
+      if (any(deck%control%stages%vibration%modes%id > 0 .and. .not. deck%control%stages%vibration%free)) return
+      if (any(deck%bulk%spring%nodes(1) == 0 .or. deck%bulk%spring%nodes(2) == 0)) return ! to the ground
+      do i = 1, size(model%interface)
+         if (named_node(model%interface(i), 2) == 0) return                               ! to a base
+      end do
+      if (model%n_elements == 0) return
+      parent = [(i, i = 1, size(parent))]
+      do e = 1, model%n_elements
+         associate (nodes => corners_of(model, e))
+            do i = 2, size(nodes)
+               call join(parent, nodes(1), nodes(i))
+            end do
+         end associate
+      end do
+      members = 0
+      do i = 1, size(parent)
+         members(root_of(parent, i)) = members(root_of(parent, i)) + 1
+      end do
+      k = maxloc(members, dim=1)
+      do i = 1, size(may_be)
+         may_be(i) = root_of(parent, i) == k
+      end do
+      if (allocated(model%node_system)) may_be = may_be .and. model%node_system(:size(may_be)) == 0
+      do i = 1, size(deck%rigid)
+         call pass_over(deck%rigid(i))
+      end do
+      do i = 1, size(deck%bulk%equation)
+         call pass_over(rigid_card(nodes=deck%bulk%equation(i)%node))
+      end do
+      do i = 1, size(may_be)
+         may_be(i) = may_be(i) .and. .not. is_face_node(model, i) .and. model%duplicate(i) == 0
+      end do
+      a = findloc(may_be, .true., dim=1)
+      if (a == 0) return
+      model%floats = .true.
+      model%support_groups = [support_group('FREE')]
+      if (allocated(model%rotation_of)) then
+         if (model%rotation_of(a) > 0) then
+            if (model%rotations(model%rotation_of(a))%of_element) then
+               call hold(model, a, merge(123456, 126, model%dimension == 3))
+               return
+            end if
+         end if
+      end if
+      if (model%axisymmetric) then
+         call hold(model, a, 2)
+         return
+      end if
+      call hold(model, a, merge(123, 12, model%dimension == 3))
+      do i = 1, size(may_be)
+         off(i) = norm2(model%x(:, i) - model%x(:, a))
+      end do
+      b = first_largest(off, may_be)
+      along = (model%x(:, b) - model%x(:, a))/max(off(b), tiny(1.0_wp))
+      k = first_largest(abs(along))
+      if (model%dimension == 2) then ! it turns about a: the one that moves most
+         call hold(model, b, merge(2, 1, k == 1))
+         return
+      end if
+      call hold(model, b, merge(23, merge(13, 12, k == 2), k == 1))
+      do i = 1, size(may_be)
+         off(i) = norm2(cross(along, model%x(:, i) - model%x(:, a)))
+      end do
+      c = first_largest(off, may_be)
+      turn = cross(along, model%x(:, c) - model%x(:, a))
+      call hold(model, c, first_largest(abs(turn)))
+
+   contains
+
+      !> The nodes of CARD depend on each other.
+      subroutine pass_over(card)
+         type(rigid_card), intent(in) :: card
+         integer :: k, node
+
+         do k = 1, size(card%nodes)
+            node = model%node_table%find(card%nodes(k))
+            if (node > 0) may_be(node) = .false.
+         end do
+         node = model%node_table%find(card%node)
+         if (node > 0) may_be(node) = .false.
+      end subroutine pass_over
+
+   end subroutine hold_free_structure
+
+   !> Of a structure that nothing holds the loads of every stage must balance.
+   subroutine check_balance(deck, model)
+      type(checked_deck), intent(in) :: deck
+      type(model_type), intent(in)   :: model
+      real(wp) :: force(3), moment(3), size_of, arm
+      integer  :: i, s
+
+      if (.not. model%floats) return
+      arm = maxval(maxval(model%x, dim=2) - minval(model%x, dim=2))
+      do s = 1, size(model%stage_loads)
+         force = 0.0_wp
+         moment = 0.0_wp
+         size_of = 0.0_wp
+         associate (loads => model%stage_loads(s))
+            do i = 1, loads%n
+               size_of = size_of + norm2(loads%force(:, i))
+               if (node_kind(model, loads%node(i)) == a_point) then
+                  force = force + loads%force(:, i)
+                  moment = moment + cross(model%x(:, loads%node(i)), loads%force(:, i))
+               else if (node_kind(model, loads%node(i)) == a_rotation) then
+                  associate (rotation => model%rotations(place_in_kind(model, loads%node(i))))
+                     if (model%dimension == 3) moment = moment + rotation%arm*loads%force(:, i)
+                     if (model%dimension == 2) moment(3) = moment(3) + rotation%arm*loads%force(1, i)
+                  end associate
+               end if
+            end do
+         end associate
+         if (model%axisymmetric) force(1) = 0.0_wp
+         if (model%axisymmetric) moment = 0.0_wp
+         if (norm2(force) > balanced*size_of .or. norm2(moment) > balanced*size_of*arm) call deck%errors%add( &
+            deck%control%stages(s)%load%line, 'LOAD: nothing supports the structure, and this load does not balance itself; '// &
+            'expected a support')
+      end do
+   end subroutine check_balance
+
+end module free_structure
