@@ -1,5 +1,5 @@
-!> Whether density and modulus of the materials are in one system of units: by the speed of a wave along a rod, sqrt(E/RHO), which is
-!! some thousand m/s in every solid.
+!> Whether a deck is in one system of units: by the speed of a wave along a rod, sqrt(E/RHO), which is some thousand m/s in every
+!! solid; by gravity, which is 9.81 m/s2; and by the largest stress, which no solid bears from a fiftieth of E on.
 module unit_watch
    use deck_input, only: deck_type
    use kinds, only: wp
@@ -7,12 +7,16 @@ module unit_watch
    implicit none
    private
 
-   public :: unit_words
+   public :: unit_words, stress_words
 
    real(wp), parameter :: slowest = 100.0_wp, fastest = 20000.0_wp ! of waves in solids, rubber to diamond [m/s]
    real(wp), parameter :: usual = 5000.0_wp                        ! of metals [m/s]
    character(2), parameter :: lengths(3) = ['MM', 'M ', 'IN']
    real(wp), parameter :: metres(3) = [1.0e-3_wp, 1.0_wp, 0.0254_wp] ! of these; time is in seconds, or in milliseconds with mm
+   real(wp), parameter :: gravity(4) = [9810.0_wp, 9.81_wp, 386.1_wp, 0.00981_wp] ! in these, and in mm and milliseconds
+   integer, parameter  :: gravity_unit(4) = [1, 2, 3, 1]
+   real(wp), parameter :: least_g = 0.5_wp, most_g = 10.0_wp       ! of gravity: what GRAV may mean
+   real(wp), parameter :: most_strained = 0.02_wp                  ! of E: stresses of solids are below
    ! what densities are given in by mistake in a deck of mm and N, and what they must be multiplied by
    character(6), parameter :: mistakes(2) = ['kg/m3 ', 'g/cm3 ']
    real(wp), parameter :: remedies(2) = [1.0e-12_wp, 1.0e-9_wp]
@@ -43,7 +47,38 @@ contains
             return
          end associate
       end do
+      do i = 1, size(deck%bulk%gravity)
+         associate (card => deck%bulk%gravity(i))
+            words = gravity_words(norm2(card%acceleration), upper(deck%control%length_unit))
+            if (card%is_spin) words = ''
+            if (words /= '') return
+         end associate
+      end do
    end function unit_words
+
+   !> What is to be said of a GRAV of the acceleration A in a deck of LENGTH_UNIT; '' where it may be gravity, or 1, which a LOAD multiplies.
+   pure function gravity_words(a, length_unit) result(words)
+      real(wp), intent(in)      :: a
+      character(*), intent(in)  :: length_unit
+      character(:), allocatable :: words
+      integer :: unit
+
+      words = ''
+      unit = findloc(lengths, length_unit, dim=1)
+      if (a <= 0.0_wp .or. abs(a - 1.0_wp) <= 1.0e-9_wp) return
+      if (any(a >= least_g*gravity .and. a <= most_g*gravity .and. (unit == 0 .or. gravity_unit == unit))) return
+      words = 'GRAV of'//number(a)//' is not gravity; in mm and s that is 9810, in m and s 9.81, in inches and s 386.1'
+   end function gravity_words
+
+   !> What is to be said of a structure whose largest von Mises stress is STRAINED times E.
+   pure function stress_words(strained) result(words)
+      real(wp), intent(in)      :: strained !! [-]
+      character(:), allocatable :: words
+
+      words = ''
+      if (strained > most_strained) words = 'the largest von Mises stress is'//number(strained)// &
+         ' of E, more than solids bear elastically; are loads, lengths and E in one system of units?'
+   end function stress_words
 
    !> Whether a SPEED is that of waves in solids.
    elemental logical function is_usual(speed)

@@ -42,6 +42,7 @@ module results
    type, public :: digest_type
       integer  :: stages = 0, increments = 0, iterations = 0 !! completed; iterations or re-analyses
       real(wp) :: u_max = 0.0_wp, mises_max = 0.0_wp         !! the largest at the end of any stage [length], [pressure]
+      real(wp) :: strained = 0.0_wp                          !! largest von Mises stress over E, likewise
       real(wp) :: contact = 1.0_wp                           !! least share of any joint, likewise
       real(wp) :: safety = huge(1.0_wp)                      !! least against slip, likewise; huge: none
       real(wp) :: frequency = -1.0_wp                        !! the first that is not zero, of the last stage with modes [1/time]
@@ -193,6 +194,7 @@ contains
       digest%stages = digest%stages + 1
       digest%u_max = max(digest%u_max, answer%displacement%value)
       digest%mises_max = max(digest%mises_max, answer%at_node%value)
+      digest%strained = max(digest%strained, answer%strained)
       do j = 1, size(answer%joints)
          digest%contact = min(digest%contact, answer%joints(j)%contact)
          if (answer%joints(j)%has_safety) digest%safety = min(digest%safety, answer%joints(j)%safety)
@@ -330,7 +332,7 @@ contains
       call record_watched(stream, results%watched_before)
       associate (d => results%digest)
          call stream%item(d%stages, d%increments, d%iterations, d%u_max, d%mises_max, d%contact)
-         call stream%item(d%safety, d%frequency)
+         call stream%item(d%safety, d%frequency, d%strained)
       end associate
    end subroutine record_results
 

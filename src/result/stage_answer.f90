@@ -46,6 +46,7 @@ module stage_answer
    type, public :: stage_answer_type
       type(peak_type) :: displacement          !! the length of the vector [length]
       type(peak_type) :: at_centre, at_node    !! von Mises [pressure]
+      real(wp) :: strained = 0.0_wp            !! largest von Mises stress at the centre of an element over its E
       type(joint_answer), allocatable     :: joints(:)
       type(bolt_answer_type), allocatable :: bolts(:)
    end type stage_answer_type
@@ -106,6 +107,9 @@ contains
          size_of(e) = max(von_mises(whole_stress(model, e, analysis%all_u, analysis%now%temperature)), at_ends(e))
       end do
       !$omp end parallel do
+      associate (modulus => model%properties(model%element_property)%e)
+         if (all(is_measure(size_of))) answer%strained = maxval(size_of/modulus, mask=modulus > 0.0_wp)
+      end associate
       e = first_largest(size_of, size_of >= 0.0_wp)
       answer%at_centre = peak_type(.true., size_of(e), model%element_id(e))
       answer%at_centre%value = largest(size_of)

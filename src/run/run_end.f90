@@ -21,6 +21,7 @@ module run_end
    use stage_tables, only: distance_words
    use terminal_line, only: clear_line
    use text_tools, only: plural
+   use unit_watch, only: stress_words
    implicit none
    private
 
@@ -48,6 +49,8 @@ contains
             if (n > 0) write (error_unit, '(4a)') run%argument%name, ': ', plural(n, 'warning'), ' in the listing'
          end associate
          words = run%results%listing%poor_condition
+         if (words /= '') write (error_unit, '(3a)') run%argument%name, ': ', words
+         words = stress_words(run%results%digest%strained)
          if (words /= '') write (error_unit, '(3a)') run%argument%name, ': ', words
          words = run%results%listing%divided
          if (words /= '') write (error_unit, '(3a)') run%argument%name, ': ', words

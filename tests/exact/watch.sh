@@ -68,3 +68,23 @@ DECK
    if [ -n "${3:-}" ]; then says "units: $1 with $2" "$work/units.log" "There it would be $3"
    else same "units: $1 with $2" "$(grep -c 'speed of waves' "$work/units.log")" 0; fi
 done
+
+# Gravity and stress looked at likewise: 9.81 is none in mm, 98.1 is 10 g in m; a stress of 6.25 is E/33.6 of 210 and E/50.4 of 315.
+for case in '9810.0 MM,N 0' '9.81 MM,N 1' '0.00981 MM,N 0' '9.81 M,N 0' '386.1 IN,LBF 0' '9.81 IN,LBF 1' '1.0 MM,N 0' '30.0 MM,N 1'; do
+   set -- $case
+   cards units <<DECK
+UNITS=$2;SPC = 1;LOAD = 10
+BEGIN BULK;BLOCK2,1,1,1,1,0.0,0.0;+,8.0,5.0;PSHELL,1,1,2.0;MAT1,1,2.1+5,,0.0;SPC1,1,12,1,3;CONM2,9,4,,1.0-3;GRAV,10,,$1,0.0,-1.0;ENDDATA
+DECK
+   run units
+   same "gravity: $1 in $2" "$(grep -c 'is not gravity' "$work/units.log")" "$3"
+done
+for case in '210.0 1' '315.0 0'; do
+   set -- $case
+   cards units <<DECK
+SPC = 1;LOAD = 10
+BEGIN BULK;BLOCK2,1,1,1,1,0.0,0.0;+,8.0,5.0;PSHELL,1,1,2.0;MAT1,1,$1,,0.0;SPC1,1,2,1,3;SPC1,1,1,1;FORCE,10,2,,50.0,0.0,-1.0;FORCE,10,4,,50.0,0.0,-1.0;ENDDATA
+DECK
+   run units
+   same "stress of E = $1" "$(grep -c 'of E, more than solids bear' "$work/units.log")" "$2"
+done
