@@ -12,6 +12,7 @@ module numbers
    public :: is_measure, first_largest, cross, find_zeros, enclosed_zero, polynomial, derivative
 
    real(wp), parameter, public :: largest_measure = 1.0e100_wp
+   real(wp), parameter, public :: identity(3, 3) = reshape([real(wp) :: 1, 0, 0, 0, 1, 0, 0, 0, 1], [3, 3])
    real(wp), parameter, public :: tie = 1.0e-6_wp !! how far values may differ that a symmetric structure would have alike
 
    integer, parameter, public :: highest_degree = 4

@@ -5,8 +5,8 @@ module constraint_equations
    use deck_check, only: checked_deck
    use kinds, only: wp
    use model_data, only: model_type, supported
-   use node_coupling, only: couple_node
-   use reference_nodes, only: component_place, node_axes, rotation_at
+   use node_coupling, only: component_place, couple_node, node_axes, rotation_at
+   use numbers, only: identity
    use text_tools, only: integer_text
    implicit none
    private
@@ -250,7 +250,7 @@ contains
       else if (model%dimension == 3) then
          axes = node_axes(model, model%rotations(k)%point)
       else
-         axes = reshape([1.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 1.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 1.0_wp], [3, 3])
+         axes = identity
       end if
    end function axes_at
 

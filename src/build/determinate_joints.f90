@@ -7,7 +7,7 @@ module determinate_joints
    use lists, only: join, root_of, distinct
    use model_data, only: a_point, an_overlap, joint_type, model_type, n_bars, n_points, n_sections, node_kind, place_in_kind, &
                          stage_load_type, supported
-   use node_coupling, only: is_coupled
+   use node_coupling, only: coupling_parts, is_coupled
    use normal_curve, only: loading_pressure
    use text_tools, only: integer_text, real_text
    implicit none
@@ -98,17 +98,16 @@ contains
       type(joint_type), intent(in)  :: joint
       integer, intent(inout)        :: group(:)
       logical, intent(inout)        :: grounded(:)
-      integer :: c, i, k
+      integer :: i, k
 
-      if (.not. allocated(model%coupling%of_node)) return
       do i = 1, n_points(model)
-         c = model%coupling%of_node(i)
-         if (c == 0) cycle
-         do k = model%coupling%first(c), model%coupling%first(c + 1) - 1
-            if (any(model%held(:, model%coupling%node(k)) .and. &
-                    abs(matmul(joint%normal(:model%dimension), model%coupling%t(:, :, k))) > 1.0e-9_wp)) &
-               grounded(root_of(group, model%part(i))) = .true.
-         end do
+         associate (parts => coupling_parts(model, i))
+            do k = parts(1), parts(2)
+               if (any(model%held(:, model%coupling%node(k)) .and. &
+                       abs(matmul(joint%normal(:model%dimension), model%coupling%t(:, :, k))) > 1.0e-9_wp)) &
+                  grounded(root_of(group, model%part(i))) = .true.
+            end do
+         end associate
       end do
    end subroutine ground_turned
 

@@ -9,11 +9,12 @@ module displacement_systems
    use lists, only: id_table_type
    use model_data, only: model_type
    use node_coupling, only: couple_node
+   use numbers, only: identity
    use text_tools, only: integer_text
    implicit none
    private
 
-   public :: build_systems, find_system, system_of_id, place_grids, to_global, build_frames
+   public :: build_systems, find_system, find_directions, rectangular_axes, place_grids, to_global, build_frames
 
 contains
 
@@ -113,20 +114,12 @@ contains
       type(coordinate_system), intent(in) :: systems(:)
       integer, intent(out)                :: system
 
-      system = system_of_id(deck, id)
+      system = 0
+      if (id > 0) system = findloc(deck%bulk%system%id, id, dim=1)
       if (system == 0 .and. id > 0) &
          call deck%field_error(line, field, 'there is no CORD1R, CORD2R, CORD2C or CORD2S '//integer_text(id))
       if (system > size(systems)) system = 0
    end subroutine find_system
-
-   !> The same without an error.
-   pure integer function system_of_id(deck, id) result(system)
-      type(checked_deck), intent(in) :: deck
-      integer, intent(in)            :: id
-
-      system = 0
-      if (id > 0) system = findloc(deck%bulk%system%id, id, dim=1)
-   end function system_of_id
 
    !> X of all GRID cards in global axes; each card once a system says so.
    subroutine place_grids(deck, systems, x)
@@ -163,14 +156,48 @@ contains
       if (cid == 0) return
       call find_system(deck, line, 'CID', cid, systems, system)
       if (system == 0) return
-      call directions_at(systems(system), x, directions, ok)
-      if (ok) then
-         vector = matmul(directions, vector)
-      else
-         call deck%field_error(line, 'CID', 'the node lies on the axis of system '//integer_text(cid)// &
-                               ', where its first two directions are not defined')
-      end if
+      call find_directions(deck, line, 'CID', systems(system), x, directions, ok)
+      if (ok) vector = matmul(directions, vector)
    end subroutine to_global
+
+   !> The DIRECTIONS of SYSTEM, which FIELD of the card on LINE names, at the point X, columns. Not OK, and an error, on the axis of a
+   !! cylindrical or spherical one.
+   subroutine find_directions(deck, line, field, system, x, directions, ok, point)
+      type(checked_deck), intent(in)      :: deck
+      integer, intent(in)                 :: line
+      character(*), intent(in)            :: field
+      type(coordinate_system), intent(in) :: system
+      real(wp), intent(in)                :: x(3)      !! global axes [length]
+      real(wp), intent(out)               :: directions(3, 3)
+      logical, intent(out)                :: ok
+      character(*), intent(in), optional  :: point     !! what the card calls it; 'the node'
+      character(:), allocatable :: name
+
+      call directions_at(system, x, directions, ok)
+      if (ok) return
+      name = 'the node'
+      if (present(point)) name = point
+      call deck%field_error(line, field, name//' lies on the axis of system '//integer_text(system%id)// &
+                            ', where its first two directions are not defined')
+   end subroutine find_directions
+
+   !> The axes, columns, of the rectangular system CID of the card on LINE; those of CID 0 are global. Errors: no such system; one of
+   !! another kind, BUT what it is for.
+   subroutine rectangular_axes(deck, systems, line, cid, but, axes)
+      type(checked_deck), intent(in)      :: deck
+      type(coordinate_system), intent(in) :: systems(:)
+      integer, intent(in)                 :: line, cid
+      character(*), intent(in)            :: but
+      real(wp), intent(out)               :: axes(3, 3)
+      integer :: system
+
+      axes = identity
+      call find_system(deck, line, 'CID', cid, systems, system)
+      if (system == 0) return
+      if (systems(system)%kind /= rectangular) &
+         call deck%field_error(line, 'CID', integer_text(cid)//' is not rectangular, but '//but)
+      axes = systems(system)%axes
+   end subroutine rectangular_axes
 
    !> Couple the nodes of MODEL that have a CD, and their twins of split surfaces, to unknowns along its directions.
    !! Errors: no such system; a node on the axis of a cylindrical or spherical one; directions out of the plane of a plane
@@ -188,9 +215,7 @@ contains
             call find_system(deck, grid%line, 'CD', grid%cd, model%systems, system)
             node = model%node_table%find(grid%id)
             if (system == 0 .or. node == 0) cycle
-            call directions_at(model%systems(system), model%x(:, node), directions, ok)
-            if (.not. ok) call deck%field_error(grid%line, 'CD', 'the node lies on the axis of system '// &
-               integer_text(grid%cd)//', where its first two directions are not defined')
+            call find_directions(deck, grid%line, 'CD', model%systems(system), model%x(:, node), directions, ok)
             if (ok .and. model%dimension == 2) call check_plane_frame(deck, grid%line, directions, ok)
             if (.not. ok) cycle
             call turn_node(node)

@@ -8,7 +8,7 @@ module facing_bodies
    use model_build, only: find_bodies
    use model_data, only: corners_of, is_shell, model_type, n_bars, n_points, supported
    use numbers, only: cross
-   use spatial_search, only: box_search_type, position_search_type
+   use spatial_search, only: spatial_search_type
    use text_tools, only: clean, integer_text, real_text
    implicit none
    private
@@ -209,7 +209,7 @@ contains
       type(outer_side), intent(in)  :: sides(:)
       type(facing_type), allocatable, intent(out) :: pairs(:)
       integer, allocatable, intent(out) :: sees(:) !! (sides)
-      type(box_search_type) :: search
+      type(spatial_search_type) :: search
       real(wp), allocatable :: boxes(:, :, :)
       integer, allocatable  :: found(:)
       real(wp) :: distance, nearest
@@ -385,7 +385,7 @@ contains
       character(:), allocatable    :: words
       type(outer_side), allocatable  :: sides(:)
       type(facing_type), allocatable :: pairs(:)
-      type(position_search_type) :: search
+      type(spatial_search_type) :: search
       integer, allocatable :: sees(:), own(:), others(:)
       real(wp) :: distance, nearest
       integer  :: k, p, point

@@ -11,7 +11,7 @@ module joint_sides
    use mortar_integrals, only: face_part, whole_shares, interface_sums_type
    use node_pairing, only: pair_nodes, pairing_fault, fit_side, side_cover
    use numbers, only: cross
-   use spatial_search, only: position_search_type
+   use spatial_search, only: spatial_search_type
    use surface_build, only: side_influence, side_name, surface_node_list, surface_nodes
    use surface_sides, only: nodes_of
    use text_tools, only: integer_text, real_text
@@ -181,7 +181,7 @@ contains
    pure real(wp) function nearest_nodes(model, surface) result(shortest)
       type(model_type), intent(in)   :: model
       integer, intent(in)            :: surface(2) !! of MODEL
-      type(position_search_type) :: search
+      type(spatial_search_type) :: search
       real(wp) :: distance
       integer  :: found, k
 

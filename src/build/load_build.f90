@@ -1,22 +1,18 @@
 !> Loads: which forces act, and which displacements are prescribed, at the end of every stage. FORCE, FORCE1 and FORCE2 are
 !! vectors in global axes; MOMENT acts on the rotations of reference nodes.
 module load_build
-   use acceleration_fields, only: acceleration_at, acceleration_field
-   use beam_loads, only: add_beam_gravity, add_beam_loads, check_beam_loads
-   use body_elements, only: element_weight
-   use bulk_data, only: force_card, gravity_card
+   use body_loads, only: add_beam_loads, add_gravity, check_beam_loads, check_gravity
+   use bulk_data, only: force_card
    use case_entries, only: set_reference
    use deck_check, only: checked_deck
-   use displacement_systems, only: system_of_id, to_global
-   use element_kinds, only: max_nodes, max_side_nodes
+   use displacement_systems, only: to_global
+   use element_kinds, only: max_side_nodes
    use kinds, only: wp
    use load_checks, only: check_load_cards, check_plane, has_set, nor_others
-   use mass_elements, only: scalar_mass
-   use model_data, only: corners_of, is_beam, model_type, own_nodes, stage_load_type, surface_type
-   use node_coupling, only: add_section_share
-   use numbers, only: cross
+   use model_data, only: model_type, stage_load_type, surface_type
+   use node_coupling, only: coupling_parts, add_section_share, node_axes, rotation_at, rotation_component
+   use numbers, only: cross, identity
    use pressure_loads, only: add_pressure, find_pressed_sides, pressed_side
-   use reference_nodes, only: node_axes, rotation_at, rotation_component
    use support_build, only: add_moves, check_kept, keep_moved
    use surface_build, only: side_influence
    use text_tools, only: integer_text
@@ -86,7 +82,7 @@ contains
          if (any(abs(force(:2)) > rounding*norm2(force))) call deck%field_error(card%line, 'N1', &
             'not zero, but in a plane model moments act about z: expected N3 alone')
          force = [force(3), 0.0_wp, 0.0_wp]
-         axes = reshape([1.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 1.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 1.0_wp], [3, 3])
+         axes = identity
       end if
       call check_felt(deck, model, card, node, axes, force)
    end subroutine onto_rotations
@@ -120,13 +116,8 @@ contains
       real(wp), intent(in)         :: direction(:)
       integer :: k
 
-      is_idle = .true.
-      if (.not. allocated(model%coupling%of_node)) return
-      associate (coupling => model%coupling, c => model%coupling%of_node(node))
-         if (c == 0) return
-         do k = coupling%first(c), coupling%first(c + 1) - 1
-            is_idle = is_idle .and. all(abs(matmul(direction, coupling%t(:, :, k))) <= 0.0_wp)
-         end do
+      associate (parts => coupling_parts(model, node))
+         is_idle = all([(abs(matmul(direction, model%coupling%t(:, :, k))) <= 0.0_wp, k = parts(1), parts(2))])
       end associate
    end function is_idle
 
@@ -146,9 +137,7 @@ contains
          line(:, k) = model%x(:, nodes(2*k)) - model%x(:, nodes(2*k - 1))
       end do
       direction = line(:, 1)
-      if (nodes(3) > 0) direction = [line(2, 1)*line(3, 2) - line(3, 1)*line(2, 2), &
-                                     line(3, 1)*line(1, 2) - line(1, 1)*line(3, 2), &
-                                     line(1, 1)*line(2, 2) - line(2, 1)*line(1, 2)]
+      if (nodes(3) > 0) direction = cross(line(:, 1), line(:, 2))
       if (norm2(direction) > 0.0_wp) then
          force = card%force(1)*direction/norm2(direction)
       else if (nodes(3) > 0) then
@@ -171,6 +160,7 @@ contains
 
       call find_nodal_forces(deck, model, node, force)
       call check_load_cards(deck, model)
+      call check_gravity(deck, model)
       call check_beam_loads(deck, model)
       call check_kept(deck, model)
       call find_pressed_sides(deck, model, pressed)
@@ -222,7 +212,6 @@ contains
       real(wp), intent(in)                 :: factor
       type(stage_load_type), intent(inout) :: loads
       real(wp), allocatable :: spread_out(:, :)
-      type(acceleration_field) :: field
       integer  :: i, node, s
 
       associate (bulk => deck%bulk)
@@ -247,15 +236,8 @@ contains
                call add_surface_force(model, model%surfaces(s), factor*bulk%surface_load(i)%force, spread_out)
             end if
          end do
-         do i = 1, size(bulk%gravity)
-            if (bulk%gravity(i)%set /= set) cycle
-            s = system_of_id(deck, bulk%gravity(i)%system)
-            field = field_of(model, bulk%gravity(i), s, factor)
-            call add_gravity(model, field, spread_out)
-            call add_beam_gravity(model, field, loads, spread_out)
-            call add_mass_weights(model, field, spread_out)
-         end do
       end associate
+      call add_gravity(deck, model, set, factor, loads, spread_out)
       call add_beam_loads(deck, model, set, factor, loads, spread_out)
       do node = 1, model%n_nodes
          if (any(abs(spread_out(:, node)) > 0.0_wp)) call add_force(node, spread_out(:, node), loads)
@@ -267,17 +249,10 @@ contains
       integer, intent(in)                  :: node
       real(wp), intent(in)                 :: force(3)
       type(stage_load_type), intent(inout) :: loads
-      integer,  allocatable :: longer(:)
-      real(wp), allocatable :: wider(:, :)
-      integer :: room
 
       if (loads%n == size(loads%node)) then
-         room = 2*loads%n + 8
-         allocate (longer(room), wider(3, room))
-         longer(:loads%n) = loads%node
-         wider(:, :loads%n) = loads%force
-         call move_alloc(longer, loads%node)
-         call move_alloc(wider, loads%force)
+         loads%node = [loads%node, loads%node, spread(0, 1, 8)]
+         loads%force = reshape([loads%force, loads%force, spread(force, 2, 8)], [3, size(loads%node)])
       end if
       loads%n = loads%n + 1
       loads%node(loads%n) = node
@@ -328,76 +303,5 @@ contains
          if (sum_of_areas <= 0.0_wp) return
       end do
    end subroutine add_surface_force
-
-   !> The field of CARD, in system S, times FACTOR: of RFORCE a = -(w x (w x r)) - dw/dt x r, r from its node; forces have its sense.
-   function field_of(model, card, s, factor) result(field)
-      type(model_type), intent(in)   :: model
-      type(gravity_card), intent(in) :: card
-      integer, intent(in)            :: s
-      real(wp), intent(in)           :: factor
-      type(acceleration_field) :: field
-      real(wp) :: axes(3, 3), spin(3, 3)
-      integer  :: c, node
-
-      axes = reshape([1.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 1.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 1.0_wp], [3, 3])
-      if (s > 0) axes = model%systems(s)%axes
-      field%uniform = factor*matmul(axes, card%acceleration)
-      if (.not. card%is_spin) return
-      field%is_uniform = .false.
-      node = 0
-      if (card%node > 0) node = model%node_table%find(card%node)
-      if (node > 0) field%origin = model%x(:, node)
-      associate (w => matmul(axes, card%spin), rate => matmul(axes, card%spin_rate), unit => spin)
-         do c = 1, 3
-            unit(:, c) = 0.0_wp
-            unit(c, c) = 1.0_wp
-            field%gradient(:, c) = -factor*(cross(w, cross(w, unit(:, c))) + cross(rate, unit(:, c)))
-         end do
-      end associate
-      if (model%axisymmetric) field%gradient(:, 3) = 0.0_wp
-   end function field_of
-
-   !> Nodal forces of the masses of all bodies but beams under an acceleration FIELD.
-   subroutine add_gravity(model, field, force)
-      type(model_type), intent(in)         :: model
-      type(acceleration_field), intent(in) :: field
-      real(wp), intent(inout)              :: force(:, :) !! (3, n_nodes)
-      real(wp) :: a(3, 2*max_nodes), f(model%dimension, 2*max_nodes), m(2*max_nodes, 2*max_nodes)
-      integer  :: e, k
-
-      do e = 1, model%n_elements
-         if (any(corners_of(model, e) == 0) .or. model%element_property(e) == 0 .or. is_beam(model, e)) cycle
-         associate (nodes => own_nodes(model, e), d => model%dimension)
-            if (field%is_uniform) then
-               call element_weight(model, e, field%uniform(:d), f)
-            else ! of the mass between the displacements alone: at constant speed rotations do not accelerate
-               associate (corners => corners_of(model, e))
-                  call scalar_mass(model, e, m)
-                  f = 0.0_wp
-                  do k = 1, size(corners)
-                     a(:, k) = acceleration_at(field, model%x(:, corners(k)))
-                  end do
-                  f(:, :size(corners)) = matmul(a(:d, :size(corners)), m(:size(corners), :size(corners)))
-               end associate
-            end if
-            force(:d, nodes) = force(:d, nodes) + f(:, :size(nodes))
-            call add_section_share(model, e, nodes, f, force)
-         end associate
-      end do
-   end subroutine add_gravity
-
-   !> The forces of masses at nodes.
-   pure subroutine add_mass_weights(model, field, force)
-      type(model_type), intent(in)         :: model
-      type(acceleration_field), intent(in) :: field
-      real(wp), intent(inout)              :: force(:, :) !! (3, n_nodes)
-      integer :: i
-
-      do i = 1, size(model%masses)
-         associate (node => model%masses(i)%node)
-            force(:, node) = force(:, node) + model%masses(i)%mass*acceleration_at(field, model%x(:, node))
-         end associate
-      end do
-   end subroutine add_mass_weights
 
 end module load_build

@@ -1,14 +1,12 @@
-!> Load cards against the model: nodes, surfaces, sets and masses that are there, directions that the model has. Temperatures:
-!! how warm the nodes are at the end of every stage.
+!> Load cards against the model: nodes, surfaces and sets that are there, directions that the model has. Temperatures: how warm
+!! the nodes are at the end of every stage.
 module load_checks
-   use bulk_data, only: bulk_data_type, gravity_card, has_component
-   use coordinate_systems, only: rectangular
+   use bulk_data, only: bulk_data_type, has_component
    use deck_check, only: checked_deck
-   use displacement_systems, only: find_system
    use element_kinds, only: element_table
    use kinds, only: wp
    use model_data, only: a_bar, corners_of, model_type, n_bars, n_points, supported
-   use reference_nodes, only: component_place, place_of_component
+   use node_coupling, only: component_place, place_of_component
    use surface_build, only: find_surface
    use surface_sides, only: nodes_of
    use text_tools, only: integer_text
@@ -22,13 +20,12 @@ module load_checks
 
 contains
 
-   !> All load cards of the deck but those of nodal forces and pressed sides; what does not fit goes to ERRORS.
+   !> Loads of surfaces, SPCD and LOAD; what does not fit goes to ERRORS.
    subroutine check_load_cards(deck, model)
       type(checked_deck), intent(in) :: deck
       type(model_type), intent(in)   :: model
 
       call check_surface_loads(deck, model)
-      call check_gravity(deck, model)
       call check_displacements(deck, model)
       call check_combinations(deck)
    end subroutine check_load_cards
@@ -91,67 +88,6 @@ contains
          end associate
       end do
    end subroutine check_surface_loads
-
-   !> GRAV needs a mass to act on.
-   subroutine check_gravity(deck, model)
-      type(checked_deck), intent(in) :: deck
-      type(model_type), intent(in)   :: model
-      real(wp) :: acceleration(3)
-      integer  :: i, system
-
-      do i = 1, size(deck%bulk%gravity)
-         associate (card => deck%bulk%gravity(i))
-            call find_system(deck, card%line, 'CID', card%system, model%systems, system)
-            acceleration = card%acceleration
-            if (card%is_spin) then
-               call check_spin(card)
-               cycle
-            end if
-            if (system > 0) then
-               if (model%systems(system)%kind /= rectangular) call deck%field_error(card%line, 'CID', integer_text(card%system)// &
-                  ' is not rectangular, but gravity has one direction everywhere')
-               acceleration = matmul(model%systems(system)%axes, acceleration)
-            end if
-            call check_plane(deck, model, card%line, acceleration, turned=card%system > 0)
-            if (model%axisymmetric .and. abs(acceleration(1)) > 1.0e-12_wp*norm2(acceleration)) &
-               call deck%field_error(card%line, 'N1', 'not zero, but in an axisymmetric model gravity acts along y')
-            if (all(model%properties%rho <= 0.0_wp) .and. all(deck%bulk%mass%mass <= 0.0_wp)) &
-               call deck%errors%add(card%line, 'GRAV: no body has a mass; give RHO on its MAT1')
-         end associate
-      end do
-
-   contains
-
-      !> RFORCE: an axis along z in the plane, along y of revolution, and a mass.
-      subroutine check_spin(card)
-         type(gravity_card), intent(in) :: card
-         real(wp) :: axis(3), size_of
-
-         axis = abs(card%spin) + abs(card%spin_rate)
-         if (card%node > 0) then
-            if (model%node_table%find(card%node) == 0) call deck%field_error(card%line, 'G', 'there is no GRID '// &
-                                                                             integer_text(card%node))
-         end if
-         if (system > 0) then
-            if (model%systems(system)%kind /= rectangular) call deck%field_error(card%line, 'CID', integer_text(card%system)// &
-               ' is not rectangular, but the axis has one direction everywhere')
-            axis = abs(matmul(model%systems(system)%axes, card%spin)) + abs(matmul(model%systems(system)%axes, card%spin_rate))
-         end if
-         size_of = maxval(axis)
-         if (model%axisymmetric) then
-            if (maxval(axis([1, 3])) > 1.0e-12_wp*size_of) call deck%field_error(card%line, 'R1', &
-               'a ring turns about y; expected R1 and R3 zero')
-            if (any(abs(card%spin_rate) > 0.0_wp)) call deck%field_error(card%line, 'RACC', &
-               'not zero, but a model of revolution has no forces round the axis')
-         else if (model%dimension == 2) then
-            if (maxval(axis(:2)) > 1.0e-12_wp*size_of) call deck%field_error(card%line, 'R1', &
-               'a plane model turns about z; expected R1 and R2 zero')
-         end if
-         if (all(model%properties%rho <= 0.0_wp) .and. all(deck%bulk%mass%mass <= 0.0_wp)) &
-            call deck%errors%add(card%line, 'RFORCE: no body has a mass; give RHO on its MAT1')
-      end subroutine check_spin
-
-   end subroutine check_gravity
 
    !> SPCD moves components that are held.
    subroutine check_displacements(deck, model)

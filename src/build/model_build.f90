@@ -13,13 +13,14 @@ module model_build
    use lists, only: join, root_of
    use load_build, only: build_loads
    use load_checks, only: build_temperatures
+   use mass_build, only: build_masses, check_mass
    use mesh_build, only: build_mesh, marked_sides, check_named_nodes
    use model_data, only: model_type, n_bars, n_rotations, n_sections, stage_load_type
-   use node_coupling, only: section_node
+   use node_coupling, only: coupling_parts, section_node
    use pretension_section, only: build_sections
    use rbe2, only: build_dependents, name_surface_nodes
    use shell_faces, only: build_shell_faces, couple_shell_faces
-   use spring_build, only: build_bars, build_masses, check_mass, build_springs
+   use spring_build, only: build_bars, build_springs
    use stage_plan, only: plan_stages, stage_plan_type
    use structural_build, only: build_beams, build_rotations, build_shells, leave_out_idle, turn_rotations
    use support_build, only: build_supports
@@ -72,11 +73,13 @@ contains
          if (model%bars(k)%nodes(2) == 0) cycle ! the ground
          if (with_bolts .or. model%bars(k)%bolt == 0) call join(parent, model%bars(k)%nodes(1), model%bars(k)%nodes(2))
       end do
-      if (allocated(model%coupling%of_node)) then
-         do node = 1, model%n_nodes
-            call join_coupled(model, node, parent)
-         end do
-      end if
+      do node = 1, model%n_nodes
+         associate (parts => coupling_parts(model, node))
+            do k = parts(1), parts(2)
+               call join(parent, node, model%coupling%node(k))
+            end do
+         end associate
+      end do
       do k = 1, n_rotations(model)
          call join(parent, model%rotations(k)%point, model%rotations(k)%node)
       end do
@@ -121,21 +124,6 @@ contains
       if (corner == 0 .or. section_node(model, e) == 0) return
       if (model%node_section(corner) == model%element_section(e)) corner = section_node(model, e)
    end function uncut
-
-   !> NODE and all those whose unknowns it moves with are one part.
-   pure subroutine join_coupled(model, node, parent)
-      type(model_type), intent(in) :: model
-      integer, intent(in)          :: node
-      integer, intent(inout)       :: parent(:)
-      integer :: k
-
-      associate (coupling => model%coupling, c => model%coupling%of_node(node))
-         if (c == 0) return
-         do k = coupling%first(c), coupling%first(c + 1) - 1
-            call join(parent, node, coupling%node(k))
-         end do
-      end associate
-   end subroutine join_coupled
 
    !> Build MODEL and the PLAN of its stages from DECK; what does not fit together goes to ERRORS, and then neither
    !! is fit to be solved. Of a faulty mesh nothing further is made: areas, fits and loads of it would be of numbers that nobody

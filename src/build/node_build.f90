@@ -11,7 +11,7 @@ module node_build
    use kinds, only: wp
    use lists, only: sorted_order, list_owners
    use model_data, only: has_second_order, model_type
-   use spatial_search, only: position_search_type
+   use spatial_search, only: spatial_search_type
    use text_tools, only: integer_text
    implicit none
    private
@@ -83,7 +83,7 @@ contains
       integer, intent(in)            :: b
       type(raw_nodes), intent(in)    :: raw
       integer, intent(inout)         :: places(:)
-      type(position_search_type) :: search
+      type(spatial_search_type) :: search
       integer, allocatable :: near_this(:), near_other(:)
       real(wp) :: reach, distance
       integer  :: k, other, found

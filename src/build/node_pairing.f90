@@ -7,7 +7,7 @@ module node_pairing
    use lists, only: id_table_type
    use model_data, only: joint_cover, model_type, surface_type, whole_share
    use mortar_integrals, only: face_part, fit_face, add_overlap, cover_integrals, own_face, start_integrals, interface_sums_type
-   use spatial_search, only: box_search_type, position_search_type
+   use spatial_search, only: spatial_search_type
    use surface_build, only: side_influence, surface_node_list
    use text_tools, only: integer_text, plural, real_text
    implicit none
@@ -40,7 +40,7 @@ module node_pairing
 
    !> The faces of SIDE2 as the search needs them.
    type :: opposite_faces
-      type(box_search_type) :: boxes
+      type(spatial_search_type) :: boxes
       real(wp), allocatable :: normal(:, :)  ! (3, n) at their centres
       real(wp), allocatable :: area(:)       ! (n) as seen at right angles
       logical, allocatable  :: covers(:)     ! (n) something of SIDE1
@@ -56,7 +56,7 @@ contains
       real(wp), intent(in)                :: tol          !! 0: the default [length]
       integer, intent(inout)              :: partner(:)
       type(pairing_fault), intent(out)    :: fault
-      type(position_search_type) :: search
+      type(spatial_search_type) :: search
       real(wp) :: tolerance, distance, worst
       integer  :: k, found, lonely, shared, turned, worst_node
       logical, allocatable :: taken(:)

@@ -1,9 +1,8 @@
 !> PLOAD4, PLOADE, PLOAD and PLOAD2: which sides of which elements a card presses on, found by their corners, and the nodal forces.
 module pressure_loads
    use bulk_data, only: of_face, of_marks, of_nodes, pressure_card
-   use coordinate_systems, only: rectangular
    use deck_check, only: checked_deck
-   use displacement_systems, only: find_system
+   use displacement_systems, only: rectangular_axes
    use element_build, only: is_face
    use element_kinds, only: element_table, kind_hexa8, kind_penta6, kind_tetra4, max_side_nodes
    use element_loads, only: side_forces
@@ -130,7 +129,7 @@ contains
       logical :: names_shell
 
       allocate (pressed(size(deck%bulk%pressure)))
-      if (size(pressed) == 0) return
+      if (size(pressed) == 0) return ! else there is always room for twice as many
       call elements%build(model%element_id)
       call faces%build(pack(deck%bulk%element%id, is_face(model, deck%bulk%element)))
       n = 0
@@ -174,13 +173,8 @@ contains
       type(pressed_side), intent(in)                 :: side
       type(pressed_side), allocatable, intent(inout) :: pressed(:)
       integer, intent(inout)                         :: n
-      type(pressed_side), allocatable :: longer(:)
 
-      if (n == size(pressed)) then
-         allocate (longer(2*n + 8))
-         longer(:n) = pressed
-         call move_alloc(longer, pressed)
-      end if
+      if (n == size(pressed)) pressed = [pressed, pressed]
       n = n + 1
       pressed(n) = side
    end subroutine append
@@ -191,15 +185,12 @@ contains
       type(model_type), intent(in)   :: model
       integer, intent(in)            :: i
       real(wp), intent(out)          :: direction(3)
-      integer :: system
+      real(wp) :: axes(3, 3)
 
       associate (card => deck%bulk%pressure(i))
-         direction = card%direction/max(norm2(card%direction), tiny(1.0_wp))
-         call find_system(deck, card%line, 'CID', card%system, model%systems, system)
-         if (system == 0) return
-         if (model%systems(system)%kind /= rectangular) call deck%field_error(card%line, 'CID', integer_text(card%system)// &
-            ' is not rectangular, but the pressure on a face has one direction all over it')
-         direction = matmul(model%systems(system)%axes, direction)
+         call rectangular_axes(deck, model%systems, card%line, card%system, &
+                               'the pressure on a face has one direction all over it', axes)
+         direction = matmul(axes, card%direction/max(norm2(card%direction), tiny(1.0_wp)))
       end associate
    end subroutine find_direction
 

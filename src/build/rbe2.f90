@@ -7,8 +7,8 @@ module rbe2
    use deck_check, only: checked_deck
    use kinds, only: wp
    use model_data, only: model_type, n_rotations
+   use node_coupling, only: component_place, node_axes, place_of_component, rotation_at, third_axis
    use rbe3, only: add_mean, by_rotation, find_node, no_displacement
-   use reference_nodes, only: component_place, node_axes, place_of_component, rotation_at, third_axis
    use support_build, only: check_sums, summed_sets
    use surface_build, only: find_surface, surface_node_list, surface_nodes
    use text_tools, only: integer_text

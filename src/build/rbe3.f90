@@ -7,7 +7,7 @@ module rbe3
    use deck_check, only: checked_deck
    use kinds, only: wp
    use model_data, only: model_type
-   use reference_nodes, only: component_place, node_axes, place_of_component, third_axis
+   use node_coupling, only: component_place, node_axes, place_of_component, third_axis
    use text_tools, only: integer_text
    implicit none
    private

@@ -9,8 +9,8 @@ module shell_faces
    use lists, only: id_table_type
    use model_data, only: corners_of, face_node_type, is_shell, model_type, surface_type
    use node_build, only: append_nodes
-   use node_coupling, only: couple_node
-   use numbers, only: cross
+   use node_coupling, only: couple_node, coupling_parts
+   use numbers, only: cross, identity
    use rbe3, only: by_rotation
    use shell_geometry, only: shell_frame, shell_frame_of
    use text_tools, only: integer_text
@@ -179,14 +179,13 @@ contains
       real(wp), allocatable :: t(:, :, :)
       integer, allocatable  :: masters(:)
       integer  :: k
-      real(wp), parameter :: unit(3, 3) = reshape([1.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 1.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 1.0_wp], [3, 3])
 
       if (.not. allocated(model%faces)) return
       if (.not. allocated(model%left_out)) allocate (model%left_out(model%dimension, model%n_nodes), source=.false.)
       do k = 1, size(model%faces)
          allocate (masters(0), t(3, 3, 0))
          associate (face => model%faces(k))
-            call add(face%point, unit)
+            call add(face%point, identity)
             associate (rotation => model%rotations(model%rotation_of(face%point)))
                call add(rotation%node, by_rotation(face%lever)/rotation%arm)
             end associate
@@ -203,17 +202,14 @@ contains
       subroutine add(node, matrix)
          integer, intent(in)  :: node
          real(wp), intent(in) :: matrix(3, 3)
-         integer :: c, j
+         integer :: j
 
-         c = 0
-         if (allocated(model%coupling%of_node)) c = model%coupling%of_node(node)
-         if (c == 0) then
-            call add_part(node, matrix)
-            return
-         end if
-         do j = model%coupling%first(c), model%coupling%first(c + 1) - 1
-            call add_part(model%coupling%node(j), matmul(matrix, model%coupling%t(:, :, j)))
-         end do
+         associate (parts => coupling_parts(model, node))
+            if (parts(2) < 0) call add_part(node, matrix)
+            do j = parts(1), parts(2)
+               call add_part(model%coupling%node(j), matmul(matrix, model%coupling%t(:, :, j)))
+            end do
+         end associate
       end subroutine add
 
       subroutine add_part(node, matrix)

@@ -1,21 +1,20 @@
-!> Bars, springs and masses: CROD with PROD, CONROD, and the BOLT cards that tighten some of them; CELAS1, CELAS2 and CBUSH as
-!! bars of the model, one a direction, behind the bars themselves; CONM2, and whether there is any mass where the structure
-!! shall oscillate.
+!> Bars and springs: CROD with PROD, CONROD, and the BOLT cards that tighten some of them; CELAS1, CELAS2 and CBUSH as bars of the
+!! model, one a direction, behind the bars themselves.
 module spring_build
-   use bulk_data, only: bolt_card, edge_card, edge_crod, mass_card, prod_card, spring_card
-   use coordinate_systems, only: directions_at
+   use bulk_data, only: bolt_card, edge_card, edge_crod, prod_card, spring_card
    use deck_check, only: checked_deck
-   use displacement_systems, only: find_system
+   use displacement_systems, only: find_directions, find_system
    use kinds, only: wp
-   use model_data, only: a_spring, bar_type, model_type, n_bars
+   use model_data, only: a_spring, bar_type, model_type
    use node_build, only: find_nodes
-   use reference_nodes, only: node_axes, rotation_at
+   use node_coupling, only: node_axes, rotation_at
+   use numbers, only: identity
    use structural_build, only: is_cut_beam
    use text_tools, only: integer_text
    implicit none
    private
 
-   public :: build_bars, is_bar, find_stage, build_springs, build_masses, check_mass
+   public :: build_bars, is_bar, find_stage, build_springs
 
    character(2), parameter :: axis_names(6) = ['T1', 'T2', 'T3', 'R1', 'R2', 'R3']
 
@@ -299,16 +298,13 @@ contains
       logical, intent(out)           :: ok
       integer :: system
 
-      directions = reshape([1.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 1.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 1.0_wp], [3, 3])
+      directions = identity
       ok = nodes(1) > 0 .and. (nodes(2) > 0 .or. card%nodes(2) == 0)
       if (.not. ok) return
       if (card%system > 0) then
          call find_system(deck, card%line, 'CID', card%system, model%systems, system)
          ok = system > 0
-         if (.not. ok) return
-         call directions_at(model%systems(system), model%x(:, nodes(1)), directions, ok)
-         if (.not. ok) call deck%field_error(card%line, 'CID', 'GA lies on the axis of system '//integer_text(card%system)// &
-                                             ', where its first two directions are not defined')
+         if (ok) call find_directions(deck, card%line, 'CID', model%systems(system), model%x(:, nodes(1)), directions, ok, 'GA')
       else if (card%system < 0 .and. nodes(2) > 0) then
          associate (along => model%x(:, nodes(2)) - model%x(:, nodes(1)))
             if (norm2(along) <= 0.0_wp) return
@@ -324,134 +320,10 @@ contains
    pure function direction_of(model, node, component) result(direction)
       type(model_type), intent(in) :: model
       integer, intent(in)          :: node, component
-      real(wp) :: direction(3)
-      logical  :: is_turned
+      real(wp) :: direction(3), axes(3, 3)
 
-      direction = 0.0_wp
-      is_turned = allocated(model%node_system)
-      if (is_turned) is_turned = model%node_system(node) > 0
-      if (is_turned) then
-         associate (axes => node_axes(model, node))
-            direction = axes(:, component)
-         end associate
-      else
-         direction(component) = 1.0_wp
-      end if
+      axes = node_axes(model, node)
+      direction = axes(:, component)
    end function direction_of
-
-   !> Fill the masses of MODEL, PARAM WTMASS on them, and how elements have theirs. A CONM2 stands at a node that some element holds.
-   subroutine build_masses(deck, model)
-      type(checked_deck), intent(in)  :: deck
-      type(model_type), intent(inout) :: model
-      integer :: i, n
-
-      model%lumped = deck%control%lumped
-      associate (parameters => deck%bulk%parameters)
-         if (parameters%mass_line > 0 .and. .not. deck%control%mass_is_given) then
-            model%lumped = parameters%lumped
-         else if (parameters%mass_line > 0 .and. (parameters%lumped .neqv. model%lumped)) then
-            call deck%errors%add(parameters%mass_line, 'PARAM COUPMASS asks for '// &
-               trim(merge('lumped    ', 'consistent', parameters%lumped))//' mass, MASS in case control does not; '// &
-               'expected one of the two')
-         end if
-      end associate
-      allocate (model%masses(size(deck%bulk%mass)))
-      n = 0
-      do i = 1, size(deck%bulk%mass)
-         associate (card => deck%bulk%mass(i), node => model%node_table%find(deck%bulk%mass(i)%node))
-            if (node == 0) cycle
-            if (.not. model%used(node)) &
-               call deck%field_error(card%line, 'G', 'node '//integer_text(card%node)//' belongs to no element')
-            n = n + 1
-            model%masses(n)%node = node
-            model%masses(n)%mass = deck%bulk%parameters%mass_factor*card%mass
-            call find_inertia(deck, model, card, model%x(:, node), model%masses(n)%inertia)
-         end associate
-      end do
-      model%masses = model%masses(:n)
-   end subroutine build_masses
-
-   !> The INERTIA of CARD about its node, turned from its system into global axes [force x time^2 x length]: I11, I22, I33 on the
-   !! diagonal, -I21, -I31, -I32 beside it, I21 the integral of x_1 x_2 over the mass.
-   subroutine find_inertia(deck, model, card, x, inertia)
-      type(checked_deck), intent(in) :: deck
-      type(model_type), intent(in)   :: model
-      type(mass_card), intent(in)    :: card
-      real(wp), intent(in)           :: x(3)          !! of the node [length]
-      real(wp), intent(out)          :: inertia(3, 3)
-      real(wp) :: axes(3, 3)
-      integer  :: system
-      logical  :: ok
-
-      associate (i11 => card%inertia(1), i21 => card%inertia(2), i22 => card%inertia(3), i31 => card%inertia(4), &
-                 i32 => card%inertia(5), i33 => card%inertia(6))
-         inertia = deck%bulk%parameters%mass_factor*reshape([i11, -i21, -i31, -i21, i22, -i32, -i31, -i32, i33], [3, 3])
-      end associate
-      if (any(deck%control%stages%vibration%modes%id > 0) .and. .not. is_inertia(inertia)) call deck%field_error(card%line, &
-         'I11', 'these moments of inertia are of no body, whose kinetic energy is nowhere below zero')
-      if (card%system == 0) return
-      call find_system(deck, card%line, 'CID', card%system, model%systems, system)
-      if (system == 0 .or. all(abs(card%inertia) <= 0.0_wp)) return
-      call directions_at(model%systems(system), x, axes, ok)
-      if (ok) then
-         inertia = matmul(axes, matmul(inertia, transpose(axes)))
-      else
-         call deck%field_error(card%line, 'CID', 'the node lies on the axis of system '//integer_text(card%system)// &
-                               ', where its first two directions are not defined')
-      end if
-   end subroutine find_inertia
-
-   !> Whether no turning has an energy below zero: no minor on the diagonal is, rounding aside.
-   pure logical function is_inertia(a)
-      real(wp), intent(in) :: a(3, 3) !! symmetric
-      real(wp), parameter :: rounding = 1.0e-12_wp
-      real(wp) :: b(3, 3), size_of
-      integer  :: i, j
-
-      size_of = maxval(abs(a))
-      is_inertia = .true.
-      if (size_of <= 0.0_wp) return
-      b = a/size_of
-      do i = 1, 3
-         j = modulo(i, 3) + 1
-         is_inertia = is_inertia .and. b(i, i) >= 0.0_wp .and. b(i, i)*b(j, j) - b(i, j)**2 >= -rounding
-      end do
-      is_inertia = is_inertia .and. b(1, 1)*(b(2, 2)*b(3, 3) - b(2, 3)**2) - b(1, 2)*(b(1, 2)*b(3, 3) - b(2, 3)*b(1, 3)) &
-                   + b(1, 3)*(b(1, 2)*b(2, 3) - b(2, 2)*b(1, 3)) >= -rounding
-   end function is_inertia
-
-   !> Where the deck asks for MODES, every body has a mass, its own or at one of its nodes or in a bar on it.
-   subroutine check_mass(deck, model)
-      type(checked_deck), intent(in) :: deck
-      type(model_type), intent(in)   :: model !! its parts are found, bolts among what connects
-      logical, allocatable :: has_mass(:)     ! (parts)
-      integer :: e, i, line
-
-      i = findloc(deck%control%stages%vibration%modes%id > 0, .true., dim=1)
-      if (i == 0) return
-      line = deck%control%stages(i)%vibration%modes%line
-      allocate (has_mass(model%n_parts), source=.false.)
-      do e = 1, model%n_elements
-         if (model%properties(model%element_property(e))%rho > 0.0_wp) has_mass(model%part(model%element_nodes(1, e))) = .true.
-      end do
-      do i = 1, size(model%masses)
-         if (model%masses(i)%mass > 0.0_wp) has_mass(model%part(model%masses(i)%node)) = .true.
-      end do
-      do i = 1, n_bars(model)
-         if (model%bars(i)%mass > 0.0_wp) has_mass(model%part(model%bars(i)%nodes)) = .true. ! springs have none
-      end do
-      if (.not. any(has_mass)) then
-         call deck%errors%add(line, 'MODES: nothing has a mass; give RHO on MAT1, or CONM2')
-         return
-      end if
-      do e = 1, model%n_elements
-         associate (part => model%part(model%element_nodes(1, e)))
-            if (has_mass(part)) cycle
-            call deck%errors%add(line, 'MODES: the body of element '//integer_text(model%element_id(e))// &
-                                 ' has no mass; give RHO on its MAT1, or a CONM2 on it')
-            has_mass(part) = .true. ! said
-         end associate
-      end do
-   end subroutine check_mass
 
 end module spring_build

@@ -6,7 +6,7 @@ module support_build
    use deck_check, only: checked_deck
    use kinds, only: wp
    use model_data, only: is_face_node, model_type, n_bars, n_points, stage_load_type, support_group
-   use reference_nodes, only: component_place, place_of_component
+   use node_coupling, only: component_place, place_of_component
    use surface_build, only: find_surface
    use surface_sides, only: nodes_of
    use text_tools, only: integer_text

@@ -3,7 +3,7 @@
 !! x), z, spherical ones r, theta (degrees from z), phi (degrees from x about z).
 module coordinate_systems
    use kinds, only: wp
-   use numbers, only: cross
+   use numbers, only: cross, identity
    implicit none
    private
 
@@ -17,8 +17,7 @@ module coordinate_systems
       integer  :: id = 0
       integer  :: kind = rectangular
       real(wp) :: origin(3) = 0.0_wp     !! in global axes [length]
-      real(wp) :: axes(3, 3) = reshape([1.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 1.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 1.0_wp], [3, 3])
-                                         !! columns: x, y, z in global axes, unit
+      real(wp) :: axes(3, 3) = identity !! columns: x, y, z in global axes, unit
    end type coordinate_system
 
 contains

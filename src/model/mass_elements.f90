@@ -5,8 +5,7 @@ module mass_elements
    use isoparametric, only: lump, shape_products
    use kinds, only: wp
    use model_data, only: bar_nodes, corners_of, is_beam, is_shell, model_type, own_nodes, point_mass_type
-   use node_coupling, only: between_unknowns, onto_unknowns, unknown_nodes, extend_stiffness, felt_nodes
-   use reference_nodes, only: rotation_at
+   use node_coupling, only: between_unknowns, extend_stiffness, felt_nodes, onto_unknowns, rotation_at, unknown_nodes
    use structural_elements, only: shell_mass, structural_mass
    implicit none
    private

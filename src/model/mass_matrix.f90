@@ -7,8 +7,7 @@ module mass_matrix
    use lists, only: list_owners
    use mass_elements, only: bar_mass, inertia_at_rotation, n_masses, scalar_mass, whole_mass
    use model_data, only: is_beam, model_type, n_bars, n_points, own_nodes
-   use node_coupling, only: felt_nodes, section_node
-   use reference_nodes, only: rotation_at
+   use node_coupling, only: felt_nodes, rotation_at, section_node
    implicit none
    private
 

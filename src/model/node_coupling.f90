@@ -1,4 +1,4 @@
-!> How nodes move with the unknowns of the equations. An ordinary node has its own, its displacements in global axes. Others are
+!> How nodes move with the unknowns of the equations, and where their components 1 to 6 stand among these. An ordinary node has its own, its displacements in global axes. Others are
 !! coupled: their displacements are sums over parts, {u} = sum of [T] {q}, each the unknowns q of a node, their own or another's:
 !! of a node with a displacement system CD one part, its own unknowns along the directions of the system. Elements, loads, interface
 !! elements and results know displacements; what they give to the equations, and take from them, goes through here:
@@ -8,18 +8,41 @@
 !! Sections of solid bolts as elements see them. An element behind a section has its corners there where they would be with the
 !! overlap g of the section on top, {u_e} = [T] {u, g}: one more unknown, kept as component 1 of the section's own node.
 module node_coupling
+   use coordinate_systems, only: directions_at
    use element_kinds, only: element_table
    use interface_operator, only: interface_element
    use kinds, only: wp
    use model_data, only: corners_of, model_type, n_sections, node_coupling_type, own_nodes
+   use numbers, only: identity
    implicit none
    private
 
    public :: is_coupled, couple_node, unknown_nodes, onto_unknowns, between_unknowns, displacements, displacements_at, &
              forces_on_unknowns, held_forces, list_on_unknowns, section_node, felt_nodes, coupled_nodes, corner_displacements, &
-             extend_stiffness, add_section_share
+             extend_stiffness, add_section_share, coupling_parts, rotation_at, rotation_component, node_axes, place_of_component, &
+             third_axis
+
+   !> A component of a node as unknowns count them: component D of NODE, times SCALE.
+   type, public :: component_place
+      integer  :: node = 0       !! 0: there is none
+      integer  :: d = 0
+      real(wp) :: scale = 1.0_wp !! the displacement kept there by the component: 1, of a rotation its arm
+   end type component_place
 
 contains
+
+   !> Where the parts of NODE stand in the coupling of MODEL, the first and the last, which is < 0 where the node is not coupled.
+   pure function coupling_parts(model, node) result(parts)
+      type(model_type), intent(in) :: model
+      integer, intent(in)          :: node
+      integer :: parts(2)
+
+      parts = [0, -1]
+      if (.not. allocated(model%coupling%of_node)) return
+      associate (c => model%coupling%of_node(node))
+         if (c > 0) parts = [model%coupling%first(c), model%coupling%first(c + 1) - 1]
+      end associate
+   end function coupling_parts
 
    !> Whether any of NODES is coupled, 0 is none.
    pure logical function is_coupled(model, nodes)
@@ -73,12 +96,9 @@ contains
       end if
       allocate (unknown(0))
       do i = 1, size(nodes)
-         associate (c => model%coupling%of_node(nodes(i)))
-            if (c == 0) then
-               if (all(unknown /= nodes(i))) unknown = [unknown, nodes(i)]
-               cycle
-            end if
-            do k = model%coupling%first(c), model%coupling%first(c + 1) - 1
+         associate (parts => coupling_parts(model, nodes(i)))
+            if (parts(2) < 0 .and. all(unknown /= nodes(i))) unknown = [unknown, nodes(i)]
+            do k = parts(1), parts(2)
                if (all(unknown /= model%coupling%node(k))) unknown = [unknown, model%coupling%node(k)]
             end do
          end associate
@@ -91,24 +111,22 @@ contains
       integer, intent(in)          :: nodes(:)
       real(wp), allocatable :: t(:, :)
       integer, allocatable  :: unknown(:)
-      integer :: column, c, d, i, k
+      integer :: column, d, i, k
 
       allocate (unknown, source=unknown_nodes(model, nodes))
       d = model%dimension
       allocate (t(d*size(nodes), d*size(unknown)), source=0.0_wp)
       do i = 1, size(nodes)
-         c = model%coupling%of_node(nodes(i))
-         if (c == 0) then
-            column = d*(findloc(unknown, nodes(i), dim=1) - 1)
-            do k = 1, d
-               t(d*(i - 1) + k, column + k) = 1.0_wp
+         associate (parts => coupling_parts(model, nodes(i)))
+            if (parts(2) < 0) then
+               column = d*(findloc(unknown, nodes(i), dim=1) - 1)
+               t(d*(i - 1) + 1:d*i, column + 1:column + d) = identity(:d, :d)
+            end if
+            do k = parts(1), parts(2)
+               column = d*(findloc(unknown, model%coupling%node(k), dim=1) - 1)
+               t(d*(i - 1) + 1:d*i, column + 1:column + d) = model%coupling%t(:, :, k)
             end do
-            cycle
-         end if
-         do k = model%coupling%first(c), model%coupling%first(c + 1) - 1
-            column = d*(findloc(unknown, model%coupling%node(k), dim=1) - 1)
-            t(d*(i - 1) + 1:d*i, column + 1:column + d) = model%coupling%t(:, :, k)
-         end do
+         end associate
       end do
    end function transformation
 
@@ -159,10 +177,9 @@ contains
       u = q
       if (.not. allocated(model%coupling%of_node)) return
       do i = 1, size(model%coupling%of_node)
-         associate (coupling => model%coupling, c => model%coupling%of_node(i))
-            if (c == 0) cycle
-            u(:, i) = 0.0_wp
-            do k = coupling%first(c), coupling%first(c + 1) - 1
+         associate (coupling => model%coupling, parts => coupling_parts(model, i))
+            if (parts(2) >= 0) u(:, i) = 0.0_wp
+            do k = parts(1), parts(2)
                u(:, i) = u(:, i) + matmul(coupling%t(:, :, k), q(:, coupling%node(k)))
             end do
          end associate
@@ -198,9 +215,8 @@ contains
             if (coupling%of_node(i) > 0) felt(:, i) = 0.0_wp
          end do
          do i = 1, size(coupling%of_node)
-            associate (c => coupling%of_node(i))
-               if (c == 0) cycle
-               do k = coupling%first(c), coupling%first(c + 1) - 1
+            associate (parts => coupling_parts(model, i))
+               do k = parts(1), parts(2)
                   felt(:, coupling%node(k)) = felt(:, coupling%node(k)) + matmul(f(:, i), coupling%t(:, :, k))
                end do
             end associate
@@ -218,9 +234,8 @@ contains
       held = merge(forces_on_unknowns(model, f), 0.0_wp, model%held)
       if (.not. allocated(model%coupling%of_node)) return
       do i = 1, size(model%coupling%of_node)
-         associate (coupling => model%coupling, c => model%coupling%of_node(i))
-            if (c == 0) cycle
-            do k = coupling%first(c), coupling%first(c + 1) - 1
+         associate (coupling => model%coupling, parts => coupling_parts(model, i))
+            do k = parts(1), parts(2)
                if (coupling%node(k) == i) held(:, i) = matmul(coupling%t(:, :, k), held(:, i))
             end do
          end associate
@@ -351,5 +366,64 @@ contains
          end do
       end associate
    end subroutine add_section_share
+
+   !> Which of the rotations of MODEL are those of POINT; 0: it has none.
+   pure integer function rotation_at(model, point) result(rotation)
+      type(model_type), intent(in) :: model
+      integer, intent(in)          :: point
+
+      rotation = 0
+      if (.not. allocated(model%rotation_of)) return
+      if (point <= size(model%rotation_of)) rotation = model%rotation_of(point)
+   end function rotation_at
+
+   !> Where the rotation that NASTRAN calls component DIGIT, 4 to 6, stands among those of a node of rotations; 0: nowhere, in the
+   !! plane.
+   pure integer function rotation_component(model, digit) result(d)
+      type(model_type), intent(in) :: model
+      integer, intent(in)          :: digit
+
+      d = digit - 3
+      if (model%dimension == 2) d = merge(1, 0, digit == 6)
+   end function rotation_component
+
+   !> Component DIGIT, 1 to 6, of POINT.
+   pure function place_of_component(model, point, digit) result(place)
+      type(model_type), intent(in) :: model
+      integer, intent(in)          :: point, digit
+      type(component_place) :: place
+      integer :: rotation
+
+      if (digit <= 3) then
+         if (digit <= model%dimension) place = component_place(point, digit, 1.0_wp)
+         return
+      end if
+      rotation = rotation_at(model, point)
+      if (rotation == 0 .or. rotation_component(model, digit) == 0) return
+      place = component_place(model%rotations(rotation)%node, rotation_component(model, digit), model%rotations(rotation)%arm)
+      if (model%dimension == 2) place%scale = place%scale*sum(third_axis(model, point)) ! z is one way or the other
+   end function place_of_component
+
+   !> The third direction of NODE of a plane model, along z or against it.
+   pure function third_axis(model, node) result(axis)
+      type(model_type), intent(in) :: model
+      integer, intent(in)          :: node
+      real(wp) :: axis(3), axes(3, 3)
+
+      axes = node_axes(model, node)
+      axis = [0.0_wp, 0.0_wp, sign(1.0_wp, axes(3, 3))]
+   end function third_axis
+
+   !> The directions of the components of NODE in global axes, columns: those of its system CD.
+   pure function node_axes(model, node) result(axes)
+      type(model_type), intent(in) :: model
+      integer, intent(in)          :: node
+      real(wp) :: axes(3, 3)
+      logical  :: ok
+
+      axes = identity
+      if (.not. allocated(model%node_system)) return
+      if (model%node_system(node) > 0) call directions_at(model%systems(model%node_system(node)), model%x(:, node), axes, ok)
+   end function node_axes
 
 end module node_coupling

@@ -12,7 +12,7 @@ module body_tables
    use model_data, only: a_point, corners_of, has_ground_springs, has_second_order, is_beam, is_shell, model_type, n_bars, &
                          n_points, n_rotations, node_kind, supported
    use node_coupling, only: held_forces
-   use reference_nodes, only: node_axes
+   use node_coupling, only: node_axes
    use stage_entries, only: output_request
    use structural_results, only: list_structural
    use text_tools, only: clean

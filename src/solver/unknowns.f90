@@ -4,8 +4,8 @@
 module unknowns
    use kinds, only: wp
    use model_data, only: a_point, a_rotation, an_overlap, model_type, node_kind, place_in_kind
+   use node_coupling, only: node_axes, rotation_component
    use numbers, only: cross
-   use reference_nodes, only: node_axes, rotation_component
    use text_tools, only: integer_text
    implicit none
    private
