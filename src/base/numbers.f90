@@ -9,7 +9,7 @@ module numbers
    implicit none
    private
 
-   public :: is_measure, first_largest, cross, find_zeros, enclosed_zero, polynomial, derivative
+   public :: is_measure, first_largest, cross, by_rotation, find_zeros, enclosed_zero, polynomial, derivative
 
    real(wp), parameter, public :: largest_measure = 1.0e100_wp
    real(wp), parameter, public :: identity(3, 3) = reshape([real(wp) :: 1, 0, 0, 0, 1, 0, 0, 0, 1], [3, 3])
@@ -59,6 +59,14 @@ contains
 
       product_of_them = [a(2)*b(3) - a(3)*b(2), a(3)*b(1) - a(1)*b(3), a(1)*b(2) - a(2)*b(1)]
    end function cross
+
+   !> [W] of a point at the ARM from the one that turns: its displacement is {u} + [W] {theta}, theta x arm.
+   pure function by_rotation(arm) result(w)
+      real(wp), intent(in) :: arm(3) !! [length]
+      real(wp) :: w(3, 3)
+
+      w = reshape([0.0_wp, -arm(3), arm(2), arm(3), 0.0_wp, -arm(1), -arm(2), arm(1), 0.0_wp], [3, 3])
+   end function by_rotation
 
    !> The zeros in FROM < x < TO at which sum of c_k x**k changes its sign; what only touches zero has none there.
    pure recursive subroutine find_zeros(c, from, to, zeros)

@@ -4,7 +4,7 @@
 module constraint_equations
    use deck_check, only: checked_deck
    use kinds, only: wp
-   use model_data, only: model_type, supported
+   use model_data, only: a_rotation, model_type, node_kind, point_of
    use node_coupling, only: component_place, couple_node, node_axes, rotation_at
    use numbers, only: identity
    use text_tools, only: integer_text
@@ -34,14 +34,9 @@ contains
       type(dependence_list), intent(inout) :: list
       type(component_place), intent(in)    :: place
       integer, intent(in)                  :: line, field
-      type(dependence_type), allocatable :: longer(:)
 
       if (.not. allocated(list%item)) allocate (list%item(8))
-      if (list%n == size(list%item)) then
-         allocate (longer(2*list%n))
-         longer(:list%n) = list%item
-         call move_alloc(longer, list%item)
-      end if
+      if (list%n == size(list%item)) list%item = [list%item, list%item]
       list%n = list%n + 1
       list%item(list%n) = dependence_type(node=place%node, d=place%d, line=line, field=field)
       allocate (list%item(list%n)%on(8), list%item(list%n)%on_d(8), list%item(list%n)%factor(8))
@@ -139,16 +134,11 @@ contains
       type(model_type), intent(in) :: model
       integer, intent(in)          :: node, d
       character(:), allocatable :: words
-      integer :: k
+      integer :: digit
 
-      k = 0
-      if (allocated(model%rotations)) k = findloc(model%rotations%node, node, dim=1)
-      if (k == 0) then
-         words = 'component '//integer_text(d)//' of node '//integer_text(model%node_id(node))
-      else
-         words = 'component '//integer_text(merge(d + 3, 6, model%dimension == 3))//' of node '// &
-                 integer_text(model%node_id(model%rotations(k)%point))
-      end if
+      digit = d
+      if (node_kind(model, node) == a_rotation) digit = merge(d + 3, 6, model%dimension == 3)
+      words = 'component '//integer_text(digit)//' of node '//integer_text(model%node_id(point_of(model, node)))
    end function component_text
 
    !> Couple the nodes of LIST, whose cards are right: their dependent components have no unknowns any more. Neither have components
@@ -241,17 +231,9 @@ contains
       type(model_type), intent(in) :: model
       integer, intent(in)          :: node
       real(wp) :: axes(3, 3)
-      integer  :: k
 
-      k = 0
-      if (allocated(model%rotations)) k = findloc(model%rotations%node, node, dim=1)
-      if (k == 0) then
-         axes = node_axes(model, node)
-      else if (model%dimension == 3) then
-         axes = node_axes(model, model%rotations(k)%point)
-      else
-         axes = identity
-      end if
+      axes = node_axes(model, point_of(model, node))
+      if (node_kind(model, node) == a_rotation .and. model%dimension == 2) axes = identity
    end function axes_at
 
    !> Of the items FIRST and on of LIST, each an equation c_j = sum of factor c_k, make such of the components at PLACES, as many, named in

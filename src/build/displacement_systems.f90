@@ -216,8 +216,12 @@ contains
             node = model%node_table%find(grid%id)
             if (system == 0 .or. node == 0) cycle
             call find_directions(deck, grid%line, 'CD', model%systems(system), model%x(:, node), directions, ok)
-            if (ok .and. model%dimension == 2) call check_plane_frame(deck, grid%line, directions, ok)
             if (.not. ok) cycle
+            if (model%dimension == 2 .and. any(abs(directions(3, :2)) > 1.0e-10_wp)) then
+               call deck%field_error(grid%line, 'CD', 'the first two directions of the system do not lie in the plane of the '// &
+                                     'model, x-y')
+               cycle
+            end if
             call turn_node(node)
             if (model%duplicate(node) > 0) call turn_node(model%duplicate(node))
          end associate
@@ -237,17 +241,5 @@ contains
       end subroutine turn_node
 
    end subroutine build_frames
-
-   !> The first two DIRECTIONS of a node lie in the plane of a plane model.
-   subroutine check_plane_frame(deck, line, directions, ok)
-      type(checked_deck), intent(in) :: deck
-      integer, intent(in)            :: line
-      real(wp), intent(in)           :: directions(3, 3)
-      logical, intent(out)           :: ok
-
-      ok = all(abs(directions(3, :2)) <= 1.0e-10_wp)
-      if (.not. ok) call deck%field_error(line, 'CD', 'the first two directions of the system do not lie in the plane '// &
-                                          'of the model, x-y')
-   end subroutine check_plane_frame
 
 end module displacement_systems

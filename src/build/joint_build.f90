@@ -14,12 +14,7 @@ module joint_build
    implicit none
    private
 
-   public :: list_laws, resolve_laws, default_slope, check_first_pressure, build_joints
-
-   !> Where the cards of the laws stand.
-   type, public :: law_tables
-      type(id_table_type), private :: pjoint, jnorm, jshear
-   end type law_tables
+   public :: build_joints
 
    !> Where what the cards name stands.
    type :: joint_tables
@@ -27,25 +22,15 @@ module joint_build
       type(id_table_type) :: side    !! the sides of the JOINT cards, those of card j at 2 j - 1 and 2 j
       type(id_table_type) :: surface !! the surfaces of the model
       type(id_table_type) :: group   !! the CJOINT cards, by their PJOINT
-      type(law_tables)    :: laws
+      type(id_table_type) :: pjoint, jnorm, jshear
    end type joint_tables
 
 contains
 
-   !> The TABLES of the law cards of DECK.
-   subroutine list_laws(deck, tables)
-      type(checked_deck), intent(in)  :: deck
-      type(law_tables), intent(inout) :: tables
-
-      call tables%pjoint%build(deck%bulk%pjoint%id)
-      call tables%jnorm%build(deck%bulk%jnorm%id)
-      call tables%jshear%build(deck%bulk%jshear%id)
-   end subroutine list_laws
-
    !> The laws of a joint, by the id of its PJOINT.
    subroutine resolve_laws(deck, tables, id, joint)
       type(checked_deck), intent(in)  :: deck
-      type(law_tables), intent(in)    :: tables
+      type(joint_tables), intent(in)  :: tables
       integer, intent(in)             :: id
       type(joint_type), intent(inout) :: joint
       integer :: direction, i, k
@@ -71,48 +56,34 @@ contains
       end associate
    end subroutine resolve_laws
 
-   !> The unloading slope that the card leaves blank: the equivalent E of both bodies, 2 E1 E2/(E1 + E2), per unit length; on a
-   !! rigid base E of the body.
-   subroutine default_slope(deck, model, joint)
+   !> What JOINT takes from E of the bodies beside it: the unloading slope that the card leaves blank, the equivalent E of both,
+   !! 2 E1 E2/(E1 + E2), per unit length, on a rigid base E of the body. And a P0 above E is no pressure that they could bear: the joint
+   !! laws take the scale of rounding from P0, and would take the tension of an element for rounding.
+   subroutine compare_with_bodies(deck, model, joint)
       type(checked_deck), intent(in)  :: deck
       type(model_type), intent(in)    :: model
       type(joint_type), intent(inout) :: joint
       real(wp) :: e(2), lower, higher
-      logical  :: is_there(2)
+      logical  :: is_there(2), lacks_slope
       integer  :: end
 
-      if (joint%e_u_given .or. joint%law%normal%c <= 0.0_wp) return
+      lacks_slope = .not. joint%e_u_given .and. joint%law%normal%c > 0.0_wp
+      if (.not. lacks_slope .and. joint%p0 <= 0.0_wp) return
       do end = 1, 2
          call find_modulus(model, joint, end, e(end), is_there(end))
       end do
-      if (.not. any(is_there)) then
-         if (joint%last >= joint%first) call deck%errors%add(joint%line, 'joint '//integer_text(joint%id)// &
+      if (lacks_slope .and. any(is_there)) then
+         lower = minval(e, mask=is_there)
+         higher = maxval(e, mask=is_there)
+         if (higher > 0.0_wp) joint%law%normal%e_u = lower*(2.0_wp*higher/(lower + higher)) ! exactly E where both are the same
+      else if (lacks_slope .and. joint%last >= joint%first) then
+         call deck%errors%add(joint%line, 'joint '//integer_text(joint%id)// &
             ': the JNORM of this joint leaves EU blank, and there is no body at the joint to take E from: give EU')
-         return
       end if
-      lower = minval(e, mask=is_there)
-      higher = maxval(e, mask=is_there)
-      if (higher > 0.0_wp) joint%law%normal%e_u = lower*(2.0_wp*higher/(lower + higher)) ! exactly E where both are the same
-   end subroutine default_slope
-
-   !> A P0 above E of the bodies is no pressure that they could bear. The joint laws take the scale of rounding from it, and would take
-   !! the tension of an element for rounding.
-   subroutine check_first_pressure(deck, model, joint)
-      type(checked_deck), intent(in) :: deck
-      type(model_type), intent(in)   :: model
-      type(joint_type), intent(in)   :: joint
-      real(wp) :: e(2)
-      logical  :: is_there(2)
-      integer  :: end
-
-      if (joint%p0 <= 0.0_wp) return
-      do end = 1, 2
-         call find_modulus(model, joint, end, e(end), is_there(end))
-      end do
       if (maxval(e) > 0.0_wp .and. joint%p0 > maxval(e)) call deck%errors%add(joint%line, 'joint '//integer_text(joint%id)// &
          ': P0 of its PJOINT, '//real_text(joint%p0)//', is above E of the bodies beside it, '//real_text(maxval(e))// &
          ': give about the mean pressure of the first increment')
-   end subroutine check_first_pressure
+   end subroutine compare_with_bodies
 
    !> E of the bodies at END 1 or 2 of the interface elements of JOINT, if there are any: the mean of their elements at the nodes
    !! there, areas of influence as weights, which the nodes of a list share out as its weights stand to each other [pressure].
@@ -162,7 +133,9 @@ contains
          call tables%side%build([(joints(j)%sides, j = 1, size(joints))])
          call tables%surface%build(model%surfaces%id)
          call tables%group%build(cjoints%law)
-         call list_laws(deck, tables%laws)
+         call tables%pjoint%build(deck%bulk%pjoint%id)
+         call tables%jnorm%build(deck%bulk%jnorm%id)
+         call tables%jshear%build(deck%bulk%jshear%id)
          leader = [(tables%group%find(cjoints(i)%law), i = 1, size(cjoints))] ! the first card of the group
          allocate (model%joints(size(joints) + count(leader == [(i, i = 1, size(cjoints))])), model%interface(0))
          highest = max(0, maxval(cjoints%id))
@@ -171,7 +144,7 @@ contains
             call joint_elements(deck, tables, j, model, highest, elements)
             call add_elements(model, n, j, joints(j)%id, joints(j)%line, elements)
             model%joints(j)%side_1 = tables%surface%find(joints(j)%sides(1))
-            call resolve_laws(deck, tables%laws, joints(j)%law, model%joints(j))
+            call resolve_laws(deck, tables, joints(j)%law, model%joints(j))
          end do
          call list_owners(size(cjoints), reshape(leader, [1, size(cjoints)]), first, members)
          j = size(joints)
@@ -180,14 +153,13 @@ contains
             j = j + 1
             call cjoint_elements(deck, cjoints(members(first(i):first(i + 1) - 1)), model, elements)
             call add_elements(model, n, j, group_number(deck, tables%joint, cjoints(i)%law), cjoints(i)%line, elements)
-            call resolve_laws(deck, tables%laws, cjoints(i)%law, model%joints(j))
+            call resolve_laws(deck, tables, cjoints(i)%law, model%joints(j))
          end do
       end associate
       model%interface = model%interface(:n)
       do j = 1, size(model%joints)
          call sum_joint(model, model%joints(j))
-         call default_slope(deck, model, model%joints(j))
-         call check_first_pressure(deck, model, model%joints(j))
+         call compare_with_bodies(deck, model, model%joints(j))
       end do
    end subroutine build_joints
 
@@ -197,7 +169,7 @@ contains
       integer, intent(inout)                 :: n
       integer, intent(in)                    :: j, id, line
       type(interface_element), intent(inout) :: elements(:)
-      type(interface_element), allocatable    :: longer(:)
+      type(interface_element), allocatable   :: longer(:)
 
       model%joints(j)%id = id
       model%joints(j)%line = line
@@ -236,8 +208,7 @@ contains
       if (highest > huge(highest) - size(elements)) then
          call deck%field_error(deck%bulk%joint(j)%line, 'JID', 'the numbers of its interface elements, which follow those of '// &
                                'the CJOINTs, would pass 2147483647')
-         deallocate (elements)
-         allocate (elements(0))
+         elements = [interface_element ::]
          return
       end if
       elements%id = [(highest + k, k = 1, size(elements))]

@@ -271,6 +271,7 @@ contains
       type(jgap_card), intent(in)     :: card
       type(joint_type), intent(in)    :: joint
       type(model_type), intent(inout) :: model
+      character(*), parameter :: no_y = 'not zero, but a joint of a plane model has x alone'
       type(gap_table_type) :: table
       real(wp) :: axes(3, 3), centroid(3), place(2)
       integer  :: i
@@ -287,7 +288,10 @@ contains
       if (model%axisymmetric) centroid(1) = 0.0_wp ! that of rings lies on the axis
       ok = .true.
       if (card%kind == 'TABLE') call start_table(deck, card, axes, centroid, model%dimension == 2, table, ok)
-      if (card%kind == 'PLANE' .and. model%dimension == 2) call check_no_y(deck, card)
+      if (card%kind == 'PLANE' .and. model%dimension == 2) then
+         if (abs(card%slope(2)) > 0.0_wp) call deck%field_error(card%line, 'SY', no_y)
+         if (abs(card%crown(2)) > 0.0_wp) call deck%field_error(card%line, 'CY', no_y)
+      end if
       if (.not. ok) return
       do i = joint%first, joint%last
          associate (element => model%interface(i))
@@ -303,16 +307,6 @@ contains
          where (abs(gaps) <= touching*maxval(abs(gaps))) gaps = 0.0_wp
       end associate
    end subroutine gaps_by_place
-
-   !> A joint in the plane has no y.
-   subroutine check_no_y(deck, card)
-      type(checked_deck), intent(in) :: deck
-      type(jgap_card), intent(in)    :: card
-      character(*), parameter :: words = 'not zero, but a joint of a plane model has x alone'
-
-      if (abs(card%slope(2)) > 0.0_wp) call deck%field_error(card%line, 'SY', words)
-      if (abs(card%crown(2)) > 0.0_wp) call deck%field_error(card%line, 'CY', words)
-   end subroutine check_no_y
 
    !> The points of a TABLE in the plane of the joint; not OK where two are at one place there.
    subroutine start_table(deck, card, axes, centroid, is_plane, table, ok)

@@ -29,8 +29,13 @@ contains
       type(model_type), intent(in)                         :: model
       type(surface_node_list), intent(inout)               :: side
       type(interface_element), allocatable, intent(inout)  :: elements(:)
+      integer, allocatable :: kept(:)
+      integer :: k
 
-      if (any(model%duplicate(side%node) > 0)) call drop_tips(model, side)
+      if (any(model%duplicate(side%node) > 0)) then ! without the nodes at which a split surface ends inside a body
+         kept = pack([(k, k = 1, side%n)], model%duplicate(side%node) > 0)
+         side = surface_node_list(size(kept), side%node(kept), side%area(kept), side%normal(:, kept))
+      end if
       call pair_elements(deck, j, model, model%surfaces(surface), side, model%duplicate(side%node), elements)
    end subroutine join_one_side
 
@@ -66,20 +71,6 @@ contains
          end if
       end associate
    end subroutine join_two_sides
-
-   !> Leave out the nodes at which a split surface ends inside a body.
-   pure subroutine drop_tips(model, side)
-      type(model_type), intent(in)           :: model
-      type(surface_node_list), intent(inout) :: side
-      integer, allocatable :: kept(:)
-      integer :: k
-
-      kept = pack([(k, k = 1, side%n)], model%duplicate(side%node) > 0)
-      side%n = size(kept)
-      side%node = side%node(kept)
-      side%area = side%area(kept)
-      side%normal = side%normal(:, kept)
-   end subroutine drop_tips
 
    !> Elements between the nodes of SIDE and their partners, 0: a rigid base. Faces with mid-side nodes have theirs between these
    !! alone, which hang on the corners too.

@@ -24,17 +24,16 @@ module mesh_build
 
    public :: build_mesh, check_named_nodes
 
-   !> Sides that carry a mark, before they are sorted into surfaces.
-   type, public :: marked_sides
-      integer :: n = 0
-      integer, allocatable :: mark(:)      !! PMARK id
-      integer, allocatable :: id(:)        !! of the edge or face, 0: of a block
-      integer, allocatable :: corners(:)   !! 2, 3 or 4
-      integer, allocatable :: n_nodes(:)   !! of the mark: corners, and mid-side nodes where it is of second order
-      integer, allocatable :: nodes(:, :)  !! (most of any, n) 0 for a mid-side node left blank
-      integer, allocatable :: line(:)      !! of its card
-      integer, allocatable :: of_block(:)  !! k: the mark stands in Sk of a block; 0: in PID of an edge or face
-   end type marked_sides
+   !> A side that carries a mark, before it is sorted into a surface.
+   type, public :: marked_side
+      integer :: mark = 0                  !! PMARK id
+      integer :: id = 0                    !! of the edge or face, 0: of a block
+      integer :: corners = 0               !! 2, 3 or 4
+      integer :: n_nodes = 0               !! of the mark: corners, and mid-side nodes where it is of second order
+      integer :: line = 0                  !! of its card
+      integer :: of_block = 0              !! k: the mark stands in Sk of a block; 0: in PID of an edge or face
+      integer :: nodes(max_side_nodes) = 0 !! 0 for a mid-side node left blank
+   end type marked_side
 
 contains
 
@@ -42,7 +41,7 @@ contains
    subroutine build_mesh(deck, model, sides)
       type(checked_deck), intent(inout) :: deck
       type(model_type), intent(inout)   :: model
-      type(marked_sides), intent(out)   :: sides
+      type(marked_side), allocatable, intent(out) :: sides(:)
       type(block_type), allocatable :: blocks(:)
       type(raw_nodes) :: raw
       integer, allocatable :: position(:) ! raw node -> node of the model
@@ -143,14 +142,13 @@ contains
       type(raw_nodes), intent(in)     :: raw
       integer, intent(in)             :: position(:)
       type(model_type), intent(in)    :: model
-      type(marked_sides), intent(out) :: sides
-      integer :: b, i, total
+      type(marked_side), allocatable, intent(out) :: sides(:)
+      integer :: b, i, n, total
 
       total = size(deck%bulk%edge) + sum(blocks%n_sides)
       if (model%dimension == 3) total = total + size(deck%bulk%element)
-      allocate (sides%mark(total), sides%id(total), sides%corners(total), sides%n_nodes(total), sides%line(total))
-      allocate (sides%of_block(total))
-      allocate (sides%nodes(merge(3, max_side_nodes, model%dimension == 2), total), source=0)
+      allocate (sides(total))
+      n = 0
       do i = 1, size(deck%bulk%edge)
          associate (edge => deck%bulk%edge(i))
             if (is_bar(deck, edge) .or. is_beam_edge(deck, edge)) cycle
@@ -171,13 +169,14 @@ contains
       do b = 1, size(blocks)
          do i = 1, blocks(b)%n_sides
             associate (corners => blocks(b)%side(:count(blocks(b)%side(:, i) > 0), i))
-               call start_side(blocks(b)%mark(i), 0, size(corners), size(corners))
-               sides%line(sides%n) = blocks(b)%line
-               sides%of_block(sides%n) = blocks(b)%number(i)
-               sides%nodes(:size(corners), sides%n) = position(raw%place(raw%block_start(b) + corners))
+               n = n + 1
+               sides(n) = marked_side(mark=blocks(b)%mark(i), corners=size(corners), n_nodes=size(corners), line=blocks(b)%line, &
+                                      of_block=blocks(b)%number(i))
+               sides(n)%nodes(:size(corners)) = position(raw%place(raw%block_start(b) + corners))
             end associate
          end do
       end do
+      sides = sides(:n)
 
    contains
 
@@ -186,21 +185,10 @@ contains
          type(element_card), intent(in) :: card
          integer, intent(in)            :: corners, n_nodes
 
-         call start_side(card%property, card%id, corners, n_nodes)
-         sides%line(sides%n) = card%line
-         sides%of_block(sides%n) = 0
-         call find_nodes(deck, card%line, card%nodes(:n_nodes), model, sides%nodes(:n_nodes, sides%n))
+         n = n + 1
+         sides(n) = marked_side(mark=card%property, id=card%id, corners=corners, n_nodes=n_nodes, line=card%line)
+         call find_nodes(deck, card%line, card%nodes(:n_nodes), model, sides(n)%nodes(:n_nodes))
       end subroutine add_card
-
-      subroutine start_side(mark, id, corners, n_nodes)
-         integer, intent(in) :: mark, id, corners, n_nodes
-
-         sides%n = sides%n + 1
-         sides%mark(sides%n) = mark
-         sides%id(sides%n) = id
-         sides%corners(sides%n) = corners
-         sides%n_nodes(sides%n) = n_nodes
-      end subroutine start_side
 
    end subroutine collect_sides
 

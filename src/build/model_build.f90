@@ -14,11 +14,11 @@ module model_build
    use load_build, only: build_loads
    use load_checks, only: build_temperatures
    use mass_build, only: build_masses, check_mass
-   use mesh_build, only: build_mesh, marked_sides, check_named_nodes
+   use mesh_build, only: build_mesh, marked_side, check_named_nodes
    use model_data, only: model_type, n_bars, n_rotations, n_sections, stage_load_type
    use node_coupling, only: coupling_parts, section_node
    use pretension_section, only: build_sections
-   use rbe2, only: build_dependents, name_surface_nodes
+   use rigid_elements, only: build_dependents, name_surface_nodes
    use shell_faces, only: build_shell_faces, couple_shell_faces
    use spring_build, only: build_bars, build_springs
    use stage_plan, only: plan_stages, stage_plan_type
@@ -134,7 +134,7 @@ contains
       type(stage_plan_type), intent(out)           :: plan
       type(deck_error_list), intent(inout), target :: errors
       type(checked_deck) :: checked
-      type(marked_sides) :: sides
+      type(marked_side), allocatable :: sides(:)
       type(stage_load_type), allocatable :: oscillating(:)
 
       if (.not. deck%is_whole) return

@@ -23,7 +23,7 @@ contains
    subroutine build_sections(deck, model)
       type(checked_deck), intent(in)  :: deck
       type(model_type), intent(inout) :: model
-      integer :: i, k, n
+      integer :: e, i, k, n
 
       n = count(deck%bulk%bolt%surface > 0)
       if (n == 0) return
@@ -35,7 +35,12 @@ contains
          k = k + 1
          call build_section(deck, deck%bulk%bolt(i), k, model)
       end do
-      if (all(model%sections%point > 0)) call append_section_nodes(model) ! if not, there are errors
+      if (any(model%sections%point == 0)) return ! there are errors
+      do k = 1, n ! their nodes stand behind all others, with the elements behind the section
+         call append_node(model, model%x(:, model%sections(k)%point), [.true., spread(.false., 1, model%dimension - 1)], &
+                          pack([(e, e = 1, model%n_elements)], model%element_section == k))
+         model%sections(k)%node = model%n_nodes
+      end do
    end subroutine build_sections
 
    !> Section K from its CARD: which way it faces, and which elements are behind it.
@@ -153,17 +158,5 @@ contains
       end do
       model%sections(k)%point = at%node(1)
    end subroutine find_elements_behind
-
-   !> Append a node for every section, behind all others: its first component free. Its elements are those behind the section.
-   subroutine append_section_nodes(model)
-      type(model_type), intent(inout) :: model
-      integer :: e, k
-
-      do k = 1, size(model%sections)
-         call append_node(model, model%x(:, model%sections(k)%point), [.true., spread(.false., 1, model%dimension - 1)], &
-                          pack([(e, e = 1, model%n_elements)], model%element_section == k))
-         model%sections(k)%node = model%n_nodes
-      end do
-   end subroutine append_section_nodes
 
 end module pretension_section

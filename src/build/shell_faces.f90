@@ -10,8 +10,7 @@ module shell_faces
    use model_data, only: corners_of, face_node_type, is_shell, model_type, surface_type
    use node_build, only: append_nodes
    use node_coupling, only: couple_node, coupling_parts
-   use numbers, only: cross, identity
-   use rbe3, only: by_rotation
+   use numbers, only: by_rotation, cross, identity
    use shell_geometry, only: shell_frame, shell_frame_of
    use text_tools, only: integer_text
    implicit none

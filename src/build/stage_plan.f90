@@ -2,6 +2,7 @@
 !! asked about the oscillation of the structure after a stage: which modes, the response to a load that oscillates, the damping
 !! that a table gives.
 module stage_plan
+   use bulk_data, only: freq4_card, tabdmp1_card
    use case_control, only: method_back, method_newton
    use deck_errors, only: deck_error_list
    use deck_input, only: deck_type
@@ -17,27 +18,13 @@ module stage_plan
    real(wp), parameter :: critical_quality = 0.5_wp ! Q of critical damping
    real(wp), parameter :: same_frequency = 1.0e-9_wp ! of the largest: what is nearer is one
 
-   !> TABDMP1: damping over frequency, two points or more in ascending order. Where a frequency stands twice the value jumps.
-   type, public :: damping_table
-      character(8) :: kind = 'G'              !! G: structural damping g; CRIT: share of critical damping; Q: dynamic amplification
-      real(wp), allocatable :: frequency(:)   !! [1/time]
-      real(wp), allocatable :: value(:)       !! likewise, of the KIND [-]
-   end type damping_table
-
-   !> FREQ4: N frequencies, an odd number, from 1 - SHARE to 1 + SHARE times that of every mode from LOWEST to HIGHEST.
-   type, public :: frequency_spread
-      real(wp) :: lowest = 0.0_wp, highest = 0.0_wp !! [1/time]
-      real(wp) :: share = 0.0_wp
-      integer  :: n = 0
-   end type frequency_spread
-
    !> The answer to a load that oscillates, by superposition of the modes.
    type, public :: response_plan
       real(wp), allocatable :: frequencies(:) !! ascending, those of FREQ1 [1/time]
-      type(frequency_spread), allocatable :: spreads(:) !! those of FREQ4
+      type(freq4_card), allocatable :: spreads(:) !! n odd, spread = 0 where it is 1
       integer, allocatable  :: nodes(:)       !! positions of the nodes whose amplitude and phase are asked
       real(wp), allocatable :: force(:, :)    !! (3, n_nodes) amplitude of the load [force]
-      type(damping_table), allocatable :: damping !! not allocated: the joints' own loss factors
+      type(tabdmp1_card), allocatable :: damping !! not allocated: the joints' own loss factors
       logical :: is_structural = .false.      !! KDAMP = -1: it is structural damping
    end type response_plan
 
@@ -89,8 +76,8 @@ contains
    !! prolonged ends at no damping (G, CRIT) or at critical damping, or the least Q given (Q): damping has a sign.
    !! Source: MSC Nastran Quick Reference Guide, TABDMP1, remarks.
    pure real(wp) function loss_at(table, frequency) result(g)
-      type(damping_table), intent(in) :: table
-      real(wp), intent(in)            :: frequency !! [1/time]
+      type(tabdmp1_card), intent(in) :: table !! two points or more; where a frequency stands twice the value jumps
+      real(wp), intent(in)           :: frequency !! [1/time]
       real(wp) :: value
       integer  :: k, n
 
@@ -128,7 +115,7 @@ contains
             do m = 1, size(modes)
                if (modes(m) <= 0.0_wp .or. modes(m) < spread%lowest .or. modes(m) > spread%highest) cycle
                if (spread%n == 1) f = merged(f, [modes(m)])
-               if (spread%n > 1) f = merged(f, [(modes(m)*(1.0_wp + spread%share*real(2*k - spread%n + 1, wp)/ &
+               if (spread%n > 1) f = merged(f, [(modes(m)*(1.0_wp + spread%spread*real(2*k - spread%n + 1, wp)/ &
                                                            real(spread%n - 1, wp)), k = 0, spread%n - 1)])
             end do
          end associate

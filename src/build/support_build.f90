@@ -5,6 +5,7 @@ module support_build
    use deck_cards, only: card_name
    use deck_check, only: checked_deck
    use kinds, only: wp
+   use lists, only: first_not_below
    use model_data, only: is_face_node, model_type, n_bars, n_points, stage_load_type, support_group
    use node_coupling, only: component_place, place_of_component
    use surface_build, only: find_surface
@@ -49,8 +50,12 @@ contains
       end if
       allocate (sets, source=support_sets(deck))
       do i = 1, size(deck%bulk%support)
-         if (any(sets == deck%bulk%support(i)%set)) call open_group(group_of(deck, deck%bulk%support(i)), model)
-         call apply_support(deck, deck%bulk%support(i), any(sets == deck%bulk%support(i)%set), model)
+         associate (card => deck%bulk%support(i), active => any(sets == deck%bulk%support(i)%set))
+            if (active .and. card%surface > 0) call open_group(support_group('SPCM', card%surface, card%line), model)
+            if (active .and. card%surface == 0) &
+               call open_group(support_group(card_name(deck%text%card_part(card%line)), card%set, card%line), model)
+            call apply_support(deck, card, active, model)
+         end associate
       end do
       call check_sums(deck, 'SPCADD', deck%bulk%support_sum, deck%bulk%support%set, 'SPC, SPC1 or SPCM')
       if (set > 0 .and. all(deck%bulk%support%set /= set) .and. all(deck%bulk%support_sum%set /= set)) &
@@ -96,7 +101,8 @@ contains
          end if
          ! G1 THRU G2: the nodes that are there, as in NASTRAN; there must be one
          any_node = support%last(k) < support%first(k) ! said already
-         do node = first_from(model, support%first(k)), n_points(model)
+         do node = first_not_below(model%node_id(:n_points(model)), support%first(k)), n_points(model)
+            if (model%node_id(node) < support%first(k)) exit ! the last of all
             if (model%node_id(node) > support%last(k)) exit
             any_node = .true.
             if (active) call hold(model, node, support%components)
@@ -106,61 +112,21 @@ contains
       end do
    end subroutine apply_support
 
-   !> The first node whose number is ID or more.
-   pure integer function first_from(model, id) result(node)
-      type(model_type), intent(in) :: model
-      integer, intent(in)          :: id
-      integer :: low, high, middle
-
-      low = 1
-      high = n_points(model) + 1
-      do while (low < high)
-         middle = (low + high)/2
-         if (model%node_id(middle) < id) then
-            low = middle + 1
-         else
-            high = middle
-         end if
-      end do
-      node = low
-   end function first_from
-
    !> Hold NODE in COMPONENTS, those of rotations where it has any; what a node does not have (3 to 5 in the plane) is held anyway.
    subroutine hold(model, node, components)
       type(model_type), intent(inout) :: model
       integer, intent(in)             :: node, components
-      integer :: d
+      type(component_place) :: places(most_places)
+      integer :: k
 
-      if (node == 0) return
-      do d = 1, 6
-         if (.not. has_component(components, d)) cycle
-         associate (place => place_of_component(model, node, d))
-            if (place%node == 0) cycle
-            call hold_place(place%d, place%node)
-            if (model%duplicate(place%node) > 0) call hold_place(d, model%duplicate(node)) ! a split node: both of it
+      places = places_of(model, node, components)
+      do k = 1, count(places%node > 0)
+         model%held(places(k)%d, places(k)%node) = .true.
+         associate (group => model%support_of(places(k)%d, places(k)%node))
+            if (group == 0) group = size(model%support_groups)
          end associate
       end do
-
-   contains
-
-      subroutine hold_place(d, node)
-         integer, intent(in) :: d, node
-
-         model%held(d, node) = .true.
-         if (model%support_of(d, node) == 0) model%support_of(d, node) = size(model%support_groups)
-      end subroutine hold_place
-
    end subroutine hold
-
-   !> The group that the card SUPPORT belongs to.
-   function group_of(deck, support) result(group)
-      type(checked_deck), intent(in) :: deck
-      type(support_card), intent(in) :: support
-      type(support_group) :: group
-
-      group = support_group(card_name(deck%text%card_part(support%line)), support%set, support%line)
-      if (support%surface > 0) group = support_group('SPCM', support%surface, support%line)
-   end function group_of
 
    !> What is held from here on is of GROUP: of the last one where both are PS of GRID, or SPC cards of one set.
    subroutine open_group(group, model)
@@ -182,22 +148,32 @@ contains
       integer, intent(in)                  :: set
       real(wp), intent(in)                 :: factor
       type(stage_load_type), intent(inout) :: loads
-      type(component_place) :: places(most_places)
-      integer :: i, k
+      integer :: i
 
       do i = 1, size(deck%bulk%displacement)
          associate (card => deck%bulk%displacement(i))
-            if (card%set /= set) cycle
-            places = places_of(model, card%node, card%components)
-            call provide(model, loads)
-            do k = 1, count(places%node > 0)
-               associate (moved => loads%moved(places(k)%d, places(k)%node))
-                  moved = moved + factor*card%value*places(k)%scale
-               end associate
-            end do
+            if (card%set == set) call move(model, card%node, card%components, 1.0_wp, factor*card%value, loads)
          end associate
       end do
    end subroutine add_moves
+
+   !> The COMPONENTS of the node with number ID move by VALUE, and by SHARE of what they did in LOADS.
+   pure subroutine move(model, id, components, share, value, loads)
+      type(model_type), intent(in)         :: model
+      integer, intent(in)                  :: id, components
+      real(wp), intent(in)                 :: share, value
+      type(stage_load_type), intent(inout) :: loads
+      type(component_place) :: places(most_places)
+      integer :: k
+
+      if (.not. allocated(loads%moved)) allocate (loads%moved(model%dimension, model%n_nodes), source=0.0_wp)
+      places = places_of(model, model%node_table%find(id), components)
+      do k = 1, count(places%node > 0)
+         associate (moved => loads%moved(places(k)%d, places(k)%node))
+            moved = share*moved + value*places(k)%scale
+         end associate
+      end do
+   end subroutine move
 
    !> What SPC cards with D ask for at the end of a stage with load set SET: LOADS, without movements so far, moves the components
    !! that they hold to D, but for those that an SPCD among these loads names.
@@ -206,7 +182,6 @@ contains
       type(model_type), intent(in)         :: model
       integer, intent(in)                  :: set !! of case control, 0: none
       type(stage_load_type), intent(inout) :: loads
-      type(component_place) :: places(most_places)
       integer, allocatable :: holding(:), sets(:)
       integer :: i, k
 
@@ -214,12 +189,8 @@ contains
       allocate (holding, source=support_sets(deck))
       do i = 1, size(deck%bulk%support)
          associate (card => deck%bulk%support(i))
-            if (abs(card%value) <= 0.0_wp .or. all(holding /= card%set)) cycle
-            places = places_of(model, card%first(1), card%components)
-            call provide(model, loads)
-            do k = 1, count(places%node > 0)
-               loads%moved(places(k)%d, places(k)%node) = card%value*places(k)%scale
-            end do
+            if (abs(card%value) > 0.0_wp .and. any(holding == card%set)) &
+               call move(model, card%first(1), card%components, 0.0_wp, card%value, loads)
          end associate
       end do
       if (.not. allocated(loads%moved) .or. set == 0) return
@@ -228,11 +199,7 @@ contains
       if (k > 0) sets = deck%bulk%load(k)%sets
       do i = 1, size(deck%bulk%displacement)
          associate (card => deck%bulk%displacement(i))
-            if (all(sets /= card%set)) cycle
-            places = places_of(model, card%node, card%components)
-            do k = 1, count(places%node > 0)
-               loads%moved(places(k)%d, places(k)%node) = 0.0_wp
-            end do
+            if (any(sets == card%set)) call move(model, card%node, card%components, 0.0_wp, 0.0_wp, loads)
          end associate
       end do
    end subroutine keep_moved
@@ -243,7 +210,7 @@ contains
       type(model_type), intent(in)   :: model
       type(component_place) :: places(most_places)
       integer, allocatable :: holding(:), by(:, :) ! which card moves a component, 0: none
-      integer :: d, i, other
+      integer :: d, i, node, other
 
       if (all(abs(deck%bulk%support%value) <= 0.0_wp)) return
       allocate (holding, source=support_sets(deck))
@@ -251,10 +218,11 @@ contains
       do i = 1, size(deck%bulk%support)
          associate (card => deck%bulk%support(i))
             if (abs(card%value) <= 0.0_wp) cycle
-            if (model%node_table%find(card%first(1)) == 0) cycle ! said already
+            node = model%node_table%find(card%first(1))
+            if (node == 0) cycle ! said already
             do d = 1, 6
                if (.not. has_component(card%components, d)) cycle
-               places = places_of(model, card%first(1), d)
+               places = places_of(model, node, d)
                if (places(1)%node == 0) then
                   call deck%field_error(card%line, card%at(1) + 1, named(d, card%first(1))// &
                      ' is not there to be moved by D; expected 1 to '//integer_text(model%dimension), called='C')
@@ -281,17 +249,15 @@ contains
 
    end subroutine check_kept
 
-   !> Where the COMPONENTS of the node with number ID stand, those that it has first, then places of no node; of a split node those
-   !! of its twin too.
-   pure function places_of(model, id, components) result(places)
+   !> Where the COMPONENTS of NODE stand, those that it has first, then places of no node; of a split node those of its twin too.
+   pure function places_of(model, node, components) result(places)
       type(model_type), intent(in) :: model
-      integer, intent(in)          :: id, components
+      integer, intent(in)          :: node, components
       type(component_place) :: places(most_places)
       type(component_place) :: place
-      integer :: d, n, node
+      integer :: d, n
 
       n = 0
-      node = model%node_table%find(id)
       if (node == 0) return
       do d = 1, 6
          if (.not. has_component(components, d)) cycle
@@ -305,13 +271,6 @@ contains
          places(n) = place
       end do
    end function places_of
-
-   pure subroutine provide(model, loads)
-      type(model_type), intent(in)         :: model
-      type(stage_load_type), intent(inout) :: loads
-
-      if (.not. allocated(loads%moved)) allocate (loads%moved(model%dimension, model%n_nodes), source=0.0_wp)
-   end subroutine provide
 
    !> The sets that SET means: itself, or those of the SUMS with this number.
    pure function summed_sets(sums, set) result(sets)

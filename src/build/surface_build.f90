@@ -5,7 +5,7 @@ module surface_build
    use element_loads, only: side_areas, side_forces
    use kinds, only: wp
    use lists, only: id_table_type, sorted_order, list_owners
-   use mesh_build, only: marked_sides
+   use mesh_build, only: marked_side
    use model_data, only: corners_of, has_second_order, is_shell, model_type, surface_type
    use surface_sides, only: nodes_of
    use text_tools, only: integer_text
@@ -27,7 +27,7 @@ contains
    !> One surface for every PMARK card, with the sides that name it.
    subroutine build_surfaces(deck, sides, model)
       type(checked_deck), intent(in)  :: deck
-      type(marked_sides), intent(in)  :: sides
+      type(marked_side), intent(in)   :: sides(:)
       type(model_type), intent(inout) :: model
       type(id_table_type)  :: marks
       integer, allocatable :: surface(:), first(:), members(:), said(:) ! marks that are missing
@@ -36,22 +36,23 @@ contains
       most_nodes = 2*(model%dimension - 1)                     ! of a side
       if (has_second_order(model)) most_nodes = merge(3, max_side_nodes, model%dimension == 2)
       call marks%build(deck%bulk%pmark%id)
-      allocate (model%surfaces(size(deck%bulk%pmark)), surface(sides%n), said(0))
-      do i = 1, sides%n
-         surface(i) = marks%find(sides%mark(i))
-         if (surface(i) > 0 .or. sides%mark(i) <= 0 .or. any(said == sides%mark(i))) cycle
-         call report_missing(deck, sides, i)
-         said = [said, sides%mark(i)]
+      allocate (model%surfaces(size(deck%bulk%pmark)), surface(size(sides)), said(0))
+      do i = 1, size(sides)
+         surface(i) = marks%find(sides(i)%mark)
+         if (surface(i) > 0 .or. sides(i)%mark <= 0 .or. any(said == sides(i)%mark)) cycle
+         call report_missing(deck, sides(i), count(sides%mark == sides(i)%mark))
+         said = [said, sides(i)%mark]
       end do
-      call list_owners(size(model%surfaces), reshape(surface, [1, sides%n]), first, members)
+      call list_owners(size(model%surfaces), reshape(surface, [1, size(sides)]), first, members)
       do k = 1, size(model%surfaces)
          associate (this => model%surfaces(k), card => deck%bulk%pmark(k), n => first(k + 1) - first(k))
             this%id = card%id
             allocate (this%nodes(most_nodes, n), source=0)
             allocate (this%element(n), this%other(n), this%line(n), this%corners(n), this%n_nodes(n))
             do i = first(k), first(k + 1) - 1
-               if (any(sides%nodes(:sides%corners(members(i)), members(i)) == 0)) cycle ! said already
-               call add_side(deck, sides, members(i), model, this)
+               associate (side => sides(members(i)))
+                  if (all(side%nodes(:side%corners) > 0)) call add_side(deck, side, model, this) ! else said already
+               end associate
             end do
             call check_repeated(deck, model, this)
             if (n > 0 .or. card%id == 0 .or. marks%find(card%id) < k) cycle ! the last: a number given twice, said elsewhere
@@ -89,124 +90,106 @@ contains
       if (surface == 0) call deck%field_error(line, field, 'there is no PMARK '//integer_text(id))
    end subroutine find_surface
 
-   !> There is no PMARK with the mark of side I. A face of solids may be meant to be something else.
-   subroutine report_missing(deck, sides, i)
+   !> There is no PMARK with the mark of SIDE, which N sides have. A face of solids may be meant to be something else.
+   subroutine report_missing(deck, side, n)
       type(checked_deck), intent(in) :: deck
-      type(marked_sides), intent(in) :: sides
-      integer, intent(in)            :: i
+      type(marked_side), intent(in)  :: side
+      integer, intent(in)            :: n
       character(:), allocatable :: words
 
-      words = 'there is no PMARK '//integer_text(sides%mark(i))
-      if (count(sides%mark == sides%mark(i)) > 1) &
-         words = words//' for '//integer_text(count(sides%mark == sides%mark(i)))//' sides'
-      if (sides%of_block(i) > 0) then
-         call deck%field_error(sides%line(i), 'S'//integer_text(sides%of_block(i)), words)
+      words = 'there is no PMARK '//integer_text(side%mark)
+      if (n > 1) words = words//' for '//integer_text(n)//' sides'
+      if (side%of_block > 0) then
+         call deck%field_error(side%line, 'S'//integer_text(side%of_block), words)
       else
-         if (sides%corners(i) > 2) &
+         if (side%corners > 2) &
             words = words//': in a model of space plane elements mark surfaces, and plane bodies cannot be mixed in; '// &
                'shells have MID2 on their PSHELL'
-         call deck%field_error(sides%line(i), 'PID', words)
+         call deck%field_error(side%line, 'PID', words)
       end if
    end subroutine report_missing
 
-   !> Add side I to its surface, in the order of the element that it belongs to: of two the one that has it in the sense of its
+   !> Add SIDE to its surface, in the order of the element that it belongs to: of two the one that has it in the sense of its
    !! card, the other is then behind it.
-   subroutine add_side(deck, sides, i, model, surface)
+   subroutine add_side(deck, side, model, surface)
       type(checked_deck), intent(in)    :: deck
-      type(marked_sides), intent(in)    :: sides
-      integer, intent(in)               :: i
+      type(marked_side), intent(in)     :: side
       type(model_type), intent(in)      :: model
       type(surface_type), intent(inout) :: surface
-      integer :: owner, other, found, e, j, side, own_side
+      integer, allocatable :: own(:)
+      integer :: at, owner, other, found, e, j, own_side
       logical :: same_sense, owner_same
 
       owner = 0
       other = 0
       own_side = 0
       owner_same = .false.
-      associate (nodes => sides%nodes(:sides%corners(i), i))
+      associate (nodes => side%nodes(:side%corners))
          do j = model%first_at(nodes(1)), model%first_at(nodes(1) + 1) - 1
             e = model%elements_at(j)
             if (e == owner) cycle ! a corner that stands on the card twice
-            call side_of_element(model, e, nodes, side, same_sense)
-            if (side < 0) cycle
+            call side_of_element(model, e, nodes, at, same_sense)
+            if (at < 0) cycle
             found = e
             if (owner == 0 .or. (same_sense .and. .not. owner_same)) then
                found = owner
                owner = e
-               own_side = side
+               own_side = at
                owner_same = same_sense
             end if
             if (found > 0) other = found
          end do
          if (owner == 0) then
-            call deck%errors%add(sides%line(i), 'the '//side_name(model, nodes)//' is no side of a body element')
+            call deck%errors%add(side%line, 'the '//side_name(model, nodes)//' is no side of a body element')
             return
          end if
+         own = nodes ! of the face of a shell, on the side of the mark
       end associate
-      if (own_side == 0) then ! the face of a shell, on the side of the mark
-         call take_shell(sides%nodes(:sides%corners(i), i))
-         return
-      end if
-      associate (kind => element_table(model%element_kind(owner)))
-         associate (own => model%element_nodes(kind%side_nodes(:kind%side_size(own_side), own_side), owner))
-            if (any(own == 0)) return ! said already
-            surface%n = surface%n + 1
-            surface%line(surface%n) = sides%line(i)
-            surface%corners(surface%n) = kind%side_corners(own_side)
-            surface%n_nodes(surface%n) = size(own)
-            surface%nodes(:size(own), surface%n) = own
-            surface%element(surface%n) = owner
-            surface%other(surface%n) = other
-            call check_mark(deck, sides, i, model, owner, own)
+      if (own_side > 0) then
+         associate (kind => element_table(model%element_kind(owner)))
+            own = model%element_nodes(kind%side_nodes(:kind%side_size(own_side), own_side), owner)
          end associate
-      end associate
-
-   contains
-
-      subroutine take_shell(nodes)
-         integer, intent(in) :: nodes(:)
-
-         surface%n = surface%n + 1
-         surface%line(surface%n) = sides%line(i)
-         surface%corners(surface%n) = size(nodes)
-         surface%n_nodes(surface%n) = size(nodes)
-         surface%nodes(:size(nodes), surface%n) = nodes
-         surface%element(surface%n) = owner
-         surface%other(surface%n) = other
-      end subroutine take_shell
-
+         if (any(own == 0)) return ! said already
+         call check_mark(deck, side, model, owner, own)
+      end if
+      surface%n = surface%n + 1
+      surface%line(surface%n) = side%line
+      surface%corners(surface%n) = side%corners
+      surface%n_nodes(surface%n) = size(own)
+      surface%nodes(:size(own), surface%n) = own
+      surface%element(surface%n) = owner
+      surface%other(surface%n) = other
    end subroutine add_side
 
-   !> The mid-side nodes of mark I, where it has any, are those of the side, with the nodes OWN, of element E. Gmsh writes that of an
+   !> The mid-side nodes of SIDE, where it has any, are those of the side, with the nodes OWN, of element E. Gmsh writes that of an
    !! edge as X1 of a CBAR.
-   subroutine check_mark(deck, sides, i, model, e, own)
+   subroutine check_mark(deck, side, model, e, own)
       type(checked_deck), intent(in) :: deck
-      type(marked_sides), intent(in) :: sides
-      integer, intent(in)            :: i, e, own(:)
+      type(marked_side), intent(in)  :: side
+      integer, intent(in)            :: e, own(:)
       type(model_type), intent(in)   :: model
       integer :: a, b, k, m, mid, place
 
-      m = sides%corners(i)
-      if (size(own) == m .and. sides%n_nodes(i) > m) then
+      m = side%corners
+      if (size(own) == m .and. side%n_nodes > m) then
          if (m == 2) then
-            call deck%field_error(sides%line(i), 'X1', 'a node, as the middle of the edge, but the edge is one of '// &
+            call deck%field_error(side%line, 'X1', 'a node, as the middle of the edge, but the edge is one of '// &
                                   element_words()//', which is linear; expected a real number, or blank')
          else
-            call deck%errors%add(sides%line(i), 'face '//integer_text(sides%id(i))//' has mid-side nodes, but is one of '// &
+            call deck%errors%add(side%line, 'face '//integer_text(side%id)//' has mid-side nodes, but is one of '// &
                                  element_words()//', which is linear; expected its corners alone')
          end if
          return
       end if
-      do k = 1, sides%n_nodes(i) - m
-         if (sides%nodes(m + k, i) == 0) cycle ! blank: that of the element; or said already
-         a = findloc(own(:m), sides%nodes(k, i), dim=1)
-         b = findloc(own(:m), sides%nodes(modulo(k, m) + 1, i), dim=1)
+      do k = 1, side%n_nodes - m
+         if (side%nodes(m + k) == 0) cycle ! blank: that of the element; or said already
+         a = findloc(own(:m), side%nodes(k), dim=1)
+         b = findloc(own(:m), side%nodes(modulo(k, m) + 1), dim=1)
          place = merge(a, b, modulo(a, m) + 1 == b) ! the mark may go round the other way
          if (m == 2) place = 1
          mid = own(m + place)
-         if (mid == sides%nodes(m + k, i)) cycle
-         call deck%field_error(sides%line(i), 2 + m + k, integer_text(model%node_id(sides%nodes(m + k, i)))//', but '// &
+         if (mid == side%nodes(m + k)) cycle
+         call deck%field_error(side%line, 2 + m + k, integer_text(model%node_id(side%nodes(m + k)))//', but '// &
                                element_words()//', has node '//integer_text(model%node_id(mid))//' at the middle of this edge')
          return
       end do

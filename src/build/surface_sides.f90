@@ -209,7 +209,8 @@ contains
       type(checked_deck), intent(in)  :: deck
       type(model_type), intent(inout) :: model
       type(id_table_type)  :: surfaces
-      integer :: j, n_duplicates, node, s
+      integer, allocatable :: twins(:)
+      integer :: j, k, n_duplicates, node, s
 
       allocate (model%duplicate(model%n_nodes), source=0)
       call surfaces%build(model%surfaces%id)
@@ -239,7 +240,10 @@ contains
       if (model%node_id(model%n_nodes) > huge(1) - n_duplicates) call deck%errors%add(0, 'the nodes that stand double where '// &
          'surfaces are split are numbered behind node '//integer_text(model%node_id(model%n_nodes))// &
          ', and their numbers would pass 2147483647')
-      call add_duplicates(model, n_duplicates)
+      twins = pack([(k, k = 1, model%n_nodes)], model%duplicate > 0)
+      twins(model%duplicate(twins) - model%n_nodes) = twins ! in the order of their numbers
+      call append_nodes(model, model%x(:, twins))
+      model%duplicate = [model%duplicate, spread(0, 1, n_duplicates)]
       call list_owners(model%n_nodes, model%element_nodes, model%first_at, model%elements_at)
       call move_other_surfaces(model)
    end subroutine split_shared_surfaces
@@ -272,21 +276,6 @@ contains
       model%surfaces(s)%other = 0
       model%surfaces(s)%was_split = .true.
    end subroutine split_surface
-
-   !> Append the twins to the nodes of the model.
-   subroutine add_duplicates(model, n_duplicates)
-      type(model_type), intent(inout) :: model
-      integer, intent(in)             :: n_duplicates
-      real(wp), allocatable :: x(:, :)
-      integer :: k
-
-      allocate (x(3, n_duplicates))
-      do k = 1, model%n_nodes
-         if (model%duplicate(k) > 0) x(:, model%duplicate(k) - model%n_nodes) = model%x(:, k)
-      end do
-      call append_nodes(model, x)
-      model%duplicate = [model%duplicate, (0, k = 1, n_duplicates)]
-   end subroutine add_duplicates
 
    !> Sides of the surfaces that were not split follow their elements.
    pure subroutine move_other_surfaces(model)

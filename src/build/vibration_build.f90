@@ -2,14 +2,14 @@
 !! FREQ4, the load, the damping, the nodes; and the nodes that the tables of a stage are limited to, where OUTPUT names sets or
 !! marked surfaces.
 module vibration_build
-   use bulk_data, only: freq1_card, freq4_card
+   use bulk_data, only: freq1_card
    use case_sets, only: find_set, limit_type, number_set, numbers_in_set
    use deck_check, only: checked_deck
    use deck_errors, only: deck_error_list
    use deck_input, only: deck_type
    use kinds, only: wp
    use model_data, only: model_type, stage_load_type
-   use stage_plan, only: stage_plan_type, backbone_plan, frequency_spread, merged, response_plan, vibration_plan_type
+   use stage_plan, only: stage_plan_type, backbone_plan, merged, response_plan, vibration_plan_type
    use surface_sides, only: nodes_of
    use text_tools, only: integer_text
    use stage_entries, only: vibration_entries_type
@@ -130,14 +130,11 @@ contains
       type(vibration_entries_type), intent(in) :: asked
       type(stage_load_type), intent(in)        :: load
       type(response_plan), intent(out)         :: response
-      type(freq4_card), allocatable :: spreads(:)
       logical, allocatable :: are_named(:)
       integer :: k
 
       response%frequencies = merged_frequencies(pack(deck%bulk%freq1, deck%bulk%freq1%set == asked%frequency%id))
-      spreads = pack(deck%bulk%freq4, deck%bulk%freq4%set == asked%frequency%id)
-      response%spreads = [(frequency_spread(spreads(k)%lowest, spreads(k)%highest, spreads(k)%spread, spreads(k)%n), &
-                           k = 1, size(spreads))]
+      response%spreads = pack(deck%bulk%freq4, deck%bulk%freq4%set == asked%frequency%id)
       if (size(response%frequencies) + size(response%spreads) == 0) call deck%errors%add(asked%frequency%line, &
          'FREQUENCY: there is no FREQ1, FREQ2 or FREQ4 with set '//integer_text(asked%frequency%id))
       response%is_structural = deck%bulk%parameters%is_structural
@@ -149,14 +146,8 @@ contains
          ' moves supports (SPCD); expected forces, a support does not oscillate')
       if (asked%damping%id > 0) then
          k = findloc(deck%bulk%tabdmp1%id, asked%damping%id, dim=1)
-         if (k == 0) then
-            call deck%errors%add(asked%damping%line, 'SDAMPING: there is no TABDMP1 '//integer_text(asked%damping%id))
-         else
-            allocate (response%damping)
-            response%damping%kind = deck%bulk%tabdmp1(k)%kind
-            response%damping%frequency = deck%bulk%tabdmp1(k)%frequency
-            response%damping%value = deck%bulk%tabdmp1(k)%value
-         end if
+         if (k > 0) response%damping = deck%bulk%tabdmp1(k)
+         if (k == 0) call deck%errors%add(asked%damping%line, 'SDAMPING: there is no TABDMP1 '//integer_text(asked%damping%id))
       end if
       if (.not. allocated(asked%response)) return
       call find_limited_nodes(deck%control%sets, model, 'RESPONSE', asked%response, are_named, deck%errors)
@@ -230,9 +221,7 @@ contains
                if (at > 0) are_named(nodes_of(model%surfaces(at))) = .true.
             else
                at = find_set(sets, only%id)
-               if (at > 0) then
-                  call find_set_nodes(sets(at), model, are_named, errors)
-               end if
+               if (at > 0) call find_set_nodes(sets(at), model, are_named, errors)
             end if
             if (at == 0) call errors%add(only%line, key//': there is no '//trim(merge('PMARK', 'SET  ', only%is_mark))//' '// &
                                          integer_text(only%id))
