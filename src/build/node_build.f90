@@ -16,7 +16,7 @@ module node_build
    implicit none
    private
 
-   public :: collect_nodes, order_nodes, append_nodes, find_nodes, fill_mid_sides, append_node, append_rotations
+   public :: collect_nodes, order_nodes, append_nodes, find_nodes, fill_mid_sides, append_unknowns, append_rotations
 
    !> Nodes as they come, before they are put in order, and which of them a block's places are.
    type, public :: raw_nodes
@@ -350,74 +350,53 @@ contains
       call append_nodes(model, x)
    end subroutine place_nodes
 
-   !> Append a node at X with these components FREE, as a node of the ELEMENTS; its number is 0.
-   subroutine append_node(model, x, free, elements)
-      type(model_type), intent(inout) :: model
-      real(wp), intent(in)            :: x(3)        !! [length]
-      logical, intent(in)             :: free(:)     !! (dimension)
-      integer, intent(in)             :: elements(:)
-
-      associate (n => model%n_nodes + 1, d => model%dimension)
-         model%node_id = [model%node_id, 0]
-         model%duplicate = [model%duplicate, 0]
-         model%x = reshape([model%x, x], [3, n])
-         model%elements_at = [model%elements_at, elements]
-         model%first_at = [model%first_at, size(model%elements_at) + 1]
-         if (allocated(model%node_section)) model%node_section = [model%node_section, 0]
-         if (allocated(model%used)) model%used = [model%used, .true.]
-         if (allocated(model%held)) model%held = reshape([model%held, .not. free], [d, n])
-         if (allocated(model%left_out)) model%left_out = reshape([model%left_out, .not. free], [d, n])
-      end associate
-      model%n_nodes = model%n_nodes + 1
-   end subroutine append_node
-
    !> Append a node for each of the rotations of MODEL: at its point, with the elements of this where shells or beams have it, free in what
    !! the model has of rotations.
    subroutine append_rotations(model)
       type(model_type), intent(inout) :: model
-      integer, allocatable :: elements(:), points(:)
-      integer :: k, m, n
+      integer, allocatable :: elements(:), n_elements(:), points(:)
+      logical :: held(model%dimension)
+      integer :: k
 
-      n = model%n_nodes
-      m = size(model%rotations)
-      allocate (points(m))
+      allocate (points(size(model%rotations)))
       points(:) = model%rotations%point
-      model%node_id = [model%node_id, spread(0, 1, m)]
-      model%duplicate = [model%duplicate, spread(0, 1, m)]
-      model%rotation_of = [model%rotation_of, spread(0, 1, m)]
-      model%x = reshape([model%x, model%x(:, points)], [3, n + m])
-      if (allocated(model%node_section)) model%node_section = [model%node_section, spread(0, 1, m)]
-      if (allocated(model%used)) model%used = [model%used, spread(.true., 1, m)]
-      allocate (elements(sum(model%first_at(points + 1) - model%first_at(points), mask=model%rotations%of_element)))
-      model%first_at = [model%first_at, spread(0, 1, m)]
-      do k = 1, m
-         model%rotations(k)%node = n + k
-         associate (before => model%first_at(n + k) - size(model%elements_at), point => model%rotations(k)%point)
-            if (model%rotations(k)%of_element) then
-               associate (own => model%elements_at(model%first_at(point):model%first_at(point + 1) - 1))
-                  elements(before:before + size(own) - 1) = own
-                  model%first_at(n + k + 1) = model%first_at(n + k) + size(own)
-               end associate
-            else
-               model%first_at(n + k + 1) = model%first_at(n + k)
-            end if
-         end associate
-      end do
-      model%elements_at = [model%elements_at, elements]
-      model%n_nodes = n + m
-      call hold_new(model, n, [.false., spread(model%dimension == 2, 1, model%dimension - 1)])
+      model%rotations%node = model%n_nodes + [(k, k = 1, size(points))]
+      held = model%dimension == 2
+      held(1) = .false.
+      associate (first => model%first_at)
+         n_elements = merge(first(points + 1) - first(points), 0, model%rotations%of_element)
+         elements = [(model%elements_at(first(points(k)):first(points(k)) + n_elements(k) - 1), k = 1, size(points))]
+      end associate
+      call append_unknowns(model, points, n_elements, elements, held)
    end subroutine append_rotations
 
-   !> The nodes behind the first N are HELD in what is no unknown of theirs.
-   subroutine hold_new(model, n, held)
+   !> Append nodes for unknowns that are no displacements of points, one at each of the POINTS: with so many of the ELEMENTS in turn,
+   !! HELD in components that are no unknowns. Their number is 0.
+   subroutine append_unknowns(model, points, n_elements, elements, held)
       type(model_type), intent(inout) :: model
-      integer, intent(in)             :: n
+      integer, intent(in)             :: points(:), n_elements(:), elements(:)
       logical, intent(in)             :: held(:) !! (dimension)
+      integer, allocatable :: none(:)
+      integer :: k, n
 
-      associate (d => model%dimension, m => model%n_nodes - n)
-         if (allocated(model%held)) model%held = reshape([model%held, spread(held, 2, m)], [d, n + m])
-         if (allocated(model%left_out)) model%left_out = reshape([model%left_out, spread(held, 2, m)], [d, n + m])
+      n = model%n_nodes
+      none = spread(0, 1, size(points))
+      model%n_nodes = n + size(points)
+      model%node_id = [model%node_id, none]
+      model%duplicate = [model%duplicate, none]
+      model%x = reshape([model%x, model%x(:, points)], [3, model%n_nodes])
+      model%elements_at = [model%elements_at, elements]
+      model%first_at = [model%first_at, none]
+      do k = n + 1, model%n_nodes
+         model%first_at(k + 1) = model%first_at(k) + n_elements(k - n)
+      end do
+      if (allocated(model%rotation_of)) model%rotation_of = [model%rotation_of, none]
+      if (allocated(model%node_section)) model%node_section = [model%node_section, none]
+      if (allocated(model%used)) model%used = [model%used, none == 0]
+      associate (d => size(held), added => spread(held, 2, size(points)))
+         if (allocated(model%held)) model%held = reshape([model%held, added], [d, model%n_nodes])
+         if (allocated(model%left_out)) model%left_out = reshape([model%left_out, added], [d, model%n_nodes])
       end associate
-   end subroutine hold_new
+   end subroutine append_unknowns
 
 end module node_build

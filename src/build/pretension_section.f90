@@ -5,7 +5,7 @@ module pretension_section
    use element_kinds, only: max_side_nodes
    use kinds, only: wp
    use model_data, only: model_type, section_type
-   use node_build, only: append_node
+   use node_build, only: append_unknowns
    use spring_build, only: find_stage
    use surface_build, only: find_surface, side_influence, surface_node_list, surface_nodes
    use surface_sides, only: elements_behind, list_sides, side_list, turn_side
@@ -23,6 +23,7 @@ contains
    subroutine build_sections(deck, model)
       type(checked_deck), intent(in)  :: deck
       type(model_type), intent(inout) :: model
+      integer, allocatable :: behind(:)
       integer :: e, i, k, n
 
       n = count(deck%bulk%bolt%surface > 0)
@@ -37,8 +38,9 @@ contains
       end do
       if (any(model%sections%point == 0)) return ! there are errors
       do k = 1, n ! their nodes stand behind all others, with the elements behind the section
-         call append_node(model, model%x(:, model%sections(k)%point), [.true., spread(.false., 1, model%dimension - 1)], &
-                          pack([(e, e = 1, model%n_elements)], model%element_section == k))
+         behind = pack([(e, e = 1, model%n_elements)], model%element_section == k)
+         call append_unknowns(model, [model%sections(k)%point], [size(behind)], behind, &
+                              [.false., spread(.true., 1, model%dimension - 1)])
          model%sections(k)%node = model%n_nodes
       end do
    end subroutine build_sections
