@@ -9,7 +9,7 @@ module body_loads
    use element_kinds, only: max_nodes
    use kinds, only: wp
    use load_checks, only: check_plane
-   use mass_elements, only: scalar_mass
+   use mass_matrix, only: scalar_mass
    use model_data, only: corners_of, is_beam, model_type, own_nodes, stage_load_type
    use node_coupling, only: add_section_share
    use numbers, only: cross, identity

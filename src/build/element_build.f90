@@ -11,7 +11,7 @@ module element_build
    use lists, only: id_table_type, sorted_order
    use model_data, only: corners_of, model_type, property_type
    use node_build, only: blank_node, find_nodes, raw_nodes
-   use shell_geometry, only: flat_coordinates
+   use shell_membrane, only: flat_coordinates
    use structural_build, only: is_beam_edge
    use text_tools, only: integer_text
    implicit none

@@ -5,7 +5,7 @@ module pressure_loads
    use displacement_systems, only: rectangular_axes
    use element_build, only: is_face
    use element_kinds, only: element_table, kind_hexa8, kind_penta6, kind_tetra4, max_side_nodes
-   use element_loads, only: side_forces
+   use isoparametric, only: side_forces
    use kinds, only: wp
    use lists, only: id_table_type
    use model_data, only: corners_of, is_shell, model_type

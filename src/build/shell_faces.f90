@@ -11,7 +11,7 @@ module shell_faces
    use node_build, only: append_nodes
    use node_coupling, only: couple_node, coupling_parts
    use numbers, only: by_rotation, cross, identity
-   use shell_geometry, only: shell_frame, shell_frame_of
+   use shell_membrane, only: shell_frame, shell_frame_of
    use text_tools, only: integer_text
    implicit none
    private

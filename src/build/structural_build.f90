@@ -10,7 +10,7 @@ module structural_build
    use model_data, only: corners_of, is_beam, is_shell, model_type, n_rotations, rotation_type
    use node_build, only: append_rotations
    use node_coupling, only: couple_node, node_axes
-   use shell_geometry, only: shell_law
+   use shell_membrane, only: shell_law
    use text_tools, only: integer_text
    implicit none
    private

@@ -2,7 +2,7 @@
 module surface_build
    use deck_check, only: checked_deck
    use element_kinds, only: element_table, max_side_nodes
-   use element_loads, only: side_areas, side_forces
+   use isoparametric, only: side_areas, side_forces
    use kinds, only: wp
    use lists, only: id_table_type, sorted_order, list_owners
    use mesh_build, only: marked_side

@@ -13,8 +13,8 @@ module shell_element
    use kinds, only: wp
    use quadrature, only: body_rule, integration_rule, mass_rule
    use shape_functions, only: shape_derivatives, shape_values
-   use shell_geometry, only: corner_kind, flat_coordinates, shell_frame, shell_frame_of, shell_law, thickness_at
-   use shell_membrane, only: add_membrane, add_membrane_warmth, find_membrane
+   use shell_membrane, only: add_membrane, add_membrane_warmth, find_membrane, corner_kind, flat_coordinates, shell_frame, &
+                             shell_frame_of, shell_law, thickness_at
    implicit none
    private
 

@@ -5,11 +5,10 @@ module stress_recovery
    use elasticity, only: axisymmetric, max_stresses, n_stresses, solid
    use element_kinds, only: centre_point, element_table, kind_penta6, kind_tetra4, kind_tria3, max_nodes, node_point
    use element_mapping, only: element_law, element_map, map_element, map_point, max_shapes
-   use isoparametric, only: condensed_stiffness, max_unknowns
+   use isoparametric, only: condensed_stiffness, max_unknowns, condensed_thermal_forces
    use kinds, only: wp
    use quadrature, only: gauss, integration_rule, stress_rule, tetra_far, tetra_near
    use shape_functions, only: shape_values
-   use element_loads, only: condensed_thermal_forces
    implicit none
    private
 

@@ -2,9 +2,8 @@
 module body_elements
    use elasticity, only: max_stresses, n_stresses, plane_strain
    use element_kinds, only: element_table, max_felt_dofs, max_nodes, centre_point
-   use element_loads, only: body_forces, nodal_thermal_forces
    use element_mapping, only: element_law, make_element_law
-   use isoparametric, only: stiffness
+   use isoparametric, only: stiffness, body_forces, nodal_thermal_forces
    use kinds, only: wp
    use model_data, only: corners_of, is_beam, is_shell, model_type, own_nodes, temperature_type
    use node_coupling, only: onto_unknowns, add_section_share, corner_displacements, extend_stiffness, felt_nodes, section_node

@@ -9,7 +9,7 @@ module model_data
    use joint_laws, only: joint_law
    use kinds, only: wp
    use lists, only: id_table_type
-   use shell_geometry, only: shell_law
+   use shell_membrane, only: shell_law
    implicit none
    private
 

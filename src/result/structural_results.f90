@@ -7,7 +7,7 @@ module structural_results
    use kinds, only: wp
    use listing_table, only: column, in_units, listing_table_type, noise, page_type, shows
    use model_data, only: a_bar, corners_of, is_beam, is_shell, model_type, n_points, own_nodes, temperature_type
-   use shell_geometry, only: shell_frame, shell_frame_of
+   use shell_membrane, only: shell_frame, shell_frame_of
    use structural_elements, only: beam_ends, nodal_values, structural_stress
    use temperatures, only: element_rise
    use text_tools, only: clean

@@ -8,7 +8,7 @@ module equations
    use failures, only: failure_type
    use interface_operator, only: add_force, add_global_force, global_stiffness, interface_element, joint_movement, relative_movement
    use kinds, only: wp
-   use mass_elements, only: coupled_bar_mass, coupled_point_mass, mass_nodes, n_masses
+   use mass_matrix, only: coupled_bar_mass, coupled_point_mass, mass_nodes, n_masses
    use model_data, only: bar_nodes, model_type, n_bars
    use node_coupling, only: list_on_unknowns, unknown_nodes
    use node_graph, only: build_node_graph, node_graph_type

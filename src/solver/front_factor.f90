@@ -7,7 +7,7 @@ module front_factor
    use kinds, only: long, wp
    use lists, only: first_not_below, sorted_order
    use machine, only: give_back
-   use mass_elements, only: coupled_dynamic_stiffness
+   use mass_matrix, only: coupled_dynamic_stiffness
    use model_data, only: model_type
    use node_coupling, only: coupled_nodes
    use omp_lib, only: omp_get_wtime

@@ -4,7 +4,7 @@
 !! Definite Systems, 1981, chapter 4 (the start node, and why reversed).
 module node_graph
    use lists, only: list_owners
-   use mass_elements, only: mass_nodes, n_masses
+   use mass_matrix, only: mass_nodes, n_masses
    use model_data, only: bar_nodes, corners_of, is_face_node, model_type, n_bars
    use node_coupling, only: unknown_nodes, coupled_nodes, felt_nodes, section_node
    implicit none

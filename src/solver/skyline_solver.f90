@@ -6,7 +6,7 @@ module skyline_solver
    use interface_equations, only: interface_equations_type, list_interface_equations
    use interface_operator, only: interface_element
    use kinds, only: long, wp
-   use mass_elements, only: coupled_dynamic_stiffness
+   use mass_matrix, only: coupled_dynamic_stiffness
    use memory_need, only: shortage
    use model_data, only: model_type
    use node_coupling, only: list_on_unknowns, coupled_nodes
