@@ -2,11 +2,13 @@
 !! found by counting, before anything is factorised.
 module facing_bodies
    use element_kinds, only: element_table
+   use element_mapping, only: two_pi
    use interface_operator, only: named_node
    use kinds, only: wp
    use lists, only: join, list_owners, root_of
    use model_build, only: find_bodies
    use model_data, only: corners_of, is_shell, model_type, n_bars, n_points, supported
+   use node_pairing, only: opposed => facing, reach => default_reach
    use numbers, only: cross
    use spatial_search, only: spatial_search_type
    use text_tools, only: clean, integer_text, real_text
@@ -15,10 +17,7 @@ module facing_bodies
 
    public :: list_bodies, body_words, box_words, list_outer_sides, find_facing, loose_words, rounded
 
-   real(wp), parameter :: reach = 0.1_wp       ! of the longest edge of a side: as far as a JOINT looks without TOL
-   real(wp), parameter :: opposed = -0.5_wp    ! cosine between the normals of facing sides, at most
    real(wp), parameter :: on_rim = 1.0e-6_wp   ! of the size of a side: a point so near to its rim is on it
-   real(wp), parameter :: two_pi = 6.283185307179586_wp
    integer, parameter  :: most_said = 5        ! loose bodies
 
    type, public :: body_type

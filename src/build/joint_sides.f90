@@ -131,11 +131,7 @@ contains
          part%opposite = part%own
          part%area = matmul(share, area)
          part%normal = matmul(normal, transpose(share))
-         if (any(partner > 0)) then
-            call sums%add_face(elements(:n), surface%nodes(:n, s), opposite(:n), part)
-         else
-            call sums%add_face(elements(:n), surface%nodes(:n, s), opposite(:0), part)
-         end if
+         call sums%add_face(elements(:n), surface%nodes(:n, s), opposite(:merge(n, 0, any(partner > 0))), part)
       end do
       call sums%finish()
    end subroutine add_pairs

@@ -176,7 +176,7 @@ contains
                                     integer_text(reference%id))
                cycle
             end if
-            if (all(abs(model%properties%alpha) <= 0.0_wp) .and. .not. has_warm_bar(model)) then
+            if (all(abs(model%properties%alpha) <= 0.0_wp) .and. all(abs(model%bars%expansion) <= 0.0_wp)) then
                call deck%errors%add(reference%line, 'TEMPERATURE: nothing expands; give A on a MAT1')
                cycle
             end if
@@ -189,14 +189,6 @@ contains
          end associate
       end do
    end subroutine build_temperatures
-
-   !> Whether any bar expands.
-   pure logical function has_warm_bar(model)
-      type(model_type), intent(in) :: model
-
-      has_warm_bar = .false.
-      if (n_bars(model) > 0) has_warm_bar = any(abs(model%bars%expansion) > 0.0_wp)
-   end function has_warm_bar
 
    !> TEMP cards name nodes that are there, each once a set; a set has one TEMPD.
    subroutine check_nodes(deck, model)

@@ -46,9 +46,10 @@ contains
       type(raw_nodes) :: raw
       integer, allocatable :: position(:) ! raw node -> node of the model
       integer :: b
+      logical :: has_solids
 
-      model%dimension = 2
-      if (any(deck%bulk%block%dimension == 3) .or. any(element_table(deck%bulk%element%kind)%dimension == 3)) model%dimension = 3
+      has_solids = any(deck%bulk%block%dimension == 3) .or. any(element_table(deck%bulk%element%kind)%dimension == 3)
+      model%dimension = merge(3, 2, has_solids)
       allocate (blocks(size(deck%bulk%block)))
       do b = 1, size(blocks)
          call generate_block(deck%bulk%block(b), blocks(b))
@@ -56,7 +57,7 @@ contains
       call build_systems(deck, model%systems)
       call collect_nodes(deck, model%systems, blocks, raw)
       if (any(abs(raw%x(3, :raw%n)) > 0.0_wp) .and. .not. is_plane(deck)) model%dimension = 3
-      call take_model(deck, model)
+      call take_model(deck, has_solids, model)
       call add_reference_nodes(deck, blocks, raw)
       call order_nodes(raw, model, position)
       if (any(deck%rigid%surface > 0) .or. size(deck%bulk%place) > 0) call find_places(deck, blocks, raw, position, model)
@@ -83,12 +84,11 @@ contains
    end function is_plane
 
    !> MODEL of case control says what the model is, where the deck does not say otherwise.
-   subroutine take_model(deck, model)
+   subroutine take_model(deck, has_solids, model)
       type(checked_deck), intent(in)  :: deck
+      logical, intent(in)             :: has_solids
       type(model_type), intent(inout) :: model
-      logical :: has_solids
 
-      has_solids = any(deck%bulk%block%dimension == 3) .or. any(element_table(deck%bulk%element%kind)%dimension == 3)
       associate (control => deck%control)
          select case (control%model)
          case (model_space)

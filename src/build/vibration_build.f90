@@ -119,8 +119,8 @@ contains
       type(checked_deck), intent(in) :: deck
       type(model_type), intent(in)   :: model
 
-      is_damped = deck%bulk%parameters%damping > 0.0_wp .or. any(model%properties%damping > 0.0_wp)
-      if (allocated(model%bars)) is_damped = is_damped .or. any(model%bars%damping > 0.0_wp)
+      is_damped = deck%bulk%parameters%damping > 0.0_wp .or. any(model%properties%damping > 0.0_wp) .or. &
+                  any(model%bars%damping > 0.0_wp)
    end function is_damped
 
    !> FREQUENCY of one stage.
