@@ -1,5 +1,5 @@
 !> Shells in space, triangles and quadrilaterals of three displacements and three rotations a corner: the membrane of shell_membrane, and
-!! a plate with transverse shear, on the flat element of shell_geometry.
+!! a plate with transverse shear, on the flat element there.
 !!
 !! Bending and transverse shear: the discrete Kirchhoff-Mindlin triangle and quadrilateral (I. Katili, A new discrete Kirchhoff-Mindlin
 !! element based on Mindlin-Reissner plate theory and assumed shear strain fields, Parts I and II, Int. J. Numer. Meth. Engng 36
