@@ -145,12 +145,11 @@ contains
       real(wp), intent(in)    :: x(3), reach
       integer, intent(inout)  :: point
       real(wp), intent(inout) :: distance
-      real(wp) :: candidate
-      integer  :: i, middle
-      logical  :: is_divided, is_low
+      real(wp) :: candidate, beyond(2)
+      integer  :: half, i, middle
+      logical  :: is_divided
 
       middle = first + (last - first)/2
-      if (gap(self%around(:, :, middle), x) > min(distance, reach)) return
       is_divided = last - first >= first_undivided
       do i = merge(middle, first, is_divided), merge(middle, last, is_divided)
          candidate = norm2(self%box(:, 1, i) - x)
@@ -160,18 +159,21 @@ contains
          distance = candidate
       end do
       if (.not. is_divided) return
-      is_low = gap(self%around(:, :, first + (middle - 1 - first)/2), x) <= &
-               gap(self%around(:, :, middle + 1 + (last - middle - 1)/2), x)
-      if (is_low) call find_nearer(self, first, middle - 1, x, reach, point, distance)
-      call find_nearer(self, middle + 1, last, x, reach, point, distance)
-      if (.not. is_low) call find_nearer(self, first, middle - 1, x, reach, point, distance)
+      beyond(1) = gap(self%around(:, :, first + (middle - 1 - first)/2), x)
+      beyond(2) = gap(self%around(:, :, middle + 1 + (last - middle - 1)/2), x)
+      do i = 1, 2
+         half = merge(i, 3 - i, beyond(1) <= beyond(2))
+         if (beyond(half) > min(distance, reach)) cycle
+         if (half == 1) call find_nearer(self, first, middle - 1, x, reach, point, distance)
+         if (half == 2) call find_nearer(self, middle + 1, last, x, reach, point, distance)
+      end do
    end subroutine find_nearer
 
    !> How far X is outside BOX along the axis where it is farthest: no point of the box is nearer.
    pure real(wp) function gap(box, x)
       real(wp), intent(in) :: box(3, 2), x(3)
 
-      gap = max(0.0_wp, maxval(max(box(:, 1) - x, x - box(:, 2))))
+      gap = max(0.0_wp, box(1, 1) - x(1), x(1) - box(1, 2), box(2, 1) - x(2), x(2) - box(2, 2), box(3, 1) - x(3), x(3) - box(3, 2))
    end function gap
 
    !> The boxes that meet the box from LOW to HIGH, borders count: FOUND(:N).
