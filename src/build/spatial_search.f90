@@ -152,6 +152,7 @@ contains
       middle = first + (last - first)/2
       is_divided = last - first >= first_undivided
       do i = merge(middle, first, is_divided), merge(middle, last, is_divided)
+         if (gap(self%box(:, :, i), x) > min(distance, reach)) cycle ! costs less than the distance
          candidate = norm2(self%box(:, 1, i) - x)
          if (candidate > reach .or. candidate > distance) cycle
          if (candidate >= distance .and. self%number(i) > point) cycle
