@@ -11,8 +11,7 @@ module body_tables
    use listing_table, only: axes, column, column_type, in_units, listing_table_type, noise, page_type, page_width, shows
    use model_data, only: a_point, corners_of, has_ground_springs, has_second_order, is_beam, is_shell, model_type, n_bars, &
                          n_points, n_rotations, node_kind, supported
-   use node_coupling, only: held_forces
-   use node_coupling, only: node_axes
+   use node_coupling, only: held_forces, node_axes
    use stage_entries, only: output_request
    use structural_results, only: list_structural
    use text_tools, only: clean
