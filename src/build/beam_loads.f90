@@ -1,7 +1,7 @@
 !> Loads along beams, PLOAD1 and gravity: what the ends of each beam bear, and the forces and moments on its nodes.
 module beam_loads
    use acceleration_fields, only: acceleration_at, acceleration_field
-   use beam_cards, only: load_types
+   use property_cards, only: load_types
    use beam_element, only: beam_axes, beam_length, beam_line_load, beam_nodal_forces, beam_point_load
    use bulk_data, only: beam_load_card
    use deck_check, only: checked_deck

@@ -1,16 +1,15 @@
 !> What stands above the fitted cards: data, residuals, range, coefficients, warnings.
 module fit_comments
    use branch_fit, only: branch_fit_type, residual_type
-   use command_arguments, only: version
+   use terminal, only: version
    use data_columns, only: branch_letters, branch_words, column_d, column_p, column_symbols, data_normal, fit_load, fit_reload, &
                            fit_unload, n_columns
    use fit_command, only: fit_command_type
    use fit_data, only: test_data_type
    use kinds, only: wp
    use law_cards, only: coefficient_line, jnorm_card, jshear_card
-   use normal_fit, only: normal_fit_type
    use output_file, only: output_file_type
-   use surface_fit, only: surface_fit_type
+   use surface_fit, only: normal_fit_type, surface_fit_type
    use text_tools, only: integer_text, plural, real_text
    implicit none
    private

@@ -16,7 +16,7 @@
 program write_matrix
    use, intrinsic :: iso_fortran_env, only: error_unit
    use body_elements, only: coupled_stiffness
-   use command_arguments, only: argument_text
+   use terminal, only: argument_text
    use deck_errors, only: deck_error_list
    use deck_input, only: deck_type, read_deck
    use element_kinds, only: max_dofs
