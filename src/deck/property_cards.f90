@@ -372,8 +372,8 @@ contains
    end subroutine read_dimensions
 
    !> PLOAD1: a force or moment along a beam, global (FX ... MZ) or in its axes (FXE ... MZE), between X1 and X2 linear from P1 to P2; X2
-   !! blank or equal to X1: at X1 alone. SCALE: X is a length or a fraction of the beam, the load one a unit of the beam's length or, with PR,
-   !! of its length projected onto the plane across the load.
+   !! blank or equal to X1: at X1 alone. SCALE: X is a length or a fraction of the beam, the load one a unit of the beam's length or, with
+   !! PR, of its length projected onto the plane across the load.
    subroutine read_beam_load(card, bulk)
       type(card_fields_type), intent(inout) :: card
       type(bulk_data_type), intent(inout)   :: bulk
