@@ -5,8 +5,7 @@ program jointfit
    use fit_command, only: fit_command_type, read_fit_command
    use fit_comments, only: write_cards
    use fit_data, only: read_test_data, test_data_type
-   use fit_plot, only: write_plot
-   use fit_run, only: begin_output, end_fit, report_data_errors, report_fit, report_unreadable_data
+   use fit_output, only: begin_output, end_fit, report_data_errors, report_fit, report_unreadable_data, write_plot
    use law_cards, only: check_slopes
    use machine, only: use_threads
    use output_file, only: output_file_type

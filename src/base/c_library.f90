@@ -1,19 +1,21 @@
 !> The few services of the C library that Fortran has no word for: reading and writing files by bytes with
 !! every failure told, renaming and removing a file, its true path and what it is, and whether a stream is a terminal.
 module c_library
-   use, intrinsic :: iso_c_binding, only: c_associated, c_char, c_funloc, c_int, c_int8_t, c_int16_t, c_intptr_t, c_null_char, &
-                                          c_ptr, c_size_t
+   use, intrinsic :: iso_c_binding, only: c_associated, c_char, c_funptr, c_int, c_int8_t, c_int16_t, c_intptr_t, c_null_char, &
+                                          c_null_funptr, c_ptr, c_size_t
    implicit none
    private
 
    public :: keep_on_disk, open_standard_outputs
    public :: read_all_bytes, open_file, read_bytes, create_unique, write_bytes, close_file, rename_file, remove_file, &
              remove_terminated, true_path, kind_of_file, is_regular_file, is_same_file, is_terminal, tell_failed_writes, &
-             call_at_interrupts, end_by_signal, lock_folder, end_run
+             at_signals, by_default, end_by_signal, lock_folder, end_run
 
    !> What a path may lead to.
    integer, parameter, public :: no_file = 0, pipe_file = 1, device_file = 2, folder_file = 4, block_file = 6, regular_file = 8, &
                                  link_file = 10, socket_file = 12 !! S_IFMT of Linux, by 4096
+
+   integer(c_intptr_t), parameter :: ignored = 1 ! SIG_IGN
 
    logical, public, protected :: has_ended = .false. !! by end_run
 
@@ -93,9 +95,9 @@ module c_library
 
       !> What is done at SIGNAL from now on; gives what was done.
       integer(c_intptr_t) function c_signal(signal, handler) bind(c, name='signal')
-         import :: c_int, c_intptr_t
-         integer(c_int), value      :: signal
-         integer(c_intptr_t), value :: handler
+         import :: c_funptr, c_int, c_intptr_t
+         integer(c_int), value :: signal
+         type(c_funptr), value :: handler
       end function c_signal
 
       integer(c_int) function c_raise(signal) bind(c, name='raise')
@@ -328,46 +330,37 @@ contains
    !> A write into a pipe that nobody reads, or beyond the size that files may have, fails from now on as one on a full disk does,
    !! and does not kill the program.
    subroutine tell_failed_writes()
-      integer(c_int), parameter      :: signals(2) = [13, 25] ! SIGPIPE, SIGXFSZ of Linux
-      integer(c_intptr_t), parameter :: ignore = 1            ! SIG_IGN
-      integer(c_intptr_t) :: before
-      integer :: i
-
-      do i = 1, size(signals)
-         before = c_signal(signals(i), ignore)
-         if (before < 0) return ! SIG_ERR: it stays as it was
-      end do
+      call at_signals([13, 25], transfer(ignored, c_null_funptr)) ! SIGPIPE, SIGXFSZ of Linux
    end subroutine tell_failed_writes
 
-   !> HANDLER is called with the number of the signal when the user interrupts the program, hangs up or has it terminated; what is
-   !! ignored, as behind nohup, stays so.
-   subroutine call_at_interrupts(handler)
-      interface
-         subroutine handler(signal) bind(c)
-            import :: c_int
-            integer(c_int), value :: signal
-         end subroutine handler
-      end interface
-      integer(c_int), parameter      :: signals(3) = [1, 2, 15] ! SIGHUP, SIGINT, SIGTERM
-      integer(c_intptr_t), parameter :: ignore = 1              ! SIG_IGN
+   !> HANDLER is called with the number of the signal at any of these SIGNALS; what is ignored, as behind nohup, stays so.
+   subroutine at_signals(signals, handler)
+      integer(c_int), intent(in) :: signals(:)
+      type(c_funptr), value      :: handler !! of a subroutine with one integer(c_int) by value
       integer(c_intptr_t) :: before
       integer :: i
 
       do i = 1, size(signals)
-         before = c_signal(signals(i), transfer(c_funloc(handler), before))
-         if (before == ignore) before = c_signal(signals(i), ignore)
+         before = c_signal(signals(i), handler)
+         if (before == ignored) before = c_signal(signals(i), transfer(ignored, handler))
       end do
-   end subroutine call_at_interrupts
+   end subroutine at_signals
+
+   !> From now on SIGNAL does what it does to a program that does not handle it.
+   subroutine by_default(signal)
+      integer(c_int), intent(in) :: signal
+
+      call at_signals([signal], c_null_funptr) ! SIG_DFL
+   end subroutine by_default
 
    !> End the program as SIGNAL ends one that does not handle it.
    subroutine end_by_signal(signal)
       integer(c_int), intent(in) :: signal
-      integer(c_intptr_t) :: before
-      integer(c_int)      :: status
+      integer(c_int) :: status
 
-      before = c_signal(signal, 0_c_intptr_t) ! SIG_DFL
+      call by_default(signal)
       status = c_raise(signal)
-      if (before < 0 .or. status /= 0) return ! not that way
+      if (status /= 0) return ! not that way
    end subroutine end_by_signal
 
    !> Wait until no other run holds the FOLDER, but not for ever, and hold it until DESCRIPTOR is closed.

@@ -6,9 +6,8 @@
 !! A file is written as NAME.abcdef.part, its letters those of no other file: two runs in one folder do not meet. When it is
 !! complete it gets its name, and replaces what file or link has it.
 module incomplete_results
-   use, intrinsic :: iso_c_binding, only: c_associated, c_f_pointer, c_funloc, c_funptr, c_int, c_intptr_t, c_null_char, &
-                                          c_null_ptr, c_ptr
-   use c_library, only: call_at_interrupts, create_unique, device_file, block_file, end_by_signal, folder_file, has_ended, &
+   use, intrinsic :: iso_c_binding, only: c_associated, c_f_pointer, c_funloc, c_funptr, c_int, c_null_char, c_null_ptr, c_ptr
+   use c_library, only: at_signals, by_default, create_unique, device_file, block_file, end_by_signal, folder_file, has_ended, &
                         kind_of_file, no_file, pipe_file, regular_file, remove_file, remove_terminated, rename_file, write_bytes
    implicit none
    private
@@ -35,12 +34,6 @@ module incomplete_results
          type(c_funptr), value :: routine
          type(c_ptr), value    :: argument
       end function c_on_exit
-
-      integer(c_intptr_t) function c_signal(signal, handler) bind(c, name='signal')
-         import :: c_funptr, c_int, c_intptr_t
-         integer(c_int), value :: signal
-         type(c_funptr), value :: handler
-      end function c_signal
 
       type(c_ptr) function c_errno_place() bind(c, name='__errno_location')
          import :: c_ptr
@@ -73,7 +66,17 @@ contains
       part = ''
       descriptor = -1
       if (.not. is_free(path)) then
-         if (.not. allocated(in_the_way)) in_the_way = path//' is '//kind_in_words(kind_of_file(path))//' and no file'
+         if (allocated(in_the_way)) return
+         select case (kind_of_file(path))
+         case (folder_file)
+            in_the_way = path//' is a folder and no file'
+         case (pipe_file)
+            in_the_way = path//' is a pipe and no file'
+         case (device_file, block_file)
+            in_the_way = path//' is a device and no file'
+         case default
+            in_the_way = path//' is something else and no file'
+         end select
          return
       end if
       is_changing = .true.
@@ -119,17 +122,6 @@ contains
 
       is_free = any(kind_of_file(path) == [no_file, regular_file])
    end function is_free
-
-   !> KIND, as kind_of_file has it, in words.
-   pure function kind_in_words(kind) result(words)
-      integer, intent(in)       :: kind
-      character(:), allocatable :: words
-
-      words = 'something else'
-      if (kind == folder_file) words = 'a folder'
-      if (kind == pipe_file) words = 'a pipe'
-      if (kind == device_file .or. kind == block_file) words = 'a device'
-   end function kind_in_words
 
    !> Why the first file could not be created, in words; empty where its name was free.
    function what_is_in_the_way() result(words)
@@ -177,12 +169,11 @@ contains
 
    !> Watch allocations and interrupts from now on. Where the C library does not do the first the status stays 1.
    subroutine watch_ends()
-      integer(c_int)      :: status
-      integer(c_intptr_t) :: before
+      integer(c_int) :: status
 
       status = c_on_exit(c_funloc(end_without_memory), c_null_ptr)
-      before = c_signal(sigsegv, c_funloc(end_at_no_address))
-      call call_at_interrupts(end_by_interrupt)
+      call at_signals([sigsegv], c_funloc(end_at_no_address))
+      call at_signals([1, 2, 15], c_funloc(end_by_interrupt)) ! SIGHUP, SIGINT, SIGTERM of Linux
    end subroutine watch_ends
 
    !> Called when SIGNAL interrupts the program: it ends as if it had not been handled, but leaves no part. While the list of files
@@ -205,11 +196,10 @@ contains
    recursive subroutine end_at_no_address(signal) bind(c)
       integer(c_int), value   :: signal
       integer(c_int), pointer :: error
-      integer(c_intptr_t)     :: before
 
       call c_f_pointer(c_errno_place(), error)
       if (error == enomem) call end_without_memory(status_of_library, c_null_ptr)
-      before = c_signal(signal, transfer(0_c_intptr_t, c_funloc(end_at_no_address))) ! 0: SIG_DFL
+      call by_default(signal)
    end subroutine end_at_no_address
 
    !> Called by the C library when the program ends with STATUS.

@@ -11,8 +11,8 @@ module machine
    public :: available_memory, memory_for, peak_memory, keep_memory, return_memory, give_back, use_threads, kernel_figure, &
              memory_left_by_groups
 
-   integer(c_int), parameter :: trim_threshold = -1, top_pad = -2, mmap_threshold = -3, mmap_max = -4, arena_max = -8 ! parameters of mallopt,
-                                                                                             ! malloc.h of glibc
+   ! parameters of mallopt, malloc.h of glibc
+   integer(c_int), parameter :: trim_threshold = -1, top_pad = -2, mmap_threshold = -3, mmap_max = -4, arena_max = -8
    integer(c_int), parameter :: dont_need = 4       ! advice of madvise, sys/mman.h of Linux
    integer(c_intptr_t), parameter :: page = 4096    ! of memory [bytes]; where pages are larger madvise refuses
 
@@ -161,8 +161,9 @@ contains
       bytes = kernel_figure('/proc/self/status', 'VmHWM:', 1024)
    end function peak_memory
 
-   !> N threads at most, 0: what OMP_NUM_THREADS says; never more than there are cores. BLAS has one in each: one order of additions, the same digits everywhere.
-   !! They have one heap: what one of them has deallocated another one can take. That must be said before they are there.
+   !> N threads at most, 0: what OMP_NUM_THREADS says; never more than there are cores. BLAS has one in each: one order of additions, the
+   !! same digits everywhere. They have one heap: what one of them has deallocated another one can take. That must be said before they
+   !! are there.
    subroutine use_threads(n)
       integer, intent(in) :: n
       integer(c_int) :: status

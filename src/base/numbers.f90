@@ -1,7 +1,7 @@
 !> Small services for numbers. Which can be the measure of anything: finite ones far enough below the largest real that squares and
 !! products of them, with stiffnesses and areas, are still numbers; which of several is the largest; the vector product; the real
 !! zeros of a polynomial of low degree in an interval, found between the zeros of its derivative: between neighbouring ones of these
-!! it is monotonic, so that each such stretch has one zero at the most.
+!! it is monotonic, so that each such stretch has one zero at the most; linear least squares by LAPACK.
 !! Source: Press et al., Numerical Recipes, 2nd ed., section 9.4, for Newton's method within a bracket.
 module numbers
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
@@ -9,7 +9,8 @@ module numbers
    implicit none
    private
 
-   public :: is_measure, first_largest, cross, by_rotation, find_zeros, enclosed_zero, polynomial, derivative
+   public :: is_measure, first_largest, cross, by_rotation, find_zeros, enclosed_zero, polynomial, derivative, &
+             solve_least_squares, fit_line
 
    real(wp), parameter, public :: largest_measure = 1.0e100_wp
    real(wp), parameter, public :: identity(3, 3) = reshape([real(wp) :: 1, 0, 0, 0, 1, 0, 0, 0, 1], [3, 3])
@@ -22,6 +23,19 @@ module numbers
       integer  :: n = 0
       real(wp) :: x(highest_degree) = 0.0_wp
    end type zero_list
+
+   real(wp), parameter :: singular = 1.0e-12_wp ! reciprocal condition number of the scaled columns that counts as rank lost
+
+   interface
+      subroutine dgelsy(m, n, nrhs, a, lda, b, ldb, jpvt, rcond, rank, work, lwork, info)
+         import :: wp
+         integer, intent(in)     :: m, n, nrhs, lda, ldb, lwork
+         real(wp), intent(in)    :: rcond
+         real(wp), intent(inout) :: a(lda, *), b(ldb, *), work(*)
+         integer, intent(inout)  :: jpvt(*)
+         integer, intent(out)    :: rank, info
+      end subroutine dgelsy
+   end interface
 
 contains
 
@@ -138,5 +152,46 @@ contains
 
       slope = [(k*c(k), k = 1, ubound(c, 1))]
    end function derivative
+
+   !> The X that makes norm2(MATRIX X - RHS) least, by an orthogonal factorisation with pivoting (DGELSY). The columns are
+   !! scaled to length one first, so that d, d^2, d^3 in any unit do no harm. OK is false where MATRIX has fewer rows than
+   !! columns or, to rounding, dependent columns; X is then zero.
+   subroutine solve_least_squares(matrix, rhs, x, ok)
+      real(wp), intent(in)  :: matrix(:, :) !! (points, unknowns)
+      real(wp), intent(in)  :: rhs(:)       !! (points)
+      real(wp), intent(out) :: x(:)         !! (unknowns)
+      logical, intent(out)  :: ok
+      real(wp), allocatable :: a(:, :), b(:, :), work(:)
+      real(wp) :: length(size(matrix, 2)), best_size(1)
+      integer  :: pivots(size(matrix, 2)), info, k, m, n, rank
+
+      m = size(matrix, 1)
+      n = size(matrix, 2)
+      x = 0.0_wp
+      ok = .false.
+      if (m < n) return
+      length = [(norm2(matrix(:, k)), k = 1, n)]
+      if (any(length <= 0.0_wp)) return
+      a = matrix/spread(length, 1, m)
+      b = reshape(rhs, [m, 1])
+      pivots = 0
+      call dgelsy(m, n, 1, a, m, b, m, pivots, singular, rank, best_size, -1, info)
+      allocate (work(int(best_size(1))))
+      call dgelsy(m, n, 1, a, m, b, m, pivots, singular, rank, work, size(work), info)
+      ok = info == 0 .and. rank == n
+      if (ok) x = b(:n, 1)/length
+   end subroutine solve_least_squares
+
+   !> The straight line y = LINE(1) + LINE(2) x nearest to the points. OK is false for fewer than two different x.
+   subroutine fit_line(x, y, line, ok)
+      real(wp), intent(in)  :: x(:), y(:)
+      real(wp), intent(out) :: line(2)
+      logical, intent(out)  :: ok
+      real(wp) :: matrix(size(x), 2)
+
+      matrix(:, 1) = 1.0_wp
+      matrix(:, 2) = x
+      call solve_least_squares(matrix, y, line, ok)
+   end subroutine fit_line
 
 end module numbers

@@ -1,6 +1,6 @@
 !> Loads on bodies: GRAV and RFORCE, which act on all masses, and PLOAD1 along beams; the nodal forces, and what the ends of each beam bear.
 module body_loads
-   use beam_cards, only: load_types
+   use property_cards, only: load_types
    use beam_element, only: beam_axes, beam_length, beam_line_load, beam_nodal_forces, beam_point_load
    use body_elements, only: element_weight
    use bulk_data, only: beam_load_card, gravity_card

@@ -3,7 +3,7 @@
 !! marked surfaces.
 module vibration_build
    use bulk_data, only: freq1_card
-   use case_sets, only: find_set, limit_type, number_set, numbers_in_set
+   use case_entries, only: find_set, limit_type, number_set, numbers_in_set
    use deck_check, only: checked_deck
    use deck_errors, only: deck_error_list
    use deck_input, only: deck_type

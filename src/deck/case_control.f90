@@ -1,8 +1,7 @@
 !> Case control: everything before BEGIN BULK. What to do, stage by stage; the bulk data says with what.
 module case_control
-   use case_entries, only: check_repeated, choose, cut_entry, entry_type, global_keys, read_number, set_reference, &
-                           stage_keys, value_error
-   use case_sets, only: limit_type, number_set, read_set
+   use case_entries, only: check_repeated, choose, cut_entry, entry_type, global_keys, limit_type, number_set, read_number, &
+                           read_set, set_reference, stage_keys, value_error
    use deck_errors, only: deck_error_list
    use deck_text, only: deck_text_type
    use field_rules, only: parse_integer, parse_real

@@ -1,6 +1,5 @@
 !> A deck: its text, its case control, its bulk data. Read in one go, all errors collected.
 module deck_input
-   use beam_cards, only: read_beam_load, read_beam_property
    use bulk_data, only: bulk_data_type
    use card_reader, only: card_kind, card_reader_type
    use case_control, only: case_control_type, read_case_control, watch_also
@@ -15,11 +14,10 @@ module deck_input
    use mesh_cards, only: complete_remedy, read_block, read_edge, read_element, read_grid, read_pmark, fill_grid_defaults, &
                          read_grid_defaults, read_system, system_names
    use nastran_compatibility, only: is_idle_card
-   use property_cards, only: read_conrod, read_mat1, read_paxis, read_parameter, read_prod, read_pshell, read_psolid, &
-                             read_temperature
+   use property_cards, only: read_beam_load, read_beam_property, read_conrod, read_mat1, read_parameter, read_paxis, &
+                             read_prod, read_pshell, read_psolid, read_temperature
    use rigid_cards, only: read_equation, read_place, read_rigid
-   use spring_cards, only: read_mass, read_spring, read_spring_property
-   use support_cards, only: read_displacement, read_sum, read_support
+   use support_cards, only: read_displacement, read_mass, read_spring, read_spring_property, read_sum, read_support
    use vibration_cards, only: read_eigrl, read_freq1, read_freq4, read_jampl, read_tabdmp1
    implicit none
    private
@@ -35,7 +33,6 @@ module deck_input
    end type deck_type
 
    character(*), parameter :: end_of_data = 'ENDDATA', behind_end = 'text behind ENDDATA' ! the second as an entry without effect
-
 
 contains
 

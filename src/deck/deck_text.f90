@@ -1,8 +1,8 @@
 !> The lines of a deck in the order in which they count, INCLUDE files opened in their place.
 module deck_text
    use c_library, only: is_regular_file, read_all_bytes, true_path
-   use checksum, only: add_to_checksum, no_bytes
-   use command_arguments, only: standard_input
+   use restart_stream, only: add_to_checksum, no_bytes
+   use terminal, only: standard_input
    use deck_errors, only: deck_error_list
    use deck_parameters, only: fill_parameters, parameter_type
    use, intrinsic :: iso_fortran_env, only: int8

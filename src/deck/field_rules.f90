@@ -3,6 +3,7 @@
 !! What a field may hold besides being one: ranges of numbers, words out of a list, components; and the same in words.
 module field_rules
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
+   use, intrinsic :: iso_c_binding, only: c_char, c_double, c_null_char, c_null_ptr, c_ptr
    use kinds, only: long, wp
    use text_tools, only: integer_text, real_text
    implicit none
@@ -10,12 +11,9 @@ module field_rules
 
    public :: parse_integer, parse_real, integer_words, real_words, in_range, is_component_list, list_of
 
-   integer, parameter :: quad = selected_real_kind(33)
-   integer, parameter :: most_digits = 15, max_exact = 22           ! so many digits and 10**22 are exact in real(wp),
-   integer, parameter :: most_digits_quad = 18, max_exact_quad = 48 ! these in integer(long) and real(quad)
+   integer, parameter :: most_digits = 15, max_exact = 22 ! so many digits and 10**22 are exact in real(wp)
    integer :: k
    real(wp), parameter :: power_of_ten(0:max_exact) = [(10.0_wp**k, k = 0, max_exact)]
-   real(quad), parameter :: power_of_ten_quad(0:max_exact_quad) = [(10.0_quad**k, k = 0, max_exact_quad)]
 
    real(wp), parameter, public :: largest_size = 1.0e75_wp   !! of a number in a deck: its fourth power is still one
    real(wp), parameter, public :: smallest_size = 1.0e-75_wp !! of one that must be above zero
@@ -29,6 +27,15 @@ module field_rules
    type(real_range), parameter, public :: any_real = real_range(), positive = real_range(0.0_wp, above=.true.), &
                                           not_negative = real_range(0.0_wp)
    character(*), parameter, public :: component_words = 'a list of components, different digits of 1 to 6'
+
+   interface
+      !> The number in TEXT, which a null character ends, correctly rounded; behind it is END, null: nobody asks.
+      pure real(c_double) function strtod(text, end) bind(c, name='strtod')
+         import :: c_char, c_double, c_ptr
+         character(kind=c_char), intent(in) :: text(*)
+         type(c_ptr), value, intent(in)     :: end
+      end function strtod
+   end interface
 
 contains
 
@@ -67,7 +74,7 @@ contains
       real(wp), intent(out)    :: value
       logical, intent(out)     :: ok
       integer(long) :: mantissa
-      integer :: i, length, digits, decimals, exponent, digit, status
+      integer :: i, length, digits, decimals, exponent, digit
       logical :: point, any_digit
       character(48) :: plain
 
@@ -84,7 +91,7 @@ contains
          if (digit >= 0 .and. digit <= 9) then
             any_digit = .true.
             if (digits > 0 .or. digit > 0) digits = digits + 1
-            if (digits <= most_digits_quad) mantissa = 10*mantissa + digit
+            if (digits <= most_digits) mantissa = 10*mantissa + digit
             if (point) decimals = decimals + 1
          else if (text(i:i) == '.' .and. .not. point) then
             point = .true.
@@ -106,41 +113,12 @@ contains
          end if
          if (text(1:1) == '-') value = -value
          return
-      else if (digits <= most_digits_quad .and. abs(exponent - decimals) <= max_exact_quad) then
-         call round_once(mantissa, exponent - decimals, value, ok)
-         if (text(1:1) == '-') value = -value
-         if (ok) return
       end if
-      if (digits > 0 .and. digits + exponent - decimals > range(value) + 2) then ! the library would overflow
-         ok = .false.
-         return
-      end if
-      plain = text(:i - 1)
-      write (plain(i:), '(a, i0)') 'E', exponent
-      read (plain, *, iostat=status) value
-      ok = status == 0
-      if (ok) ok = ieee_is_finite(value) .and. .not. (abs(value) < tiny(value) .and. digits > 0)
+      plain = text(:length)//c_null_char
+      if (i <= length) plain = text(:i - 1)//'E'//text(i + verify(text(i:i), '+-'):length)//c_null_char ! the letter may be D, or none
+      value = strtod(plain, c_null_ptr)
+      ok = ieee_is_finite(value) .and. .not. (abs(value) < tiny(value) .and. digits > 0)
    end subroutine parse_real
-
-   !> VALUE = MANTISSA*10**EXPONENT by one operation of quadruple precision on exact operands, which is then rounded again. The
-   !! second rounding errs only where the first ended in the middle between two reals: OK is false there.
-   pure subroutine round_once(mantissa, exponent, value, ok)
-      integer(long), intent(in) :: mantissa !! 0 to 10**18
-      integer, intent(in)       :: exponent !! -48 to 48
-      real(wp), intent(out)     :: value
-      logical, intent(out)      :: ok
-      real(quad) :: wide
-      real(wp)   :: off ! how far VALUE is from it
-
-      if (exponent >= 0) then
-         wide = real(mantissa, quad)*power_of_ten_quad(exponent)
-      else
-         wide = real(mantissa, quad)/power_of_ten_quad(-exponent)
-      end if
-      value = real(wide, wp)
-      off = abs(real(wide - real(value, quad), wp))
-      ok = abs(off - 0.5_wp*spacing(value)) > 0.0_wp .and. abs(off - 0.25_wp*spacing(value)) > 0.0_wp ! 1/4: below a power of two
-   end subroutine round_once
 
    !> What stands behind the mantissa: E or D and an integer, or a signed integer alone.
    pure subroutine parse_exponent(text, point, exponent, ok)

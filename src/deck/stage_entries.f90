@@ -1,8 +1,7 @@
 !> The entries of case control that belong to one stage: what loads it, what is printed of it, how the structure oscillates at its end
 !! (MODES and what goes with it, FREQUENCY and what goes with that).
 module stage_entries
-   use case_entries, only: choose, entry_type, read_number, set_reference, stage_keys, value_error
-   use case_sets, only: limit_type, read_limit
+   use case_entries, only: choose, entry_type, limit_type, read_limit, read_number, set_reference, stage_keys, value_error
    use deck_errors, only: deck_error_list
    use field_rules, only: largest_size, parse_real, smallest_size
    use kinds, only: wp

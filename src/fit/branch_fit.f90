@@ -4,7 +4,7 @@
 module branch_fit
    use data_columns, only: fit_load
    use kinds, only: wp
-   use least_squares, only: fit_line, solve_least_squares
+   use numbers, only: fit_line, solve_least_squares
    implicit none
    private
 

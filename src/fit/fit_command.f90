@@ -2,7 +2,7 @@
 module fit_command
    use branch_fit, only: fit_choice
    use c_library, only: is_same_file
-   use command_arguments, only: argument_text, complain, input_argument, is_option, say, set_input, version
+   use terminal, only: argument_text, complain, input_argument, is_option, say, set_input, version
    use data_columns, only: branch_number, reading_type, read_number, read_system
    use field_rules, only: parse_integer
    use kinds, only: wp

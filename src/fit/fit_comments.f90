@@ -1,16 +1,15 @@
 !> What stands above the fitted cards: data, residuals, range, coefficients, warnings.
 module fit_comments
    use branch_fit, only: branch_fit_type, residual_type
-   use command_arguments, only: version
+   use terminal, only: version
    use data_columns, only: branch_letters, branch_words, column_d, column_p, column_symbols, data_normal, fit_load, fit_reload, &
                            fit_unload, n_columns
    use fit_command, only: fit_command_type
    use fit_data, only: test_data_type
    use kinds, only: wp
    use law_cards, only: coefficient_line, jnorm_card, jshear_card
-   use normal_fit, only: normal_fit_type
    use output_file, only: output_file_type
-   use surface_fit, only: surface_fit_type
+   use surface_fit, only: normal_fit_type, surface_fit_type
    use text_tools, only: integer_text, plural, real_text
    implicit none
    private
@@ -71,7 +70,6 @@ contains
       type(normal_fit_type), intent(in)     :: fit
       type(output_file_type), intent(inout) :: out
       character(:), allocatable :: points
-      character(14) :: cells(6)
       integer :: k
 
       points = plural(fit%n_points, 'point')
@@ -89,10 +87,9 @@ contains
          call comment_row(out, [character(14) :: 'line', 'p from', 'to', 'lambda, p = 0', 'E_u', 'points'])
          do k = 1, size(loops%lines)
             associate (line => loops%lines(k))
-               cells = [character(14) :: branch_words(line%branch), real_text(line%p_low), real_text(line%p_high), &
-                        real_text(line%set), real_text(line%e_u), integer_text(line%n_points)]
+               call comment_row(out, [character(14) :: branch_words(line%branch), real_text(line%p_low), real_text(line%p_high), &
+                                      real_text(line%set), real_text(line%e_u), integer_text(line%n_points)])
             end associate
-            call comment_row(out, cells)
          end do
       end associate
    end subroutine describe_normal
@@ -205,16 +202,14 @@ contains
       integer, intent(in)                   :: b, run(:)
       real(wp), intent(in)                  :: d(:)
       type(output_file_type), intent(inout) :: out
-      character(14) :: cells(6)
       integer :: i
 
       call comment_row(out, [character(14) :: 'run', 'p', branch_letters(b)//'0', 'd from', 'to', 'points'])
       do i = 1, size(branch%start)
          associate (at => branch%curve_at(i), own => branch%curve == i)
-            cells = [character(14) :: integer_text(run(at)), real_text(branch%group_p(branch%group(at))), &
-                     real_text(branch%start(i)), real_text(minval(d, own)), real_text(maxval(d, own)), integer_text(count(own))]
+            call comment_row(out, [character(14) :: integer_text(run(at)), real_text(branch%group_p(branch%group(at))), &
+               real_text(branch%start(i)), real_text(minval(d, own)), real_text(maxval(d, own)), integer_text(count(own))])
          end associate
-         call comment_row(out, cells)
       end do
    end subroutine table_of_runs
 

@@ -8,7 +8,7 @@ module test_branches
    use fit_command, only: fit_command_type
    use fit_data, only: test_data_type
    use kinds, only: wp
-   use least_squares, only: solve_least_squares
+   use numbers, only: solve_least_squares
    use text_tools, only: integer_text, plural, real_text
    implicit none
    private

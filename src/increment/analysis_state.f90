@@ -14,7 +14,7 @@ module analysis_state
    use normal_stiffness, only: at_rest, branch_load, branch_open, is_virgin, norm
    use numbers, only: is_measure
    use shear_stiffness, only: shear
-   use terminal_line, only: show_line
+   use terminal, only: show_line
    use text_tools, only: integer_text, real_text
    implicit none
    private

@@ -14,10 +14,10 @@ module petsc_solver
    use model_data, only: model_type
    use node_coupling, only: list_on_unknowns, coupled_nodes
    use node_graph, only: node_graph_type
-   use partition, only: is_entangled, partition_nodes, partition_type, pass_subdomain, subdomain_of, subdomain_type
+   use partition, only: add_touched, is_entangled, list_touched, partition_nodes, partition_type, pass_subdomain, &
+                        structure_values, subdomain_of, subdomain_type, touched_type
    use ranks, only: n_ranks
    use text_tools, only: integer_text, real_text
-   use touched_blocks, only: add_touched, list_touched, structure_values, touched_type
    use worker_loop, only: broadcast_command, command_diagonal, command_finish, command_forget, command_multiply, command_read, &
                           command_renew, command_solve, command_start, command_take, command_touched, command_way, &
                           command_write, solution, stiffest_of_all => stiffest, stiffness, subdomain

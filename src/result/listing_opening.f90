@@ -2,7 +2,7 @@
 module listing_opening
    use branch_cubic, only: cubic
    use case_control, only: method_newton, method_step, pressure_eq10
-   use command_arguments, only: standard_input, version
+   use terminal, only: standard_input, version
    use deck_input, only: deck_type
    use element_kinds, only: element_table
    use element_mapping, only: has_modes

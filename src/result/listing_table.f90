@@ -10,10 +10,9 @@
 !! column without a name into the listing alone. The tables of a whole stage keep their rows until they are printed.
 module listing_table
    use kinds, only: wp
-   use number_text, only: integer_width, short_width, write_integer, write_short
    use output_file, only: output_file_type
    use restart_stream, only: restart_stream_type
-   use text_tools, only: clean, csv_line_type, fitted_text
+   use text_tools, only: clean, csv_line_type, fitted_text, integer_width, short_width, write_integer, write_short
    implicit none
    private
 
@@ -62,7 +61,7 @@ module listing_table
       integer :: last = 0             ! character of the row that its values end at
       integer :: heading_shift = 0, unit_shift = 0
       logical :: is_listed = .true.
-      logical :: is_short = .false.   ! as number_text writes it, fast
+      logical :: is_short = .false.   ! as write_short has it, fast
    end type column_type
 
    type, public :: listing_table_type
@@ -197,7 +196,7 @@ contains
 
    !> The next values of the row, those WHERE there are any, and REALS behind them. What its column cannot hold is printed with an
    !! exponent and fewer digits, behind a blank.
-   pure subroutine add_integers(self, values, reals, where)
+   subroutine add_integers(self, values, reals, where)
       class(listing_table_type), intent(inout) :: self
       integer, intent(in)                      :: values(:)
       real(wp), intent(in), optional           :: reals(:)
@@ -225,7 +224,7 @@ contains
    end subroutine add_integers
 
    !> In the listing what is below FLOOR is zero.
-   pure subroutine add_reals(self, values, floor, where)
+   subroutine add_reals(self, values, floor, where)
       class(listing_table_type), intent(inout) :: self
       real(wp), intent(in)                     :: values(:)
       real(wp), intent(in), optional           :: floor
@@ -263,7 +262,7 @@ contains
    end function in_form
 
    !> WORDS with all their blanks, at the end of their column, and REALS behind them; the CSV file has WORDS without the blanks.
-   pure subroutine add_text(self, words, reals)
+   subroutine add_text(self, words, reals)
       class(listing_table_type), intent(inout) :: self
       character(*), intent(in)                 :: words
       real(wp), intent(in), optional           :: reals(:)
@@ -278,7 +277,7 @@ contains
    end subroutine add_text
 
    !> The next N columns stay empty.
-   pure subroutine skip(self, n)
+   subroutine skip(self, n)
       class(listing_table_type), intent(inout) :: self
       integer, intent(in)                      :: n
       integer :: i

@@ -2,7 +2,7 @@
 module command_line
    use c_library, only: true_path
    use card_manual, only: manual_entry, manual_names
-   use command_arguments, only: argument_text, complain, input_argument, is_option, say, set_input, standard_input, version
+   use terminal, only: argument_text, complain, input_argument, is_option, say, set_input, standard_input, version
    use deck_parameters, only: is_parameter_name, parameter_type
    use field_rules, only: parse_integer
    use listing_table, only: history_ending

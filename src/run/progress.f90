@@ -13,7 +13,7 @@ module progress
    use output_file, only: output_file_type
    use results, only: results_type
    use stage_plan, only: stage_plan_type
-   use terminal_line, only: clear_line, open_line, show_line
+   use terminal, only: clear_line, open_line, show_line
    use text_tools, only: integer_text
    implicit none
    private

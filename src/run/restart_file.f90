@@ -8,7 +8,6 @@ module restart_file
    use bolt_locking, only: lock_again
    use c_library, only: close_file, is_regular_file, keep_on_disk, read_all_bytes, remove_file
    use case_control, only: no_restart, restart_stages
-   use command_arguments, only: version
    use deck_input, only: deck_type
    use deck_text, only: checksum_of
    use equation_solver, only: equation_system
@@ -19,7 +18,7 @@ module restart_file
    use restart_stream, only: open_restart, restart_stream_type
    use results, only: record_results, restart_ending, results_type
    use stage_plan, only: stage_plan_type, where_in_plan
-   use terminal_line, only: say_line
+   use terminal, only: say_line, version
    use text_tools, only: integer_text
    implicit none
    private

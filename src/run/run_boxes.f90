@@ -39,7 +39,7 @@ module run_boxes
    use stage_plan, only: factorisations_of, shows_bodies, stage_plan_type, vibration_plan_type, where_in_plan
    use unit_watch, only: unit_words
    use vtu_bodies, only: write_piece
-   use terminal_line, only: say_line
+   use terminal, only: say_line
    use text_tools, only: integer_text
    implicit none
    private

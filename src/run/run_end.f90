@@ -3,7 +3,6 @@
 module run_end
    use batch, only: batch_type, end_batch
    use c_library, only: end_run, write_bytes
-   use command_arguments, only: complain_of_input
    use command_line, only: command_type, is_result_of
    use deck_input, only: deck_type
    use distribution, only: leave_processes
@@ -19,7 +18,7 @@ module run_end
    use results, only: discard_results, finish_results, listing_ending, show_answers
    use stage_plan, only: stage_plan_type
    use stage_tables, only: distance_words
-   use terminal_line, only: clear_line
+   use terminal, only: clear_line, complain_of_input
    use text_tools, only: plural
    use unit_watch, only: stress_words
    implicit none

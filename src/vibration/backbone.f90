@@ -12,7 +12,7 @@ module backbone
    use mode_values, only: modes_type
    use model_data, only: model_type, n_points
    use stage_plan, only: backbone_plan, loss_at, stage_plan_type
-   use terminal_line, only: show_line
+   use terminal, only: show_line
    use text_tools, only: integer_text
    implicit none
    private

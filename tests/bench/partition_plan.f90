@@ -8,7 +8,7 @@
 !! Memory is counted of what is known before the solution: rows of the matrix, as many again above their diagonal, the vectors.
 program partition_plan
    use, intrinsic :: iso_fortran_env, only: error_unit
-   use command_arguments, only: argument_text
+   use terminal, only: argument_text
    use deck_errors, only: deck_error_list
    use deck_input, only: deck_type, read_deck
    use kinds, only: wp

@@ -16,7 +16,7 @@
 program write_matrix
    use, intrinsic :: iso_fortran_env, only: error_unit
    use body_elements, only: coupled_stiffness
-   use command_arguments, only: argument_text
+   use terminal, only: argument_text
    use deck_errors, only: deck_error_list
    use deck_input, only: deck_type, read_deck
    use element_kinds, only: max_dofs
@@ -96,7 +96,6 @@ contains
       allocate (value, source=values(:filled))
    end subroutine assemble
 
-
    !> All elements and interface elements: without ROWS and VALUES, PLACE(j + 1) becomes the number of entries of column j; with
    !! them, PLACE(j) the last one so far.
    subroutine visit_all(place, rows, values)
@@ -126,7 +125,6 @@ contains
       end do
    end subroutine visit_all
 
-
    !> Equations of the components of NODES, 0: held.
    function equations_of(nodes) result(equations)
       integer, intent(in) :: nodes(:)
@@ -134,7 +132,6 @@ contains
 
       equations = reshape(numbers%number(:, nodes), [size(equations)])
    end function equations_of
-
 
    !> The lower triangle of one matrix K of EQUATIONS.
    subroutine visit(equations, k, place, rows, values)
@@ -161,7 +158,6 @@ contains
       end do
    end subroutine visit
 
-
    !> {dF}: the share of the first increment.
    subroutine first_load(load)
       real(wp), allocatable, intent(out) :: load(:)
@@ -177,7 +173,6 @@ contains
          end do
       end associate
    end subroutine first_load
-
 
    !> What closes the interface elements: the displacements of node 1 along the normal, those of node 2 against it.
    subroutine closing_displacements(rows, factors)
@@ -197,7 +192,6 @@ contains
          end associate
       end do
    end subroutine closing_displacements
-
 
    !> Say what is wrong with the deck, and end with status 1.
    subroutine stop_with(words)

@@ -62,7 +62,6 @@ contains
       call file%finish(ok)
    end subroutine write_solid
 
-
    !> Five points alone.
    subroutine write_joint(path, ok)
       character(*), intent(in) :: path
@@ -77,7 +76,6 @@ contains
       call file%finish(ok)
    end subroutine write_joint
 
-
    subroutine write_nothing(path, ok)
       character(*), intent(in) :: path
       logical, intent(out)     :: ok
@@ -90,7 +88,6 @@ contains
       call file%finish(ok)
    end subroutine write_nothing
 
-
    subroutine write_list(path, ok)
       character(*), intent(in) :: path
       logical, intent(out)     :: ok
@@ -98,7 +95,6 @@ contains
       call write_collection(path, [1.0_real64, 1.0_real64, 3.0_real64, 3.0_real64], [0, 1, 0, 1], [character(20) :: &
                             'sample.1.vtu', 'sample.1.joint.vtu', 'sample.2 & <3>.vtu', 'sample.2.joint.vtu'], ok)
    end subroutine write_list
-
 
    !> N points in a row, N cells of eight of them.
    subroutine write_big(path, n, ok)

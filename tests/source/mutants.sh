@@ -15,7 +15,7 @@ here=$(cd "$(dirname "$0")" && pwd)
 checked=$build/checked units=$build/unit-fallback tree=$build/tree
 # What takes most of the time: these decks no mutant goes through, these suites only where they use the module.
 slow="bracket|flanged_column|column_foot"
-slow_suites="number_text|tree_solver|front_kernel|law_error|fitted_joints|joints_on_lists|nested_dissection"
+slow_suites="tree_solver|front_kernel|law_error|fitted_joints|joints_on_lists|nested_dissection"
 # Nor through these parts of run_all.sh: those above, what speaks of the tests themselves, and what takes long for little.
 passed_over='unit tests|modules use|runner itself|decks against their|processors|run-time checks|comparison|queries|benchmark|do not fit'
 passed_over+='|TREE and SKYLINE|STEP tends|errors of elements|Gmsh|pyNastran|at random|fuzzer|tour|pictures'

@@ -39,7 +39,6 @@ contains
       if (failure%raised) error stop 'changed_joints: no factor'
    end subroutine prepare
 
-
    !> Stiffnesses of the joints larger or smaller by up to a SHARE.
    pure function changed(model, share) result(k)
       type(model_type), intent(in) :: model
@@ -52,7 +51,6 @@ contains
          k(:, :, i) = k(:, :, i)*(1.0_wp + share*(modulo(7*i, 11) - 5)/5.0_wp)
       end do
    end function changed
-
 
    !> Forces on the refactored equations, UNTOUCHED on the others.
    subroutine load(model, system, x)

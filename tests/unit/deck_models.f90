@@ -51,7 +51,6 @@ contains
       call read_deck_of_text(bytes, deck, errors)
    end subroutine read_lines
 
-
    !> The deck with these CARDS and one stage.
    subroutine read_cards(cards, deck, errors)
       character(*), intent(in)           :: cards
@@ -60,7 +59,6 @@ contains
 
       call read_lines('SUBCASE 1;BEGIN BULK;'//cards//';ENDDATA', deck, errors)
    end subroutine read_cards
-
 
    !> The model, and the plan, of the deck with these LINES.
    subroutine build(lines, model, errors, plan)
@@ -76,7 +74,6 @@ contains
       if (present(plan)) plan = own_plan
    end subroutine build
 
-
    !> The model with these CARDS and one stage. PROBLEM: the first error, '' where there is none.
    subroutine model_of_cards(cards, model, problem)
       character(*), intent(in)               :: cards
@@ -90,7 +87,6 @@ contains
       if (errors%n > 0) problem = errors%items(1)%message
    end subroutine model_of_cards
 
-
    !> The cards of sample model WHICH, 1 to 5 in the order above.
    pure function sample_cards(which) result(cards)
       integer, intent(in)       :: which
@@ -102,7 +98,6 @@ contains
       if (which == 4) cards = plate
       if (which == 5) cards = low_plate
    end function sample_cards
-
 
    !> Forces on every component of every node, between -1/2 and 1/2 times 1000.
    pure function some_forces(model) result(f)
@@ -116,7 +111,6 @@ contains
          end do
       end do
    end function some_forces
-
 
    !> Stiffnesses of all interface elements, positive definite, the directions coupled; another set for every SEED.
    pure function some_stiffnesses(model, seed) result(k_int)

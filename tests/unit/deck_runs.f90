@@ -41,7 +41,6 @@ contains
       call run_stages(run, last)
    end subroutine run_lines
 
-
    !> Solve the deck PATH; SOLVER as in case control, AUTO.
    subroutine run_file(path, run, last, solver)
       character(*), intent(in)      :: path
@@ -57,7 +56,6 @@ contains
       call run_stages(run, last, solver)
    end subroutine run_file
 
-
    !> The model and the plan of the deck with these LINES, to be solved by RUN_STAGES.
    subroutine build_lines(lines, run)
       character(*), intent(in)    :: lines
@@ -69,7 +67,6 @@ contains
       call build_deck(deck, errors, run)
    end subroutine build_lines
 
-
    subroutine build_deck(deck, errors, run)
       type(deck_type), intent(in)          :: deck
       type(deck_error_list), intent(inout) :: errors
@@ -80,7 +77,6 @@ contains
       run%problem = ''
       if (errors%any()) run%problem = errors%items(1)%message
    end subroutine build_deck
-
 
    !> Solve what is built, up to stage LAST or all of it; SOLVER as in case control, AUTO.
    subroutine run_stages(run, last, solver)
@@ -112,7 +108,6 @@ contains
          end do
       end do
    end subroutine run_stages
-
 
    !> An increment of STEP.
    subroutine step(run)

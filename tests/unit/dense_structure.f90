@@ -60,7 +60,6 @@ contains
 
    end function dense_bodies
 
-
    !> Elements, bars, and masses at nodes; no inertia of rotations, no sections.
    function dense_mass(model) result(m)
       type(model_type), intent(in) :: model
@@ -108,7 +107,6 @@ contains
 
    end function dense_mass
 
-
    !> Interface elements with the stiffnesses K_INT in their axes.
    function dense_joints(model, k_int) result(k)
       type(model_type), intent(in) :: model
@@ -132,7 +130,6 @@ contains
       end do
    end function dense_joints
 
-
    pure function rows_of(model, nodes) result(rows)
       type(model_type), intent(in) :: model
       integer, intent(in)          :: nodes(:)
@@ -142,7 +139,6 @@ contains
          rows(model%dimension*(i - 1) + 1:model%dimension*i) = [(model%dimension*(nodes(i) - 1) + d, d = 1, model%dimension)]
       end do
    end function rows_of
-
 
    !> The rows of components that are neither held nor without an element.
    pure function free_rows(model) result(rows)
@@ -156,7 +152,6 @@ contains
       end do
       allocate (rows, source=pack([(i, i = 1, size(is_free))], reshape(is_free, [size(is_free)])))
    end function free_rows
-
 
    !> X: K(ROWS, ROWS) X(ROWS) = F(ROWS), zero elsewhere.
    function solve_dense(k, rows, f) result(x)
@@ -173,7 +168,6 @@ contains
       allocate (x(size(f)), source=0.0_wp)
       x(rows) = b(:, 1)
    end function solve_dense
-
 
    !> A(:, :n): K(KEPT, KEPT) - K(KEPT, GONE) K(GONE, GONE)^-1 K(GONE, KEPT); A(:, n + 1): F condensed likewise.
    function condense_dense(k, kept, gone, f) result(a)

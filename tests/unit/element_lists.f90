@@ -23,7 +23,6 @@ contains
       element%axes = axes
    end function on_lists
 
-
    !> Axes of a joint whose x is turned by ANGLE about Z, and its y by TILT out of Z; no tilt: a joint in the plane.
    pure function some_axes(angle, tilt) result(axes)
       real(wp), intent(in) :: angle, tilt
@@ -35,7 +34,6 @@ contains
          axes(:, 3) = [s*cos(tilt), -c*cos(tilt), -sin(tilt)]
       end associate
    end function some_axes
-
 
    !> From now on every interface element of MODEL hangs on its own nodes and those of a neighbour in its joint: end 1 in the ratio
    !! 3:1, end 2, where there is one, on their mean.

@@ -109,7 +109,6 @@ contains
 
    end function block_cards
 
-
    !> The number of the node at AT, counted in half divisions.
    pure integer function block_node(block, at) result(id)
       type(block_type), intent(in) :: block
@@ -117,7 +116,6 @@ contains
 
       id = block%first + at(1) + (2*block%n(1) + 1)*(at(2) + (2*block%n(2) + 1)*at(3))
    end function block_node
-
 
    !> Hold COMPONENTS of the nodes at AT(D), counted in divisions, in set 1.
    function supports(block, d, at, components) result(cards)
@@ -141,7 +139,6 @@ contains
       end do
    end function supports
 
-
    !> Hold all nodes, in set 1, and move them BY along D, in set 10.
    function all_moved(block, d, by) result(cards)
       type(block_type), intent(in) :: block
@@ -164,7 +161,6 @@ contains
       end do
    end function all_moved
 
-
    !> The nodes of BLOCK at AT, in half divisions of x, each with a comma behind it.
    function layer(block, at) result(ids)
       type(block_type), intent(in) :: block
@@ -180,13 +176,11 @@ contains
       end do
    end function layer
 
-
    pure integer function dimension_of(block) result(d)
       type(block_type), intent(in) :: block
 
       d = merge(2, 3, index(block%card, 'CQUAD') == 1)
    end function dimension_of
-
 
    !> Whether the elements have a node at AT: at the corners of the boxes, of second order on their edges too, of tetrahedra in faces
    !! and inside as well.
@@ -203,7 +197,6 @@ contains
          is_node = all(modulo(at, 2) == 0)
       end select
    end function is_node
-
 
    function grid_card(block, at) result(card)
       type(block_type), intent(in) :: block
@@ -229,7 +222,6 @@ contains
       end do
       card = card//';'
    end function grid_card
-
 
    !> The element, or the six tetrahedra, whose first corner is at AT; E is the number of the last element then.
    function element_cards(block, at, e) result(cards)

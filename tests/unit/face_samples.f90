@@ -21,7 +21,6 @@ contains
       x = node_point(:, :sample_nodes(i), side_kind(sample_dimension(i), sample_nodes(i)))
    end function flat_face
 
-
    !> The same side distorted, moved away and, of second order, curved.
    pure function bent_face(i) result(x)
       integer, intent(in) :: i

@@ -27,7 +27,6 @@ contains
       end do
    end function distorted
 
-
    !> Volume of an element: area times thickness in the plane, of the whole ring in an axisymmetric body [length^3].
    pure real(wp) function element_volume(law, x) result(total)
       type(element_law), intent(in) :: law

@@ -24,7 +24,6 @@ contains
       end if
    end function scratch
 
-
    !> A file of that name with these BYTES.
    subroutine put(name, bytes)
       character(*), intent(in) :: name, bytes
@@ -35,14 +34,12 @@ contains
       close (unit)
    end subroutine put
 
-
    !> Whether there is a file of that PATH.
    logical function there(path)
       character(*), intent(in) :: path
 
       inquire (file=path, exist=there)
    end function there
-
 
    !> How many files there are that are to be PATH once they are complete.
    integer function n_parts(path)

@@ -16,14 +16,12 @@ contains
       curve = cubic(reshape(coefficients, [2, 3]))
    end function curve
 
-
    !> The same cubic on every branch.
    pure type(shear_law) function one_cubic(coefficients) result(law)
       real(wp), intent(in) :: coefficients(6)
 
       law = shear_law(given=.true., load=curve(coefficients), unload=curve(coefficients), reload=curve(coefficients))
    end function one_cubic
-
 
    !> Three cubics without a common coefficient: a call that takes the wrong branch, power or pressure is seen. All slopes are
    !! positive for |d| < 1, 0 < p < 3.
@@ -32,7 +30,6 @@ contains
                       unload=curve([60.0_wp, 30.0_wp, 5.0_wp, 2.0_wp, 1.0_wp, 0.25_wp]), &
                       reload=curve([70.0_wp, 10.0_wp, -4.0_wp, 3.0_wp, 2.0_wp, 0.125_wp]))
    end function three_cubics
-
 
    !> Three cubics as of a test: a reloading branch is a little steeper than the unloading branch beside it, and meets the loading
    !! curve before the point that was left; an unloading branch stays above the loading curve of the other sense after d > 0.6,

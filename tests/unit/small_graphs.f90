@@ -26,7 +26,6 @@ contains
       end do
    end subroutine graph_of
 
-
    !> M by N nodes, number i + M (j - 1) in column i and row j, each with the up to eight around it as neighbours.
    subroutine grid(m, n, graph)
       integer, intent(in)                :: m, n
@@ -42,7 +41,6 @@ contains
       call graph_of(edges, graph)
    end subroutine grid
 
-
    !> N nodes with at most so many edges, at random; another graph for every SEED.
    subroutine random_graph(n, n_edges, seed, graph)
       integer, intent(in)                :: n, n_edges, seed
@@ -57,7 +55,6 @@ contains
       end do
       call graph_of(edges, graph)
    end subroutine random_graph
-
 
    !> A grid as above in linear time.
    subroutine wide_grid(m, n, graph)
@@ -84,7 +81,6 @@ contains
       graph%neighbours = graph%neighbours(:links)
    end subroutine wide_grid
 
-
    !> Whether of the places of any two neighbours in a binary tree one is above the other, or the same: what separators are for.
    pure logical function are_in_line(graph, place)
       type(node_graph_type), intent(in) :: graph
@@ -104,7 +100,6 @@ contains
       end do
    end function are_in_line
 
-
    !> An edge between ENDS(k) and OTHERS(k).
    pure subroutine join(edges, ends, others)
       logical, intent(inout) :: edges(:, :)
@@ -116,7 +111,6 @@ contains
          edges(others(k), ends(k)) = .true.
       end do
    end subroutine join
-
 
    !> 1..N in an order that looks like chance, another one for every SEED, the same on every machine.
    pure function mixed(n, seed) result(number)
@@ -134,7 +128,6 @@ contains
          number(k) = swap
       end do
    end function mixed
-
 
    !> Pattern of the factor when the nodes of GRAPH are eliminated along ORDER: PATTERN(i, j), i > j, is row i of column j. What
    !! comes behind the first N_INNER nodes is taken as full.

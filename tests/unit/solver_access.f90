@@ -26,7 +26,6 @@ contains
       end select
    end function is_tree
 
-
    !> SYSTEM, which is TREE.
    function tree_of(system) result(tree)
       class(equation_system), target, intent(in) :: system
@@ -40,7 +39,6 @@ contains
       end select
    end function tree_of
 
-
    !> The fronts of SYSTEM, which is TREE.
    function fronts_of(system) result(fronts)
       class(equation_system), target, intent(in) :: system
@@ -50,7 +48,6 @@ contains
       tree => tree_of(system)
       fronts => tree%fronts
    end function fronts_of
-
 
    !> SYSTEM, which is SKYLINE.
    function skyline_of(system) result(skyline)
@@ -64,7 +61,6 @@ contains
          error stop 'solver_access: the solver is not SKYLINE'
       end select
    end function skyline_of
-
 
    !> Displacements U of all nodes as the increments find them: the load condensed, retained nodes solved, the others recovered.
    subroutine solve_all(model, system, k_int, f, u, failure)

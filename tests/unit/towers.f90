@@ -58,7 +58,6 @@ contains
       call form_body_stiffness(model, system, failure)
    end subroutine make_tower
 
-
    !> Load at the end of stage S: FORCE at node NODE.
    subroutine put_load(model, s, node, force)
       type(model_type), intent(inout) :: model
@@ -69,7 +68,6 @@ contains
       model%stage_loads(s)%node = [node]
       model%stage_loads(s)%force = reshape([force, 0.0_wp], [3, 1])
    end subroutine put_load
-
 
    !> A law with shear and friction.
    pure function rough() result(law)

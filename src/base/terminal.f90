@@ -1,11 +1,14 @@
-!> The arguments of a command, the same for both programs: options, input files, and the answers to what is wrong with either.
-module command_arguments
+!> What passes between the programs and the terminal: the arguments of a command, options and input files, the same for both programs, and
+!! the answers to what is wrong with either; the one line that tells where a run is, written over what stood there, five times a second
+!! at most, and not at all where standard error is no terminal.
+module terminal
    use, intrinsic :: iso_fortran_env, only: error_unit
-   use c_library, only: write_bytes
+   use c_library, only: is_terminal, write_bytes
+   use kinds, only: long
    implicit none
    private
 
-   public :: argument_text, is_option, set_input, say, complain, complain_of_input
+   public :: argument_text, is_option, set_input, say, complain, complain_of_input, open_line, show_line, clear_line, say_line
 
    character(*), parameter, public :: version = '0.1.0'
    character(*), parameter, public :: standard_input = '/dev/stdin' !! the path of the file that `-` means
@@ -15,6 +18,11 @@ module command_arguments
       character(:), allocatable :: path !! to read; /dev/stdin for `-`
       character(:), allocatable :: name !! as the user wrote it
    end type input_argument
+
+   integer, parameter :: width = 80 ! of the words
+   logical :: shown = .false.
+   character(:), allocatable :: name
+   integer(long) :: last = 0
 
 contains
 
@@ -89,4 +97,47 @@ contains
       write (error_unit, '(3a)') input%name, ': ', words
    end subroutine complain_of_input
 
-end module command_arguments
+   !> A line for DECK, where QUIET does not forbid it.
+   subroutine open_line(deck, quiet)
+      character(*), intent(in) :: deck
+      logical, intent(in)      :: quiet
+
+      shown = .false.
+      if (.not. quiet) shown = is_terminal(2)
+      name = deck
+      last = 0
+   end subroutine open_line
+
+   !> WORDS behind the name of the deck; AT_ONCE: also where the line is new.
+   subroutine show_line(words, at_once)
+      character(*), intent(in) :: words
+      logical, intent(in)      :: at_once
+      integer(long) :: now, rate
+
+      if (.not. shown) return
+      call system_clock(now, rate)
+      if (.not. at_once .and. 5*(now - last) < rate) return
+      last = now
+      write (error_unit, '(a)', advance='no') achar(13)//name//': '//words//repeat(' ', max(0, width - len(words)))
+      flush (error_unit)
+   end subroutine show_line
+
+   !> Clear the line; nothing more is shown.
+   subroutine clear_line()
+      call empty_line()
+      shown = .false.
+   end subroutine clear_line
+
+   !> A line that stays, above the one that tells where the run is.
+   subroutine say_line(words)
+      character(*), intent(in) :: words
+
+      call empty_line()
+      write (error_unit, '(a)') words
+   end subroutine say_line
+
+   subroutine empty_line()
+      if (shown) write (error_unit, '(a)', advance='no') achar(13)//repeat(' ', len(name) + width + 2)//achar(13)
+   end subroutine empty_line
+
+end module terminal
