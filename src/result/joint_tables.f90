@@ -279,7 +279,8 @@ contains
       type(model_type), intent(in)    :: model
       type(analysis_type), intent(in) :: analysis
       type(joint_type), intent(in)    :: joint
-      real(wp), parameter :: upright = 2.0_wp ! height of a character over its width
+      real(wp), parameter     :: upright = 2.0_wp ! height of a character over its width
+      character(*), parameter :: ranks = '-0123456789*' ! of two signs at one place the one behind is shown
       character(width), allocatable :: rows(:)
       character(page_width) :: line
       type(joint_frame)     :: frame
@@ -302,7 +303,7 @@ contains
          column = 1 + nint((place(1, i) - low(1))/step)
          row = nint((high(2) - place(2, i))/(upright*step))
          associate (sign => map_sign(analysis%states(i)%normal, p_most), there => rows(row)(column:column))
-            if (rank_of(sign) > rank_of(there)) there = sign
+            if (index(ranks, sign) > index(ranks, there)) there = sign
          end associate
       end do
       call heading(page%file, 'MAP OF JOINT '//integer_text(joint%id)//page%now)
@@ -327,13 +328,6 @@ contains
       sign = achar(iachar('0') + max(0, min(9, int(10.0_wp*(1.0_wp + noise)*state%pressure/p_most))))
       if (state%pressure >= (1.0_wp - noise)*p_most) sign = '*'
    end function map_sign
-
-   !> Which of two signs at one place is shown: that of the higher rank.
-   pure integer function rank_of(sign) result(rank)
-      character(1), intent(in) :: sign
-
-      rank = index('-0123456789*', sign)
-   end function rank_of
 
    !> A line an interface element of JOINT, P as *, LAMBDA as +, both as # where they meet.
    subroutine plot_joint(page, model, analysis, joint)

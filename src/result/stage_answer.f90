@@ -68,8 +68,7 @@ contains
       allocate (answer%joints(size(model%joints)))
       allocate (k, source=tangents_now(model, analysis, method))
       do j = 1, size(model%joints)
-         call describe_joint(model, analysis, model%joints(j), answer%joints(j))
-         call describe_stiffness(model, analysis, model%joints(j), k, remainder*largest_force, answer%joints(j))
+         call describe_joint(model, analysis, model%joints(j), k, remainder*largest_force, answer%joints(j))
       end do
       call find_bolt_answers(model, analysis, largest_force, bolts, answer%bolts)
    end subroutine find_answer
@@ -124,12 +123,24 @@ contains
       if (.not. all(is_measure(values))) largest = values(findloc(is_measure(values), .false., dim=1))
    end function largest
 
-   !> Contact of JOINT.
-   pure subroutine describe_joint(model, analysis, joint, answer)
+   !> How far the faces stand apart at an interface element in this STATE: from where they would touch [length].
+   elemental real(wp) function stands_apart(state) result(gap)
+      type(normal_state), intent(in) :: state
+
+      gap = 0.0_wp
+      if (state%branch == branch_open) gap = max(0.0_wp, state%lambda_b - state%lambda)
+   end function stands_apart
+
+   !> Contact of JOINT, what it transmits, its safety against slip, and how stiff it is.
+   pure subroutine describe_joint(model, analysis, joint, k, floor, answer)
       type(model_type), intent(in)      :: model
       type(analysis_type), intent(in)   :: analysis
       type(joint_type), intent(in)      :: joint
+      real(wp), intent(in)              :: k(:, :) !! (3, n) tangents of all interface elements
+      real(wp), intent(in)              :: floor   !! of forces: below it there is only rounding
       type(joint_answer), intent(inout) :: answer
+      type(joint_resultant) :: total
+      real(wp) :: least(6)
 
       associate (states => analysis%states(joint%first:joint%last), elements => model%interface(joint%first:joint%last))
          answer%contact = above(1.0_wp - sum(elements%area, mask=states%normal%branch == branch_open)/joint%area, noise)
@@ -141,27 +152,6 @@ contains
          if (answer%gap > 0.0_wp) answer%open_at = &
             joint%first - 1 + first_largest(stands_apart(states%normal), states%normal%branch == branch_open)
       end associate
-   end subroutine describe_joint
-
-   !> How far the faces stand apart at an interface element in this STATE: from where they would touch [length].
-   elemental real(wp) function stands_apart(state) result(gap)
-      type(normal_state), intent(in) :: state
-
-      gap = 0.0_wp
-      if (state%branch == branch_open) gap = max(0.0_wp, state%lambda_b - state%lambda)
-   end function stands_apart
-
-   !> What JOINT transmits, its safety against slip, and how stiff it is.
-   pure subroutine describe_stiffness(model, analysis, joint, k, floor, answer)
-      type(model_type), intent(in)      :: model
-      type(analysis_type), intent(in)   :: analysis
-      type(joint_type), intent(in)      :: joint
-      real(wp), intent(in)              :: k(:, :) !! (3, n) tangents of all interface elements
-      real(wp), intent(in)              :: floor   !! of forces: below it there is only rounding
-      type(joint_answer), intent(inout) :: answer
-      type(joint_resultant) :: total
-      real(wp) :: least(6)
-
       answer%frame = find_frame(model, joint)
       total = find_resultant(model, analysis, joint, answer%frame)
       associate (frame => answer%frame)
@@ -183,7 +173,7 @@ contains
          answer%has_secant = frame%exists .and. answer%force*answer%movement > 0.0_wp
          where (answer%has_secant) answer%secant = answer%force/answer%movement
       end associate
-   end subroutine describe_stiffness
+   end subroutine describe_joint
 
    !> The first figure of ANSWER that is beyond all measure, in words; '' where all are numbers.
    pure function fault_of_answer(model, answer) result(words)
