@@ -4,7 +4,6 @@ module joint_tables
    use branch_starts, only: branch_shift
    use interface_operator, only: at_first_end
    use joint_laws, only: friction_limit
-   use joint_motion, only: find_frame, is_closed, joint_frame
    use kinds, only: wp
    use listing_table, only: axes, column, column_type, heading, joint_table, listing_table_type, noise, page_type, page_width, shows
    use model_data, only: has_gaps, joint_node_id, joint_type, model_type
@@ -264,7 +263,7 @@ contains
       integer :: j
 
       do j = 1, size(model%joints)
-         if (model%dimension == 3 .and. .not. is_closed(model, model%joints(j))) then
+         if (model%dimension == 3 .and. .not. model%joints(j)%frame%faces_all_ways) then
             call map_joint(page, model, analysis, model%joints(j))
          else
             call plot_joint(page, model, analysis, model%joints(j))
@@ -283,14 +282,12 @@ contains
       character(*), parameter :: ranks = '-0123456789*' ! of two signs at one place the one behind is shown
       character(width), allocatable :: rows(:)
       character(page_width) :: line
-      type(joint_frame)     :: frame
       real(wp) :: place(3, joint%first:joint%last), low(3), high(3), step, p_most
       integer  :: column, i, row
 
-      frame = find_frame(model, joint)
       do i = joint%first, joint%last
-         place(:, i) = at_first_end(model%interface(i), model%x) - frame%centroid
-         place(:, i) = matmul(place(:, i), frame%axes)
+         place(:, i) = at_first_end(model%interface(i), model%x) - joint%frame%centroid
+         place(:, i) = matmul(place(:, i), joint%frame%axes)
       end do
       low = minval(place, dim=2)
       high = maxval(place, dim=2)

@@ -5,7 +5,7 @@ module stage_answer
    use body_elements, only: element_centre, node_stresses, whole_stress
    use bolt_answers, only: bolt_answer_type, bolt_history, find_bolt_answers, remainder
    use elasticity, only: max_stresses, von_mises
-   use joint_motion, only: find_frame, find_resultant, joint_frame, joint_resultant, rigid_movement, stiffness_about
+   use joint_motion, only: find_resultant, joint_resultant, rigid_movement, stiffness_about
    use kinds, only: wp
    use law_error, only: tangents_now
    use listing_table, only: noise
@@ -28,7 +28,6 @@ module stage_answer
    end type peak_type
 
    type, public :: joint_answer
-      type(joint_frame) :: frame
       real(wp) :: contact = 0.0_wp             !! share of the area whose elements are not open
       integer  :: pressed_at = 0, open_at = 0  !! interface elements of the largest pressure and gap; 0: none
       real(wp) :: pressure = 0.0_wp            !! the largest [pressure]
@@ -152,9 +151,8 @@ contains
          if (answer%gap > 0.0_wp) answer%open_at = &
             joint%first - 1 + first_largest(stands_apart(states%normal), states%normal%branch == branch_open)
       end associate
-      answer%frame = find_frame(model, joint)
-      total = find_resultant(model, analysis, joint, answer%frame)
-      associate (frame => answer%frame)
+      total = find_resultant(model, analysis, joint)
+      associate (frame => joint%frame)
          if (model%axisymmetric) total%shear(1) = 0.0_wp ! all round the ring it balances
          answer%normal = above(total%normal, floor)
          answer%shear = above(norm2(total%shear), floor)
@@ -166,8 +164,8 @@ contains
          if (answer%has_safety) answer%safety = joint%law%mu*max(0.0_wp, answer%normal)/answer%shear
          least = remainder*analysis%largest_lambda
          least(4:) = least(4:)/max(frame%extent, tiny(1.0_wp))
-         answer%movement = above(rigid_movement(model, analysis, joint, frame), least)
-         answer%tangent = stiffness_about(model, joint, frame, k)
+         answer%movement = above(rigid_movement(model, analysis, joint), least)
+         answer%tangent = stiffness_about(model, joint, k)
          answer%tangent(:3) = above(answer%tangent(:3), noise*maxval(abs(answer%tangent(:3))))
          answer%tangent(4:) = above(answer%tangent(4:), noise*maxval(abs(answer%tangent(4:))))
          answer%has_secant = frame%exists .and. answer%force*answer%movement > 0.0_wp
