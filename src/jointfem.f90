@@ -5,7 +5,6 @@ program jointfem
    use analysis_state, only: analysis_type, interface_stiffness
    use back_method, only: back_increment
    use case_control, only: method_back, method_newton, method_step
-   use batch, only: batch_type, end_run_of_batch, start_run_of_batch
    use command_line, only: command_type, deck_argument
    use deck_input, only: deck_type
    use equation_solver, only: equation_system
@@ -15,7 +14,7 @@ program jointfem
    use progress, only: run_type
    use run_boxes, only: another_increment, another_stage, build_structure, form_bodies, go_on, print_increment, read_data, &
                         start_joints, start_program
-   use run_end, only: end_program, finish_run
+   use run_end, only: batch_type, end_program, end_run_of_batch, finish_run, start_run_of_batch
    use stage_plan, only: stage_plan_type
    use step_method, only: accumulate, limit_friction, solve_increment, structure_stiffness
    implicit none

@@ -1,13 +1,13 @@
 !> The interface elements of a JOINT card and their axes, along the joint and across it from node 1 to node 2: between two
 !! sides that match, by pairs of nodes; between sides that do not, by lists of nodes; between a surface and its twin or a rigid
-!! base.
+!! base. And the axes and the centroid of a joint as a whole.
 module joint_sides
    use bulk_data, only: fit_no, fit_yes
    use deck_check, only: checked_deck
-   use interface_operator, only: hang_on, interface_element
+   use interface_operator, only: at_first_end, hang_on, interface_element
    use kinds, only: wp
    use lists, only: id_table_type
-   use model_data, only: corners_of, model_type, surface_type
+   use model_data, only: corners_of, joint_centroid, joint_frame, joint_type, model_type, surface_type
    use mortar_integrals, only: face_part, whole_shares, interface_sums_type
    use node_pairing, only: pair_nodes, pairing_fault, fit_side, side_cover
    use numbers, only: cross
@@ -18,7 +18,10 @@ module joint_sides
    implicit none
    private
 
-   public :: join_one_side, join_two_sides, joint_axes, outward
+   public :: join_one_side, join_two_sides, joint_axes, outward, find_frame
+
+   ! of the largest moment of inertia, of that of the whole joint: a turn that moves no element
+   real(wp), parameter, public :: straight = 1.0e-9_wp
 
 contains
 
@@ -285,5 +288,42 @@ contains
       side = 0.0_wp
       if (abs(dot_product(to_body, normal)) > 0.05_wp*norm2(to_body)) side = sign(1.0_wp, dot_product(to_body, normal))
    end function body_side
+
+   !> Axes and centroid of JOINT. The axes are those that an interface element with the mean normal has; of a closed joint the
+   !! model's in space, in the plane z is +Y.
+   pure function find_frame(model, joint) result(frame)
+      type(model_type), intent(in) :: model
+      type(joint_type), intent(in) :: joint
+      type(joint_frame) :: frame
+      real(wp), parameter :: closed_below = 0.1_wp ! length of the mean normal of a joint that faces all ways
+      real(wp) :: arm(3), inertia(3), normal(3)
+      integer  :: i
+
+      normal = 0.0_wp ! mean by area, 1 long where the joint is plane
+      do i = joint%first, joint%last
+         normal = normal + model%interface(i)%area*model%interface(i)%axes(:, 3)/joint%area
+      end do
+      frame%faces_all_ways = norm2(normal) < closed_below
+      if (model%axisymmetric) normal(1) = 0.0_wp ! all round the ring it is the part along the axis
+      frame%closed = norm2(normal) < closed_below
+      if (frame%closed) then
+         normal = 0.0_wp
+         normal(model%dimension) = 1.0_wp
+      end if
+      frame%axes = joint_axes(model, normal/norm2(normal))
+      frame%centroid = joint_centroid(model, joint)
+      inertia = 0.0_wp
+      do i = joint%first, joint%last
+         arm = at_first_end(model%interface(i), model%x) - frame%centroid
+         arm = matmul(arm, frame%axes)
+         frame%extent = max(frame%extent, norm2(arm))
+         inertia = inertia + model%interface(i)%area*(dot_product(arm, arm) - arm**2)
+      end do
+      frame%exists = .true.
+      if (model%dimension == 2) frame%exists = [.true., .false., .true., .false., .true., .false.]
+      if (model%axisymmetric) frame%exists = [.false., .false., .true., .false., .false., .false.]
+      if (frame%extent <= straight*norm2(frame%centroid)) frame%exists(4:) = .false. ! all in one place, but for rounding
+      frame%exists(4:) = frame%exists(4:) .and. inertia > straight*maxval(inertia)
+   end function find_frame
 
 end module joint_sides

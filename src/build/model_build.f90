@@ -10,6 +10,7 @@ module model_build
    use free_structure, only: check_balance, hold_free_structure
    use joint_build, only: build_joints
    use joint_gaps, only: build_gaps
+   use joint_sides, only: find_frame
    use lists, only: join, root_of
    use load_build, only: build_loads
    use load_checks, only: build_temperatures
@@ -136,6 +137,7 @@ contains
       type(checked_deck) :: checked
       type(marked_side), allocatable :: sides(:)
       type(stage_load_type), allocatable :: oscillating(:)
+      integer :: j
 
       if (.not. deck%is_whole) return
       call checked%start(deck, errors)
@@ -182,6 +184,9 @@ contains
          call find_parts(model, .true.)
          call find_determinate_joints(model)
       end if
+      do j = 1, size(model%joints)            ! whose normals are as they stay
+         model%joints(j)%frame = find_frame(model, model%joints(j))
+      end do
       call check_mass(checked, model)
    end subroutine build_model
 

@@ -66,6 +66,16 @@ module model_data
    end type joint_cover
 
    !> One joint: a group of interface elements with the same laws.
+   !> Axes and centroid of a joint.
+   type, public :: joint_frame
+      logical  :: faces_all_ways = .false.  !! its mean normal says nothing, as that of a pin in its bore
+      logical  :: closed = .false.          !! likewise, on a ring of the part along the axis: the axes are those of the model
+      logical  :: exists(6) = .false.       !! movements that the model and the places of the elements have
+      real(wp) :: axes(3, 3) = 0.0_wp       !! columns x, y, z
+      real(wp) :: centroid(3) = 0.0_wp      !! of the area [length]
+      real(wp) :: extent = 0.0_wp           !! largest distance of an element from it [length]
+   end type joint_frame
+
    type, public :: joint_type
       integer  :: id = 0                     !! JID; PJID for a group of CJOINT cards
       integer  :: line = 0                   !! of its card (the first CJOINT) in the deck text
@@ -79,6 +89,7 @@ module model_data
       real(wp) :: p_av = 0.0_wp              !! pressure of the first increment, Eq. (9): that, or by statics [pressure], > 0
       real(wp) :: area = 0.0_wp              !! A_int, sum of the areas of influence [length^2]
       real(wp) :: normal(3) = 0.0_wp         !! mean normal, from side 1 to side 2
+      type(joint_frame) :: frame
       character(8) :: gap_kind = ''          !! of its JGAP, blank: none
       logical  :: determinate = .false.      !! whether statics alone gives its normal resultant
       logical, allocatable :: carries(:)     !! (parts) the parts whose load it carries, where determinate

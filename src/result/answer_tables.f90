@@ -131,7 +131,7 @@ contains
       call table%print_head(page%screen)
       do j = 1, size(answer%joints)
          call begin_row(model%joints(j)%id)
-         associate (joint => answer%joints(j), frame => answer%joints(j)%frame)
+         associate (joint => answer%joints(j), frame => model%joints(j)%frame)
             call table%add([model%joints(j)%area, frame%centroid])
             call table%add([merge(1, 0, frame%closed)])
             call table%add(frame%axes(:, 3), where=spread(.not. frame%closed, 1, 3))
@@ -224,7 +224,7 @@ contains
       integer :: c, j
       logical :: shown(6)
 
-      shown = [(any([(answer%joints(j)%frame%exists(c), j = 1, size(answer%joints))]), c = 1, 6)]
+      shown = [(any([(model%joints(j)%frame%exists(c), j = 1, size(answer%joints))]), c = 1, 6)]
       unit(:3) = labels%stiffness
       unit(4:) = labels%moment
       call file%put('')
@@ -232,7 +232,7 @@ contains
                             column(pack(names, shown), 'es14.4', pack(unit, shown))], file)
       do j = 1, size(answer%joints)
          associate (joint => answer%joints(j))
-            call row('TANGENT', joint%tangent, joint%frame%exists)
+            call row('TANGENT', joint%tangent, model%joints(j)%frame%exists)
             call row('SECANT', joint%secant, joint%has_secant)
          end associate
       end do

@@ -58,8 +58,9 @@ contains
       !> The cards of one pair of bodies, unless there is a joint between them there.
       subroutine suggest_pair(pair)
          type(facing_type), intent(in) :: pair
-         integer :: marks(2), k
-         logical :: own(size(sides), 2), is_new(2)
+         real(wp) :: reach
+         integer  :: marks(2), k
+         logical  :: own(size(sides), 2), is_new(2)
 
          call file%put('$')
          call file%put('$ bodies '//integer_text(pair%body(1))//' and '//integer_text(pair%body(2))//' face each other: '// &
@@ -88,8 +89,9 @@ contains
          do k = 1, 2
             if (is_new(k)) call file%put('PMARK,'//integer_text(marks(k)))
          end do
+         reach = max(2.0_wp*pair%gap(2), 0.01_wp*minval(sides%size, mask=sides%body == pair%body(1))) ! TOL
          call file%put('JOINT,'//integer_text(next%joint)//','//integer_text(next%law)//','//integer_text(marks(1))//','// &
-                       integer_text(marks(2))//','//number(reach_of(pair)))
+                       integer_text(marks(2))//','//number(reach))
          next%joint = next%joint + 1
          n_new = n_new + 1
          do k = 1, 2
@@ -105,13 +107,6 @@ contains
          covers = sum(sides%area, mask=these .and. mark > 0 .and. (mark == joint_sides(1) .or. mark == joint_sides(2))) > &
                   0.5_wp*sum(sides%area, mask=these)
       end function covers
-
-      !> TOL: twice the largest gap, at least a hundredth of a side.
-      real(wp) function reach_of(pair)
-         type(facing_type), intent(in) :: pair
-
-         reach_of = max(2.0_wp*pair%gap(2), 0.01_wp*minval(sides%size, mask=sides%body == pair%body(1)))
-      end function reach_of
 
    end subroutine suggest_joints
 

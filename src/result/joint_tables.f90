@@ -4,7 +4,6 @@ module joint_tables
    use branch_starts, only: branch_shift
    use interface_operator, only: at_first_end
    use joint_laws, only: friction_limit
-   use joint_motion, only: find_frame, is_closed, joint_frame
    use kinds, only: wp
    use listing_table, only: axes, column, column_type, heading, joint_table, listing_table_type, noise, page_type, page_width, shows
    use model_data, only: has_gaps, joint_node_id, joint_type, model_type
@@ -264,7 +263,7 @@ contains
       integer :: j
 
       do j = 1, size(model%joints)
-         if (model%dimension == 3 .and. .not. is_closed(model, model%joints(j))) then
+         if (model%dimension == 3 .and. .not. model%joints(j)%frame%faces_all_ways) then
             call map_joint(page, model, analysis, model%joints(j))
          else
             call plot_joint(page, model, analysis, model%joints(j))
@@ -279,17 +278,16 @@ contains
       type(model_type), intent(in)    :: model
       type(analysis_type), intent(in) :: analysis
       type(joint_type), intent(in)    :: joint
-      real(wp), parameter :: upright = 2.0_wp ! height of a character over its width
+      real(wp), parameter     :: upright = 2.0_wp ! height of a character over its width
+      character(*), parameter :: ranks = '-0123456789*' ! of two signs at one place the one behind is shown
       character(width), allocatable :: rows(:)
       character(page_width) :: line
-      type(joint_frame)     :: frame
       real(wp) :: place(3, joint%first:joint%last), low(3), high(3), step, p_most
       integer  :: column, i, row
 
-      frame = find_frame(model, joint)
       do i = joint%first, joint%last
-         place(:, i) = at_first_end(model%interface(i), model%x) - frame%centroid
-         place(:, i) = matmul(place(:, i), frame%axes)
+         place(:, i) = at_first_end(model%interface(i), model%x) - joint%frame%centroid
+         place(:, i) = matmul(place(:, i), joint%frame%axes)
       end do
       low = minval(place, dim=2)
       high = maxval(place, dim=2)
@@ -302,7 +300,7 @@ contains
          column = 1 + nint((place(1, i) - low(1))/step)
          row = nint((high(2) - place(2, i))/(upright*step))
          associate (sign => map_sign(analysis%states(i)%normal, p_most), there => rows(row)(column:column))
-            if (rank_of(sign) > rank_of(there)) there = sign
+            if (index(ranks, sign) > index(ranks, there)) there = sign
          end associate
       end do
       call heading(page%file, 'MAP OF JOINT '//integer_text(joint%id)//page%now)
@@ -327,13 +325,6 @@ contains
       sign = achar(iachar('0') + max(0, min(9, int(10.0_wp*(1.0_wp + noise)*state%pressure/p_most))))
       if (state%pressure >= (1.0_wp - noise)*p_most) sign = '*'
    end function map_sign
-
-   !> Which of two signs at one place is shown: that of the higher rank.
-   pure integer function rank_of(sign) result(rank)
-      character(1), intent(in) :: sign
-
-      rank = index('-0123456789*', sign)
-   end function rank_of
 
    !> A line an interface element of JOINT, P as *, LAMBDA as +, both as # where they meet.
    subroutine plot_joint(page, model, analysis, joint)

@@ -9,7 +9,6 @@ module listing_opening
    use equation_solver, only: equation_system
    use facing_bodies, only: body_type, list_bodies
    use interface_operator, only: named_node
-   use joint_motion, only: is_closed
    use kinds, only: long, wp
    use listing_echo, only: write_echo
    use listing_table, only: axes, column, cut, heading, in_form, listing_table_type, page_type, page_width
@@ -225,7 +224,7 @@ contains
          associate (joint => model%joints(j), law => model%joints(j)%law%normal)
             call table%add([joint%id, joint%last - joint%first + 1])
             call table%add([joint%area, law%c, law%m, law%e_u, joint%p_av, pressure_floor*joint%p_av])
-            if (is_closed(model, joint)) then
+            if (joint%frame%faces_all_ways) then
                call table%add(' CLOSED')
             else
                call table%add(clean(joint%normal(:d), 1.0e-9_wp))

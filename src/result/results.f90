@@ -179,27 +179,18 @@ contains
          end if
          call page%file%put_lines(page%screen%text_behind(before)) ! the listing has the same answer
       end associate
-      call note_stage(answer, results%digest)
+      associate (digest => results%digest)
+         digest%stages = digest%stages + 1
+         digest%u_max = max(digest%u_max, answer%displacement%value)
+         digest%mises_max = max(digest%mises_max, answer%at_node%value)
+         digest%strained = max(digest%strained, answer%strained)
+         digest%contact = min(digest%contact, minval(answer%joints%contact))
+         digest%safety = min(digest%safety, minval(answer%joints%safety, mask=answer%joints%has_safety))
+      end associate
       call keep_bolts(answer%bolts, results%bolts)
       if (any_watched(plan)) call keep_watched(model, analysis, results%watched_before)
       if (.not. plan%stages(analysis%stage)%output%steps) call write_vtu(results%vtu, model, plan, analysis)
    end subroutine print_stage
-
-   !> The stage just completed in the DIGEST.
-   pure subroutine note_stage(answer, digest)
-      type(stage_answer_type), intent(in) :: answer
-      type(digest_type), intent(inout)    :: digest
-      integer :: j
-
-      digest%stages = digest%stages + 1
-      digest%u_max = max(digest%u_max, answer%displacement%value)
-      digest%mises_max = max(digest%mises_max, answer%at_node%value)
-      digest%strained = max(digest%strained, answer%strained)
-      do j = 1, size(answer%joints)
-         digest%contact = min(digest%contact, answer%joints(j)%contact)
-         if (answer%joints(j)%has_safety) digest%safety = min(digest%safety, answer%joints(j)%safety)
-      end do
-   end subroutine note_stage
 
    !> The natural modes about the state at the end of the stage just completed.
    subroutine print_modes(model, plan, stage, modes, results)

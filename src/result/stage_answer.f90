@@ -5,7 +5,7 @@ module stage_answer
    use body_elements, only: element_centre, node_stresses, whole_stress
    use bolt_answers, only: bolt_answer_type, bolt_history, find_bolt_answers, remainder
    use elasticity, only: max_stresses, von_mises
-   use joint_motion, only: find_frame, find_resultant, joint_frame, joint_resultant, rigid_movement, stiffness_about
+   use joint_motion, only: find_resultant, joint_resultant, rigid_movement, stiffness_about
    use kinds, only: wp
    use law_error, only: tangents_now
    use listing_table, only: noise
@@ -28,7 +28,6 @@ module stage_answer
    end type peak_type
 
    type, public :: joint_answer
-      type(joint_frame) :: frame
       real(wp) :: contact = 0.0_wp             !! share of the area whose elements are not open
       integer  :: pressed_at = 0, open_at = 0  !! interface elements of the largest pressure and gap; 0: none
       real(wp) :: pressure = 0.0_wp            !! the largest [pressure]
@@ -68,8 +67,7 @@ contains
       allocate (answer%joints(size(model%joints)))
       allocate (k, source=tangents_now(model, analysis, method))
       do j = 1, size(model%joints)
-         call describe_joint(model, analysis, model%joints(j), answer%joints(j))
-         call describe_stiffness(model, analysis, model%joints(j), k, remainder*largest_force, answer%joints(j))
+         call describe_joint(model, analysis, model%joints(j), k, remainder*largest_force, answer%joints(j))
       end do
       call find_bolt_answers(model, analysis, largest_force, bolts, answer%bolts)
    end subroutine find_answer
@@ -124,12 +122,24 @@ contains
       if (.not. all(is_measure(values))) largest = values(findloc(is_measure(values), .false., dim=1))
    end function largest
 
-   !> Contact of JOINT.
-   pure subroutine describe_joint(model, analysis, joint, answer)
+   !> How far the faces stand apart at an interface element in this STATE: from where they would touch [length].
+   elemental real(wp) function stands_apart(state) result(gap)
+      type(normal_state), intent(in) :: state
+
+      gap = 0.0_wp
+      if (state%branch == branch_open) gap = max(0.0_wp, state%lambda_b - state%lambda)
+   end function stands_apart
+
+   !> Contact of JOINT, what it transmits, its safety against slip, and how stiff it is.
+   pure subroutine describe_joint(model, analysis, joint, k, floor, answer)
       type(model_type), intent(in)      :: model
       type(analysis_type), intent(in)   :: analysis
       type(joint_type), intent(in)      :: joint
+      real(wp), intent(in)              :: k(:, :) !! (3, n) tangents of all interface elements
+      real(wp), intent(in)              :: floor   !! of forces: below it there is only rounding
       type(joint_answer), intent(inout) :: answer
+      type(joint_resultant) :: total
+      real(wp) :: least(6)
 
       associate (states => analysis%states(joint%first:joint%last), elements => model%interface(joint%first:joint%last))
          answer%contact = above(1.0_wp - sum(elements%area, mask=states%normal%branch == branch_open)/joint%area, noise)
@@ -141,30 +151,8 @@ contains
          if (answer%gap > 0.0_wp) answer%open_at = &
             joint%first - 1 + first_largest(stands_apart(states%normal), states%normal%branch == branch_open)
       end associate
-   end subroutine describe_joint
-
-   !> How far the faces stand apart at an interface element in this STATE: from where they would touch [length].
-   elemental real(wp) function stands_apart(state) result(gap)
-      type(normal_state), intent(in) :: state
-
-      gap = 0.0_wp
-      if (state%branch == branch_open) gap = max(0.0_wp, state%lambda_b - state%lambda)
-   end function stands_apart
-
-   !> What JOINT transmits, its safety against slip, and how stiff it is.
-   pure subroutine describe_stiffness(model, analysis, joint, k, floor, answer)
-      type(model_type), intent(in)      :: model
-      type(analysis_type), intent(in)   :: analysis
-      type(joint_type), intent(in)      :: joint
-      real(wp), intent(in)              :: k(:, :) !! (3, n) tangents of all interface elements
-      real(wp), intent(in)              :: floor   !! of forces: below it there is only rounding
-      type(joint_answer), intent(inout) :: answer
-      type(joint_resultant) :: total
-      real(wp) :: least(6)
-
-      answer%frame = find_frame(model, joint)
-      total = find_resultant(model, analysis, joint, answer%frame)
-      associate (frame => answer%frame)
+      total = find_resultant(model, analysis, joint)
+      associate (frame => joint%frame)
          if (model%axisymmetric) total%shear(1) = 0.0_wp ! all round the ring it balances
          answer%normal = above(total%normal, floor)
          answer%shear = above(norm2(total%shear), floor)
@@ -176,14 +164,14 @@ contains
          if (answer%has_safety) answer%safety = joint%law%mu*max(0.0_wp, answer%normal)/answer%shear
          least = remainder*analysis%largest_lambda
          least(4:) = least(4:)/max(frame%extent, tiny(1.0_wp))
-         answer%movement = above(rigid_movement(model, analysis, joint, frame), least)
-         answer%tangent = stiffness_about(model, joint, frame, k)
+         answer%movement = above(rigid_movement(model, analysis, joint), least)
+         answer%tangent = stiffness_about(model, joint, k)
          answer%tangent(:3) = above(answer%tangent(:3), noise*maxval(abs(answer%tangent(:3))))
          answer%tangent(4:) = above(answer%tangent(4:), noise*maxval(abs(answer%tangent(4:))))
          answer%has_secant = frame%exists .and. answer%force*answer%movement > 0.0_wp
          where (answer%has_secant) answer%secant = answer%force/answer%movement
       end associate
-   end subroutine describe_stiffness
+   end subroutine describe_joint
 
    !> The first figure of ANSWER that is beyond all measure, in words; '' where all are numbers.
    pure function fault_of_answer(model, answer) result(words)

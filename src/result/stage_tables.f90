@@ -5,7 +5,7 @@ module stage_tables
    use bolt_locking, only: bar_tension, elongation_now, overlap_now, section_tension
    use case_control, only: method_back, method_newton
    use determinate_joints, only: carried_resultant
-   use joint_motion, only: find_frame, find_resultant, is_closed, joint_frame, joint_resultant
+   use joint_motion, only: find_resultant, joint_resultant
    use kinds, only: wp
    use law_error, only: distance_type, normal_distance, shear_distance
    use listing_table, only: axes, column, listing_table_type, noise, page_type
@@ -109,7 +109,7 @@ contains
             call table%add([joint_node_id(model, at_lambda, 1)], [clean(maxval(state%pressure), noise*analysis%largest_p)])
             call table%add([joint_node_id(model, at_p, 1)])
          end associate
-         call table%add([force], floor, where=[.not. is_closed(model, joint)])
+         call table%add([force], floor, where=[.not. joint%frame%faces_all_ways])
          applied = 0.0_wp
          if (joint%determinate) applied = carried_resultant(model, joint, now)
          call table%add([applied, force - applied], floor, where=spread(joint%determinate, 1, 2))
@@ -236,7 +236,6 @@ contains
       type(analysis_type), intent(in)         :: analysis
       type(listing_table_type), intent(inout) :: table
       character(12) :: headings(7)
-      type(joint_frame)     :: frame
       type(joint_resultant) :: total
       real(wp) :: floor
       integer  :: j
@@ -250,15 +249,14 @@ contains
       floor = noise*page%largest_force
       do j = 1, size(model%joints)
          associate (joint => model%joints(j))
-            frame = find_frame(model, joint)
-            total = find_resultant(model, analysis, joint, frame)
+            total = find_resultant(model, analysis, joint)
             call table%add([analysis%increment, joint%id])
             if (model%dimension == 3) then
                call table%add([total%normal, total%force], floor)
-               call table%add(total%moment, floor*frame%extent)
+               call table%add(total%moment, floor*joint%frame%extent)
             else
                call table%add([total%normal, total%along(1), total%force(:2)], floor)
-               call table%add(total%moment(3:), floor*frame%extent)
+               call table%add(total%moment(3:), floor*joint%frame%extent)
             end if
             call table%keep_row()
          end associate

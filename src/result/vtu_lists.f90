@@ -95,14 +95,15 @@ contains
       logical, intent(out)     :: ok
       type(output_file_type)    :: file
       character(:), allocatable :: header
-      integer :: i
+      integer :: i, k
 
       call read_header(name//piece_ending(ending, 0), header, ok)
       if (.not. ok) return
       call file%start(name//ending)
       call file%put('<?xml version="1.0"?>')
       i = index(header, '<VTKFile')
-      call file%put(replaced(header(i:i + index(header(i:), '>') - 1), '"UnstructuredGrid"', '"PUnstructuredGrid"'))
+      k = index(header, '"UnstructuredGrid"')
+      call file%put(header(i:k)//'P'//header(k + 1:i + index(header(i:), '>') - 1))
       call file%put('  <PUnstructuredGrid GhostLevel="0">')
       call put_section('Points')
       call put_section('PointData')
@@ -162,16 +163,6 @@ contains
       call file%put('</VTKFile>')
       call file%finish(ok)
    end subroutine write_collection
-
-   !> TEXT with BY where THIS stands in it.
-   pure function replaced(text, this, by)
-      character(*), intent(in)  :: text, this, by
-      character(:), allocatable :: replaced
-      integer :: i
-
-      i = index(text, this)
-      replaced = text(:i - 1)//by//text(i + len(this):)
-   end function replaced
 
    !> The header of the file PATH. OK is false where that cannot be read.
    subroutine read_header(path, header, ok)

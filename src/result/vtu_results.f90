@@ -14,9 +14,8 @@ module vtu_results
    use restart_stream, only: restart_stream_type
    use stage_plan, only: stage_plan_type
    use text_tools, only: integer_text
-   use vtu_bodies, only: notes_for_pieces, write_bodies, write_shapes
    use vtu_file, only: vtu_file_type
-   use vtu_joints, only: write_joints
+   use vtu_grids, only: notes_for_pieces, write_bodies, write_joints, write_shapes
    use vtu_lists, only: piece_ending, write_collection, write_index
    implicit none
    private

@@ -175,8 +175,9 @@ contains
       type(command_type), intent(inout) :: command
       type(setting_type), intent(in)    :: settings(:)
       type(deck_argument), allocatable  :: runs(:)
+      character(:), allocatable :: value
       integer, allocatable :: n(:)
-      integer :: d, k, r, run, which
+      integer :: d, i, k, r, run, which
 
       allocate (n(size(settings)))
       do k = 1, size(settings)
@@ -199,7 +200,11 @@ contains
                   parameter%name = settings(k)%name
                   parameter%value = value_of(settings(k)%values, which)
                   if (n(k) == 1) cycle
-                  runs(r)%base = runs(r)%base//'_'//parameter%name//'='//without_slashes(parameter%value)
+                  value = parameter%value
+                  do i = 1, len(value) ! a file cannot be named with slashes
+                     if (value(i:i) == '/') value(i:i) = '-'
+                  end do
+                  runs(r)%base = runs(r)%base//'_'//parameter%name//'='//value
                   runs(r)%name = runs(r)%name//', '//parameter%name//'='//parameter%value
                end associate
             end do
@@ -207,18 +212,6 @@ contains
       end do
       call move_alloc(runs, command%decks)
    end subroutine vary
-
-   !> WORDS with dashes for slashes, for a name of a file.
-   pure function without_slashes(words) result(name)
-      character(*), intent(in) :: words
-      character(len(words))    :: name
-      integer :: k
-
-      name = words
-      do k = 1, len(words)
-         if (words(k:k) == '/') name(k:k) = '-'
-      end do
-   end function without_slashes
 
    !> Value number WHICH of VALUES, which have commas between them.
    pure recursive function value_of(values, which) result(value)
@@ -249,13 +242,17 @@ contains
    subroutine name_results(command, ok)
       type(command_type), intent(inout) :: command
       logical, intent(out)              :: ok
-      integer :: i, k
+      character(:), allocatable :: name
+      integer :: dot, i, k
 
       ok = .false.
       do i = 1, size(command%decks)
          associate (deck => command%decks(i))
             if (deck%path == standard_input) cycle
-            deck%base = command%folder//base_name(deck%path)//deck%base
+            name = deck%path(index(deck%path, '/', back=.true.) + 1:)
+            dot = index(name, '.', back=.true.)
+            if (dot > 1) name = name(:dot - 1)
+            deck%base = command%folder//name//deck%base
             do k = 1, i - 1
                if (command%decks(k)%base == deck%base) then
                   call complain(program, command%decks(k)%name//' and '//deck%name//' would both write '//deck%base//listing_ending)
@@ -305,17 +302,6 @@ contains
       base = true_path(deck%base(:slash)//'.')//'/'//deck%base(slash + 1:) ! whether or not a file is there
       if (index(file, base) == 1 .and. is_result_ending(file(len(base) + 1:))) is_result_of = .true.
    end function is_result_of
-
-   !> PATH without its folder and its last extension.
-   pure function base_name(path) result(name)
-      character(*), intent(in)  :: path
-      character(:), allocatable :: name
-      integer :: dot
-
-      name = path(index(path, '/', back=.true.) + 1:)
-      dot = index(name, '.', back=.true.)
-      if (dot > 1) name = name(:dot - 1)
-   end function base_name
 
    !> The entry of NAME in the card manual.
    subroutine print_entry(name, status)

@@ -34,11 +34,11 @@ module run_boxes
                        was_searched, would_overwrite
    use restart_file, only: open_restart_file, take_up, write_restart
    use results, only: list_results => print_increment, print_backbone, print_modes, print_response, &
-                      print_stage_results => print_stage, remove_old_results, start_results
+                      print_stage, remove_old_results, start_results
    use run_end, only: end_program
    use stage_plan, only: factorisations_of, shows_bodies, stage_plan_type, vibration_plan_type, where_in_plan
    use unit_watch, only: unit_words
-   use vtu_bodies, only: write_piece
+   use vtu_grids, only: write_piece
    use terminal, only: say_line
    use text_tools, only: integer_text
    implicit none
@@ -49,21 +49,9 @@ module run_boxes
 
 contains
 
-   !> What the chart of the paper does not have, between two increments: natural modes at the end of a stage, and the restart file.
+   !> What the chart of the paper does not have, between two increments: natural modes where the increment has completed a stage that
+   !! asks for them, by which nothing of the analysis changes; and the restart file.
    subroutine go_on(run, deck, model, plan, system, analysis)
-      type(run_type), intent(inout)      :: run
-      type(deck_type), intent(in)        :: deck
-      type(model_type), intent(in)       :: model
-      type(stage_plan_type), intent(in)  :: plan
-      class(equation_system), allocatable, intent(inout) :: system
-      type(analysis_type), intent(inout) :: analysis
-
-      call find_modes(run, deck, model, plan, system, analysis)
-      call write_restart(run, deck, plan, system, analysis)
-   end subroutine go_on
-
-   !> Find and print the natural modes where the increment has completed a stage that asks for them. Nothing of the analysis changes.
-   subroutine find_modes(run, deck, model, plan, system, analysis)
       type(run_type), intent(inout)      :: run
       type(deck_type), intent(in)        :: deck
       type(model_type), intent(in)       :: model
@@ -74,18 +62,20 @@ contains
 
       if (is_over(run)) return
       associate (stage => plan%stages(analysis%stage))
-         if (analysis%increment < size(stage%fractions) .or. .not. allocated(stage%vibration)) return
-         call run%progress%enter(phase_modes)
-         if (stage%vibration%free) then
-            allocate (loose, source=model)
-            call let_go(loose)
-            call oscillate(run, deck, loose, plan, stage%vibration, system, analysis)
-         else
-            call oscillate(run, deck, model, plan, stage%vibration, system, analysis)
+         if (analysis%increment == size(stage%fractions) .and. allocated(stage%vibration)) then
+            call run%progress%enter(phase_modes)
+            if (stage%vibration%free) then
+               allocate (loose, source=model)
+               call let_go(loose)
+               call oscillate(run, deck, loose, plan, stage%vibration, system, analysis)
+            else
+               call oscillate(run, deck, model, plan, stage%vibration, system, analysis)
+            end if
+            call run%progress%enter(phase_increments)
          end if
       end associate
-      call run%progress%enter(phase_increments)
-   end subroutine find_modes
+      call write_restart(run, deck, plan, system, analysis)
+   end subroutine go_on
 
    !> Modes, backbone, response, all printed when they are there: a restart file that is written meanwhile has none of it.
    subroutine oscillate(run, deck, model, plan, wanted, system, analysis)
@@ -287,16 +277,26 @@ contains
       if (another_increment) another_increment = analysis%increment < size(plan%stages(analysis%stage)%fractions)
    end function another_increment
 
-   !> Print the increment just completed, and the stage that it completes.
+   !> Print the increment just completed, and the stage that it completes, or the part of it up to where the run ends.
    subroutine print_increment(run, model, plan, system, analysis)
       type(run_type), intent(inout)      :: run
       type(model_type), intent(in)       :: model
       type(stage_plan_type), intent(in)  :: plan
       class(equation_system), intent(in) :: system
       type(analysis_type), intent(inout) :: analysis
+      type(failure_type) :: overflow
 
       call list_increment(run, model, plan, system, analysis)
-      call print_stage(run, model, plan, analysis)
+      if (is_over(run) .and. .not. run%keeps) return
+      if (analysis%increment == 0) return
+      if (analysis%increment < size(plan%stages(analysis%stage)%fractions) .and. .not. run%keeps) return
+      call run%progress%enter(phase_write)
+      call print_stage(model, plan, analysis, run%results, overflow)
+      if (overflow%raised) then
+         run%failure = overflow
+         run%keeps = .false.
+      end if
+      call run%progress%enter(phase_increments)
    end subroutine print_increment
 
    !> The increment, and for that what the bodies do where it is shown.
@@ -344,25 +344,5 @@ contains
       call run%progress%advance(analysis%stage, analysis%increment, size(plan%stages(analysis%stage)%fractions))
       call run%progress%enter(phase_increments)
    end subroutine list_increment
-
-   !> The stage that the increment has completed, or the part of it up to where the run ends.
-   subroutine print_stage(run, model, plan, analysis)
-      type(run_type), intent(inout)     :: run
-      type(model_type), intent(in)      :: model
-      type(stage_plan_type), intent(in) :: plan
-      type(analysis_type), intent(in)   :: analysis
-      type(failure_type) :: overflow
-
-      if (is_over(run) .and. .not. run%keeps) return
-      if (analysis%increment == 0) return
-      if (analysis%increment < size(plan%stages(analysis%stage)%fractions) .and. .not. run%keeps) return
-      call run%progress%enter(phase_write)
-      call print_stage_results(model, plan, analysis, run%results, overflow)
-      if (overflow%raised) then
-         run%failure = overflow
-         run%keeps = .false.
-      end if
-      call run%progress%enter(phase_increments)
-   end subroutine print_stage
 
 end module run_boxes
