@@ -47,6 +47,7 @@ module stage_plan
       real(wp), allocatable :: amplitudes(:)  !! ascending [length]
       integer  :: cycles = 0                  !! loops at most, beyond the second
       integer  :: increments = 0              !! from rest to a turning point
+      real(wp) :: tolerance = 0.0_wp          !! of the loss [-]
       integer  :: node = 0                    !! position of the node whose displacement they are, 0: of the one that moves most
    end type backbone_plan
 

@@ -98,6 +98,7 @@ contains
          backbone%mode = card%mode
          backbone%cycles = card%cycles
          backbone%increments = card%increments
+         backbone%tolerance = card%tolerance
          backbone%amplitudes = [(card%largest*card%ratio**(real(card%n - i, wp)/max(1, card%n - 1)), i = 1, card%n)]
          if (vibration%most > 0 .and. .not. vibration%has_lowest .and. card%mode > vibration%most) &
             call deck%errors%add(card%line, 'JAMPL: mode '//integer_text(card%mode)//' is not among the '// &

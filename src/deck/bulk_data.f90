@@ -321,6 +321,7 @@ module bulk_data
       integer  :: cycles = 0                            ! at most, beyond the second loop
       integer  :: increments = 0                        ! from rest to a turning point
       integer  :: node = 0                              ! whose displacement the amplitude is, 0: of the one that moves most
+      real(wp) :: tolerance = 0.0_wp                    ! of the loss
    end type jampl_card
 
    !> FREQ4: N frequencies from 1 - SPREAD to 1 + SPREAD times that of every mode from LOWEST to HIGHEST.

@@ -203,7 +203,8 @@ contains
 
    !> Work that an element takes (tangentially, along its normal) on the straight way from its state BEFORE, at the movement FROM, to the
    !! movement TO [force x length]. follow_element takes the mean of the stresses where slip begins on the way; here that point is found.
-   !! On the way without slip the work is that of the laws, behind it five Gauss points integrate the stress.
+   !! On the way without slip the work is that of the laws, behind it five Gauss points integrate the stress. An element that opens takes
+   !! none from where its pressure is gone, along the line of slope E_u.
    pure function work_along(law, area, before, from, to) result(work)
       type(joint_law), intent(in)     :: law
       real(wp), intent(in)            :: area
@@ -216,29 +217,36 @@ contains
                                           0.236926885056189_wp]
       type(element_state) :: begins, after
       real(wp), parameter :: near = 1.0e-7_wp ! of the way: the work is wrong by the square of that
-      real(wp) :: tangent(3, 3), part(3), stick, slip, middle, guess
+      real(wp), parameter :: shut = 1.0e-9_wp ! likewise: pressed yet
+      real(wp) :: tangent(3, 3), part(3), stick, slip, middle, guess, end(3)
       integer  :: i
 
-      call follow_element(law, area, before, to, after, tangent, part)
+      end = to
+      call follow_element(law, area, before, end, after, tangent, part)
       work = part(:2)
+      if (after%normal%branch == branch_open .and. before%normal%pressure > 0.0_wp) then
+         end = from + (1.0_wp - shut)*before%normal%pressure/law%normal%e_u/(from(3) - to(3))*(to - from)
+         call follow_element(law, area, before, end, after, tangent, part)
+         work(1) = part(1)
+      end if
       if (.not. after%slips) return
       stick = 0.0_wp ! share of the way
       slip = 1.0_wp
-      guess = 1.0_wp - norm2(after%shear%slid - before%shear%slid)/norm2(to(:2) - from(:2))
+      guess = 1.0_wp - norm2(after%shear%slid - before%shear%slid)/norm2(end(:2) - from(:2))
       do i = 1, 26
          if (slip - stick <= 2.0_wp*near) exit
          middle = 0.5_wp*(stick + slip)
          if (i <= 2) middle = min(max(guess + merge(-near, near, i == 1), stick), slip)
-         call follow_element(law, area, before, from + middle*(to - from), after, tangent, part)
+         call follow_element(law, area, before, from + middle*(end - from), after, tangent, part)
          if (after%slips) slip = middle
          if (.not. after%slips) stick = middle
       end do
-      call follow_element(law, area, before, from + stick*(to - from), begins, tangent, part)
+      call follow_element(law, area, before, from + stick*(end - from), begins, tangent, part)
       work(1) = part(1)
       do i = 1, size(point)
          slip = stick + 0.5_wp*(1.0_wp + point(i))*(1.0_wp - stick)
-         call follow_element(law, area, begins, from + slip*(to - from), after, tangent, part)
-         work(1) = work(1) + 0.5_wp*weight(i)*(1.0_wp - stick)*area*dot_product(after%shear%tau, to(:2) - from(:2))
+         call follow_element(law, area, begins, from + slip*(end - from), after, tangent, part)
+         work(1) = work(1) + 0.5_wp*weight(i)*(1.0_wp - stick)*area*dot_product(after%shear%tau, end(:2) - from(:2))
       end do
    end function work_along
 

@@ -251,7 +251,8 @@ contains
                call table%add([page%stage_id, found%mode], [loop%q*found%peak, frequency])
                call table%add([percent*(sqrt(loop%omega_squared)/(two_pi*linear) - 1.0_wp)], percent*tiny_share)
                call table%add([loop%loss, loop%slipping, loop%open, percent*loop%slipping, percent*loop%open])
-               call table%add([loop%centre, loop%gap, loop%distortion], tiny_share)
+               call table%add([loop%centre], 5.0e-5_wp) ! the last digit
+               call table%add([loop%gap, loop%distortion], tiny_share)
                call table%add([loop%n_loops])
             end associate
             call table%print_row(page%file, page%tables(backbone_table))
@@ -312,7 +313,7 @@ contains
          do j = 1, size(model%joints)
             call table%add([found%loops(i)%q*found%peak])
             call table%add([model%joints(j)%id])
-            call table%add([percent*found%loops(i)%lost(j)], tiny_share)
+            call table%add([percent*found%loops(i)%shares(j)], tiny_share)
             call table%print_row(page%file)
          end do
       end do

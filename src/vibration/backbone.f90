@@ -102,7 +102,7 @@ contains
       real(wp), allocatable :: numbers(:)
 
       numbers = [loop%alpha, loop%q, loop%omega_squared, loop%loss, loop%centre, loop%gap, loop%distortion, loop%slipping, &
-                 loop%open, real(loop%n_loops, wp), loop%lost, loop%way]
+                 loop%open, real(loop%n_loops, wp), loop%shares, loop%way]
    end function numbers_of
 
    pure type(loop_type) function taken_up(n_joints, numbers) result(loop)
@@ -110,8 +110,8 @@ contains
       real(wp), intent(in) :: numbers(:)
 
       loop = loop_type(numbers(1), numbers(2), numbers(3), numbers(4), numbers(5), numbers(6), numbers(7), numbers(8), numbers(9), &
-                       nint(numbers(10)), numbers(11:10 + n_joints), &
-                       reshape(numbers(11 + n_joints:), [2, (size(numbers) - 10 - n_joints)/2]))
+                       nint(numbers(10)), shares=numbers(11:10 + n_joints), &
+                       way=reshape(numbers(11 + n_joints:), [2, (size(numbers) - 10 - n_joints)/2]))
    end function taken_up
 
    !> The mode that is WANTED among MODES, and the node whose displacement is the amplitude.
@@ -165,7 +165,7 @@ contains
       before = low
       do trial = 1, most_trials
          refused = none
-         call run_loops(model, push, now%alpha, wanted%cycles, wanted%increments, next, refused)
+         call run_loops(model, push, wanted, now%alpha, .false., next, refused)
          if (refused%raised) then
             high = trial_type(now%alpha, huge(1.0_wp))
             found%problem = refused%message
@@ -191,6 +191,9 @@ contains
       else
          found%problem = ''
       end if
+      if (loop%n_loops == 0) return
+      call run_loops(model, push, wanted, loop%alpha, .true., next, refused)
+      if (.not. refused%raised) loop = next
    end subroutine reach_amplitude
 
    !> NOW becomes the next trial: by the secant through it and the one BEFORE, within LOW and HIGH.

@@ -16,7 +16,7 @@ module modal_loops
    use equation_solver, only: equation_system
    use equations, only: condense_load, recover_displacements
    use failures, only: failure_type
-   use joint_laws, only: work_along
+   use joint_laws, only: element_state, work_along
    use kinds, only: wp
    use load_path, only: hold_load, start_increment
    use mass_matrix, only: form_mass, mass_matrix_type, mass_times
@@ -24,7 +24,7 @@ module modal_loops
    use newton_method, only: newton_increment
    use node_coupling, only: displacements, forces_on_unknowns
    use normal_stiffness, only: branch_open
-   use stage_plan, only: stage_plan_type
+   use stage_plan, only: backbone_plan, stage_plan_type
    implicit none
    private
 
@@ -33,6 +33,9 @@ module modal_loops
    real(wp), parameter :: settled = 0.01_wp          ! of the area of a loop: less is no change
    real(wp), parameter :: no_area = 1.0e-9_wp        ! of alpha q: rounding
    real(wp), parameter :: negligible = 1.0e-6_wp     ! likewise: areas so small need not settle
+   real(wp), parameter :: per_part = 0.03_wp         ! of the tolerance: what one part of a loop may have of it
+   real(wp), parameter :: finest_step = 1.0e-7_wp    ! of alpha: it is not halved
+   real(wp), parameter :: coarsest_step = 0.125_wp   ! likewise: it is, for elements may slip for a while and stick again within it
    real(wp), parameter :: exact = 1.0e-10_wp         ! TOL at most
    real(wp), parameter :: finest = 1.0e-13_wp        ! TOL beside the load that is held
 
@@ -44,6 +47,7 @@ module modal_loops
       real(wp) :: inside = 0.0_wp                    !! q of the inside of the bodies, retained nodes at rest, for alpha = 1
       type(analysis_type)   :: rest                  !! the copy of the state, in equilibrium
       real(wp), allocatable :: borne(:, :)           !! (3, n) forces of the interface elements there, in their axes
+      real(wp) :: finest_work = 0.0_wp               !! increments are halved until that makes less difference; 0: they are not
       type(stage_plan_type) :: plan
       type(mass_matrix_type) :: mass
       class(equation_system), allocatable :: system
@@ -59,7 +63,8 @@ module modal_loops
       real(wp) :: distortion = 0.0_wp                !! share of the movement that is not phi, norm of [M] [-]
       real(wp) :: slipping = 0.0_wp, open = 0.0_wp   !! shares of the interface elements, at any time of the loop [-]
       integer  :: n_loops = 0
-      real(wp), allocatable :: lost(:)               !! (joints) share of D
+      real(wp), allocatable :: lost(:)               !! (elements) of D [force x length]
+      real(wp), allocatable :: shares(:)             !! (joints) likewise [-]
       real(wp), allocatable :: way(:, :)             !! (2, increments) alpha, q
       logical, allocatable  :: has_slipped(:), has_opened(:)
    end type loop_type
@@ -76,7 +81,7 @@ contains
       type(push_type), intent(out)       :: push
       type(failure_type), intent(inout)  :: failure
       real(wp), allocatable :: inside(:, :), felt(:, :)
-      type(loop_type) :: none
+      real(wp) :: work(size(model%interface))
       integer :: e
 
       if (failure%raised) return
@@ -97,8 +102,9 @@ contains
       call condense_load(push%system, felt, push%condensed)
       call recover_displacements(push%system, felt, 0.0_wp*push%condensed, inside)
       push%inside = sum(felt*inside)
-      call swing(model, push, 0.0_wp, 0.0_wp, 1, push%rest, none, failure)
-      allocate (push%borne(3, size(model%interface)))
+      allocate (push%borne(3, size(model%interface)), source=0.0_wp)
+      push%plan%stages(push%rest%stage)%fractions = [1.0_wp]
+      call go(model, push, [0.0_wp, 0.0_wp], push%rest, work, failure)
       do e = 1, size(model%interface)
          associate (state => push%rest%states(e))
             push%borne(:, e) = [state%shear%tau*model%interface(e)%area, state%normal%sumf]
@@ -106,47 +112,125 @@ contains
       end do
    end subroutine start_push
 
-   !> From alpha = BEGIN to END in N increments; what the joints do on the way goes to LOOP where it counts that.
-   subroutine swing(model, push, begin, end, n, now, loop, failure)
+   !> From alpha = ENDS(1) to ENDS(2) in N increments; what the joints do on the way goes to LOOP.
+   subroutine swing(model, push, ends, n, now, loop, failure)
       type(model_type), intent(in)       :: model
       type(push_type), intent(inout)     :: push
-      real(wp), intent(in)               :: begin, end
+      real(wp), intent(in)               :: ends(2)
       integer, intent(in)                :: n
       type(analysis_type), intent(inout) :: now
       type(loop_type), intent(inout)     :: loop
       type(failure_type), intent(inout)  :: failure
-      type(analysis_type), allocatable :: before
-      integer :: e, i
+      type(analysis_type), allocatable :: straight
+      real(wp) :: at(2), work(size(model%interface))
+      integer  :: i
 
+      do i = 1, n
+         at = ends(1) + [i - 1, i]*(ends(2) - ends(1))/n
+         if (push%finest_work > 0.0_wp) then
+            straight = now
+            call go(model, push, at, straight, work, failure)
+            call follow(model, push, at, work, now, loop, failure)
+         else
+            call go(model, push, at, now, work, failure)
+            call book(now, work, loop)
+         end if
+         if (failure%raised) return
+         loop%way = reshape([loop%way, at(2), coordinate(push, now, at(2))], [2, size(loop%way, 2) + 1])
+      end do
+   end subroutine swing
+
+   !> As one increment from alpha = ENDS(1) to ENDS(2), under which the joints would take the work WHOLE on straight paths; halved until
+   !! that makes no difference. What is left of it falls by four from halving to halving, of which a third is taken off.
+   recursive subroutine follow(model, push, ends, whole, now, loop, failure)
+      type(model_type), intent(in)       :: model
+      type(push_type), intent(inout)     :: push
+      real(wp), intent(in)               :: ends(2)
+      real(wp), intent(in)               :: whole(:) !! (elements) [force x length]
+      type(analysis_type), intent(inout) :: now
+      type(loop_type), intent(inout)     :: loop
+      type(failure_type), intent(inout)  :: failure
+      type(analysis_type), allocatable :: half, end
+      real(wp) :: first(size(whole)), second(size(whole)), middle, change, step
+
+      middle = 0.5_wp*sum(ends)
+      half = now
+      call go(model, push, [ends(1), middle], half, first, failure)
+      end = half
+      call go(model, push, [middle, ends(2)], end, second, failure)
+      if (failure%raised) return
+      change = sum(abs(first + second - whole))
+      step = abs(ends(2) - ends(1))/loop%alpha
+      if (step <= coarsest_step .and. (change <= push%finest_work .or. step <= finest_step)) then
+         call book(half, first, loop)
+         call book(end, second + (first + second - whole)/3.0_wp, loop)
+         now = end
+      else
+         deallocate (half, end) ! states are large
+         call follow(model, push, [ends(1), middle], first, now, loop, failure)
+         if (.not. failure%raised) call follow(model, push, [middle, ends(2)], second, now, loop, failure)
+      end if
+   end subroutine follow
+
+   !> Nothing of LOOP is done, from ALPHA and Q on.
+   pure subroutine clear(model, alpha, q, loop)
+      type(model_type), intent(in)   :: model
+      real(wp), intent(in)           :: alpha, q
+      type(loop_type), intent(inout) :: loop
+
+      loop%way = reshape([alpha, q], [2, 1])
+      loop%lost = spread(0.0_wp, 1, size(model%interface))
+      loop%has_slipped = spread(.false., 1, size(model%interface))
+      loop%has_opened = loop%has_slipped
+   end subroutine clear
+
+   !> What the joints have done on the way to NOW, WORK, goes to LOOP.
+   subroutine book(now, work, loop)
+      type(analysis_type), intent(in) :: now
+      real(wp), intent(in)            :: work(:) !! (elements) [force x length]
+      type(loop_type), intent(inout)  :: loop
+
+      loop%lost = loop%lost + work
+      loop%has_slipped = loop%has_slipped .or. now%states%slips
+      loop%has_opened = loop%has_opened .or. now%states%normal%branch == branch_open
+   end subroutine book
+
+   !> One increment from alpha = ENDS(1) to ENDS(2); the WORK of the joints on the straight path of each element, without that of the
+   !! forces at rest.
+   subroutine go(model, push, ends, now, work, failure)
+      type(model_type), intent(in)       :: model
+      type(push_type), intent(inout)     :: push
+      real(wp), intent(in)               :: ends(2)
+      type(analysis_type), intent(inout) :: now
+      real(wp), intent(out)              :: work(:) !! (elements) [force x length]
+      type(failure_type), intent(inout)  :: failure
+      type(element_state) :: before(size(now%states))
+      real(wp) :: from(3, size(now%states))
+      integer  :: e
+
+      work = 0.0_wp
       if (failure%raised) return
       associate (at => push%rest%before)
-         now%before%load = at%load + begin*push%force
-         now%before%condensed_load = at%condensed_load + begin*push%condensed
-         now%after%load = at%load + end*push%force
-         now%after%condensed_load = at%condensed_load + end*push%condensed
+         now%before%load = at%load + ends(1)*push%force
+         now%before%condensed_load = at%condensed_load + ends(1)*push%condensed
+         now%after%load = at%load + ends(2)*push%force
+         now%after%condensed_load = at%condensed_load + ends(2)*push%condensed
       end associate
       now%now%load = now%before%load
       now%now%condensed_load = now%before%condensed_load
-      push%plan%stages(now%stage)%fractions = [(1.0_wp/n, i = 1, n)]
       now%increment = 0
-      do i = 1, n
-         if (allocated(loop%way)) before = now
-         call start_increment(push%plan, push%system, now)
-         call newton_increment(model, push%plan, now, push%system, failure)
-         if (failure%raised) return
-         if (.not. allocated(loop%way)) cycle
-         loop%way = reshape([loop%way, begin + now%fraction*(end - begin), 0.0_wp], [2, size(loop%way, 2) + 1])
-         loop%way(2, size(loop%way, 2)) = coordinate(push, now, loop%way(1, size(loop%way, 2)))
-         do e = 1, size(model%interface)
-            associate (element => model%interface(e), from => before%movement(:, e), to => now%movement(:, e))
-               loop%lost(element%joint) = loop%lost(element%joint) + sum(work_along(model%joints(element%joint)%law, &
-                  element%area, before%states(e), from, to)) - dot_product(push%borne(:, e), to - from)
-            end associate
-         end do
-         loop%has_slipped = loop%has_slipped .or. now%states%slips
-         loop%has_opened = loop%has_opened .or. now%states%normal%branch == branch_open
+      before = now%states
+      from = now%movement
+      call start_increment(push%plan, push%system, now)
+      call newton_increment(model, push%plan, now, push%system, failure)
+      if (failure%raised) return
+      do e = 1, size(before)
+         associate (element => model%interface(e), to => now%movement(:, e))
+            work(e) = sum(work_along(model%joints(element%joint)%law, element%area, before(e), from(:, e), to)) &
+                      - dot_product(push%borne(:, e), to - from(:, e))
+         end associate
       end do
-   end subroutine swing
+   end subroutine go
 
    !> q of the state NOW, under ALPHA.
    pure real(wp) function coordinate(push, now, alpha) result(q)
@@ -157,19 +241,18 @@ contains
       q = sum(push%condensed*(now%u - push%rest%u)) + alpha*push%inside
    end function coordinate
 
-   !> 0 -> ALPHA -> -ALPHA -> ALPHA, then the same loop again, and up to CYCLES times more until its area has settled. FAILURE where the
-   !! structure does not bear ALPHA.
-   subroutine run_loops(model, push, alpha, cycles, increments, loop, failure)
+   !> 0 -> ALPHA -> -ALPHA -> ALPHA, then the same loop again, and as often more as WANTED has cycles until its area has settled. The last
+   !! one is followed once more with its loss to WANTED's tolerance where MEASURED. FAILURE where the structure does not bear ALPHA.
+   subroutine run_loops(model, push, wanted, alpha, measured, loop, failure)
       type(model_type), intent(in)       :: model
       type(push_type), intent(inout)     :: push
+      type(backbone_plan), intent(in)    :: wanted
       real(wp), intent(in)               :: alpha
-      integer, intent(in)                :: cycles
-      integer, intent(in)                :: increments !! from rest to alpha
+      logical, intent(in)                :: measured
       type(loop_type), intent(out)       :: loop
       type(failure_type), intent(inout)  :: failure
-      type(analysis_type), allocatable :: now
-      real(wp), allocatable :: u_low(:, :)
-      real(wp) :: area, area_before, held, high, low, top
+      type(analysis_type), allocatable :: now, start
+      real(wp) :: area, area_before, held
 
       now = push%rest
       held = free_norm(push%rest%now%condensed_load, push%rest%held)
@@ -178,44 +261,66 @@ contains
                                   now%load_tolerance*min(1.0_wp, alpha*free_norm(push%condensed, push%rest%held)/held))
          now%tolerance = now%load_tolerance/push%rest%load_tolerance*now%tolerance
       end if
-      call swing(model, push, 0.0_wp, alpha, increments, now, loop, failure)
+      push%finest_work = 0.0_wp
       loop%alpha = alpha
+      call clear(model, 0.0_wp, 0.0_wp, loop)
+      call swing(model, push, [0.0_wp, alpha], wanted%increments, now, loop, failure)
       area = 0.0_wp
       do while (.not. failure%raised)
          area_before = area
-         top = coordinate(push, now, alpha)
-         loop%way = reshape([alpha, top], [2, 1])
-         loop%lost = 0.0_wp*model%joints%p_av
-         loop%has_slipped = spread(.false., 1, size(model%interface))
-         loop%has_opened = loop%has_slipped
-         call swing(model, push, alpha, -alpha, 2*increments, now, loop, failure)
-         if (failure%raised) return
-         u_low = now%u
-         low = coordinate(push, now, -alpha)
-         call swing(model, push, -alpha, alpha, 2*increments, now, loop, failure)
-         if (failure%raised) return
-         high = coordinate(push, now, alpha)
+         if (measured) start = now
+         call run_loop(model, push, wanted%increments, now, loop, failure)
          area = sum(loop%lost)
-         loop%n_loops = loop%n_loops + 1
-         if (loop%n_loops >= 2 + cycles) exit
-         if (loop%n_loops >= 2 .and. abs(area - area_before) <= max(settled*abs(area), negligible*alpha*(high - low))) exit
+         if (failure%raised .or. loop%n_loops >= 2 + wanted%cycles) exit
+         if (loop%n_loops >= 2 .and. abs(area - area_before) <= max(settled*abs(area), negligible*alpha*loop%q)) exit
       end do
-      if (.not. failure%raised .and. .not. (low < 0.0_wp .and. high > 0.0_wp)) &
-         call failure%raise('the oscillation leaves the state about which it began: both ends of the loop lie on one side of it')
+      if (failure%raised .or. .not. measured .or. area <= negligible*alpha*loop%q) return
+      push%finest_work = max(wanted%tolerance*per_part*area, no_area*alpha*loop%q)
+      loop%n_loops = loop%n_loops - 1
+      call run_loop(model, push, wanted%increments, start, loop, failure)
+   end subroutine run_loops
+
+   !> One more loop from NOW, at the upper turning point.
+   subroutine run_loop(model, push, increments, now, loop, failure)
+      type(model_type), intent(in)       :: model
+      type(push_type), intent(inout)     :: push
+      integer, intent(in)                :: increments !! from rest to alpha
+      type(analysis_type), intent(inout) :: now
+      type(loop_type), intent(inout)     :: loop
+      type(failure_type), intent(inout)  :: failure
+      real(wp), allocatable :: u_low(:, :)
+      real(wp) :: area, high, low, top, share
+      integer  :: j
+
       if (failure%raised) return
+      top = coordinate(push, now, loop%alpha)
+      call clear(model, loop%alpha, top, loop)
+      call swing(model, push, [loop%alpha, -loop%alpha], 2*increments, now, loop, failure)
+      if (failure%raised) return
+      u_low = now%u
+      low = coordinate(push, now, -loop%alpha)
+      call swing(model, push, [-loop%alpha, loop%alpha], 2*increments, now, loop, failure)
+      if (failure%raised) return
+      high = coordinate(push, now, loop%alpha)
+      if (.not. (low < 0.0_wp .and. high > 0.0_wp)) then
+         call failure%raise('the oscillation leaves the state about which it began: both ends of the loop lie on one side of it')
+         return
+      end if
+      loop%n_loops = loop%n_loops + 1
       loop%q = 0.5_wp*(high - low)
-      loop%omega_squared = 2.0_wp*alpha/(high - low)
-      if (abs(area) <= no_area*alpha*loop%q) area = 0.0_wp
+      loop%omega_squared = 2.0_wp*loop%alpha/(high - low)
+      area = sum(loop%lost)
+      if (abs(area) <= no_area*loop%alpha*loop%q) area = 0.0_wp
       loop%loss = 2.0_wp*area/(two_pi*loop%omega_squared*loop%q**2)
-      loop%lost = loop%lost/merge(area, huge(1.0_wp), area > 0.0_wp)
+      loop%shares = [(sum(loop%lost(model%joints(j)%first:model%joints(j)%last)), j = 1, size(model%joints))]/ &
+                    merge(area, huge(1.0_wp), area > 0.0_wp)
       loop%centre = 0.5_wp*(high + low)/loop%q
       loop%gap = (high - top)/loop%q
-      if (size(model%interface) > 0) then
-         loop%slipping = count(loop%has_slipped)/real(size(model%interface), wp)
-         loop%open = count(loop%has_opened)/real(size(model%interface), wp)
-      end if
+      share = 1.0_wp/max(1, size(model%interface))
+      loop%slipping = share*count(loop%has_slipped)
+      loop%open = share*count(loop%has_opened)
       loop%distortion = distortion_of(model, push, 0.5_wp*(now%u - u_low), loop)
-   end subroutine run_loops
+   end subroutine run_loop
 
    !> Share of the movement U of retained nodes, half of that between the turning points, that is not phi: |d - q phi|/|d|, d the movement
    !! of all nodes, in the norm of [M] [-].
