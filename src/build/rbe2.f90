@@ -9,6 +9,7 @@ module rbe2
    use model_data, only: model_type, n_rotations
    use rbe3, only: add_mean, by_rotation, find_node, no_displacement
    use reference_nodes, only: component_place, node_axes, place_of_component, rotation_at, third_axis
+   use shell_ties, only: add_ties, tie_type
    use support_build, only: check_sums, summed_sets
    use surface_build, only: find_surface, surface_node_list, surface_nodes
    use text_tools, only: integer_text
@@ -21,8 +22,9 @@ contains
 
    !> Make of the rigid elements and equations of DECK couplings of MODEL, whose supports and displacement systems are known.
    !! Errors: nodes that are not there or split, components that are none, and those of check_dependences.
-   subroutine build_dependents(deck, model)
+   subroutine build_dependents(deck, ties, model)
       type(checked_deck), intent(in)  :: deck
+      type(tie_type), intent(in)      :: ties(:) !! of its SHELLTO cards
       type(model_type), intent(inout) :: model
       type(dependence_list) :: list
       logical, allocatable  :: without(:) ! nodes of these cards that no element holds
@@ -35,7 +37,7 @@ contains
          deck%control%stages(1)%equations%line, 'MPC: there is no MPC or MPCADD with set '//integer_text(set))
       call check_sums(deck, 'MPCADD', deck%bulk%equation_sum, deck%bulk%equation%set, 'MPC')
       allocate (active, source=summed_sets(deck%bulk%equation_sum, set))
-      if (size(deck%rigid) + size(deck%bulk%equation) == 0) return
+      if (size(deck%rigid) + size(deck%bulk%equation) + size(ties) == 0) return
       allocate (without(model%n_nodes), source=.false.)
       do i = 1, size(deck%rigid)
          call check_expansion(deck, deck%rigid(i))
@@ -45,6 +47,7 @@ contains
             call add_rigid(deck, deck%rigid(i), model, list, without)
          end if
       end do
+      call add_ties(model, ties, list)
       do i = 1, size(deck%bulk%equation)
          call add_equation(deck, deck%bulk%equation(i), any(active == deck%bulk%equation(i)%set), model, list, without)
       end do

@@ -228,6 +228,18 @@ module bulk_data
       real(wp) :: value = 0.0_wp
    end type temperature_card
 
+   !> SHELLTO: the marked edge of shells SURFACES(1) moves with the marked face SURFACES(2).
+   type, public :: tie_card
+      integer :: line = 0, surfaces(2) = 0
+   end type tie_card
+
+   !> TEMPP1: the MEAN temperature over the thickness of shells, and by how much it is warmer a unit of length along the normal.
+   type, public :: plate_temperature_card
+      integer  :: line = 0, set = 0, element = 0
+      type(id_ranges) :: ranges                         ! of further elements
+      real(wp) :: mean = 0.0_wp, slope = 0.0_wp
+   end type plate_temperature_card
+
    !> BOLT: a bolt tightened to PRELOAD in the stage of SUBCASE STAGE, locked afterwards: the CROD ELEMENT, or a solid cut at
    !! the marked SURFACE.
    type, public :: bolt_card
@@ -367,6 +379,7 @@ module bulk_data
       type(set_sum_card), allocatable      :: support_sum(:), equation_sum(:)
       type(rigid_card), allocatable        :: rigid(:)
       type(place_card), allocatable        :: place(:)
+      type(tie_card), allocatable          :: tie(:)
       type(equation_card), allocatable     :: equation(:)
       type(force_card), allocatable        :: force(:)
       type(pressure_card), allocatable     :: pressure(:)
@@ -374,6 +387,7 @@ module bulk_data
       type(gravity_card), allocatable      :: gravity(:)
       type(displacement_card), allocatable :: displacement(:)
       type(temperature_card), allocatable  :: temperature(:)
+      type(plate_temperature_card), allocatable :: plate_temperature(:)
       type(load_card), allocatable         :: load(:)
       type(bolt_card), allocatable         :: bolt(:)
       type(block_card), allocatable        :: block(:)

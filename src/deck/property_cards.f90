@@ -1,4 +1,4 @@
-!> The cards of properties and materials, PSHELL, PAXIS, PSOLID, PROD, CONROD, MAT1; of temperatures, TEMP, TEMPD; and PARAM.
+!> The cards of properties and materials, PSHELL, PAXIS, PSOLID, PROD, CONROD, MAT1; of temperatures, TEMP, TEMPD, TEMPP1; and PARAM.
 module property_cards
    use bulk_data, only: bulk_data_type, temperature_card
    use card_fields, only: card_fields_type
@@ -10,7 +10,8 @@ module property_cards
    implicit none
    private
 
-   public :: read_temperature, read_pshell, read_paxis, read_psolid, read_prod, read_conrod, read_mat1, read_parameter
+   public :: read_temperature, read_plate_temperature, read_pshell, read_paxis, read_psolid, read_prod, read_conrod, read_mat1, &
+             read_parameter
 
 contains
 
@@ -49,6 +50,27 @@ contains
             node=merge(0, number(k), for_all), field=merge(2*k - 1, 2*k, for_all), value=value(k))
       end do
    end subroutine read_temperature
+
+   !> TEMPP1: the mean temperature TBAR of shells and its slope TPRIME along their normals. TS1 and TS2, which NASTRAN uses for stresses
+   !! alone, mean nothing here.
+   subroutine read_plate_temperature(card, bulk)
+      type(card_fields_type), intent(inout) :: card
+      type(bulk_data_type), intent(inout)   :: bulk
+
+      associate (warm => bulk%plate_temperature(card%i))
+         warm%line = card%line
+         call card%field('SID', warm%set)
+         call card%field('EID1', warm%element)
+         call card%field('TBAR', warm%mean)
+         call card%field('TPRIME', warm%slope, default=0.0_wp)
+         call card%skip(['-  ', 'TS1', 'TS2', '-  '])
+         if (card%n > 8) then
+            call card%list_ranges(9, 'EID', 'an element number', warm%ranges)
+         else
+            allocate (warm%ranges%first(0), warm%ranges%last(0), warm%ranges%at(0))
+         end if
+      end associate
+   end subroutine read_plate_temperature
 
    !> PSHELL: in the plane a membrane of thickness T; MID2 = -1 plane strain, else plane stress; MODES = YES on a continuation line
    !! adds the incompatible modes of Wilson and Taylor; what bending out of the plane has means nothing there. In space a shell:

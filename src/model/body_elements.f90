@@ -121,7 +121,7 @@ contains
       n = size(corners_of(model, e))
       allocate (stress(max_stresses, n + 1), source=0.0_wp)
       if (is_beam(model, e)) return
-      call structural_stress(model, e, u(:, own_nodes(model, e)), element_rise(model, e, temperature), [0.0_wp], &
+      call structural_stress(model, e, u(:, own_nodes(model, e)), temperature, [0.0_wp], &
                              at_height(:, :n + 1, :))
       stress = at_height(:, :n + 1, 1)
    end subroutine mean_plane_stress
@@ -294,7 +294,7 @@ contains
       real(wp), intent(inout)            :: f(:, :) !! (dimension, nodes) [force], set here
 
       if (is_shell(model, e) .or. is_beam(model, e)) then
-         call structural_thermal_forces(model, e, element_rise(model, e, temperature), f)
+         call structural_thermal_forces(model, e, temperature, f)
          return
       end if
       associate (nodes => corners_of(model, e))

@@ -4,8 +4,9 @@ module structural_elements
    use beam_element, only: beam_line_load, beam_mass, beam_nodal_forces, beam_stiffness, beam_thermal_load
    use elasticity, only: max_stresses
    use kinds, only: wp
-   use model_data, only: corners_of, is_beam, model_type
+   use model_data, only: corners_of, is_beam, model_type, temperature_type
    use shell_element, only: shell_products, shell_stiffness, shell_stresses, shell_thermal_forces
+   use temperatures, only: element_rise, element_slope
    implicit none
    private
 
@@ -125,32 +126,34 @@ contains
 
    !> Stresses of shell E in global axes, (xx, yy, zz, xy, yz, zx), at the heights Z above its mean plane, at its corners and then at its
    !! centre, where its own nodes move by U.
-   pure subroutine structural_stress(model, e, u, rise, z, stress)
+   pure subroutine structural_stress(model, e, u, temperature, z, stress)
       type(model_type), intent(in) :: model
       integer, intent(in)          :: e
       real(wp), intent(in)         :: u(:, :)     !! (3, own nodes) [length]
-      real(wp), intent(in)         :: rise(:)     !! (corners) T - TREF [temperature]
+      type(temperature_type), intent(in) :: temperature
       real(wp), intent(in)         :: z(:)        !! [length]
       real(wp), intent(out)        :: stress(:, :, :) !! (6, corners + 1, heights) [pressure]
 
       call shell_stresses(model%structural%shells(model%structural%place(e)), model%x(:, corners_of(model, e)), &
-                          nodal_values(model, e, u), rise, 0.0_wp, z, stress)
+                          nodal_values(model, e, u), element_rise(model, e, temperature), &
+                          element_slope(model, e, temperature), z, stress)
    end subroutine structural_stress
 
-   !> F: what element E pushes its own nodes with where it is warmer than its reference temperature by RISE at its corners.
-   pure subroutine structural_thermal_forces(model, e, rise, f)
+   !> F: what element E at this TEMPERATURE pushes its own nodes with.
+   pure subroutine structural_thermal_forces(model, e, temperature, f)
       type(model_type), intent(in) :: model
       integer, intent(in)          :: e
-      real(wp), intent(in)         :: rise(:)     !! (corners) [temperature]
+      type(temperature_type), intent(in) :: temperature
       real(wp), intent(inout)      :: f(:, :)     !! (dimension, own nodes) [force], set here
       real(wp) :: nodal(3, most)
 
-      associate (place => model%structural%place(e), nodes => corners_of(model, e))
+      associate (rise => element_rise(model, e, temperature), place => model%structural%place(e), nodes => corners_of(model, e))
          if (is_beam(model, e)) then
             nodal(:, :4) = beam_nodal_forces(model%structural%beams(place), beam_ends(model, e), &
                                              beam_thermal_load(model%structural%beams(place), sum(rise)/2))
          else
-            call shell_thermal_forces(model%structural%shells(place), model%x(:, nodes), rise, 0.0_wp, nodal)
+            call shell_thermal_forces(model%structural%shells(place), model%x(:, nodes), rise, &
+                                      element_slope(model, e, temperature), nodal)
          end if
       end associate
       call onto_own(model, e, nodal, f)
