@@ -118,8 +118,9 @@ module bulk_data
    type, public :: mass_card
       integer  :: line = 0, id = 0, node = 0
       real(wp) :: mass = 0.0_wp
-      integer  :: system = 0                            ! CID of the inertia, 0: global axes
-      real(wp) :: inertia(6) = 0.0_wp                   ! I11, I21, I22, I31, I32, I33, about the node
+      integer  :: system = 0                            ! CID of offset and inertia, 0: global axes
+      real(wp) :: offset(3) = 0.0_wp                    ! X1 to X3: of the centre of mass from the node
+      real(wp) :: inertia(6) = 0.0_wp                   ! I11, I21, I22, I31, I32, I33, about the centre of mass
    end type mass_card
 
    type, public :: mat1_card

@@ -82,6 +82,21 @@ run bolt_beam && {
    near 'a beam as a bolt: along it' "$(moved bolt_beam 2 1)" '-1000/45000 + 500/150000' 3e-6
 }
 
+# ---- a mass beside its node: CONM2 with an offset, and the same at the free end of a rigid bar ----
+
+for model in PLANE SPACE; do
+   cards beside <<DECK
+MODEL = $model;SPC = 1;SUBCASE 1;  LOAD = 1;  MODES = 3;BEGIN BULK;EIGRL,3,,,3;CORD2R,7,,0.0,0.0,0.0,0.0,0.0,1.0;+,0.0,1.0,0.0
+GRID,1,,0.0,0.0,0.0;GRID,2,,500.0,0.0,0.0;CBAR,1,1,1,2,0.0,1.0,0.0;PBAR,1,1,800.0,1.0+5,1.0+5,1.5+5;MAT1,1,210000.0,,0.3;SPC1,1,123456,1
+CONM2,9,2,7,0.002,100.0,-40.0,0.0;+,3.0,0.5,4.0,,,5.0;GRAV,1,,9810.0,0.0,1.0,0.0;ENDDATA
+DECK
+   sed -e 's/^CONM2.*/RBAR,7,2,3,123456\nGRID,3,,540.0,100.0,0.0\nCONM2,9,3,7,0.002/' "$work/beside.bdf" > "$work/beside_bar.bdf"
+   run beside && run beside_bar && {
+      near "$model: mass beside its node, its weight" "$(moved beside 2 2)" '0.002*9810*(500^3/3 + 40*500^2/2)/(210000*1e5)' 3e-6
+      for k in 1 2 3; do near "$model: mass beside its node, frequency $k" "$(mode beside $k frequency)" "$(mode beside_bar $k frequency)" 1e-9; done
+   }
+done
+
 # ---- warm beams, and beams that oscillate: (n pi)^2/(2 pi L^2) sqrt(E I/(rho A)) ----
 
 cards warm_beam <<DECK
