@@ -12,7 +12,7 @@ module load_build
    use kinds, only: wp
    use load_checks, only: check_load_cards, check_plane, has_set, nor_others
    use mass_elements, only: scalar_mass
-   use model_data, only: corners_of, is_beam, model_type, own_nodes, stage_load_type, surface_type
+   use model_data, only: corners_of, is_beam, is_shell, model_type, own_nodes, stage_load_type, surface_type
    use node_coupling, only: add_section_share
    use numbers, only: cross
    use pressure_loads, only: add_pressure, find_pressed_sides, pressed_side
@@ -368,7 +368,7 @@ contains
       do e = 1, model%n_elements
          if (any(corners_of(model, e) == 0) .or. model%element_property(e) == 0 .or. is_beam(model, e)) cycle
          associate (nodes => own_nodes(model, e), d => model%dimension)
-            if (field%is_uniform) then
+            if (field%is_uniform .and. .not. is_shell(model, e)) then
                call element_weight(model, e, field%uniform(:d), f)
             else ! of the mass between the displacements alone: at constant speed rotations do not accelerate
                associate (corners => corners_of(model, e))

@@ -162,7 +162,7 @@ contains
       type(tie_type), intent(in)           :: ties(:)
       type(dependence_list), intent(inout) :: list
       real(wp), parameter :: unit(3, 3) = reshape([1.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 1.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 1.0_wp], [3, 3])
-      real(wp) :: axes(3, 3), row(3), t(6, 3, most_points)
+      real(wp) :: axes(3, 3), own(3, 3), row(3), t(6, 3, most_points)
       logical  :: determined(6)
       type(component_place) :: place
       integer  :: c, digit, first, i, k, p
@@ -179,27 +179,15 @@ contains
                do p = 1, n
                   row = place%scale*matmul(axes(:, digit - first), t(first + 1:first + 3, :, p))
                   do k = 1, count(tie%at(:, p) > 0)
+                     own = node_axes(model, tie%at(k, p))
                      do c = 1, 3
-                        call add_term(list, component_place(tie%at(k, p), c), &
-                                      tie%share(k, p)*dot_product(row, unit_of(tie%at(k, p), c)))
+                        call add_term(list, component_place(tie%at(k, p), c), tie%share(k, p)*dot_product(row, own(:, c)))
                      end do
                   end do
                end do
             end do
          end associate
       end do
-
-   contains
-
-      !> Direction C of NODE.
-      pure function unit_of(node, c) result(direction)
-         integer, intent(in) :: node, c
-         real(wp) :: direction(3), own(3, 3)
-
-         own = node_axes(model, node)
-         direction = own(:, c)
-      end function unit_of
-
    end subroutine add_ties
 
 end module shell_ties

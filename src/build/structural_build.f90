@@ -2,7 +2,6 @@
 !! shells and beams and those of reference nodes.
 module structural_build
    use beam_element, only: beam_axes, beam_law, beam_length
-   use beam_sections, only: beam_section
    use bulk_data, only: edge_card, edge_crod, has_component, property_card, rigid_card
    use deck_check, only: checked_deck
    use elasticity, only: beam, elasticity_matrix, max_stresses, plane_stress, shell
@@ -277,7 +276,7 @@ contains
       x = model%x(:, model%element_nodes(:2, e))
       associate (law => model%structural%beams(model%structural%place(e)), property => model%properties(model%element_property(e)))
          k = findloc(deck%bulk%beam_property%id, card%property, dim=1)
-         call take_section(deck%bulk%beam_property(k)%section, law)
+         law%beam_section = deck%bulk%beam_property(k)%section
          law%e = property%e
          law%g = 0.5_wp*property%e/(1.0_wp + property%nu)
          law%rho = property%rho
@@ -317,16 +316,5 @@ contains
             'the orientation of the beam lies along it, and gives no plane 1; expected a direction across the beam')
       end associate
    end subroutine build_beam
-
-   pure subroutine take_section(section, law)
-      type(beam_section), intent(in) :: section
-      type(beam_law), intent(inout)  :: law
-
-      law%area = section%area
-      law%inertia = section%inertia
-      law%torsion = section%torsion
-      law%shear = section%shear
-      law%point = section%point
-   end subroutine take_section
 
 end module structural_build

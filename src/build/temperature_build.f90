@@ -1,6 +1,5 @@
 !> Temperatures from TEMP, TEMPD and TEMPP1: how warm nodes and shells are at the end of every stage.
 module temperature_build
-   use bulk_data, only: plate_temperature_card
    use deck_check, only: checked_deck
    use element_kinds, only: element_table
    use kinds, only: wp
@@ -151,62 +150,54 @@ contains
    end subroutine fill_in
 
    !> Every TEMPP1 names shells, each of them once a set.
-   subroutine check_plates(deck, model, shells)
+   subroutine check_plates(deck, model, elements)
       type(checked_deck), intent(in)  :: deck
       type(model_type), intent(in)    :: model
-      type(id_table_type), intent(in) :: shells !! their numbers
-      integer :: i, j, k
-      integer, allocatable :: last(:) ! (elements) card that named it last
+      type(id_table_type), intent(in) :: elements !! numbers of all
+      integer :: i, k, twice
+      integer, allocatable :: named(:), set_of(:) ! (elements) set of the card that named it last
 
-      allocate (last(model%n_elements), source=0)
+      allocate (set_of(model%n_elements), source=0)
       do i = 1, size(deck%bulk%plate_temperature)
          associate (card => deck%bulk%plate_temperature(i))
-            if (card%element == 0) cycle ! said already
-            do k = 0, size(card%ranges%first)
-               associate (named => plates_of(model, shells, card, k), at => merge(card%ranges%at(max(k, 1)), 2, k > 0))
-                  if (size(named) == 0) call deck%field_error(card%line, at, 'there is no shell with this number; '// &
-                     'expected CQUAD4 or CTRIA3 with a PSHELL in a model of space', called='EID')
-                  do j = 1, size(named)
-                     if (last(named(j)) > 0) then
-                        if (deck%bulk%plate_temperature(last(named(j)))%set == card%set) then
-                           call deck%field_error(card%line, at, 'element '//integer_text(model%element_id(named(j)))// &
-                              ' has a TEMPP1 in set '//integer_text(card%set)//' already, in '// &
-                              deck%text%place(deck%bulk%plate_temperature(last(named(j)))%line), called='EID')
-                           exit
-                        end if
-                     end if
-                     last(named(j)) = i
-                  end do
-               end associate
+            do k = 1, size(card%ranges%first)
+               if (card%ranges%first(k) == 0) cycle ! said already
+               named = plates_of(model, elements, card%ranges%first(k), card%ranges%last(k))
+               twice = findloc(set_of(named), card%set, dim=1)
+               if (size(named) == 0) then
+                  call deck%field_error(card%line, card%ranges%at(k), 'there is no shell with this number; expected CQUAD4 or '// &
+                                        'CTRIA3 with a PSHELL in a model of space', called='EID')
+               else if (twice > 0) then
+                  call deck%field_error(card%line, card%ranges%at(k), 'element '//integer_text(model%element_id(named(twice)))// &
+                                        ' has a TEMPP1 in set '//integer_text(card%set)//' already', called='EID')
+               end if
+               set_of(named) = card%set
             end do
          end associate
       end do
    end subroutine check_plates
 
-   !> The shells that CARD names in its range K; 0: the first element alone.
-   pure function plates_of(model, shells, card, k) result(named)
-      type(model_type), intent(in)             :: model
-      type(id_table_type), intent(in)          :: shells
-      type(plate_temperature_card), intent(in) :: card
-      integer, intent(in)                      :: k
+   !> The shells with numbers from FIRST to LAST.
+   pure function plates_of(model, elements, first, last) result(named)
+      type(model_type), intent(in)    :: model
+      type(id_table_type), intent(in) :: elements
+      integer, intent(in)             :: first, last
       integer, allocatable :: named(:)
-      integer :: e, range(2)
+      integer :: e
 
-      range = card%element
-      if (k > 0) range = [card%ranges%first(k), card%ranges%last(k)]
-      if (range(1) < range(2)) then
-         named = pack([(e, e = 1, model%n_elements)], model%element_id >= range(1) .and. model%element_id <= range(2))
-         named = pack(named, [(is_shell(model, named(e)), e = 1, size(named))])
+      if (first < last) then
+         named = pack([(e, e = 1, model%n_elements)], model%element_id >= first .and. model%element_id <= last)
       else
-         named = pack([shells%find(range(1))], [shells%find(range(1)) > 0])
+         named = pack([elements%find(first)], [elements%find(first) > 0])
       end if
+      named = pack(named, [(is_shell(model, named(e)), e = 1, size(named))])
    end function plates_of
 
    !> The shells of SET that TEMPP1 warms. Nodes that have no temperature but that of such shells get it, and are GIVEN then.
-   subroutine warm_plates(deck, model, shells, set, temperature, given)
+   subroutine warm_plates(deck, model, elements, set, temperature, given)
       type(checked_deck), intent(in)        :: deck
       type(model_type), intent(in)          :: model
-      type(id_table_type), intent(in)       :: shells
+      type(id_table_type), intent(in)       :: elements
       integer, intent(in)                   :: set
       type(temperature_type), intent(inout) :: temperature
       logical, intent(inout)                :: given(:)
@@ -215,15 +206,16 @@ contains
       if (all(deck%bulk%plate_temperature%set /= set)) return
       card_of = 0
       do i = 1, size(deck%bulk%plate_temperature)
-         if (deck%bulk%plate_temperature(i)%set /= set .or. deck%bulk%plate_temperature(i)%element == 0) cycle
-         do k = 0, size(deck%bulk%plate_temperature(i)%ranges%first)
-            card_of(plates_of(model, shells, deck%bulk%plate_temperature(i), k)) = i
-         end do
+         associate (card => deck%bulk%plate_temperature(i))
+            do k = 1, merge(size(card%ranges%first), 0, card%set == set)
+               card_of(plates_of(model, elements, card%ranges%first(k), card%ranges%last(k))) = i
+            end do
+         end associate
       end do
       do node = 1, n_points(model)
-         associate (elements => model%elements_at(model%first_at(node):model%first_at(node + 1) - 1))
-            if (given(node) .or. size(elements) == 0 .or. any(card_of(elements) == 0)) cycle
-            temperature%at(node) = sum(deck%bulk%plate_temperature(card_of(elements))%mean)/size(elements)
+         associate (around => model%elements_at(model%first_at(node):model%first_at(node + 1) - 1))
+            if (given(node) .or. size(around) == 0 .or. any(card_of(around) == 0)) cycle
+            temperature%at(node) = sum(deck%bulk%plate_temperature(card_of(around))%mean)/size(around)
             given(node) = .true.
          end associate
       end do
@@ -231,9 +223,9 @@ contains
       do e = 1, model%n_elements
          if (card_of(e) == 0) cycle
          associate (card => deck%bulk%plate_temperature(card_of(e)), nodes => corners_of(model, e), &
-                    plate => temperature%plate(:, model%structural%place(e)))
-            plate(:size(nodes)) = card%mean - temperature%at(nodes)
-            plate(5) = card%slope
+                    place => model%structural%place(e))
+            temperature%plate(:size(nodes), place) = card%mean - temperature%at(nodes)
+            temperature%plate(5, place) = card%slope
          end associate
       end do
    end subroutine warm_plates

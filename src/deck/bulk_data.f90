@@ -236,8 +236,8 @@ module bulk_data
 
    !> TEMPP1: the MEAN temperature over the thickness of shells, and by how much it is warmer a unit of length along the normal.
    type, public :: plate_temperature_card
-      integer  :: line = 0, set = 0, element = 0
-      type(id_ranges) :: ranges                         ! of further elements
+      integer  :: line = 0, set = 0
+      type(id_ranges) :: ranges                         ! of elements
       real(wp) :: mean = 0.0_wp, slope = 0.0_wp
    end type plate_temperature_card
 

@@ -1,7 +1,7 @@
 !> The cards of properties and materials, PSHELL, PAXIS, PSOLID, PROD, CONROD, MAT1; of temperatures, TEMP, TEMPD, TEMPP1; and PARAM.
 module property_cards
    use bulk_data, only: bulk_data_type, temperature_card
-   use card_fields, only: card_fields_type
+   use card_fields, only: card_fields_type, id_ranges
    use elasticity, only: axisymmetric, plane_strain, plane_stress, solid
    use field_rules, only: not_negative, parse_real, positive, real_range
    use kinds, only: wp
@@ -57,18 +57,20 @@ contains
       type(card_fields_type), intent(inout) :: card
       type(bulk_data_type), intent(inout)   :: bulk
 
+      type(id_ranges) :: others
+      integer :: first
+
       associate (warm => bulk%plate_temperature(card%i))
          warm%line = card%line
          call card%field('SID', warm%set)
-         call card%field('EID1', warm%element)
+         call card%field('EID1', first)
          call card%field('TBAR', warm%mean)
          call card%field('TPRIME', warm%slope, default=0.0_wp)
          call card%skip(['-  ', 'TS1', 'TS2', '-  '])
-         if (card%n > 8) then
-            call card%list_ranges(9, 'EID', 'an element number', warm%ranges)
-         else
-            allocate (warm%ranges%first(0), warm%ranges%last(0), warm%ranges%at(0))
-         end if
+         warm%ranges = id_ranges([first], [first], [2])
+         if (card%n <= 8) return
+         call card%list_ranges(9, 'EID', 'an element number', others)
+         warm%ranges = id_ranges([first, others%first], [first, others%last], [2, others%at])
       end associate
    end subroutine read_plate_temperature
 

@@ -6,6 +6,7 @@
 !! Values at the ends of a beam, in its axes: u, v, w, theta_x, theta_y, theta_z of end A, then of end B. Nodal values are (3, 4):
 !! displacements of both nodes, then their rotations, in global axes [length], [rad]; forces likewise, then moments.
 module beam_element
+   use beam_sections, only: beam_section
    use kinds, only: wp
    use numbers, only: cross
    implicit none
@@ -15,13 +16,8 @@ module beam_element
              beam_nodal_forces, beam_thermal_load
 
    !> A beam: its section and how it hangs on its nodes. Plane 1 holds the beam and its direction y, which ORIENTATION gives.
-   type, public :: beam_law
+   type, extends(beam_section), public :: beam_law
       real(wp) :: e = 0.0_wp, g = 0.0_wp       !! [pressure]
-      real(wp) :: area = 0.0_wp                !! [length^2]
-      real(wp) :: inertia(3) = 0.0_wp          !! I1, I2, I12: integrals of y^2, z^2, y z over the section [length^4]
-      real(wp) :: torsion = 0.0_wp             !! J [length^4]
-      real(wp) :: shear(2) = 0.0_wp            !! K1, K2: share of the area that bears shear along y, z; 0: rigid in shear [-]
-      real(wp) :: point(2, 4) = 0.0_wp         !! y, z of the stress points C, D, E, F [length]
       real(wp) :: orientation(3) = 0.0_wp      !! v, in global axes
       real(wp) :: offset(3, 2) = 0.0_wp        !! of the ends from their nodes, in global axes [length]
       logical  :: released(12) = .false.       !! PA, PB: end values that bear no force

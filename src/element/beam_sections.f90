@@ -17,11 +17,11 @@ module beam_sections
    integer, parameter, public      :: section_dimensions(9) = [1, 2, 2, 2, 4, 6, 4, 4, 4] !! how many each has
 
    type, public :: beam_section
-      real(wp) :: area = 0.0_wp
-      real(wp) :: inertia(3) = 0.0_wp  !! I1, I2, I12
-      real(wp) :: torsion = 0.0_wp
-      real(wp) :: shear(2) = 0.0_wp    !! K1, K2
-      real(wp) :: point(2, 4) = 0.0_wp !! y, z of C, D, E, F
+      real(wp) :: area = 0.0_wp        !! [length^2]
+      real(wp) :: inertia(3) = 0.0_wp  !! I1, I2, I12: integrals of y^2, z^2, y z over the section [length^4]
+      real(wp) :: torsion = 0.0_wp     !! J [length^4]
+      real(wp) :: shear(2) = 0.0_wp    !! K1, K2: share of the area that bears shear along y, z; 0: rigid in shear [-]
+      real(wp) :: point(2, 4) = 0.0_wp !! y, z of the stress points C, D, E, F [length]
    end type beam_section
 
    real(wp), parameter :: pi = acos(-1.0_wp)

@@ -10,7 +10,7 @@ module body_elements
    use node_coupling, only: onto_unknowns, add_section_share, corner_displacements, extend_stiffness, felt_nodes, section_node
    use shape_functions, only: shape_values
    use stress_recovery, only: centre_stress, nodal_stress
-   use structural_elements, only: structural_stiffness, structural_stress, structural_thermal_forces, structural_weight
+   use structural_elements, only: structural_stiffness, structural_stress, structural_thermal_forces
    use temperatures, only: element_rise
    implicit none
    private
@@ -216,17 +216,13 @@ contains
       end associate
    end function full_stress
 
-   !> Forces on the own_nodes of element E under a body force B per mass, an acceleration with the sign of the force.
+   !> Forces on the nodes of element E, no shell or beam, under a body force B per mass, an acceleration with the sign of the force.
    pure subroutine element_weight(model, e, b, f)
       type(model_type), intent(in) :: model
       integer, intent(in)          :: e
       real(wp), intent(in)         :: b(:)     !! (dimension) [length/time^2]
       real(wp), intent(inout)      :: f(:, :)  !! (dimension, nodes) [force], set here
 
-      if (is_shell(model, e) .or. is_beam(model, e)) then
-         call structural_weight(model, e, b, f)
-         return
-      end if
       call body_forces(law_of(model, e), model%x(:model%dimension, corners_of(model, e)), &
                        model%properties(model%element_property(e))%rho*b, f)
    end subroutine element_weight

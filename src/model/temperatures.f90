@@ -85,16 +85,14 @@ contains
       end if
       now%reference_share = before%reference_share + fraction*(after%reference_share - before%reference_share)
       if (allocated(before%at)) now%at = (1.0_wp - fraction)*before%at
-      if (allocated(now%at) .and. allocated(after%at)) then
-         now%at = now%at + fraction*after%at
-      else if (allocated(after%at)) then
-         now%at = fraction*after%at
-      end if
       if (allocated(before%plate)) now%plate = (1.0_wp - fraction)*before%plate
-      if (allocated(now%plate) .and. allocated(after%plate)) then
+      if (allocated(after%at)) then
+         if (.not. allocated(now%at)) now%at = 0.0_wp*after%at
+         now%at = now%at + fraction*after%at
+      end if
+      if (allocated(after%plate)) then
+         if (.not. allocated(now%plate)) now%plate = 0.0_wp*after%plate
          now%plate = now%plate + fraction*after%plate
-      else if (allocated(after%plate)) then
-         now%plate = fraction*after%plate
       end if
    end function temperature_between
 
