@@ -10,7 +10,7 @@ module body_loads
    use kinds, only: wp
    use load_checks, only: check_plane
    use mass_matrix, only: scalar_mass
-   use model_data, only: corners_of, is_beam, model_type, own_nodes, stage_load_type
+   use model_data, only: corners_of, is_beam, is_shell, model_type, own_nodes, stage_load_type
    use node_coupling, only: add_section_share
    use numbers, only: cross, identity
    use structural_elements, only: beam_ends, onto_own
@@ -151,7 +151,7 @@ contains
       do e = 1, model%n_elements
          if (any(corners_of(model, e) == 0) .or. model%element_property(e) == 0 .or. is_beam(model, e)) cycle
          associate (nodes => own_nodes(model, e), d => model%dimension)
-            if (field%is_uniform) then
+            if (field%is_uniform .and. .not. is_shell(model, e)) then
                call element_weight(model, e, field%uniform(:d), f)
             else ! of the mass between the displacements alone: at constant speed rotations do not accelerate
                associate (corners => corners_of(model, e))

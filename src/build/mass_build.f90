@@ -5,6 +5,7 @@ module mass_build
    use displacement_systems, only: find_directions, find_system
    use kinds, only: wp
    use model_data, only: model_type, n_bars
+   use node_coupling, only: rotation_at
    use text_tools, only: integer_text
    implicit none
    private
@@ -13,11 +14,12 @@ module mass_build
 
 contains
 
-   !> Fill the masses of MODEL, PARAM WTMASS on them, and how elements have theirs. A CONM2 stands at a node that some element holds.
+   !> Fill the masses of MODEL, PARAM WTMASS on them, and how elements have theirs. A CONM2 stands at a node that some element holds; one
+   !! with an offset is its mass at a node of its own, that stands off, and its inertia at G.
    subroutine build_masses(deck, model)
       type(checked_deck), intent(in)  :: deck
       type(model_type), intent(inout) :: model
-      integer :: i, n
+      integer :: i, n, n_off
 
       model%lumped = deck%control%lumped
       associate (parameters => deck%bulk%parameters)
@@ -29,8 +31,9 @@ contains
                'expected one of the two')
          end if
       end associate
-      allocate (model%masses(size(deck%bulk%mass)))
+      allocate (model%masses(2*size(deck%bulk%mass)))
       n = 0
+      n_off = 0
       do i = 1, size(deck%bulk%mass)
          associate (card => deck%bulk%mass(i), node => model%node_table%find(deck%bulk%mass(i)%node))
             if (node == 0) cycle
@@ -40,6 +43,15 @@ contains
             model%masses(n)%node = node
             model%masses(n)%mass = deck%bulk%parameters%mass_factor*card%mass
             call find_inertia(deck, model, card, model%x(:, node), model%masses(n)%inertia)
+            if (all(abs(card%offset) <= 0.0_wp)) cycle
+            if (rotation_at(model, node) == 0) call deck%field_error(card%line, 'X1', 'node '//integer_text(card%node)// &
+               ' has no rotations, by which a mass beside it would move; expected a node of shells or beams, or the reference '// &
+               'node of an RBE2, RBE3 or RBAR')
+            model%masses(n)%mass = 0.0_wp
+            n = n + 1
+            n_off = n_off + 1 ! their nodes are the first that stand off others
+            model%masses(n)%node = model%faces(n_off)%node
+            model%masses(n)%mass = deck%bulk%parameters%mass_factor*card%mass
          end associate
       end do
       model%masses = model%masses(:n)

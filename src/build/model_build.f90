@@ -13,7 +13,6 @@ module model_build
    use joint_sides, only: find_frame
    use lists, only: join, root_of
    use load_build, only: build_loads
-   use load_checks, only: build_temperatures
    use mass_build, only: build_masses, check_mass
    use mesh_build, only: build_mesh, marked_side, check_named_nodes
    use model_data, only: model_type, n_bars, n_rotations, n_sections, stage_load_type
@@ -21,12 +20,14 @@ module model_build
    use pretension_section, only: build_sections
    use rigid_elements, only: build_dependents, name_surface_nodes
    use shell_faces, only: build_shell_faces, couple_shell_faces
+   use shell_ties, only: find_ties, tie_type
    use spring_build, only: build_bars, build_springs
    use stage_plan, only: plan_stages, stage_plan_type
    use structural_build, only: build_beams, build_rotations, build_shells, leave_out_idle, turn_rotations
    use support_build, only: build_supports
    use surface_build, only: build_surfaces
    use surface_sides, only: split_shared_surfaces
+   use temperature_build, only: build_temperatures
    use vibration_build, only: find_shown_nodes, plan_vibrations
    implicit none
    private
@@ -136,6 +137,7 @@ contains
       type(deck_error_list), intent(inout), target :: errors
       type(checked_deck) :: checked
       type(marked_side), allocatable :: sides(:)
+      type(tie_type), allocatable :: ties(:)
       type(stage_load_type), allocatable :: oscillating(:)
       integer :: j
 
@@ -153,6 +155,7 @@ contains
       call name_surface_nodes(checked, model)
       ! what stands on the mesh: each is put together whatever is wrong with the others
       call split_shared_surfaces(checked, model)
+      call find_ties(checked, model, ties)
       call build_shell_faces(checked, model)
       call build_joints(checked, model)
       call build_gaps(checked, model)
@@ -165,10 +168,10 @@ contains
       call turn_rotations(model)
       call build_beams(checked, model)
       call build_springs(checked, model)
-      call build_dependents(checked, model)
+      call build_dependents(checked, ties, model)
       call leave_out_idle(model)
-      if (.not. errors%any()) call couple_shell_faces(model)
       call build_masses(checked, model)
+      if (.not. errors%any()) call couple_shell_faces(model)
       call build_loads(checked, model, oscillating)
       if (.not. errors%any()) call check_balance(checked, model)
       call build_temperatures(checked, model)

@@ -3,26 +3,28 @@
 !! the card asks for. A model of revolution has none: a ring that stays one moves along its axis alone.
 module rigid_elements
    use bulk_data, only: equation_card, has_component, rigid_card
-   use constraint_equations, only: add_dependence, add_term, check_dependences, dependence_list, eliminate, solve_for
+   use constraint_equations, only: add_dependence, add_term, check_dependences, dependence_list, eliminate, mean_motion, solve_for
    use deck_check, only: checked_deck
    use kinds, only: wp
    use model_data, only: model_type, n_rotations
    use node_coupling, only: component_place, node_axes, place_of_component, rotation_at, third_axis
    use numbers, only: by_rotation
+   use shell_ties, only: add_ties, tie_type
    use support_build, only: check_sums, summed_sets
    use surface_build, only: find_surface, surface_node_list, surface_nodes
    use text_tools, only: integer_text
    implicit none
    private
 
-   public :: build_dependents, mean_motion, name_surface_nodes
+   public :: build_dependents, name_surface_nodes
 
 contains
 
    !> Make of the rigid elements and equations of DECK couplings of MODEL, whose supports and displacement systems are known.
    !! Errors: nodes that are not there or split, components that are none, and those of check_dependences.
-   subroutine build_dependents(deck, model)
+   subroutine build_dependents(deck, ties, model)
       type(checked_deck), intent(in)  :: deck
+      type(tie_type), intent(in)      :: ties(:) !! of its SHELLTO cards
       type(model_type), intent(inout) :: model
       type(dependence_list) :: list
       logical, allocatable  :: without(:) ! nodes of these cards that no element holds
@@ -35,7 +37,7 @@ contains
          deck%control%stages(1)%equations%line, 'MPC: there is no MPC or MPCADD with set '//integer_text(set))
       call check_sums(deck, 'MPCADD', deck%bulk%equation_sum, deck%bulk%equation%set, 'MPC')
       allocate (active, source=summed_sets(deck%bulk%equation_sum, set))
-      if (size(deck%rigid) + size(deck%bulk%equation) == 0) return
+      if (size(deck%rigid) + size(deck%bulk%equation) + size(ties) == 0) return
       allocate (without(model%n_nodes), source=.false.)
       do i = 1, size(deck%rigid)
          associate (card => deck%rigid(i))
@@ -46,6 +48,7 @@ contains
             if (.not. card%is_mean) call add_rigid(deck, card, model, list, without)
          end associate
       end do
+      call add_ties(model, ties, list)
       do i = 1, size(deck%bulk%equation)
          call add_equation(deck, deck%bulk%equation(i), any(active == deck%bulk%equation(i)%set), model, list, without)
       end do
@@ -224,75 +227,6 @@ contains
          without(node) = without(node) .or. .not. model%used(node)
       end if
    end subroutine find_node
-
-   !> [T] of RBE3, {u, theta} = sum of T(:, :, i) {c_i}: the rigid motion, displacement and rotation at the reference point, that
-   !! makes the sum of the squares of the differences to the measured displacements least. Point i lies at the arm R(:, i) from it; c_i
-   !! are its displacements along the directions AXES(:, 1 to 3, i), of which those USED count, with WEIGHT(i).
-   !!    sum of w G^T (G {u, theta} - c) = 0,  G = directions^T [1 W]
-   !! A component that this leaves open is not DETERMINED, and its row zero: of points on a line the rotation about it.
-   pure subroutine mean_motion(r, axes, used, weight, t, determined)
-      real(wp), intent(in)  :: r(:, :)       !! (3, points) [length]
-      real(wp), intent(in)  :: axes(:, :, :) !! (3, 3, points), unit
-      logical, intent(in)   :: used(:, :)    !! (3, points)
-      real(wp), intent(in)  :: weight(:)     !! > 0
-      real(wp), intent(out) :: t(:, :, :)    !! (6, 3, points) [-], rotations [1/length]
-      logical, intent(out)  :: determined(6)
-      real(wp) :: g(6, 3, size(weight)), a(6, 6), inverse(6, 6), size_of_it
-      integer  :: c, i
-
-      size_of_it = sqrt(sum(r**2)/size(weight))
-      if (size_of_it <= 0.0_wp) size_of_it = 1.0_wp
-      a = 0.0_wp
-      do i = 1, size(weight)
-         g(:3, :, i) = axes(:, :, i)
-         g(4:, :, i) = matmul(transpose(by_rotation(r(:, i)/size_of_it)), axes(:, :, i)) ! rotations times the size: one unit
-         do c = 1, 3
-            if (.not. used(c, i)) g(:, c, i) = 0.0_wp
-         end do
-         a = a + weight(i)/sum(weight)*matmul(g(:, :, i), transpose(g(:, :, i)))
-      end do
-      call invert_where_determined(a, inverse, determined)
-      do i = 1, size(weight)
-         t(:, :, i) = weight(i)/sum(weight)*matmul(inverse, g(:, :, i))
-         t(4:, :, i) = t(4:, :, i)/size_of_it
-      end do
-   end subroutine mean_motion
-
-   !> Rows of the INVERSE of A, symmetric and not negative, for the components of x that A x = b determines, zero for the others: row j
-   !! is y of A y = e_j where that has a solution. By elimination with the largest pivot left.
-   pure subroutine invert_where_determined(a, inverse, determined)
-      real(wp), intent(in)  :: a(6, 6)
-      real(wp), intent(out) :: inverse(6, 6)
-      logical, intent(out)  :: determined(6)
-      real(wp), parameter :: rounding = 1.0e-12_wp ! of the largest entry: a pivot that is none
-      real(wp) :: m(6, 12), pivot_row(12), residual(6)
-      logical  :: done(6)
-      integer  :: i, j, p
-
-      m(:, :6) = a
-      m(:, 7:) = 0.0_wp
-      do i = 1, 6
-         m(i, 6 + i) = 1.0_wp
-      end do
-      done = .false.
-      do j = 1, 6
-         p = maxloc([(m(i, i), i = 1, 6)], dim=1, mask=.not. done)
-         if (m(p, p) <= rounding*maxval(abs(a))) exit
-         done(p) = .true.
-         pivot_row = m(p, :)/m(p, p)
-         do i = 1, 6
-            m(i, :) = m(i, :) - m(i, p)*pivot_row
-         end do
-         m(p, :) = pivot_row
-      end do
-      do j = 1, 6
-         inverse(j, :) = merge(m(:, 6 + j), 0.0_wp, done) ! y, its open components zero
-         residual = matmul(a, inverse(j, :))
-         residual(j) = residual(j) - 1.0_wp
-         determined(j) = done(j) .and. maxval(abs(residual)) <= 1.0e-8_wp
-         if (.not. determined(j)) inverse(j, :) = 0.0_wp
-      end do
-   end subroutine invert_where_determined
 
    !> The dependences of an RBE3: the components REFC of its node are the weighted mean of those of its nodes.
    subroutine add_mean(deck, card, model, list, without)

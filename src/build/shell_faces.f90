@@ -1,15 +1,16 @@
 !> The faces of shells. A marked surface of shells is not their mean plane: it lies half a thickness off it, on the side to which the
 !! normals of the mark's elements point; a marked edge of shells is as wide as they are thick, and is cut into strips. The nodes of such sides stand off the
 !! nodes of the shells by a rigid lever r and have no unknowns of their own: u + theta x r. All that stands on surfaces, joints, gaps,
-!! pressure, takes them as it takes other nodes.
+!! pressure, takes them as it takes other nodes. So do masses beside their nodes.
 module shell_faces
+   use coordinate_systems, only: directions_at
    use deck_check, only: checked_deck
    use element_kinds, only: element_table
    use kinds, only: wp
    use lists, only: id_table_type
    use model_data, only: corners_of, face_node_type, is_shell, model_type, surface_type
    use node_build, only: append_nodes
-   use node_coupling, only: couple_node, coupling_parts
+   use node_coupling, only: couple_node, coupling_parts, third_axis
    use numbers, only: by_rotation, cross, identity
    use shell_membrane, only: shell_frame, shell_frame_of
    use text_tools, only: integer_text
@@ -29,9 +30,9 @@ contains
       type(face_node_type), allocatable :: faces(:)
       integer :: k, n
 
-      if (.not. allocated(model%structural%place)) return
       allocate (faces(0))
-      do k = 1, size(model%surfaces)
+      call stand_masses_off(deck, model, faces)
+      do k = 1, merge(size(model%surfaces), 0, allocated(model%structural%place))
          associate (surface => model%surfaces(k))
             if (.not. any([(is_shell(model, surface%element(n)), n = 1, surface%n)])) cycle
             do n = 1, surface%n
@@ -45,6 +46,28 @@ contains
       end do
       if (size(faces) > 0) call append_faces(model, faces)
    end subroutine build_shell_faces
+
+   !> The centres of mass of CONM2 with an offset stand off their nodes as faces do off shells.
+   subroutine stand_masses_off(deck, model, faces)
+      type(checked_deck), intent(in) :: deck
+      type(model_type), intent(in)   :: model
+      type(face_node_type), allocatable, intent(inout) :: faces(:)
+      real(wp) :: axes(3, 3)
+      integer  :: i, node, system
+      logical  :: ok
+
+      do i = 1, size(deck%bulk%mass)
+         associate (card => deck%bulk%mass(i))
+            node = model%node_table%find(card%node)
+            if (node == 0 .or. all(abs(card%offset) <= 0.0_wp)) cycle
+            faces = [faces, face_node_type(point=node, lever=card%offset)]
+            system = findloc(model%systems%id, card%system, dim=1)
+            if (card%system == 0 .or. system == 0) cycle ! a system that is not there is an error of the inertia
+            call directions_at(model%systems(system), model%x(:, node), axes, ok)
+            if (ok) faces(size(faces))%lever = matmul(axes, card%offset)
+         end associate
+      end do
+   end subroutine stand_masses_off
 
    !> Give the sides of SURFACE that are of shells nodes among FACES, the mean of what its sides have there.
    subroutine stand_off(model, surface, faces)
@@ -177,16 +200,19 @@ contains
       type(model_type), intent(inout) :: model
       real(wp), allocatable :: t(:, :, :)
       integer, allocatable  :: masters(:)
-      integer  :: k
+      integer  :: d, k
 
       if (.not. allocated(model%faces)) return
+      d = model%dimension
       if (.not. allocated(model%left_out)) allocate (model%left_out(model%dimension, model%n_nodes), source=.false.)
       do k = 1, size(model%faces)
-         allocate (masters(0), t(3, 3, 0))
+         allocate (masters(0), t(d, d, 0))
          associate (face => model%faces(k))
-            call add(face%point, identity)
-            associate (rotation => model%rotations(model%rotation_of(face%point)))
-               call add(rotation%node, by_rotation(face%lever)/rotation%arm)
+            call add(face%point, identity(:d, :d))
+            associate (rotation => model%rotations(model%rotation_of(face%point)), lever => face%lever)
+               if (d == 3) call add(rotation%node, by_rotation(lever)/rotation%arm)
+               if (d == 2) call add(rotation%node, sum(third_axis(model, face%point))/rotation%arm* &
+                                    reshape([-lever(2), lever(1), 0.0_wp, 0.0_wp], [2, 2]))
             end associate
             call couple_node(model%coupling, model%n_nodes, face%node, masters, t)
             model%left_out(:, face%node) = .true.
@@ -200,7 +226,7 @@ contains
       !> The face moves by MATRIX times the displacement of NODE.
       subroutine add(node, matrix)
          integer, intent(in)  :: node
-         real(wp), intent(in) :: matrix(3, 3)
+         real(wp), intent(in) :: matrix(:, :)
          integer :: j
 
          associate (parts => coupling_parts(model, node))
@@ -213,7 +239,7 @@ contains
 
       subroutine add_part(node, matrix)
          integer, intent(in)  :: node
-         real(wp), intent(in) :: matrix(3, 3)
+         real(wp), intent(in) :: matrix(:, :)
          integer :: j
 
          j = findloc(masters, node, dim=1)
@@ -221,7 +247,7 @@ contains
             t(:, :, j) = t(:, :, j) + matrix
          else
             masters = [masters, node]
-            t = reshape([t, matrix], [3, 3, size(masters)])
+            t = reshape([t, matrix], [d, d, size(masters)])
          end if
       end subroutine add_part
 

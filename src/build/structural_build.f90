@@ -61,6 +61,18 @@ contains
             model%rotation_of(node) = n
          end associate
       end do
+      do i = 1, size(deck%rigid) ! the end of a rigid bar that no element holds
+         associate (card => deck%rigid(i))
+            if (card%is_mean .or. card%surface > 0 .or. size(card%nodes) /= 1) cycle
+            if (.not. any([(has_component(card%components, node), node = 4, 6)])) cycle
+            node = model%node_table%find(card%nodes(1))
+            if (node == 0 .or. model%node_table%find(card%node) == 0) cycle
+            if (model%rotation_of(node) > 0 .or. model%first_at(node + 1) > model%first_at(node)) cycle
+            n = n + 1
+            rotations(n) = rotation_type(point=node, arm=arm_of(model, model%node_table%find(card%node), card))
+            model%rotation_of(node) = n
+         end associate
+      end do
       square = 0.0_wp
       count_of = 0
       do e = 1, model%n_elements

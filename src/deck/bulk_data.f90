@@ -118,8 +118,9 @@ module bulk_data
    type, public :: mass_card
       integer  :: line = 0, id = 0, node = 0
       real(wp) :: mass = 0.0_wp
-      integer  :: system = 0                            ! CID of the inertia, 0: global axes
-      real(wp) :: inertia(6) = 0.0_wp                   ! I11, I21, I22, I31, I32, I33, about the node
+      integer  :: system = 0                            ! CID of offset and inertia, 0: global axes
+      real(wp) :: offset(3) = 0.0_wp                    ! X1 to X3: of the centre of mass from the node
+      real(wp) :: inertia(6) = 0.0_wp                   ! I11, I21, I22, I31, I32, I33, about the centre of mass
    end type mass_card
 
    type, public :: mat1_card
@@ -227,6 +228,18 @@ module bulk_data
       integer  :: field = 0                             ! data field of the node, of a TEMPD of the set
       real(wp) :: value = 0.0_wp
    end type temperature_card
+
+   !> SHELLTO: the marked edge of shells SURFACES(1) moves with the marked face SURFACES(2).
+   type, public :: tie_card
+      integer :: line = 0, surfaces(2) = 0
+   end type tie_card
+
+   !> TEMPP1: the MEAN temperature over the thickness of shells, and by how much it is warmer a unit of length along the normal.
+   type, public :: plate_temperature_card
+      integer  :: line = 0, set = 0
+      type(id_ranges) :: ranges                         ! of elements
+      real(wp) :: mean = 0.0_wp, slope = 0.0_wp
+   end type plate_temperature_card
 
    !> BOLT: a bolt tightened to PRELOAD in the stage of SUBCASE STAGE, locked afterwards: the CROD ELEMENT, or a solid cut at
    !! the marked SURFACE.
@@ -368,6 +381,7 @@ module bulk_data
       type(set_sum_card), allocatable      :: support_sum(:), equation_sum(:)
       type(rigid_card), allocatable        :: rigid(:)
       type(place_card), allocatable        :: place(:)
+      type(tie_card), allocatable          :: tie(:)
       type(equation_card), allocatable     :: equation(:)
       type(force_card), allocatable        :: force(:)
       type(pressure_card), allocatable     :: pressure(:)
@@ -375,6 +389,7 @@ module bulk_data
       type(gravity_card), allocatable      :: gravity(:)
       type(displacement_card), allocatable :: displacement(:)
       type(temperature_card), allocatable  :: temperature(:)
+      type(plate_temperature_card), allocatable :: plate_temperature(:)
       type(load_card), allocatable         :: load(:)
       type(bolt_card), allocatable         :: bolt(:)
       type(block_card), allocatable        :: block(:)

@@ -15,8 +15,8 @@ module deck_input
                          read_grid_defaults, read_system, system_names
    use nastran_compatibility, only: is_idle_card
    use property_cards, only: read_beam_load, read_beam_property, read_conrod, read_mat1, read_parameter, read_paxis, &
-                             read_prod, read_pshell, read_psolid, read_temperature
-   use rigid_cards, only: read_equation, read_place, read_rigid
+                             read_plate_temperature, read_prod, read_pshell, read_psolid, read_temperature
+   use rigid_cards, only: read_equation, read_place, read_rigid, read_tie
    use support_cards, only: read_displacement, read_mass, read_spring, read_spring_property, read_sum, read_support
    use vibration_cards, only: read_eigrl, read_freq1, read_freq4, read_jampl, read_tabdmp1
    implicit none
@@ -62,6 +62,7 @@ contains
       call cards%add_kinds(['SPCADD'], read_sum)
       call cards%add_kinds(['RBE2 ', 'RBE3 ', 'RBAR ', 'RBE2M', 'RBE3M'], read_rigid)
       call cards%add_kinds(['NODEAT'], read_place)
+      call cards%add_kinds(['SHELLTO'], read_tie)
       call cards%add_kinds(['MPC'], read_equation)
       call cards%add_kinds(['MPCADD'], read_sum)
       call cards%add_kinds(['FORCE ', 'FORCE1', 'FORCE2', 'MOMENT'], read_force)
@@ -71,6 +72,7 @@ contains
       call cards%add_kinds(['PLOAD1'], read_beam_load)
       call cards%add_kinds(['SPCD'], read_displacement)
       call cards%add_kinds(['TEMP ', 'TEMPD'], read_temperature)
+      call cards%add_kinds(['TEMPP1'], read_plate_temperature)
       call cards%add_kinds(['LOAD'], read_load)
       call cards%add_kinds(['BOLT'], read_bolt)
       call cards%add_kinds(['JOINT'], read_joint)
@@ -100,10 +102,11 @@ contains
          bulk%prod(cards%n_of('PROD')), bulk%conrod(cards%n_of('CONROD')), bulk%spring(cards%n_of('CBUSH')), &
          bulk%spring_property(2*cards%n_of('PBUSH')), bulk%mass(cards%n_of('CONM2')), bulk%mat1(cards%n_of('MAT1')), &
          bulk%support(2*cards%n_of('SPC')), bulk%support_sum(cards%n_of('SPCADD')), bulk%rigid(cards%n_of('RBE2')), &
-         bulk%place(cards%n_of('NODEAT')), &
+         bulk%place(cards%n_of('NODEAT')), bulk%tie(cards%n_of('SHELLTO')), &
          bulk%equation(cards%n_of('MPC')), bulk%equation_sum(cards%n_of('MPCADD')), bulk%force(cards%n_of('FORCE')), &
          bulk%pressure(cards%n_of('PLOAD')), bulk%surface_load(cards%n_of('PLOADM')), bulk%gravity(cards%n_of('GRAV')), &
          bulk%displacement(2*cards%n_of('SPCD')), bulk%temperature(4*cards%n_of('TEMP')), bulk%load(cards%n_of('LOAD')), &
+         bulk%plate_temperature(cards%n_of('TEMPP1')), &
          bulk%bolt(cards%n_of('BOLT')), bulk%joint(cards%n_of('JOINT')), bulk%cjoint(cards%n_of('CJOINT')), &
          bulk%pjoint(cards%n_of('PJOINT')), bulk%jnorm(cards%n_of('JNORM')), bulk%jshear(cards%n_of('JSHEAR')), &
          bulk%jgap(cards%n_of('JGAP')), bulk%jincr(cards%n_of('JINCR')), bulk%eigrl(cards%n_of('EIGRL')), &

@@ -1,10 +1,10 @@
 !> The cards of properties and materials, PSHELL, PAXIS, PSOLID, PROD, CONROD, MAT1; of beams, PBAR, PBARL, PBEAM and PBEAML, their
-!! sections, which are constant along a beam, and PLOAD1, loads along one; of temperatures, TEMP, TEMPD; and PARAM. CBAR and CBEAM
+!! sections, which are constant along a beam, and PLOAD1, loads along one; of temperatures, TEMP, TEMPD, TEMPP1; and PARAM. CBAR and CBEAM
 !! themselves are read with the edges they share the card with.
 module property_cards
    use beam_sections, only: beam_section, section_dimensions, section_names, section_of
    use bulk_data, only: beam_load_card, beam_property_card, bulk_data_type, temperature_card
-   use card_fields, only: card_fields_type
+   use card_fields, only: card_fields_type, id_ranges
    use elasticity, only: axisymmetric, plane_strain, plane_stress, solid
    use field_rules, only: not_negative, parse_real, positive, real_range
    use kinds, only: wp
@@ -13,7 +13,7 @@ module property_cards
    implicit none
    private
 
-   public :: read_temperature, read_pshell, read_paxis, read_psolid, read_prod, read_conrod, read_mat1, read_parameter, &
+   public :: read_temperature, read_plate_temperature, read_pshell, read_paxis, read_psolid, read_prod, read_conrod, read_mat1, read_parameter, &
              read_beam_property, read_beam_load
 
    character(2), parameter :: point_names(8) = ['C1', 'C2', 'D1', 'D2', 'E1', 'E2', 'F1', 'F2']
@@ -59,6 +59,28 @@ contains
             node=merge(0, number(k), for_all), field=merge(2*k - 1, 2*k, for_all), value=value(k))
       end do
    end subroutine read_temperature
+
+   !> TEMPP1: the mean temperature TBAR of shells and its slope TPRIME along their normals. TS1 and TS2, which NASTRAN uses for stresses
+   !! alone, mean nothing here.
+   subroutine read_plate_temperature(card, bulk)
+      type(card_fields_type), intent(inout) :: card
+      type(bulk_data_type), intent(inout)   :: bulk
+      type(id_ranges) :: others
+      integer :: first
+
+      associate (warm => bulk%plate_temperature(card%i))
+         warm%line = card%line
+         call card%field('SID', warm%set)
+         call card%field('EID1', first)
+         call card%field('TBAR', warm%mean)
+         call card%field('TPRIME', warm%slope, default=0.0_wp)
+         call card%skip(['-  ', 'TS1', 'TS2', '-  '])
+         warm%ranges = id_ranges([first], [first], [2])
+         if (card%n <= 8) return
+         call card%list_ranges(9, 'EID', 'an element number', others)
+         warm%ranges = id_ranges([first, others%first], [first, others%last], [2, others%at])
+      end associate
+   end subroutine read_plate_temperature
 
    !> PSHELL: in the plane a membrane of thickness T; MID2 = -1 plane strain, else plane stress; MODES = YES on a continuation line
    !! adds the incompatible modes of Wilson and Taylor; what bending out of the plane has means nothing there. In space a shell:

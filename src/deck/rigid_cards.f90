@@ -1,5 +1,5 @@
 !> The cards of dependent nodes: RBE2 (nodes that move with one as a rigid body), RBE3 (one that moves as the weighted mean of others),
-!! both with listed nodes or those of a marked surface, RBAR, MPC (an equation between components); NODEAT, a node by its place.
+!! both with listed nodes or those of a marked surface, RBAR, SHELLTO, MPC (an equation between components); NODEAT, a node by its place.
 module rigid_cards
    use bulk_data, only: bulk_data_type, has_component, rigid_card
    use card_fields, only: card_fields_type
@@ -8,7 +8,7 @@ module rigid_cards
    implicit none
    private
 
-   public :: read_rigid, read_place, read_equation
+   public :: read_rigid, read_place, read_tie, read_equation
 
    character(*), parameter :: a_node = 'a node number'
 
@@ -95,6 +95,15 @@ contains
          call card%finish(place%line)
       end associate
    end subroutine read_place
+
+   !> SHELLTO: a marked edge of shells and the marked face that it moves with.
+   subroutine read_tie(card, bulk)
+      type(card_fields_type), intent(inout) :: card
+      type(bulk_data_type), intent(inout)   :: bulk
+
+      call card%field(['PID1', 'PID2'], bulk%tie(card%i)%surfaces)
+      call card%finish(bulk%tie(card%i)%line)
+   end subroutine read_tie
 
    !> RBAR: of nodes GA and GB one is independent, all its six components in CNA or CNB; the components CMA or CMB of the other, blank all
    !! six, move with it as a rigid body.

@@ -255,7 +255,8 @@ contains
          call card%field('G', mass%node)
          call card%field('CID', mass%system, default=0, least=0)
          call card%field('M', mass%mass, not_negative)
-         call card%blank(['X1', 'X2', 'X3', '- '])
+         call card%field(['X1', 'X2', 'X3'], mass%offset, default=0.0_wp)
+         call card%blank(['-'])
          call card%field(['I11', 'I21', 'I22', 'I31', 'I32', 'I33'], mass%inertia, default=0.0_wp)
          call card%finish(mass%line)
       end associate

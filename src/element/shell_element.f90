@@ -29,42 +29,33 @@ contains
       real(wp), intent(inout)     :: k(:, :)  !! (6 corners, 6 corners), set here [force/length], [force], [force length]
       type(shell_frame) :: frame
       real(wp) :: own(24, 24)
-      integer  :: i
 
       frame = shell_frame_of(x, law%offset)
       own = 0.0_wp
       call add_membrane(law, frame, own)
       call add_plate(law, frame, own)
-      do i = 1, frame%n                       ! levers: u + lever theta_y, v - lever theta_x are those of the plane
-         own(:, 6*i - 1) = own(:, 6*i - 1) + frame%lever(i)*own(:, 6*i - 5)
-         own(:, 6*i - 2) = own(:, 6*i - 2) - frame%lever(i)*own(:, 6*i - 4)
-      end do
-      do i = 1, frame%n
-         own(6*i - 1, :) = own(6*i - 1, :) + frame%lever(i)*own(6*i - 5, :)
-         own(6*i - 2, :) = own(6*i - 2, :) - frame%lever(i)*own(6*i - 4, :)
-      end do
-      call to_global(frame, own, k)
+      associate (m => 6*frame%n, t => from_nodes(frame))
+         k(:m, :m) = matmul(transpose(t), matmul(own(:m, :m), t))
+      end associate
    end subroutine shell_stiffness
 
-   !> K from OWN, which has u, v, w and the rotations of corner 1 first, in the axes of the element.
-   pure subroutine to_global(frame, own, k)
+   !> The values in the plane of the element, u, v, w and the rotations of corner 1 first, from the nodal values in one list: along its axes,
+   !! u + lever theta_y, v - lever theta_x.
+   pure function from_nodes(frame) result(t)
       type(shell_frame), intent(in) :: frame
-      real(wp), intent(in)          :: own(24, 24)
-      real(wp), intent(inout)       :: k(:, :)
-      integer :: a, b, i, j, n
+      real(wp) :: t(6*frame%n, 6*frame%n)
+      integer  :: i
 
-      n = frame%n
-      do b = 0, 1
-         do j = 1, n
-            do a = 0, 1
-               do i = 1, n
-                  k(3*(n*a + i) - 2:3*(n*a + i), 3*(n*b + j) - 2:3*(n*b + j)) = matmul(frame%axes, matmul( &
-                     own(6*i - 5 + 3*a:6*i - 3 + 3*a, 6*j - 5 + 3*b:6*j - 3 + 3*b), transpose(frame%axes)))
-               end do
-            end do
-         end do
+      t = 0.0_wp
+      do i = 1, frame%n
+         associate (u => 3*i - 2, r => 3*(frame%n + i) - 2, own => 6*i - 5)
+            t(own:own + 2, u:u + 2) = transpose(frame%axes)
+            t(own + 3:own + 5, r:r + 2) = transpose(frame%axes)
+            t(own, r:r + 2) = frame%lever(i)*frame%axes(:, 2)
+            t(own + 1, r:r + 2) = -frame%lever(i)*frame%axes(:, 1)
+         end associate
       end do
-   end subroutine to_global
+   end function from_nodes
 
    !> Add bending and transverse shear to OWN.
    pure subroutine add_plate(law, frame, own)
@@ -182,13 +173,8 @@ contains
 
       frame = shell_frame_of(x, law%offset)
       m = frame%n
-      do i = 1, m
-         own(:3, i) = matmul(u(:, i), frame%axes)
-         own(4:, i) = matmul(u(:, m + i), frame%axes)
-         plate(3*i - 2:3*i) = own(3:5, i)
-         own(1, i) = own(1, i) + frame%lever(i)*own(5, i)
-         own(2, i) = own(2, i) - frame%lever(i)*own(4, i)
-      end do
+      own(:, :m) = reshape(matmul(from_nodes(frame), reshape(u, [6*m])), [6, m])
+      plate(:3*m) = reshape(own(3:5, :m), [3*m])
       call find_membrane(law, frame, rise, own, membrane)
       do i = 1, m + 1
          if (i <= m) call plate_strains(law, frame, node_point(:, i, corner_kind(m)), b, gamma, volume)
@@ -217,7 +203,7 @@ contains
       type(shell_frame) :: frame
       type(integration_rule) :: rule
       real(wp) :: b(3, 12), gamma(2, 12), own(6, 4), t, volume
-      integer  :: a, m, p
+      integer  :: m, p
 
       frame = shell_frame_of(x, law%offset)
       m = frame%n
@@ -232,12 +218,7 @@ contains
                            matmul(transpose(b(:, :3*m)), law%bending(:, 1) + law%bending(:, 2)), [3, m])
          end do
       end if
-      do a = 1, m
-         own(5, a) = own(5, a) + frame%lever(a)*own(1, a)
-         own(4, a) = own(4, a) - frame%lever(a)*own(2, a)
-         f(:, a) = matmul(frame%axes, own(:3, a))
-         f(:, m + a) = matmul(frame%axes, own(4:, a))
-      end do
+      f(:, :2*m) = reshape(matmul(reshape(own(:, :m), [6*m]), from_nodes(frame)), [3, 2*m])
    end subroutine shell_thermal_forces
 
    !> M = integral of q N_i N_j over an element, q between its VALUES at the corners as the shape functions.

@@ -9,7 +9,7 @@ module body_elements
    use node_coupling, only: onto_unknowns, add_section_share, corner_displacements, extend_stiffness, felt_nodes, section_node
    use shape_functions, only: shape_values
    use stress_recovery, only: centre_stress, nodal_stress
-   use structural_elements, only: structural_stiffness, structural_stress, structural_thermal_forces, structural_weight
+   use structural_elements, only: structural_stiffness, structural_stress, structural_thermal_forces
    use temperatures, only: element_rise
    implicit none
    private
@@ -120,7 +120,7 @@ contains
       n = size(corners_of(model, e))
       allocate (stress(max_stresses, n + 1), source=0.0_wp)
       if (is_beam(model, e)) return
-      call structural_stress(model, e, u(:, own_nodes(model, e)), element_rise(model, e, temperature), [0.0_wp], &
+      call structural_stress(model, e, u(:, own_nodes(model, e)), temperature, [0.0_wp], &
                              at_height(:, :n + 1, :))
       stress = at_height(:, :n + 1, 1)
    end subroutine mean_plane_stress
@@ -215,17 +215,13 @@ contains
       end associate
    end function full_stress
 
-   !> Forces on the own_nodes of element E under a body force B per mass, an acceleration with the sign of the force.
+   !> Forces on the nodes of element E, no shell or beam, under a body force B per mass, an acceleration with the sign of the force.
    pure subroutine element_weight(model, e, b, f)
       type(model_type), intent(in) :: model
       integer, intent(in)          :: e
       real(wp), intent(in)         :: b(:)     !! (dimension) [length/time^2]
       real(wp), intent(inout)      :: f(:, :)  !! (dimension, nodes) [force], set here
 
-      if (is_shell(model, e) .or. is_beam(model, e)) then
-         call structural_weight(model, e, b, f)
-         return
-      end if
       call body_forces(law_of(model, e), model%x(:model%dimension, corners_of(model, e)), &
                        model%properties(model%element_property(e))%rho*b, f)
    end subroutine element_weight
@@ -293,7 +289,7 @@ contains
       real(wp), intent(inout)            :: f(:, :) !! (dimension, nodes) [force], set here
 
       if (is_shell(model, e) .or. is_beam(model, e)) then
-         call structural_thermal_forces(model, e, element_rise(model, e, temperature), f)
+         call structural_thermal_forces(model, e, temperature, f)
          return
       end if
       associate (nodes => corners_of(model, e))

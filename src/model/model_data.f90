@@ -101,6 +101,8 @@ module model_data
    type, public :: temperature_type
       real(wp), allocatable :: at(:)         !! (n_nodes) [temperature]; not allocated: none are given
       real(wp) :: reference_share = 0.0_wp   !! [-]
+      real(wp), allocatable :: plate(:, :)   !! (5, shells) what corners are warmer than AT [temperature], and by how much more a unit of
+                                             !! height [temperature/length]; not allocated: no shell has its own
    end type temperature_type
 
    !> Forces on nodes, displacements of supports, temperatures: the total load at the end of a stage.

@@ -2,11 +2,11 @@
 module temperatures
    use element_kinds, only: element_table
    use kinds, only: wp
-   use model_data, only: a_spring, bar_type, corners_of, model_type, temperature_type
+   use model_data, only: a_spring, bar_type, corners_of, is_shell, model_type, temperature_type
    implicit none
    private
 
-   public :: element_rise, bar_rise, temperature_between, has_temperatures, node_temperatures
+   public :: element_rise, element_slope, bar_rise, temperature_between, has_temperatures, node_temperatures
 
 contains
 
@@ -21,7 +21,19 @@ contains
       if (.not. allocated(temperature%at)) return
       rise = temperature%at(corners_of(model, e)) - temperature%reference_share* &
              model%properties(model%element_property(e))%reference
+      if (.not. allocated(temperature%plate)) return
+      if (is_shell(model, e)) rise = rise + temperature%plate(:size(rise), model%structural%place(e))
    end function element_rise
+
+   !> How much warmer shell E is a unit of height above its mean plane [temperature/length].
+   pure real(wp) function element_slope(model, e, temperature) result(slope)
+      type(model_type), intent(in)       :: model
+      integer, intent(in)                :: e
+      type(temperature_type), intent(in) :: temperature
+
+      slope = 0.0_wp
+      if (allocated(temperature%plate)) slope = temperature%plate(5, model%structural%place(e))
+   end function element_slope
 
    !> The mean of T - TREF along BAR; of a spring none [temperature].
    pure real(wp) function bar_rise(bar, temperature) result(rise)
@@ -73,10 +85,14 @@ contains
       end if
       now%reference_share = before%reference_share + fraction*(after%reference_share - before%reference_share)
       if (allocated(before%at)) now%at = (1.0_wp - fraction)*before%at
-      if (allocated(now%at) .and. allocated(after%at)) then
+      if (allocated(before%plate)) now%plate = (1.0_wp - fraction)*before%plate
+      if (allocated(after%at)) then
+         if (.not. allocated(now%at)) now%at = 0.0_wp*after%at
          now%at = now%at + fraction*after%at
-      else if (allocated(after%at)) then
-         now%at = fraction*after%at
+      end if
+      if (allocated(after%plate)) then
+         if (.not. allocated(now%plate)) now%plate = 0.0_wp*after%plate
+         now%plate = now%plate + fraction*after%plate
       end if
    end function temperature_between
 

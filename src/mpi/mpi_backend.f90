@@ -90,7 +90,7 @@ contains
       type(body_piece_type) :: other
       integer :: r
 
-      if (n_ranks == 1) return
+      if (n_ranks == 1 .or. allocated(model%structural%place)) return ! the first process has all shells and beams, and writes them
       select type (system)
       type is (petsc_solver_type)
          allocate (pieces)

@@ -30,7 +30,7 @@ contains
 
       stress = 0.0_wp
       associate (n => size(corners_of(model, e)) + 1)
-         call structural_stress(model, e, u(:, own_nodes(model, e)), element_rise(model, e, temperature), &
+         call structural_stress(model, e, u(:, own_nodes(model, e)), temperature, &
                                 model%properties(model%element_property(e))%fibre, stress(:, :n, :))
       end associate
    end subroutine face_stresses

@@ -235,6 +235,14 @@ contains
          end if
          if (n >= 0) call stream%item(temperature%at)
          call stream%item(temperature%reference_share)
+         n = -1
+         if (allocated(temperature%plate)) n = size(temperature%plate, 2)
+         call stream%extent(n, 40)
+         if (.not. stream%writes) then
+            if (allocated(temperature%plate)) deallocate (temperature%plate)
+            if (n >= 0) allocate (temperature%plate(5, n))
+         end if
+         if (n >= 0) call stream%item(temperature%plate)
       end associate
    end subroutine record_loads
 

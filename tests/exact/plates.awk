@@ -1,6 +1,6 @@
 # Decks of plates and shells: awk -v case=NAME -v n=ELEMENTS -v tri=0|1 -v load=... -f plates.awk. The problems of R. H. MacNeal and
 # R. L. Harder, A proposed standard set of problems to test finite element accuracy, Finite Elements in Analysis and Design 1 (1985)
-# 3-20: straight (shape: regular, trapezoid, parallel), curved, twisted, plate (edges s or c, load p or f, aspect 1 or 5), roof,
+# 3-20: straight (shape: regular, trapezoid, parallel; `rows` of elements, regular), curved, twisted, plate (edges s or c, load p or f, aspect 1 or 5), roof,
 # sphere, cylinder. The first line is a comment: the node and the component whose displacement is the answer.
 function grid(x, y, z) { printf "GRID,%d,,%.12f,%.12f,%.12f\n", ++nodes, x, y, z; return nodes }
 function quad(a, b, c, d) {
@@ -16,7 +16,7 @@ function place(a, b,   r, f, t) {
    if (case == "straight") {
       r = a*6 + 0.5 - int(a*6 + 0.5); f = int(a*6 + 0.5)
       t = f == 0 || f == 6 || shape == "regular" ? 0 : shape == "parallel" || f % 2 == 0 ? 0.1 : -0.1
-      x = f + t*(2*b - 1); y = 0.2*b; z = 0
+      x = (rows > 1 ? 6*a : f + t*(2*b - 1)); y = 0.2*b; z = 0
    } else if (case == "curved") {
       r = 4.12 + 0.2*b; x = r*sin(a*pi/2); y = r*cos(a*pi/2); z = 0
    } else if (case == "twisted") {
@@ -40,10 +40,11 @@ function edge_load(i, m, c,   j, w) { for (j = 0; j <= m; j++) { w = (j == 0 || 
 BEGIN {
    pi = 3.14159265358979323846
    if (case == "straight") {
-      head(1e7, "0.3", "0.1"); mesh(6, 1)
-      hold(1, 123456); hold(2, 123456)
-      if (load == 4) { force(at[6, 0], 0, 0, -5); force(at[6, 1], 0, 0, 5) } else edge_load(6, 1, load)
-      answer(at[6, 0], load == 4 ? 3 : load)
+      if (!rows) rows = 1
+      head(1e7, "0.3", "0.1"); mesh(6*rows, rows)
+      for (j = 0; j <= rows; j++) hold(at[0, j], 123456)
+      if (load == 4) { force(at[6*rows, 0], 0, 0, -5); force(at[6*rows, rows], 0, 0, 5) } else edge_load(6*rows, rows, load)
+      answer(at[6*rows, 0], load == 4 ? 3 : load)
    } else if (case == "curved") {
       head(1e7, "0.25", "0.1"); mesh(6, 1)
       hold(1, 123456); hold(2, 123456)

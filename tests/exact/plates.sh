@@ -82,6 +82,21 @@ run bolt_beam && {
    near 'a beam as a bolt: along it' "$(moved bolt_beam 2 1)" '-1000/45000 + 500/150000' 3e-6
 }
 
+# ---- a mass beside its node: CONM2 with an offset, and the same at the free end of a rigid bar ----
+
+for model in PLANE SPACE; do
+   cards beside <<DECK
+MODEL = $model;SPC = 1;SUBCASE 1;  LOAD = 1;  MODES = 3;BEGIN BULK;EIGRL,3,,,3;CORD2R,7,,0.0,0.0,0.0,0.0,0.0,1.0;+,0.0,1.0,0.0
+GRID,1,,0.0,0.0,0.0;GRID,2,,500.0,0.0,0.0;CBAR,1,1,1,2,0.0,1.0,0.0;PBAR,1,1,800.0,1.0+5,1.0+5,1.5+5;MAT1,1,210000.0,,0.3;SPC1,1,123456,1
+CONM2,9,2,7,0.002,100.0,-40.0,0.0;+,3.0,0.5,4.0,,,5.0;GRAV,1,,9810.0,0.0,1.0,0.0;ENDDATA
+DECK
+   sed -e 's/^CONM2.*/RBAR,7,2,3,123456\nGRID,3,,540.0,100.0,0.0\nCONM2,9,3,7,0.002/' "$work/beside.bdf" > "$work/beside_bar.bdf"
+   run beside && run beside_bar && {
+      near "$model: mass beside its node, its weight" "$(moved beside 2 2)" '0.002*9810*(500^3/3 + 40*500^2/2)/(210000*1e5)' 3e-6
+      for k in 1 2 3; do near "$model: mass beside its node, frequency $k" "$(mode beside $k frequency)" "$(mode beside_bar $k frequency)" 1e-9; done
+   }
+done
+
 # ---- warm beams, and beams that oscillate: (n pi)^2/(2 pi L^2) sqrt(E I/(rho A)) ----
 
 cards warm_beam <<DECK
@@ -113,6 +128,51 @@ run thick_tree && run thick_skyline && same 'TREE and SKYLINE: displacements' "$
 sed -e 's/^  LOAD = 1/  MODES = 3/' -e '/^PLOAD2/d' -e 's/^BEGIN BULK/&\nEIGRL,3,,,2/' -e 's/^MAT1.*/MAT1,1,17472000.0,,0.3,0.001/' "$work/thick.bdf" > "$work/plate_modes.bdf"
 # 2 pi f = 2 pi^2/a^2 sqrt(D/(rho t)), a = 2
 run plate_modes && near 'first frequency of a plate on its edges' "$(mode plate_modes 1 frequency)" "$pi/4*sqrt(1.7472e7*0.02^2/(12*(1 - 0.3^2)*0.001))" 6e-3
+
+# ---- a temperature over the thickness: free w = -alpha TPRIME (x^2 + y^2)/2, without stress; held M = D (1 + nu) alpha TPRIME ----
+
+awk 'BEGIN {
+   print "MODEL = SPACE\nSPC = 1\nSUBCASE 1\n  TEMPERATURE(LOAD) = 5\n  INCR = 1\n  OUTPUT = LAST, STRESS\nBEGIN BULK\nJINCR,1,,LIST,0.25,0.75"
+   for (i = 0; i <= 4; i++) for (j = 0; j <= 4; j++) printf "GRID,%d,,%.1f,%.1f,0.0\n", i*5 + j + 1, 25*i + (i == 2 && j == 2 ? 3 : 0), 20*j
+   for (i = 0; i < 4; i++) for (j = 0; j < 4; j++) { a = i*5 + j + 1; printf "CQUAD4,%d,1,%d,%d,%d,%d\n", ++e, a, a + 5, a + 6, a + 1 }
+   print "PSHELL,1,1,4.0,1,,1\nMAT1,1,210000.0,,0.3,,1.2-5,20.0\nSPC1,1,123456,1\nTEMPP1,5,1,50.0,10.0\n+,2,THRU,16\nENDDATA" }' > "$work/warm_free.bdf"
+shell_stress() { table "$1" 'STRESSES AT THE FACES OF SHELLS' | awk -v e="$2" -v face="$3" -v k="$4" '$1 == e && ++n == face { v = $(2 + k) } END { print v }'; }
+run warm_free && {
+   near 'a plate warm on one side: across' "$(moved warm_free 25 3)" '-1.2e-5*10*(100^2 + 80^2)/2' 3e-6
+   near 'a plate warm on one side: along' "$(moved warm_free 25 1)" '1.2e-5*30*100' 3e-6
+   near 'a plate warm on one side: no stress' "$(shell_stress warm_free 6 2 7)" 0 0 1e-6
+}
+sed -e 's/^SPC1.*/SPC1,1,123456,1,THRU,12\nSPC1,1,123456,14,THRU,25/' "$work/warm_free.bdf" > "$work/warm_held.bdf"
+run warm_held && for face in 1 2; do
+   near "a plate warm on one side, held, face $face" "$(shell_stress warm_held 6 $face 1)" "-210000/(1 - 0.3)*1.2e-5*(30 + $((2*face - 3))*2*10)" 3e-6
+done
+sed -e 's/^TEMPP1.*/TEMP,5,1,50.0,2,50.0,6,50.0\nTEMP,5,7,50.0\nTEMPD,5,20.0\nTEMPP1,5,2,50.0,10.0/' -e 's/^+,2,THRU/+,3,THRU/' "$work/warm_held.bdf" > "$work/warm_both.bdf"
+run warm_both && near 'TEMPP1 goes before TEMP of nodes' "$(shell_stress warm_both 6 2 1)" '-210000/(1 - 0.3)*1.2e-5*50' 3e-6
+near 'a shell without TEMPP1 beside' "$(shell_stress warm_both 1 2 1)" '-210000/(1 - 0.3)*1.2e-5*30' 3e-6
+
+# ---- a wall tied to a solid by SHELLTO: a turn of the solid turns the wall, free of force; what the wall bears goes to the solid ----
+
+# tied NAME: a wall of 7 x 2 shells, 6 thick, upright askew on 3 x 2 bricks; the cards behind are read from the standard input
+tied() {
+   awk 'BEGIN {
+      print "MODEL = SPACE\nSPC = 1\nSUBCASE 1\n  LOAD = 1\nBEGIN BULK\nMAT1,1,210000.0,,0.3\nPSOLID,1,1\nPSHELL,2,1,6.0,1,,1\nPMARK,5\nPMARK,6\nPMARK,7\nSHELLTO,7,6"
+      print "BLOCK3,1,1,3,2,1,0.0,0.0,-20.0\n+,90.0,50.0,0.0\n+,,,,,5,6\nSPCM,1,123,5"
+      for (k = 0; k <= 2; k++) for (i = 0; i <= 7; i++) printf "GRID,%d,,%.6f,%.6f,%.6f\n", 501 + i + 8*k, 10 + 10*i, 21 + i, 25*k
+      for (k = 0; k < 2; k++) for (i = 0; i < 7; i++) { a = 501 + i + 8*k; printf "CQUAD4,%d,2,%d,%d,%d,%d\n", 501 + ++e, a, a + 1, a + 9, a + 8 }
+      for (i = 0; i < 7; i++) printf "CBAR,%d,7,%d,%d\n", 601 + i, 501 + i, 502 + i }' > "$work/$1.bdf"
+   cat - <(echo ENDDATA) >> "$work/$1.bdf"
+}
+tied tied <<< 'FORCE,1,524,,700.0,1.0,2.0,-1.0'
+run tied && for c in 1 2 3; do near "a tied wall: the balance of forces, $c" "$(total tied 'SUM: LEFT UNBALANCED' $c)" 0 0 1e-6; done
+# theta = (1, 2, 3) 1E-4 about the origin; node 524 is at (80, 28, 50)
+awk 'BEGIN { for (i = 0; i <= 3; i++) for (j = 0; j <= 2; j++) { x = 30*i; y = 25*j; id = 1 + (3*i + j)*2
+   printf "SPCD,1,%d,1,%.9f,%d,2,%.9f\nSPCD,1,%d,3,%.9f\n", id, 1e-4*(-40 - 3*y), id, 1e-4*(3*x + 20), id, 1e-4*(y - 2*x) } }' | tied tied_turned
+run tied_turned && {
+   near 'a tied wall, turned: x' "$(moved tied_turned 524 1)" 16e-4 1e-6
+   near 'a tied wall, turned: y' "$(moved tied_turned 524 2)" 190e-4 1e-6
+   near 'a tied wall, turned: z' "$(moved tied_turned 524 3)" -132e-4 1e-6
+   near 'a tied wall, turned: no stress' "$(shell_stress tied_turned 502 2 7)" 0 0 1e-4
+}
 
 # ---- joints on the faces of shells: two sheets, pressed evenly ----
 

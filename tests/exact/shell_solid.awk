@@ -1,5 +1,8 @@
-# The same structure of shells or, solid=1, of solids of second order: awk -v case=tube|lap [-v solid=1] -f shell_solid.awk
+# The same structure of shells or, solid=1, of solids of second order: awk -v case=tube|lap|tee [-v solid=1] -f shell_solid.awk
 #
+# tee:  a wall of 100 x 100 x 8 on a foot of solids, 100 x 64 x 20, clamped below, the wall of shells tied by SHELLTO; above it moves as a
+#       rigid body, node 99999, under a force across, one along, and a moment about the upright, a stage each; n elements of the foot along,
+#       m across it, w of the wall of shells along
 # tube: a box column, walls of thickness 6, mean width 200, height 600, clamped below; above it moves as a rigid body under a force along
 #       x and a moment about z at node 99999; n elements a wall, m along it; frequencies as many as `modes`
 # lap:  two sheets of 120 x 40 x 5 that overlap by 40, their joint with MU 0.2, a bolt of 5000 through its middle, the lower one clamped
@@ -10,7 +13,38 @@ function id(i, j, k) { return 1 + i + (n + 3)*(j + (n + 3)*k) }
 function shell_id(s, i, j) { return 1 + s*1000 + i*(ny + 1) + j }
 function solid_id(s, i, j, k) { return 1 + s*10000 + (i*(ny + 1) + j)*3 + k }
 function outer(s, i, j) { return solid ? solid_id(s, i, j, s ? 2 : 0) : shell_id(s, i, j) }
-BEGIN { t0 = 6; if (case == "tube") tube(); else lap() }
+BEGIN { t0 = 6; if (case == "tube") tube(); else if (case == "tee") tee(); else lap() }
+function foot(i, j, k) { return 1 + i + (n + 1)*(j + (m + 1)*k) }
+function wall(i, j, k) { return k == 0 ? foot(i, m/2 - 1 + j, 4) : 60001 + i + (n + 1)*(j + 3*k) }
+function brick(a, b, c, d, e, f, g, h) { printf "CHEXA,%d,1,%d,%d,%d,%d,%d,%d\n+,%d,%d,,,,,,\n+,,,,,,\n", ++bricks, a, b, c, d, e, f, g, h }
+function tee(   f, i, j, k, text) {
+   print "MODEL = SPACE\nSPC = 1\nOUTPUT = LAST\nSUBCASE 1\n  LOAD = 1\nSUBCASE 2\n  LOAD = 2\nSUBCASE 3\n  LOAD = 3\nBEGIN BULK\nMAT1,1,210000.,,.3"
+   print "PSOLID,1,1\nPMARK,5\nPMARK,6\nSPCM,1,123,5\nGRID,99999,,50.,0.,100."
+   print "FORCE,1,99999,,100.,0.,1.,0.\nFORCE,2,99999,,1000.,1.,0.,0.\nMOMENT,3,99999,,1.+5,0.,0.,1."
+   for (k = 0; k <= 4; k++) for (j = 0; j <= m; j++) for (i = 0; i <= n; i++) printf "GRID,%d,,%.6f,%.6f,%.6f\n", foot(i, j, k), 100*i/n, 64*j/m - 32, 5*k - 20
+   for (k = 0; k < 4; k++) for (j = 0; j < m; j++) for (i = 0; i < n; i++)
+      brick(foot(i, j, k), foot(i + 1, j, k), foot(i + 1, j + 1, k), foot(i, j + 1, k), foot(i, j, k + 1), foot(i + 1, j, k + 1), foot(i + 1, j + 1, k + 1), foot(i, j + 1, k + 1))
+   for (j = 0; j < m; j++) for (i = 0; i < n; i++) {
+      printf "CQUAD4,%d,5,%d,%d,%d,%d\n", 80000 + ++f, foot(i, j, 0), foot(i, j + 1, 0), foot(i + 1, j + 1, 0), foot(i + 1, j, 0)
+      if (!solid) printf "CQUAD4,%d,6,%d,%d,%d,%d\n", 90000 + f, foot(i, j, 4), foot(i + 1, j, 4), foot(i + 1, j + 1, 4), foot(i, j + 1, 4)
+   }
+   if (solid) {
+      for (k = 1; k <= 12; k++) for (j = 0; j < 3; j++) for (i = 0; i <= n; i++) printf "GRID,%d,,%.6f,%.6f,%.6f\n", wall(i, j, k), 100*i/n, 4*j - 4, 100*k/12
+      for (k = 0; k < 12; k++) for (j = 0; j < 2; j++) for (i = 0; i < n; i++) {
+         brick(wall(i, j, k), wall(i + 1, j, k), wall(i + 1, j + 1, k), wall(i, j + 1, k), wall(i, j, k + 1), wall(i + 1, j, k + 1), wall(i + 1, j + 1, k + 1), wall(i, j + 1, k + 1))
+         if (k == 11) printf "CQUAD4,%d,6,%d,%d,%d,%d\n", 90000 + ++f, wall(i, j, 12), wall(i + 1, j, 12), wall(i + 1, j + 1, 12), wall(i, j + 1, 12)
+      }
+      print "RBE2M,99998,99999,123456,6\nENDDATA"
+      return
+   }
+   print "PSHELL,2,1,8.,1,,1\nPMARK,7\nSHELLTO,7,6"
+   text = "RBE2,99998,99999,123456"
+   for (k = 0; k <= 12; k++) for (i = 0; i <= w; i++) printf "GRID,%d,,%.6f,0.,%.6f\n", 50001 + i + (w + 1)*k, 100*i/w, 100*k/12
+   for (k = 0; k < 12; k++) for (i = 0; i < w; i++) { j = 50001 + i + (w + 1)*k; printf "CQUAD4,%d,2,%d,%d,%d,%d\n", 70000 + ++f, j, j + 1, j + w + 2, j + w + 1 }
+   for (i = 0; i < w; i++) printf "CBAR,%d,7,%d,%d\n", 95000 + i, 50001 + i, 50002 + i
+   for (i = 0; i <= w; i++) text = text (i % 8 == 5 ? "\n+," : ",") 50001 + i + (w + 1)*12
+   print text "\nENDDATA"
+}
 function tube(   e, f, i, j, k, q, s, t, w, x, y, text) {
    printf "MODEL = SPACE\nSPC = 1\nSUBCASE 1\n  LOAD = 1\n  MODES = 1\n  OUTPUT = LAST\nBEGIN BULK\nMAT1,1,210000.,,.3,7.85-9\nEIGRL,1,,,%d\n", modes
    printf "FORCE,1,99999,,1000.,%s\nMOMENT,1,99999,,1.+6,%s\nGRID,99999,,0.,0.,600.\n", "1.,0.,0.", "0.,0.,1."

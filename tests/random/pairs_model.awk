@@ -210,6 +210,7 @@ function make_model(   b, i, j, n, x0, x1, y0, z, length_, width, h, e, list, to
       next_shares = on["split"] && b < n_blocks
       if (on["shell"] && b == n_blocks) {
          h = shell_thickness = between(0.1, 0.2) * length_
+         shell_warm = between(0.5, 1.5); shell_slope = between(-0.5, 0.5) / h
          block_s(b, nx, ny, z, h, random(2) ? between(-0.3, 0.3) * h : 0, triangles)
       } else if (space) block_3(b, nx, ny, nz, z, z + h, ord, triangles)
       else block_2(b, nx, nz, z, z + h, ord, triangles)

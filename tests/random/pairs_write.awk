@@ -226,6 +226,8 @@ function write_variant(name,   i, k, s, j, file, n, text, f, set, e, kept, t, cd
       if (progression[s] == "LIST") { text = "JINCR," 50 + s ",,LIST"; for (k = 1; k <= parts[s]; k++) text = text "," real(2 * k / (parts[s] * (parts[s] + 1))); card(text) }
       else put("JINCR," 50 + s "," parts[s] "," progression[s] (progression[s] == "GEOM" && parts[s] > 1 ? "," real(0.7 / parts[s]) : ",.1"))
       if (warm[s]) for (i = 1; i <= nn; i++) put("TEMP," 70 + s "," id[i] "," real(20 + warm[s] * temp_of[i]))
+      if (warm[s] && shell_thickness) for (e = 1; e <= ne; e++) if (e_pid[e] == n_blocks && e % 3)
+         put("TEMPP1," 70 + s "," eid[e] "," real(20 + warm[s] * shell_warm) "," real(warm[s] * shell_slope / s_l))
    }
    if (on["modes"]) put("EIGRL,4,,," (space ? 4 : 3))
    # the file

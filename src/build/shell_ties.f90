@@ -1,0 +1,192 @@
+!> Shells tied to solids without a joint, SHELLTO: the nodes of a marked edge of shells move with a marked face.
+!!
+!! Each side of the edge gives its two nodes three points of the footprint of the shell on the face: half a thickness above and below the
+!! node, and as far along the edge. They move with the face by its shape functions; the node has the rigid motion that comes nearest to
+!! theirs (mean_motion), so its rotations are those of the face over the thickness, and what the shell bears goes to the face in balance.
+module shell_ties
+   use constraint_equations, only: add_dependence, add_term, dependence_list, mean_motion
+   use deck_check, only: checked_deck
+   use element_kinds, only: kind_tria3, kind_tria6, max_nodes
+   use face_overlap, only: face_frame, find_point, in_frame, make_frame, map_point, seen_face
+   use kinds, only: wp
+   use model_data, only: corners_of, is_shell, model_type, surface_type
+   use node_coupling, only: component_place, node_axes, place_of_component
+   use numbers, only: identity
+   use shell_membrane, only: shell_frame, shell_frame_of
+   use surface_build, only: find_surface
+   use text_tools, only: integer_text, real_text
+   implicit none
+   private
+
+   public :: add_ties, find_ties
+
+   integer, parameter :: most_points = 24 !! of a node: three of each side of the edge there
+
+   !> A node of a shell and the points of a face that it moves with.
+   type, public :: tie_type
+      integer  :: line = 0, node = 0
+      integer  :: n = 0                                 !! points
+      real(wp) :: arm(3, most_points) = 0.0_wp          !! of the points from the node [length]
+      integer  :: at(8, most_points) = 0                !! nodes of the face at the points, 0 behind the last
+      real(wp) :: share(8, most_points) = 0.0_wp           !! shape functions of the face there [-]
+   end type tie_type
+
+contains
+
+   !> The TIES of all SHELLTO cards, before edges of shells are cut into strips. Errors: surfaces that are no edge of shells, no faces of
+   !! solids, or farther away than the shell is thick.
+   subroutine find_ties(deck, model, ties)
+      type(checked_deck), intent(in)           :: deck
+      type(model_type), intent(in)             :: model
+      type(tie_type), allocatable, intent(out) :: ties(:)
+      integer :: edge, face, i, s
+
+      allocate (ties(0))
+      do i = 1, size(deck%bulk%tie)
+         associate (card => deck%bulk%tie(i))
+            if (any(card%surfaces == 0)) cycle ! said already
+            call find_surface(deck, card%line, 'PID1', card%surfaces(1), model, edge)
+            call find_surface(deck, card%line, 'PID2', card%surfaces(2), model, face)
+            if (edge == 0 .or. face == 0) cycle
+            associate (side => model%surfaces(edge), base => model%surfaces(face))
+               if (any([(side%corners(s) /= 2 .or. .not. is_shell(model, side%element(s)), s = 1, side%n)])) then
+                  call deck%field_error(card%line, 'PID1', 'surface '//integer_text(side%id)//' is no edge of shells; '// &
+                                        'expected CBAR or CROD on free edges of shells')
+               else if (any([(base%corners(s) == 2 .or. is_shell(model, base%element(s)), s = 1, base%n)])) then
+                  call deck%field_error(card%line, 'PID2', 'surface '//integer_text(base%id)//' is not of solids; '// &
+                                        'expected CTRIA3 or CQUAD4 on faces of solids')
+               else
+                  call tie(deck, model, card%line, side, base, ties)
+               end if
+            end associate
+         end associate
+      end do
+   end subroutine find_ties
+
+   !> Add to TIES those of the nodes of the edge SIDE to the face BASE, which a card on LINE ties.
+   subroutine tie(deck, model, line, side, base, ties)
+      type(checked_deck), intent(in)  :: deck
+      type(model_type), intent(in)    :: model
+      integer, intent(in)             :: line
+      type(surface_type), intent(in)  :: side, base
+      type(tie_type), allocatable, intent(inout) :: ties(:)
+      type(tie_type), allocatable :: own(:)
+      type(face_frame)  :: frames(base%n)
+      type(shell_frame) :: frame
+      real(wp) :: along(3), arms(3, 3), farthest, miss, t
+      integer  :: k, n, node, of_node(model%n_nodes), p, s
+
+      do s = 1, base%n
+         call make_frame(3, model%x(:, base%nodes(:base%n_nodes(s), s)), frames(s))
+      end do
+      allocate (own(2*side%n))
+      of_node = 0
+      n = 0
+      do s = 1, side%n
+         associate (corners => corners_of(model, side%element(s)), &
+                    law => model%structural%shells(model%structural%place(side%element(s))))
+            frame = shell_frame_of(model%x(:, corners), law%offset)
+            do k = 1, 2
+               node = side%nodes(k, s)
+               along = model%x(:, side%nodes(3 - k, s)) - model%x(:, node)
+               t = law%thickness(findloc(corners, node, dim=1))
+               arms = spread(law%offset*frame%axes(:, 3), 2, 3)
+               arms(:, 1:2) = arms(:, 1:2) + 0.5_wp*t*reshape([frame%axes(:, 3), -frame%axes(:, 3)], [3, 2])
+               arms(:, 3) = arms(:, 3) + 0.5_wp*t*along/norm2(along)
+               if (of_node(node) == 0) then
+                  n = n + 1
+                  of_node(node) = n
+                  own(n)%line = line
+                  own(n)%node = node
+               end if
+               farthest = 0.0_wp
+               do p = 1, 3
+                  call hang(model, base, frames, arms(:, p), own(of_node(node)), miss)
+                  farthest = max(farthest, miss)
+               end do
+               if (farthest <= t) cycle
+               call deck%field_error(line, 'PID1', 'node '//integer_text(model%node_id(node))//' of the edge lies '// &
+                  real_text(farthest)//' from surface '//integer_text(base%id)//'; expected no more than the thickness of '// &
+                  'the shell')
+               return
+            end do
+         end associate
+      end do
+      ties = [ties, own(:n)]
+   end subroutine tie
+
+   !> One more point of OWN, at this ARM from its node: the nearest of BASE, whose sides have the FRAMES, and how far it MISSES that.
+   pure subroutine hang(model, base, frames, arm, own, miss)
+      type(model_type), intent(in)   :: model
+      type(surface_type), intent(in) :: base
+      type(face_frame), intent(in)   :: frames(:)
+      real(wp), intent(in)           :: arm(3)  !! [length]
+      type(tie_type), intent(inout)  :: own
+      real(wp), intent(out)          :: miss    !! [length]
+      type(seen_face) :: face
+      real(wp) :: beyond, place(3), point(3), share(max_nodes), size_of, there(3)
+      logical  :: is_found
+      integer  :: s
+
+      miss = huge(1.0_wp)
+      if (own%n == most_points) return
+      own%n = own%n + 1
+      own%arm(:, own%n) = arm
+      do s = 1, base%n
+         associate (nodes => base%nodes(:base%n_nodes(s), s))
+            size_of = norm2(model%x(:, nodes(1)) - frames(s)%centre)
+            place = matmul(model%x(:, own%node) + arm - frames(s)%centre, frames(s)%axes)
+            if (norm2(place) - 2.0_wp*size_of >= miss) cycle
+            face = in_frame(3, model%x(:, nodes), frames(s))
+            call find_point(face, place(:2), point, is_found)
+            if (.not. is_found) cycle
+            call map_point(face, point, share, there)
+            if (face%kind == kind_tria3 .or. face%kind == kind_tria6) then
+               beyond = max(-point(1), -point(2), point(1) + point(2) - 1.0_wp, 0.0_wp)
+            else
+               beyond = max(maxval(abs(point(:2))) - 1.0_wp, 0.0_wp)
+            end if
+            beyond = beyond*size_of + abs(place(3) - there(3))
+            if (beyond >= miss) cycle
+            miss = beyond
+            own%at(:, own%n) = 0
+            own%at(:size(nodes), own%n) = nodes
+            own%share(:size(nodes), own%n) = share(:size(nodes))
+         end associate
+      end do
+   end subroutine hang
+
+   !> The dependences of TIES: all six components of their nodes.
+   subroutine add_ties(model, ties, list)
+      type(model_type), intent(in)         :: model
+      type(tie_type), intent(in)           :: ties(:)
+      type(dependence_list), intent(inout) :: list
+      real(wp) :: axes(3, 3), own(3, 3), row(3), t(6, 3, most_points)
+      logical  :: determined(6)
+      type(component_place) :: place
+      integer  :: c, digit, first, i, k, p
+
+      do i = 1, size(ties)
+         associate (tie => ties(i), n => ties(i)%n)
+            call mean_motion(tie%arm(:, :n), spread(identity, 3, n), spread(spread(.true., 1, 3), 2, n), spread(1.0_wp, 1, n), &
+                             t(:, :, :n), determined)
+            axes = node_axes(model, tie%node)
+            do digit = 1, 6
+               place = place_of_component(model, tie%node, digit)
+               call add_dependence(list, place, tie%line, 1)
+               first = merge(0, 3, digit <= 3)
+               do p = 1, n
+                  row = place%scale*matmul(axes(:, digit - first), t(first + 1:first + 3, :, p))
+                  do k = 1, count(tie%at(:, p) > 0)
+                     own = node_axes(model, tie%at(k, p))
+                     do c = 1, 3
+                        call add_term(list, component_place(tie%at(k, p), c), tie%share(k, p)*dot_product(row, own(:, c)))
+                     end do
+                  end do
+               end do
+            end do
+         end associate
+      end do
+   end subroutine add_ties
+
+end module shell_ties

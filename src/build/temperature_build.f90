@@ -1,0 +1,256 @@
+!> Temperatures from TEMP, TEMPD and TEMPP1: how warm nodes and shells are at the end of every stage.
+module temperature_build
+   use deck_check, only: checked_deck
+   use element_kinds, only: element_table
+   use kinds, only: wp
+   use lists, only: id_table_type
+   use model_data, only: a_bar, corners_of, is_shell, model_type, n_bars, n_points, temperature_type
+   use text_tools, only: integer_text
+   implicit none
+   private
+
+   public :: build_temperatures
+
+contains
+
+   !> Of every stage that names a set of TEMP and TEMPD cards the temperatures of all nodes, in its load of MODEL.
+   subroutine build_temperatures(deck, model)
+      type(checked_deck), intent(in)  :: deck
+      type(model_type), intent(inout) :: model
+      logical, allocatable :: given(:)
+      type(id_table_type) :: elements
+      integer :: before, s
+
+      call check_nodes(deck, model)
+      if (size(deck%bulk%plate_temperature) > 0) call elements%build(model%element_id)
+      call check_plates(deck, model, elements)
+      do s = 1, size(deck%control%stages)
+         associate (reference => deck%control%stages(s)%temperature, stages => deck%control%stages)
+            if (reference%id == 0) cycle
+            before = findloc(stages(:s - 1)%temperature%id, reference%id, dim=1)
+            if (before > 0) then
+               model%stage_loads(s)%temperature = model%stage_loads(before)%temperature
+               cycle
+            end if
+            if (all(deck%bulk%temperature%set /= reference%id) .and. all(deck%bulk%plate_temperature%set /= reference%id)) then
+               call deck%errors%add(reference%line, 'TEMPERATURE: there is no TEMP, TEMPD or TEMPP1 with set '// &
+                                    integer_text(reference%id))
+               cycle
+            end if
+            if (all(abs(model%properties%alpha) <= 0.0_wp) .and. all(abs(model%bars%expansion) <= 0.0_wp)) then
+               call deck%errors%add(reference%line, 'TEMPERATURE: nothing expands; give A on a MAT1')
+               cycle
+            end if
+            associate (temperature => model%stage_loads(s)%temperature)
+               allocate (temperature%at(model%n_nodes), source=0.0_wp)
+               temperature%reference_share = 1.0_wp
+               call fill_in(deck, model, reference%id, temperature%at, given)
+               call warm_plates(deck, model, elements, reference%id, temperature, given)
+            end associate
+            if (.not. deck%errors%any()) call check_whole(deck, model, s, given)
+         end associate
+      end do
+   end subroutine build_temperatures
+
+   !> TEMP cards name nodes that are there, each once a set; a set has one TEMPD.
+   subroutine check_nodes(deck, model)
+      type(checked_deck), intent(in) :: deck
+      type(model_type), intent(in)   :: model
+      integer :: i, k, node
+      integer, allocatable :: last(:) ! (nodes) card that named it last
+
+      allocate (last(model%n_nodes), source=0)
+      do i = 1, size(deck%bulk%temperature)
+         associate (card => deck%bulk%temperature(i))
+            if (card%is_default) then
+               k = findloc(deck%bulk%temperature(:i - 1)%is_default .and. deck%bulk%temperature(:i - 1)%set == card%set, &
+                           .true., dim=1)
+               if (k > 0 .and. card%set > 0) call deck%field_error(card%line, card%field, 'set '//integer_text(card%set)// &
+                  ' has a TEMPD already, in '//deck%text%place(deck%bulk%temperature(k)%line))
+               cycle
+            end if
+            if (card%node == 0) cycle
+            node = model%node_table%find(card%node)
+            if (node == 0) then
+               call deck%field_error(card%line, card%field, 'there is no GRID '//integer_text(card%node))
+               cycle
+            end if
+            k = last(node)
+            last(node) = i
+            if (k == 0) cycle
+            if (deck%bulk%temperature(k)%set == card%set) call deck%field_error(card%line, card%field, 'node '// &
+               integer_text(card%node)//' has a temperature in set '//integer_text(card%set)//' already, in '// &
+               deck%text%place(deck%bulk%temperature(k)%line))
+         end associate
+      end do
+   end subroutine check_nodes
+
+   !> The temperatures AT all nodes in SET, and which are GIVEN: by TEMP, else by TEMPD; the twin of a node of a split surface has
+   !! the same, a node on the face of a shell that of the shell, a node put at the middle of an edge the mean of its ends.
+   subroutine fill_in(deck, model, set, at, given)
+      type(checked_deck), intent(in)    :: deck
+      type(model_type), intent(in)      :: model
+      integer, intent(in)               :: set
+      real(wp), intent(inout)           :: at(:)
+      logical, allocatable, intent(out) :: given(:)
+      logical :: is_filled(model%n_nodes)
+      integer :: corners(2), e, i, k, node
+
+      allocate (given(model%n_nodes), source=.false.)
+      do i = 1, size(deck%bulk%temperature)
+         associate (card => deck%bulk%temperature(i))
+            if (card%is_default .or. card%set /= set) cycle
+            node = model%node_table%find(card%node)
+            if (node == 0) cycle
+            at(node) = card%value
+            given(node) = .true.
+         end associate
+      end do
+      is_filled = .false.
+      is_filled(model%first_filled:model%first_filled + model%n_filled - 1) = .true.
+      do i = 1, n_points(model)
+         if (model%duplicate(i) == 0) cycle
+         associate (twin => model%duplicate(i))
+            if (given(i) .and. .not. given(twin)) at(twin) = at(i)
+            given(twin) = given(twin) .or. given(i)
+            is_filled(twin) = is_filled(i)
+         end associate
+      end do
+      i = findloc(deck%bulk%temperature%is_default .and. deck%bulk%temperature%set == set, .true., dim=1)
+      if (i > 0) then
+         where (.not. (given .or. is_filled)) at = deck%bulk%temperature(i)%value
+         given = given .or. .not. is_filled
+      end if
+      do e = 1, model%n_elements
+         associate (kind => element_table(model%element_kind(e)), nodes => corners_of(model, e))
+            do k = kind%n_corners + 1, kind%n_nodes
+               if (any(nodes == 0)) exit
+               corners = nodes(kind%edges(:, k - kind%n_corners))
+               if (given(nodes(k)) .or. .not. all(given(corners))) cycle
+               at(nodes(k)) = 0.5_wp*sum(at(corners))
+               given(nodes(k)) = .true.
+            end do
+         end associate
+      end do
+      if (.not. allocated(model%faces)) return
+      do k = 1, size(model%faces)
+         associate (face => model%faces(k))
+            at(face%node) = at(face%point)
+            given(face%node) = given(face%point)
+         end associate
+      end do
+   end subroutine fill_in
+
+   !> Every TEMPP1 names shells, each of them once a set.
+   subroutine check_plates(deck, model, elements)
+      type(checked_deck), intent(in)  :: deck
+      type(model_type), intent(in)    :: model
+      type(id_table_type), intent(in) :: elements !! numbers of all
+      integer :: i, k, twice
+      integer, allocatable :: named(:), set_of(:) ! (elements) set of the card that named it last
+
+      allocate (set_of(model%n_elements), source=0)
+      do i = 1, size(deck%bulk%plate_temperature)
+         associate (card => deck%bulk%plate_temperature(i))
+            do k = 1, size(card%ranges%first)
+               if (card%ranges%first(k) == 0) cycle ! said already
+               named = plates_of(model, elements, card%ranges%first(k), card%ranges%last(k))
+               twice = findloc(set_of(named), card%set, dim=1)
+               if (size(named) == 0) then
+                  call deck%field_error(card%line, card%ranges%at(k), 'there is no shell with this number; expected CQUAD4 or '// &
+                                        'CTRIA3 with a PSHELL in a model of space', called='EID')
+               else if (twice > 0) then
+                  call deck%field_error(card%line, card%ranges%at(k), 'element '//integer_text(model%element_id(named(twice)))// &
+                                        ' has a TEMPP1 in set '//integer_text(card%set)//' already', called='EID')
+               end if
+               set_of(named) = card%set
+            end do
+         end associate
+      end do
+   end subroutine check_plates
+
+   !> The shells with numbers from FIRST to LAST.
+   pure function plates_of(model, elements, first, last) result(named)
+      type(model_type), intent(in)    :: model
+      type(id_table_type), intent(in) :: elements
+      integer, intent(in)             :: first, last
+      integer, allocatable :: named(:)
+      integer :: e
+
+      if (first < last) then
+         named = pack([(e, e = 1, model%n_elements)], model%element_id >= first .and. model%element_id <= last)
+      else
+         named = pack([elements%find(first)], [elements%find(first) > 0])
+      end if
+      named = pack(named, [(is_shell(model, named(e)), e = 1, size(named))])
+   end function plates_of
+
+   !> The shells of SET that TEMPP1 warms. Nodes that have no temperature but that of such shells get it, and are GIVEN then.
+   subroutine warm_plates(deck, model, elements, set, temperature, given)
+      type(checked_deck), intent(in)        :: deck
+      type(model_type), intent(in)          :: model
+      type(id_table_type), intent(in)       :: elements
+      integer, intent(in)                   :: set
+      type(temperature_type), intent(inout) :: temperature
+      logical, intent(inout)                :: given(:)
+      integer :: card_of(model%n_elements), e, i, k, node
+
+      if (all(deck%bulk%plate_temperature%set /= set)) return
+      card_of = 0
+      do i = 1, size(deck%bulk%plate_temperature)
+         associate (card => deck%bulk%plate_temperature(i))
+            do k = 1, merge(size(card%ranges%first), 0, card%set == set)
+               card_of(plates_of(model, elements, card%ranges%first(k), card%ranges%last(k))) = i
+            end do
+         end associate
+      end do
+      do node = 1, n_points(model)
+         associate (around => model%elements_at(model%first_at(node):model%first_at(node + 1) - 1))
+            if (given(node) .or. size(around) == 0 .or. any(card_of(around) == 0)) cycle
+            temperature%at(node) = sum(deck%bulk%plate_temperature(card_of(around))%mean)/size(around)
+            given(node) = .true.
+         end associate
+      end do
+      allocate (temperature%plate(5, size(model%structural%shells)), source=0.0_wp)
+      do e = 1, model%n_elements
+         if (card_of(e) == 0) cycle
+         associate (card => deck%bulk%plate_temperature(card_of(e)), nodes => corners_of(model, e), &
+                    place => model%structural%place(e))
+            temperature%plate(:size(nodes), place) = card%mean - temperature%at(nodes)
+            temperature%plate(5, place) = card%slope
+         end associate
+      end do
+   end subroutine warm_plates
+
+   !> Every node of a body or of a bar has a temperature in stage S.
+   subroutine check_whole(deck, model, s, given)
+      type(checked_deck), intent(in) :: deck
+      type(model_type), intent(in)   :: model
+      integer, intent(in)            :: s
+      logical, intent(in)            :: given(:)
+      integer :: i
+
+      associate (reference => deck%control%stages(s)%temperature)
+         do i = 1, n_points(model)
+            if (given(i) .or. .not. is_warmed(i)) cycle
+            call deck%errors%add(reference%line, 'TEMPERATURE: node '//integer_text(model%node_id(i))// &
+               ' has no temperature in set '//integer_text(reference%id)//'; expected a TEMP of it, or a TEMPD')
+            return
+         end do
+      end associate
+
+   contains
+
+      pure logical function is_warmed(node)
+         integer, intent(in) :: node
+         integer :: k
+
+         is_warmed = model%first_at(node + 1) > model%first_at(node)
+         do k = 1, n_bars(model)
+            is_warmed = is_warmed .or. (model%bars(k)%kind == a_bar .and. any(model%bars(k)%nodes == node))
+         end do
+      end function is_warmed
+
+   end subroutine check_whole
+
+end module temperature_build
