@@ -13,8 +13,8 @@ module property_cards
    implicit none
    private
 
-   public :: read_temperature, read_plate_temperature, read_pshell, read_paxis, read_psolid, read_prod, read_conrod, read_mat1, read_parameter, &
-             read_beam_property, read_beam_load
+   public :: read_temperature, read_plate_temperature, read_pshell, read_paxis, read_psolid, read_prod, read_conrod, read_mat1, &
+             read_parameter, read_beam_property, read_beam_load
 
    character(2), parameter :: point_names(8) = ['C1', 'C2', 'D1', 'D2', 'E1', 'E2', 'F1', 'F2']
    character(4), parameter :: dimension_names(6) = ['DIM1', 'DIM2', 'DIM3', 'DIM4', 'DIM5', 'DIM6']
