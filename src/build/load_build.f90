@@ -12,7 +12,7 @@ module load_build
    use kinds, only: wp
    use load_checks, only: check_load_cards, check_plane, has_set, nor_others
    use mass_elements, only: scalar_mass
-   use model_data, only: corners_of, is_beam, model_type, own_nodes, stage_load_type, surface_type
+   use model_data, only: corners_of, is_beam, model_type, n_points, own_nodes, stage_load_type, surface_type
    use node_coupling, only: add_section_share
    use numbers, only: cross
    use pressure_loads, only: add_pressure, find_pressed_sides, pressed_side
@@ -251,6 +251,10 @@ contains
             if (bulk%gravity(i)%set /= set) cycle
             s = system_of_id(deck, bulk%gravity(i)%system)
             field = field_of(model, bulk%gravity(i), s, factor)
+            if (allocated(bulk%gravity(i)%nodes%first)) then
+               call add_listed(model, field, bulk%gravity(i), spread_out)
+               cycle
+            end if
             call add_gravity(model, field, spread_out)
             call add_beam_gravity(model, field, loads, spread_out)
             call add_mass_weights(model, field, spread_out)
@@ -356,6 +360,25 @@ contains
       end associate
       if (model%axisymmetric) field%gradient(:, 3) = 0.0_wp
    end function field_of
+
+   !> The forces under FIELD of the masses that stand at the nodes which CARD, an ACCEL1, lists.
+   subroutine add_listed(model, field, card, force)
+      type(model_type), intent(in)         :: model
+      type(acceleration_field), intent(in) :: field
+      type(gravity_card), intent(in)       :: card
+      real(wp), intent(inout)              :: force(:, :) !! (3, n_nodes)
+      real(wp), allocatable :: all_nodes(:, :)
+      integer :: id, node
+
+      allocate (all_nodes, mold=force)
+      all_nodes = 0.0_wp
+      call add_gravity(model, field, all_nodes)
+      call add_mass_weights(model, field, all_nodes)
+      do node = 1, n_points(model)
+         id = model%node_id(node)
+         if (any(id >= card%nodes%first .and. id <= card%nodes%last)) force(:, node) = force(:, node) + all_nodes(:, node)
+      end do
+   end subroutine add_listed
 
    !> Nodal forces of the masses of all bodies but beams under an acceleration FIELD.
    subroutine add_gravity(model, field, force)

@@ -7,7 +7,7 @@ module load_checks
    use displacement_systems, only: find_system
    use element_kinds, only: element_table
    use kinds, only: wp
-   use model_data, only: a_bar, corners_of, model_type, n_bars, n_points, supported
+   use model_data, only: a_bar, corners_of, is_beam, model_type, n_bars, n_points, supported
    use reference_nodes, only: component_place, place_of_component
    use surface_build, only: find_surface
    use surface_sides, only: nodes_of
@@ -112,6 +112,7 @@ contains
                   ' is not rectangular, but gravity has one direction everywhere')
                acceleration = matmul(model%systems(system)%axes, acceleration)
             end if
+            if (allocated(card%nodes%first)) call check_listed(card)
             call check_plane(deck, model, card%line, acceleration, turned=card%system > 0)
             if (model%axisymmetric .and. abs(acceleration(1)) > 1.0e-12_wp*norm2(acceleration)) &
                call deck%field_error(card%line, 'N1', 'not zero, but in an axisymmetric model gravity acts along y')
@@ -121,6 +122,20 @@ contains
       end do
 
    contains
+
+      !> ACCEL1: nodes that are there; masses of beams are not those of nodes.
+      subroutine check_listed(card)
+         type(gravity_card), intent(in) :: card
+         integer :: k
+
+         do k = 1, size(card%nodes%first)
+            if (.not. any(model%node_id >= card%nodes%first(k) .and. model%node_id <= card%nodes%last(k))) &
+               call deck%field_error(card%line, card%nodes%at(k), 'there is no GRID '//integer_text(card%nodes%first(k)), &
+                                     called='GRID')
+         end do
+         if (any([(is_beam(model, k), k = 1, model%n_elements)])) call deck%errors%add(card%line, &
+            'ACCEL1: the masses of beams belong to no node; expected GRAV, or CONM2 in place of RHO')
+      end subroutine check_listed
 
       !> RFORCE: an axis along z in the plane, along y of revolution, and a mass.
       subroutine check_spin(card)
