@@ -1,4 +1,4 @@
-!> Loads on bodies: GRAV and RFORCE, which act on all masses, and PLOAD1 along beams; the nodal forces, and what the ends of each beam bear.
+!> Loads on bodies: GRAV, ACCEL1 and RFORCE, which act on masses, and PLOAD1 along beams; the nodal forces, and what the ends of each beam bear.
 module body_loads
    use property_cards, only: load_types
    use beam_element, only: beam_axes, beam_length, beam_line_load, beam_nodal_forces, beam_point_load
@@ -10,7 +10,7 @@ module body_loads
    use kinds, only: wp
    use load_checks, only: check_plane
    use mass_matrix, only: scalar_mass
-   use model_data, only: corners_of, is_beam, is_shell, model_type, own_nodes, stage_load_type
+   use model_data, only: corners_of, is_beam, is_shell, model_type, n_points, own_nodes, stage_load_type
    use node_coupling, only: add_section_share
    use numbers, only: cross, identity
    use structural_elements, only: beam_ends, onto_own
@@ -48,6 +48,7 @@ contains
             else
                call rectangular_axes(deck, model%systems, card%line, card%system, 'gravity has'//everywhere, axes)
                acceleration = matmul(axes, card%acceleration)
+               if (allocated(card%nodes%first)) call check_listed(deck, model, card)
                call check_plane(deck, model, card%line, acceleration, turned=card%system > 0)
                if (model%axisymmetric .and. abs(acceleration(1)) > 1.0e-12_wp*norm2(acceleration)) &
                   call deck%field_error(card%line, 'N1', 'not zero, but in an axisymmetric model gravity acts along y')
@@ -57,6 +58,21 @@ contains
          end associate
       end do
    end subroutine check_gravity
+
+   !> The nodes of an ACCEL1 exist. Masses of beams are not those of nodes.
+   subroutine check_listed(deck, model, card)
+      type(checked_deck), intent(in) :: deck
+      type(model_type), intent(in)   :: model
+      type(gravity_card), intent(in) :: card
+      integer :: k
+
+      do k = 1, size(card%nodes%first)
+         if (.not. any(model%node_id >= card%nodes%first(k) .and. model%node_id <= card%nodes%last(k))) &
+            call deck%field_error(card%line, card%nodes%at(k), 'there is no GRID '//integer_text(card%nodes%first(k)), called='GRID')
+      end do
+      if (any([(is_beam(model, k), k = 1, model%n_elements)])) call deck%errors%add(card%line, &
+         'ACCEL1: the masses of beams belong to no node; expected GRAV, or CONM2 in place of RHO')
+   end subroutine check_listed
 
    !> The axis of an RFORCE, given along AXES, stands along z in the plane, along y of revolution.
    subroutine check_spin(deck, model, card, axes)
@@ -81,7 +97,7 @@ contains
       end if
    end subroutine check_spin
 
-   !> Add FACTOR times the GRAV and RFORCE of SET: to LOADS what the ends of beams bear, to FORCE what nodes bear.
+   !> Add FACTOR times the GRAV, ACCEL1 and RFORCE of SET: to LOADS what the ends of beams bear, to FORCE what nodes bear.
    subroutine add_gravity(deck, model, set, factor, loads, force)
       type(checked_deck), intent(in)       :: deck
       type(model_type), intent(in)         :: model
@@ -90,20 +106,53 @@ contains
       type(stage_load_type), intent(inout) :: loads
       real(wp), intent(inout)              :: force(:, :) !! (3, n_nodes) [force]
       type(acceleration_field) :: field
-      integer :: i, k
+      integer :: i
 
       do i = 1, size(deck%bulk%gravity)
          if (deck%bulk%gravity(i)%set /= set) cycle
          field = field_of(deck, model, deck%bulk%gravity(i), factor)
+         if (allocated(deck%bulk%gravity(i)%nodes%first)) then
+            call add_listed(model, field, deck%bulk%gravity(i), force)
+            cycle
+         end if
          call add_body_gravity(model, field, force)
          call add_beam_gravity(model, field, loads, force)
-         do k = 1, size(model%masses)
-            associate (node => model%masses(k)%node)
-               force(:, node) = force(:, node) + model%masses(k)%mass*acceleration_at(field, model%x(:, node))
-            end associate
-         end do
+         call add_mass_weights(model, field, force)
       end do
    end subroutine add_gravity
+
+   !> The forces of masses at nodes.
+   pure subroutine add_mass_weights(model, field, force)
+      type(model_type), intent(in)         :: model
+      type(acceleration_field), intent(in) :: field
+      real(wp), intent(inout)              :: force(:, :) !! (3, n_nodes) [force]
+      integer :: k
+
+      do k = 1, size(model%masses)
+         associate (node => model%masses(k)%node)
+            force(:, node) = force(:, node) + model%masses(k)%mass*acceleration_at(field, model%x(:, node))
+         end associate
+      end do
+   end subroutine add_mass_weights
+
+   !> The forces under FIELD of the masses at the nodes that CARD, an ACCEL1, lists.
+   subroutine add_listed(model, field, card, force)
+      type(model_type), intent(in)         :: model
+      type(acceleration_field), intent(in) :: field
+      type(gravity_card), intent(in)       :: card
+      real(wp), intent(inout)              :: force(:, :) !! (3, n_nodes) [force]
+      real(wp) :: all_nodes(size(force, 1), size(force, 2))
+      integer  :: node
+
+      all_nodes = 0.0_wp
+      call add_body_gravity(model, field, all_nodes)
+      call add_mass_weights(model, field, all_nodes)
+      do node = 1, n_points(model)
+         associate (id => model%node_id(node))
+            if (any(id >= card%nodes%first .and. id <= card%nodes%last)) force(:, node) = force(:, node) + all_nodes(:, node)
+         end associate
+      end do
+   end subroutine add_listed
 
    !> The field of CARD times FACTOR: of RFORCE a = -(w x (w x r)) - dw/dt x r, r from its node; forces have its sense.
    function field_of(deck, model, card, factor) result(field)

@@ -202,7 +202,7 @@ module bulk_data
       real(wp) :: pressure = 0.0_wp, force(3) = 0.0_wp
    end type surface_load_card
 
-   !> GRAV: acceleration; RFORCE: rotation.
+   !> GRAV, ACCEL1: acceleration; RFORCE: rotation.
    type, public :: gravity_card
       integer  :: line = 0, set = 0
       integer  :: system = 0                            ! CID, 0: global axes
@@ -211,6 +211,7 @@ module bulk_data
       integer  :: node = 0                              ! on its axis, 0: the origin
       real(wp) :: spin(3) = 0.0_wp                      ! angular velocity [rad/time]
       real(wp) :: spin_rate(3) = 0.0_wp                 ! angular acceleration [rad/time^2]
+      type(id_ranges) :: nodes                          ! of ACCEL1: the masses at these alone; else not allocated
    end type gravity_card
 
    !> SPCD: a displacement prescribed at a held component, in a load set.

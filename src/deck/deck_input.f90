@@ -68,7 +68,7 @@ contains
       call cards%add_kinds(['FORCE ', 'FORCE1', 'FORCE2', 'MOMENT'], read_force)
       call cards%add_kinds(['PLOAD4', 'PLOADE', 'PLOAD ', 'PLOAD2'], read_pressure)
       call cards%add_kinds(['PLOADM', 'FORCEM'], read_surface_load)
-      call cards%add_kinds(['GRAV  ', 'RFORCE'], read_gravity)
+      call cards%add_kinds(['GRAV  ', 'RFORCE', 'ACCEL1'], read_gravity)
       call cards%add_kinds(['PLOAD1'], read_beam_load)
       call cards%add_kinds(['SPCD'], read_displacement)
       call cards%add_kinds(['TEMP ', 'TEMPD'], read_temperature)

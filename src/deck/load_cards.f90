@@ -228,8 +228,13 @@ contains
          call card%field('CID', gravity%system, default=0, least=0)
          call card%field('A', a)
          call card%field(['N1', 'N2', 'N3'], direction, default=0.0_wp)
-         call card%field('MB', body, default=0, least=-1, most=0) ! no superelements
-         call card%finish(gravity%line)
+         if (card%name == 'ACCEL1') then
+            gravity%line = card%line
+            call card%list_ranges(9, 'GRID', 'a node number', gravity%nodes)
+         else
+            call card%field('MB', body, default=0, least=-1, most=0) ! no superelements
+            call card%finish(gravity%line)
+         end if
          call card%check_direction('N1', 'the acceleration', direction)
          gravity%acceleration = a*direction
       end associate

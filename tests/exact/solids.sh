@@ -311,3 +311,14 @@ for degrees in 0 90 45 200; do
       run limit && ask "at $degrees degrees, $share of the limit" limit rows 'increment = 2' all "sum(slip) = if($share < 1, 0, 4)"
    done
 done
+
+# ACCEL1: all nodes together are GRAV; a node in the middle of a face of four of eight equal cubes has half the mass of a cube.
+for case in 'GRAV,1,,10.0,0.0,0.0,-1.0' 'ACCEL1,1,,10.0,0.0,0.0,-1.0;+,1,THRU,26,27' 'ACCEL1,1,,10.0,0.0,0.0,-1.0;+,15'; do
+   cards accelerated <<DECK
+SPC = 1;LOAD = 1;BEGIN BULK;BLOCK3,1,1,2,2,2,0.,0.,0.;+,20.,20.,20.;+,,,,,20,30;PSOLID,1,1;MAT1,1,1000.,,.3,1.-3;PMARK,20;PMARK,30;SPCM,1,123,20
+$case;ENDDATA
+DECK
+   weight=80 # 8000 x 1E-3 x 10
+   [ "${case##*,}" = 15 ] && weight=5
+   run accelerated && near "weight by ${case%%,*}" "$(awk -F, '$2 == "LOADS" { print $11 }' "$work/accelerated.reaction.csv")" "-$weight" 1e-10
+done
