@@ -63,7 +63,7 @@ contains
          problem = 'no body element has a face with the corners '//list_of_numbers(id)
       else if (found > 1) then
          problem = 'bodies lie on both sides of the face with the corners '//list_of_numbers(id)// &
-                   ', so which one the pressure acts on is not known'
+                   ': the loaded body is ambiguous'
          face = named_face()
       end if
    end subroutine find_face
@@ -198,7 +198,7 @@ contains
          call find_system(deck, card%line, 'CID', card%system, model%systems, system)
          if (system == 0) return
          if (model%systems(system)%kind /= rectangular) call deck%field_error(card%line, 'CID', integer_text(card%system)// &
-            ' is not rectangular, but the pressure on a face has one direction all over it')
+            ' is not rectangular, but the pressure on a face has one direction')
          direction = matmul(model%systems(system)%axes, direction)
       end associate
    end subroutine find_direction
@@ -391,7 +391,7 @@ contains
       side = 0
       select case (element_table(model%element_kind(e))%linear)
       case (kind_tetra4)
-         expected = 'expected in G1 a corner of the face and in G4 the corner that it does not have'
+         expected = 'expected in G1 a corner of the face and in G4 the opposite corner'
       case (kind_hexa8)
          expected = 'expected in G1 and G3 two opposite corners of a face'
       case (kind_penta6)

@@ -92,8 +92,8 @@ contains
       type(rigid_card), intent(in)   :: card
 
       if (abs(card%alpha) > 0.0_wp .and. any(deck%control%stages%temperature%id > 0)) call deck%field_error(card%line, &
-         card%alpha_at, 'not zero, and case control has TEMPERATURE(LOAD), but rigid elements do not grow with their '// &
-         'temperature; expected blank or zero', called='ALPHA')
+         card%alpha_at, 'not zero, and case control has TEMPERATURE(LOAD), but rigid elements have no thermal expansion; '// &
+            'expected blank or zero', called='ALPHA')
    end subroutine check_expansion
 
    !> The dependences of an RBE2: the components CM of its nodes are those of a rigid body that moves with GN, {u} + theta x arm.
@@ -108,7 +108,7 @@ contains
 
       call find_node(deck, card%line, card%node_at, card%node, model, without, point)
       if (no_displacement(model, card%components) .and. .not. turn_others()) call deck%field_error(card%line, &
-         card%components_at, 'names no displacement that nodes of this model have; expected some of 1 to '// &
+         card%components_at, 'contains no displacement of the nodes of this model; expected some of 1 to '// &
          integer_text(model%dimension), called='CM')
       do k = 1, size(card%nodes)
          call find_node(deck, card%line, card%at(k), card%nodes(k), model, without, node)
@@ -204,7 +204,7 @@ contains
             ' has no component '//integer_text(card%component(k)), called='C')
          if (k == 1 .or. place(k)%node == 0) cycle
          if (place(k)%node == place(1)%node .and. place(k)%d == place(1)%d) call deck%field_error(card%line, card%at(k), &
-            'this component is that of the first term, which depends on the others', called='G')
+            'this is the dependent component of the first term', called='G')
       end do
       if (.not. active) return
       without = nowhere

@@ -40,8 +40,8 @@ contains
       if (node == 0) then
          call deck%field_error(line, field, 'there is no GRID '//integer_text(id), called='G')
       else if (model%duplicate(node) > 0) then
-         call deck%field_error(line, field, 'node '//integer_text(id)//' is split by a JOINT: which of the two is meant is not '// &
-                               'known; expected nodes away from it, or bodies meshed apart', called='G')
+         call deck%field_error(line, field, 'node '//integer_text(id)//' is split into two nodes by a JOINT, so that it is '// &
+            'ambiguous; expected other nodes, or bodies meshed apart', called='G')
          node = 0
       else
          without(node) = without(node) .or. .not. model%used(node)
@@ -143,7 +143,7 @@ contains
          if (nodes(i) == 0 .and. card%surface > 0) return ! one of a surface stands for all
       end do
       if (no_displacement(model, card%components) .and. .not. has_component(card%components, 6)) &
-         call deck%field_error(card%line, 'REFC', 'names no component that nodes of this model have')
+         call deck%field_error(card%line, 'REFC', 'contains no component of the nodes of this model')
       call check_directions(deck, card, model)
       if (point == 0 .or. any(nodes == 0) .or. deck%errors%any()) return
       call motion_of_mean(model, card, point, nodes, t, determined)
@@ -154,8 +154,8 @@ contains
             direction = direction_of(model, point, digit)
             if (any(.not. determined .and. abs(direction) > 1.0e-10_wp)) then
                call deck%field_error(card%line, 'REFC', 'component '//integer_text(digit)//' of node '// &
-                  integer_text(card%node)//' cannot be had from the components C of these nodes: they move so that it is left '// &
-                  'open, as nodes on a line leave the rotation about it')
+                  integer_text(card%node)//' does not follow from the components C of these nodes; nodes on a line, for '// &
+                     'example, do not determine the rotation about it')
                return
             end if
             call add_dependence(list, place, card%line, card%node_at)
@@ -201,8 +201,8 @@ contains
          ' components, but REFC has '//integer_text(list%n - first + 1)//'; expected as many')
       if (.not. ok) return
       call solve_for(list, first, places(:n), at(:n), ok)
-      if (.not. ok) call deck%field_error(card%line, card%um_at(1), 'the components behind UM do not follow from the others; '// &
-                                          'expected such that hold the reference node as REFC does', called='UM')
+      if (.not. ok) call deck%field_error(card%line, card%um_at(1), 'the components after UM cannot be eliminated; expected '// &
+         'components that constrain the reference node as REFC does', called='UM')
    end subroutine exchange
 
    !> What of displacement and rotation in global axes the component DIGIT of POINT is.
@@ -259,7 +259,7 @@ contains
             return
          else if (no_displacement(model, card%directions(i))) then
             call deck%field_error(card%line, card%at(i), 'its components C, '//integer_text(card%directions(i))// &
-               ', name no displacement that nodes of this model have', called='G')
+               ', contain no displacement of the nodes of this model', called='G')
             return
          end if
       end do

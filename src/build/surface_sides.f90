@@ -236,9 +236,9 @@ contains
          call split_surface(model, s, n_duplicates)
       end do
       if (n_duplicates == 0) return
-      if (model%node_id(model%n_nodes) > huge(1) - n_duplicates) call deck%errors%add(0, 'the nodes that stand double where '// &
-         'surfaces are split are numbered behind node '//integer_text(model%node_id(model%n_nodes))// &
-         ', and their numbers would pass 2147483647')
+      if (model%node_id(model%n_nodes) > huge(1) - n_duplicates) call deck%errors%add(0, 'the doubled nodes of split surfaces '// &
+         'get numbers above node '//integer_text(model%node_id(model%n_nodes))// &
+         ', and their numbers would exceed 2147483647')
       call add_duplicates(model, n_duplicates)
       call list_owners(model%n_nodes, model%element_nodes, model%first_at, model%elements_at)
       call move_other_surfaces(model)

@@ -182,7 +182,7 @@ contains
          bars_only = has_e .and. .not. (has_g .or. has_nu)
          if (card%is_faulty() .or. bars_only) return ! of the three the one that is left blank follows
          if (.not. (has_e .or. (has_g .and. has_nu))) then
-            call card%error('E', 'expected two of E, G and NU; for bars E alone will do')
+            call card%error('E', 'expected two of E, G and NU; for bars E alone suffices')
          else if (.not. has_e) then
             e = 2.0_wp*(1.0_wp + nu)*g
          else if (.not. has_nu) then

@@ -45,8 +45,8 @@ contains
                          real_text(least_power)//' and not above 1')
          return
       else if (fit%m > 1.0_wp) then
-         if (fit%m > 1.0_wp + m_rounding) call warnings%add(0, 'the points want m = '//real_text(fit%m)// &
-            ', the law allows 1 at most: m is held at 1; --zero helps where the readings do not begin at zero')
+         if (fit%m > 1.0_wp + m_rounding) call warnings%add(0, 'the fit gives m = '//real_text(fit%m)// &
+            ', but the law allows at most 1: m is set to 1; use --zero if the readings do not begin at zero')
          fit%m = 1.0_wp
          fit%c = fit_proportional(p, lambda)
       end if
@@ -62,7 +62,7 @@ contains
       if (size(fit%loops%lines) == 0) return
       slope = fit%p_high**(1.0_wp - fit%m)/(fit%m*fit%c)
       if (fit%loops%e_u <= 0.0_wp) then
-         call warnings%add(0, 'lambda does not fall with p where the test is unloaded: EU is left blank')
+         call warnings%add(0, 'lambda does not fall with p in unloading: EU is left blank')
       else if (fit%loops%e_u < slope) then ! unloaded less steeply than loaded
          call warnings%add(0, 'E_u = '//real_text(fit%loops%e_u)//' is below the slope of the loading curve at p = '// &
                            real_text(fit%p_high)//', '//real_text(slope)//': the set would be negative')

@@ -62,11 +62,11 @@ contains
       if (errors%any()) return
       largest = max(fit%normal%c, fit%normal%loops%e_u, maxval(abs(fit%card)), fit%p_max, fit%d_max)
       if (.not. largest <= largest_size) call errors%add(0, 'the law that fits these data has a number of '//real_text(largest)// &
-         ', and a deck takes no more than '//real_text(largest_size)//': are the units right, and --dmax?')
+         ', and a deck accepts at most '//real_text(largest_size)//': are the units right, and --dmax?')
       positive = [fit%normal%c, fit%normal%loops%e_u, fit%p_max, fit%d_max] ! zero: none, its field is blank
       smallest = minval(positive, mask=positive > 0.0_wp)
       if (smallest < smallest_size) call errors%add(0, 'the law that fits these data has a number of '//real_text(smallest)// &
-         ', and a deck takes none below '//real_text(smallest_size)//': are the units right?')
+         ', and a deck accepts none below '//real_text(smallest_size)//': are the units right?')
       if (errors%any() .or. .not. fit%has_loading) return
       law = shear_law(given=.true., load=cubic(fit%card(:, :, fit_load)), unload=cubic(fit%card(:, :, fit_load)), &
                       reload=cubic(fit%card(:, :, fit_load)), p_max=fit%p_max)
@@ -163,7 +163,7 @@ contains
       select case (fit%fault)
       case (fault_one_pressure)
          call errors%add(data%line(rows(1)), name//': all data at one pressure, p = '//real_text(fit%p_high)// &
-                         ', expected two pressures or more; --one-pressure makes a card that does not depend on it')
+                         ', expected two pressures or more; --one-pressure makes a card that does not depend on the pressure')
       case (fault_few_points)
          i = findloc(fit%group, fit%fault_at, 1)
          call errors%add(data%line(rows(i)), name//', p = '//real_text(fit%group_p(fit%fault_at))//': '// &

@@ -201,7 +201,7 @@ contains
          if (loop%n_loops >= 2 .and. abs(area - area_before) <= max(settled*abs(area), negligible*alpha*(high - low))) exit
       end do
       if (.not. failure%raised .and. .not. (low < 0.0_wp .and. high > 0.0_wp)) &
-         call failure%raise('the oscillation leaves the state about which it began: both ends of the loop lie on one side of it')
+         call failure%raise('both ends of the loop lie on one side of the state at rest')
       if (failure%raised) return
       loop%q = 0.5_wp*(high - low)
       loop%omega_squared = 2.0_wp*alpha/(high - low)
