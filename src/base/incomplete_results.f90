@@ -211,7 +211,7 @@ contains
       if (has_ended .or. c_associated(argument)) return
       call remove_incomplete()
       if (status /= status_of_library) return
-      call write_bytes(2, 'the memory of the machine, or what is allowed of it, does not suffice; no results'// &
+      call write_bytes(2, 'the memory of the machine, or the permitted part of it, does not suffice; no results'// &
                        new_line('a'), ok)
       call c_exit_at_once(status_unsolved)
    end subroutine end_without_memory

@@ -111,22 +111,22 @@ contains
       integer(int64) :: n, sum
       integer(int32) :: of_layout, order
 
-      problem = 'it is no restart file'
+      problem = 'it is not a restart file'
       n = len(bytes, long)
       if (n < len(magic)) return
       if (bytes(:len(magic)) /= magic) return
-      problem = 'it is cut short'
+      problem = 'it is truncated'
       if (n < head_length + tail_length) return
       order = transfer(bytes(21:24), order)
-      problem = 'it was written on a machine that has the bytes of numbers in the other order'
+      problem = 'it was written on a machine with another byte order'
       if (order == other_order) return
-      problem = 'it is damaged: its bytes are in no order'
+      problem = 'it is damaged: its byte order is unknown'
       if (order /= order_mark) return
-      problem = 'it is damaged or cut: not as long as it says' ! every layout has the same tail: what is damaged is of no layout
+      problem = 'it is damaged or truncated: its length is wrong' ! every layout has the same tail: what is damaged is of no layout
       if (transfer(bytes(n - 15:n - 8), n) /= n) return
       sum = no_bytes
       call add_to_checksum(bytes(:n - 8), sum)
-      problem = 'it is damaged: its checksum is not that of its bytes'
+      problem = 'it is damaged: its checksum is wrong'
       if (transfer(bytes(n - 7:), sum) /= sum) return
       of_layout = transfer(bytes(17:20), of_layout)
       problem = 'it has layout '//integer_text(int(of_layout))//' of another version of the program, this one reads '// &
@@ -186,7 +186,7 @@ contains
          call put(self, transfer(n, eight_letters))
          call put(self, bytes)
       else if (n /= next_size(self)) then
-         call fail(self, 'a part of the state has another size than the model asks for')
+         call fail(self, 'a part of the state does not fit the model')
       else
          bytes = self%bytes(self%used + 1:self%used + n)
          self%used = self%used + n
@@ -213,7 +213,7 @@ contains
       call self%item(n)
       if (self%writes) return
       if (n < -1 .or. (n > 0 .and. int(n, long)*bytes_each + 8 > self%last - self%used)) &
-         call fail(self, 'more is to follow than there is')
+         call fail(self, 'it ends too early')
       if (allocated(self%fault)) n = 0
    end subroutine extent
 

@@ -90,7 +90,7 @@ contains
          if (maxval(axis([1, 3])) > rounding*maxval(axis)) call deck%field_error(card%line, 'R1', &
             'a ring turns about y; expected R1 and R3 zero')
          if (any(abs(card%spin_rate) > 0.0_wp)) call deck%field_error(card%line, 'RACC', &
-            'not zero, but a model of revolution has no forces round the axis')
+            'not zero, but an axisymmetric model has no circumferential forces')
       else if (model%dimension == 2) then
          if (maxval(axis(:2)) > rounding*maxval(axis)) call deck%field_error(card%line, 'R1', &
             'a plane model turns about z; expected R1 and R2 zero')

@@ -78,7 +78,7 @@ contains
          associate (item => list%item(i))
             words = ''
             if (of(item%d, item%node) > 0) then
-               words = ' depends already on others by '//name_of(deck, list%item(of(item%d, item%node))%line)
+               words = ' is already dependent by '//name_of(deck, list%item(of(item%d, item%node))%line)
             else
                of(item%d, item%node) = i
                if (model%held(item%d, item%node)) words = ' is supported by an SPC or PS too; a component is either '// &
@@ -91,9 +91,9 @@ contains
          do k = 1, list%item(i)%n
             other = of(list%item(i)%on_d(k), list%item(i)%on(k))
             if (other == 0) cycle
-            call name_once(i, component_text(model, list%item(i)%on(k), list%item(i)%on_d(k))//', on which this depends, '// &
-               'is itself dependent by '//name_of(deck, list%item(other)%line)//'; expected one that is not: name its own '// &
-               'independent nodes')
+            call name_once(i, component_text(model, list%item(i)%on(k), list%item(i)%on_d(k))//', on which this component '// &
+               'depends, is itself dependent by '//name_of(deck, list%item(other)%line)//'; expected an independent component: '// &
+               'name its own independent nodes')
             exit
          end do
       end do

@@ -230,7 +230,7 @@ contains
                   'other joints take a share), so the pressure of the first increment is not known: give P0 on its PJOINT')
             else if (resultant <= nothing*first_share*total) then
                call errors%add(joint%line, 'the first increment does not press joint '//integer_text(joint%id)// &
-                  ' together (normal force '//real_text(resultant)//'), so its pressure is not known: give P0 on its PJOINT')
+                  ' (normal force '//real_text(resultant)//'), so its pressure is not known: give P0 on its PJOINT')
             else
                joint%p_av = resultant/closed_area(model, joint)
             end if

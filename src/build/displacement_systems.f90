@@ -100,8 +100,8 @@ contains
             call deck%field_error(card%line, 'RID', 'there is no coordinate system '//integer_text(card%reference))
             return
          end if
-         call deck%errors%add(card%line, 'coordinate system '//integer_text(card%id)//' cannot be placed: it stands, '// &
-                              'over others or nodes that are given in them, on itself or on one with an error')
+         call deck%errors%add(card%line, 'coordinate system '//integer_text(card%id)//' cannot be placed: it refers to itself, '// &
+            'directly or through other systems and nodes, or to a system with an error')
       end associate
    end subroutine report_unplaced
 

@@ -59,7 +59,7 @@ contains
                property%e = deck%bulk%mat1(k)%e
                property%nu = deck%bulk%mat1(k)%nu
                if (deck%bulk%mat1(k)%bars_only) call deck%field_error(card%line, 2, 'MAT1 '//integer_text(card%material)// &
-                  ' has E alone, which is enough for bars only; expected two of E, G and NU on it')
+                  ' has only E, which suffices for bars; expected two of E, G and NU')
                property%rho = deck%bulk%parameters%mass_factor*deck%bulk%mat1(k)%rho
                if (property%state < axisymmetric .and. card%thickness > 0.0_wp) & ! a membrane
                   property%rho = property%rho + deck%bulk%parameters%mass_factor*card%extra_mass/card%thickness
@@ -159,7 +159,7 @@ contains
       character(:), allocatable :: wanted
 
       if (model%dimension == 3 .and. element_table(kind)%dimension == 2 .and. any(deck%bulk%block%line == line)) then
-         call deck%errors%add(line, 'BLOCK2: the model is one of space; plane bodies and solids cannot be mixed')
+         call deck%errors%add(line, 'BLOCK2: plane bodies cannot stand in a model of space')
          return
       end if
       if (property > 0) then

@@ -396,7 +396,8 @@ contains
       if (size(pairs) > 0) then
          associate (pair => pairs(p))
             if (any(pair%body == i)) words = '; it lies '//distance_words(pair%gap)//' from body '// &
-               integer_text(sum(pair%body) - i)//' over an area of about '//real_text(rounded(pair%area(1)))//': a JOINT?'
+               integer_text(sum(pair%body) - i)//' over an area of about '//real_text(rounded(pair%area(1)))//'; is a JOINT '// &
+                  'missing?'
          end associate
       end if
       if (words /= '' .or. all(sides%body == i)) return
@@ -410,7 +411,7 @@ contains
          nearest = distance
          p = others(point)
       end do
-      words = '; the nearest is body '//integer_text(sides(p)%body)//', their nodes '//real_text(rounded(nearest))//' apart'
+      words = '; the nearest body is '//integer_text(sides(p)%body)//', with nodes '//real_text(rounded(nearest))//' apart'
    end function neighbour_words
 
    !> '0', or '0.1 to 0.3'.

@@ -78,10 +78,10 @@ contains
          if (higher > 0.0_wp) joint%law%normal%e_u = lower*(2.0_wp*higher/(lower + higher)) ! exactly E where both are the same
       else if (lacks_slope .and. joint%last >= joint%first) then
          call deck%errors%add(joint%line, 'joint '//integer_text(joint%id)// &
-            ': the JNORM of this joint leaves EU blank, and there is no body at the joint to take E from: give EU')
+            ': EU is blank on the JNORM of this joint, and no body at the joint gives E: give EU')
       end if
       if (maxval(e) > 0.0_wp .and. joint%p0 > maxval(e)) call deck%errors%add(joint%line, 'joint '//integer_text(joint%id)// &
-         ': P0 of its PJOINT, '//real_text(joint%p0)//', is above E of the bodies beside it, '//real_text(maxval(e))// &
+         ': P0 of its PJOINT, '//real_text(joint%p0)//', exceeds E of the adjacent bodies, '//real_text(maxval(e))// &
          ': give about the mean pressure of the first increment')
    end subroutine compare_with_bodies
 
@@ -207,7 +207,7 @@ contains
       end if
       if (highest > huge(highest) - size(elements)) then
          call deck%field_error(deck%bulk%joint(j)%line, 'JID', 'the numbers of its interface elements, which follow those of '// &
-                               'the CJOINTs, would pass 2147483647')
+                               'the CJOINTs, would exceed 2147483647')
          elements = [interface_element ::]
          return
       end if

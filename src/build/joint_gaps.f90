@@ -280,7 +280,7 @@ contains
       if (joint%last < joint%first) return ! said elsewhere
       if (norm2(joint%normal) <= 0.0_wp) then
          call deck%field_error(card%line, 'KIND', trim(card%kind)//', but the normals of joint '//integer_text(joint%id)// &
-                               ' point all round, and it has no plane: expected CONST, NODES or TRUE')
+                               ' point in all directions, so that it has no mean plane: expected CONST, NODES or TRUE')
          return
       end if
       axes = joint_axes(model, joint%normal)
@@ -326,7 +326,7 @@ contains
       call table%build(x, card%gap, twice)
       ok = twice(1) == 0
       if (.not. ok) call deck%field_error(card%line, card%at(twice(2)), 'point '//integer_text(twice(2))// &
-         ' of the table is, seen along the normal of the joint, at the same place as point '//integer_text(twice(1)), called='X')
+         ' of the table coincides, seen along the normal of the joint, with point '//integer_text(twice(1)), called='X')
    end subroutine start_table
 
    !> NODES: by node of SIDE1, zero where none is given. An element that hangs on several has their mean. A node on which none hangs, as
@@ -395,7 +395,7 @@ contains
          associate (element => model%interface(i))
             if (size(nodes_of_end(element, 2)) == 0) then
                call deck%field_error(card%line, 'KIND', 'TRUE, but joint '//integer_text(joint%id)// &
-                                     ' stands on a rigid base, which has no place: expected CONST, PLANE, TABLE or NODES')
+                                     ' lies on a rigid base, which has no position: expected CONST, PLANE, TABLE or NODES')
                return
             end if
             closing = joint_movement(element, model%x)

@@ -152,14 +152,15 @@ contains
       associate (card => deck%bulk%joint(j), own => model%surfaces(surface(1)))
          call fit_side(model, own, model%surfaces(surface(2)), side1, card%tolerance, sums, found)
          if (.not. found%is_any) then
-            call deck%field_error(card%line, 'SIDE2', 'surface '//integer_text(card%sides(2))//' covers nothing of SIDE1: no '// &
-               'face of it looks at one of SIDE1 within '//real_text(found%reach)//' along the normal; the nearest nodes are '// &
+            call deck%field_error(card%line, 'SIDE2', 'surface '//integer_text(card%sides(2))//' does not cover SIDE1: none of '// &
+               'its faces is opposite to a face of SIDE1 within '//real_text(found%reach)//' along the normal; the nearest '// &
+               'nodes are '// &
                real_text(nearest_nodes(model, surface))//' apart. Mark the sides that face each other, or '// &
                'give a larger TOL')
          else if (found%double > 0) then
-            call deck%field_error(card%line, 'SIDE2', 'faces of surface '//integer_text(card%sides(2))//' lie behind one '// &
-               'another, and cover the '//side_name(model, own%nodes(:own%corners(found%double), found%double))//' of SIDE1 '// &
-               real_text(found%double_share)//' times: mark the nearer ones alone, or give a TOL below their distance')
+            call deck%field_error(card%line, 'SIDE2', 'faces of surface '//integer_text(card%sides(2))//' lie behind each '// &
+               'other and cover the '//side_name(model, own%nodes(:own%corners(found%double), found%double))//' of SIDE1 '// &
+               real_text(found%double_share)//' times: mark only the nearer ones, or give a TOL below their distance')
          else
             model%joints(j)%cover = found%cover
             call summed_elements(deck, j, model, side1, sums, found%partly, elements)
@@ -202,7 +203,8 @@ contains
       do k = 1, size(at)
          associate (i => at(k))
             if (sums%has_area(i) .or. (sums%has_none(i) .and. (may_lack(i) .or. model%axisymmetric))) cycle
-            call no_area(deck, j, model, side%node(i), ', or less than none: move the nodes at the middle of edges back there')
+            call no_area(deck, j, model, side%node(i), ', or a negative one: move the mid-side nodes back to the middle of the '// &
+               'edges')
             return
          end associate
       end do

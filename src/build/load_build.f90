@@ -70,8 +70,8 @@ contains
 
       rotation = rotation_at(model, node)
       if (rotation == 0) then
-         call deck%field_error(card%line, 'G', 'node '//integer_text(card%node)//' has no rotations for a moment to act on; '// &
-                               'expected the reference node of an RBE2, or of an RBE3 with rotations in REFC')
+         call deck%field_error(card%line, 'G', 'node '//integer_text(card%node)//' has no rotations, so that no moment can act '// &
+            'on it; expected the reference node of an RBE2, or of an RBE3 with rotations in REFC')
          force = 0.0_wp
          return
       end if
@@ -104,7 +104,7 @@ contains
          digit = d
          if (card%is_moment) digit = findloc([(rotation_component(model, digit), digit = 1, 6)], d, dim=1)
          call deck%field_error(card%line, 'G', 'component '//integer_text(digit)//' of node '//integer_text(card%node)// &
-                               ' moves nothing: no element, dependent node or support takes a load there')
+                               ' takes no load: no element, dependent node or support has this component')
          return
       end do
    end subroutine check_felt

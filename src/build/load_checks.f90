@@ -77,7 +77,7 @@ contains
             associate (surface => model%surfaces(s))
                if (card%is_pressure .and. (any(surface%other(:surface%n) > 0) .or. surface%was_split)) &
                   call deck%field_error(card%line, 'PID', 'bodies lie on both sides of surface '//integer_text(card%surface)// &
-                                        ', so which one the pressure acts on is not known')
+                                        ': the loaded body is ambiguous')
                if (model%axisymmetric .and. surface%n > 0 .and. all(abs(model%x(1, nodes_of(surface))) <= 0.0_wp)) &
                   call deck%field_error(card%line, 'PID', 'surface '//integer_text(card%surface)// &
                                         ' lies on the axis and has no area')
@@ -148,7 +148,7 @@ contains
             name = others
             if (any(deck%bulk%force%set == card%set)) name = 'FORCE'
             call deck%field_error(card%line, 'SID', 'set '//integer_text(card%set)//' is that of a '//name// &
-                                  ' too: case control could mean either')
+                                  ' too: case control is ambiguous')
          end associate
       end do
    end subroutine check_combinations

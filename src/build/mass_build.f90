@@ -27,8 +27,8 @@ contains
             model%lumped = parameters%lumped
          else if (parameters%mass_line > 0 .and. (parameters%lumped .neqv. model%lumped)) then
             call deck%errors%add(parameters%mass_line, 'PARAM COUPMASS asks for '// &
-               trim(merge('lumped    ', 'consistent', parameters%lumped))//' mass, MASS in case control does not; '// &
-               'expected one of the two')
+               trim(merge('lumped    ', 'consistent', parameters%lumped))//' mass, but MASS in case control does not; expected '// &
+                  'only one of them')
          end if
       end associate
       allocate (model%masses(2*size(deck%bulk%mass)))
@@ -74,7 +74,7 @@ contains
          inertia = deck%bulk%parameters%mass_factor*reshape([i11, -i21, -i31, -i21, i22, -i32, -i31, -i32, i33], [3, 3])
       end associate
       if (any(deck%control%stages%vibration%modes%id > 0) .and. .not. is_inertia(inertia)) call deck%field_error(card%line, &
-         'I11', 'these moments of inertia are of no body, whose kinetic energy is nowhere below zero')
+         'I11', 'not a possible inertia tensor: it must be positive semidefinite')
       call find_system(deck, card%line, 'CID', card%system, model%systems, system)
       if (system == 0 .or. all(abs(card%inertia) <= 0.0_wp)) return
       call find_directions(deck, card%line, 'CID', model%systems(system), x, axes, ok)
@@ -121,7 +121,7 @@ contains
          if (model%bars(i)%mass > 0.0_wp) has_mass(model%part(model%bars(i)%nodes)) = .true. ! springs have none
       end do
       if (.not. any(has_mass)) then
-         call deck%errors%add(line, 'MODES: nothing has a mass; give RHO on MAT1, or CONM2')
+         call deck%errors%add(line, 'MODES: the structure has no mass; give RHO on MAT1, or CONM2')
          return
       end if
       do e = 1, model%n_elements

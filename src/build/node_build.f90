@@ -337,8 +337,8 @@ contains
 
       n = model%n_nodes
       if (highest_number(model) > huge(1) - n_new) then
-         call deck%errors%add(0, 'the mid-side nodes that are left blank are numbered behind node '// &
-                              integer_text(highest_number(model))//', and their numbers would pass 2147483647')
+         call deck%errors%add(0, 'the blank mid-side nodes get numbers above node '// &
+                              integer_text(highest_number(model))//', and their numbers would exceed 2147483647')
          where (model%element_nodes > n) model%element_nodes = 0
          return
       end if

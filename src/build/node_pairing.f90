@@ -94,14 +94,14 @@ contains
       else if (shared > 0) then
          fault%in_tolerance = .true.
          fault%words = 'within '//real_text(tolerance)//' '//plural(shared, 'node')// &
-                       ' of SIDE1 found a partner that another one has'
+                       ' of SIDE1 have the partner of another node'
       else if (turned > 0) then
          fault%words = 'the sides do not face each other: at '//plural(turned, 'node')// &
-            ' their normals do not point against each other'
+            ' their normals are not opposite'
       else if (side2%n /= side1%n) then
          fault%words = 'SIDE2 has '//plural(side2%n, 'node')//', SIDE1 '//integer_text(side1%n)//': every node needs its partner'
       else if (.not. same_order(model, surface, side1, partner)) then
-         fault%words = 'nodes at the middle of edges face corners: one side is of second order, the other is not'
+         fault%words = 'mid-side nodes face corner nodes: one side is of second order, the other is not'
       end if
    end subroutine pair_nodes
 

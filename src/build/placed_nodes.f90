@@ -31,8 +31,8 @@ contains
       if (n_new == 0 .or. raw%n == 0) return
       highest = max(maxval(raw%id(:raw%n)), maxval([0, deck%bulk%place%id]))
       if (highest > huge(1) - n_new) then
-         call deck%errors%add(0, 'the reference nodes of RBE2M and RBE3M are numbered behind node '//integer_text(highest)// &
-                              ', and their numbers would pass 2147483647')
+         call deck%errors%add(0, 'the reference nodes of RBE2M and RBE3M get numbers above node '//integer_text(highest)// &
+                              ', and their numbers would exceed 2147483647')
          return
       end if
       call table%build(raw%id(:raw%n))
@@ -169,7 +169,7 @@ contains
             if (card%id == 0) cycle
             if (table%find(card%id) > 0) then
                call deck%field_error(card%line, 'ID', 'there is a node '//integer_text(card%id)// &
-                                     ' already; expected a number of its own')
+                                     ' already; expected another number')
                cycle
             end if
             is_meant = spread(card%surface == 0, 1, n)

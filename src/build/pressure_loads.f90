@@ -62,7 +62,7 @@ contains
          problem = 'no body element has a face with the corners '//list_of_numbers(id)
       else if (found > 1) then
          problem = 'bodies lie on both sides of the face with the corners '//list_of_numbers(id)// &
-                   ', so which one the pressure acts on is not known'
+                   ': the loaded body is ambiguous'
          face = named_face()
       end if
    end subroutine find_face
@@ -189,7 +189,7 @@ contains
 
       associate (card => deck%bulk%pressure(i))
          call rectangular_axes(deck, model%systems, card%line, card%system, &
-                               'the pressure on a face has one direction all over it', axes)
+                               'the pressure on a face has one direction', axes)
          direction = matmul(axes, card%direction/max(norm2(card%direction), tiny(1.0_wp)))
       end associate
    end subroutine find_direction
@@ -382,7 +382,7 @@ contains
       side = 0
       select case (element_table(model%element_kind(e))%linear)
       case (kind_tetra4)
-         expected = 'expected in G1 a corner of the face and in G4 the corner that it does not have'
+         expected = 'expected in G1 a corner of the face and in G4 the opposite corner'
       case (kind_hexa8)
          expected = 'expected in G1 and G3 two opposite corners of a face'
       case (kind_penta6)

@@ -146,12 +146,12 @@ contains
             call elements_behind(model, s, at, i, behind)
             if (size(behind) == 0) then
                fault = 'ends inside the body at node '//integer_text(model%node_id(node))// &
-                       ': expected its border on the outside of the body, which is not cut through'
+                       ': expected a section that cuts the whole body'
             else if (model%node_section(node) > 0) then
                fault = 'meets the section of BOLT '//integer_text(model%sections(model%node_section(node))%bolt)// &
                        ' at node '//integer_text(model%node_id(node))
             else if (any(model%element_section(behind) > 0 .and. model%element_section(behind) /= k)) then
-               fault = 'is as near to the section of another BOLT as one element, at node '//integer_text(model%node_id(node))
+               fault = 'is within one element of the section of another BOLT, at node '//integer_text(model%node_id(node))
             end if
             if (fault /= '') return
             model%node_section(node) = k

@@ -42,8 +42,8 @@ contains
       do i = 1, size(deck%rigid)
          associate (card => deck%rigid(i))
             if (abs(card%alpha) > 0.0_wp .and. any(deck%control%stages%temperature%id > 0)) call deck%field_error(card%line, &
-               card%alpha_at, 'not zero, and case control has TEMPERATURE(LOAD), but rigid elements do not grow with their '// &
-               'temperature; expected blank or zero', called='ALPHA')
+               card%alpha_at, 'not zero, and case control has TEMPERATURE(LOAD), but rigid elements have no thermal expansion; '// &
+               'expected blank or zero', called='ALPHA')
             if (card%is_mean) call add_mean(deck, card, model, list, without)
             if (.not. card%is_mean) call add_rigid(deck, card, model, list, without)
          end associate
@@ -102,7 +102,7 @@ contains
 
       call find_node(deck, card%line, card%node_at, card%node, model, without, point)
       if (no_displacement(model, card%components) .and. .not. turn_others()) call deck%field_error(card%line, &
-         card%components_at, 'names no displacement that nodes of this model have; expected some of 1 to '// &
+         card%components_at, 'contains no displacement of the nodes of this model; expected some of 1 to '// &
          integer_text(model%dimension), called='CM')
       do k = 1, size(card%nodes)
          call find_node(deck, card%line, card%at(k), card%nodes(k), model, without, node)
@@ -185,7 +185,7 @@ contains
             ' has no component '//integer_text(card%component(k)), called='C')
          if (k == 1 .or. place(k)%node == 0) cycle
          if (place(k)%node == place(1)%node .and. place(k)%d == place(1)%d) call deck%field_error(card%line, card%at(k), &
-            'this component is that of the first term, which depends on the others', called='G')
+            'this is the dependent component of the first term', called='G')
       end do
       if (.not. active) return
       without = nowhere
@@ -220,8 +220,8 @@ contains
       if (node == 0) then
          call deck%field_error(line, field, 'there is no GRID '//integer_text(id), called='G')
       else if (model%duplicate(node) > 0) then
-         call deck%field_error(line, field, 'node '//integer_text(id)//' is split by a JOINT: which of the two is meant is not '// &
-                               'known; expected nodes away from it, or bodies meshed apart', called='G')
+         call deck%field_error(line, field, 'node '//integer_text(id)//' is split into two nodes by a JOINT, so that it is '// &
+            'ambiguous; expected other nodes, or bodies meshed apart', called='G')
          node = 0
       else
          without(node) = without(node) .or. .not. model%used(node)
@@ -246,7 +246,7 @@ contains
          if (nodes(i) == 0 .and. card%surface > 0) return ! one of a surface stands for all
       end do
       if (no_displacement(model, card%components) .and. .not. has_component(card%components, 6)) &
-         call deck%field_error(card%line, 'REFC', 'names no component that nodes of this model have')
+         call deck%field_error(card%line, 'REFC', 'contains no component of the nodes of this model')
       call check_directions(deck, card, model)
       if (point == 0 .or. any(nodes == 0) .or. deck%errors%any()) return
       call motion_of_mean(model, card, point, nodes, t, determined)
@@ -257,8 +257,8 @@ contains
             direction = direction_of(model, point, digit)
             if (any(.not. determined .and. abs(direction) > 1.0e-10_wp)) then
                call deck%field_error(card%line, 'REFC', 'component '//integer_text(digit)//' of node '// &
-                  integer_text(card%node)//' cannot be had from the components C of these nodes: they move so that it is left '// &
-                  'open, as nodes on a line leave the rotation about it')
+                  integer_text(card%node)//' does not follow from the components C of these nodes; nodes on a line, for '// &
+                     'example, do not determine the rotation about it')
                return
             end if
             call add_dependence(list, place, card%line, card%node_at)
@@ -304,8 +304,8 @@ contains
          ' components, but REFC has '//integer_text(list%n - first + 1)//'; expected as many')
       if (.not. ok) return
       call solve_for(list, first, places(:n), at(:n), ok)
-      if (.not. ok) call deck%field_error(card%line, card%um_at(1), 'the components behind UM do not follow from the others; '// &
-                                          'expected such that hold the reference node as REFC does', called='UM')
+      if (.not. ok) call deck%field_error(card%line, card%um_at(1), 'the components after UM cannot be eliminated; expected '// &
+         'components that constrain the reference node as REFC does', called='UM')
    end subroutine exchange
 
    !> What of displacement and rotation in global axes the component DIGIT of POINT is.
@@ -362,7 +362,7 @@ contains
             return
          else if (no_displacement(model, card%directions(i))) then
             call deck%field_error(card%line, card%at(i), 'its components C, '//integer_text(card%directions(i))// &
-               ', name no displacement that nodes of this model have', called='G')
+               ', contain no displacement of the nodes of this model', called='G')
             return
          end if
       end do

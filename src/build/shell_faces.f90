@@ -38,7 +38,7 @@ contains
             do n = 1, surface%n
                if (surface%other(n) == 0) cycle
                call deck%errors%add(surface%line(n), 'surface '//integer_text(surface%id)// &
-                  ': an edge between two shells is no edge that a joint can stand on; expected the free edge of shells')
+                  ': a joint cannot lie on an edge between two shells; expected a free edge')
                return
             end do
             call stand_off(model, surface, faces)

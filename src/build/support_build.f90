@@ -225,13 +225,13 @@ contains
                places = places_of(model, node, d)
                if (places(1)%node == 0) then
                   call deck%field_error(card%line, card%at(1) + 1, named(d, card%first(1))// &
-                     ' is not there to be moved by D; expected 1 to '//integer_text(model%dimension), called='C')
+                     ' does not exist, so that D cannot move it; expected 1 to '//integer_text(model%dimension), called='C')
                else if (any(holding == card%set)) then
                   other = by(places(1)%d, places(1)%node) ! a twin has what the node has
                   by(places(1)%d, places(1)%node) = i
                   if (other == 0) cycle
                   if (abs(deck%bulk%support(other)%value - card%value) > 0.0_wp) call deck%field_error(card%line, &
-                     card%at(1) + 2, named(d, card%first(1))//' is held at another displacement by the SPC of '// &
+                     card%at(1) + 2, named(d, card%first(1))//' has another prescribed displacement by the SPC of '// &
                      deck%text%place(deck%bulk%support(other)%line), called='D')
                end if
             end do
@@ -298,7 +298,7 @@ contains
       do i = 1, size(sums)
          associate (card => sums(i))
             if (any(own == card%set) .and. card%set > 0) call deck%field_error(card%line, 'SID', 'set '//integer_text(card%set)// &
-               ' is that of an '//called//' too: case control could mean either')
+               ' is that of an '//called//' too: case control is ambiguous')
             do k = 1, size(card%sets)
                if (card%sets(k) <= 0 .or. any(own == card%sets(k))) cycle
                if (any(sums%set == card%sets(k))) then

@@ -72,7 +72,7 @@ contains
          words = ''
          do f = 1, deck%text%n_files
             if (index(deck%text%files(f)%bytes(:min(200, len(deck%text%files(f)%bytes))), 'Created by Gmsh') > 0) words = &
-               '; Gmsh writes a face once: of one in two physical groups only the first has it'
+               '; Gmsh writes a face once: of two physical groups with the same face only the first has it'
          end do
       end function gmsh_words
 
@@ -103,8 +103,8 @@ contains
          call deck%field_error(side%line, 'S'//integer_text(side%of_block), words)
       else
          if (side%corners > 2) &
-            words = words//': in a model of space plane elements mark surfaces, and plane bodies cannot be mixed in; '// &
-               'shells have MID2 on their PSHELL'
+            words = words//': in a model of space plane elements mark surfaces; plane bodies cannot be mixed with solids; '// &
+               'shells need MID2 on their PSHELL'
          call deck%field_error(side%line, 'PID', words)
       end if
    end subroutine report_missing

@@ -237,9 +237,9 @@ contains
          call split_surface(model, s, n_duplicates)
       end do
       if (n_duplicates == 0) return
-      if (model%node_id(model%n_nodes) > huge(1) - n_duplicates) call deck%errors%add(0, 'the nodes that stand double where '// &
-         'surfaces are split are numbered behind node '//integer_text(model%node_id(model%n_nodes))// &
-         ', and their numbers would pass 2147483647')
+      if (model%node_id(model%n_nodes) > huge(1) - n_duplicates) call deck%errors%add(0, 'the doubled nodes of split surfaces '// &
+         'get numbers above node '//integer_text(model%node_id(model%n_nodes))// &
+         ', and their numbers would exceed 2147483647')
       twins = pack([(k, k = 1, model%n_nodes)], model%duplicate > 0)
       twins(model%duplicate(twins) - model%n_nodes) = twins ! in the order of their numbers
       call append_nodes(model, model%x(:, twins))

@@ -40,7 +40,7 @@ contains
             if (any(is_usual(speed*metres) .and. (upper(deck%control%length_unit) == lengths .or. &
                                                   all(upper(deck%control%length_unit) /= lengths)))) cycle
             words = 'MAT1 '//integer_text(card%id)//': RHO ='//number(card%rho)//' with E ='//number(card%e)// &
-                    ' makes the speed of waves, sqrt(E/RHO), that of no solid in mm, m or inches'
+                    ' gives a wave speed sqrt(E/RHO) of no solid in mm, m or inches'
             best = minloc(abs(log(sqrt(card%e/(rho*remedies))*metres(1)/usual)), dim=1)
             if (is_usual(sqrt(card%e/(rho*remedies(best)))*metres(1))) words = words//'; is it '//trim(mistakes(best))// &
                ' in a deck of mm and N? There it would be'//number(card%rho*remedies(best))

@@ -38,8 +38,8 @@ contains
             if (asked%frequency%id == 0) cycle
             if (asked%damping%id == 0 .and. .not. plan%stages(s)%vibration%has_losses .and. asked%frequency%line /= undamped) then
                undamped = asked%frequency%line ! once of an entry that stands above all stages
-               call deck%errors%add(undamped, 'FREQUENCY: expected beside it SDAMPING, AMPLITUDE for the loss factors of the '// &
-                                    'joints, PARAM G, or GE on some MAT1: without damping peaks have no bound')
+               call deck%errors%add(undamped, 'FREQUENCY: expected damping: SDAMPING, AMPLITUDE for the loss factors of the '// &
+                  'joints, PARAM G, or GE on a MAT1; without it peaks are unbounded')
             end if
             allocate (plan%stages(s)%vibration%response)
             call plan_response(deck, model, asked, oscillating(s), plan%stages(s)%vibration%response)
@@ -88,7 +88,7 @@ contains
       integer :: k, i
 
       if (asked%free) call deck%errors%add(asked%backbone%line, &
-         'BACKBONE: expected MODES = set beside it, not MODES(FREE): a load on a structure without supports has no equilibrium')
+         'BACKBONE: expected also MODES = set, not MODES(FREE): a structure without supports has no equilibrium under a load')
       k = findloc(deck%bulk%jampl%id, asked%backbone%id, dim=1)
       if (k == 0) then
          call deck%errors%add(asked%backbone%line, 'BACKBONE: there is no JAMPL '//integer_text(asked%backbone%id))
@@ -109,7 +109,7 @@ contains
                if (.not. model%used(backbone%node)) backbone%node = 0
             end if
             if (backbone%node == 0 .and. .not. deck%errors%any()) call deck%errors%add(card%line, &
-               'JAMPL: GID '//integer_text(card%node)//' is no node that an element holds')
+               'JAMPL: GID '//integer_text(card%node)//' is not a node of an element')
          end if
       end associate
       vibration%backbone = backbone
@@ -144,7 +144,7 @@ contains
          response%force(:, load%node(k)) = response%force(:, load%node(k)) + load%force(:, k)
       end do
       if (allocated(load%moved)) call deck%errors%add(asked%load%line, 'DLOAD: set '//integer_text(asked%load%id)// &
-         ' moves supports (SPCD); expected forces, a support does not oscillate')
+         ' has prescribed displacements (SPCD); expected forces only')
       if (asked%damping%id > 0) then
          k = findloc(deck%bulk%tabdmp1%id, asked%damping%id, dim=1)
          if (k > 0) response%damping = deck%bulk%tabdmp1(k)
@@ -155,7 +155,7 @@ contains
       are_named = are_named .and. model%used .and. model%node_id > 0
       response%nodes = pack([(k, k = 1, model%n_nodes)], are_named)
       if (size(response%nodes) == 0 .and. .not. deck%errors%any()) call deck%errors%add(asked%response(1)%line, &
-         'RESPONSE: names no node that an element holds')
+         'RESPONSE: names no node of an element')
    end subroutine plan_response
 
    !> The frequencies of all CARDS, ascending, each once [1/time].
@@ -190,7 +190,7 @@ contains
             if (allocated(given%watch)) then
                call find_limited_nodes(deck%control%sets, model, 'WATCH', given%watch, are_named, errors)
                stage%watched = pack([(i, i = 1, model%n_nodes)], are_named .and. model%used .and. model%node_id > 0)
-               if (size(stage%watched) == 0) call errors%add(given%watch(1)%line, 'WATCH: names no node that an element holds')
+               if (size(stage%watched) == 0) call errors%add(given%watch(1)%line, 'WATCH: names no node of an element')
             end if
             if (.not. allocated(given%only)) cycle
             call find_limited_nodes(deck%control%sets, model, 'OUTPUT', given%only, stage%shown, errors)

@@ -182,7 +182,7 @@ contains
       if (n > 0 .and. any(global_keys == entry%key)) &
          call errors%add(entry%line, entry%key//': holds for all stages, expected above the first SUBCASE')
       if (entry%describers /= '' .and. all(entry%key /= ['ECHO       ', 'TEMPERATURE', 'MODES      '])) &
-         call errors%add(entry%line, entry%key//'('//entry%describers//'): expected no parentheses behind '//entry%key)
+         call errors%add(entry%line, entry%key//'('//entry%describers//'): expected no parentheses after '//entry%key)
       choice = 0
       if (any(stage_keys == entry%key)) then
          if (n == 0) then
@@ -297,7 +297,7 @@ contains
          control%stages(1)%id = 1
       end if
       if (control%method == method_back .and. size(control%stages) > 1) call errors%add(control%stages(2)%line, &
-         'SUBCASE: METHOD = BACK knows loading only, in one stage; METHOD = STEP or NEWTON follow a history')
+         'SUBCASE: METHOD = BACK solves one stage of loading only; expected METHOD = STEP or NEWTON for a history')
       do i = 2, size(control%stages)
          associate (this => control%stages(i), first => control%stages(1))
             if (this%supports%id /= first%supports%id) call errors%add(max(this%supports%line, this%line), &

@@ -155,7 +155,7 @@ contains
       associate (entry => line(first:len_trim(line(:last))))
          star = index(entry, '*')
          if (star > 1 .and. star < len(entry)) then
-            call errors%add(at, '''*'' inside field 1, expected it behind the name', 1, last)
+            call errors%add(at, '''*'' inside field 1, expected after the name', 1, last)
          else if (len(entry) > 8 .or. index(entry, ' ') > 0) then
             call errors%add(at, ''''//entry(:min(len(entry), 40))//''' in field 1: expected the name of a card alone', 1, last)
          end if
@@ -254,7 +254,7 @@ contains
       card%marker = adjustl(line(first:last))
       if (comma > 0) then
          if (index(line(first:), ',') > 0 .or. scan(card%marker(1:1), '+*') == 0) call errors%add(at, 'more than '// &
-            integer_text(most)//' entries behind the name: go on in a continuation line', first, last)
+            integer_text(most)//' entries after the name: use a continuation line', first, last)
       else if (card%marker /= '' .and. scan(card%marker(1:1), '+*') == 0) then
          call errors%add(at, ''''//trim(card%marker)//''' in columns 73 to 80: expected a continuation mark that begins with '// &
                          '+ or *, or blanks', first, last)

@@ -221,8 +221,7 @@ contains
             call find_card(text%files(file)%bytes(first:last), comma, text, cursor, cards, bulk, errors)
          end if
       end do
-      if (ended_file /= 1) call errors%add(0, 'no ENDDATA: the deck ends before its end, is it whole? A deck that was cut off '// &
-                                           'would be solved without the cards that are missing; expected ENDDATA behind the last')
+      if (ended_file /= 1) call errors%add(0, 'no ENDDATA: the deck may be truncated; expected ENDDATA after the last card')
    end subroutine find_cards
 
    !> Note the card that begins with LINE, line CURSOR of TEXT, which is left on a line behind it.
@@ -252,7 +251,7 @@ contains
             call errors%add(card%line, 'CQUAD9 is a complete element of nine nodes; expected a CQUAD8, no node inside'// &
                             complete_remedy, 1, 8)
          else if (card%name /= '') then
-            call errors%add(card%line, ''''//trim(card%name)//''' is no card that jointfem knows; see input/README.md', 1, 8)
+            call errors%add(card%line, ''''//trim(card%name)//''' is not a card of jointfem; see input/README.md', 1, 8)
          end if
       end if
    end subroutine find_card

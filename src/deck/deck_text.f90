@@ -296,13 +296,13 @@ contains
       ancestor = me
       do while (ancestor > 0)
          if (text%files(ancestor)%true_path == resolved) then
-            call errors%add(here, 'INCLUDE: '''//path//''' is being read already: a circle of INCLUDEs')
+            call errors%add(here, 'INCLUDE: '''//path//''' includes itself, directly or through other files')
             return
          end if
          ancestor = text%files(ancestor)%parent
       end do
       if (depth == max_depth .or. text%n_files == max_files) then
-         call errors%add(here, 'INCLUDE: more than '//integer_text(max_depth)//' INCLUDEs inside each other, or '// &
+         call errors%add(here, 'INCLUDE: more than '//integer_text(max_depth)//' nested INCLUDEs, or '// &
                          integer_text(max_files)//' files in all')
          return
       end if

@@ -12,7 +12,7 @@ module error_report
 
    integer, parameter :: most_printed = 200
    integer, parameter :: most_of_kind = 10 ! errors whose messages differ in numbers and in quoted text only
-   character(*), parameter :: no_card = 'is no card that' ! such an error is said once a name
+   character(*), parameter :: no_card = 'is not a card of' ! such an error is said once a name
    integer, parameter :: widest = 100 ! columns of a deck line that are shown
 
    type :: kind_type

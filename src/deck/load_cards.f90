@@ -180,7 +180,7 @@ contains
                                                          pressure%corners(k - 6), ok)
          end do
       else if (card%n < 8) then
-         call card%error_at(8, 'EID2: blank, expected the number of an element behind THRU')
+         call card%error_at(8, 'EID2: blank, expected the number of an element after THRU')
       else
          call card%integer_at(8, 'EID2', 'the number of an element', pressure%last, ok)
          if (ok .and. pressure%last < pressure%first) call card%error_at(8, 'EID2: '//integer_text(pressure%last)// &

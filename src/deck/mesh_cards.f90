@@ -72,7 +72,7 @@ contains
          call card%blank(['SEID'])
          call card%finish(defaults%line)
       end associate
-      if (card%i > 1) call card%errors%add(card%line, 'GRDSET: a second one; expected one at most in a deck')
+      if (card%i > 1) call card%errors%add(card%line, 'GRDSET: given twice; expected at most one in a deck')
    end subroutine read_grid_defaults
 
    !> Fill the blank fields CP, CD and PS of all GRID cards from GRDSET.
@@ -171,7 +171,7 @@ contains
          do while (card%text_at(first) == '')
             first = first + 1
          end do
-         call card%error_at(first, ''''//card%text_at(first)//''' behind the last node, G'//integer_text(n)//', expected nothing')
+         call card%error_at(first, ''''//card%text_at(first)//''' after the last node, G'//integer_text(n)//', expected nothing')
       end if
    end subroutine check_end
 
@@ -280,8 +280,8 @@ contains
          end if
          divisions = max(1, divisions)
       end associate
-      if (block%first_node > most_first) call card%error('N1', 'the last node number would pass 2147483647')
-      if (block%first_element > most_first) call card%error('E1', 'the last element number would pass 2147483647')
+      if (block%first_node > most_first) call card%error('N1', 'the last node number would exceed 2147483647')
+      if (block%first_element > most_first) call card%error('E1', 'the last element number would exceed 2147483647')
       instead = merge(most_first, 1, block%dimension == 2) ! a deck of solids is mostly one block, from 1 on
       if (block%first_node > most_first) block%first_node = instead
       if (block%first_element > most_first) block%first_element = instead

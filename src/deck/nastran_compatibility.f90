@@ -123,14 +123,14 @@ contains
          call ignored%wait('PARAM KDAMP', line, needs_response=.true.)
       case ('ALPHA1', 'ALPHA2')
          call ignored%wait('PARAM '//name, line, needs_response=.true., refusal=refusal(abs(x) <= 0.0_wp, &
-            'expected 0.0: damping is SDAMPING, AMPLITUDE, PARAM G and GE of MAT1'))
+            'expected 0.0: damping is given by SDAMPING, AMPLITUDE, PARAM G and GE of MAT1'))
       case ('LMODES', 'LFREQ')
          call ignored%wait('PARAM '//name, line, needs_response=.true., refusal=refusal(abs(x) <= 0.0_wp, which_modes))
       case ('HFREQ')
          call ignored%wait('PARAM '//name, line, needs_response=.true., refusal=refusal(x >= all_frequencies, which_modes))
       case default
          if (name == 'INREL' .and. (.not. is_integer .or. number /= 0)) then
-            expected = '0: bodies without supports are not held by their inertia here'
+            expected = '0: inertia relief is not available'
          else if (name == 'LGDISP' .and. (.not. is_integer .or. number > 0)) then
             expected = '-1 or 0: displacements are small here'
          else
@@ -180,8 +180,8 @@ contains
          if (control_habit(entry%key) /= '') then
             call ignored%add(control_habit(entry%key))
          else
-            call errors%add(entry%line, ''''//entry%key(:min(40, len(entry%key)))//''' is no key of case control; '// &
-                            'expected TITLE, UNITS, METHOD, TOL, PRESSURE, CARRY, AVERAGE, SOLVER, MASS, RESTART, ECHO, SPC, '// &
+            call errors%add(entry%line, ''''//entry%key(:min(40, len(entry%key)))//''' is not a key of case control; expected '// &
+               'TITLE, UNITS, METHOD, TOL, PRESSURE, CARRY, AVERAGE, SOLVER, MASS, RESTART, ECHO, SPC, '// &
                             'MPC, SUBCASE, LABEL, LOAD, TEMPERATURE(LOAD), INCR, OUTPUT, WATCH, MODES, STIFFNESS, AMPLITUDE, '// &
                             'FREQUENCY, DLOAD, SDAMPING, RESPONSE or BEGIN BULK')
          end if
@@ -251,7 +251,7 @@ contains
                call self%add(trim(entry%name))
                self%n = self%n + entry%n - 1
             else if (entry%refusal /= '') then
-               call errors%add(entry%line, trim(entry%name)//': another response than it would have without; '//entry%refusal)
+               call errors%add(entry%line, trim(entry%name)//': this card would change the response; '//entry%refusal)
             end if
          end associate
       end do

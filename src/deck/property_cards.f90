@@ -214,7 +214,7 @@ contains
          bars_only = has_e .and. .not. (has_g .or. has_nu)
          if (card%is_faulty() .or. bars_only) return ! of the three the one that is left blank follows
          if (.not. (has_e .or. (has_g .and. has_nu))) then
-            call card%error('E', 'expected two of E, G and NU; for bars E alone will do')
+            call card%error('E', 'expected two of E, G and NU; for bars E alone suffices')
          else if (.not. has_e) then
             e = 2.0_wp*(1.0_wp + nu)*g
          else if (.not. has_nu) then
@@ -304,8 +304,8 @@ contains
                if (card%text_at(first + k - 1) == '') cycle
                call parse_real(card%text_at(first + k - 1), value, ok)
                if (ok) ok = abs(value - at_end_a(k)) <= 1.0e-6_wp*abs(at_end_a(k))
-               if (.not. ok) call card%error_at(first + k - 1, ''''//card%text_at(first + k - 1)//''' is not what the '// &
-                  'section has at end A; expected a beam of constant section, or a chain of beams each with its own')
+               if (.not. ok) call card%error_at(first + k - 1, ''''//card%text_at(first + k - 1)//''' differs from the section '// &
+                  'at end A; expected a beam of constant section, or a chain of beams with sections of their own')
             end do
             first = first + merge(16, 8, card%text_at(first) == 'YES')
          end do
@@ -316,8 +316,8 @@ contains
          do k = first + 2, card%n
             call parse_real(card%text_at(k), value, ok)
             if (card%text_at(k) == '' .or. (ok .and. .not. abs(value) > 0.0_wp)) cycle
-            call card%error_at(k, ''''//card%text_at(k)//''' where the field must be blank or zero: beams '// &
-                               'have no warping, taper or offset of their axes')
+            call card%error_at(k, ''''//card%text_at(k)//''' where the field must be blank or zero: beams have no warping, no '// &
+               'taper and no offset of their axes')
          end do
          call check_inertia(card, section)
       end associate
@@ -356,7 +356,7 @@ contains
 
       associate (i => section%inertia)
          if (any(i(:2) < 0.0_wp) .or. (abs(i(3)) > 0.0_wp .and. i(3)**2 >= i(1)*i(2))) &
-            call card%error('I12', 'I1 and I2 at least 0 and I12 squared below I1 I2 expected: no section has these moments')
+            call card%error('I12', 'no section has these moments; expected I1 and I2 at least 0 and I12 squared below I1 I2')
       end associate
    end subroutine check_inertia
 
@@ -380,7 +380,7 @@ contains
          do n = 2, size(section_names)
             words = words//', '//trim(section_names(n))
          end do
-         call card%wrong_entry(4, 'TYPE', 'is no section that jointfem knows, expected one of '//words)
+         call card%wrong_entry(4, 'TYPE', 'is not a section of jointfem, expected one of '//words)
          return
       end if
       n = section_dimensions(i)
@@ -390,7 +390,7 @@ contains
       if (card%is_faulty()) return
       call section_of(trim(section_names(i)), d(:n), property%section, expected)
       ok = expected == ''
-      if (.not. ok) call card%error('DIM1', 'these dimensions make no '//trim(section_names(i))//'; expected '//expected)
+      if (.not. ok) call card%error('DIM1', 'these dimensions give no valid '//trim(section_names(i))//'; expected '//expected)
    end subroutine read_dimensions
 
    !> PLOAD1: a force or moment along a beam, global (FX ... MZ) or in its axes (FXE ... MZE), between X1 and X2 linear from P1 to P2; X2
@@ -416,7 +416,7 @@ contains
          load%is_projected = scale(3:) == 'PR'
          if (load%is_fraction .and. any(load%x > 1.0_wp)) call card%error('X1', &
             'a fraction of the beam; expected X1 and X2 up to 1')
-         if (load%x(2) < load%x(1)) call card%error('X2', 'below X1; expected the end of the load behind its beginning')
+         if (load%x(2) < load%x(1)) call card%error('X2', 'below X1; expected X1 before X2')
       end associate
    end subroutine read_beam_load
 

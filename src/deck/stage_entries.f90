@@ -222,7 +222,7 @@ contains
             if (at(response) == 0) lacking = lacking//', RESPONSE (the nodes to be written)'
             if (lacking == '') cycle
             said = at(frequency)
-            call errors%add(said, 'FREQUENCY: expected beside it '//lacking(3:))
+            call errors%add(said, 'FREQUENCY: expected also '//lacking(3:))
          end associate
       end do
    end subroutine check_vibration

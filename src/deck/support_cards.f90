@@ -168,7 +168,7 @@ contains
       character(2) :: field
       integer :: k
 
-      if (all(spring%nodes == 0)) call card%error('G1', 'blank, and G2 is too; expected a node at one end at least')
+      if (all(spring%nodes == 0)) call card%error('G1', 'blank, like G2; expected a node at one end at least')
       if (all(spring%nodes == 0)) return
       do k = 1, 2
          field = 'C'//integer_text(k)
@@ -238,9 +238,9 @@ contains
          flag = card%text_at(k)
          if (flag == 'B' .or. flag == 'GE') then
             call bulk%ignored%wait(flag//' of PBUSH', card%line, needs_response=.true., &
-                                refusal='expected none: of springs GE of CELAS2 and PELAS is done')
+                                refusal='expected none: damping of springs is GE of CELAS2 and PELAS')
          else if (flag /= 'RCV' .and. flag /= '') then
-            call card%error_at(k, 'FLAG: '''//flag//''', expected B, GE or RCV behind the line of K')
+            call card%error_at(k, 'FLAG: '''//flag//''', expected B, GE or RCV after the line of K')
          end if
       end do
    end subroutine check_rest

@@ -135,11 +135,11 @@ contains
          last = last + 1
       end do
       if (last > card%n) then
-         call card%error_at(card%n, 'ENDT: expected it behind the last pair of a frequency and its damping')
+         call card%error_at(card%n, 'ENDT: expected after the last pair of a frequency and its damping')
          return
       end if
       do k = last + 1, card%n
-         if (card%text_at(k) /= '') call card%error_at(k, ''''//card%text_at(k)//''' behind ENDT, where the card must be blank')
+         if (card%text_at(k) /= '') call card%error_at(k, ''''//card%text_at(k)//''' after ENDT, where the card must be blank')
       end do
       do k = list_from, last - 1, 2
          first = card%text_at(k)
@@ -190,7 +190,7 @@ contains
          if (any(f(2:) < f(:n - 1))) then
             call card%error_at(list_from, 'F: the frequencies are not in order, expected them ascending, or descending')
          else if (f(1) >= f(2) .or. f(n - 1) >= f(n) .or. any(f(3:) <= f(:n - 2))) then
-            call card%error_at(list_from, 'F: a frequency stands twice at an end of the table, or three times')
+            call card%error_at(list_from, 'F: a frequency occurs twice at an end of the table, or three times')
          end if
       end associate
    end subroutine check_order

@@ -186,10 +186,10 @@ contains
             if (name == '-') then
                cycle
             else if (columns(k) == 0) then
-               call errors%add(at, ''''//name//''' is no column that jointfit knows (--columns tells what it is, - that it '// &
-                               'does not count); '//known_headers, first, last)
+               call errors%add(at, ''''//name//''' is not a column of jointfit (--columns renames it, - skips '// &
+                  'it); '//known_headers, first, last)
             else if (any(columns(:k - 1) == columns(k))) then
-               call errors%add(at, 'column '''//name//''' a second time', first, last)
+               call errors%add(at, 'column '''//name//''' given twice', first, last)
             else if (unit /= '') then
                associate (known => header%units(columns(k)))
                   if (known /= '' .and. unit /= known .and. reading%deck%length <= 0.0_wp) call errors%add(at, name//' in '// &
@@ -203,9 +203,9 @@ contains
       kind = findloc(iand(holds, needed) == needed .and. iand(holds, allowed) == holds, .true., 1)
       if (errors%n == errors_before) then
          if (kind == 0) then
-            call errors%add(at, 'these columns do not go together; '//known_headers)
+            call errors%add(at, 'these columns are not a known combination; '//known_headers)
          else if (header%holds /= 0 .and. holds /= header%holds) then
-            call errors%add(at, 'a header of another kind than the one above: expected one kind of data in a file')
+            call errors%add(at, 'a header of a different kind: expected one kind of data in a file')
          end if
       end if
       header%line = at
@@ -238,10 +238,10 @@ contains
          if (unit > 0.0_wp) cycle
          if (header%units(column) /= '') then
             call errors%add(header%line, ''''//trim(header%units(column))//''' is no unit of '//trim(column_symbols(column))// &
-                            ' that --units knows: expected um, mm, m, in; MPa, kgf/cm2, bar, psi and the like')
+                            ' known to --units: expected um, mm, m, in; MPa, kgf/cm2, bar, psi and the like')
          else
-            call errors%add(header%line, 'the unit of '//trim(column_symbols(column))//' is not said, and --units needs it: '// &
-                            'expected a heading as lambda [um], here or in --columns, or a line UNITS = um, MPa')
+            call errors%add(header%line, 'the unit of '//trim(column_symbols(column))//' is missing, and --units needs it: '// &
+               'expected a heading as lambda [um], here or in --columns, or a line UNITS = um, MPa')
          end if
       end do
    end subroutine set_factors
@@ -268,7 +268,8 @@ contains
       if (any(values <= 0.0_wp) .or. any(stress == '')) return
       if (stress(1) == stress(2) .and. has_force(values(1), values(2))) return
       if (stress(1) /= stress(2)) length = stress(2)
-      call warnings%add(0, trim(length)//' and '//trim(stress(1))//' are no units of one deck: --units mm,n converts both')
+      call warnings%add(0, trim(length)//' and '//trim(stress(1))//' are not consistent units of a deck: --units mm,n converts '// &
+         'both')
    end subroutine check_system
 
    !> LINE up to its comment, which # or $ begins, without blanks and tabs at its end; double quotes, which spreadsheets put

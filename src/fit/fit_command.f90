@@ -148,14 +148,14 @@ contains
             call read_value(argument, argument_text(i), command, ok)
             if (.not. ok) return
          case default
-            call complain(program, 'there is no option '//argument)
+            call complain(program, 'unknown option '//argument)
             return
          end select
       end do
       if (size(command%files) == 0) then
          call complain(program, 'no data file given')
       else if (command%as > 0 .and. command%only == 0) then
-         call complain(program, '--as needs --branch: which branch of the data is meant?')
+         call complain(program, '--as needs --branch, the branch of the data')
       else if (command%id > huge(1) - (size(command%files) - 1)) then
          call complain(program, '--id '//integer_text(command%id)//': the laws of '//plural(size(command%files), 'file')// &
                        ' would have numbers beyond '//integer_text(huge(1)))

@@ -114,7 +114,7 @@ contains
       end do
       if (fit%has_loading) then
          associate (closure => fit%closure)
-            words = 'unloading does not come to tau = 0'
+            words = 'unloading does not reach tau = 0'
             if (closure%is_known) words = real_text(0.01_wp*nint(1.0e4_wp*min(closure%share, 1.0e4_wp)))//' % of tau_r, '// &
                trim(merge('widest at                              ', 'of the smallest loops, DMAX unknown, at', &
                           closure%d > 0.0_wp))//' p = '//real_text(closure%p)//', d = '//real_text(closure%d)

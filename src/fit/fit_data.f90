@@ -55,7 +55,7 @@ contains
       data%text%files(1)%path = name
       data%units = ''
       if (.not. data%text%is_text) then
-         errors%items(errors%n)%message = 'the file is empty, or no text: expected test data as plain text'
+         errors%items(errors%n)%message = 'the file is empty or not text: expected test data as plain text'
          return
       end if
       associate (rows => data%text%n)
@@ -173,7 +173,7 @@ contains
             ok = ok .and. abs(value) <= huge(run)
             if (ok) run = nint(value)
             if (ok) ok = run > 0 .and. abs(value - run) < 1.0e-6_wp
-            if (.not. ok) fault = ''''//word//''' is no number of a run, expected 1, 2, 3 and so on'
+            if (.not. ok) fault = ''''//word//''' is not the number of a run, expected 1, 2, 3 and so on'
          else
             call read_number(word, value, ok)
             if (.not. ok) then

@@ -76,11 +76,11 @@ contains
       if (errors%any()) return
       largest = max(fit%normal%c, fit%normal%loops%e_u, maxval(abs(fit%card)), fit%p_max, fit%d_max)
       if (.not. largest <= largest_size) call errors%add(0, 'the law that fits these data has a number of '//real_text(largest)// &
-         ', and a deck takes no more than '//real_text(largest_size)//': are the units right, and --dmax?')
+         ', and a deck accepts at most '//real_text(largest_size)//': are the units right, and --dmax?')
       positive = [fit%normal%c, fit%normal%loops%e_u, fit%p_max, fit%d_max] ! zero: none, its field is blank
       smallest = minval(positive, mask=positive > 0.0_wp)
       if (smallest < smallest_size) call errors%add(0, 'the law that fits these data has a number of '//real_text(smallest)// &
-         ', and a deck takes none below '//real_text(smallest_size)//': are the units right?')
+         ', and a deck accepts none below '//real_text(smallest_size)//': are the units right?')
       if (errors%any() .or. .not. fit%has_loading) return
       law = shear_law(given=.true., load=cubic(fit%card(:, :, fit_load)), unload=cubic(fit%card(:, :, fit_load)), &
                       reload=cubic(fit%card(:, :, fit_load)), p_max=fit%p_max)
@@ -177,7 +177,7 @@ contains
       select case (fit%fault)
       case (fault_one_pressure)
          call errors%add(data%line(rows(1)), name//': all data at one pressure, p = '//real_text(fit%p_high)// &
-                         ', expected two pressures or more; --one-pressure makes a card that does not depend on it')
+                         ', expected two pressures or more; --one-pressure makes a card that does not depend on the pressure')
       case (fault_few_points)
          i = findloc(fit%group, fit%fault_at, 1)
          call errors%add(data%line(rows(i)), name//', p = '//real_text(fit%group_p(fit%fault_at))//': '// &
@@ -246,8 +246,8 @@ contains
                          real_text(least_power)//' and not above 1')
          return
       else if (fit%m > 1.0_wp) then
-         if (fit%m > 1.0_wp + m_rounding) call warnings%add(0, 'the points want m = '//real_text(fit%m)// &
-            ', the law allows 1 at most: m is held at 1; --zero helps where the readings do not begin at zero')
+         if (fit%m > 1.0_wp + m_rounding) call warnings%add(0, 'the fit gives m = '//real_text(fit%m)// &
+            ', but the law allows at most 1: m is set to 1; use --zero if the readings do not begin at zero')
          fit%m = 1.0_wp
          fit%c = fit_proportional(p, lambda)
       end if
@@ -263,7 +263,7 @@ contains
       if (size(fit%loops%lines) == 0) return
       slope = fit%p_high**(1.0_wp - fit%m)/(fit%m*fit%c)
       if (fit%loops%e_u <= 0.0_wp) then
-         call warnings%add(0, 'lambda does not fall with p where the test is unloaded: EU is left blank')
+         call warnings%add(0, 'lambda does not fall with p in unloading: EU is left blank')
       else if (fit%loops%e_u < slope) then ! unloaded less steeply than loaded
          call warnings%add(0, 'E_u = '//real_text(fit%loops%e_u)//' is below the slope of the loading curve at p = '// &
                            real_text(fit%p_high)//', '//real_text(slope)//': the set would be negative')

@@ -418,8 +418,8 @@ contains
                          '--p-tolerance 0.05 counts pressures within 5 % as one')
       else if (counts(1) > counts(2) .and. data%n < few*counts(1)) then
          call errors%add(0, 'the test turns back '//integer_text(counts(1) - counts(2))//' times in '//rows//', too often for '// &
-                         'a record in the order of time; --unordered takes all rows as loading, --noise 0.1 passes over '// &
-                         'smaller turns, a column branch or run tells what the rows are')
+            'a record in the order of time; --unordered takes all rows as loading, --noise 0.1 ignores smaller turns, a column '// &
+            'branch or run classifies the rows')
       else if (.not. any(data%branch(:data%n) == fit_load) .and. data%kind == data_normal) then
          call errors%add(0, 'no loading: p falls from the first row on; --unordered takes all rows as loading')
       end if

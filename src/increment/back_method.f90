@@ -81,10 +81,10 @@ contains
       end do
       if (analysis%average .and. .not. analysis%record%is_settled) then
          worst = first_largest(now%change)
-         call failure%raise(where_in_plan(plan, analysis%stage, analysis%increment)//': the pressures have not settled after '// &
-            integer_text(analysis%record%n_iterations)//' iterations; the one of node '// &
+         call failure%raise(where_in_plan(plan, analysis%stage, analysis%increment)//': the pressures have not converged after '// &
+            integer_text(analysis%record%n_iterations)//' iterations; that of node '// &
             integer_text(joint_node_id(model, worst, 1))// &
-            ' still changes by '//real_text(now%change(worst))//'; METHOD = NEWTON follows such laws')
+            ' still changes by '//real_text(now%change(worst))//'; use METHOD = NEWTON')
          return
       end if
       call store(model, now, analysis)

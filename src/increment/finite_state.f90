@@ -88,8 +88,7 @@ contains
 
          do k = 1, size(values)
             if (.not. is_measure(values(k))) call failure%raise(where_in_plan(plan, analysis%stage, analysis%increment)// &
-               ': '//what//' is '//real_text(values(k))//', beyond all measure; are loads, lengths and stiffnesses in '// &
-               'consistent units?')
+               ': '//what//' is '//real_text(values(k))//', too large; are loads, lengths and stiffnesses in consistent units?')
          end do
       end subroutine check
 

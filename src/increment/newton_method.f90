@@ -25,7 +25,7 @@ module newton_method
    public :: newton_increment, cross_gaps, seat_joints, tolerance_of
 
    character(*), parameter, public :: no_balance = &
-      'stiffnesses differ so much, or bodies moved so far, that rounding leaves no balance of forces'
+      'stiffnesses differ so much, or bodies move so far, that rounding prevents equilibrium'
    integer, parameter  :: most_iterations = 60
    integer, parameter  :: patience = 8                ! iterations that must leave less than as many before them have
    real(wp), parameter :: progress = 0.9_wp            ! of it: what counts as less
@@ -81,7 +81,7 @@ contains
          return
       end if
       call go_back(plan, attempt%left_over, analysis)
-      if (analysis%record%ends_early) failure%message = failure%message//'; the last state in equilibrium stands at '// &
+      if (analysis%record%ends_early) failure%message = failure%message//'; the last state in equilibrium is at '// &
          real_text(anint(1.0e4_wp*analysis%fraction)*1.0e-4_wp)//' of stage '//integer_text(plan%stages(analysis%stage)%id)
    end subroutine newton_increment
 
@@ -572,7 +572,7 @@ contains
          words = words//': '//no_balance
       else if (analysis%record%n_iterations > 0) then
          words = words//', '//real_text(analysis%record%iterations(analysis%record%n_iterations)%after)// &
-                 ' of force are left unbalanced'
+                 ' of force remain unbalanced'
          if (all(attempt%worst > 0)) words = words//', most at '//unknown_name(model, attempt%worst(1), attempt%worst(2))
       end if
       if (size(attempt%flips) > 0) then

@@ -38,7 +38,7 @@ contains
       real(wp) :: one(1, 1)
       integer  :: info
 
-      if (available_memory() <= 0) call give_up('the memory that is allowed does not suffice for BLAS')
+      if (available_memory() <= 0) call give_up('the permitted memory does not suffice for BLAS')
       one = 1.0_wp
       call dpotrf('L', 1, one, 1, info)
    end subroutine reserve_blas

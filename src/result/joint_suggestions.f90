@@ -48,7 +48,7 @@ contains
       do p = 1, size(pairs)
          call suggest_pair(pairs(p))
       end do
-      if (size(pairs) == 0) call file%put('$ no two bodies have sides that face each other within a tenth of the edge of a side')
+      if (size(pairs) == 0) call file%put('$ no sides of two bodies face each other within a tenth of the edge of a side')
       if (n_new > 0 .and. all(deck%bulk%pjoint%id /= next%law)) call file%put( &
          '$ PJOINT '//integer_text(next%law)//', the laws of these joints, is not in the deck: --help PJOINT')
       if (size(deck%bulk%support) == 0) call suggest_support(deck, model, sides, sees, mark, next, file)
@@ -68,7 +68,7 @@ contains
             number(pair%area(2))//', gap '//number(pair%gap(1))//' to '//number(pair%gap(2))//', normal '//box_words(pair%normal))
          if (minval(pair%n) == 0) then
             call file%put('$ only body '//integer_text(pair%body(maxloc(pair%n, dim=1)))// &
-                          ' sees the other; a mark of its sides alone would have no side opposite')
+                          ' has sides opposite to the other; marks on its sides alone would have no opposite side')
             return
          end if
          do k = 1, 2
@@ -241,7 +241,7 @@ contains
       if (.not. any(lowest)) return
       call take_mark(deck, pack(mark, lowest), next, id, is_new)
       call file%put('$')
-      call file%put('$ nothing is supported; the lowest flat sides have an area of '//number(sum(sides%area, mask=lowest)))
+      call file%put('$ the model has no support; the lowest flat sides have an area of '//number(sum(sides%area, mask=lowest)))
       if (is_new) call file%put('PMARK,'//integer_text(id))
       call file%put('SPCM,1,'//trim(merge('12 ', '123', d == 2))//','//integer_text(id))
       if (is_new) call put_sides(model, pack(sides, lowest), id, next, file)

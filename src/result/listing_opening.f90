@@ -70,7 +70,7 @@ contains
       call heading(file, 'MODEL SUMMARY')
       call count_line('NODES', int(n_points(model), long))
       if (.not. all(model%used)) call count_line('   OF THESE WITHOUT AN ELEMENT, LEFT OUT', count(.not. model%used, kind=long))
-      if (model%n_filled > 0) call count_line('   OF THESE PUT AT THE MIDDLE OF EDGES', int(model%n_filled, long))
+      if (model%n_filled > 0) call count_line('   OF THESE MADE AT THE MIDDLE OF EDGES', int(model%n_filled, long))
       if (any(model%duplicate > 0)) call count_line('   OF THESE DOUBLED AT SPLIT SURFACES', count(model%duplicate > 0, kind=long))
       call count_line('BODY ELEMENTS', int(model%n_elements, long))
       call count_formulations(model)
@@ -307,7 +307,7 @@ contains
       character(page_width) :: line
 
       if (.not. closure%is_known) then
-         line = repeat(' ', 17)//'CLOSURE: UNLOADING DOES NOT COME TO TAU = 0'
+         line = repeat(' ', 17)//'CLOSURE: UNLOADING DOES NOT REACH TAU = 0'
       else if (closure%d > 0.0_wp) then
          write (line, '(17x, 3a, es13.5, a, es13.5)') 'CLOSURE', in_form(100.0_wp*closure%share, '(f9.3)', 9), &
             ' PER CENT OF TAU_R, WIDEST AT P =', closure%p, '   D =', closure%d
@@ -370,7 +370,7 @@ contains
       do j = 1, size(shown)
          associate (joint => model%joints(shown(j)))
             if (joint%cover%share < whole_share) call page%file%put('  NOTE: SIDE2 COVERS ONLY A PART OF SIDE1 OF JOINT '// &
-               integer_text(joint%id)//'. WHERE IT DOES NOT, THERE IS NO JOINT.')
+               integer_text(joint%id)//'. THE REST OF SIDE1 HAS NO JOINT.')
             if (is_coarser(joint%cover)) call page%file%put('  NOTE: SIDE1 OF JOINT '//integer_text(joint%id)// &
                ' IS COARSER THAN SIDE2. EXCHANGE THEM FOR BETTER STRESSES BESIDE THE JOINT.')
          end associate

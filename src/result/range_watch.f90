@@ -69,8 +69,8 @@ contains
       character(:), allocatable    :: words
 
       words = ''
-      if (model%n_elements > 0 .and. all(model%element_kind == kind_tetra4)) words = 'all bodies are of linear '// &
-         'tetrahedra, 10 to 35 % too stiff in bending on usual meshes: mesh with second order'
+      if (model%n_elements > 0 .and. all(model%element_kind == kind_tetra4)) words = 'all bodies are of linear tetrahedra, on '// &
+         'usual meshes 10 to 35 % too stiff in bending: mesh with second order'
    end function tetra_words
 
    !> Note, with the first increment, the laws whose loops stay open; and the laws of which an element has begun to unload less steeply
@@ -269,12 +269,12 @@ contains
       words = '  WARNING: '//upper(where_in_plan(plan, analysis%stage, analysis%increment))//': '
       unbalanced = free_norm(analysis%unbalanced, analysis%held)
       if (unbalanced > much*largest_force) then
-         call warn(watch, words//real_text(unbalanced)//' OF FORCE ARE LEFT UNBALANCED BY REMOVED ELEMENTS: '// &
+         call warn(watch, words//real_text(unbalanced)//' OF FORCE REMAIN UNBALANCED BY REMOVED ELEMENTS: '// &
                              'SEE CARRY = YES, METHOD = NEWTON')
       end if
       if (.not. analysis%record%is_settled) then
-         call warn(watch, words//'THE SECANTS HAVE NOT SETTLED IN '//integer_text(analysis%record%n_iterations)// &
-                                   ' ITERATIONS, THE RESULTS ARE THOSE OF THE LAST: SEE AVERAGE = YES')
+         call warn(watch, words//'THE SECANTS HAVE NOT CONVERGED IN '//integer_text(analysis%record%n_iterations)// &
+                                   ' ITERATIONS; THE RESULTS ARE THOSE OF THE LAST: SEE AVERAGE = YES')
       end if
       excess = 0.0_wp
       limit = 0.0_wp
@@ -303,7 +303,7 @@ contains
       associate (condition => analysis%record%condition)
          power = nint(log10(condition%number))
          first = where_in_plan(plan, analysis%stage, analysis%increment)//': condition of the stiffness about 1E'// &
-                 integer_text(power)//', of its 16 digits about '//integer_text(max(0, 16 - power))//' are left'
+                 integer_text(power)//', about '//integer_text(max(0, 16 - power))//' of 16 digits remain'
          second = 'softest at '//unknown_name(model, condition%node, condition%direction)
       end associate
       call warn(watch, '  WARNING: '//upper(first)//': ', upper(second))
@@ -322,9 +322,9 @@ contains
       if (analysis%record%n_parts <= 1 .or. analysis%record%is_partial) return
       first = where_in_plan(plan, analysis%stage, analysis%increment)//': divided into '// &
               integer_text(analysis%record%n_parts)//' parts'
-      second = 'then made as a whole from where they led'
+      second = 'then repeated as a whole from the state that they reached'
       if (.not. analysis%record%is_whole) then
-         second = 'it did not converge as a whole, and the answer depends on the parts: more increments tell by how much'
+         second = 'it did not converge as a whole, and the answer depends on the parts: more increments show by how much'
       end if
       call warn(watch, merge('  NOTE:    ', '  WARNING: ', analysis%record%is_whole)//upper(first)//', ', upper(second))
       words = first//', '//second

@@ -164,7 +164,7 @@ contains
          call find_answer(model, analysis, results%listing%method, page%largest_force, results%bolts, answer)
          fault = fault_of_answer(model, answer)
          if (fault /= '') call failure%raise(where_in_plan(plan, analysis%stage, analysis%increment)//': '//fault// &
-                                             ' is beyond all measure; are loads, lengths and stiffnesses in consistent units?')
+                                             ' is too large; are loads, lengths and stiffnesses in consistent units?')
          title = 'ANSWER AT THE END OF '//page%stage//'   '//stage%label
          if (analysis%record%ends_early) title = 'ANSWER WHERE THE RUN ENDED EARLY, '//page%stage//', LOAD '// &
                                           real_text(analysis%fraction)//'   '//stage%label

@@ -193,7 +193,7 @@ contains
             if (words /= '') return
             if (.not. all(is_measure([joint%pressure, joint%gap, joint%normal, joint%shear, joint%moment, joint%safety, &
                                       joint%force, joint%movement, joint%tangent, joint%secant]))) &
-               words = 'what joint '//integer_text(model%joints(i)%id)//' transmits, or its stiffness,'
+               words = 'the force of joint '//integer_text(model%joints(i)%id)//', or its stiffness,'
          end associate
       end do
       do i = 1, size(answer%bolts)

@@ -189,7 +189,7 @@ contains
       words = ''
       if (farthest%relative > far) words = 'STEP is up to '//real_text(0.1_wp*anint(1000.0_wp*farthest%relative))// &
          ' % of the largest '//farthest%quantity//' away from its law, at node '//integer_text(farthest%node)//' in '// &
-         farthest%place//'; METHOD = NEWTON gives the answer of the laws'
+         farthest%place//'; METHOD = NEWTON follows the laws'
    end function distance_words
 
    !> The slipping elements before and after each re-analysis, t_1 and t_1' of Fig. 5(b).

@@ -92,11 +92,11 @@ contains
 
       call page%file%put('')
       call page%file%put(' NATURAL MODES ABOUT THE END OF '//page%stage//'   '// &
-                         trim(merge('JOINTS AS THEY LOAD  ', 'JOINTS AS THEY UNLOAD', plan%on_loading))//', '// &
-                         trim(merge('SUPPORTS LET GO      ', 'SUPPORTS AS THEY ARE ', plan%free))//', '// &
+                         trim(merge('STIFFNESS OF LOADING  ', 'STIFFNESS OF UNLOADING', plan%on_loading))//', '// &
+                         trim(merge('SUPPORTS RELEASED', 'SUPPORTS HELD    ', plan%free))//', '// &
                          trim(merge('LUMPED MASS    ', 'CONSISTENT MASS', model%lumped)))
-      if (size(model%interface) > 0) call page%file%put('  INTERFACE ELEMENTS THAT TOUCH: '// &
-         integer_text(modes%n_touching)//' OF '//integer_text(size(model%interface))//'; THE OTHERS TAKE NO PART')
+      if (size(model%interface) > 0) call page%file%put('  INTERFACE ELEMENTS IN CONTACT: '// &
+         integer_text(modes%n_touching)//' OF '//integer_text(size(model%interface))//'; THE OTHERS HAVE NO STIFFNESS')
       if (modes%counted_at < huge(1.0_wp)) then
          call page%file%put('  MODES BELOW THE FREQUENCY '//real_text(modes%counted_at)//': '//integer_text(modes%n_counted)// &
                             ', COUNTED BY THE SIGNS OF THE PIVOTS; NONE IS MISSING')
@@ -104,7 +104,7 @@ contains
          call page%file%put('  THE STRUCTURE HAS '//integer_text(modes%n_counted)//' MODES IN ALL, AND ALL HAVE BEEN FOUND')
       end if
       if (modes%n_before > 0) call page%file%put('  BELOW THE RANGE: '//integer_text(modes%n_before))
-      if (size(modes%modes) == 0) call page%file%put('  THERE IS NONE IN THE RANGE')
+      if (size(modes%modes) == 0) call page%file%put('  NO MODE IS IN THE RANGE')
       call list_mass(page, model, modes)
       if (size(modes%modes) == 0) return
       call list_frequencies(page, plan, modes)
@@ -153,10 +153,10 @@ contains
          call table%print_row(page%file, page%tables(modes_table))
       end do
       if (any(modes%modes%is_rigid)) call page%file%put('  FREQUENCY 0: THE STRUCTURE, OR A PART OF IT, MOVES WITHOUT STRAIN')
-      if (plan%amplitude > 0.0_wp) call page%file%put('  LOSS FACTORS WHERE THE LARGEST DISPLACEMENT OF THE MODE IS '// &
+      if (plan%amplitude > 0.0_wp) call page%file%put('  LOSS FACTORS FOR A LARGEST DISPLACEMENT OF THE MODE OF '// &
                                                       real_text(plan%amplitude))
       if (plan%has_losses .and. plan%amplitude <= 0.0_wp) call page%file%put( &
-         '  LOSS FACTORS OF MATERIALS (GE, PARAM G) ALONE: WHAT JOINTS LOSE DEPENDS ON AN AMPLITUDE')
+         '  LOSS FACTORS OF MATERIALS (GE, PARAM G) ALONE: THE LOSS OF JOINTS NEEDS AN AMPLITUDE')
    end subroutine list_frequencies
 
    subroutine list_participation(page, model, modes)
@@ -195,8 +195,8 @@ contains
       type(listing_table_type) :: table
       integer :: i, m
 
-      call table%start('STRAIN ENERGY OF THE MODES, PERCENT; WHAT HAS LESS THAN '//real_text(percent*least_share)// &
-                       ' IS NOT LISTED', energy_columns(), page%file)
+      call table%start('STRAIN ENERGY OF THE MODES, PERCENT; SHARES BELOW '//real_text(percent*least_share)// &
+                       ' ARE NOT LISTED', energy_columns(), page%file)
       do m = 1, size(modes%modes)
          if (modes%modes(m)%is_rigid) cycle
          associate (energy => modes%modes(m)%energy)
@@ -244,8 +244,8 @@ contains
       if (size(found%loops) > 0) then
          linear = sqrt(found%omega_squared)/two_pi
          call page%file%put('  AMPLITUDE: OF THE MODE AT NODE '//integer_text(model%node_id(found%node))// &
-                            '; SHIFT: AGAINST THE FREQUENCY THAT MODES HAS FOUND; LOSS FACTOR: THAT OF THE JOINTS, TWICE ZETA')
-         call table%start('FREQUENCY AND LOSS OVER AMPLITUDE', backbone_columns(page%labels), page%file)
+                            '; SHIFT: FROM THE FREQUENCY OF MODES; LOSS FACTOR: THAT OF THE JOINTS, TWICE ZETA')
+         call table%start('FREQUENCY AND LOSS AGAINST AMPLITUDE', backbone_columns(page%labels), page%file)
          do i = 1, size(found%loops)
             associate (loop => found%loops(i), frequency => sqrt(found%loops(i)%omega_squared)/two_pi)
                call table%add([page%stage_id, found%mode], [loop%q*found%peak, frequency])
@@ -261,7 +261,7 @@ contains
          if (allocated(found%answers)) call list_resonances(page, found)
       end if
       if (found%is_limited) then
-         call page%file%put('  WARNING: LARGER AMPLITUDES ARE NOT BORNE; THE LAST ONE IS THAT OF THE LARGEST LOAD FOUND')
+         call page%file%put('  WARNING: LARGER AMPLITUDES HAVE NO EQUILIBRIUM; THE LAST ROW IS FOR THE LARGEST LOAD FOUND')
          call page%file%put('  '//upper(found%problem))
       else if (found%problem /= '') then
          call page%file%put('  WARNING: NO BACKBONE: '//upper(found%problem))
@@ -344,7 +344,7 @@ contains
          end do
       end do
       if (.not. response%is_complete) call page%file%put( &
-         '  BY THESE MODES ALONE: THE STRUCTURE IS NOT HELD, AND HAS NO STATIC ANSWER')
+         '  BY THESE MODES ALONE: AN UNSUPPORTED STRUCTURE HAS NO STATIC RESPONSE')
       do i = 1, size(response%missed)
          call page%file%put(missed_words(response, response%missed(i)))
       end do
@@ -362,9 +362,9 @@ contains
       write (amplitude, '(es12.5)') peak%amplitude
       write (beside, '(es12.5)') peak%beside
       if (peak%amplitude <= 0.0_wp) amplitude = 'NO BOUND'
-      words = '  WARNING: MODE '//integer_text(peak%mode)//' HAS ITS PEAK BETWEEN THE FREQUENCIES ASKED FOR: AT '// &
+      words = '  WARNING: MODE '//integer_text(peak%mode)//' HAS ITS PEAK BETWEEN THE REQUESTED FREQUENCIES: AT '// &
               trim(adjustl(frequency))//' NODE '//integer_text(response%node(peak%node))//' '//axes(peak%component)//' '// &
-              trim(adjustl(amplitude))//', BESIDE IT '//trim(adjustl(beside))//'; SEE FREQ4'
+              trim(adjustl(amplitude))//', IN THE TABLE '//trim(adjustl(beside))//'; SEE FREQ4'
    end function missed_words
 
    !> The rows of the response in the stage with the number STAGE: frequency by frequency, at each node by node, of each its components.

@@ -99,7 +99,7 @@ contains
             command%resume = .true.
          case ('-o', '--threads', '--watch', '--summary', '--set')
             if (i == n) then
-               call complain(program, argument//' needs a value behind it')
+               call complain(program, argument//' needs a value')
                return
             end if
             i = i + 1
@@ -112,7 +112,7 @@ contains
             case ('--watch')
                command%watched = argument_text(i)
                if (command%watched == '' .or. verify(command%watched, '0123456789,') > 0) then
-                  call complain(program, '--watch '//command%watched//': expected numbers of nodes with commas between them')
+                  call complain(program, '--watch '//command%watched//': expected node numbers separated by commas')
                   return
                end if
             case ('--set')
@@ -126,7 +126,7 @@ contains
                end if
             end select
          case default
-            call complain(program, 'there is no option '//argument)
+            call complain(program, 'unknown option '//argument)
             return
          end select
       end do

@@ -51,7 +51,7 @@ contains
          return
       end if
       run%ending = is_refused
-      run%problem = 'it is no file that can be read'
+      run%problem = 'it cannot be read'
       readable = is_regular_file(name)
       if (readable) call read_all_bytes(name, bytes, readable)
       if (.not. readable) return
@@ -59,7 +59,8 @@ contains
       if (run%problem /= '') return
       run%resumes = .not. run%check_only
       run%ending = goes_on
-      if (run%check_only) write (error_unit, '(4a)') run%argument%name, ': ', name, ' is whole, of this deck and this program'
+      if (run%check_only) write (error_unit, '(4a)') run%argument%name, ': ', name, ' is complete and belongs to this deck and '// &
+         'this program'
    end subroutine open_restart_file
 
    !> TAKE UP FROM THE RESTART FILE: the state of ANALYSIS, of the bolts in the equations of SYSTEM, and the results so far.
@@ -76,7 +77,7 @@ contains
       call record_state(run%restart, analysis, run%results)
       if (.not. run%restart%is_at_end()) then
          run%ending = is_refused
-         run%problem = 'there is more in it than the state of this deck'
+         run%problem = 'it holds more than the state of this deck'
          if (allocated(run%restart%fault)) run%problem = run%restart%fault
       else if (.not. is_in_plan(plan, analysis)) then
          run%ending = is_refused
@@ -89,12 +90,12 @@ contains
       analysis%goes_on = analysis%increment < size(plan%stages(analysis%stage)%fractions)
       call say_at_interrupts(run%argument%name//': interrupted; '//restart_name(run%argument%base)//' stays as it was')
       call run%progress%skip(sum([(size(plan%stages(s)%fractions), s = 1, analysis%stage - 1)]) + analysis%increment)
-      words = ': taken up from '//restart_name(run%argument%base)//' behind stage '// &
+      words = ': resumed from '//restart_name(run%argument%base)//' after stage '// &
               integer_text(plan%stages(analysis%stage)%id)//', increment '//integer_text(analysis%increment)
       if (allocated(analysis%kept)) then
          words = words//', '//integer_text(size(analysis%kept, 2))//' amplitudes of its backbone done'
       else if (analysis%stage == size(plan%stages) .and. .not. analysis%goes_on) then
-         words = ': taken up from '//restart_name(run%argument%base)//', where the run is complete; its results are written again'
+         words = ': resumed from '//restart_name(run%argument%base)//', where the run is complete; its results are written again'
       end if
       call say_line(run%argument%name//words)
    end subroutine take_up
@@ -126,7 +127,7 @@ contains
       if (run%deck_sum == 0) run%deck_sum = checksum_of(deck%text)
       call write_state(run, analysis, ok)
       if (.not. (ok .or. run%misses_restart)) write (error_unit, '(4a)') run%argument%name, ': the restart file ', &
-         restart_name(run%argument%base), ' cannot be written; the run goes on'
+         restart_name(run%argument%base), ' cannot be written; the run continues'
       run%misses_restart = run%misses_restart .or. .not. ok
       if (ok) call say_at_interrupts(run%argument%name//': interrupted; '//restart_name(run%argument%base)// &
          ' keeps the state behind '//where_in_plan(plan, analysis%stage, analysis%increment)//': --resume goes on from there')

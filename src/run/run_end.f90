@@ -104,7 +104,7 @@ contains
 
       if (deck%bulk%ignored%n > 0) write (error_unit, '(3a)') run%argument%name, ': ', deck%bulk%ignored%words()
       if (deck%control%of_nastran .and. size(deck%control%stages) > 1) write (error_unit, '(4a)') run%argument%name, ': ', &
-         plural(size(deck%control%stages), 'SUBCASE'), ' are stages of one history, each goes on from the end of the one before'
+         plural(size(deck%control%stages), 'SUBCASE'), ' are stages of one history: each starts from the end of the previous one'
    end subroutine say_of_deck
 
    !> What is wrong, or that a deck is in order; no result is left of a run that did not come to its end.
@@ -121,7 +121,7 @@ contains
          case (is_unreadable)
             call complain_of_input(run%argument, 'a deck')
          case (is_refused)
-            write (error_unit, '(5a)') name, ': ', restart_name(base), ' cannot be taken up: ', run%problem
+            write (error_unit, '(5a)') name, ': ', restart_name(base), ' cannot be resumed: ', run%problem
             call discard_results(run%results)
          case (would_overwrite)
             do i = 2, deck%text%n_files

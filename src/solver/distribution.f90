@@ -130,9 +130,9 @@ contains
       words = ''
       if (best == solver_tree) return
       if (work%bytes > work%there) then
-         words = 'AUTO: TREE WOULD NEED '//integer_text(nint(work%bytes/1048576.0_wp))//' MIB, MORE THAN THERE ARE'
+         words = 'AUTO: TREE WOULD NEED '//integer_text(nint(work%bytes/1048576.0_wp))//' MIB, MORE THAN AVAILABLE'
       else
-         words = 'AUTO: BY THE COUNT TREE TAKES '//quotient(seconds(1)/seconds(2))//' TIMES AS LONG AS PETSC, MUMPS '// &
+         words = 'AUTO: BY ESTIMATE TREE TAKES '//quotient(seconds(1)/seconds(2))//' TIMES AS LONG AS PETSC, MUMPS '// &
                  quotient(seconds(3)/seconds(2))
       end if
    end function weighing_words

@@ -187,7 +187,7 @@ contains
             if (is_measure(x(k))) cycle
             call failure%raise(system%formed_in//'the displacement of '// &
                unknown_name(model, system%node(k), system%direction(k))//' is '//real_text(x(k))// &
-               ', beyond all measure; are loads and stiffnesses in consistent units?')
+               ', too large; are loads and stiffnesses in consistent units?')
             return
          end associate
       end do

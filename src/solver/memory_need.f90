@@ -51,8 +51,9 @@ contains
       real(wp) :: share
 
       call shortage('the factor of '//integer_text(n)//' equations needs about', bytes, words, share)
-      if (words /= '') call failure%raise(words//'; of this shape about '// &
-                                          integer_text(int(n*share**inverse_growth(dimension)))//' equations would fit')
+      if (words /= '') call failure%raise(words//'; about '// &
+                                          integer_text(int(n*share**inverse_growth(dimension)))//' equations of this shape '// &
+                                             'would fit')
    end subroutine check_memory
 
    !> WORDS that say what NEEDS so many BYTES and what the machine has, and the SHARE that can be had; '' where all can.
@@ -68,7 +69,7 @@ contains
       share = 1.0_wp
       if (bytes <= there) return
       share = there/bytes
-      words = needs//' '//mebibytes(bytes)//' MiB, and the machine has '//mebibytes(there)//' MiB to give'
+      words = needs//' '//mebibytes(bytes)//' MiB, and '//mebibytes(there)//' MiB are available'
    end subroutine shortage
 
    pure function mebibytes(bytes) result(text)

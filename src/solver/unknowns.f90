@@ -21,7 +21,7 @@ contains
       character(:), allocatable    :: words
 
       if (node_kind(model, node) == an_overlap) then
-         words = 'nothing holds '//owner_name(model, node)//' together at its section'
+         words = 'no stiffness holds '//owner_name(model, node)//' together at its section'
       else
          words = owner_name(model, node)//' has no stiffness '// &
                  trim(merge('against', 'in     ', node_kind(model, node) == a_rotation))//' '//direction_name(model, node, d)

@@ -136,7 +136,7 @@ contains
             found%node = wanted%node
             if (found%node == 0) found%node = findloc(moved >= (1.0_wp - reached)*maxval(moved), .true., dim=1)
             found%peak = moved(found%node)
-            if (found%peak <= reached*maxval(moved)) found%problem = 'THE NODE ASKED FOR DOES NOT MOVE IN THIS MODE'
+            if (found%peak <= reached*maxval(moved)) found%problem = 'THE REQUESTED NODE DOES NOT MOVE IN THIS MODE'
          end if
       end associate
    end subroutine choose_mode

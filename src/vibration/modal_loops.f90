@@ -303,7 +303,7 @@ contains
       if (failure%raised) return
       high = coordinate(push, now, loop%alpha)
       if (.not. (low < 0.0_wp .and. high > 0.0_wp)) then
-         call failure%raise('the oscillation leaves the state about which it began: both ends of the loop lie on one side of it')
+         call failure%raise('both ends of the loop lie on one side of the state at rest')
          return
       end if
       loop%n_loops = loop%n_loops + 1

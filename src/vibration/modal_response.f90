@@ -162,8 +162,8 @@ contains
          do f = 1, size(frequencies)
             call response_at(superposed, frequencies(f), u, ok)
             if (.not. ok) then
-               call failure%raise('FREQUENCY: at '//real_text(frequencies(f))//' the response has no bound: no damping, '// &
-                                  'or a structure that nothing holds')
+               call failure%raise('FREQUENCY: at '//real_text(frequencies(f))//' the response is unbounded: no damping, or an '// &
+                  'unsupported structure')
                return
             end if
             large = abs(u)

@@ -176,7 +176,7 @@ contains
             end if
          end associate
       end do
-      call failure%raise('MODES: '//integer_text(spectrum%n_counted)//' modes have been counted, and '// &
+      call failure%raise('MODES: '//integer_text(spectrum%n_counted)//' modes were counted, and '// &
                          integer_text(spectrum%n_before + size(spectrum%lambda))//' found in '// &
                          integer_text(most_trials)//' trials')
    end subroutine find_and_count

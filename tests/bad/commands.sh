@@ -25,7 +25,7 @@ for s in '' T =3 T= 'T=1,,2' 'T T=1' T=,1; do
 done
 run --set T=1 --set T=2 good.bdf;     check '--set twice' 1 'given twice'
 for s in '' x 1,b '3 4'; do
-   run --watch "$s" good.bdf;          check "--watch '$s'" 1 "--watch $s: expected numbers of nodes"
+   run --watch "$s" good.bdf;          check "--watch '$s'" 1 "--watch $s: expected node numbers"
 done
 run --summary nowhere/s.csv -o results good.bdf; check '--summary that cannot be written' 4 'nowhere/s.csv cannot be written'
 rm -f results/*

@@ -26,7 +26,7 @@ for solver in SKYLINE TREE; do
    for unit in mm m; do
       on_bar "soft_bar_$unit" 1.0E-6 $solver $unit && {
          says "$solver, $unit: a soft bar is told on the screen" "$work/soft_bar_$unit.log" \
-            'stage 1, increment 1: condition of the stiffness about 1E13, of its 16 digits about 3 are left: softest at node .* in direction Y'
+            'stage 1, increment 1: condition of the stiffness about 1E13, about 3 of 16 digits remain: softest at node .* in direction Y'
          says "$solver, $unit: and in the listing" "$work/soft_bar_$unit.out" 'WARNING: STAGE 1, INCREMENT 1: CONDITION OF THE STIFFNESS ABOUT 1E13'
          says "$solver, $unit: it counts" "$work/soft_bar_$unit.out" 'END OF LISTING .*, 1 WARNING$'
       }

@@ -18,7 +18,7 @@ run prism_no_average && {
       / ITERATIONS, STAGE/ { on = 1 } / RESULTANTS/ { on = 0 }
       on && $1 == 1 && NF == 5 { n++; if (($3 > 6.234906e-3) != n % 2) print }
       END { if (n != 24) print n " iterations"; print "checked " n }' "$work/prism_no_average.out"
-   says 'prism, BACK without averages: the listing warns' "$work/prism_no_average.out" 'WARNING: STAGE 1, INCREMENT 1: THE SECANTS HAVE NOT SETTLED IN 24 ITERATIONS'
+   says 'prism, BACK without averages: the listing warns' "$work/prism_no_average.out" 'WARNING: STAGE 1, INCREMENT 1: THE SECANTS HAVE NOT CONVERGED IN 24 ITERATIONS'
 }
 
 # BACK and NEWTON in one increment have no history: the same answer.

@@ -66,7 +66,7 @@ hung alpha "$asked" 'FREQ4,7\nPARAM,ALPHA1,0.1' 2 && says 'PARAM ALPHA1' "$work/
 hung lmodes "$asked" 'FREQ4,7\nPARAM,LMODES,20' 2 && says 'PARAM LMODES' "$work/lmodes.log" 'EIGRL say which modes take part'
 hung undamped "$asked" 'FREQ4,7' && {
    sed -i 's/,0.05$//; s/,0.01$//; s/,0.2$//' "$work/undamped.bdf"
-   run undamped 2 && says 'no damping at all' "$work/undamped.log" 'FREQUENCY: expected beside it SDAMPING, AMPLITUDE'
+   run undamped 2 && says 'no damping at all' "$work/undamped.log" 'FREQUENCY: expected damping: SDAMPING, AMPLITUDE'
 }
 
 # ---- FREQ4: NFM frequencies from (1 - FSPD) to (1 + FSPD) times that of the mode, an odd number; modes out of its range have none
@@ -86,15 +86,15 @@ hung spread "$asked" 'FREQ4,7,500.0,1000.0\nFREQ1,7,10.0,10.0,1' && same 'FREQ4,
 hung spread "$asked" 'FREQ4,7,500.0,1000.0' && says 'FREQ4, no mode in its range' "$work/spread.out" 'NO MODE FOUND IS IN THE RANGE OF FREQ4'
 
 # ---- a peak between two frequencies is warned of, by the mode and what it would be
-warned() { grep -c 'HAS ITS PEAK BETWEEN THE FREQUENCIES ASKED FOR' "$work/$1.out"; }
+warned() { grep -c 'HAS ITS PEAK BETWEEN THE REQUESTED FREQUENCIES' "$work/$1.out"; }
 hung coarse "$asked" 'FREQ1,7,0.0,60.0,4' && {
    same 'a missed peak: one warning' "$(warned coarse)" 1
    line=$(grep 'HAS ITS PEAK' "$work/coarse.out")
-   same 'a missed peak: mode, node and component' "$(sed -E 's/ AT [^ ]+ / AT F /; s/ X [^ ]+, BESIDE IT .*;/ X A;/' <<< "$line")" \
-      '  WARNING: MODE 1 HAS ITS PEAK BETWEEN THE FREQUENCIES ASKED FOR: AT F NODE 1 X A; SEE FREQ4'
+   same 'a missed peak: mode, node and component' "$(sed -E 's/ AT [^ ]+ / AT F /; s/ X [^ ]+, IN THE TABLE .*;/ X A;/' <<< "$line")" \
+      '  WARNING: MODE 1 HAS ITS PEAK BETWEEN THE REQUESTED FREQUENCIES: AT F NODE 1 X A; SEE FREQ4'
    near 'a missed peak: its frequency' "$(sed -E 's/.* AT ([^ ]+) NODE.*/\1/' <<< "$line")" "$f0" 1e-5
    near 'a missed peak: its amplitude' "$(sed -E 's/.* X ([^,]+), .*/\1/' <<< "$line")" "$pull/($k*$eta)" 1e-5
-   near 'a missed peak: beside it' "$(sed -E 's/.* BESIDE IT ([^;]+);.*/\1/' <<< "$line")" "$(amplitude coarse 60)" 1e-5
+   near 'a missed peak: beside it' "$(sed -E 's/.* IN THE TABLE ([^;]+);.*/\1/' <<< "$line")" "$(amplitude coarse 60)" 1e-5
    says 'a missed peak: counted' "$work/coarse.log" '1 warning in the listing'
 }
 hung coarse "$asked\n  SDAMPING = 8" "FREQ1,7,0.0,60.0,4\nTABDMP1,8,G\n+,0.0,0.2,1.0E5,0.2,ENDT" && near 'a missed viscous peak: its frequency' \

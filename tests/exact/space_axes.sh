@@ -79,5 +79,5 @@ drawn stepped STEP -3 &&
 # a law whose unloading does not come to zero says so: from A of the tested range B falls by 1.0 d alone
 drawn drawn NEWTON -3 && {
    sed 's/^+,20.,200.,500.,3000.$/+,1.0\n+\n+,1.0,2.0-3/' "$work/drawn.bdf" > "$work/unclosed.bdf"
-   says 'a law whose unloading stays above zero' <(run unclosed; cat "$work/unclosed.out") 'CLOSURE: UNLOADING DOES NOT COME TO TAU = 0'
+   says 'a law whose unloading stays above zero' <(run unclosed; cat "$work/unclosed.out") 'CLOSURE: UNLOADING DOES NOT REACH TAU = 0'
 }

@@ -305,7 +305,7 @@ usage() { # TITLE FRAGMENT ARGUMENTS...: status 1, nothing on standard output
    if [ $status -ne 1 ] || [ -s cards ]; then fail "$title: status $status"; else says "$title" stderr "$fragment"; fi
 }
 usage 'no data file' 'no data file given'
-usage 'unknown option' 'there is no option --what' --what all.dat
+usage 'unknown option' 'unknown option --what' --what all.dat
 usage 'no such file' 'missing.dat: no such file' missing.dat
 usage 'a folder' '.: a directory' .
 usage '--as alone' '--as needs --branch' --as LOAD all.dat
@@ -329,13 +329,13 @@ holds '--branch without --as stays that branch: status 2' [ $status -eq 2 ]
 says '--branch without --as stays that branch' cards 'The UNLOAD continuation'
 fit --branch RELOAD --as LOAD --dmax 1E300 "$here/sanad.dat"
 holds '--dmax beyond all measure: status 2' [ $status -eq 2 ]
-says '--dmax beyond all measure' stderr 'has a number of 1E300, and a deck takes no more than 1E75'
+says '--dmax beyond all measure' stderr 'has a number of 1E300, and a deck accepts at most 1E75'
 fit --branch RELOAD --as LOAD --dmax 1E-80 "$here/sanad.dat"
 holds '--dmax below all measure: status 2' [ $status -eq 2 ]
-says '--dmax below all measure' stderr 'has a number of 1E-80, and a deck takes none below 1E-75'
+says '--dmax below all measure' stderr 'has a number of 1E-80, and a deck accepts none below 1E-75'
 awk '/^[0-9]/ { for (i = 1; i <= 4; i++) $i = $i "E-90" } { print }' "$here/sanad.dat" > tiny.dat
 fit --branch RELOAD --as LOAD tiny.dat
-says 'pressures and stresses below all measure' stderr 'has a number of 1.28E-88, and a deck takes none below 1E-75'
+says 'pressures and stresses below all measure' stderr 'has a number of 1.28E-88, and a deck accepts none below 1E-75'
 fit --branch LOAD power.dat
 says '--branch of normal tests' stderr 'have no branch'
 fit --help

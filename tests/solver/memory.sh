@@ -47,7 +47,7 @@ check() {
 for solver in AUTO SKYLINE; do
    deck hex8_250x250x250 $solver
    limited 300 "$work/hex8_250x250x250.bdf"
-   check "250 x 250 x 250 by $solver" 3 0 'nodes of the model need at least 7540 MiB' 'has [0-9]{2,3} MiB to give'
+   check "250 x 250 x 250 by $solver" 3 0 'nodes of the model need at least 7540 MiB' 'and [0-9]{2,3} MiB are available'
 done
 deck q4_4000x4000 TREE
 limited 300 "$work/q4_4000x4000.bdf"
@@ -56,7 +56,7 @@ check 'a plate of 4000 x 4000' 3 0 'nodes of the model need at least 7633 MiB'
 # ------------------------------------------------------------------ nothing is told, an allocation fails while the model is built
 limited 200 --check "$work/hex8_250x250x250.bdf"
 check '250 x 250 x 250, --check, which leaves older results alone' 3 5 \
-   'the memory of the machine, or what is allowed of it, does not suffice; no results'
+   'the memory of the machine, or the permitted part of it, does not suffice; no results'
 
 # ------------------------------------------------------------------ GRID and CHEXA: told from the fronts as well
 awk -v n=45 'BEGIN {
@@ -72,12 +72,12 @@ awk -v n=45 'BEGIN {
    for (k = 1; k <= m^2; k++) print "SPC1,1,123," k
    print "ENDDATA" }' > "$work/grid.bdf"
 limited 264 "$work/grid.bdf"
-check '45 x 45 x 45 from GRID cards' 3 0 'factor of 285660 equations needs about [0-9]{4} MiB' 'about [0-9]+ equations would fit'
+check '45 x 45 x 45 from GRID cards' 3 0 'factor of 285660 equations needs about [0-9]{4} MiB' 'about [0-9]+ equations of this shape would fit'
 
 # ------------------------------------------------------------------ told from the fronts, and from the skyline
 deck hex8_20x20x20 TREE
 limited 384 "$work/hex8_20x20x20.bdf"
-check '20 x 20 x 20 in 384 MiB' 3 0 'factor of 26901 equations needs about 2[0-9]{2} MiB' 'about [0-9]{5} equations would fit'
+check '20 x 20 x 20 in 384 MiB' 3 0 'factor of 26901 equations needs about 2[0-9]{2} MiB' 'about [0-9]{5} equations of this shape would fit'
 limited 1024 "$work/hex8_20x20x20.bdf"
 check '20 x 20 x 20 in 1024 MiB' 0 4
 deck hex8_20x20x19 TREE

@@ -104,7 +104,7 @@ ranks() {
    for mib in 450 500 550 600 650 700 750 800; do
       ( ulimit -v $((1024*mib)); timeout 100 "$distributed" -q --threads 1 -o "$work/limited" "$work/block.bdf" ) > "$work/said" 2>&1 && break
    done
-   if grep -q 'SOLVER PETSC' "$work/limited/block.out" && grep -qE 'AUTO: TREE WOULD NEED [0-9]+ MIB, MORE THAN THERE ARE' "$work/limited/block.out"
+   if grep -q 'SOLVER PETSC' "$work/limited/block.out" && grep -qE 'AUTO: TREE WOULD NEED [0-9]+ MIB, MORE THAN AVAILABLE' "$work/limited/block.out"
    then pass; else fail "24 x 24 x 24 in $mib MiB: $(grep SOLVER "$work/limited/block.out" || head -n 3 "$work/said")"; fi
 }
 

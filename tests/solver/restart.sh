@@ -95,7 +95,7 @@ resume() {
       timeout 60 "$program" -q --threads $((1 + RANDOM % 2)) --resume -o "$name.now" "decks/$name.bdf" > now.said 2> now.error
    fi
    status=$?
-   grep -q ': taken up from' now.error && taken=$((taken + 1))
+   grep -q ': resumed from' now.error && taken=$((taken + 1))
 } 2>/dev/null
 
 # same NAME: the results in NAME.now are those of the run in peace, the restart file too, and what is said
@@ -104,7 +104,7 @@ same() {
    if [ $status -ne 0 ]; then fail "$name: status $status, $(head -n 1 now.error)"
    elif ! diff -rq "$name.whole" "$name.now"; then fail "$name: resumed, it has other results"
    elif ! diff <(sed "s#$name.whole#FOLDER#g" "$name.said") <(sed "s#$name.now#FOLDER#g" now.said); then fail "$name: other answers"
-   elif ! diff "$name.error" <(grep -v ': taken up from\|: there is no .*, the run starts' now.error); then fail "$name: other words"
+   elif ! diff "$name.error" <(grep -v ': resumed from\|: there is no .*, the run starts' now.error); then fail "$name: other words"
    else pass
    fi
 }
@@ -158,18 +158,18 @@ same hand
 check 'a deck from the standard input' 1 'a deck from the standard input has no restart file'
 rm -rf hand.now; mkdir hand.now; mkdir hand.now/hand.restart
 "$program" -q -o hand.now decks/hand.bdf > now.said 2> now.error; status=$?
-check 'a restart file that cannot be written' 4 'the restart file hand.now/hand.restart cannot be written; the run goes on'
+check 'a restart file that cannot be written' 4 'the restart file hand.now/hand.restart cannot be written; the run continues'
 rmdir hand.now/hand.restart
 diff -rq -x '*.restart' hand.whole hand.now && pass || fail 'a restart file that cannot be written: other results'
 mkdir factors.now # room for the results, which are smaller
 room=$((($(stat -c %s factors.whole/factors.restart) + $(stat -c %s factors.whole/factors.joint.csv))/2048))
 (trap '' XFSZ; ulimit -f $room; exec "$program" -q --threads 1 -o factors.now decks/factors.bdf) > now.said 2> now.error; status=$?
-check 'a restart file that there is no room for' 4 'the restart file factors.now/factors.restart cannot be written; the run goes on'
+check 'a restart file that there is no room for' 4 'the restart file factors.now/factors.restart cannot be written; the run continues'
 diff -rq -x '*.restart' factors.whole factors.now && pass || fail 'no room for a restart file: other results, or a part of it'
-resume factors 0;                         check 'the older restart file, which stays' 0 ': taken up from'
+resume factors 0;                         check 'the older restart file, which stays' 0 ': resumed from'
 same factors
 mkfifo hand.now/hand.restart
-resume hand 0;                            check 'a pipe as restart file' 1 'it is no file that can be read'
+resume hand 0;                            check 'a pipe as restart file' 1 'it cannot be read'
 rm -rf hand.now; mkdir hand.now
 
 # ------------------------------------------------------------------ damaged, cut, of others: refused, and nothing is changed
@@ -181,7 +181,7 @@ size=$(stat -c %s sound)
 # refused WHAT WORDS: with the file that is there
 refused() {
    resume hand 0
-   if [ $status -ne 1 ] || ! grep -q "hand.now/hand.restart cannot be taken up: .*$2" now.error; then
+   if [ $status -ne 1 ] || ! grep -q "hand.now/hand.restart cannot be resumed: .*$2" now.error; then
       fail "$1: status $status, '$(head -n 1 now.error)'"
    elif [ "$(ls hand.now)" != $'hand.out\nhand.restart' ] || [ "$(cat hand.now/hand.out)" != 'an older listing' ]; then
       fail "$1: refused, but files have changed"
@@ -196,7 +196,7 @@ flip() {
    draw 255
    printf "\\x$(printf %x $((old ^ drawn)))" | dd of=hand.now/hand.restart bs=1 seek="$1" conv=notrunc status=none
 }
-for ((k = 0; k < 16; k++)); do flip $k; refused "byte $k of the head damaged" 'it is no restart file'; done
+for ((k = 0; k < 16; k++)); do flip $k; refused "byte $k of the head damaged" 'it is not a restart file'; done
 for ((k = 16; k < 48; k++)); do flip $k; refused "byte $k of the head damaged" 'it is damaged'; done
 # --check --resume says what a run would find, solves nothing and leaves all files as they are
 looked() { # WHAT STATUS WORDS
@@ -205,25 +205,25 @@ looked() { # WHAT STATUS WORDS
    check "$1" "$2" "$3"
    if cmp -s before hand.now/hand.restart; then pass; else fail "$1: the restart file has changed"; fi
 }
-cp sound hand.now/hand.restart; looked '--check of a sound restart file' 0 'hand.now/hand.restart is whole, of this deck and this program'
-flip 17;                        looked '--check of a damaged restart file' 1 'hand.now/hand.restart cannot be taken up: it is damaged'
+cp sound hand.now/hand.restart; looked '--check of a sound restart file' 0 'hand.now/hand.restart is complete and belongs to this deck and this program'
+flip 17;                        looked '--check of a damaged restart file' 1 'hand.now/hand.restart cannot be resumed: it is damaged'
 cp step.whole/step.restart hand.now/hand.restart; looked '--check of the restart file of another deck' 1 'it belongs to another deck'
 
 for ((k = size - 16; k < size; k += 3)); do flip $k; refused "byte $k of the end damaged" 'it is damaged'; done
 for ((k = 0; k < 60; k++)); do
    draw $((size - 64))
    at=$((47 + drawn))
-   flip $at; refused "byte $at damaged" 'its checksum is not'
+   flip $at; refused "byte $at damaged" 'its checksum is wrong'
 done
 draw "$size"
 for n in 0 1 15 16 17 47 48 49 63 64 65 $((size/2)) $((size - 17)) $((size - 16)) $((size - 8)) $((size - 1)) $((drawn - 1)); do
    head -c "$n" sound > hand.now/hand.restart; refused "cut to $n bytes" ''
 done
-{ cat sound; printf '\0'; } > hand.now/hand.restart;           refused 'a byte too many' 'not as long as it says'
-{ head -c $((size/2)) sound; cat sound; } > hand.now/hand.restart; refused 'a half and a whole' 'not as long as it says'
+{ cat sound; printf '\0'; } > hand.now/hand.restart;           refused 'a byte too many' 'its length is wrong'
+{ head -c $((size/2)) sound; cat sound; } > hand.now/hand.restart; refused 'a half and a whole' 'its length is wrong'
 { head -c 20 sound; printf '\1\2\3\4'; tail -c +25 sound; } > hand.now/hand.restart # written by a processor such as SPARC
-cmp -s sound hand.now/hand.restart || refused 'the other order of bytes' 'in the other order'
-cp decks/hand.bdf hand.now/hand.restart;                       refused 'a deck' 'it is no restart file'
+cmp -s sound hand.now/hand.restart || refused 'the other order of bytes' 'another byte order'
+cp decks/hand.bdf hand.now/hand.restart;                       refused 'a deck' 'it is not a restart file'
 cp step.whole/step.restart hand.now/hand.restart;              refused 'the file of another deck' 'it belongs to another deck'
 cp sound hand.now/hand.restart
 echo '$ a remark' >> decks/hand.bdf;                            refused 'a deck that has been changed' 'it belongs to another deck'
