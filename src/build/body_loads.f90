@@ -68,7 +68,8 @@ contains
 
       do k = 1, size(card%nodes%first)
          if (.not. any(model%node_id >= card%nodes%first(k) .and. model%node_id <= card%nodes%last(k))) &
-            call deck%field_error(card%line, card%nodes%at(k), 'there is no GRID '//integer_text(card%nodes%first(k)), called='GRID')
+            call deck%field_error(card%line, card%nodes%at(k), 'there is no GRID '//integer_text(card%nodes%first(k)), &
+                                  called='GRID')
       end do
       if (any([(is_beam(model, k), k = 1, model%n_elements)])) call deck%errors%add(card%line, &
          'ACCEL1: the masses of beams belong to no node; expected GRAV, or CONM2 in place of RHO')
