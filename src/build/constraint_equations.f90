@@ -6,12 +6,12 @@ module constraint_equations
    use kinds, only: wp
    use model_data, only: a_rotation, model_type, node_kind, point_of
    use node_coupling, only: component_place, couple_node, node_axes, rotation_at
-   use numbers, only: identity
+   use numbers, only: by_rotation, identity
    use text_tools, only: integer_text
    implicit none
    private
 
-   public :: add_dependence, add_term, check_dependences, eliminate, solve_for
+   public :: add_dependence, add_term, check_dependences, eliminate, mean_motion, solve_for
 
    !> One component that depends on others. Components are those of unknowns, along the axes of their nodes.
    type, public :: dependence_type
