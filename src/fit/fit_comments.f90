@@ -70,6 +70,7 @@ contains
       type(normal_fit_type), intent(in)     :: fit
       type(output_file_type), intent(inout) :: out
       character(:), allocatable :: points
+      character(14) :: cells(6)
       integer :: k
 
       points = plural(fit%n_points, 'point')
@@ -87,9 +88,10 @@ contains
          call comment_row(out, [character(14) :: 'line', 'p from', 'to', 'lambda, p = 0', 'E_u', 'points'])
          do k = 1, size(loops%lines)
             associate (line => loops%lines(k))
-               call comment_row(out, [character(14) :: branch_words(line%branch), real_text(line%p_low), real_text(line%p_high), &
-                                      real_text(line%set), real_text(line%e_u), integer_text(line%n_points)])
+               cells = [character(14) :: branch_words(line%branch), real_text(line%p_low), real_text(line%p_high), &
+                        real_text(line%set), real_text(line%e_u), integer_text(line%n_points)]
             end associate
+            call comment_row(out, cells)
          end do
       end associate
    end subroutine describe_normal
@@ -202,14 +204,16 @@ contains
       integer, intent(in)                   :: b, run(:)
       real(wp), intent(in)                  :: d(:)
       type(output_file_type), intent(inout) :: out
+      character(14) :: cells(6)
       integer :: i
 
       call comment_row(out, [character(14) :: 'run', 'p', branch_letters(b)//'0', 'd from', 'to', 'points'])
       do i = 1, size(branch%start)
          associate (at => branch%curve_at(i), own => branch%curve == i)
-            call comment_row(out, [character(14) :: integer_text(run(at)), real_text(branch%group_p(branch%group(at))), &
-               real_text(branch%start(i)), real_text(minval(d, own)), real_text(maxval(d, own)), integer_text(count(own))])
+            cells = [character(14) :: integer_text(run(at)), real_text(branch%group_p(branch%group(at))), &
+                     real_text(branch%start(i)), real_text(minval(d, own)), real_text(maxval(d, own)), integer_text(count(own))]
          end associate
+         call comment_row(out, cells)
       end do
    end subroutine table_of_runs
 
