@@ -148,7 +148,7 @@ oscillating_bar bound 40 CONSISTENT 'MODES(FREE)' && {
       "$work/bound.bdf"
    run bound && says 'free bar: its response has no static part' "$work/bound.out" 'BY THESE MODES ALONE'
    sed -i 's/^FREQ1,7,50.0/FREQ1,7,0.0/' "$work/bound.bdf"
-   run bound 3 && says 'free bar: no response at rest' "$work/bound.log" 'at 0 the response has no bound'
+   run bound 3 && says 'free bar: no response at rest' "$work/bound.log" 'at 0 the response is unbounded'
 }
 
 # ---- A block relieved until rounding alone presses it: it touches, whatever the sign of what is left
