@@ -73,7 +73,7 @@ same 'contact: it opens' "$(backbone contact open 1) $(backbone contact open 21)
 pushed_mass limit JAMPL,6,1,0.1,11,0.001 "$joint;JSHEAR,2,40.0" && {
    judge_rows limit 8 4000 0
    near 'limit: the largest amplitude' "$(backbone limit amplitude 8)" 26/4000 1e-4
-   says 'limit: the listing says so' "$work/limit.out" 'WARNING: LARGER AMPLITUDES ARE NOT BORNE'
+   says 'limit: the listing says so' "$work/limit.out" 'WARNING: LARGER AMPLITUDES HAVE NO EQUILIBRIUM'
 }
 
 # ---- Against integration in time: free decay, whose frequency and decrement at each amplitude must be those of the backbone

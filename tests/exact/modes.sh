@@ -125,7 +125,7 @@ mass_on_joint open 'LABEL = LIFTED' && {
    run open && {
       near 'open: the spring along alone' "$(mode open 1 frequency)" "sqrt(3/0.02)/(2*$pi)" 1e-12
       near 'open: the spring across alone' "$(mode open 2 frequency)" "sqrt(7/0.02)/(2*$pi)" 1e-12
-      says 'open: it says so' "$work/open.out" 'TOUCH: 0 OF 1'
+      says 'open: it says so' "$work/open.out" 'IN CONTACT: 0 OF 1'
    }
 }
 # the answer of that mass to a force that oscillates: F/(M (omega_r^2 - omega^2 + i eta omega_r^2)), eta the loss factor along the joint
@@ -148,7 +148,7 @@ oscillating_bar bound 40 CONSISTENT 'MODES(FREE)' && {
       "$work/bound.bdf"
    run bound && says 'free bar: its response has no static part' "$work/bound.out" 'BY THESE MODES ALONE'
    sed -i 's/^FREQ1,7,50.0/FREQ1,7,0.0/' "$work/bound.bdf"
-   run bound 3 && says 'free bar: no response at rest' "$work/bound.log" 'at 0 the response has no bound'
+   run bound 3 && says 'free bar: no response at rest' "$work/bound.log" 'at 0 the response is unbounded'
 }
 
 # ---- A block relieved until rounding alone presses it: it touches, whatever the sign of what is left
@@ -164,7 +164,7 @@ DECK
       run touching || continue
       [ $solver$load = SKYLINE1.0-9 ] && f=$(mode touching 1 frequency 2)
       near "relieved to $load, $solver: frequency" "$(mode touching 1 frequency 2)" "$f" 1e-9
-      says "relieved to $load, $solver: all touch" "$work/touching.out" 'TOUCH: 5 OF 5'
+      says "relieved to $load, $solver: all touch" "$work/touching.out" 'IN CONTACT: 5 OF 5'
       ask "relieved to $load, $solver: contact" touching rows 'stage = 2' count 5 all 'branch != "OPEN"'
    done
 done

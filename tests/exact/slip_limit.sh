@@ -13,7 +13,7 @@ END
 }
 
 limit limit_pushed 500. 0.
-says 'pushed over its friction: the message' "$work/limit_pushed.log" 'joint 1 slips .*the last state in equilibrium stands at 0.[34][0-9]* of stage 2; the results end there'
+says 'pushed over its friction: the message' "$work/limit_pushed.log" 'joint 1 slips .*the last state in equilibrium is at 0.[34][0-9]* of stage 2; the results end there'
 ask 'the last row is the last state' limit_pushed rows 'stage = 2' all 'load <= 0.4001'
 near 'the limit load to three digits' "$(value limit_pushed rows 'stage = 2 and increment = 2 and node1 = 1' print load)" 0.4 0 5e-4
 ask 'where friction is all but used up' limit_pushed rows 'stage = 2 and increment = 2' all 'abs(tau_x) = 0.2*pressure within 2e-3*pressure'

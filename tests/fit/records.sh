@@ -134,7 +134,7 @@ fit loops.dat
 near 'loops without noise' 1e-5 loops
 says 'loops: no part of the loading' cards '200 rows in the order of time, 1 test, 6 turns' '53 points of loading' \
    'from 6 lines through 153 points apart from loading'
-says 'loops in um and MPa: the option that helps' stderr 'um and MPa are no units of one deck: --units mm,n'
+says 'loops in um and MPa: the option that helps' stderr 'um and MPa are not consistent units of a deck: --units mm,n'
 for seed in 1 2 3 4 5 6; do
    awk -v noise=0.01 -v seed=$seed -f "$here/normal_loops.awk" > noisy_loops.dat
    fit noisy_loops.dat
@@ -160,7 +160,7 @@ fit flat.dat
 says 'E_u below the slope of the loading curve' stderr 'E_u = 3 is below the slope of the loading curve at p = 16, 8'
 printf '%s\n' 'p lambda' '0 0' '1 2' '2 3' '3 3.5' '2 3.6' '1 3.7' '0 3.8' > back.dat
 fit back.dat
-says 'no line of unloading that rises' stderr 'lambda does not fall with p where the test is unloaded'
+says 'no line of unloading that rises' stderr 'lambda does not fall with p in unloading'
 holds 'no line of unloading that rises: EU is blank' [ "$(awk -f "$here/card_values.awk" cards | wc -l)" -eq 3 ]
 
 # ---- rows that are no record ----
@@ -226,7 +226,7 @@ fit tabs.dat
 says 'decimal commas: the option that helps' stderr 'entries on this line: 4, expected 2' '--decimal-comma'
 tr ';' ',' < loops.dat | sed 's/$/,ok/; 1s/.*/"p (MPa)","Weg","remark"/' > foreign.dat
 fit foreign.dat
-says 'foreign headings: the option that helps' stderr "'Weg' is no column that jointfit knows (--columns"
+says 'foreign headings: the option that helps' stderr "'Weg' is not a column of jointfit (--columns"
 fit --columns 'lambda [um],p [MPa],-' --units mm,n foreign.dat
 printf 'JNORM 1 1\nJNORM 2 2.5e-3\nJNORM 3 0.5\nJNORM 4 3000\n' > converted
 near '--columns' 1e-5 converted
@@ -252,13 +252,13 @@ near '--units of cubics' 1e-10 sanad_mm
 # ---- more bad data ----
 
 bad 'mixed branches' 'line 3' 'BRANCH: a number, but other rows name it' <<< $'d tau p branch\n1 1 1 LOAD\n1 1 1 2'
-bad 'run of no number' "RUN: '1.5' is no number of a run" '      ^^^' <<< $'d tau p run\n1 1 1 1.5'
+bad 'run of no number' "RUN: '1.5' is not the number of a run" '      ^^^' <<< $'d tau p run\n1 1 1 1.5'
 bad 'cubics with a run' "BRANCH: '1', expected LOAD, UNLOAD or RELOAD" <<< $'c1 c2 c3 p branch\n1 1 1 1 1'
 bad 'units of two kinds in headings' 'line 3' 'p in kgf/mm2, but above in MPa: --units mm,n' \
    <<< $'lambda [um] p [MPa]\n1 1\nlambda [um] p [kgf/mm2]\n2 2'
-bad 'columns that the tests do not have' 'these columns do not go together' '--columns' <<< $'d p\n1 2'
+bad 'columns that the tests do not have' 'these columns are not a known combination' '--columns' <<< $'d p\n1 2'
 fit --units mm,n power.dat
-says '--units without units' stderr 'the unit of p is not said' 'lambda [um]' 'UNITS = um, MPa'
+says '--units without units' stderr 'the unit of p is missing' 'lambda [um]' 'UNITS = um, MPa'
 sed '1s/.*/p [stone], lambda [um]/' power.dat > stones.dat
 fit --units mm,n stones.dat
 says '--units with a unit that is none' stderr "'stone' is no unit of p"
@@ -266,7 +266,7 @@ fit stones.dat
 holds 'a unit that is none, without --units' [ $status -eq 0 ]
 sed '1s/.*/d [mm] tau [N\/mm2] p [kgf\/mm2]/' record.dat > mixed.dat
 fit mixed.dat
-says 'two units of stress: the option that helps' stderr 'N/mm2 and kgf/mm2 are no units of one deck: --units mm,n'
+says 'two units of stress: the option that helps' stderr 'N/mm2 and kgf/mm2 are not consistent units of a deck: --units mm,n'
 usage '--units of one' '--units mm: expected the units of length and force' --units mm all.dat
 usage '--noise too wide' '--noise 0.7: expected a share' --noise 0.7 all.dat
 usage '--columns without a value' '--columns : expected the names' all.dat --columns

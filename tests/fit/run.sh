@@ -239,7 +239,7 @@ fit bends.dat
 says 'a slope is lost: past zero, where the card is used' stderr 'UNLOAD' 'd = -1.33333' 'outside the tested range of the branch'
 awk 'BEGIN { print "p lambda"; for (p = 1; p < 9; p++) print p, p^1.2 }' > steep.dat
 fit steep.dat
-says 'm above 1 is held at 1' stderr 'WARNING' 'm = 1.199997' 'm is held at 1'
+says 'm above 1 is held at 1' stderr 'WARNING' 'm = 1.199997' 'm is set to 1'
 awk -f "$here/card_values.awk" cards > got
 holds 'm above 1 is held at 1, on the card' grep -q -x 'JNORM 3 1' got
 awk 'NR > 1 { a += $1 * $2; b += $1 * $1 } END { printf "JNORM 1 1\nJNORM 2 %.17g\nJNORM 3 1\n", a / b }' steep.dat > steep
@@ -264,11 +264,11 @@ bad 'empty' 'the file is empty' < /dev/null
 bad 'comments only' 'no header line' <<< '# nothing'
 bad 'no header' 'bad.dat, line 2' 'numbers before the header line' "expected a line with the names" <<< $'# x\n1 2 3 LOAD'
 bad 'header only' 'no test data' <<< 'p lambda'
-bad 'unknown column' 'line 1' "'tua' is no column" '  ^^^' <<< $'d tua p branch\n1 2 3 LOAD'
-bad 'column twice' "column 'p' a second time" '          ^' <<< $'lambda p p\n1 2 3'
-bad 'columns of two kinds' 'do not go together' <<< $'d tau lambda p\n1 2 3 4'
-bad 'column missing' 'do not go together' "'d tau p branch'" <<< $'d tau branch\n1 2 LOAD'
-bad 'headers of two kinds' 'line 3' 'another kind' <<< $'lambda p\n1 2\nd tau p branch\n1 2 3 LOAD'
+bad 'unknown column' 'line 1' "'tua' is not a column" '  ^^^' <<< $'d tua p branch\n1 2 3 LOAD'
+bad 'column twice' "column 'p' given twice" '          ^' <<< $'lambda p p\n1 2 3'
+bad 'columns of two kinds' 'not a known combination' <<< $'d tau lambda p\n1 2 3 4'
+bad 'column missing' 'not a known combination' "'d tau p branch'" <<< $'d tau branch\n1 2 LOAD'
+bad 'headers of two kinds' 'line 3' 'a different kind' <<< $'lambda p\n1 2\nd tau p branch\n1 2 3 LOAD'
 bad 'letter O' 'line 3' "P: '1O' is not a number" '      ^^' <<< $'lambda p\n1.0 2\n2.0   1O\n3 4'
 bad 'not a number' "LAMBDA: 'NaN' is not a number" <<< $'p lambda\n1 NaN\n2 1'
 bad 'infinite' "'+Inf' is not a number" <<< $'p lambda\n1 +Inf\n2 1'
@@ -292,7 +292,7 @@ bad 'one point of normal tests' 'two or more different p' <<< $'lambda p\n0 0\n1
 bad 'falling deflection' 'lambda does not grow with p: m = -1' <<< $'lambda p\n4 1\n2 2\n1 4'
 bad 'too stiff a law' 'has a number of 1.00079E-90' 'none below 1E-75' <<< $'lambda p\n1E-90 1\n1.4E-90 2\n1.7E-90 3'
 bad 'units of two kinds' 'line 3' "UNITS: 'MM, N', but above it was 'MM, KGF'" <<< $'UNITS = MM, KGF\nlambda p\nUNITS = MM, N\n1 1\n2 4'
-bad 'binary' 'no text' < <(printf 'lambda p\n1 2\0 3\n')
+bad 'binary' 'not text' < <(printf 'lambda p\n1 2\0 3\n')
 bad 'all faults at once' 'DATA ERROR 1 OF 5' 'DATA ERROR 5 OF 5' 'line 2' 'line 3' 'line 5' 'bad.dat: 5 errors, no card written' \
    <<< $'d tau p branch\n1 x 3 LOAD\n1 2 -3 LOUD\n1 2 3 LOAD\n1 2\n-2 1 1 LOAD'
 

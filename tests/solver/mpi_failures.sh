@@ -90,7 +90,7 @@ for way in gamg mumps; do
    for more in 20 150; do # MiB: less than BLAS takes, and not enough for the equations besides
       start "$work/$way.bdf" "ulimit -v $((size + 1024*more))"
       ended
-      check "$way: rank 1 has $more MiB" 3 'memory that is allowed|process 1 need about [0-9]+ MiB, and the machine has'
+      check "$way: rank 1 has $more MiB" 3 'permitted memory|process 1 need about [0-9]+ MiB, and'
    done
 done
 
