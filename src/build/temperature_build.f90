@@ -147,23 +147,25 @@ contains
       type(model_type), intent(in)    :: model
       type(id_table_type), intent(in) :: elements !! numbers of all
       integer :: i, k, twice
-      integer, allocatable :: named(:), set_of(:) ! (elements) set of the card that named it last
+      integer, allocatable :: set_of(:) ! (elements) set of the card that named it last
 
       allocate (set_of(model%n_elements), source=0)
       do i = 1, size(deck%bulk%plate_temperature)
          associate (card => deck%bulk%plate_temperature(i))
             do k = 1, size(card%ranges%first)
                if (card%ranges%first(k) == 0) cycle ! said already
-               named = plates_of(model, elements, card%ranges%first(k), card%ranges%last(k))
-               twice = findloc(set_of(named), card%set, dim=1)
-               if (size(named) == 0) then
-                  call deck%field_error(card%line, card%ranges%at(k), 'there is no shell with this number; expected CQUAD4 or '// &
-                                        'CTRIA3 with a PSHELL in a model of space', called='EID')
-               else if (twice > 0) then
-                  call deck%field_error(card%line, card%ranges%at(k), 'element '//integer_text(model%element_id(named(twice)))// &
-                                        ' has a TEMPP1 in set '//integer_text(card%set)//' already', called='EID')
-               end if
-               set_of(named) = card%set
+               associate (named => plates_of(model, elements, card%ranges%first(k), card%ranges%last(k)))
+                  twice = findloc(set_of(named), card%set, dim=1)
+                  if (size(named) == 0) then
+                     call deck%field_error(card%line, card%ranges%at(k), 'there is no shell with this number; expected '// &
+                                           'CQUAD4 or CTRIA3 with a PSHELL in a model of space', called='EID')
+                  else if (twice > 0) then
+                     call deck%field_error(card%line, card%ranges%at(k), 'element '// &
+                                           integer_text(model%element_id(named(twice)))//' has a TEMPP1 in set '// &
+                                           integer_text(card%set)//' already', called='EID')
+                  end if
+                  set_of(named) = card%set
+               end associate
             end do
          end associate
       end do

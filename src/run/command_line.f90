@@ -198,9 +198,9 @@ contains
                which = modulo(run/product(n(k + 1:)), n(k)) + 1
                associate (parameter => runs(r)%parameters(k))
                   parameter%name = settings(k)%name
-                  parameter%value = value_of(settings(k)%values, which)
+                  value = value_of(settings(k)%values, which)
+                  parameter%value = value
                   if (n(k) == 1) cycle
-                  value = parameter%value
                   do i = 1, len(value) ! a file cannot be named with slashes
                      if (value(i:i) == '/') value(i:i) = '-'
                   end do
@@ -221,8 +221,11 @@ contains
       integer :: comma
 
       comma = index(values//',', ',')
-      if (which == 1) value = values(:comma - 1)
-      if (which > 1) value = value_of(values(comma + 1:), which - 1)
+      if (which > 1) then
+         value = value_of(values(comma + 1:), which - 1)
+      else
+         value = values(:comma - 1)
+      end if
    end function value_of
 
    !> One more of DECKS, the one that ARGUMENT means. (An array constructor would leak its names in gfortran 12.)
