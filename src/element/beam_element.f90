@@ -1,10 +1,10 @@
-!> Beams of constant section between two nodes of three displacements and three rotations: axial force, bending in two planes with
-!! transverse shear (Timoshenko), torsion of Saint-Venant. The stiffness is exact, and so are the nodal forces of loads along the beam,
-!! for the shape functions are the deflections of a beam that is loaded at its ends alone.
+!> Beams of constant section with 12 dofs: axial force, bending in two planes with shear (Timoshenko), torsion.
+!! Torsion is that of Saint-Venant. The shape functions are the deflections of a beam that is loaded at its ends alone; therefore the
+!! stiffness and the nodal forces of loads along the beam are exact.
 !! Source: J. S. Przemieniecki, Theory of Matrix Structural Analysis, 1968, sections 5.6 and 11.6.
 !!
-!! Values at the ends of a beam, in its axes: u, v, w, theta_x, theta_y, theta_z of end A, then of end B. Nodal values are (3, 4):
-!! displacements of both nodes, then their rotations, in global axes [length], [rad]; forces likewise, then moments.
+!! End values, in the axes of the beam: u, v, w, theta_x, theta_y, theta_z of end A, then of end B. Nodal values, (3, 4), in global axes:
+!! displacements of both nodes [length], then their rotations [rad]; nodal forces likewise, then moments.
 module beam_element
    use beam_sections, only: beam_section
    use kinds, only: wp
@@ -15,15 +15,15 @@ module beam_element
    public :: beam_axes, beam_length, beam_shapes, beam_stiffness, beam_mass, beam_line_load, beam_point_load, beam_end_forces, &
              beam_nodal_forces, beam_thermal_load
 
-   !> A beam: its section and how it hangs on its nodes. Plane 1 holds the beam and its direction y, which ORIENTATION gives.
+   !> A beam: its section and its connection to its nodes. Plane 1 contains the axis and the direction y of the beam (ORIENTATION).
    type, extends(beam_section), public :: beam_law
       real(wp) :: e = 0.0_wp, g = 0.0_wp       !! [pressure]
       real(wp) :: orientation(3) = 0.0_wp      !! v, in global axes
-      real(wp) :: offset(3, 2) = 0.0_wp        !! of the ends from their nodes, in global axes [length]
-      logical  :: released(12) = .false.       !! PA, PB: end values that bear no force
-      logical  :: is_cut = .false.             !! a bolt: its axial force is that of a bar beside it
+      real(wp) :: offset(3, 2) = 0.0_wp        !! of the ends from the nodes, in global axes [length]
+      logical  :: released(12) = .false.       !! PA, PB: end values whose force is zero
+      logical  :: is_cut = .false.             !! a bolt: a parallel bar carries its axial force
       real(wp) :: rho = 0.0_wp                 !! mass density
-      real(wp) :: extra_mass = 0.0_wp          !! NSM, mass a unit of length
+      real(wp) :: extra_mass = 0.0_wp          !! NSM, mass per unit length
       real(wp) :: expansion = 0.0_wp           !! alpha [1/temperature]
    end type beam_law
 
@@ -42,8 +42,8 @@ contains
       length = norm2(x(:, 2) + law%offset(:, 2) - x(:, 1) - law%offset(:, 1))
    end function beam_length
 
-   !> The directions x, y, z of a beam, columns: z = x cross orientation. All zero where the beam has no length, or the orientation lies
-   !! along it.
+   !> The directions x, y, z of a beam, columns: z = x cross orientation. They are zero where the beam has no length or is parallel to its
+   !! orientation vector.
    pure function beam_axes(law, x) result(axes)
       type(beam_law), intent(in) :: law
       real(wp), intent(in)       :: x(3, 2)    !! [length]
@@ -59,7 +59,7 @@ contains
       axes(:, 2) = cross(axes(:, 3), along)
    end function beam_axes
 
-   !> 12 E I/(K A G L^2) of the planes 1 and 2: how soft the beam is in shear beside bending [-].
+   !> 12 E I/(K A G L^2) of the planes 1 and 2: the ratio of shear flexibility to bending flexibility [-].
    pure function shear_softness(law, length) result(phi)
       type(beam_law), intent(in) :: law
       real(wp), intent(in)       :: length
@@ -81,7 +81,7 @@ contains
            6.0_wp*(s - s**2)/length, 3.0_wp*s**2 - 2.0_wp*s + phi*s]/(1.0_wp + phi)
    end subroutine beam_shapes
 
-   !> How the movement u, v, w, theta_x, theta_y, theta_z at S = x/L follows from the end values.
+   !> The matrix that gives u, v, w, theta_x, theta_y, theta_z at S = x/L from the end values.
    pure function movement_at(law, length, s) result(m)
       type(beam_law), intent(in) :: law
       real(wp), intent(in)       :: length, s
@@ -99,7 +99,7 @@ contains
       m(5, [3, 5, 9, 11]) = r*[-1.0_wp, 1.0_wp, -1.0_wp, 1.0_wp]
    end function movement_at
 
-   !> [k] between the end values, nothing released. Where I12 is not zero the planes of bending are coupled; shear is that of I12 = 0.
+   !> [k] between the end values before releases. I12 couples bending in the two planes; the shear flexibility is that for I12 = 0.
    pure function end_stiffness(law, length) result(k)
       type(beam_law), intent(in) :: law
       real(wp), intent(in)       :: length
@@ -124,7 +124,7 @@ contains
 
    contains
 
-      !> The stiffness of bending of a beam with E I = 1.
+      !> The bending stiffness of a beam with E I = 1.
       pure function of_bending(softness) result(b)
          real(wp), intent(in) :: softness
          real(wp) :: b(4, 4)
@@ -138,7 +138,7 @@ contains
 
    end function end_stiffness
 
-   !> The end values from the nodal values, a node's values as (3, 4) in one list.
+   !> The matrix that gives the end values from the nodal values; a column is one nodal value of (3, 4) in array order.
    pure function from_nodes(law, x) result(t)
       type(beam_law), intent(in) :: law
       real(wp), intent(in)       :: x(3, 2)
@@ -158,7 +158,7 @@ contains
       end do
    end function from_nodes
 
-   !> Release end values: eliminate from [k] those that bear no force, from the forces F and the mass M on the way.
+   !> Release end values: condense those whose force is zero out of [k], of the forces F and of the mass M.
    pure subroutine release(law, k, f, m)
       type(beam_law), intent(in)        :: law
       real(wp), intent(inout)           :: k(12, 12)
@@ -171,7 +171,7 @@ contains
       do r = 1, 12
          if (.not. law%released(r)) cycle
          ratio = 0.0_wp
-         if (k(r, r) > rounding*whole(r)) ratio = k(r, :)/k(r, r) ! what another release has freed already bears nothing
+         if (k(r, r) > rounding*whole(r)) ratio = k(r, :)/k(r, r) ! an end value that an earlier release has made free has no stiffness left
          ratio(r) = 1.0_wp
          if (present(f)) f = f - ratio*f(r)
          if (present(m)) then
@@ -205,8 +205,8 @@ contains
       k = matmul(transpose(t), matmul(k, t))
    end function beam_stiffness
 
-   !> [m] between the nodal values: that of the shape functions with the rotary inertia of the section, or LUMPED: half of the mass at
-   !! each end, with the inertia of half the length.
+   !> [m] between the nodal values: from the shape functions and the rotary inertia of the section, or LUMPED: half of the mass at
+   !! each end, with the rotary inertia of half the length.
    pure function beam_mass(law, x, lumped) result(m)
       type(beam_law), intent(in) :: law
       real(wp), intent(in)       :: x(3, 2)    !! [length]
@@ -215,7 +215,7 @@ contains
       integer  :: i
 
       length = beam_length(law, x)
-      own = 0.0_wp                             ! of the section, a unit of length
+      own = 0.0_wp                             ! of the section per unit length
       do i = 1, 3
          own(i, i) = law%rho*law%area + law%extra_mass
       end do
@@ -240,8 +240,8 @@ contains
       m = matmul(transpose(t), matmul(m, t))
    end function beam_mass
 
-   !> What the ends bear of a force and a moment on the beam that are Q(:, 1) a unit of length at S = FROM and Q(:, 2) at S = TO, linear
-   !! between them, and nothing elsewhere; in global axes [force], [force length].
+   !> End forces that are equivalent to a distributed force and moment: Q(:, 1) per unit length at S = FROM, Q(:, 2) at S = TO, linear
+   !! between them, zero elsewhere; in global axes [force], [force length].
    pure function beam_line_load(law, x, q, from, to) result(f)
       type(beam_law), intent(in) :: law
       real(wp), intent(in)       :: x(3, 2)    !! [length]
@@ -257,7 +257,7 @@ contains
       end do
    end function beam_line_load
 
-   !> The same of a force and a moment LOAD at S.
+   !> End forces that are equivalent to a concentrated force and moment LOAD at S.
    pure function beam_point_load(law, x, load, s) result(f)
       type(beam_law), intent(in) :: law
       real(wp), intent(in)       :: x(3, 2)    !! [length]
@@ -268,7 +268,7 @@ contains
       f = matmul([matmul(load(:3), axes), matmul(load(4:), axes)], movement_at(law, beam_length(law, x), s))
    end function beam_point_load
 
-   !> The same of a beam that is warmer than its reference temperature by RISE on the mean.
+   !> End forces of a thermal load: RISE is the mean temperature of the beam above its reference temperature.
    pure function beam_thermal_load(law, rise) result(f)
       type(beam_law), intent(in) :: law
       real(wp), intent(in)       :: rise       !! [temperature]
@@ -278,7 +278,7 @@ contains
       if (.not. law%is_cut) f([1, 7]) = law%e*law%area*law%expansion*rise*[-1.0_wp, 1.0_wp]
    end function beam_thermal_load
 
-   !> The nodal forces (3, 4) of what the ends bear, F.
+   !> The nodal forces (3, 4) that are equivalent to the end forces F.
    pure function beam_nodal_forces(law, x, f) result(nodal)
       type(beam_law), intent(in) :: law
       real(wp), intent(in)       :: x(3, 2)    !! [length]
@@ -291,7 +291,7 @@ contains
       nodal = reshape(matmul(own, from_nodes(law, x)), [3, 4])
    end function beam_nodal_forces
 
-   !> The forces and moments on the ends of a beam under the nodal values U and loads along it of which the ends bear F.
+   !> The forces and moments at the ends of a beam under the nodal values U; F are the end forces equivalent to the loads along it.
    pure function beam_end_forces(law, x, u, f) result(s)
       type(beam_law), intent(in) :: law
       real(wp), intent(in)       :: x(3, 2)    !! [length]

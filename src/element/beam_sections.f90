@@ -1,8 +1,8 @@
-!> The numbers of beam sections that are given by their dimensions, as PBARL and PBEAML name them. y is the direction of plane 1, z that
-!! across it, both from the centroid. Area and moments of inertia are exact, of round sections in closed form, of the others by their
-!! rectangles. Torsion: exact for solid and round sections (Saint-Venant's series for the rectangle), Bredt's formula for the closed
-!! box, sum of b t^3/3 for open sections of thin walls. Shear: 5/6 for a rectangle, 0.9 for a circle, 0.5 for a tube, and the area of
-!! the walls along the force for the others.
+!> Section constants of beams whose dimensions are given by PBARL and PBEAML.
+!! y is the direction of plane 1, z is perpendicular to it; both start at the centroid. Area and moments of inertia are exact: round
+!! sections in closed form, other sections as sums of rectangles. Torsion: exact for solid and round sections (Saint-Venant's series for
+!! the rectangle), Bredt's formula for the closed box, sum of b t^3/3 for thin-walled open sections. Shear: 5/6 for a rectangle, 0.9
+!! for a circle, 0.5 for a tube; for the other sections the area of the walls parallel to the force.
 !! Source: Timoshenko, Goodier, Theory of Elasticity, 3rd ed., sections 109, 112 and 116; dimensions as in the MSC Nastran Quick Reference
 !! Guide, PBARL and PBEAML.
 module beam_sections
@@ -14,13 +14,13 @@ module beam_sections
 
    character(8), parameter, public :: section_names(9) = [character(8) :: 'ROD', 'TUBE', 'TUBE2', 'BAR', 'BOX', 'I', 'CHAN', &
                                                                 'T', 'L']
-   integer, parameter, public      :: section_dimensions(9) = [1, 2, 2, 2, 4, 6, 4, 4, 4] !! how many each has
+   integer, parameter, public      :: section_dimensions(9) = [1, 2, 2, 2, 4, 6, 4, 4, 4] !! number of dimensions of each section
 
    type, public :: beam_section
       real(wp) :: area = 0.0_wp        !! [length^2]
       real(wp) :: inertia(3) = 0.0_wp  !! I1, I2, I12: integrals of y^2, z^2, y z over the section [length^4]
       real(wp) :: torsion = 0.0_wp     !! J [length^4]
-      real(wp) :: shear(2) = 0.0_wp    !! K1, K2: share of the area that bears shear along y, z; 0: rigid in shear [-]
+      real(wp) :: shear(2) = 0.0_wp    !! K1, K2: shear area along y, z as a fraction of the area; 0: rigid in shear [-]
       real(wp) :: point(2, 4) = 0.0_wp !! y, z of the stress points C, D, E, F [length]
    end type beam_section
 
@@ -28,7 +28,7 @@ module beam_sections
 
 contains
 
-   !> The section NAME with dimensions D. EXPECTED says what is wrong with them, empty: nothing.
+   !> The section NAME with dimensions D. EXPECTED is the requirement that the dimensions violate; it is empty where they are valid.
    pure subroutine section_of(name, d, section, expected)
       character(*), intent(in)               :: name
       real(wp), intent(in)                   :: d(:) !! [length], > 0
@@ -109,7 +109,7 @@ contains
 
    contains
 
-      !> Height along y, below zero where the rectangle is taken away, width along z, middle.
+      !> A rectangle: height (negative where it is subtracted), width along z, position of its centre.
       pure function rectangle(height, width, y, z) result(r)
          real(wp), intent(in) :: height, width, y, z
          real(wp) :: r(4)
@@ -119,8 +119,8 @@ contains
 
    end subroutine section_of
 
-   !> Area, moments of inertia and stress points of rectangles R: height (below zero: taken away), width, middle y and z. C and E are
-   !! the corners at the top and bottom on the side of z above zero, D and F those opposite, of the whole outline.
+   !> Area, moments of inertia and stress points of rectangles R: height (negative: subtracted), width, y and z of the centre. C and E are
+   !! the top and bottom corners of the outline at its largest z, D and F those at its smallest z.
    pure subroutine add_up(r, section)
       real(wp), intent(in)              :: r(:, :)
       type(beam_section), intent(inout) :: section

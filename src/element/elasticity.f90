@@ -1,4 +1,4 @@
-!> Hooke's law in the states of stress that the bodies can be in; principal stresses and the equivalent stress of von Mises.
+!> Hooke's law for each state of stress, principal stresses and the equivalent stress of von Mises.
 !! Source: Zienkiewicz, Taylor, Zhu, The Finite Element Method, 6th ed., sections 2.2 and 6.2; vol. 2, the trigonometric solution of
 !! the cubic.
 module elasticity
@@ -16,7 +16,7 @@ module elasticity
    integer, parameter, public :: shell = 5          !! as solid, at the mean plane of the shell
    integer, parameter, public :: beam = 6           !! as solid, the axial stress at the centroid
 
-   integer, parameter, public :: n_stresses(6) = [3, 3, 4, 6, 6, 6] !! components in every state
+   integer, parameter, public :: n_stresses(6) = [3, 3, 4, 6, 6, 6] !! number of components of each state
    integer, parameter, public :: max_stresses = 6
 
 contains

@@ -1,12 +1,12 @@
-!> The kinds of body element: their nodes and sides, their names in NASTRAN decks and VTK files. Shells are of the plane kinds, a beam is an
-!! edge of two nodes.
+!> The kinds of body element: their nodes, sides and edges, and their names in NASTRAN decks and VTK files.
+!! A shell has a plane kind, a beam is an edge of two nodes.
 !! Corners are numbered as on the cards: plane elements counter-clockwise; solids with the base counter-clockwise as seen
-!! from the opposite face or corner, then that face in the same sense. Behind the corners of a second-order kind come the nodes at
-!! the middle of its edges, in the order of the edges here.
+!! from the opposite face or corner, then that face in the same sense. The corners of a second-order kind are followed by the
+!! mid-edge nodes, in the order of the edges below.
 !! Source: MSC Nastran Quick Reference Guide, CTRIA3, CTRIA6, CQUAD4, CQUAD8, CTETRA, CPENTA, CHEXA; VTK file formats, linear and
 !! quadratic cell types.
 !! Local coordinates of edge, quadrilateral and hexahedron: each from -1 to 1. Triangle and tetrahedron: from 0 to 1, corner 1 at
-!! the origin. Wedge: a triangle in r, s, and t from -1 to 1. Nodes behind the corners lie at the middle of the edges.
+!! the origin. Wedge: a triangle in r, s, and t from -1 to 1. Mid-edge nodes lie at the middle of the edges.
 module element_kinds
    use kinds, only: wp
    implicit none
@@ -19,31 +19,31 @@ module element_kinds
    integer, parameter, public :: kind_tria6 = 6, kind_quad8 = 7     !! second order, serendipity
    integer, parameter, public :: kind_tetra10 = 8, kind_penta15 = 9, kind_hexa20 = 10
    integer, parameter, public :: n_kinds = 10, n_linear_kinds = 5
-   integer, parameter, public :: kind_edge2 = n_kinds + 1, kind_edge3 = n_kinds + 2 !! sides of plane elements, of no body
-   integer, parameter, public :: n_shapes = n_kinds + 2             !! kinds of body and edges: all that have shape functions
+   integer, parameter, public :: kind_edge2 = n_kinds + 1, kind_edge3 = n_kinds + 2 !! sides of plane elements, no body kinds
+   integer, parameter, public :: n_shapes = n_kinds + 2             !! all kinds with shape functions: body elements and edges
 
    integer, parameter, public :: max_nodes = 20, max_dofs = 60      !! of one element
-   integer, parameter, public :: max_felt_dofs = max_dofs + 3       !! with the node of a section of a solid bolt
+   integer, parameter, public :: max_felt_dofs = max_dofs + 3       !! with the node of a pretension section
    integer, parameter, public :: max_sides = 6, max_side_nodes = 8, max_edges = 12
 
-   !> What distinguishes one kind from another. Sides of plane elements are edges, run through with the body on the left;
-   !! sides of solids are faces, their right-hand normal pointing out of the body.
+   !> The properties of one kind. Sides of plane elements are edges, in the direction that has the body on its left;
+   !! sides of solids are faces, whose right-hand normal points out of the body.
    type, public :: element_kind
       character(6) :: card                                          !! name of its card; findloc finds the linear kind first
-      integer :: dimension                                          !! its own: 1 a beam, 2 plane or a shell, 3 a solid
+      integer :: dimension                                          !! of the element: 1 a beam, 2 plane or a shell, 3 a solid
       integer :: n_nodes
       integer :: n_corners
-      integer :: linear                                             !! the kind of its corners alone, of a linear kind itself
-      integer :: jacobian_scale                                     !! 1/det J where its edges are 1 and at right angles
+      integer :: linear                                             !! the linear kind with the same corners; its own of a linear kind
+      integer :: jacobian_scale                                     !! 1/det J of an element with edges of length 1 at right angles
       integer :: n_sides
       integer :: n_edges
-      integer :: vtk_type                                           !! cell type; VTK turns round the linear wedge only
-      integer :: vtk_nodes(max_nodes)                               !! its nodes in VTK's order, 0 beyond n_nodes
-      integer :: edges(2, max_edges)                                !! corners that node n_corners + k of second order lies between
-      integer :: side_corners(max_sides)                            !! corners of every side, 0 beyond n_sides
-      integer :: side_size(max_sides)                               !! nodes of every side, 0 beyond n_sides
-      integer :: side_nodes(max_side_nodes, max_sides)              !! its corners in turn, then the nodes at the middle from the
-                                                                    !! first corner to the second on; 0 beyond side_size
+      integer :: vtk_type                                           !! cell type; VTK orients the linear wedge in the opposite sense
+      integer :: vtk_nodes(max_nodes)                               !! the nodes in the order of VTK, 0 beyond n_nodes
+      integer :: edges(2, max_edges)                                !! the two corners between which mid-edge node n_corners + k lies
+      integer :: side_corners(max_sides)                            !! number of corners of every side, 0 beyond n_sides
+      integer :: side_size(max_sides)                               !! number of nodes of every side, 0 beyond n_sides
+      integer :: side_nodes(max_side_nodes, max_sides)              !! corners of the side in order, then its mid-edge nodes, from the edge
+                                                                    !! between corners 1 and 2 on; 0 beyond side_size
    end type element_kind
 
    integer, parameter :: in_turn(max_nodes) = [1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17, 18, 19, 20]
@@ -90,7 +90,7 @@ module element_kinds
    real(wp), parameter :: half = 0.5_wp, third = 1.0_wp/3.0_wp
    real(wp), parameter :: none(3, max_nodes) = 0.0_wp
 
-   ! corners, and where edges begin and end, in this order
+   ! corner coordinates, in the order of the corners; of an edge its first and its last node
    real(wp), parameter :: edge_at(3, 2) = reshape([real(wp) :: -1, 0, 0,  1, 0, 0], [3, 2])
    real(wp), parameter :: tria_at(3, 3) = reshape([real(wp) :: 0, 0, 0,  1, 0, 0,  0, 1, 0], [3, 3])
    real(wp), parameter :: quad_at(3, 4) = reshape([real(wp) :: -1, -1, 0,  1, -1, 0,  1, 1, 0,  -1, 1, 0], [3, 4])
@@ -121,8 +121,8 @@ module element_kinds
 
 contains
 
-   !> The kind of a side in its own coordinates: an edge in the plane, a face in space; 0: there is no such side. Three nodes are
-   !! an edge of second order in the plane and a triangle in space.
+   !> The kind of a side from its dimension and number of nodes: an edge in the plane, a face in space; 0: no such side exists. A side of
+   !! three nodes is a second-order edge in the plane and a triangle in space.
    pure integer function side_kind(dimension, n_nodes)
       integer, intent(in) :: dimension                              !! of the space, 2 or 3
       integer, intent(in) :: n_nodes                                !! of the side

@@ -1,5 +1,4 @@
-!> The map from local coordinates to the body: gradients of the shape functions, volumes, the shape of an element; and the
-!! law of an element, which all integrals over it share.
+!> The map from local to global coordinates (gradients, volumes, shape checks) and the material law of an element.
 !! Source: Zienkiewicz, Taylor, Zhu, The Finite Element Method, 6th ed., section 5.5; the incompatible modes: Taylor,
 !! Beresford, Wilson, A non-conforming element for stress analysis, Int. J. Numer. Meth. Engng 10 (1976) 1211-1219.
 module element_mapping
@@ -17,36 +16,36 @@ module element_mapping
    integer, parameter, public  :: max_shapes = max_nodes     !! shape functions of an element, incompatible modes included
    real(wp), parameter, public :: two_pi = 2.0_wp*acos(-1.0_wp)
 
-   !> What elements of one kind, property and material have in common. One is made for every element: arrays have no default.
+   !> What elements of one kind, property and material have in common. The arrays have no default, because one is made for every element.
    type, public :: element_law
       integer  :: kind = 0                                !! kind_tria3 ... kind_hexa20
       integer  :: state = 0                               !! plane_stress ... solid
       real(wp) :: thickness = 1.0_wp                      !! of a plane body [length]; not used by the others
-      logical  :: incompatible = .false.                  !! with the modes of Wilson and Taylor, where the kind has them
+      logical  :: incompatible = .false.                  !! with the modes of Wilson and Taylor, if the kind has them
       real(wp) :: d(max_stresses, max_stresses)           !! [D]: isotropic, or orthotropic along the axes [pressure]
-      real(wp) :: expansion(3)                            !! direct strains of a body free to expand, per degree [1/temperature]
+      real(wp) :: expansion(3)                            !! free thermal strains per degree [1/temperature]
    end type element_law
 
-   !> The nodes of one element and what is the same at all its points, likewise.
+   !> The nodes of one element and the quantities that are the same at all its points. The arrays have no default.
    type, public :: element_map
-      integer  :: n = 0                                   !! nodes
-      integer  :: n_modes = 0                             !! incompatible modes, each with one parameter a component
-      real(wp) :: x(3, max_nodes)                         !! nodes, components and nodes that the kind has [length]
+      integer  :: n = 0                                   !! number of nodes
+      integer  :: n_modes = 0                             !! number of incompatible modes, each with one parameter per component
+      real(wp) :: x(3, max_nodes)                         !! coordinates; only the components and nodes of the kind are set [length]
       real(wp) :: inverse(3, 3)                           !! of the Jacobian matrix at the centre [1/length], with modes
       real(wp) :: jacobian = 0.0_wp                       !! det J at the centre, with modes
    end type element_map
 
-   real(wp), parameter :: flat = 1.0e-12_wp               ! relative to the longest edge: no volume but rounding
+   real(wp), parameter :: flat = 1.0e-12_wp               ! of the longest edge to the power of the dimension: a smaller det J is rounding
 
 contains
 
-   !> The law of an element of isotropic material. In plane strain what cannot expand across the plane expands the more in it: a
-   !! strain alpha across it, held, is one of nu alpha along it.
+   !> The law of an element of isotropic material. In plane strain the suppressed expansion alpha normal to the plane adds nu alpha to the
+   !! free thermal strains in the plane.
    pure type(element_law) function make_element_law(kind, state, e, nu, thickness, incompatible, alpha) result(law)
       integer, intent(in)  :: kind, state                 !! kind_tria3 ... kind_hexa20; plane_stress ... solid
       real(wp), intent(in) :: e, nu                       !! [pressure], > 0; [-], -1 < nu < 0.5
       real(wp), intent(in) :: thickness                   !! of a plane body [length], > 0
-      logical, intent(in)  :: incompatible                !! wanted; linear quadrilaterals, hexahedra and wedges have modes
+      logical, intent(in)  :: incompatible                !! requested; linear quadrilaterals, hexahedra and wedges have modes
       real(wp), intent(in), optional :: alpha             !! thermal expansion, 0 [1/temperature]
 
       law%kind = kind
@@ -60,16 +59,16 @@ contains
       if (state == axisymmetric .or. state == solid) law%expansion(3) = alpha
    end function make_element_law
 
-   !> Whether elements of a KIND in a STATE of stress can have incompatible modes: linear ones with edges that bending leaves
-   !! straight. Those of a triangle and a tetrahedron, whose strain is constant, have nothing to work on; on a ring those of the
-   !! quadrilateral have a hoop strain that fails the patch test.
+   !> Whether elements of a KIND in a STATE of stress can have incompatible modes. Linear quadrilaterals, hexahedra and wedges can: they
+   !! represent bending poorly. Linear triangles and tetrahedra have constant strain, which the modes cannot improve. In an axisymmetric
+   !! element the modes of the quadrilateral have a hoop strain that fails the patch test.
    pure logical function has_modes(kind, state)
       integer, intent(in) :: kind, state
 
       has_modes = kind == kind_hexa8 .or. kind == kind_penta6 .or. (kind == kind_quad4 .and. state /= axisymmetric)
    end function has_modes
 
-   !> Take up the nodes of an element.
+   !> Set up the map of an element from its nodes.
    pure subroutine map_element(law, x, map)
       type(element_law), intent(in)  :: law
       real(wp), intent(in)           :: x(:, :)           !! nodes (dimension, nodes) in the order of the card [length]
@@ -86,15 +85,15 @@ contains
       call invert_jacobian(d, map%n, map%x, dn, map%inverse, map%jacobian)
    end subroutine map_element
 
-   !> Gradients at a point and the volume that a unit of weight stands for there. The first components are d/dx, d/dy, d/dz;
-   !! in an axisymmetric body the third is N/r, which makes the hoop strain. After the nodes come the incompatible modes, their
-   !! gradients formed with J at the centre and the ratio of the determinants, so that their integral over the element is zero
-   !! whatever its shape: this is what passes the patch test.
+   !> Gradients at a point and the volume per unit of weight there. The first components are d/dx, d/dy, d/dz; in an axisymmetric
+   !! body the third is N/r, which gives the hoop strain. The incompatible modes follow the nodes. Their gradients are formed with J at
+   !! the centre and the ratio of the determinants, so that their integral over an element of any shape is zero: this satisfies the
+   !! patch test.
    pure subroutine map_point(law, map, point, g, volume)
       type(element_law), intent(in) :: law
       type(element_map), intent(in) :: map
       real(wp), intent(in)    :: point(3)                 !! local coordinates
-      real(wp), intent(inout) :: g(3, max_shapes)         !! of nodes, then modes [1/length]; in the plane two rows are set
+      real(wp), intent(inout) :: g(3, max_shapes)         !! of nodes, then of modes [1/length]; two rows are set in the plane
       real(wp), intent(out)   :: volume                   !! [length^3]; det J times thickness, 2 pi r or 1
       real(wp) :: dn(3, max_nodes), dm(3, 4), n(max_nodes), inverse(3, 3), jacobian, radius, from_mean(2)
       integer  :: d, i, k
@@ -124,9 +123,9 @@ contains
       end if
       if (map%n_modes == 0) return
       d = element_table(law%kind)%dimension
-      ! dm(j, i), the derivatives of mode i; their integrals over the element are zero, and so are they at its centre. Quadrilateral and
-      ! hexahedron: 1 - r**2, 1 - s**2, 1 - t**2. Wedge: 1 - t**2, and of the triangle the three quadratic functions less what is linear
-      ! of them on the mean; all of them, so that no corner is preferred
+      ! dm(j, i), the derivatives of mode i, are zero at the centre, and their integrals over the element are zero. Quadrilateral and
+      ! hexahedron: 1 - r**2, 1 - s**2, 1 - t**2. Wedge: 1 - t**2, and the three quadratic functions of the triangle without their mean
+      ! linear part; all three are used, so that no corner is preferred
       dm = 0.0_wp
       if (law%kind == kind_penta6) then
          from_mean = point(:2) - 1.0_wp/3.0_wp
@@ -192,12 +191,12 @@ contains
       end if
    end subroutine jacobian_matrix
 
-   !> The smallest det J over the integration points, and of a linear element the corners, divided by the longest edge to the power
-   !! of the dimension and scaled so that a square or cube has 1 [-]. Not above zero for an element that is turned round, folded, or
-   !! flat to 1E-12. Of a linear solid the corners ask for more than any integral over it or its sides: one hexahedron of the patch
-   !! of MacNeal and Harder has -0.0127 there. Where they are not positive, the integration points of the sides count in their
-   !! place, and no two corners may stand in one place. Of second order they always do, and corners do not count: nodes at a quarter
-   !! of the edges, as at the tip of a crack, are allowed.
+   !> The smallest det J over the integration points and, of a linear element, the corners. It is divided by the longest edge to the power
+   !! of the dimension and scaled so that a square or cube has 1 [-]. It is zero or negative for an element that is inverted, folded, or
+   !! flat to 1E-12. In a linear solid the test at the corners is stricter than any integral over its volume or sides requires: one
+   !! hexahedron of the patch of MacNeal and Harder has -0.0127 there. Where det J at the corners is not positive, the integration points
+   !! of the sides are tested instead, and no two corners may coincide. In a second-order element the sides are always tested and
+   !! the corners never: mid-edge nodes at the quarter points, as at a crack tip, are allowed.
    pure real(wp) function smallest_jacobian(kind, x) result(smallest)
       integer, intent(in)  :: kind                        !! kind_tria3 ... kind_hexa20
       real(wp), intent(in) :: x(:, :)                     !! nodes (dimension, nodes) [length]
@@ -232,7 +231,7 @@ contains
       if (longest**d >= tiny(longest)) smallest = smallest/longest**d
    end function smallest_jacobian
 
-   !> The smallest det J at these POINTS [length^dimension].
+   !> The smallest det J at POINTS [length^dimension].
    pure real(wp) function least_at(kind, nodes, points) result(smallest)
       integer, intent(in)  :: kind
       real(wp), intent(in) :: nodes(3, max_nodes)         !! [length]
@@ -248,7 +247,7 @@ contains
       end do
    end function least_at
 
-   !> The smallest det J at the integration points of the sides [length^dimension]; 0 where two nodes stand in one place.
+   !> The smallest det J at the integration points of the sides [length^dimension]; 0 where two nodes coincide.
    pure real(wp) function least_on_sides(kind, nodes, longest) result(smallest)
       integer, intent(in)  :: kind
       real(wp), intent(in) :: nodes(3, max_nodes)         !! [length]

@@ -1,12 +1,12 @@
-!> Isoparametric elements, plane, axisymmetric and solid, linear ones with incompatible modes where asked for: stiffness, mass, the nodal
-!! forces of loads. The mass is the integral of N_i N_j over the body, the same for every component of the displacements, or lumped at the
-!! nodes. Consistent nodal forces and areas of influence: of body forces over an element, of pressures over its sides; thermal forces,
-!! which the nodes of a warm element need to stay in their places, with the opposite sign. The temperature varies as the shape functions
-!! between its values at the nodes; its forces are integrated as the stiffness is, so that an element free to expand under an even
-!! temperature has no stress, whatever its shape.
+!> Isoparametric elements, plane, axisymmetric and solid: stiffness, mass and nodal forces of loads.
+!! Linear elements have incompatible modes on request. The consistent mass is the integral of N_i N_j over the body, the same for every
+!! component of the displacements; the lumped mass is diagonal. Nodal forces are consistent: body forces over an element, pressures over
+!! its sides; a tributary area is the nodal force of a unit pressure. The temperature is interpolated by the shape functions from nodal
+!! values. Thermal loads are integrated with the rule of the stiffness, so that an unconstrained element of any shape has no stress under
+!! a uniform temperature.
 !! Sources: Zienkiewicz, Taylor, Zhu, The Finite Element Method, 6th ed., chapters 2, 5 and 6, initial strains in section 2.2; Taylor,
-!! Beresford, Wilson 1976; consistent mass: Archer, J. Struct. Div. ASCE 89 (1963) 161-178; lumped, positive for elements of second order
-!! too: Hinton, Rock, Zienkiewicz, Earthquake Engng Struct. Dyn. 4 (1976) 245-249.
+!! Beresford, Wilson 1976; consistent mass: Archer, J. Struct. Div. ASCE 89 (1963) 161-178; lumped mass, positive for second-order
+!! elements too: Hinton, Rock, Zienkiewicz, Earthquake Engng Struct. Dyn. 4 (1976) 245-249.
 module isoparametric
    use elasticity, only: axisymmetric, solid
    use element_kinds, only: max_nodes, max_side_nodes, side_kind
@@ -26,12 +26,12 @@ module isoparametric
 
 contains
 
-   !> [k] = integral of [B]^T [D] [B]; with incompatible modes, their parameters condensed.
+   !> [k] = integral of [B]^T [D] [B]; the parameters of incompatible modes are condensed.
    pure subroutine stiffness(law, x, k)
       type(element_law), intent(in) :: law
       real(wp), intent(in)          :: x(:, :)   !! nodes (dimension, nodes), of positive volume, r >= 0 [length]
       real(wp), intent(inout)       :: k(:, :)   !! (dimension*nodes, dimension*nodes), set here; u_x, u_y (, u_z) of node 1,
-                                                 !! of node 2, ... [force/length]; 2 pi r of force in an axisymmetric body
+                                                 !! of node 2, ... [force/length]; of an axisymmetric body for the whole ring
       real(wp) :: full(max_unknowns, max_unknowns)
       integer  :: i, j, n, n_all
 
@@ -44,8 +44,8 @@ contains
       end do
    end subroutine stiffness
 
-   !> The upper triangle of [k], and beyond the unknowns of the nodes the columns from which the parameters of the modes
-   !! follow: q(p) = -sum of full(:p-1, p) q(:p-1)/full(p, p), for p from N + 1 to N_ALL in turn.
+   !> The upper triangle of [k] with the modes condensed. The columns beyond the unknowns of the nodes give the parameters of the
+   !! modes: q(p) = -sum of full(:p-1, p) q(:p-1)/full(p, p), for p from N + 1 to N_ALL in turn.
    pure subroutine condensed_stiffness(law, x, full, n, n_all)
       type(element_law), intent(in) :: law
       real(wp), intent(in)          :: x(:, :)                              !! as in stiffness
@@ -72,7 +72,7 @@ contains
       end do
    end subroutine condensed_stiffness
 
-   !> Integrals of g_a(i) g_b(j) in (a, b) for all pairs of shape functions i <= j; of a plane body two components are set.
+   !> Integrals of g_a(i) g_b(j) in (a, b) for all pairs of shape functions i <= j; for a plane body two components are set.
    pure subroutine integrate_products(law, map, products)
       type(element_law), intent(in) :: law
       type(element_map), intent(in) :: map
@@ -118,7 +118,7 @@ contains
       type(element_law), intent(in) :: law
       integer, intent(in)           :: n
       real(wp), intent(in)          :: products(3, 3, max_pairs)
-      real(wp), intent(inout)       :: full(max_unknowns, max_unknowns)     !! upper triangle; below it nothing is of use
+      real(wp), intent(inout)       :: full(max_unknowns, max_unknowns)     !! upper triangle; the lower one is undefined
       integer :: c, i, j, pair, r
 
       pair = 0
@@ -159,7 +159,7 @@ contains
       end do
    end subroutine assemble
 
-   !> M(i, j) = integral of N_i N_j over the element, of an axisymmetric one over the whole ring [length^3].
+   !> M(i, j) = integral of N_i N_j over the element; over the whole ring of an axisymmetric element [length^3].
    pure subroutine shape_products(law, x, m)
       type(element_law), intent(in) :: law
       real(wp), intent(in)          :: x(:, :) !! nodes (dimension, nodes) [length]
@@ -183,7 +183,7 @@ contains
       end associate
    end subroutine shape_products
 
-   !> The mass matrix M becomes diagonal: its own diagonal, scaled so that the mass remains.
+   !> Lump the mass matrix M: keep its diagonal, scaled so that the total mass remains.
    pure subroutine lump(m)
       real(wp), intent(inout) :: m(:, :)
       real(wp) :: diagonal(size(m, 1)), total
@@ -219,8 +219,8 @@ contains
       f(:size(b), :map%n) = spread(b, 2, map%n)*spread(share(:map%n), 1, size(b))
    end subroutine body_forces
 
-   !> Areas of influence of one side, a_i = integral of N_i: an edge of a plane or axisymmetric body, a triangle or a
-   !! quadrilateral of a solid. Their sum is the area of the side; at corners of second-order faces they are not positive.
+   !> Tributary areas of one side, a_i = integral of N_i: an edge of a plane or axisymmetric body, a triangle or a
+   !! quadrilateral of a solid. Their sum is the area of the side. At the corners of second-order faces they are not positive.
    pure subroutine side_areas(state, thickness, x, area)
       integer, intent(in)     :: state        !! plane_stress ... solid
       real(wp), intent(in)    :: thickness    !! of a plane body [length]
@@ -239,8 +239,8 @@ contains
       end do
    end subroutine side_areas
 
-   !> Nodal forces of a pressure on one side, positive when it presses on the body: against the normal that points out; or of a
-   !! traction along a DIRECTION. It varies as the shape functions between its values at the nodes. With a pressure of -1 at all nodes
+   !> Nodal forces of a pressure on one side, positive towards the body, opposite to the outward normal; or of a traction along a
+   !! DIRECTION. The shape functions interpolate the pressure between its nodal values. With a pressure of -1 at all nodes
    !! the result is the integral of N_i times the outward normal.
    pure subroutine side_forces(state, thickness, x, pressure, f, direction)
       integer, intent(in)     :: state        !! plane_stress ... solid
@@ -270,7 +270,7 @@ contains
       end do
    end subroutine side_forces
 
-   !> Shape functions at a point of a side, and the outward normal there, as long as the area that a unit of weight stands for.
+   !> Shape functions at a point of a side, and the outward normal there, whose length is the area per unit of weight.
    pure subroutine map_side(state, thickness, x, point, n, normal)
       integer, intent(in)   :: state
       real(wp), intent(in)  :: thickness, x(:, :)
@@ -304,7 +304,7 @@ contains
       end if
    end subroutine map_side
 
-   !> {f} = integral of [B]^T [D] {expansion} (T - TREF); with incompatible modes, their parameters condensed.
+   !> {f} = integral of [B]^T [D] {expansion} (T - TREF); the parameters of incompatible modes are condensed.
    pure subroutine nodal_thermal_forces(law, x, rise, f)
       type(element_law), intent(in) :: law
       real(wp), intent(in)    :: x(:, :)      !! nodes (dimension, nodes) [length]
@@ -325,8 +325,8 @@ contains
       f(:d, :map%n) = reshape(unknown(:d*map%n), [d, map%n])
    end subroutine nodal_thermal_forces
 
-   !> The forces on all unknowns, of nodes and of modes: those of mode p as the condensation of the stiffness met them, the modes
-   !! behind it eliminated, those of nodes with all modes eliminated.
+   !> The thermal forces on the unknowns of nodes and modes. The force on mode p has the modes behind p condensed, as in the
+   !! condensation of the stiffness; the forces on nodes have all modes condensed.
    pure subroutine condensed_thermal_forces(law, x, rise, full, f)
       type(element_law), intent(in) :: law
       real(wp), intent(in)  :: x(:, :), rise(:)                         !! as above
@@ -343,7 +343,7 @@ contains
       end do
    end subroutine condensed_thermal_forces
 
-   !> The forces on the unknowns of nodes and modes, nothing condensed.
+   !> The thermal forces on the unknowns of nodes and modes before condensation.
    pure subroutine integrate(law, map, rise, f)
       type(element_law), intent(in) :: law
       type(element_map), intent(in) :: map

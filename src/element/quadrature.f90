@@ -1,5 +1,5 @@
-!> Integration points and weights, in the local coordinates of element_kinds. The points of a rule with as many points as
-!! corners stand in the order of the corners, each in the direction of its corner from the centre.
+!> Integration points and weights, in the local coordinates of element_kinds.
+!! A rule with one point per corner has its points in the order of the corners, each in the direction of its corner from the centre.
 !! Source: Zienkiewicz, Taylor, Zhu, The Finite Element Method, 6th ed., section 5.11; of the fifth degree in triangles and
 !! tetrahedra: Stroud, Approximate calculation of multiple integrals, 1971, T2:5-1 and T3:5-1; of the sixth degree in triangles:
 !! Dunavant, High degree efficient symmetrical Gaussian quadrature rules for the triangle, Int. J. Numer. Meth. Engng 21 (1985)
@@ -15,16 +15,16 @@ module quadrature
    integer, parameter, public :: max_points = 27
 
    type, public :: integration_rule
-      integer  :: n                          !! points
+      integer  :: n                          !! number of points
       real(wp) :: point(3, max_points)       !! local coordinates of n points
-      real(wp) :: weight(max_points)         !! [-], the sum of n is the size of the local domain
+      real(wp) :: weight(max_points)         !! [-]; their sum is the size of the local domain
    end type integration_rule
 
-   real(wp), parameter, public :: gauss = 1.0_wp/sqrt(3.0_wp) !! two points of Gauss: -gauss and gauss
-   !> Four points of a tetrahedron: the barycentric coordinate of the corner that a point is near to, and the three others.
+   real(wp), parameter, public :: gauss = 1.0_wp/sqrt(3.0_wp) !! the two Gauss points: -gauss and gauss
+   !> Four points of a tetrahedron: the barycentric coordinate of the nearest corner, and that of the three other corners.
    real(wp), parameter, public :: tetra_near = (5.0_wp + 3.0_wp*sqrt(5.0_wp))/20.0_wp, tetra_far = (5.0_wp - sqrt(5.0_wp))/20.0_wp
    real(wp), parameter :: u = 1.0_wp/6.0_wp, v = 2.0_wp/3.0_wp, third = 1.0_wp/3.0_wp, o = 0.0_wp
-   real(wp), parameter :: h = sqrt(0.6_wp), wm = 8.0_wp/9.0_wp, we = 5.0_wp/9.0_wp ! three points of Gauss: -h, 0, h
+   real(wp), parameter :: h = sqrt(0.6_wp), wm = 8.0_wp/9.0_wp, we = 5.0_wp/9.0_wp ! the three Gauss points: -h, 0, h
 
    type(integration_rule), parameter :: edge_2 = integration_rule(2, &
       reshape([-gauss, o, o, gauss, o, o], [3, 27], pad=[o]), reshape([real(wp) :: 1, 1], [27], pad=[o]))
@@ -59,7 +59,7 @@ module quadrature
                  -1, -1, 1, 0, -1, 1, 1, -1, 1, -1, 0, 1, 0, 0, 1, 1, 0, 1, -1, 1, 1, 0, 1, 1, 1, 1, 1], [3, 27]), &
       [we*quadrilateral_9%weight(:9), wm*quadrilateral_9%weight(:9), we*quadrilateral_9%weight(:9)])
 
-   ! seven points of a triangle: the centre, and (a, a) with its images near the corners and near the middles of the sides
+   ! seven points of a triangle: the centre, (a, a) and its symmetric images near the corners, and those near the middle of the sides
    real(wp), parameter :: s15 = sqrt(15.0_wp)
    real(wp), parameter :: a1 = (6.0_wp - s15)/21.0_wp, b1 = 1.0_wp - 2.0_wp*a1, w1 = (155.0_wp - s15)/2400.0_wp
    real(wp), parameter :: a2 = (6.0_wp + s15)/21.0_wp, b2 = 1.0_wp - 2.0_wp*a2, w2 = (155.0_wp + s15)/2400.0_wp, w0 = 9.0_wp/80.0_wp
@@ -73,7 +73,7 @@ module quadrature
                third, third, h, a1, a1, h, b1, a1, h, a1, b1, h, a2, a2, h, b2, a2, h, a2, b2, h], [3, 27], pad=[o]), &
       reshape([we*of_seven, wm*of_seven, we*of_seven], [27], pad=[o]))
 
-   ! twelve points of a triangle: (a, a) with its images, twice, and (x, y) with its
+   ! twelve points of a triangle: two sets (a, a) and one set (x, y), each with its symmetric images
    real(wp), parameter :: a3 = 0.2492867451709104212916_wp, b3 = 1.0_wp - 2.0_wp*a3, w3 = 0.05839313786318968301264_wp
    real(wp), parameter :: a4 = 0.06308901449150222834033_wp, b4 = 1.0_wp - 2.0_wp*a4, w4 = 0.02542245318510340846047_wp
    real(wp), parameter :: x5 = 0.05314504984481694735325_wp, y5 = 0.3103524510337844054166_wp, z5 = 1.0_wp - x5 - y5
@@ -83,7 +83,7 @@ module quadrature
                x5, y5, o, y5, x5, o, x5, z5, o, z5, x5, o, y5, z5, o, z5, y5, o], [3, 27], pad=[o]), &
       reshape([w3, w3, w3, w4, w4, w4, w5, w5, w5, w5, w5, w5], [27], pad=[o]))
 
-   ! fifteen points of a tetrahedron: the centre, those towards the corners and the faces, those towards the edges
+   ! fifteen points of a tetrahedron: the centre, two sets near corners and faces, one set near the edges
    real(wp), parameter :: c1 = (7.0_wp - s15)/34.0_wp, d1 = 1.0_wp - 3.0_wp*c1, v1 = (2665.0_wp + 14.0_wp*s15)/226800.0_wp
    real(wp), parameter :: c2 = (7.0_wp + s15)/34.0_wp, d2 = 1.0_wp - 3.0_wp*c2, v2 = (2665.0_wp - 14.0_wp*s15)/226800.0_wp
    real(wp), parameter :: e1 = (5.0_wp - s15)/20.0_wp, e2 = 0.5_wp - e1, v0 = 8.0_wp/405.0_wp, v3 = 5.0_wp/567.0_wp, q = 0.25_wp
@@ -103,12 +103,12 @@ module quadrature
 
 contains
 
-   !> The rule over the body of an element that its stiffness is integrated with: exact where the element is not distorted, its
-   !! nodes at the middle of straight edges, but for the hoop strain of an axisymmetric model. Of a linear element it integrates
-   !! the volume and the nodal forces of a constant body force exactly too.
+   !> The rule for the stiffness of an element. It is exact for an undistorted element, whose nodes lie at the middle of straight edges,
+   !! except for the hoop strain of an axisymmetric model. For a linear element it also integrates the volume and the nodal forces of a
+   !! constant body force exactly.
    pure subroutine body_rule(kind, axisymmetric, rule)
       integer, intent(in) :: kind            !! kind_tria3 ... kind_hexa20; 0: no points
-      logical, intent(in) :: axisymmetric    !! a triangle then needs more points, for the radius in the integrand
+      logical, intent(in) :: axisymmetric    !! a triangle then needs more points, because the integrand contains r
       type(integration_rule), intent(out) :: rule
 
       if (axisymmetric .and. kind == kind_tria3) then
@@ -120,7 +120,7 @@ contains
       end if
    end subroutine body_rule
 
-   !> RULE is that of a TABLE, of which only the points that it has are copied: most rules have few.
+   !> Copy to RULE the points of a TABLE; points beyond its number are not copied, because most rules have few.
    pure subroutine take(table, rule)
       type(integration_rule), intent(in)    :: table
       type(integration_rule), intent(inout) :: rule
@@ -130,8 +130,8 @@ contains
       rule%weight(:table%n) = table%weight(:table%n)
    end subroutine take
 
-   !> The rule for integrals of shape functions over the body of an element, forces and masses: of second-order elements products
-   !! of two shape functions are integrated exactly where the element is not distorted.
+   !> The rule for integrals of shape functions over the body of an element, forces and masses. For an undistorted second-order element
+   !! it integrates products of two shape functions exactly.
    pure subroutine volume_rule(kind, axisymmetric, rule)
       integer, intent(in) :: kind            !! kind_tria3 ... kind_hexa20
       logical, intent(in) :: axisymmetric
@@ -149,8 +149,8 @@ contains
       end select
    end subroutine volume_rule
 
-   !> The rule for products of two shape functions over the body of an element: that of the kind of second order with the same
-   !! corners. Of linear elements the mass is exact, and its first and second moments are, however these are distorted.
+   !> The rule for products of two shape functions over the body of an element: that of the second-order kind with the same
+   !! corners. The mass of a linear element of any shape is exact, and so are its first and second moments.
    pure subroutine mass_rule(kind, rule)
       integer, intent(in) :: kind            !! kind_tria3 ... kind_hexa20
       type(integration_rule), intent(out) :: rule
@@ -158,9 +158,9 @@ contains
       call volume_rule(merge(kind + n_linear_kinds, kind, kind <= n_linear_kinds), .false., rule)
    end subroutine mass_rule
 
-   !> The points where stresses are taken to be continued to the nodes, as many as corners or one: where strains of second order
-   !! are at their best. Source: Barlow, Optimal stress locations in finite element models, Int. J. Numer. Meth. Engng 10 (1976)
-   !! 243-251.
+   !> The points at which stresses are evaluated for extrapolation to the nodes, one per corner or one alone: there second-order elements
+   !! have their most accurate strains. Source: Barlow, Optimal stress locations in finite element models, Int. J. Numer. Meth. Engng 10
+   !! (1976) 243-251.
    pure subroutine stress_rule(kind, axisymmetric, rule)
       integer, intent(in) :: kind            !! kind_tria3 ... kind_hexa20
       logical, intent(in) :: axisymmetric    !! a triangle then has three points
@@ -169,7 +169,7 @@ contains
       call take(of_stress(merge(kind_tria6, kind, kind == kind_tria3 .and. axisymmetric)), rule)
    end subroutine stress_rule
 
-   !> The rule over a side: exact for the forces of a pressure that varies as the shape functions, on edges of rings too, and of a
+   !> The rule over a side: exact for the forces of a pressure that the shape functions interpolate, on edges of rings too, and of a
    !! constant pressure on curved sides.
    pure subroutine side_rule(kind, rule)
       integer, intent(in) :: kind            !! of the side, from side_kind; 0: no points
@@ -178,8 +178,8 @@ contains
       call take(of_side(kind), rule)
    end subroutine side_rule
 
-   !> The rule over triangles that faces are cut into, for products of two of their shape functions: of faces with up to MOST_NODES
-   !! nodes these are of degree 4, of those with eight nodes of degree 6.
+   !> The rule over the triangles of a subdivided face, for products of two shape functions: of degree 4 for faces with up to four nodes
+   !! (MOST_NODES), of degree 6 for faces with eight.
    pure subroutine side_product_rule(most_nodes, rule)
       integer, intent(in) :: most_nodes
       type(integration_rule), intent(out) :: rule

@@ -1,5 +1,5 @@
-!> Shape functions of every kind of element and of the edges of plane ones, and their derivatives, in the local coordinates of
-!! element_kinds. Those of second order are complete on the triangle and the tetrahedron, serendipity functions on the others.
+!> Shape functions of every kind of element and edge, and their derivatives with respect to local coordinates.
+!! Second-order functions are complete on the triangle and the tetrahedron, serendipity functions on the other kinds.
 !! Source: Zienkiewicz, Taylor, Zhu, The Finite Element Method, 6th ed., chapters 4 and 5, sections 4.6 to 4.12.
 module shape_functions
    use element_kinds, only: element_table, kind_edge2, kind_edge3, kind_hexa20, kind_hexa8, kind_penta15, kind_penta6, kind_quad4, &
@@ -10,10 +10,10 @@ module shape_functions
 
    public :: shape_values, shape_derivatives
 
-   ! d L_i/d(local j) in (j, i) of the barycentric coordinates, first that which is 1 at corner 1; its third row in space only
+   ! d L_i/d(local j) in (j, i) of the barycentric coordinates, L_1 = 1 at corner 1; the third row is used in space only
    real(wp), parameter :: gradient(3, 4) = reshape([real(wp) :: -1, -1, -1,  1, 0, 0,  0, 1, 0,  0, 0, 1], [3, 4])
 
-   integer, parameter :: along(max_edges) = [1, 2, 1, 2, 3, 3, 3, 3, 1, 2, 1, 2] ! the coordinate that runs along an edge
+   integer, parameter :: along(max_edges) = [1, 2, 1, 2, 3, 3, 3, 3, 1, 2, 1, 2] ! the coordinate along each edge
    integer, parameter :: next(3) = [2, 3, 1]
 
 contains
@@ -67,8 +67,8 @@ contains
       end do
    end subroutine wedge_derivatives
 
-   !> Shape functions of the quadrilateral and the hexahedron: at a corner the product of the linear functions of all coordinates
-   !! and one that vanishes on the nodes of its edges; on an edge that of a parabola along it and linear functions of the others.
+   !> Shape functions of the quadrilateral and the hexahedron. At a corner: the product of the linear functions of all coordinates and a
+   !! factor that vanishes at the adjacent mid-edge nodes. On an edge: a parabola along it times linear functions of the other coordinates.
    pure subroutine serendipity_values(kind, point, n)
       integer, intent(in)     :: kind
       real(wp), intent(in)    :: point(3)
@@ -95,7 +95,7 @@ contains
       end associate
    end subroutine serendipity_values
 
-   !> The derivatives of serendipity_values.
+   !> The derivatives of the functions of serendipity_values.
    pure subroutine serendipity_derivatives(kind, point, dn)
       integer, intent(in)     :: kind
       real(wp), intent(in)    :: point(3)
@@ -144,7 +144,7 @@ contains
    !> The shape functions N at a point; zero beyond the nodes of the kind.
    pure subroutine shape_values(kind, point, n)
       integer, intent(in)   :: kind                   !! kind_tria3 ... kind_edge3
-      real(wp), intent(in)  :: point(3)               !! local coordinates; those beyond the kind's dimension are not used
+      real(wp), intent(in)  :: point(3)               !! local coordinates; those beyond the dimension of the kind are not used
       real(wp), intent(out) :: n(max_nodes)           !! [-]
       real(wp) :: l(4), bubble
       integer  :: i
@@ -193,8 +193,8 @@ contains
       end associate
    end subroutine shape_values
 
-   !> Derivatives of the shape functions with respect to the local coordinates. Columns beyond the nodes of the kind, and
-   !! the rows beyond its dimension, are left as they are.
+   !> Derivatives of the shape functions with respect to the local coordinates. Columns beyond the nodes of the kind and rows beyond
+   !! its dimension are not changed.
    pure subroutine shape_derivatives(kind, point, dn)
       integer, intent(in)     :: kind                 !! kind_tria3 ... kind_edge3
       real(wp), intent(in)    :: point(3)             !! local coordinates

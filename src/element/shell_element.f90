@@ -1,12 +1,12 @@
-!> Shells in space, triangles and quadrilaterals of three displacements and three rotations a corner: the membrane of shell_membrane, and
-!! a plate with transverse shear, on the flat element there.
+!> Flat shell elements in space with three or four corners of six dofs: membrane, bending and transverse shear.
+!! The membrane and the geometry are those of shell_membrane.
 !!
 !! Bending and transverse shear: the discrete Kirchhoff-Mindlin triangle and quadrilateral (I. Katili, A new discrete Kirchhoff-Mindlin
 !! element based on Mindlin-Reissner plate theory and assumed shear strain fields, Parts I and II, Int. J. Numer. Meth. Engng 36
-!! (1993) 1859-1908). The rotation of a fibre, {beta} = (theta_y, -theta_x), is linear between the corners, and quadratic along an
-!! edge, where its amplitude follows from the equilibrium of a beam along the edge.
+!! (1993) 1859-1908). The rotation of a fibre, {beta} = (theta_y, -theta_x), is interpolated linearly from the corners; a quadratic term
+!! along each edge is added, whose amplitude follows from the equilibrium of a beam along the edge.
 !!
-!! Nodal values of an element are (3, 2 n): displacements of the n corners, then their rotations [rad], in global axes; forces
+!! Nodal values of an element are (3, 2 n): displacements of the n corners, then their rotations [rad], in global axes; nodal forces
 !! likewise, then moments.
 module shell_element
    use element_kinds, only: centre_point, kind_quad4, kind_quad8, kind_tria6, max_nodes, node_point
@@ -39,8 +39,8 @@ contains
       end associate
    end subroutine shell_stiffness
 
-   !> The values in the plane of the element, u, v, w and the rotations of corner 1 first, from the nodal values in one list: along its axes,
-   !! u + lever theta_y, v - lever theta_x.
+   !> The matrix that gives the values in the axes of the element, u, v, w and rotations of corner 1 first, from nodal values. At the
+   !! mean plane the displacements are u + lever theta_y, v - lever theta_x.
    pure function from_nodes(frame) result(t)
       type(shell_frame), intent(in) :: frame
       real(wp) :: t(6*frame%n, 6*frame%n)
@@ -82,8 +82,8 @@ contains
       end do
    end subroutine add_plate
 
-   !> Curvatures xx, yy, xy and transverse shear strains xz, yz at a POINT from w, theta_x, theta_y of corner 1 first. VOLUME: what
-   !! a unit of weight stands for.
+   !> Curvatures xx, yy, xy and transverse shear strains xz, yz at a POINT from w, theta_x, theta_y of corner 1 first. VOLUME is the
+   !! volume per unit of weight.
    pure subroutine plate_strains(law, frame, point, curvature, gamma, volume)
       type(shell_law), intent(in)   :: law
       type(shell_frame), intent(in) :: frame
@@ -117,7 +117,7 @@ contains
       end do
       if (law%shear <= 0.0_wp) return
       call shape_values(corner_kind(m), point, n)
-      do i = 1, m                             ! at a corner from its two edges, between them as the shape functions
+      do i = 1, m                             ! at a corner from its two edges, interpolated between the corners
          b = modulo(i - 2, m) + 1
          associate (det => axis(1, i)*axis(2, b) - axis(2, i)*axis(1, b))
             across = reshape([axis(2, b), -axis(1, b), -axis(2, i), axis(1, i)], [2, 2])/det
@@ -128,8 +128,8 @@ contains
       end do
    end subroutine plate_strains
 
-   !> Of every edge, from corner i to the next: the amplitude of its quadratic rotation, EDGE times w, theta_x, theta_y of the corners;
-   !! its shear strain by that amplitude; its direction AXIS. Along an edge of length L, with phi = 12 D/(G_s L^2):
+   !> For every edge, from corner i to the next: the amplitude of its quadratic rotation, EDGE times w, theta_x, theta_y of the corners;
+   !! the shear strain per unit of this amplitude; its direction AXIS. Along an edge of length L, with phi = 12 D/(G_s L^2):
    !! amplitude = -3/2/(1 + phi) ((w_j - w_i)/L + (beta_i + beta_j)/2), shear strain = -2/3 phi amplitude.
    pure subroutine find_edges(law, frame, edge, edge_shear, axis)
       type(shell_law), intent(in)   :: law
@@ -158,8 +158,8 @@ contains
       end do
    end subroutine find_edges
 
-   !> Stresses (xx, yy, zz, xy, yz, zx) in global axes at the heights Z above the mean plane, at the corners and then at the centre,
-   !! under the nodal values U, what is warmer than its reference temperature by RISE, and by SLOPE more a unit of height.
+   !> Stresses (xx, yy, zz, xy, yz, zx) in global axes at the heights Z above the mean plane, at the corners and then at the centre, under
+   !! the nodal values U and a thermal load: T - TREF is RISE at the mean plane and grows by SLOPE per unit height.
    pure subroutine shell_stresses(law, x, u, rise, slope, z, stress)
       type(shell_law), intent(in) :: law
       real(wp), intent(in)        :: x(:, :)         !! (3, corners) [length]
@@ -193,8 +193,7 @@ contains
       end do
    end subroutine shell_stresses
 
-   !> Forces and moments F by which a warm element pushes its corners: RISE above its reference temperature at the corners, by SLOPE
-   !! more a unit of height.
+   !> Nodal forces and moments F of a thermal load: T - TREF is RISE at the corners of the mean plane and grows by SLOPE per unit height.
    pure subroutine shell_thermal_forces(law, x, rise, slope, f)
       type(shell_law), intent(in) :: law
       real(wp), intent(in)        :: x(:, :)         !! (3, corners) [length]
@@ -221,7 +220,7 @@ contains
       f(:, :2*m) = reshape(matmul(reshape(own(:, :m), [6*m]), from_nodes(frame)), [3, 2*m])
    end subroutine shell_thermal_forces
 
-   !> M = integral of q N_i N_j over an element, q between its VALUES at the corners as the shape functions.
+   !> M = integral of q N_i N_j over an element; the shape functions interpolate q between its VALUES at the corners.
    pure subroutine shell_products(x, values, m)
       real(wp), intent(in)    :: x(:, :)             !! (3, corners) [length]
       real(wp), intent(in)    :: values(:)           !! (corners) [per area]

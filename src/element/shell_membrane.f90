@@ -1,12 +1,12 @@
-!> Shell elements in their plane: what they are made of, where they lie, and their membrane, with drilling rotations theta_z. An element is
-!! flat: its corners are projected onto its mean plane, and what a corner has from there is a rigid lever, as is an offset of the plate
-!! (ZOFFS). Values of a corner are u, v, w and the rotations, in the axes of the element.
+!> Shell elements in their plane: property, geometry, and the membrane with drilling rotations theta_z.
+!! An element is flat: its corners are projected onto its mean plane. The distance of a corner from this plane is a rigid lever, as is
+!! the offset of the plate (ZOFFS). Values of a corner are u, v, w and the rotations, in the axes of the element.
 !!
-!! Triangle: the optimal one with drilling rotations (C. A. Felippa, A study of optimal membrane triangles with drilling freedoms,
-!! Comput. Methods Appl. Mech. Engrg. 192 (2003) 2125-2168); the drilling rotation is that of the membrane.
-!! Quadrilateral: with the modes of Wilson and Taylor; the drilling rotation is tied to that of the membrane (T. J. R. Hughes, F. Brezzi, On
-!! drilling degrees of freedom, Comput. Methods Appl. Mech. Engrg. 72 (1989) 105-121) by a stiffness as large as that of bending: more
-!! would lock curved shells, less would loosen twisted ones.
+!! Triangle: the optimal triangle with drilling rotations (C. A. Felippa, A study of optimal membrane triangles with drilling freedoms,
+!! Comput. Methods Appl. Mech. Engrg. 192 (2003) 2125-2168).
+!! Quadrilateral: with the modes of Wilson and Taylor. A penalty ties the drilling rotation to the rotation of the membrane (T. J. R.
+!! Hughes, F. Brezzi, On drilling degrees of freedom, Comput. Methods Appl. Mech. Engrg. 72 (1989) 105-121). The penalty is of the size of
+!! the bending stiffness: a larger one would lock curved shells, a smaller one would make twisted shells too flexible.
 module shell_membrane
    use elasticity, only: plane_stress
    use element_kinds, only: centre_point, kind_quad4, kind_tria3, max_nodes, node_point
@@ -20,36 +20,36 @@ module shell_membrane
 
    public :: corner_kind, flat_coordinates, shell_frame_of, thickness_at, add_membrane, add_membrane_warmth, find_membrane
 
-   !> What a shell element is made of.
+   !> Section and material of a shell element.
    type, public :: shell_law
       real(wp) :: d(3, 3) = 0.0_wp            !! plane stress of the membrane: xx, yy, xy [pressure]
-      real(wp) :: bending(3, 3) = 0.0_wp      !! that of bending, times 12 I/T**3 [pressure]
-      real(wp) :: shear = 0.0_wp              !! G TS/T of transverse shear; 0: rigid in it [pressure]
+      real(wp) :: bending(3, 3) = 0.0_wp      !! the same for bending, times 12 I/T**3 [pressure]
+      real(wp) :: shear = 0.0_wp              !! G TS/T of transverse shear; 0: rigid in transverse shear [pressure]
       real(wp) :: nu = 0.0_wp                 !! Poisson's ratio of the membrane [-]
       real(wp) :: thickness(4) = 0.0_wp       !! at the corners [length]
       real(wp) :: offset = 0.0_wp             !! of the mean plane from the nodes, along the normal (ZOFFS) [length]
       real(wp) :: expansion = 0.0_wp          !! alpha [1/temperature]
    end type shell_law
 
-   !> Where an element lies.
+   !> The geometry of a shell element.
    type, public :: shell_frame
-      integer  :: n = 0                       !! corners
+      integer  :: n = 0                       !! number of corners
       real(wp) :: axes(3, 3) = 0.0_wp         !! columns: two directions in the plane, the normal, right-handed with the corners
       real(wp) :: x(2, 4) = 0.0_wp            !! corners in the plane [length]
-      real(wp) :: lever(4) = 0.0_wp           !! of the plane above the nodes, along the normal, with the offset [length]
+      real(wp) :: lever(4) = 0.0_wp           !! height of the mean plane above the nodes, along the normal, offset included [length]
    end type shell_frame
 
-   real(wp), parameter :: drilling = 1.0_wp ! stiffness that ties the drilling rotation of a quadrilateral, by G t^2/area, at most G
+   real(wp), parameter :: drilling = 1.0_wp ! penalty of the drilling rotation of a quadrilateral: this times G t^2/area, at most G
 
-   ! what the strains at the points of integration of a quadrilateral are at its corners: the point at corner i counts TO_CORNERS(i, j)
-   ! at corner j
+   ! extrapolation of strains from the integration points of a quadrilateral to its corners: TO_CORNERS(i, j) is the weight of the point
+   ! next to corner i at corner j
    real(wp), parameter :: near = 1.0_wp + 0.5_wp*sqrt(3.0_wp), far = 1.0_wp - 0.5_wp*sqrt(3.0_wp)
    real(wp), parameter :: to_corners(4, 4) = reshape([near, -0.5_wp, far, -0.5_wp, -0.5_wp, near, -0.5_wp, far, &
                                                       far, -0.5_wp, near, -0.5_wp, -0.5_wp, far, -0.5_wp, near], [4, 4])
 
 contains
 
-   !> The frame of an element with corners X and an OFFSET. The normal is that of the diagonals, of a triangle that of its plane.
+   !> The frame of an element with corners X and an OFFSET. The normal of a quadrilateral is perpendicular to both diagonals.
    pure type(shell_frame) function shell_frame_of(x, offset) result(frame)
       real(wp), intent(in) :: x(:, :)         !! (3, corners) [length]
       real(wp), intent(in) :: offset          !! [length]
@@ -80,7 +80,7 @@ contains
       end do
    end function shell_frame_of
 
-   !> The corners X of an element in its plane.
+   !> The corners X of an element projected onto its mean plane, in its axes.
    pure function flat_coordinates(x) result(flat)
       real(wp), intent(in) :: x(:, :)         !! (3, corners) [length]
       real(wp) :: flat(2, size(x, 2))
@@ -127,7 +127,7 @@ contains
       call membrane_strains(law%nu, frame%x(:, :3), area, basic, at_corner)
       d = area*sum(law%thickness(:3))/3.0_wp*law%d
       k = matmul(transpose(basic), matmul(d, basic))
-      do a = 1, 3                             ! at the middle of the edges, each of which stands for a third
+      do a = 1, 3                             ! the mid-edge points, each with a third of the area
          e = 0.5_wp*(at_corner(:, :, a) + at_corner(:, :, modulo(a, 3) + 1))
          k = k + matmul(transpose(e), matmul(d, e))/3.0_wp
       end do
@@ -151,7 +151,8 @@ contains
       end do
    end subroutine add_quadrilateral
 
-   !> Eliminate the modes from [K] and the forces F: what is left of the first twelve; of the others enough to find them from these.
+   !> Condense the modes out of [K] and the forces F. The first twelve rows become the condensed ones; the rows of the modes keep what
+   !! gives their parameters.
    pure subroutine condense(k, f)
       real(wp), intent(inout) :: k(16, 16), f(16)
       integer :: i, j
@@ -164,8 +165,8 @@ contains
       end do
    end subroutine condense
 
-   !> [k] between u, v, theta_z of the corners and the parameters of the four modes, with the mean thickness, under which the modes have no
-   !! part in constant strain.
+   !> [k] between u, v, theta_z of the corners and the parameters of the four modes. It is formed with the mean thickness, for which the
+   !! modes are orthogonal to constant strain.
    pure subroutine mode_stiffness(law, frame, k)
       type(shell_law), intent(in)   :: law
       type(shell_frame), intent(in) :: frame
@@ -189,8 +190,8 @@ contains
       end do
    end subroutine mode_stiffness
 
-   !> Strains xx, yy, xy at a POINT of a quadrilateral from u, v, theta_z of the corners and the four modes; and how far the drilling
-   !! rotation is from the rotation of the membrane, TWIST.
+   !> Strains xx, yy, xy at a POINT of a quadrilateral from u, v, theta_z of the corners and the four modes. TWIST is the difference between
+   !! the drilling rotation and the rotation of the membrane.
    pure subroutine mode_strains(frame, point, b, twist, volume)
       type(shell_frame), intent(in) :: frame
       real(wp), intent(in)          :: point(3)
@@ -217,8 +218,8 @@ contains
       twist(3:12:3) = n(:4)
    end subroutine mode_strains
 
-   !> The strains xx, yy, xy of a membrane triangle from its nine values, u, v, theta_z of corner 1 first: the BASIC ones, which are
-   !! constant, and what comes on top AT_CORNER i, which has no mean. Felippa 2003, Eqs. (11) to (32), with the parameters of OPT.
+   !> The strains xx, yy, xy of a membrane triangle from its nine values, u, v, theta_z of corner 1 first: the BASIC strains, which are
+   !! constant, and the higher-order strains AT_CORNER i, whose mean is zero. Felippa 2003, Eqs. (11) to (32), with the parameters of OPT.
    pure subroutine membrane_strains(nu, x, area, basic, at_corner)
       real(wp), intent(in)  :: nu             !! [-]
       real(wp), intent(in)  :: x(2, 3)        !! [length]
@@ -264,7 +265,7 @@ contains
       end do
    end subroutine membrane_strains
 
-   !> The matrix by which the strains along three DIRECTIONS become xx, yy, xy: the inverse of e = c^2 xx + s^2 yy + c s xy.
+   !> The matrix that gives xx, yy, xy from the strains along three DIRECTIONS: the inverse of e = c^2 xx + s^2 yy + c s xy.
    pure function natural_to_cartesian(direction) result(t)
       real(wp), intent(in) :: direction(2, 3) !! unit
       real(wp) :: t(3, 3), a(3, 3)
@@ -281,8 +282,8 @@ contains
       t = t/dot_product(a(1, :), t(:, 1))
    end function natural_to_cartesian
 
-   !> Strains of the mean plane at the corners and at the centre from OWN, of every corner u, v, w and rotations in the axes of the
-   !! element. The modes of a quadrilateral bear no force but that of warmth.
+   !> Strains of the mean plane at the corners and at the centre from OWN, the values u, v, w and rotations of every corner in the axes of
+   !! the element. Only a thermal load acts on the modes of a quadrilateral.
    pure subroutine find_membrane(law, frame, rise, own, strain)
       type(shell_law), intent(in)   :: law
       type(shell_frame), intent(in) :: frame
@@ -313,11 +314,11 @@ contains
          if (i == 5) call mode_strains(frame, centre_point(:, kind_quad4), b, r, volume)
          strain(:, i) = matmul(b, q)
       end do
-      ! from the points of integration to the corners, bilinear
+      ! bilinear extrapolation from the integration points to the corners
       strain(:, :4) = matmul(strain(:, :4), to_corners)
    end subroutine find_membrane
 
-   !> The forces F of a warm membrane on u, v, theta_z of the corners of a quadrilateral and on its modes.
+   !> The thermal forces F of a quadrilateral membrane on u, v, theta_z of its corners and on its modes.
    pure subroutine warm_modes(law, frame, rise, f)
       type(shell_law), intent(in)   :: law
       type(shell_frame), intent(in) :: frame
@@ -337,7 +338,7 @@ contains
       end do
    end subroutine warm_modes
 
-   !> Add to F what a membrane pushes its corners with that is warmer than its reference temperature by RISE at them.
+   !> Add to F the thermal nodal forces of a membrane; RISE is T - TREF at its corners.
    pure subroutine add_membrane_warmth(law, frame, rise, f)
       type(shell_law), intent(in)   :: law
       type(shell_frame), intent(in) :: frame

@@ -1,4 +1,4 @@
-!> Stresses in an element under given displacements: at its centre, and at its nodes from points inside.
+!> Stresses in an element from its displacements: at its centre, and extrapolated from inner points to its nodes.
 !! Source: Zienkiewicz, Taylor, Zhu, The Finite Element Method, 6th ed., section 13.3; Hinton and Campbell, Local and global
 !! smoothing of discontinuous finite element functions, Int. J. Numer. Meth. Engng 8 (1974) 461-480.
 module stress_recovery
@@ -16,7 +16,7 @@ module stress_recovery
 
 contains
 
-   !> Stress at the centre, where a linear element is at its best. The incompatible modes have no strain there.
+   !> Stress at the centre, where a linear element is most accurate. The incompatible modes have no strain there.
    pure subroutine centre_stress(law, x, u, stress, rise)
       type(element_law), intent(in) :: law
       real(wp), intent(in)    :: x(:, :)         !! nodes (dimension, nodes) [length]
@@ -28,7 +28,7 @@ contains
       integer  :: n
 
       call map_element(law, x, map)
-      q = 0.0_wp ! of the modes, and the third component in the plane
+      q = 0.0_wp ! parameters of the modes, and the third component in the plane
       q(:size(u, 1), :map%n) = u(:, :map%n)
       call map_point(law, map, centre_point(:, law%kind), g, volume)
       call strain_at(law, map%n, g, q, strain)
@@ -37,9 +37,9 @@ contains
       stress(:n) = matmul(law%d(:n, :n), strain(:n))
    end subroutine centre_stress
 
-   !> Stresses at the nodes: those of the points of stress_rule, with the parameters of the incompatible modes, continued by the
-   !! shape functions of corners through these points, linear between them. Where the element has one such point its stress stands
-   !! at all nodes.
+   !> Stresses at the nodes, extrapolated from the points of stress_rule; the parameters of the incompatible modes are included. The
+   !! extrapolation uses the linear shape functions of the element whose corners are these points. Where the element has one such point,
+   !! the stress of this point holds at all nodes.
    pure subroutine nodal_stress(law, x, u, stress, rise)
       type(element_law), intent(in) :: law
       real(wp), intent(in)    :: x(:, :)         !! nodes (dimension, nodes) [length]
@@ -54,9 +54,9 @@ contains
 
       m = n_stresses(law%state)
       call map_element(law, x, map)
-      q = 0.0_wp ! of the modes, and the third component in the plane
+      q = 0.0_wp ! parameters of the modes, and the third component in the plane
       q(:size(u, 1), :map%n) = u(:, :map%n)
-      if (map%n_modes > 0) then  ! their parameters, which the condensation has left behind: no force but that of warmth works on them
+      if (map%n_modes > 0) then  ! parameters of the modes from the condensed columns: only a thermal load acts on the modes
          d = size(u, 1)
          call condensed_stiffness(law, x, full, n_nodal, n_all)
          thermal = 0.0_wp
@@ -79,7 +79,7 @@ contains
          if (rule%n == 1) then
             stress(:m, i) = at_point(:m, 1)
          else
-            associate (node => node_point(:, i, law%kind)) ! in the element whose corners are the points of stress
+            associate (node => node_point(:, i, law%kind)) ! local coordinates relative to the points of stress_rule
                scaled = node/gauss
                if (linear == kind_tria3 .or. linear == kind_penta6) scaled(:2) = 2.0_wp*node(:2) - 1.0_wp/3.0_wp
                if (linear == kind_tetra4) scaled = (node - tetra_far)/(tetra_near - tetra_far)
@@ -90,7 +90,7 @@ contains
       end do
    end subroutine nodal_stress
 
-   !> Take from the STRAIN at a point what is free expansion.
+   !> Subtract the free thermal expansion from the STRAIN at a point.
    pure subroutine take_expansion(law, point, rise, strain)
       type(element_law), intent(in) :: law
       real(wp), intent(in)    :: point(3), rise(:)
