@@ -1,5 +1,5 @@
-!> The few services of the C library that Fortran has no word for: reading and writing files by bytes with
-!! every failure told, renaming and removing a file, its true path and what it is, and whether a stream is a terminal.
+!> Declares the services of the C library that Fortran lacks: files by bytes, paths, signals and terminals.
+!! Files are read and written with every failure reported, renamed, removed and identified.
 module c_library
    use, intrinsic :: iso_c_binding, only: c_associated, c_char, c_funptr, c_int, c_int8_t, c_int16_t, c_intptr_t, c_null_char, &
                                           c_null_funptr, c_ptr, c_size_t
@@ -11,13 +11,13 @@ module c_library
              remove_terminated, true_path, kind_of_file, is_regular_file, is_same_file, is_terminal, tell_failed_writes, &
              at_signals, by_default, end_by_signal, lock_folder, end_run
 
-   !> What a path may lead to.
+   !> Kinds of file that a path may lead to.
    integer, parameter, public :: no_file = 0, pipe_file = 1, device_file = 2, folder_file = 4, block_file = 6, regular_file = 8, &
                                  link_file = 10, socket_file = 12 !! S_IFMT of Linux, by 4096
 
    integer(c_intptr_t), parameter :: ignored = 1 ! SIG_IGN
 
-   logical, public, protected :: has_ended = .false. !! by end_run
+   logical, public, protected :: has_ended = .false. !! set by end_run
 
    interface
       integer(c_int) function c_open(path, flags) bind(c, name='open')
@@ -26,7 +26,7 @@ module c_library
          integer(c_int), value :: flags
       end function c_open
 
-      !> A new file that nobody else has, its name TEMPLATE with other letters for the six X before so many at its end.
+      !> Creates a new file with a unique name: replaces the six X of TEMPLATE before its last LETTERS_BEHIND letters.
       integer(c_int) function c_mkstemps(template, letters_behind) bind(c, name='mkstemps')
          import :: c_char, c_int
          character(kind=c_char), intent(inout) :: template(*)
@@ -43,7 +43,7 @@ module c_library
          integer(c_int), value :: mask
       end function c_umask
 
-      !> What has been read, 0 at the end of the file, -1 on failure.
+      !> Number of bytes read, 0 at the end of the file, -1 on failure.
       integer(c_size_t) function c_read(descriptor, bytes, count) bind(c, name='read')
          import :: c_char, c_int, c_size_t
          integer(c_int), value               :: descriptor
@@ -51,7 +51,7 @@ module c_library
          integer(c_size_t), value            :: count
       end function c_read
 
-      !> What has been written, -1 on failure.
+      !> Number of bytes written, -1 on failure.
       integer(c_size_t) function c_write(descriptor, bytes, count) bind(c, name='write')
          import :: c_char, c_int, c_size_t
          integer(c_int), value              :: descriptor
@@ -85,7 +85,7 @@ module c_library
          character(kind=c_char), intent(out) :: resolved(*)
       end function c_realpath
 
-      !> What the file PATH of DIRECTORY is, 0 on success; the layout of STATUS is the same on every processor (man 2 statx).
+      !> Status of the file PATH in DIRECTORY; 0 on success. The layout of STATUS is the same on every processor (man 2 statx).
       integer(c_int) function c_statx(directory, path, flags, mask, status) bind(c, name='statx')
          import :: c_char, c_int, c_int8_t
          integer(c_int), value              :: directory, flags, mask
@@ -93,7 +93,7 @@ module c_library
          integer(c_int8_t), intent(out)     :: status(256)
       end function c_statx
 
-      !> What is done at SIGNAL from now on; gives what was done.
+      !> Set the action at SIGNAL; gives the previous action.
       integer(c_intptr_t) function c_signal(signal, handler) bind(c, name='signal')
          import :: c_funptr, c_int, c_intptr_t
          integer(c_int), value :: signal
@@ -128,13 +128,13 @@ module c_library
 
 contains
 
-   !> All bytes of the file PATH, whatever it is: a plain file, a pipe, the standard input.
-   !! OK is false where it cannot be opened or read (a directory opens, but does not read).
+   !> All bytes of PATH: a plain file, a pipe or the standard input.
+   !! OK is false where PATH cannot be opened or read (a directory opens, but does not read).
    subroutine read_all_bytes(path, bytes, ok)
       character(*), intent(in)               :: path
       character(:), allocatable, intent(out) :: bytes
       logical, intent(out)                   :: ok
-      integer(c_size_t), parameter :: first_room = 1048576 ! where the size of the file is not known
+      integer(c_size_t), parameter :: first_room = 1048576 ! where the size of the file is unknown
       integer(c_int), parameter    :: to_read = 0          ! O_RDONLY
       character(:), allocatable :: wider
       character(1)      :: next
@@ -148,7 +148,7 @@ contains
       endless = .not. is_regular_file(path)
       inquire (file=path, size=room)
       if (room <= 0) room = first_room
-      allocate (character(room) :: bytes) ! of a file just what it holds: a long deck is not copied
+      allocate (character(room) :: bytes) ! exact for a file: a long deck is not copied
       used = 0
       do
          if (used == len(bytes, c_size_t)) then
@@ -163,7 +163,7 @@ contains
          got = c_read(descriptor, bytes(used + 1:), len(bytes, c_size_t) - used)
          if (got <= 0) exit
          used = used + got
-         if (endless) then ! a device such as /dev/zero has no end; what is no text already need not be read to one
+         if (endless) then ! a device such as /dev/zero has no end; bytes that are not text end the reading
             if (index(bytes(:used), c_null_char) > 0) got = 0
             if (got == 0) exit
          end if
@@ -181,7 +181,7 @@ contains
       descriptor = int(c_open(path//c_null_char, to_read))
    end subroutine open_file
 
-   !> Read the next BYTES of DESCRIPTOR, as many as there are room and bytes for; GOT is how many, 0 at the end, below on failure.
+   !> Read the next BYTES of DESCRIPTOR, as many as fit and are there. GOT is their number, 0 at the end, negative on failure.
    subroutine read_bytes(descriptor, bytes, got)
       integer, intent(in)            :: descriptor
       character(*), intent(inout)    :: bytes
@@ -190,8 +190,8 @@ contains
       got = c_read(int(descriptor, c_int), bytes, len(bytes, c_size_t))
    end subroutine read_bytes
 
-   !> Create a file for writing that was not there: NAME, a dot, six letters, ENDING. It is no link, pipe or device that waited
-   !! under that name, and no other run has it. Its PATH; DESCRIPTOR is below zero where that fails.
+   !> Create a new file NAME, a dot, six letters, ENDING for writing, and give its PATH. No link, pipe or device can wait under
+   !! this name, and no other run has the file. DESCRIPTOR is negative on failure.
    subroutine create_unique(name, ending, path, descriptor)
       character(*), intent(in)               :: name, ending
       character(:), allocatable, intent(out) :: path
@@ -203,14 +203,14 @@ contains
       descriptor = int(c_mkstemps(path, len(ending, c_int)))
       path = path(:len(path) - 1)
       if (descriptor < 0) return
-      mask = c_umask(0_c_int) ! that is how it is asked for
+      mask = c_umask(0_c_int) ! umask can only be asked by setting it
       status = c_umask(mask)
       status = c_fchmod(int(descriptor, c_int), iand(read_and_write_for_all, not(mask)))
-      if (status /= 0) return   ! a file system without modes: as good
+      if (status /= 0) return   ! a file system without modes is no error
    end subroutine create_unique
 
-   !> Write all BYTES to DESCRIPTOR (1: the standard output). OK is false where some could not be written, as on a full disk:
-   !! the operating system is asked itself, nothing waits in a buffer.
+   !> Write all BYTES to DESCRIPTOR (1: the standard output) without a buffer. OK is false where some bytes could not be written,
+   !! as on a full disk.
    subroutine write_bytes(descriptor, bytes, ok)
       integer, intent(in)      :: descriptor
       character(*), intent(in) :: bytes
@@ -227,7 +227,7 @@ contains
       end do
    end subroutine write_bytes
 
-   !> Close DESCRIPTOR. OK is false where what was written did not all get there.
+   !> Close DESCRIPTOR. OK is false where written bytes were lost.
    subroutine close_file(descriptor, ok)
       integer, intent(in)  :: descriptor
       logical, intent(out) :: ok
@@ -235,7 +235,7 @@ contains
       ok = c_close(int(descriptor, c_int)) == 0
    end subroutine close_file
 
-   !> What has been written to DESCRIPTOR is on the disk and no longer in the machine's memory. OK is false on failure.
+   !> Force the bytes written to DESCRIPTOR from memory to the disk. OK is false on failure.
    subroutine keep_on_disk(descriptor, ok)
       integer, intent(in)  :: descriptor
       logical, intent(out) :: ok
@@ -243,8 +243,8 @@ contains
       ok = c_fsync(int(descriptor, c_int)) == 0
    end subroutine keep_on_disk
 
-   !> A standard output that the user has closed gets a descriptor that cannot be written, so that no result file gets its number
-   !! and with it the lines of the screen. A closed standard input stays closed: it cannot be read.
+   !> A closed standard output gets a descriptor that cannot be written. Otherwise a result file would get its number, and the
+   !! screen lines with it. A closed standard input stays closed: it cannot be read.
    subroutine open_standard_outputs()
       integer(c_int), parameter :: to_read = 0 ! O_RDONLY
       integer(c_int) :: descriptor, status
@@ -268,23 +268,23 @@ contains
       ok = c_rename(old//c_null_char, new//c_null_char) == 0
    end subroutine rename_file
 
-   !> Remove the file PATH where it is there.
+   !> Remove the file PATH if it exists.
    subroutine remove_file(path)
       character(*), intent(in) :: path
 
       call remove_terminated(path//c_null_char)
    end subroutine remove_file
 
-   !> The same for a PATH that ends with a null character; takes no memory.
+   !> Remove the file PATH, which ends with a null character; needs no memory.
    subroutine remove_terminated(path)
       character(*), intent(in) :: path
       integer(c_int) :: status
 
       status = c_unlink(path)
-      if (status /= 0) return   ! nothing of that name was there: as wanted
+      if (status /= 0) return   ! there was no such file
    end subroutine remove_terminated
 
-   !> The absolute path of PATH with all links resolved; PATH itself where no such file is.
+   !> The absolute path of PATH with all links resolved; PATH itself where there is no such file.
    function true_path(path) result(resolved)
       character(*), intent(in)  :: path
       character(:), allocatable :: resolved
@@ -295,7 +295,7 @@ contains
       if (c_associated(c_realpath(path//c_null_char, text))) resolved = text(:index(text, c_null_char) - 1)
    end function true_path
 
-   !> What PATH is, links followed: no_file where it leads nowhere.
+   !> The kind of file at PATH, links followed; no_file where it leads nowhere.
    integer function kind_of_file(path) result(kind)
       character(*), intent(in) :: path
       integer(c_int), parameter :: here = -100, follow_links = 0, kind_asked = 1 ! AT_FDCWD, STATX_TYPE
@@ -314,7 +314,7 @@ contains
       is_regular_file = kind_of_file(path) == regular_file
    end function is_regular_file
 
-   !> Whether the paths A and B lead to one plain file, by links of either kind.
+   !> Whether the paths A and B lead to one plain file, by symbolic or hard links.
    logical function is_same_file(a, b)
       character(*), intent(in) :: a, b
       integer(c_int), parameter :: here = -100, follow_links = 0, number_asked = 256 ! AT_FDCWD, STATX_INO
@@ -327,13 +327,13 @@ contains
       is_same_file = all(status_a(33:40) == status_b(33:40)) .and. all(status_a(137:144) == status_b(137:144)) ! stx_ino, stx_dev
    end function is_same_file
 
-   !> A write into a pipe that nobody reads, or beyond the size that files may have, fails from now on as one on a full disk does,
-   !! and does not kill the program.
+   !> A write into a pipe without a reader, or beyond the limit on file size, fails from now on as on a full disk and does not
+   !! kill the program.
    subroutine tell_failed_writes()
       call at_signals([13, 25], transfer(ignored, c_null_funptr)) ! SIGPIPE, SIGXFSZ of Linux
    end subroutine tell_failed_writes
 
-   !> HANDLER is called with the number of the signal at any of these SIGNALS; what is ignored, as behind nohup, stays so.
+   !> HANDLER is called with the number of the signal at any of these SIGNALS. An ignored signal (nohup) stays ignored.
    subroutine at_signals(signals, handler)
       integer(c_int), intent(in) :: signals(:)
       type(c_funptr), value      :: handler !! of a subroutine with one integer(c_int) by value
@@ -346,24 +346,24 @@ contains
       end do
    end subroutine at_signals
 
-   !> From now on SIGNAL does what it does to a program that does not handle it.
+   !> Restore the default action of SIGNAL.
    subroutine by_default(signal)
       integer(c_int), intent(in) :: signal
 
       call at_signals([signal], c_null_funptr) ! SIG_DFL
    end subroutine by_default
 
-   !> End the program as SIGNAL ends one that does not handle it.
+   !> End the program by the default action of SIGNAL.
    subroutine end_by_signal(signal)
       integer(c_int), intent(in) :: signal
       integer(c_int) :: status
 
       call by_default(signal)
       status = c_raise(signal)
-      if (status /= 0) return ! not that way
+      if (status /= 0) return ! the signal was not delivered
    end subroutine end_by_signal
 
-   !> Wait until no other run holds the FOLDER, but not for ever, and hold it until DESCRIPTOR is closed.
+   !> Wait a limited time until no other run holds the FOLDER, and hold it until DESCRIPTOR is closed.
    subroutine lock_folder(folder, descriptor)
       character(*), intent(in) :: folder
       integer, intent(out)     :: descriptor
@@ -377,7 +377,7 @@ contains
          if (descriptor < 0) return
          if (c_flock(int(descriptor, c_int), alone) == 0) return
          status = c_usleep(50000_c_int)
-         if (status /= 0) cycle ! a signal: the sooner the next try
+         if (status /= 0) cycle ! a signal interrupted the wait: try again at once
       end do
    end subroutine lock_folder
 
@@ -388,7 +388,7 @@ contains
       is_terminal = c_isatty(int(descriptor, c_int)) /= 0
    end function is_terminal
 
-   !> End the program with exit status STATUS and no further word on the terminal.
+   !> End the program with exit status STATUS and without further output on the terminal.
    subroutine end_run(status)
       integer, intent(in) :: status
 

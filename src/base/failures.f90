@@ -1,4 +1,4 @@
-!> A numerical failure: the structure cannot be solved, and why.
+!> Reports a numerical failure: that the structure cannot be solved, and why.
 module failures
    implicit none
    private
@@ -12,7 +12,7 @@ module failures
 
 contains
 
-   !> Say what failed; the first word counts.
+   !> Report the failure; the first message counts.
    subroutine raise(self, message)
       class(failure_type), intent(inout) :: self
       character(*), intent(in)           :: message

@@ -1,10 +1,10 @@
-!> Which result files are being written, so that none stays behind where the program ends in the midst of it: a failure, an
-!! interrupt, and as the last resort an allocation that fails where nobody looks. That one ends the program through the run-time
-!! library, with exit status 1 and words of its own; or, where the compiler allocates what is assigned and does not look either, it
-!! uses the address of nothing. Here both become a message of the program and the status of what cannot be solved.
+!> Removes incomplete result files where the program fails, is interrupted or runs out of memory.
+!! An allocation that fails unchecked is the last case. The run-time library then ends the program with exit status 1 and its own
+!! message. Where the compiler allocates on assignment without a check, the program uses a null address instead. Both become a message
+!! of the program here, with the exit status of a problem that cannot be solved.
 !!
-!! A file is written as NAME.abcdef.part, its letters those of no other file: two runs in one folder do not meet. When it is
-!! complete it gets its name, and replaces what file or link has it.
+!! A file is written as NAME.abcdef.part with letters of its own, so that two runs in one folder do not collide. The complete file
+!! gets its final name and replaces any file or link of that name.
 module incomplete_results
    use, intrinsic :: iso_c_binding, only: c_associated, c_f_pointer, c_funloc, c_funptr, c_int, c_null_char, c_null_ptr, c_ptr
    use c_library, only: at_signals, by_default, create_unique, device_file, block_file, end_by_signal, folder_file, has_ended, &
@@ -15,15 +15,15 @@ module incomplete_results
    public :: create_part, name_part, remove_incomplete, give_up_parts, remove_old, all_complete, watch_ends, what_is_in_the_way, &
              say_at_interrupts
 
-   character(*), parameter, public :: suffix = '.part' !! that a file has until it is complete
+   character(*), parameter, public :: suffix = '.part' !! of an incomplete file
 
-   character(:), allocatable :: names     ! one after the other, each with a null character at its end
-   character(:), allocatable :: in_the_way ! of the first file that could not be created: what has its name, in words
+   character(:), allocatable :: names     ! each ends with a null character
+   character(:), allocatable :: in_the_way ! what blocks the name of the first file that could not be created
 
-   character(:), allocatable :: last_words ! at an interrupt, with the end of their line
+   character(:), allocatable :: last_words ! message at an interrupt, with its end of line
 
-   logical, volatile        :: is_changing = .false. ! the files are about to be others than NAMES has
-   integer(c_int), volatile :: interrupt = 0         ! that came then
+   logical, volatile        :: is_changing = .false. ! NAMES is about to change
+   integer(c_int), volatile :: interrupt = 0         ! signal that came during the change
 
    integer(c_int), parameter :: status_of_library = 1, status_unsolved = 3
    integer(c_int), parameter :: sigsegv = 11, enomem = 12 ! of Linux
@@ -47,7 +47,7 @@ module incomplete_results
 
 contains
 
-   !> WORDS are said from now on where an interrupt ends the program; none where they are empty.
+   !> Set the WORDS that an interrupt prints; empty: none.
    subroutine say_at_interrupts(words)
       character(*), intent(in) :: words
 
@@ -56,8 +56,8 @@ contains
       call end_of_change()
    end subroutine say_at_interrupts
 
-   !> Create the file PART, which will be PATH. DESCRIPTOR is below zero where that fails, or where PATH is there and is no file
-   !! that could be replaced: a folder, a pipe, a device.
+   !> Create the file PART, which will become PATH. DESCRIPTOR is negative on failure, and where PATH exists and is a folder, a pipe
+   !! or a device, which cannot be replaced.
    subroutine create_part(path, part, descriptor)
       character(*), intent(in)               :: path
       character(:), allocatable, intent(out) :: part
@@ -85,12 +85,12 @@ contains
       call end_of_change()
    end subroutine create_part
 
-   !> PART is complete: it becomes PATH, and is no result yet while other files have no names, but for one that STAYS as it is. OK is
-   !! false where that failed; the part is removed then.
+   !> Rename the complete PART to PATH. An interrupt still removes PATH until all files have their names, unless it STAYS. OK is false
+   !! where the renaming failed; PART is then removed.
    subroutine name_part(part, path, ok, stays)
       character(*), intent(in)      :: part, path
       logical, intent(out)          :: ok
-      logical, intent(in), optional :: stays !! false
+      logical, intent(in), optional :: stays !! default: false
       logical :: is_noted
 
       is_noted = .true.
@@ -102,7 +102,7 @@ contains
       call end_of_change()
    end subroutine name_part
 
-   !> The file PATH goes where a run is given up.
+   !> Add PATH to the files that are removed where a run is given up.
    subroutine note(path)
       character(*), intent(in) :: path
 
@@ -110,20 +110,20 @@ contains
       names = names//path//c_null_char
    end subroutine note
 
-   !> What came in the midst of a change is due now.
+   !> Handle a signal that came during the change.
    subroutine end_of_change()
       is_changing = .false.
       if (interrupt /= 0) call end_by_interrupt(interrupt)
    end subroutine end_of_change
 
-   !> Whether nothing has the name PATH, or a file, or a link to one or to nothing: what may be replaced.
+   !> Whether PATH can be replaced: nothing has this name, or a plain file, or a link to a plain file or to nothing.
    logical function is_free(path)
       character(*), intent(in) :: path
 
       is_free = any(kind_of_file(path) == [no_file, regular_file])
    end function is_free
 
-   !> Why the first file could not be created, in words; empty where its name was free.
+   !> Why the first file could not be created; empty where its name was free.
    function what_is_in_the_way() result(words)
       character(:), allocatable :: words
 
@@ -131,14 +131,14 @@ contains
       if (allocated(in_the_way)) words = in_the_way
    end function what_is_in_the_way
 
-   !> Remove the result PATH of an earlier run, where it is there; no folder, pipe or device of that name.
+   !> Remove the result PATH of an earlier run if it exists, but no folder, pipe or device of that name.
    subroutine remove_old(path)
       character(*), intent(in) :: path
 
       if (is_free(path)) call remove_file(path)
    end subroutine remove_old
 
-   !> Remove the files that have been noted, in an orderly way.
+   !> Remove the noted files and deallocate their list.
    subroutine give_up_parts()
       is_changing = .true.
       call remove_incomplete()
@@ -146,7 +146,7 @@ contains
       call end_of_change()
    end subroutine give_up_parts
 
-   !> All files that have been noted are results now; or there are none yet.
+   !> Forget the noted files: all are results now, or there are none yet.
    subroutine all_complete()
       is_changing = .true.
       if (allocated(names)) deallocate (names)
@@ -154,7 +154,7 @@ contains
       call end_of_change()
    end subroutine all_complete
 
-   !> Remove the files that have been noted, as far as they are there. Takes no memory.
+   !> Remove the noted files that exist. Needs no memory.
    subroutine remove_incomplete()
       integer :: first, length
 
@@ -167,7 +167,7 @@ contains
       end do
    end subroutine remove_incomplete
 
-   !> Watch allocations and interrupts from now on. Where the C library does not do the first the status stays 1.
+   !> Watch allocations and interrupts from now on. Where the C library cannot watch allocations the exit status stays 1.
    subroutine watch_ends()
       integer(c_int) :: status
 
@@ -176,8 +176,8 @@ contains
       call at_signals([1, 2, 15], c_funloc(end_by_interrupt)) ! SIGHUP, SIGINT, SIGTERM of Linux
    end subroutine watch_ends
 
-   !> Called when SIGNAL interrupts the program: it ends as if it had not been handled, but leaves no part. While the list of files
-   !! changes that has to wait.
+   !> Called when SIGNAL interrupts the program. The program ends as without a handler, but leaves no incomplete file. While the list
+   !! of files changes the end has to wait.
    subroutine end_by_interrupt(signal) bind(c)
       integer(c_int), value :: signal
       logical :: ok
@@ -191,8 +191,8 @@ contains
       call end_by_signal(signal)
    end subroutine end_by_interrupt
 
-   !> Called by the kernel where an address is used at which nothing is. After an allocation that failed, the last that the C library
-   !! tells this thread, that is why; otherwise the program ends as it would have done, at the same place.
+   !> Called by the kernel at an access to an invalid address. The cause is a failed allocation where that is the last error that the C
+   !! library has reported to this thread. Otherwise the program ends at the same place as without a handler.
    recursive subroutine end_at_no_address(signal) bind(c)
       integer(c_int), value   :: signal
       integer(c_int), pointer :: error

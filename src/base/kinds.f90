@@ -1,4 +1,4 @@
-!> The kinds of number used throughout.
+!> Defines the kinds of real and integer numbers used throughout.
 module kinds
    use, intrinsic :: iso_fortran_env, only: int64, real64
    implicit none

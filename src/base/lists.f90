@@ -1,6 +1,7 @@
-!> Lists of whole numbers: the numbers that users give to things (nodes, elements, properties) and where each thing is stored; sorting;
-!! which lists hold a number (from the nodes of every element, say, to the elements of every node); disjoint sets of 1 to n
-!! (union-find): PARENT(i) is another member of the set of i, or i itself, which then stands for the set, at first all do.
+!> Looks up, sorts and groups whole numbers such as the identification numbers of nodes, elements and properties.
+!! A number table gives the position of an identification number. An inverse list gives for each number the lists that hold it (from
+!! the nodes of every element to the elements of every node). Disjoint sets of 1 to n use union-find: PARENT(i) is another member of
+!! the set of i, or i itself where i is the root. At first every i is a root.
 module lists
    use kinds, only: long
    implicit none
@@ -13,7 +14,7 @@ module lists
       private
       integer, allocatable :: ids(:)       ! ascending
       integer, allocatable :: positions(:) ! positions(k) is where ids(k) stood
-      integer, allocatable :: direct(:)    ! direct(id) is the position of id, 0: none; where the numbers lie close enough
+      integer, allocatable :: direct(:)    ! direct(id) is the position of id, 0: none; only for dense numbers
    contains
       procedure :: build
       procedure :: add
@@ -21,13 +22,13 @@ module lists
       procedure :: list_repeated
    end type id_table_type
 
-   integer, parameter :: sparsest = 8 ! numbers between the least and the largest for each in a table that is looked up directly
+   integer, parameter :: sparsest = 8 ! at most so many times the count of numbers is the range of a direct table
 
-   integer, parameter :: few = 48 ! keys that are sorted faster one by one than by their bytes
+   integer, parameter :: few = 48 ! insertion sort is faster than radix sort up to so many keys
 
 contains
 
-   !> Take the numbers IDS(n); find(IDS(k)) is k from now on.
+   !> Build the table of the numbers IDS(n); find(IDS(k)) is then k.
    pure subroutine build(self, ids)
       class(id_table_type), intent(inout) :: self
       integer, intent(in)                 :: ids(:)
@@ -45,7 +46,7 @@ contains
       end do
    end subroutine build
 
-   !> Other numbers IDS of these POSITIONS; one that the table has already keeps its position.
+   !> Add the numbers IDS with their POSITIONS; a number already in the table keeps its position.
    pure subroutine add(self, ids, positions)
       class(id_table_type), intent(inout) :: self
       integer, intent(in)                 :: ids(:), positions(:)
@@ -59,7 +60,7 @@ contains
       if (allocated(self%direct)) deallocate (self%direct)
    end subroutine add
 
-   !> The position of ID, 0 where it is not in the table. Of repeated ids the first.
+   !> The position of ID, 0 where it is not in the table, the first position of a repeated ID.
    pure integer function find(self, id) result(position)
       class(id_table_type), intent(in) :: self
       integer, intent(in)              :: id
@@ -76,7 +77,7 @@ contains
       if (self%ids(k) == id) position = self%positions(k)
    end function find
 
-   !> The first position of the ascending KEYS that does not hold less than KEY, the last where all do: by halving the range.
+   !> The first position of the ascending KEYS whose key is at least KEY, the last one where there is none; by bisection.
    pure integer function first_not_below(keys, key) result(low)
       integer, intent(in) :: keys(:), key
       integer :: high, middle
@@ -93,7 +94,7 @@ contains
       end do
    end function first_not_below
 
-   !> The positions of all numbers that an earlier position holds already, in ascending order of the number.
+   !> The positions of all repeated numbers but the first of each, in ascending order of the number.
    pure subroutine list_repeated(self, positions)
       class(id_table_type), intent(in)  :: self
       integer, allocatable, intent(out) :: positions(:)
@@ -151,7 +152,7 @@ contains
       end do
    end subroutine sorted_order
 
-   !> The same of few KEYS: no counting by bytes, every one goes in front of those that are larger.
+   !> The same permutation for few KEYS by insertion sort.
    pure subroutine insert_one_by_one(keys, order)
       integer, intent(in)  :: keys(:)
       integer, intent(out) :: order(:)
@@ -168,7 +169,7 @@ contains
       end do
    end subroutine insert_one_by_one
 
-   !> The numbers among KEYS, each once, in ascending order.
+   !> The distinct numbers among KEYS, in ascending order.
    pure subroutine distinct(keys, values)
       integer, intent(in)               :: keys(:)
       integer, allocatable, intent(out) :: values(:)
@@ -182,8 +183,8 @@ contains
       values = pack(values, is_new)
    end subroutine distinct
 
-   !> OWNERS(FIRST(i):FIRST(i + 1) - 1) are the columns of MEMBERS that hold the number i, in ascending order; a column that
-   !! holds it twice stands there twice.
+   !> OWNERS(FIRST(i):FIRST(i + 1) - 1) are the columns of MEMBERS that hold the number i, in ascending order. A column that holds i
+   !! twice appears twice.
    pure subroutine list_owners(n, members, first, owners)
       integer, intent(in)               :: n              !! numbers: 1 to N
       integer, intent(in)               :: members(:, :)  !! (most of a list, lists); 0: none
@@ -208,7 +209,7 @@ contains
             i = members(k, list)
             if (i == 0) cycle
             owners(first(i)) = list
-            first(i) = first(i) + 1               ! where the next owner of i goes: in the end where those of i + 1 begin
+            first(i) = first(i) + 1               ! where the next owner of i goes; in the end where those of i + 1 begin
          end do
       end do
       do i = n, 2, -1
@@ -217,7 +218,7 @@ contains
       if (n > 0) first(1) = 1
    end subroutine list_owners
 
-   !> Union of the sets of A and B (union-find with path halving); a zero is nothing.
+   !> Unite the sets of A and B (union-find with path halving); zero is ignored.
    pure subroutine join(parent, a, b)
       integer, intent(inout) :: parent(:)
       integer, intent(in)    :: a, b
@@ -229,7 +230,7 @@ contains
       parent(max(i, j)) = min(i, j)
    end subroutine join
 
-   !> The ROOT of the set of MEMBER, the way there halved for the next time.
+   !> The ROOT of the set of MEMBER; halves the path.
    pure subroutine climb(parent, member, root)
       integer, intent(inout) :: parent(:)
       integer, intent(in)    :: member
@@ -242,7 +243,7 @@ contains
       end do
    end subroutine climb
 
-   !> The member that stands for the set of MEMBER.
+   !> The root of the set of MEMBER.
    pure integer function root_of(parent, member) result(root)
       integer, intent(in) :: parent(:), member
 

@@ -1,5 +1,6 @@
-!> What the machine has, and what the program takes of it: memory and threads. Linux gives the figures in small files of text, /proc
-!! and /sys; its control groups leave so much to this program: the limits of containers, batch systems and systemd.
+!> Measures the memory of the machine and sets the memory allocator and the threads of the program.
+!! Linux gives the figures in the text files of /proc and /sys. The control groups give the limits of containers, batch systems and
+!! systemd.
 !! Source: Linux, Documentation/admin-guide/cgroup-v2.rst and cgroup-v1/memory.rst; man 7 cgroups for /proc/self/cgroup.
 module machine
    use, intrinsic :: iso_c_binding, only: c_int, c_intptr_t, c_loc, c_long, c_size_t
@@ -14,9 +15,9 @@ module machine
    ! parameters of mallopt, malloc.h of glibc
    integer(c_int), parameter :: trim_threshold = -1, top_pad = -2, mmap_threshold = -3, mmap_max = -4, arena_max = -8
    integer(c_int), parameter :: dont_need = 4       ! advice of madvise, sys/mman.h of Linux
-   integer(c_intptr_t), parameter :: page = 4096    ! of memory [bytes]; where pages are larger madvise refuses
+   integer(c_intptr_t), parameter :: page = 4096    ! size of a page of memory [bytes]; where pages are larger madvise refuses
 
-   !> What a thread's first call of OpenBLAS takes of the address space; where it cannot have that it tries for ever.
+   !> Address space that a thread's first call of OpenBLAS takes; without it OpenBLAS tries for ever.
    integer(long), parameter :: blas_buffer = 134217728_long ! BUFFER_SIZE of its common_x86_64.h
 
    type, bind(c) :: heap_figures ! struct mallinfo2 of glibc's malloc.h
@@ -73,17 +74,17 @@ module machine
       end subroutine openblas_set_num_threads
    end interface
 
-   integer(long), parameter, public :: no_figure = huge(1_long) !! it cannot be read, or is a word such as `max`
+   integer(long), parameter, public :: no_figure = huge(1_long) !! unreadable, or a word such as `max`
 
-   !> One version of the control groups: where its groups are, and the names of their files.
+   !> One version of the control groups: the folder of its groups and the names of their files.
    type :: hierarchy_type
       character(:), allocatable :: folder, limit, used, reclaimable
    end type hierarchy_type
 
 contains
 
-   !> What is deallocated stays with the program for the next allocation: new pages cost a sixth of a factorisation. Where glibc does
-   !! not do it nothing is lost.
+   !> Keep deallocated memory in the program for the next allocation: new pages cost a sixth of a factorisation. Where glibc
+   !! refuses, nothing is lost.
    subroutine keep_memory()
       integer, allocatable, volatile :: first(:)
       integer(c_int) :: status
@@ -91,13 +92,13 @@ contains
       status = mallopt(trim_threshold, huge(1_c_int))
       status = mallopt(top_pad, 64_c_int*1048576_c_int)
       status = mallopt(mmap_max, 0_c_int)
-      allocate (first(131072)) ! the heap grows now, where it is looked whether it can: not all of what the compiler takes is checked
+      allocate (first(131072)) ! the heap grows here, where the status is checked: the compiler does not check every allocation
       first(1) = 0
       deallocate (first)
    end subroutine keep_memory
 
-   !> From now on what is large comes from the machine and goes back to it, for a run whose largest arrays are few and stay, but whose
-   !! preparation takes as much again.
+   !> Take large arrays from the machine and return them to it from now on: for a run with few large arrays that stay, whose
+   !! preparation takes as much memory again.
    subroutine return_memory()
       integer(c_int), parameter :: large = 4_c_int*1048576_c_int
       integer(c_int) :: status
@@ -109,8 +110,8 @@ contains
       status = malloc_trim(0_c_size_t)
    end subroutine return_memory
 
-   !> Give the pages of A back to the machine, those that lie in it whole: a(first + 1) to a(last - 1). They are zero when they are
-   !! read again, and take memory again when they are written. OK is false where that is not done. A is from the heap.
+   !> Return the whole pages inside A, a(first + 1) to a(last - 1), to the machine. They read as zero and take memory again when
+   !! written. OK is false where this is refused. A must be on the heap.
    subroutine give_back(n, a, ok, first, last)
       integer(long), intent(in)       :: n
       real(wp), intent(inout), target :: a(n)
@@ -127,8 +128,8 @@ contains
       if (ok) ok = madvise(begin + bytes*first, int(bytes*(last - 1 - first), c_size_t), dont_need) == 0
    end subroutine give_back
 
-   !> Memory that the program can still take, of what the machine has free, what its control groups leave (a container's limit),
-   !! and what a limit on its address space leaves [bytes]; huge where none of them can be read.
+   !> Memory that the program can still take [bytes]: the least of the free memory of the machine, the rest of its control groups (a
+   !! container's limit) and the rest of a limit on its address space; huge where none of them can be read.
    function available_memory() result(bytes)
       integer(long)      :: bytes, limit, taken
       type(heap_figures) :: heap
@@ -141,8 +142,8 @@ contains
       bytes = min(bytes, max(0_long, limit - taken + heap%fordblks - omp_get_max_threads()*blas_buffer))
    end function available_memory
 
-   !> The same; where that is less than the bytes WANTED, what has been kept for reuse is given back first, and not before: its
-   !! pages would have to be made anew.
+   !> Memory that the program can still take [bytes]. Where it is less than the bytes WANTED, the memory kept for reuse is returned
+   !! first. It is not returned earlier, because its pages would have to be made anew.
    function memory_for(wanted) result(bytes)
       real(wp), intent(in) :: wanted
       integer(long)  :: bytes
@@ -154,16 +155,16 @@ contains
       bytes = available_memory()
    end function memory_for
 
-   !> The most memory that this program has had [bytes]; huge where that cannot be read.
+   !> The peak memory of this program [bytes]; huge where it cannot be read.
    function peak_memory() result(bytes)
       integer(long) :: bytes
 
       bytes = kernel_figure('/proc/self/status', 'VmHWM:', 1024)
    end function peak_memory
 
-   !> N threads at most, 0: what OMP_NUM_THREADS says; never more than there are cores. BLAS has one in each: one order of additions, the
-   !! same digits everywhere. They have one heap: what one of them has deallocated another one can take. That must be said before they
-   !! are there.
+   !> Use at most N threads, 0: OMP_NUM_THREADS, and never more than there are cores. BLAS has one thread in each: one order of
+   !! additions gives the same digits everywhere. All threads share one heap, so that one reuses what another has deallocated; this
+   !! must be set before the threads exist.
    subroutine use_threads(n)
       integer, intent(in) :: n
       integer(c_int) :: status
@@ -174,8 +175,8 @@ contains
       call omp_set_num_threads(min(merge(n, omp_get_max_threads(), n > 0), omp_get_num_procs()))
    end subroutine use_threads
 
-   !> Threads take the limit of the user's shell as the size of their stacks (ulimit -s). Where that is small it is not enough for
-   !! the element kernels: such threads get what is usual.
+   !> Threads get stacks of the user's limit (ulimit -s). A small limit is not enough for the element kernels: the threads then get
+   !! the usual size.
    subroutine widen_stacks()
       integer(c_size_t), parameter :: usual = 8388608_c_size_t ! bytes, ulimit -s 8192
       integer(c_long)   :: attributes(64)                      ! a pthread_attr_t of glibc has 56 bytes
@@ -190,8 +191,8 @@ contains
       if (status == 0) status = pthread_setattr_default_np(attributes)
    end subroutine widen_stacks
 
-   !> The figure that stands behind NAME (empty: alone in the first line) in the file PATH, there in units of so many bytes
-   !! [bytes]; huge where there is none.
+   !> The figure after NAME in the file PATH [bytes], where it stands in the given units; an empty NAME: the figure alone in the first
+   !! line. Huge where there is none.
    function kernel_figure(path, name, unit_bytes) result(bytes)
       character(*), intent(in) :: path, name
       integer, intent(in)      :: unit_bytes
@@ -214,8 +215,8 @@ contains
       close (unit)
    end function kernel_figure
 
-   !> The least that any control group of this program leaves of its limit, from its own up to the root [bytes]; huge where none
-   !! has one. ROOT: what stands before /proc and /sys, empty but for tests.
+   !> The least rest of the limits of all control groups of this program, from its own group up to the root [bytes]; huge where no
+   !! group has a limit. ROOT is the prefix of /proc and /sys, empty except in tests.
    function memory_left_by_groups(root) result(bytes)
       character(*), intent(in) :: root
       integer(long)   :: bytes
@@ -233,8 +234,8 @@ contains
       close (unit)
    end function memory_left_by_groups
 
-   !> What the group of one LINE leaves, or a group above it. The line is `number:controllers:path`: version 2 has the number 0
-   !! and no controllers, version 1 names them.
+   !> The least rest of the group of one LINE and of the groups above it. The line is `number:controllers:path`: version 2 has
+   !! number 0 and no controllers, version 1 names its controllers.
    function left_by_line(root, line) result(bytes)
       character(*), intent(in) :: root, line
       integer(long) :: bytes
@@ -262,15 +263,15 @@ contains
          end if
       end associate
       path = line(second + 1:)
-      do ! in a container the groups above it, or its own path as the host sees it, may not be there: they say nothing
+      do ! in a container these groups may be absent, or the path is that of the host: they give no limit
          bytes = min(bytes, left_in_group(hierarchy, path))
          if (path == '') exit
          path = path(:index(path, '/', back=.true.) - 1)
       end do
    end function left_by_line
 
-   !> What one group leaves: its limit less what its members have; pages of files that nobody uses any more are given back when
-   !! memory is asked for.
+   !> The rest of one group: its limit less the memory of its members. Unused file pages do not count, the kernel reclaims them on
+   !! demand.
    function left_in_group(hierarchy, path) result(bytes)
       type(hierarchy_type), intent(in) :: hierarchy
       character(*), intent(in)         :: path

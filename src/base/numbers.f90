@@ -1,7 +1,7 @@
-!> Small services for numbers. Which can be the measure of anything: finite ones far enough below the largest real that squares and
-!! products of them, with stiffnesses and areas, are still numbers; which of several is the largest; the vector product; the real
-!! zeros of a polynomial of low degree in an interval, found between the zeros of its derivative: between neighbouring ones of these
-!! it is monotonic, so that each such stretch has one zero at the most; linear least squares by LAPACK.
+!> Provides small numerical services: range checks, ties, the vector product, zeros of polynomials, least squares.
+!! A measure must be finite and far enough below the largest real that its squares and its products with stiffnesses and areas stay
+!! finite. The zeros of a polynomial of low degree in an interval are found between the zeros of its derivative: the polynomial is
+!! monotonic there, so that each such interval has at most one zero. LAPACK solves the linear least-squares problem.
 !! Source: Press et al., Numerical Recipes, 2nd ed., section 9.4, for Newton's method within a bracket.
 module numbers
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
@@ -14,17 +14,17 @@ module numbers
 
    real(wp), parameter, public :: largest_measure = 1.0e100_wp
    real(wp), parameter, public :: identity(3, 3) = reshape([real(wp) :: 1, 0, 0, 0, 1, 0, 0, 0, 1], [3, 3])
-   real(wp), parameter, public :: tie = 1.0e-6_wp !! how far values may differ that a symmetric structure would have alike
+   real(wp), parameter, public :: tie = 1.0e-6_wp !! relative difference below which values of a symmetric structure count as equal
 
    integer, parameter, public :: highest_degree = 4
 
-   !> Some zeros, ascending.
+   !> Some zeros in ascending order.
    type, public :: zero_list
       integer  :: n = 0
       real(wp) :: x(highest_degree) = 0.0_wp
    end type zero_list
 
-   real(wp), parameter :: singular = 1.0e-12_wp ! reciprocal condition number of the scaled columns that counts as rank lost
+   real(wp), parameter :: singular = 1.0e-12_wp ! reciprocal condition number of the scaled columns below which the rank is deficient
 
    interface
       subroutine dgelsy(m, n, nrhs, a, lda, b, ldb, jpvt, rcond, rank, work, lwork, info)
@@ -39,7 +39,7 @@ module numbers
 
 contains
 
-   !> Whether VALUE is one. What is no number at all is never compared: that would be an exception.
+   !> Whether VALUE can be a measure. A NaN is never compared: that would raise an exception.
    elemental logical function is_measure(value)
       real(wp), intent(in) :: value
 
@@ -47,8 +47,8 @@ contains
       if (is_measure) is_measure = abs(value) <= largest_measure
    end function is_measure
 
-   !> Where the largest of the VALUES that count is, the first of those that are as large but for what rounding may have made; 0
-   !! where none counts. Every node and element that is named for its largest value is found by this rule.
+   !> The position of the largest of the VALUES that count, the first among those that are equal to rounding; 0 where none counts.
+   !! Every node and element that is named for its largest value is found by this rule.
    pure integer function first_largest(values, counts) result(at)
       real(wp), intent(in)          :: values(:)
       logical, intent(in), optional :: counts(:) !! default: all count
@@ -74,7 +74,7 @@ contains
       product_of_them = [a(2)*b(3) - a(3)*b(2), a(3)*b(1) - a(1)*b(3), a(1)*b(2) - a(2)*b(1)]
    end function cross
 
-   !> [W] of a point at the ARM from the one that turns: its displacement is {u} + [W] {theta}, theta x arm.
+   !> [W] of a point at the ARM from the node that rotates: its displacement is {u} + [W] {theta}, theta x arm.
    pure function by_rotation(arm) result(w)
       real(wp), intent(in) :: arm(3) !! [length]
       real(wp) :: w(3, 3)
@@ -82,7 +82,7 @@ contains
       w = reshape([0.0_wp, -arm(3), arm(2), arm(3), 0.0_wp, -arm(1), -arm(2), arm(1), 0.0_wp], [3, 3])
    end function by_rotation
 
-   !> The zeros in FROM < x < TO at which sum of c_k x**k changes its sign; what only touches zero has none there.
+   !> The zeros in FROM < x < TO at which sum of c_k x**k changes its sign; a double zero does not count.
    pure recursive subroutine find_zeros(c, from, to, zeros)
       real(wp), intent(in)         :: c(0:)  !! up to the power highest_degree
       real(wp), intent(in)         :: from, to
@@ -104,8 +104,8 @@ contains
       end do
    end subroutine find_zeros
 
-   !> The zero between the two ends of BRACKET, at which the polynomial has opposite signs, to rounding: Newton's method, bisection
-   !! where that would leave the bracket.
+   !> The zero in BRACKET, at whose ends the polynomial has opposite signs, to rounding: Newton's method, bisection where Newton's
+   !! method would leave the bracket.
    pure real(wp) function enclosed_zero(c, bracket) result(x)
       real(wp), intent(in) :: c(0:), bracket(2)
       real(wp) :: ends(2), value, slope, step, last_step
@@ -144,7 +144,7 @@ contains
       end do
    end function polynomial
 
-   !> Its derivative: the coefficients k c_k, one fewer.
+   !> Coefficients k c_k of the derivative, one fewer.
    pure function derivative(c) result(slope)
       real(wp), intent(in) :: c(0:)
       real(wp) :: slope(0:ubound(c, 1) - 1)
@@ -153,9 +153,9 @@ contains
       slope = [(k*c(k), k = 1, ubound(c, 1))]
    end function derivative
 
-   !> The X that makes norm2(MATRIX X - RHS) least, by an orthogonal factorisation with pivoting (DGELSY). The columns are
-   !! scaled to length one first, so that d, d^2, d^3 in any unit do no harm. OK is false where MATRIX has fewer rows than
-   !! columns or, to rounding, dependent columns; X is then zero.
+   !> The X that minimizes norm2(MATRIX X - RHS), by an orthogonal factorisation with pivoting (DGELSY). The columns are scaled to unit
+   !! length first, so that d, d^2, d^3 may have any unit. OK is false where MATRIX has fewer rows than columns or, to rounding,
+   !! dependent columns; X is then zero.
    subroutine solve_least_squares(matrix, rhs, x, ok)
       real(wp), intent(in)  :: matrix(:, :) !! (points, unknowns)
       real(wp), intent(in)  :: rhs(:)       !! (points)
@@ -182,7 +182,7 @@ contains
       if (ok) x = b(:n, 1)/length
    end subroutine solve_least_squares
 
-   !> The straight line y = LINE(1) + LINE(2) x nearest to the points. OK is false for fewer than two different x.
+   !> The least-squares line y = LINE(1) + LINE(2) x. OK is false for fewer than two different x.
    subroutine fit_line(x, y, line, ok)
       real(wp), intent(in)  :: x(:), y(:)
       real(wp), intent(out) :: line(2)

@@ -1,5 +1,5 @@
-!> The layout of a restart file, and the state of a run as it passes through: whoever keeps something in it has one routine that
-!! names its parts in their order, and the same routine writes them and reads them.
+!> Defines the layout of a restart file, and writes or reads the state of a run through it.
+!! A module with state in the file has one routine that names its parts in order. The same routine writes and reads them.
 !!
 !!     byte  1   'JOINTFEM RESTART'
 !!          17   the number of the layout [4]
@@ -10,14 +10,14 @@
 !!       n - 15  n, the bytes of the whole file [8]
 !!        n - 7  the checksum of all before [8]
 !!
-!! What may have any size, or not be there, has its extent before it [4], -1: it is not there. Types that pass as blocks have no
-!! allocatable components and no bytes between their components: where these would not be next to one another there is a filler.
+!! An array of any size, or one that may be unallocated, has its extent before it [4], -1: unallocated. Types that pass as blocks have
+!! no allocatable components and no padding: a filler component stands where padding would be.
 !!
-!! A file that is read is whole and of this layout, program and order of bytes: open_restart has looked at its sums. What it says of
-!! lengths is believed as far as there are bytes for it, and no further.
+!! open_restart checks that a file is whole and of this layout, program and order of bytes. A length in the file is accepted only as
+!! far as there are bytes for it.
 !!
-!! The checksum is CRC-64, as the xz format has it: what a file was written with, and what is read of it, are the same where the sums
-!! are. Any damage within 64 bits in a row shows; any other with a chance of 2**-64 of not doing so.
+!! The checksum is CRC-64 as in the xz format. It detects every damage within 64 consecutive bits, and any other damage but with a
+!! probability of 2**-64.
 !! Source: ECMA-182, annex B (polynomial), in the reflected form of the .xz file format 1.1.0, section 6; the sum of '123456789'
 !! is 995DC9BBDF1939FA.
 module restart_stream
@@ -31,21 +31,21 @@ module restart_stream
 
    public :: open_restart, add_to_checksum
 
-   integer, parameter, public :: layout = 6 !! changes with every change of what is kept, or how
+   integer, parameter, public :: layout = 6 !! changes with the layout and with its contents
    character(*), parameter    :: magic = 'JOINTFEM RESTART'
    integer(int32), parameter  :: order_mark = int(z'01020304', int32), other_order = int(z'04030201', int32)
    integer, parameter, public :: version_length = 16
    integer, parameter :: head_length = 48, tail_length = 16
    character(8), parameter :: eight_letters = ''
-   integer(int64), parameter, public :: no_bytes = 0_int64 !! the sum of no bytes at all: begin with it
+   integer(int64), parameter, public :: no_bytes = 0_int64 !! the checksum of no bytes, the start value
 
    type, public :: restart_stream_type
-      logical :: writes = .false.                 !! else it reads
-      character(:), allocatable :: fault          !! why it failed, in words; not allocated: it has not
+      logical :: writes = .false.                 !! false: it reads
+      character(:), allocatable :: fault          !! why it failed; not allocated: it has not failed
       character(:), allocatable, private :: bytes ! reading: the file
-      integer(long), private  :: used = 0         ! reading: of these; writing: bytes in the file
-      integer(long), private  :: last = 0         ! reading: byte before the tail
-      integer(int64), private :: sum = no_bytes   ! of what has been written
+      integer(long), private  :: used = 0         ! bytes read or written so far
+      integer(long), private  :: last = 0         ! reading: the last byte before the tail
+      integer(int64), private :: sum = no_bytes   ! checksum of the bytes written
       integer, private        :: descriptor = -1
    contains
       procedure :: start
@@ -58,10 +58,10 @@ module restart_stream
       procedure :: file
    end type restart_stream_type
 
-   integer :: i ! of the table
+   integer :: i
    integer(int64), parameter :: polynomial = ior(shiftl(int(z'C96C5795', int64), 32), int(z'D7870F42', int64))
 
-   ! what a byte becomes in eight steps, bit by bit
+   ! the remainder of each byte after eight shifts
    integer(int64), parameter :: t0(0:255) = [(int(i, int64), i = 0, 255)]
    integer(int64), parameter :: t1(0:255) = ieor(shiftr(t0, 1), iand(t0, 1_int64)*polynomial)
    integer(int64), parameter :: t2(0:255) = ieor(shiftr(t1, 1), iand(t1, 1_int64)*polynomial)
@@ -74,7 +74,7 @@ module restart_stream
 
 contains
 
-   !> Write what comes to the open file DESCRIPTOR: by this VERSION of the program, for the deck with the checksum DECK.
+   !> Begin a restart file on the open DESCRIPTOR: by this VERSION of the program, for the deck with the checksum DECK.
    subroutine start(self, descriptor, version, deck)
       class(restart_stream_type), intent(out) :: self
       integer, intent(in)                     :: descriptor
@@ -88,7 +88,7 @@ contains
       call put(self, magic//transfer([int(layout, int32), order_mark], eight_letters)//words//transfer(deck, eight_letters))
    end subroutine start
 
-   !> All has been written: its end goes to the file. OK is false where anything failed.
+   !> Write the tail of the file. OK is false where anything failed.
    subroutine complete(self, ok)
       class(restart_stream_type), intent(inout) :: self
       logical, intent(out)                      :: ok
@@ -100,8 +100,8 @@ contains
       ok = .not. allocated(self%fault)
    end subroutine complete
 
-   !> Look whether BYTES are a restart file of this VERSION of the program for the deck with the checksum DECK: STREAM then reads
-   !! the state in it. Else PROBLEM says what is wrong, '' where nothing is. BYTES are handed over.
+   !> Check that BYTES are a restart file of this VERSION of the program for the deck with the checksum DECK. STREAM then reads its
+   !! state. PROBLEM is the error, '' where there is none. BYTES are handed over.
    subroutine open_restart(bytes, version, deck, stream, problem)
       character(:), allocatable, intent(inout) :: bytes
       character(*), intent(in)                 :: version
@@ -122,7 +122,7 @@ contains
       if (order == other_order) return
       problem = 'it is damaged: its byte order is unknown'
       if (order /= order_mark) return
-      problem = 'it is damaged or truncated: its length is wrong' ! every layout has the same tail: what is damaged is of no layout
+      problem = 'it is damaged or truncated: its length is wrong' ! the tail is common to all layouts
       if (transfer(bytes(n - 15:n - 8), n) /= n) return
       sum = no_bytes
       call add_to_checksum(bytes(:n - 8), sum)
@@ -142,14 +142,14 @@ contains
       stream%last = n - tail_length
    end subroutine open_restart
 
-   !> Whether all of the state has been read, and nothing failed.
+   !> Whether all of the state has been read without a failure.
    pure logical function is_at_end(self)
       class(restart_stream_type), intent(in) :: self
 
       is_at_end = .not. allocated(self%fault) .and. self%used == self%last
    end function is_at_end
 
-   !> Write what stands in up to six variables or contiguous arrays of any plain type but character, or read as much of it.
+   !> Write, or read, up to six variables or contiguous arrays of any intrinsic type but character.
    subroutine item(self, a, b, c, d, e, f)
       class(restart_stream_type), intent(inout) :: self
       class(*), intent(inout)                   :: a(..)
@@ -174,7 +174,7 @@ contains
       call self%text(bytes)
    end subroutine block
 
-   !> Write BYTES, or read them; where they cannot be read they stay as they are.
+   !> Write or read BYTES; where they cannot be read they keep their values.
    subroutine text(self, bytes)
       class(restart_stream_type), intent(inout) :: self
       character(*), intent(inout)               :: bytes
@@ -193,7 +193,7 @@ contains
       end if
    end subroutine text
 
-   !> Reading: the number of bytes that stands here, for which there are bytes behind it; -1 where it is no such number.
+   !> Reading: the byte count at this place, if so many bytes follow; otherwise -1.
    integer(long) function next_size(self) result(n)
       class(restart_stream_type), intent(inout) :: self
 
@@ -204,7 +204,7 @@ contains
       if (n > self%last - self%used) n = -1
    end function next_size
 
-   !> N things of at least BYTES_EACH follow, -1: what holds them is not there. When it is read 0 where that many cannot be there.
+   !> Write or read the count N of items of at least BYTES_EACH, -1: not allocated. Reading gives 0 where the bytes are missing.
    subroutine extent(self, n, bytes_each)
       class(restart_stream_type), intent(inout) :: self
       integer, intent(inout)                    :: n
@@ -217,7 +217,7 @@ contains
       if (allocated(self%fault)) n = 0
    end subroutine extent
 
-   !> The bytes of a file: all of PATH when the state is written; when it is read they are written to DESCRIPTOR.
+   !> Write all bytes of the file PATH into the stream, or copy them from the stream to DESCRIPTOR.
    subroutine file(self, path, descriptor)
       class(restart_stream_type), intent(inout) :: self
       character(*), intent(in)                  :: path
@@ -263,7 +263,7 @@ contains
       if (descriptor < 0 .or. left /= 0) call fail(self, path//' cannot be read')
    end subroutine copy_file
 
-   !> A text of any length, or none.
+   !> Write or read a text of any length, or an unallocated one.
    subroutine any_text(self, value)
       class(restart_stream_type), intent(inout) :: self
       character(:), allocatable, intent(inout)  :: value
@@ -291,7 +291,7 @@ contains
       if (.not. ok) call fail(self, 'it cannot be written')
    end subroutine put
 
-   !> The first word counts.
+   !> Note the failure; the first message counts.
    subroutine fail(self, words)
       class(restart_stream_type), intent(inout) :: self
       character(*), intent(in)                  :: words
@@ -299,7 +299,7 @@ contains
       if (.not. allocated(self%fault)) self%fault = words
    end subroutine fail
 
-   !> SUM of some bytes becomes that of these and BYTES behind them.
+   !> Extend the checksum SUM by BYTES.
    pure subroutine add_to_checksum(bytes, sum)
       character(*), intent(in)      :: bytes
       integer(int64), intent(inout) :: sum

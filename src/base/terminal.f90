@@ -1,6 +1,5 @@
-!> What passes between the programs and the terminal: the arguments of a command, options and input files, the same for both programs, and
-!! the answers to what is wrong with either; the one line that tells where a run is, written over what stood there, five times a second
-!! at most, and not at all where standard error is no terminal.
+!> Handles what both programs share on the terminal: command arguments, input files, error messages, progress line.
+!! The progress line overwrites itself at most five times a second. It appears only where standard error is a terminal.
 module terminal
    use, intrinsic :: iso_fortran_env, only: error_unit
    use c_library, only: is_terminal, write_bytes
@@ -19,14 +18,14 @@ module terminal
       character(:), allocatable :: name !! as the user wrote it
    end type input_argument
 
-   integer, parameter :: width = 80 ! of the words
+   integer, parameter :: width = 80 ! columns of the words in the progress line
    logical :: shown = .false.
    character(:), allocatable :: name
    integer(long) :: last = 0
 
 contains
 
-   !> Argument I of the command, whole; empty where there is none.
+   !> Argument I of the command in full length; empty where there is none.
    function argument_text(i) result(text)
       integer, intent(in)       :: i
       character(:), allocatable :: text
@@ -38,8 +37,8 @@ contains
       if (length > 0) call get_command_argument(i, text)
    end function argument_text
 
-   !> Whether ARGUMENT is an option and no file: it begins with a dash, is not the `-` of the standard input, and stands before
-   !! the `--` that ends the options.
+   !> Whether ARGUMENT is an option: it begins with a dash, is not the `-` of the standard input, and stands before the `--` that
+   !! ends the options.
    pure logical function is_option(argument, before_dashes)
       character(*), intent(in) :: argument
       logical, intent(in)      :: before_dashes
@@ -47,7 +46,7 @@ contains
       is_option = before_dashes .and. argument /= '-' .and. index(argument, '-') == 1
    end function is_option
 
-   !> INPUT becomes the file that ARGUMENT means.
+   !> Set INPUT to the file that ARGUMENT names.
    pure subroutine set_input(input, argument)
       class(input_argument), intent(inout) :: input
       character(*), intent(in)             :: argument
@@ -59,7 +58,7 @@ contains
       input%name = 'standard input'
    end subroutine set_input
 
-   !> Write TEXT and a line end on the standard output; STATUS is 0, or 4 where it cannot be written, which is said.
+   !> Write TEXT and a line end on the standard output. STATUS is 0, or 4 with a message where the output cannot be written.
    subroutine say(text, status)
       character(*), intent(in) :: text
       integer, intent(out)     :: status
@@ -70,14 +69,14 @@ contains
       if (.not. ok) write (error_unit, '(a)') 'the standard output cannot be written'
    end subroutine say
 
-   !> Say on the standard error what is wrong with the command of PROGRAM.
+   !> Report an error in the command of PROGRAM on the standard error.
    subroutine complain(program, message)
       character(*), intent(in) :: program, message
 
       write (error_unit, '(a)') program//': '//message, program//' --help shows the usage'
    end subroutine complain
 
-   !> Say on the standard error why INPUT cannot be read; EXPECTED is what it should have been, 'a deck'.
+   !> Report on the standard error why INPUT cannot be read; EXPECTED is the expected content, 'a deck'.
    subroutine complain_of_input(input, expected)
       class(input_argument), intent(in) :: input
       character(*), intent(in)          :: expected
@@ -97,7 +96,7 @@ contains
       write (error_unit, '(3a)') input%name, ': ', words
    end subroutine complain_of_input
 
-   !> A line for DECK, where QUIET does not forbid it.
+   !> Begin the progress line of DECK, unless QUIET.
    subroutine open_line(deck, quiet)
       character(*), intent(in) :: deck
       logical, intent(in)      :: quiet
@@ -108,7 +107,7 @@ contains
       last = 0
    end subroutine open_line
 
-   !> WORDS behind the name of the deck; AT_ONCE: also where the line is new.
+   !> Show WORDS behind the name of the deck; AT_ONCE: even if the line was just written.
    subroutine show_line(words, at_once)
       character(*), intent(in) :: words
       logical, intent(in)      :: at_once
@@ -122,13 +121,13 @@ contains
       flush (error_unit)
    end subroutine show_line
 
-   !> Clear the line; nothing more is shown.
+   !> Clear the line and show no more.
    subroutine clear_line()
       call empty_line()
       shown = .false.
    end subroutine clear_line
 
-   !> A line that stays, above the one that tells where the run is.
+   !> Print a permanent line above the progress line.
    subroutine say_line(words)
       character(*), intent(in) :: words
 

@@ -1,6 +1,6 @@
-!> Small services for text: case, numbers as words, clean zeros; a line of comma-separated values put together field by field. Numbers
-!! are written as the edit descriptors es13.5, es24.16e3 and i0 have them, character by character, but many times faster: with formats
-!! a listing of 200,000 nodes takes as long again as their solution.
+!> Provides small text services: case, numbers as text, clean zeros, and comma-separated lines built field by field.
+!! Numbers are written character by character as the edit descriptors es13.5, es24.16e3 and i0 write them, but many times faster: with
+!! formats a listing of 200,000 nodes takes as long again as their solution.
 module text_tools
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use, intrinsic :: iso_c_binding, only: c_char, c_double, c_int, c_null_char, c_size_t
@@ -14,13 +14,13 @@ module text_tools
    integer, parameter, public :: full_width = 24    !! of write_full, at most
    integer, parameter, public :: integer_width = 11 !! of write_integer, at most
 
-   integer, parameter      :: reach = 260 ! of the decimal exponents that write_short scales
+   integer, parameter      :: reach = 260 ! decimal exponents that write_short scales
    integer :: i, j
    real(wp), parameter     :: ten(-reach:reach) = [(10.0_wp**i, i = -reach, reach)]
    character(2), parameter :: pairs(0:99) = [((achar(48 + i)//achar(48 + j), j = 0, 9), i = 0, 9)]
 
    interface
-      !> VALUE as printf has it under FORM in N characters at most, the last of them null; gives how many come before it.
+      !> Write VALUE as printf does under FORM, in at most N characters, the last one null; gives the length without the null.
       integer(c_int) function strfromd(text, n, form, value) bind(c, name='strfromd')
          import :: c_char, c_double, c_int, c_size_t
          character(kind=c_char), intent(out) :: text(*)
@@ -30,11 +30,11 @@ module text_tools
       end function strfromd
    end interface
 
-   integer, parameter :: room = 2048 ! characters at first, doubled where a line is longer
+   integer, parameter :: room = 2048 ! initial length, doubled for a longer line
 
    type, public :: csv_line_type
-      integer                   :: length = 0  !! used of TEXT; 0 begins a new line
-      character(:), allocatable :: text        !! where anything was added
+      integer                   :: length = 0  !! used part of TEXT; 0 begins a new line
+      character(:), allocatable :: text        !! allocated after the first field
    contains
       generic :: add => add_integers, add_reals, add_text
       procedure, private :: add_integers, add_reals, add_text
@@ -91,8 +91,8 @@ contains
       text(length + 1:) = ''
    end subroutine write_integer
 
-   !> VALUE as es13.5: scaled by a power of ten to an integer of six digits. Where what is cut off lies so near to one half that the
-   !! rounding of the product may decide, or the power of ten is no real, the C library writes the number.
+   !> VALUE as es13.5, scaled by a power of ten to an integer of six digits. Where the remainder lies so near one half that the rounding
+   !! of the product may decide, or where the power of ten is not a real number, the C library writes VALUE.
    subroutine write_short(value, text)
       real(wp), intent(in)                :: value
       character(short_width), intent(out) :: text
@@ -132,7 +132,7 @@ contains
       if (abs(e) >= 100) text(10:11) = merge('-', '+', e < 0)//achar(48 + abs(e)/100)
    end subroutine write_short
 
-   !> VALUE as es24.16e3 without the blanks before it: the 17 digits that make it come back the same.
+   !> VALUE as es24.16e3 without leading blanks: with 17 digits VALUE is recovered exactly.
    subroutine write_full(value, text, length)
       real(wp), intent(in)               :: value
       character(full_width), intent(out) :: text
@@ -153,7 +153,7 @@ contains
       text = digits(:length)
    end subroutine write_full
 
-   !> A real as a person would write it in a message: at most six significant digits, no padding: 0, 0.05, 1.5E-7.
+   !> A real for a message: at most six significant digits without padding: 0, 0.05, 1.5E-7.
    pure function real_text(value) result(text)
       real(wp), intent(in)      :: value
       character(:), allocatable :: text
@@ -183,7 +183,7 @@ contains
       text = scientific(value, 5)
    end function real_text
 
-   !> A finite VALUE as 1.5E-7, with at most so many DECIMALS.
+   !> A finite VALUE as 1.5E-7, with at most DECIMALS decimals.
    pure function scientific(value, decimals) result(text)
       real(wp), intent(in)      :: value
       integer, intent(in)       :: decimals
@@ -203,7 +203,7 @@ contains
       text = buffer(:last)//'E'//integer_text(exponent)
    end function scientific
 
-   !> VALUE with as many digits as there is ROOM for, for what its column cannot hold: 123456 in four characters is 1E5.
+   !> VALUE in at most ROOM characters, for a value too wide for its column: 123456 in four characters is 1E5.
    pure function fitted_text(value, room) result(text)
       real(wp), intent(in)      :: value
       integer, intent(in)       :: room !! at least 4: 8 for any real
@@ -240,8 +240,8 @@ contains
       if (abs(value) < max(floor, tiny(1.0_wp))) above = 0.0_wp
    end function above
 
-   !> VALUE for print: what lies below FLOOR counts as zero, what stands above is rounded to the power of ten of FLOOR, and zero has no
-   !! sign. FLOOR [unit of value], default 0, takes away digits that another compiler or processor would not reproduce.
+   !> VALUE for print, rounded to the power of ten of FLOOR; a value below FLOOR is zero, and zero has no sign. FLOOR [unit of value],
+   !! default 0, removes digits that another compiler or processor would not reproduce.
    elemental real(wp) function clean(value, floor) result(printed)
       real(wp), intent(in)           :: value
       real(wp), intent(in), optional :: floor
@@ -255,15 +255,15 @@ contains
       end if
       printed = above(value, floor)
       if (abs(printed) >= in_full*floor .or. .not. floor > in_full*tiny(1.0_wp) .or. .not. abs(printed) > 0.0_wp) return
-      power = nint(log10(floor) - 0.5_wp + 1.0e-6_wp) ! a floor of 1E-9 is one on any machine
+      power = nint(log10(floor) - 0.5_wp + 1.0e-6_wp) ! robust at exact powers: 1E-9 gives one power on any machine
       unit = 10.0_wp**abs(power)
-      if (abs(printed) >= 0.1_wp*in_full*merge(unit, 1.0_wp/unit, power > 0)) return ! all six: print rounds them, once
+      if (abs(printed) >= 0.1_wp*in_full*merge(unit, 1.0_wp/unit, power > 0)) return ! print rounds these once
       if (power < 0) printed = anint(printed*unit)/unit ! by a whole power, so that the decimal is the nearest number
       if (power > 0) printed = anint(printed/unit)*unit
       if (power == 0) printed = anint(printed)
    end function clean
 
-   !> WORDS as they stand, behind a comma where they are not the first field, and REALS behind them.
+   !> Append WORDS, after a comma unless they are the first field, and then REALS.
    recursive subroutine add_text(self, words, reals)
       class(csv_line_type), intent(inout) :: self
       character(*), intent(in)            :: words
@@ -287,7 +287,7 @@ contains
       if (present(reals)) call self%add_reals(reals)
    end subroutine add_text
 
-   !> VALUES as i0, a field each, empty but WHERE there are any; REALS behind them.
+   !> Append VALUES as i0, a field each, empty where WHERE is false, and then REALS.
    subroutine add_integers(self, values, reals, where)
       class(csv_line_type), intent(inout) :: self
       integer, intent(in)                 :: values(:)
@@ -304,8 +304,8 @@ contains
       if (present(reals)) call self%add_reals(reals)
    end subroutine add_integers
 
-   !> VALUES with the 17 digits that make them come back the same, as es24.16e3 without blanks, a field each, empty but WHERE there are
-   !! any.
+   !> Append VALUES as es24.16e3 without blanks, 17 digits, so that they are recovered exactly; a field is empty where WHERE is
+   !! false.
    recursive subroutine add_reals(self, values, where)
       class(csv_line_type), intent(inout) :: self
       real(wp), intent(in)                :: values(:)

@@ -1,5 +1,5 @@
-!> The bulk data of a deck as read: one array a kind of card, cards in the order of the deck, nothing resolved yet.
-!! LINE is always the index of the card's first line in the deck text, for messages.
+!> Stores the bulk data of a deck as read: one array for each kind of card, in the order of the deck, unresolved.
+!! The component LINE is always the index of the card's first line in the deck text. Messages need it.
 module bulk_data
    use beam_sections, only: beam_section
    use card_fields, only: id_ranges

@@ -1,5 +1,6 @@
-!> The data fields of a card, taken one after another. What a field is called, what it may hold and which component it fills is said in
-!! one line: `call card%field('EU', jnorm%law%e_u, positive, default=0.0_wp)`, an integer or a real as the component is one.
+!> Takes the data fields of a card one after another and checks each against its rule.
+!! One line gives the name of a field, its rule and the component that the field fills:
+!! `call card%field('EU', jnorm%law%e_u, positive, default=0.0_wp)`. The type of the component selects integer or real.
 module card_fields
    use deck_cards, only: card_type
    use deck_errors, only: deck_error_list

@@ -1,5 +1,4 @@
-!> The cards of a deck, array by array of the bulk data: which kinds of card there are, where their cards begin, and the reading of all
-!! cards of a kind.
+!> Finds the cards of each kind in a deck and reads them into the arrays of the bulk data.
 module card_reader
    use bulk_data, only: bulk_data_type
    use card_fields, only: card_fields_type

@@ -1,4 +1,4 @@
-!> Case control: everything before BEGIN BULK. What to do, stage by stage; the bulk data says with what.
+!> Reads case control, the lines before BEGIN BULK, which say stage by stage what the program does.
 module case_control
    use case_entries, only: check_repeated, choose, cut_entry, entry_type, global_keys, limit_type, number_set, read_number, &
                            read_set, set_reference, stage_keys, value_error

@@ -1,7 +1,7 @@
-!> One line of case control: its key, its value, and what a value may be.
+!> Splits one line of case control into key and value and checks the value.
 !!
-!! SET n = 1, 3, 10 THRU 20, 30 THRU 50 EXCEPT 35, 36, PMARK 4: numbers to which case control gives a name. A set is kept as it is
-!! written; what is wrong with one that nothing uses does no harm. The nodes of a SET or of a marked surface, PMARK, limit tables.
+!! SET n = 1, 3, 10 THRU 20, 30 THRU 50 EXCEPT 35, 36, PMARK 4 gives a list of numbers a name in case control. A set is kept as
+!! written; an error in an unused set is not reported. The nodes of a SET or of a marked surface, PMARK, limit tables.
 module case_entries
    use deck_errors, only: deck_error_list
    use deck_text, only: deck_text_type

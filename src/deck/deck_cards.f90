@@ -1,5 +1,5 @@
-!> Cards put together from their lines: what stands in field 1, the first line of a card and its continuations, each cut into fields:
-!! small field (8 columns), large field (16), free field (commas).
+!> Assembles cards from their lines: a first line and its continuations, each cut into fields.
+!! The formats are small field (8 columns), large field (16) and free field (commas).
 module deck_cards
    use deck_errors, only: deck_error_list
    use deck_text, only: deck_text_type

@@ -1,5 +1,4 @@
-!> A deck that was read, while what its cards say is put together: errors about fields that were read long ago, numbers given twice,
-!! laws of joints whose parts are missing.
+!> Finds errors between cards that have been read: repeated numbers, missing laws of joints, wrong references.
 module deck_check
    use bulk_data, only: bulk_data_type, rigid_card
    use card_fields, only: number_of

@@ -1,4 +1,4 @@
-!> The errors of a deck, collected so that a user sees all of them at once.
+!> Collects the errors of a deck, so that a user sees all of them at once.
 module deck_errors
    implicit none
    private

@@ -1,4 +1,4 @@
-!> A deck: its text, its case control, its bulk data. Read in one go, all errors collected.
+!> Reads a deck, its text, case control and bulk data, in one pass and collects all errors.
 module deck_input
    use bulk_data, only: bulk_data_type
    use card_reader, only: card_kind, card_reader_type

@@ -1,4 +1,4 @@
-!> ${NAME} in a deck: a number, or any word, that the command gives by --set NAME=VALUE.
+!> Replaces ${NAME} in a deck by the number or word that the command gives with --set NAME=VALUE.
 module deck_parameters
    use kinds, only: long
    use text_tools, only: integer_text

@@ -1,4 +1,4 @@
-!> The lines of a deck in the order in which they count, INCLUDE files opened in their place.
+!> Reads the lines of a deck in order and inserts INCLUDE files in their place.
 module deck_text
    use c_library, only: is_regular_file, read_all_bytes, true_path
    use restart_stream, only: add_to_checksum, no_bytes

@@ -1,5 +1,4 @@
-!> Errors of a deck, or of a file of test data, as a person reads them: where, the line itself, a mark under the columns,
-!! what was expected.
+!> Prints errors of decks and test data: the place, the line, a mark under its columns, and what was expected.
 module error_report
    use deck_errors, only: deck_error_list
    use deck_text, only: deck_text_type

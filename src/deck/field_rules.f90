@@ -1,6 +1,6 @@
-!> Numbers as NASTRAN writes them: 12, 1., -.5, 7.0E+1, 1.D-3, 1.5-3.
+!> Reads numbers as NASTRAN writes them (12, 1., -.5, 7.0E+1, 1.D-3, 1.5-3) and applies the rules of fields.
 !!
-!! What a field may hold besides being one: ranges of numbers, words out of a list, components; and the same in words.
+!! A rule is a range of numbers, a list of words or a list of components. Each rule can be put into words.
 module field_rules
    use, intrinsic :: ieee_arithmetic, only: ieee_is_finite
    use, intrinsic :: iso_c_binding, only: c_char, c_double, c_null_char, c_null_ptr, c_ptr

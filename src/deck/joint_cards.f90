@@ -1,5 +1,5 @@
-!> The cards of the joint: JGAP, one card for five ways to say what the initial gap of a joint is, JOINT, CJOINT, PJOINT, JNORM, JSHEAR,
-!! JINCR.
+!> Reads the cards of joints: JGAP, JOINT, CJOINT, PJOINT, JNORM, JSHEAR and JINCR.
+!! JGAP gives the initial gap of a joint in one of five ways.
 module joint_cards
    use branch_cubic, only: cubic
    use bulk_data, only: bulk_data_type, jgap_card

@@ -1,7 +1,6 @@
-!> Shares of a stage's load change that go to its increments (section 5: arithmetic or geometric progression).
-!!
-!! The cards of loads: FORCE, FORCE1, FORCE2, MOMENT, PLOAD4, PLOADE, PLOAD, PLOADM, FORCEM, GRAV, LOAD, BOLT. A routine for each
-!! array of the bulk data, a table for each kind.
+!> Reads the cards of loads: FORCE, FORCE1, FORCE2, MOMENT, PLOAD4, PLOADE, PLOAD, PLOADM, FORCEM, GRAV, LOAD and BOLT.
+!! Each array of the bulk data has a routine, each kind of card a table. The increment fractions of a stage's load change
+!! (section 5: arithmetic or geometric progression) are here too.
 module load_cards
    use bulk_data, only: bulk_data_type, gravity_card, of_edge, of_face, of_marks, of_nodes, pressure_card
    use card_fields, only: card_fields_type

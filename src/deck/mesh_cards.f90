@@ -1,5 +1,6 @@
-!> The cards of the mesh: GRID and its defaults GRDSET, coordinate systems by three nodes (CORD1R, CORD1C, CORD1S) or three points
-!! (CORD2R, CORD2C, CORD2S), body elements, the edges CBAR and CROD, PMARK, and the blocks BLOCK2 and BLOCK3.
+!> Reads the cards of the mesh: nodes, coordinate systems, elements, edges, marked surfaces and blocks.
+!! Nodes: GRID and its defaults GRDSET. Coordinate systems: by three nodes (CORD1R, CORD1C, CORD1S) or by three points (CORD2R,
+!! CORD2C, CORD2S). Edges: CBAR and CROD. Marked surfaces: PMARK. Blocks: BLOCK2 and BLOCK3.
 module mesh_cards
    use bulk_data, only: block_card, bulk_data_type, edge_cbar, edge_cbeam, edge_crod, plate_card, system_card
    use card_fields, only: card_fields_type

@@ -1,7 +1,8 @@
-!> What a deck written for NASTRAN holds besides: entries that ask for output, choose a way of solving or belong to what nothing
-!! uses. They are read and have no effect; what would change an answer is not among them.
+!> Recognises the entries of NASTRAN decks that the program reads without effect.
+!! These entries ask for output, choose a solution method, or belong to what nothing uses. An entry that would change an answer is
+!! not among them.
 !!
-!! Lines of case control that are none of the program's own keys, but NASTRAN's; and ECHO, which it has in more words.
+!! The module also recognises the lines of case control that NASTRAN knows and this program does not, and NASTRAN's forms of ECHO.
 module nastran_compatibility
    use case_entries, only: choose, entry_type, value_error
    use deck_errors, only: deck_error_list

@@ -1,6 +1,6 @@
-!> The cards of properties and materials, PSHELL, PAXIS, PSOLID, PROD, CONROD, MAT1; of beams, PBAR, PBARL, PBEAM and PBEAML, their
-!! sections, which are constant along a beam, and PLOAD1, loads along one; of temperatures, TEMP, TEMPD, TEMPP1; and PARAM. CBAR and CBEAM
-!! themselves are read with the edges they share the card with.
+!> Reads the cards of properties, materials, beam sections, beam loads and temperatures, and PARAM.
+!! Properties and materials: PSHELL, PAXIS, PSOLID, PROD, CONROD, MAT1. Beams: PBAR, PBARL, PBEAM, PBEAML with sections constant
+!! along the beam, and the line load PLOAD1. Temperatures: TEMP, TEMPD, TEMPP1. The module mesh_cards reads CBAR and CBEAM.
 module property_cards
    use beam_sections, only: beam_section, section_dimensions, section_names, section_of
    use bulk_data, only: beam_load_card, beam_property_card, bulk_data_type, temperature_card

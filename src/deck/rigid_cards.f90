@@ -1,5 +1,6 @@
-!> The cards of dependent nodes: RBE2 (nodes that move with one as a rigid body), RBE3 (one that moves as the weighted mean of others),
-!! both with listed nodes or those of a marked surface, RBAR, SHELLTO, MPC (an equation between components); NODEAT, a node by its place.
+!> Reads the cards of dependent nodes: RBE2, RBE3, RBAR, SHELLTO, MPC and NODEAT.
+!! RBE2: nodes that move with one node as a rigid body. RBE3: a node that moves as the weighted mean of others. Both list their nodes
+!! or name a marked surface. MPC: a constraint equation between components. NODEAT: a node given by its place.
 module rigid_cards
    use bulk_data, only: bulk_data_type, has_component, rigid_card
    use card_fields, only: card_fields_type

@@ -1,5 +1,5 @@
-!> The entries of case control that belong to one stage: what loads it, what is printed of it, how the structure oscillates at its end
-!! (MODES and what goes with it, FREQUENCY and what goes with that).
+!> Reads the entries of case control for one stage: its loads, its output and its vibration analysis.
+!! MODES and FREQUENCY, with their options, ask for the vibration about the state at the end of the stage.
 module stage_entries
    use case_entries, only: choose, entry_type, limit_type, read_limit, read_number, set_reference, stage_keys, value_error
    use deck_errors, only: deck_error_list

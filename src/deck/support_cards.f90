@@ -1,5 +1,6 @@
-!> The cards of supports: SPC, SPC1, SPCM, their sum SPCADD (MPCADD sums up equations likewise), and SPCD, which moves them; of springs,
-!! CELAS1, CELAS2, CBUSH, PELAS, PBUSH, and of masses at nodes, CONM2.
+!> Reads the cards of supports, prescribed displacements, springs and nodal masses.
+!! Supports: SPC, SPC1, SPCM and their sum SPCADD; MPCADD combines constraint equations likewise. Prescribed displacements: SPCD.
+!! Springs: CELAS1, CELAS2, CBUSH, PELAS, PBUSH. Masses: CONM2.
 module support_cards
    use bulk_data, only: bulk_data_type, displacement_card, set_sum_card, spring_card, spring_property_card, support_card
    use card_fields, only: card_fields_type

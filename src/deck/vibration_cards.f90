@@ -1,4 +1,4 @@
-!> The cards of oscillation: EIGRL, JAMPL, FREQ1, FREQ2, FREQ4, TABDMP1.
+!> Reads the cards of vibration analysis: EIGRL, JAMPL, FREQ1, FREQ2, FREQ4 and TABDMP1.
 module vibration_cards
    use bulk_data, only: bulk_data_type, tabdmp1_card
    use card_fields, only: card_fields_type

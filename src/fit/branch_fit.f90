@@ -1,6 +1,6 @@
-!> What is fitted to test points: a branch of the shear law, tau = sum over k of (a_k1 + a_k2 p) d^k (Eqs. 3b, 5, 6), from points
-!! or published cubics; the slope E_u on which a joint is unloaded and reloaded, from the loops of a normal test. And of a record
-!! in the order of time: how much of it is noise, and where it turns back.
+!> Fits branches of the shear law and the unloading slope E_u, and measures noise and turning points of a record.
+!! A branch of shear is tau = sum over k of (a_k1 + a_k2 p) d^k (Eqs. 3b, 5, 6); it is fitted to points or to published cubics. The
+!! loops of a normal test give E_u, the slope of unloading and reloading. The record is in the order of time.
 module branch_fit
    use data_columns, only: fit_load
    use kinds, only: wp

@@ -1,5 +1,5 @@
-!> What a line of a data file says: cut into entries, and the numbers among them; the header that names the columns; the words for
-!! columns, branches, and units of data and decks, how many SI units one of them is.
+!> Cuts a line of a data file into entries, reads its numbers, and interprets the header that names the columns.
+!! The words for columns, branches and units stand here, with the SI value of each unit of data and decks.
 module data_columns
    use deck_errors, only: deck_error_list
    use field_rules, only: parse_real

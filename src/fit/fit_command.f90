@@ -1,4 +1,4 @@
-!> The command line of jointfit: options and data files, and what `jointfit --help` prints.
+!> Reads the command line of jointfit, its options and data files, and prints `jointfit --help`.
 module fit_command
    use branch_fit, only: fit_choice
    use c_library, only: is_same_file

@@ -1,4 +1,4 @@
-!> What stands above the fitted cards: data, residuals, range, coefficients, warnings.
+!> Writes the comments above the fitted cards: data, residuals, range, coefficients and warnings.
 module fit_comments
    use branch_fit, only: branch_fit_type, residual_type
    use terminal, only: version

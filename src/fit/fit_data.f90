@@ -1,4 +1,4 @@
-!> The data file of jointfit: test points, or published cubics, as plain text.
+!> Reads a data file of jointfit: test points or published cubics as plain text.
 module fit_data
    use data_columns, only: branch_number, check_system, column_branch, column_d, column_lambda, column_names, column_p, &
                            column_run, column_tau, data_cubics, header_type, known_headers, n_columns, read_header, reading_type, &

@@ -1,5 +1,5 @@
-!> What jointfit writes beside the cards: errors of its data, a line a file, the status at its end; data and fit of a surface as a script
-!! for gnuplot, the points, and lines through the fit at each of them.
+!> Writes the outputs of jointfit besides the cards: errors, the summary line of each file, and a gnuplot script.
+!! The script plots the data and the fit of a surface: the test points, and lines through the fit at these points.
 module fit_output
    use c_library, only: end_run, tell_failed_writes
    use fit_data, only: test_data_type

@@ -1,5 +1,5 @@
-!> JNORM and JSHEAR as lines of a deck, their numbers with the most digits that the columns hold; and warnings about fitted cubics
-!! whose slope turns negative where the card may be used: a joint has no negative stiffness.
+!> Writes JNORM and JSHEAR cards and warns where the slope of a fitted cubic turns negative in the range of the card.
+!! The numbers have as many digits as the columns hold. A joint has no negative stiffness.
 module law_cards
    use data_columns, only: branch_words, fit_load, fit_reload, fit_unload
    use field_rules, only: parse_real

@@ -1,4 +1,4 @@
-!> The laws of one surface from its test data: the branches of shear, and the power law of the normal deflection, lambda = c p^m (Eq. 1).
+!> Fits the laws of one surface to its test data: the shear branches and the power law lambda = c p^m (Eq. 1).
 module surface_fit
    use branch_cubic, only: cubic
    use branch_fit, only: branch_fit_type, fault_dependent, fault_few_points, fault_none, fault_one_pressure, fit_lines_only, &

@@ -1,5 +1,5 @@
-!> Which branch and which run each row of a test belongs to, found from the way that the test went; readings below zero: an offset
-!! of the first one, noise, or an error.
+!> Assigns each row of a test to a branch and a run, and corrects readings below zero.
+!! The loading path of the test decides the branch. A reading below zero is an offset of the first reading, noise, or an error.
 module test_branches
    use branch_fit, only: find_turns, fit_cubic, group_by_pressure, scatter_of
    use data_columns, only: column_d, column_lambda, column_p, column_symbols, column_tau, data_cubics, data_normal, data_shear, &

@@ -1,5 +1,5 @@
-!> The stiffness of the structure over all processes, a matrix of PETSc in blocks of the dimension, and what is done with it in step
-!! by all of them: every routine here is called by all processes, what is said to be rank 0's matters there alone.
+!> Holds the stiffness of the structure as a PETSc matrix distributed over all processes, in blocks of the dimension.
+!! All processes call every routine together. An argument of rank 0 matters on rank 0 alone.
 module distributed_matrix
    use, intrinsic :: iso_c_binding, only: c_double, c_f_pointer, c_int, c_null_ptr, c_ptr
    use body_elements, only: coupled_stiffness

@@ -1,6 +1,6 @@
-!> The solution of the distributed equations by PETSc: conjugate gradients, preconditioned by smoothed aggregation (GAMG) with the
-!! motions of a rigid body, or by the factor of MUMPS. The first guess is of earlier solutions the sum of least energy. The
-!! preconditioner of an earlier stiffness is kept while that pays. All processes call every routine in step.
+!> Solves the distributed equations with PETSc: conjugate gradients preconditioned by GAMG or by a MUMPS factor.
+!! GAMG is smoothed aggregation with the rigid-body modes as near-null space. The first guess is the sum of earlier solutions with
+!! the least energy. The preconditioner of an earlier stiffness is kept while that pays. All processes call every routine together.
 !! Source: Adams, Bayraktar, Keaveny, Papadopoulos, Proc. SC2004; Amestoy et al., SIAM J. Matrix Anal. Appl. 23 (2001) 15-41.
 !! First guess: Fischer, Comput. Methods Appl. Mech. Engrg. 163 (1998) 193-204.
 module distributed_solution

@@ -1,5 +1,5 @@
-!> The seam of distribution in the program for several processes: PETSc on all that mpirun has started. Rank 0 cuts the bodies as the
-!! equations are dealt, and has every process write its own piece.
+!> Provides the solvers and the output of several processes: PETSc on all processes that mpirun has started.
+!! Rank 0 partitions the bodies as it partitions the equations. Every process writes its own piece.
 submodule(distribution) mpi_backend
    use, intrinsic :: iso_c_binding, only: c_funloc, c_null_ptr
    use body_parts, only: cut_piece

@@ -1,14 +1,15 @@
-!> Which part of the structure each process has. Nodes are dealt by METIS, so that few elements lie between two parts; an element
-!! belongs to the part of its first node. The nodes that have unknowns are the BLOCKS of the equations, the part of rank 0 first, as
-!! many rows in each as there are dimensions: of a held component the row is that of the identity.
+!> Partitions the structure: which nodes, elements and equations each process owns.
+!! METIS partitions the nodes so that few elements lie between two parts. An element belongs to the part of its first node. The nodes
+!! with unknowns are the BLOCKS of the equations, the part of rank 0 first. A block has as many rows as there are dimensions; the row
+!! of a held component is that of the identity.
 !!
-!! What stands between two blocks of equations and changes in the run, as rank 0 sees it: joints, bars, and the sections of bolts
-!! that are locked. These blocks have a list of their own; their values in all states of the matrix are made here,
+!! Joints, bars and locked bolt sections change during the run. The blocks that they touch have a list of their own. Rank 0 computes
+!! the values of these touched blocks in all states of the matrix,
 !!
-!!      bodies       what elements and bars leave there
-!!      structure    that and the joints; of a locked equation, row and column, the identity
+!!      bodies       the contributions of elements and bars
+!!      structure    these and the joints; a locked equation has row and column of the identity
 !!
-!! and the processes that have them put them in their places.
+!! and the processes that own the blocks insert the values.
 module partition
    use body_parts, only: extract, nodes_of_elements
    use interface_equations, only: interface_equations_type

@@ -1,5 +1,6 @@
-!> The functions of PETSc 3.18 that are used here, as its C headers have them: matrices, vectors and Krylov solvers are handles;
-!! every function gives an error code, 0 for none. PetscInt is 32 bits, PetscScalar a double: the real build of Debian, with Open MPI.
+!> Declares the functions of PETSc 3.18 that the program uses, as in the C headers of PETSc.
+!! Matrices, vectors and Krylov solvers are handles. Every function returns an error code, 0 for none. PetscInt has 32 bits and
+!! PetscScalar is a double: the real build of Debian, with Open MPI.
 !! Source: PETSc Users Manual, ANL-21/39 Rev 3.18.
 module petsc_library
    use, intrinsic :: iso_c_binding, only: c_char, c_double, c_funptr, c_int, c_ptr

@@ -1,5 +1,6 @@
-!> The solvers PETSC and MUMPS: the equations of all nodes over the processes of the run, solved by PETSc. As with SKYLINE nothing
-!! is condensed; the increments solve for all equations. What rank 0 does is here, what all do in worker_loop.
+!> Implements the solvers PETSC and MUMPS: PETSc solves the equations of all nodes over the processes of the run.
+!! As with SKYLINE nothing is condensed: the increments solve for all equations. This module has the part of rank 0, worker_loop the
+!! part of all processes.
 module petsc_solver
    use body_elements, only: coupled_stiffness
    use condition_estimate, only: first_large

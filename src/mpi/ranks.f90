@@ -1,4 +1,5 @@
-!> The processes of a run, as MPI numbers them from 0 on. Rank 0 reads, steps and writes; the others wait for its commands.
+!> Numbers the processes of a run from 0 as MPI does, and passes data between them.
+!! Rank 0 reads, steps and writes. The other ranks wait for its commands.
 module ranks
    use mpi_f08, only: mpi_abort, mpi_allreduce, mpi_bcast, mpi_byte, mpi_comm_rank, mpi_comm_size, mpi_comm_world, &
                       mpi_double_precision, mpi_finalize, mpi_gatherv, mpi_init, mpi_integer, mpi_max, mpi_recv, mpi_scatterv, &

@@ -1,5 +1,6 @@
-!> The piece of the bodies that this process writes. Rank 0 sends it once, and for every file how its nodes have moved. Beside its own
-!! elements a piece has all that meet at its nodes, so that no process has to ask another for its part of a mean.
+!> Writes the piece of the bodies that this process owns.
+!! Rank 0 sends the piece once, and the displacements of its nodes for every file. A piece has its own elements and all others that
+!! meet at its nodes, so that no process asks another for its part of a nodal mean.
 module subdomain_output
    use body_parts, only: body_piece_type
    use distribution, only: piece_writer

@@ -1,6 +1,6 @@
-!> The loop that all processes work in: the subdomain of this process, its rows of the matrix, its part of the solution. Rank 0
-!! broadcasts a command and does its part of it; the others serve until the run ends. One structure at a time. What the rows of a
-!! process will need of memory is told before they are formed, and what BLAS takes is taken in time.
+!> Runs the command loop of all processes: rank 0 broadcasts commands, and every process does its part.
+!! A process has its subdomain, its rows of the matrix and its part of the solution. The loop serves one structure at a time and ends
+!! with the run. The memory for the rows of a process is checked before they are formed, and BLAS takes its buffer in time.
 module worker_loop
    use blas_lapack, only: dpotrf
    use distributed_matrix, only: distributed_matrix_type, finish_matrix, free_matrix, multiply_by_matrix, read_diagonal, &

@@ -1,4 +1,4 @@
-!> The command line: options and decks.
+!> Reads the command line of jointfem, its options and decks.
 module command_line
    use c_library, only: true_path
    use card_manual, only: manual_entry, manual_names

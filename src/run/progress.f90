@@ -1,6 +1,6 @@
-!> The run of one deck: what its boxes hand on to each other, and how it may end; its progress on the terminal: phase, increment of how
-!! many, time left. Nothing where the standard error is no terminal. With --times, at the end: the seconds that each phase took,
-!! operations, memory.
+!> Holds the state of the run of one deck, which its boxes share, and shows its progress on the terminal.
+!! The progress line has the phase, the increment and the time left; it appears only where standard error is a terminal. With --times
+!! the run ends with a table: the seconds of each phase, operations, memory.
 module progress
    use command_line, only: deck_argument
    use deck_errors, only: deck_error_list

@@ -1,8 +1,8 @@
-!> The restart file of a run, NAME.restart: all that the next increments need, and the results so far. It is written where RESTART
-!! asks for it, and with --resume another run goes on from it.
+!> Writes and reads the restart file NAME.restart: the state for the next increments, and the results so far.
+!! RESTART asks for the file, and another run continues from it with --resume.
 !!
-!! What an increment needs and no file could hold, the factors of the equations and earlier solutions, is made anew, and the run
-!! that wrote the file forgets it too: from the same point on both do the same, to the last digit. The model is built from the deck.
+!! The factors of the equations and the earlier solutions are too large for the file. The resumed run computes them anew, and the run
+!! that wrote the file discards them too: both runs then agree to the last digit. The model is built from the deck.
 module restart_file
    use analysis_state, only: analysis_type, load_state
    use bolt_locking, only: lock_again

@@ -1,5 +1,6 @@
-!> The boxes of the flow chart that belong to no method: reading, building, printing. Each says on the terminal where the run is, and
-!! does nothing once one before it has ended the run; whatever ended it is said in one place, finish_run of run_end.
+!> Runs the boxes of the flow chart that belong to no method: reading, building and printing.
+!! Each box shows its phase on the terminal. After an end of the run the later boxes do nothing. Only finish_run of run_end reports
+!! why the run ended.
 module run_boxes
    use analysis_state, only: analysis_type, interface_stiffness, note_largest, start_analysis
    use backbone, only: backbone_type, find_backbone

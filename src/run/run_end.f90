@@ -1,5 +1,6 @@
-!> The end of a run: the results get their names, or what is wrong is said; the batch as one table, a row a run of the command, into the
-!! file of --summary, and where there are several runs behind their answers; the end of the program with the highest status of all.
+!> Ends a run and the batch: names the results or reports the error, writes the summary, and sets the exit status.
+!! The summary has a row for each run of the command. It goes into the file of --summary, and with several runs to the screen too.
+!! The exit status is the highest of all runs.
 module run_end
    use c_library, only: end_run, write_bytes
    use command_line, only: command_type, is_result_of

@@ -1,4 +1,4 @@
-!> The seam of distribution in the program that runs as one process: there are no solvers behind it.
+!> Stands in for mpi_backend in the program of one process, which has no distributed solvers.
 submodule(distribution) serial_backend
    use machine, only: peak_memory
    implicit none
