@@ -16,22 +16,22 @@ module distributed_matrix
              write_touched, multiply_by_matrix, free_matrix, put_vector, take_vector, check
 
    type, public :: distributed_matrix_type
-      type(c_ptr) :: matrix = c_null_ptr      !! row by row: what preconditioners are made of
-      type(c_ptr) :: products = c_null_ptr    !! the same where it multiplies: its upper blocks, or itself
-      logical :: has_copy = .false.           !! whether these are two
-      type(c_ptr) :: x = c_null_ptr, b = c_null_ptr, r = c_null_ptr !! vectors to it
-      real(wp) :: unit = 1.0_wp               !! on the diagonal of held components [force/length]
-      integer, allocatable :: counts(:)       !! (ranks) rows of each
-      integer, allocatable :: touched(:, :)   !! (2, own touched blocks) row and column, from 0 on
-      integer, allocatable :: touched_counts(:) !! (ranks) entries of touched blocks of each
+      type(c_ptr) :: matrix = c_null_ptr      !! row by row, for the preconditioners
+      type(c_ptr) :: products = c_null_ptr    !! the matrix for products: the upper blocks of MATRIX, or MATRIX itself
+      logical :: has_copy = .false.           !! whether MATRIX and PRODUCTS are two matrices
+      type(c_ptr) :: x = c_null_ptr, b = c_null_ptr, r = c_null_ptr !! vectors of the matrix
+      real(wp) :: unit = 1.0_wp               !! diagonal of held components [force/length]
+      integer, allocatable :: counts(:)       !! (ranks) rows of each rank
+      integer, allocatable :: touched(:, :)   !! (2, own touched blocks) row and column, from 0
+      integer, allocatable :: touched_counts(:) !! (ranks) entries of the touched blocks of each rank
    end type distributed_matrix_type
 
 contains
 
-   !> The matrix of the own elements, not yet assembled: reserve_touched comes then, and rank 0 may add_blocks.
+   !> Create the matrix of the own elements without assembly. reserve_touched follows; then rank 0 may add_blocks.
    subroutine start_matrix(subdomain, counts, stiffness)
       type(subdomain_type), intent(in)               :: subdomain
-      integer, intent(in)                        :: counts(:) !! (ranks) blocks of each
+      integer, intent(in)                        :: counts(:) !! (ranks) blocks of each rank
       type(distributed_matrix_type), intent(out) :: stiffness
       real(wp), allocatable :: k(:, :)
       integer  :: d, e, n
@@ -50,7 +50,7 @@ contains
       end do
    end subroutine start_matrix
 
-   !> A matrix of one of PETSc's types, with room for so many blocks in every own row of blocks, INSIDE the own columns and OUTSIDE.
+   !> Create a matrix of a PETSc type, with room in every own row of blocks for INSIDE own columns and OUTSIDE columns.
    subroutine start_matrix_of_type(type_name, subdomain, inside, outside, matrix)
       character(*), intent(in)     :: type_name
       type(subdomain_type), intent(in) :: subdomain
@@ -67,7 +67,7 @@ contains
       end associate
    end subroutine start_matrix_of_type
 
-   !> Keep room for the touched blocks and the diagonal: what is empty when the matrix is assembled is given back.
+   !> Reserve the touched blocks and the diagonal: the assembly would return entries that are empty.
    subroutine reserve_touched(subdomain, stiffness)
       type(subdomain_type), intent(in)              :: subdomain
       type(distributed_matrix_type), intent(in) :: stiffness
@@ -85,9 +85,9 @@ contains
       end do
    end subroutine reserve_touched
 
-   !> Add the symmetric matrix K between BLOCKS; what is HELD is left out.
+   !> Add the symmetric matrix K between BLOCKS, without the HELD rows and columns.
    subroutine add_blocks(blocks, held, k, stiffness)
-      integer, intent(in)  :: blocks(:)  !! from 0 on
+      integer, intent(in)  :: blocks(:)  !! from 0
       logical, intent(in)  :: held(:, :) !! (dimension, blocks)
       real(wp), intent(in) :: k(:, :)    !! (dimension x blocks, likewise) [force/length]
       type(distributed_matrix_type), intent(in) :: stiffness
@@ -105,8 +105,8 @@ contains
       call check(mat_set_values_blocked(stiffness%matrix, size(blocks), blocks, size(blocks), blocks, values, add_values))
    end subroutine add_blocks
 
-   !> Assemble the matrix; held components get the identity, times the largest entry of the diagonal: STIFFEST, of all. Without an
-   !! element that is zero, and any number will do.
+   !> Assemble the matrix. Held components get the identity times STIFFEST, the largest diagonal entry of all processes. Without an
+   !! element STIFFEST is zero, and any number will do.
    subroutine finish_matrix(subdomain, stiffness, stiffest)
       type(subdomain_type), intent(in)                 :: subdomain
       type(distributed_matrix_type), intent(inout) :: stiffness
@@ -141,8 +141,8 @@ contains
       stiffness%products = stiffness%matrix
    end subroutine finish_matrix
 
-   !> From now on the blocks on and above the diagonal are kept beside the matrix: they take half the memory that it takes, and
-   !! multiply a vector in a quarter of the time.
+   !> Keep the blocks on and above the diagonal beside the matrix from now on. They take half its memory and multiply a vector in a
+   !! quarter of the time.
    subroutine keep_copy(subdomain, stiffness)
       type(subdomain_type), intent(in)                 :: subdomain
       type(distributed_matrix_type), intent(inout) :: stiffness
@@ -169,7 +169,7 @@ contains
       stiffness%has_copy = .true.
    end subroutine keep_copy
 
-   !> Multiply by the matrix itself again.
+   !> Multiply by the matrix itself from now on.
    subroutine drop_copy(stiffness)
       type(distributed_matrix_type), intent(inout) :: stiffness
 
@@ -178,12 +178,12 @@ contains
       stiffness%has_copy = .false.
    end subroutine drop_copy
 
-   !> Of the row of blocks of the own block B those on and above the diagonal: COLUMNS of blocks, and VALUES row after row.
+   !> The blocks on and above the diagonal in the row of the own block B: the COLUMNS of blocks, and VALUES row after row.
    subroutine take_upper(subdomain, stiffness, b, columns, values)
       type(subdomain_type), intent(in)                          :: subdomain
       type(distributed_matrix_type), intent(in)             :: stiffness
       integer, intent(in)                                   :: b
-      integer(c_int), allocatable, intent(inout)            :: columns(:)   !! from 0 on
+      integer(c_int), allocatable, intent(inout)            :: columns(:)   !! from 0
       real(wp), allocatable, optional, intent(inout)        :: values(:, :) !! (dimension x columns, dimension) [force/length]
       integer(c_int), pointer :: all(:)
       real(c_double), pointer :: row(:)
@@ -218,7 +218,7 @@ contains
       call check(mat_assembly_end(matrix, final_assembly))
    end subroutine assemble
 
-   !> The motions of a rigid body, which the coarse levels of the preconditioner have to represent.
+   !> The rigid-body modes, which the coarse levels of the preconditioner have to represent.
    subroutine give_near_null_space(subdomain, stiffness)
       type(subdomain_type), intent(in)              :: subdomain
       type(distributed_matrix_type), intent(in) :: stiffness
@@ -251,7 +251,7 @@ contains
       end do
    end subroutine give_near_null_space
 
-   !> BLOCKS, of rank 0: what stands now in the touched blocks.
+   !> Give rank 0 the values of the touched BLOCKS.
    subroutine read_touched(d, stiffness, blocks)
       integer, intent(in)                       :: d !! dimension
       type(distributed_matrix_type), intent(in) :: stiffness
@@ -269,7 +269,7 @@ contains
       call gather(reshape(own, [size(own)]), stiffness%touched_counts, blocks)
    end subroutine read_touched
 
-   !> VALUES of rank 0: the diagonal, row after row.
+   !> Give rank 0 the diagonal VALUES, row after row.
    subroutine read_diagonal(stiffness, values)
       type(distributed_matrix_type), intent(in) :: stiffness
       real(wp), intent(inout)                   :: values(:) !! [force/length]
@@ -278,7 +278,7 @@ contains
       call take_vector(stiffness%r, stiffness, values)
    end subroutine read_diagonal
 
-   !> Write BLOCKS, of rank 0, into the touched blocks.
+   !> Write the BLOCKS of rank 0 into the touched blocks.
    subroutine write_touched(d, blocks, stiffness)
       integer, intent(in)                       :: d         !! dimension
       real(wp), intent(in)                      :: blocks(:) !! (d, d, touched blocks of all) [force/length]
@@ -305,7 +305,7 @@ contains
 
    end subroutine write_touched
 
-   !> X, of rank 0, row after row, becomes matrix times X.
+   !> Replace X of rank 0, row after row, by the product of the matrix and X.
    subroutine multiply_by_matrix(stiffness, x)
       type(distributed_matrix_type), intent(in) :: stiffness
       real(wp), intent(inout)                   :: x(:)
@@ -315,7 +315,7 @@ contains
       call take_vector(stiffness%b, stiffness, x)
    end subroutine multiply_by_matrix
 
-   !> VALUES of rank 0 into VECTOR.
+   !> Scatter VALUES of rank 0 into VECTOR.
    subroutine put_vector(values, stiffness, vector)
       real(wp), intent(in)                      :: values(:)
       type(distributed_matrix_type), intent(in) :: stiffness
@@ -338,7 +338,7 @@ contains
       call check(vec_restore_array(vector, values))
    end subroutine put_own
 
-   !> VALUES of rank 0 from VECTOR.
+   !> Gather VALUES on rank 0 from VECTOR.
    subroutine take_vector(vector, stiffness, values)
       type(c_ptr), intent(in)                   :: vector
       type(distributed_matrix_type), intent(in) :: stiffness
@@ -362,7 +362,7 @@ contains
       call check(vec_destroy(stiffness%r))
    end subroutine free_matrix
 
-   !> What PETSc cannot do on one process none of them can do.
+   !> End the program where PETSc has failed: a failure on one process ends all processes.
    subroutine check(code)
       integer(c_int), intent(in) :: code
       character(12) :: digits

@@ -16,10 +16,10 @@ module distributed_solution
 
    public :: forget_vectors, renew_preconditioner, solve_distributed, free_solution, set_library_options
 
-   integer, parameter :: most = 6                    !! that are kept
+   integer, parameter :: most = 6                    !! earlier solutions kept
 
    type, public :: earlier_vectors_type
-      integer :: n = 0                                ! kept, the last one first
+      integer :: n = 0                                ! number kept, the last one first
       type(c_ptr) :: u(most) = c_null_ptr
    end type earlier_vectors_type
 
@@ -29,25 +29,25 @@ module distributed_solution
       type(c_ptr) :: solver = c_null_ptr
       logical  :: has_solver = .false.
       integer  :: way = by_gamg                !! or by_mumps
-      type(earlier_vectors_type) :: earlier    !! solutions to begin with
-      integer  :: steps = 0                    !! of the last solution
-      real(wp) :: residual = 0.0_wp            !! of that, as a fraction of the load
-      real(wp) :: gained = 0.0_wp              !! digits of the residual that the steps took away
+      type(earlier_vectors_type) :: earlier    !! solutions for the first guess
+      integer  :: steps = 0                    !! number in the last solution
+      real(wp) :: residual = 0.0_wp            !! of the last solution, as a fraction of the load
+      real(wp) :: gained = 0.0_wp              !! digits by which the steps reduced the residual
       logical  :: converged = .true.
-      logical  :: has_memory = .true.          !! for the factor, MUMPS
+      logical  :: has_memory = .true.          !! MUMPS: for the factor
    end type distributed_solution_type
 
-   real(wp), parameter :: loosest = 1.0e-9_wp    !! of the load may be left, and it is still a solution: rounding allows no less
+   real(wp), parameter :: loosest = 1.0e-9_wp    !! largest residual of a solution, as a fraction of the load: rounding allows no less
    integer, parameter  :: most_steps = 500
-   integer, parameter, public :: no_limit = huge(1) !! of the steps of a solution, but that
+   integer, parameter, public :: no_limit = huge(1) !! no limit on the steps of a solution
    integer, parameter  :: lean_from = 600000     !! rows of a process, from which on the set-up of several takes a fifth less
                                                  !! memory, and several times longer
-   integer, parameter  :: most_solutions = 3     !! one after another, each from where the one before has come
+   integer, parameter  :: most_solutions = 3     !! at most, each from the result of the one before
 
 contains
 
-   !> X: of all sums of earlier solutions the one with the least energy x'[k] x/2 - b'x, [k] the STIFFNESS now, b its vector;
-   !! zero where there is none.
+   !> The first guess X: of all sums of earlier solutions the one with the least energy x'[k] x/2 - b'x, where [k] is the present
+   !! STIFFNESS and b its vector; zero without earlier solutions.
    subroutine guess_vector(stiffness, earlier)
       type(distributed_matrix_type), intent(in) :: stiffness
       type(earlier_vectors_type), intent(in)    :: earlier
@@ -75,7 +75,7 @@ contains
       earlier%n = 0
    end subroutine forget_vectors
 
-   !> Options of the solver; before the library is started, so that the user's (PETSC_OPTIONS) come after them.
+   !> Set the options of the solver. This precedes the start of the library, so that the user's options (PETSC_OPTIONS) override them.
    subroutine set_library_options()
       call set_option('-jointfem_ksp_type', 'cg')
       call set_option('-jointfem_ksp_norm_type', 'unpreconditioned')
@@ -84,9 +84,9 @@ contains
       call set_option('-jointfem_mg_levels_ksp_type', 'chebyshev')
       call set_option('-jointfem_mg_levels_pc_type', 'jacobi')
       call set_option('-jointfem_mg_levels_ksp_chebyshev_esteig', '0,0.05,0,1.1')
-      call set_option('-jointfem_pc_gamg_use_sa_esteig', '0') ! those bounds are of the stiffness that the aggregates are of
+      call set_option('-jointfem_pc_gamg_use_sa_esteig', '0') ! those bounds are of the stiffness from which the aggregates are built
       call set_option('-jointfem_pc_gamg_agg_nsmooths', '1')
-      call set_option('-mat_product_clear', 'true') ! what products of matrices took beside their result goes back at once
+      call set_option('-mat_product_clear', 'true') ! return the work space of matrix products at once
    end subroutine set_library_options
 
    subroutine set_option(name, value)
@@ -95,7 +95,7 @@ contains
       call check(petsc_options_set_value(c_null_ptr, name//char(0), value//char(0)))
    end subroutine set_option
 
-   !> A solver with a preconditioner of the stiffness as it is now. The one there is, and the copy for products, make room first.
+   !> Build a solver with a preconditioner of the present stiffness. The old preconditioner and the copy for products are freed first.
    subroutine renew_preconditioner(subdomain, stiffness, solution)
       type(subdomain_type), intent(in)                   :: subdomain
       type(distributed_matrix_type), intent(inout)   :: stiffness
@@ -129,14 +129,14 @@ contains
 
    contains
 
-      !> The steps and the finest level multiply by a copy from now on.
+      !> The steps and the finest level multiply by the copy from now on.
       subroutine multiply_by_copy(preconditioner)
          type(c_ptr), intent(in) :: preconditioner
          type(c_ptr)    :: smoother
          integer(c_int) :: levels
 
          call check(pc_mg_get_levels(preconditioner, levels))
-         if (levels < 2) return                 ! the finest level is the coarsest, a factor
+         if (levels < 2) return                 ! the finest level is the coarsest: a factor
          call keep_copy(subdomain, stiffness)
          call check(pc_mg_get_smoother(preconditioner, levels - 1, smoother))
          call check(ksp_set_operators(smoother, stiffness%products, stiffness%matrix))
@@ -146,8 +146,8 @@ contains
 
    end subroutine renew_preconditioner
 
-   !> X, of rank 0, the load row after row, becomes the solution. HOW: to so many digits, in at most so many steps at a time, and 1
-   !! where later solutions begin with it. STEPS, RESIDUAL and whether it has CONVERGED tell how it went.
+   !> Replace the load X of rank 0, row after row, by the solution. HOW: digits, most steps at a time, and 1 where later solutions use
+   !! this one for their first guess. STEPS, RESIDUAL and CONVERGED are results.
    subroutine solve_distributed(how, stiffness, solution, x)
       integer, intent(in)                            :: how(3)
       type(distributed_matrix_type), intent(in)      :: stiffness
@@ -156,7 +156,7 @@ contains
       integer(c_int) :: reason, steps, usual
       integer  :: again
       real(wp) :: first, load, left, tolerance
-      real(wp) :: relative, absolute, divergence ! usual limits: those here, or the user's (PETSC_OPTIONS)
+      real(wp) :: relative, absolute, divergence ! limits in use: those of this routine, or the user's (PETSC_OPTIONS)
 
       tolerance = 10.0_wp**(-how(1))
       call put_vector(x, stiffness, stiffness%b)
@@ -172,7 +172,7 @@ contains
       else
          call guess_vector(stiffness, solution%earlier)
          call find_residual(stiffness, first)
-         do again = 1, most_solutions            ! the steps keep a residual of their own, which parts from the true one
+         do again = 1, most_solutions            ! the recursive residual drifts from the true one
             call check(ksp_solve(solution%solver, stiffness%b, stiffness%x))
             call check(ksp_get_iteration_number(solution%solver, steps))
             call check(ksp_get_converged_reason(solution%solver, reason))
@@ -190,7 +190,7 @@ contains
 
    contains
 
-      !> The solution is kept, the oldest one makes room.
+      !> Keep the solution in place of the oldest one.
       subroutine note_vector()
          associate (earlier => solution%earlier)
             if (earlier%n < most) then
@@ -204,7 +204,7 @@ contains
 
    end subroutine solve_distributed
 
-   !> LEFT: the norm of b - [k] x.
+   !> LEFT is the norm of b - [k] x.
    subroutine find_residual(stiffness, left)
       type(distributed_matrix_type), intent(in) :: stiffness
       real(wp), intent(out)                     :: left !! [force]

@@ -23,7 +23,7 @@ submodule(distribution) mpi_backend
 
    type, extends(subdomain_output_type) :: pieces_type
       type(list_type), allocatable :: lists(:)  ! (0:n - 1) the nodes of every piece
-      type(body_piece_type) :: own              ! that of rank 0
+      type(body_piece_type) :: own              ! piece of rank 0
    contains
       procedure :: write => write_pieces_of_all
    end type pieces_type
@@ -41,7 +41,7 @@ contains
       call check(petsc_push_error_handler(c_funloc(petsc_return_error_handler), c_null_ptr))
       call writes_by(write_piece)
       if (rank == 0) return
-      call watch_ends() ! rank 0 has its own watch, and files
+      call watch_ends() ! rank 0 watches itself, and has files of its own
       call serve()
       call leave()
       call end_run(0)
@@ -90,7 +90,7 @@ contains
       type(body_piece_type) :: other
       integer :: r
 
-      if (n_ranks == 1 .or. allocated(model%structural%place)) return ! the first process has all shells and beams, and writes them
+      if (n_ranks == 1 .or. allocated(model%structural%place)) return ! rank 0 has all shells and beams, and writes them
       select type (system)
       type is (petsc_solver_type)
          allocate (pieces)

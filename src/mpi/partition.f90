@@ -28,40 +28,40 @@ module partition
    public :: partition_nodes, subdomain_of, is_entangled, pass_subdomain, forget_elements, pass_part, list_touched, &
              add_touched, structure_values
 
-   !> How rank 0 has dealt the nodes.
+   !> The partition of the nodes, known to rank 0.
    type, public :: partition_type
       integer, allocatable :: owner(:)        !! (n_nodes) rank, -1: no unknowns
-      integer, allocatable :: block(:)        !! (n_nodes) from 0 on, -1: none
-      integer, allocatable :: order(:)        !! (blocks) the node of each
-      integer, allocatable :: counts(:)       !! (ranks) blocks of each
+      integer, allocatable :: block(:)        !! (n_nodes) from 0, -1: none
+      integer, allocatable :: order(:)        !! (blocks) the node of each block
+      integer, allocatable :: counts(:)       !! (ranks) blocks of each rank
    end type partition_type
 
-   !> What one process has.
+   !> The subdomain of one process.
    type, public :: subdomain_type
       integer :: dimension = 0
       integer :: n_blocks = 0                 !! of all processes
       integer :: n_own = 0
-      integer :: first = 0                    !! of the own blocks, from 0 on
-      type(model_type) :: model               !! the elements, on nodes numbered anew: nothing else of it is set
-      integer, allocatable  :: block(:)       !! (nodes of that)
-      logical, allocatable  :: held(:, :)     !! (dimension, nodes of that)
+      integer :: first = 0                    !! first own block, from 0
+      type(model_type) :: model               !! the elements on renumbered nodes; no other component is set
+      integer, allocatable  :: block(:)       !! (nodes of MODEL)
+      logical, allocatable  :: held(:, :)     !! (dimension, nodes of MODEL)
       logical, allocatable  :: held_own(:, :) !! (dimension, own blocks)
-      integer, allocatable  :: inside(:), outside(:) !! (own blocks) neighbours that this process has, itself counted, and others
-      real(wp), allocatable :: x(:, :)        !! (dimension, own blocks) where they are [length]
-      integer, allocatable  :: odd(:)         !! own blocks whose unknowns are no displacements in global axes
-      real(wp), allocatable :: odd_motions(:, :, :) !! (dimension, motions, of these) as motions_of has them
+      integer, allocatable  :: inside(:), outside(:) !! (own blocks) neighbours inside this process, itself included, and outside
+      real(wp), allocatable :: x(:, :)        !! (dimension, own blocks) coordinates [length]
+      integer, allocatable  :: odd(:)         !! own blocks whose unknowns are not displacements in global axes
+      real(wp), allocatable :: odd_motions(:, :, :) !! (dimension, motions, odd blocks) as motions_of gives them
    end type subdomain_type
 
    type, public :: touched_type
       integer :: n = 0
-      integer, allocatable :: row(:), column(:)   !! (n) blocks from 0 on, ascending by row, then by column
-      integer, allocatable :: first(:)             !! (blocks + 1) rows first(b + 1) to first(b + 2) - 1 are of block b
-      integer, allocatable :: counts(:)            !! (ranks) of the rows of each
+      integer, allocatable :: row(:), column(:)   !! (n) blocks from 0, ascending by row, then by column
+      integer, allocatable :: first(:)             !! (blocks + 1) rows first(b + 1) to first(b + 2) - 1 belong to block b
+      integer, allocatable :: counts(:)            !! (ranks) rows of each rank
    end type touched_type
 
 contains
 
-   !> Deal the nodes that have unknowns.
+   !> Partition the nodes that have unknowns.
    subroutine partition_nodes(model, graph, parts, ok)
       type(model_type), intent(in)      :: model
       type(node_graph_type), intent(in) :: graph
@@ -119,7 +119,7 @@ contains
       do b = 1, size(subdomain%odd)
          subdomain%odd_motions(:, :, b) = motions_of(model, parts%order(subdomain%first + subdomain%odd(b)))
       end do
-      ! elements whose nodes have unknowns of their own, in global axes; rank 0 forms the others itself
+      ! elements whose nodes have their own unknowns in global axes; rank 0 forms the other elements
       mine = pack([(e, e = 1, model%n_elements)], parts%owner(model%element_nodes(1, :)) == r)
       mine = pack(mine, [(.not. is_entangled(model, mine(e)), e = 1, size(mine))])
       nodes = nodes_of_elements(model, mine)
@@ -128,7 +128,7 @@ contains
       subdomain%held = model%held(:, nodes)
    end subroutine subdomain_of
 
-   !> Whether element E has nodes that move with the unknowns of others, in axes of their own, at the section of a bolt, or with rotations.
+   !> Whether element E has nodes that depend on others, have local axes, lie on a bolt section, or have rotations.
    pure logical function is_entangled(model, e)
       type(model_type), intent(in) :: model
       integer, intent(in)          :: e
@@ -137,7 +137,7 @@ contains
       if (.not. is_entangled) is_entangled = is_coupled(model, corners_of(model, e))
    end function is_entangled
 
-   !> The matrix is there: what it was made of is not needed any more.
+   !> Free what only the construction of the matrix needs.
    subroutine forget_elements(subdomain)
       type(subdomain_type), intent(inout) :: subdomain
       type(model_type) :: nothing
@@ -146,7 +146,7 @@ contains
       deallocate (subdomain%block, subdomain%held, subdomain%held_own, subdomain%inside, subdomain%outside, subdomain%x)
    end subroutine forget_elements
 
-   !> SUBDOMAIN gets from rank 0 to process R.
+   !> Send SUBDOMAIN from rank 0 to process R.
    subroutine pass_subdomain(r, subdomain)
       integer, intent(in)                 :: r
       type(subdomain_type), intent(inout) :: subdomain
@@ -167,7 +167,7 @@ contains
       call pass(r, subdomain%x, subdomain%odd, subdomain%odd_motions)
    end subroutine pass_subdomain
 
-   !> What extract of body_parts has set of PART gets from rank 0 to process R.
+   !> Send the components of PART that extract of body_parts sets from rank 0 to process R.
    subroutine pass_part(r, part)
       integer, intent(in)             :: r
       type(model_type), intent(inout) :: part
@@ -185,7 +185,7 @@ contains
       call pass(r, part%element_kind, part%element_property, part%element_nodes, part%x, part%properties)
    end subroutine pass_part
 
-   !> The touched blocks of the interface ELEMENTS, on unknowns, of the bars and of the sections of MODEL.
+   !> The touched blocks of the interface ELEMENTS, on unknowns, of the bars and of the bolt sections of MODEL.
    subroutine list_touched(model, graph, parts, elements, touched)
       type(model_type), intent(in)        :: model
       type(node_graph_type), intent(in)   :: graph
@@ -237,7 +237,7 @@ contains
 
    end subroutine list_touched
 
-   !> The PAIRS, each once, in their order: sorted by column and then by row.
+   !> The distinct PAIRS, sorted by row and then by column.
    subroutine sort_once(n_blocks, pairs, touched)
       integer, intent(in)               :: n_blocks, pairs(:, :)
       type(touched_type), intent(inout) :: touched
@@ -269,7 +269,7 @@ contains
       end do
    end subroutine sort_once
 
-   !> Where the block of ROW and COLUMN stands; it is there.
+   !> Position of the block of ROW and COLUMN, which exists.
    pure integer function place_of(touched, row, column) result(place)
       type(touched_type), intent(in) :: touched
       integer, intent(in)            :: row, column
@@ -282,7 +282,7 @@ contains
    !> Add the symmetric matrix K between ROWS of the matrix to VALUES of the touched blocks.
    pure subroutine add_touched(touched, rows, k, values)
       type(touched_type), intent(in) :: touched
-      integer, intent(in)            :: rows(:)         !! from 1 on; 0: none
+      integer, intent(in)            :: rows(:)         !! from 1; 0: none
       real(wp), intent(in)           :: k(:, :)         !! [force/length]
       real(wp), intent(inout)        :: values(:, :, :) !! (dimension, dimension, n) [force/length]
       integer :: b(size(rows)), c(size(rows)), i, j
@@ -300,13 +300,13 @@ contains
       end do
    end subroutine add_touched
 
-   !> VALUES, of the bodies, become those with the joints K_INT, whose equation i is ROW(i) of the matrix; the equations LOCKED get the
-   !! diagonal UNIT.
+   !> Turn VALUES of the bodies into those of the structure: add K_INT of the joints, whose equation i is ROW(i) of the matrix. The LOCKED
+   !! equations get the diagonal UNIT.
    subroutine structure_values(touched, joints, k_int, row, locked, unit, values)
       type(touched_type), intent(in)             :: touched
       type(interface_equations_type), intent(in) :: joints
       real(wp), intent(in)                       :: k_int(:, :, :)  !! (3, 3, joints%n) [force/length]
-      integer, intent(in)                        :: row(0:)         !! from 1 on; of 0: 0
+      integer, intent(in)                        :: row(0:)         !! from 1; row(0) is 0
       integer, intent(in)                        :: locked(:)
       real(wp), intent(in)                       :: unit            !! [force/length]
       real(wp), intent(inout)                    :: values(:, :, :) !! (dimension, dimension, n) [force/length]

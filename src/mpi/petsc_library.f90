@@ -36,7 +36,7 @@ module petsc_library
          type(c_ptr), value    :: context
       end function petsc_push_error_handler
 
-      !> Hands the error code on, without a word; to be given to petsc_push_error_handler.
+      !> Returns the error code without a message; for petsc_push_error_handler.
       subroutine petsc_return_error_handler() bind(c, name='PetscReturnErrorHandler')
       end subroutine petsc_return_error_handler
 
@@ -48,7 +48,7 @@ module petsc_library
 
       ! ---------------------------------------------------------------------------------------------------- vectors
 
-      !> Vectors that MATRIX multiplies and gives.
+      !> Creates vectors for the argument and the result of a product with MATRIX.
       integer(c_int) function mat_create_vecs(matrix, right, left) bind(c, name='MatCreateVecs')
          import :: c_int, c_ptr
          type(c_ptr), value       :: matrix
@@ -61,7 +61,7 @@ module petsc_library
          type(c_ptr), intent(out) :: other
       end function vec_duplicate
 
-      !> The values that this process has, until vec_restore_array.
+      !> Gives access to the values of this process until vec_restore_array.
       integer(c_int) function vec_get_array(vector, values) bind(c, name='VecGetArray')
          import :: c_int, c_ptr
          type(c_ptr), value       :: vector
@@ -98,7 +98,7 @@ module petsc_library
          type(c_ptr), value :: x, y
       end function vec_copy
 
-      !> PRODUCTS of X and N other vectors.
+      !> Dot PRODUCTS of X with N other vectors.
       integer(c_int) function vec_many_dot(x, n, y, products) bind(c, name='VecMDot')
          import :: c_double, c_int, c_ptr
          type(c_ptr), value          :: x
@@ -162,8 +162,8 @@ module petsc_library
          integer(c_int), value :: size
       end function mat_set_block_size
 
-      !> Room for so many blocks in every row of blocks of this process: in its own columns, and in those of others; the second
-      !! pair counts for types that keep the upper blocks alone.
+      !> Reserves blocks in every row of blocks of this process: in its own columns, and in those of others. The second pair of counts is
+      !! for types that store the upper blocks only.
       integer(c_int) function mat_set_preallocation(matrix, block_size, own, others, own_upper, others_upper) &
          bind(c, name='MatXAIJSetPreallocation')
          import :: c_int, c_ptr
@@ -178,12 +178,12 @@ module petsc_library
          integer(c_int), value :: option, value
       end function mat_set_option
 
-      !> VALUES row after row.
+      !> Inserts or adds VALUES, row after row.
       integer(c_int) function mat_set_values_blocked(matrix, m, rows, n, columns, values, mode) bind(c, name='MatSetValuesBlocked')
          import :: c_double, c_int, c_ptr
          type(c_ptr), value         :: matrix
          integer(c_int), value      :: m, n
-         integer(c_int), intent(in) :: rows(*), columns(*) !! of blocks, from 0 on
+         integer(c_int), intent(in) :: rows(*), columns(*) !! of blocks, from 0
          real(c_double), intent(in) :: values(*)
          integer(c_int), value      :: mode
       end function mat_set_values_blocked
@@ -192,7 +192,7 @@ module petsc_library
          import :: c_double, c_int, c_ptr
          type(c_ptr), value          :: matrix
          integer(c_int), value       :: m, n
-         integer(c_int), intent(in)  :: rows(*), columns(*) !! from 0 on
+         integer(c_int), intent(in)  :: rows(*), columns(*) !! from 0
          real(c_double), intent(out) :: values(*)
       end function mat_get_values
 
@@ -208,7 +208,7 @@ module petsc_library
          integer(c_int), value :: type
       end function mat_assembly_end
 
-      !> Row ROW, one of this process, from 0 on: N columns, ascending, and their values, until mat_restore_row.
+      !> Row ROW of this process, from 0: N columns, ascending, and their values, until mat_restore_row.
       integer(c_int) function mat_get_row(matrix, row, n, columns, values) bind(c, name='MatGetRow')
          import :: c_int, c_ptr
          type(c_ptr), value          :: matrix
@@ -323,7 +323,7 @@ module petsc_library
       integer(c_int) function ksp_get_converged_reason(solver, reason) bind(c, name='KSPGetConvergedReason')
          import :: c_int, c_ptr
          type(c_ptr), value          :: solver
-         integer(c_int), intent(out) :: reason   !! positive: it has converged
+         integer(c_int), intent(out) :: reason   !! positive: converged
       end function ksp_get_converged_reason
 
       integer(c_int) function ksp_get_pc(solver, preconditioner) bind(c, name='KSPGetPC')
@@ -343,7 +343,7 @@ module petsc_library
          character(kind=c_char), intent(in) :: type(*)
       end function pc_set_type
 
-      !> Levels of a multigrid preconditioner that is set up.
+      !> Number of levels of a multigrid preconditioner after set-up.
       integer(c_int) function pc_mg_get_levels(preconditioner, levels) bind(c, name='PCMGGetLevels')
          import :: c_int, c_ptr
          type(c_ptr), value          :: preconditioner
@@ -357,7 +357,7 @@ module petsc_library
          type(c_ptr), intent(out) :: smoother
       end function pc_mg_get_smoother
 
-      !> The matrix by which a level finds its residual; RESIDUAL null: as it does.
+      !> Sets the matrix for the residual of a level; a null RESIDUAL selects the default routine.
       integer(c_int) function pc_mg_set_residual(preconditioner, level, residual, matrix) bind(c, name='PCMGSetResidual')
          import :: c_funptr, c_int, c_ptr
          type(c_ptr), value    :: preconditioner, matrix
@@ -365,7 +365,7 @@ module petsc_library
          type(c_funptr), value :: residual
       end function pc_mg_set_residual
 
-      !> Why a set-up has failed, 0: it has not.
+      !> Reason for the failure of a set-up, 0: none.
       integer(c_int) function pc_get_failed_reason(preconditioner, reason) bind(c, name='PCGetFailedReason')
          import :: c_int, c_ptr
          type(c_ptr), value          :: preconditioner

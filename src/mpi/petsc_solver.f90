@@ -25,26 +25,26 @@ module petsc_solver
    implicit none
    private
 
-   integer, parameter :: steps_of_set_up = 30   ! that cost what a new preconditioner does, GAMG
-   integer, parameter :: few_steps = 10         ! more than expected: no reason to give an earlier preconditioner up
-   integer, parameter :: many_steps = 150       ! with which GAMG is given up for the factor of MUMPS
-   integer, parameter :: small = 100000         ! unknowns, for whose factor there is memory and time
-   real(wp), parameter :: enough_digits = 3.0_wp ! that steps have gained, to tell their pace
-   integer, parameter :: digits_of_estimate = 6 ! for the condition, of which one would do
+   integer, parameter :: steps_of_set_up = 30   ! number of steps that costs as much as a new preconditioner, GAMG
+   integer, parameter :: few_steps = 10         ! steps beyond twice the expected number before an earlier preconditioner is dropped
+   integer, parameter :: many_steps = 150       ! number of steps beyond which the MUMPS factor replaces GAMG
+   integer, parameter :: small = 100000         ! unknowns up to which memory and time suffice for a factor
+   real(wp), parameter :: enough_digits = 3.0_wp ! digits gained that suffice to measure the pace of the steps
+   integer, parameter :: digits_of_estimate = 6 ! accuracy for the condition estimate, where one digit would do
 
    type, extends(equation_system), public :: petsc_solver_type
       integer :: wanted = by_gamg                 !! or by_mumps
-      integer :: way = by_gamg                    !! of the preconditioner now: MUMPS too where GAMG does not get there
+      integer :: way = by_gamg                    !! preconditioner in use: MUMPS too where GAMG does not converge
       type(partition_type) :: parts
       type(touched_type) :: touched
       type(interface_equations_type) :: joints
       type(factor_reuse_type) :: reuse            !! when to use an earlier preconditioner
-      real(wp) :: pace = 0.0_wp                   !! steps that a digit takes with the preconditioner of the own stiffness
-      integer, allocatable  :: row(:)             !! (0:n) of the matrix, from 1 on; of 0: 0
-      real(wp), allocatable :: bodies(:, :, :)    !! (dimension, dimension, touched blocks) what they leave there [force/length]
-      logical :: is_own = .false.                 !! whether the preconditioner is that of the stiffness now
-      logical :: is_probed = .false.              !! whether a stiffness has been looked at since the run, or its past, began
-      real(wp), allocatable :: structure(:)       !! touched blocks with the joints
+      real(wp) :: pace = 0.0_wp                   !! steps per digit with a preconditioner of the present stiffness
+      integer, allocatable  :: row(:)             !! (0:n) row of the matrix, from 1; row(0) is 0
+      real(wp), allocatable :: bodies(:, :, :)    !! (dimension, dimension, touched blocks) contributions of the bodies [force/length]
+      logical :: is_own = .false.                 !! whether the preconditioner is of the present stiffness
+      logical :: is_probed = .false.              !! whether a stiffness has been probed since the run or its history began
+      real(wp), allocatable :: structure(:)       !! values of the touched blocks with the joints
    contains
       procedure :: start
       procedure :: form_bodies
@@ -60,7 +60,7 @@ module petsc_solver
 
 contains
 
-   !> Deal the structure out. All equations are left to the increments.
+   !> Distribute the structure. All equations are left to the increments.
    subroutine start(self, model, graph, failure)
       class(petsc_solver_type), intent(inout) :: self
       type(model_type), intent(in)            :: model
@@ -100,7 +100,7 @@ contains
       end associate
    end subroutine start
 
-   !> [k_b]: every process forms its elements, rank 0 those beside that hang on the unknowns of others.
+   !> [k_b]: every process forms its elements; rank 0 also forms those with dependent unknowns.
    subroutine form_bodies(self, model, fault)
       class(petsc_solver_type), intent(inout) :: self
       type(model_type), intent(in)            :: model
@@ -123,7 +123,7 @@ contains
       call broadcast_command(command_finish, [self%way])
       self%stiffest = stiffest_of_all
       allocate (blocks(size(self%bodies)))
-      call broadcast_command(command_read, values=blocks) ! what the elements leave in the touched blocks
+      call broadcast_command(command_read, values=blocks) ! the contributions of the elements to the touched blocks
       self%bodies = self%bodies + reshape(blocks, shape(self%bodies))
    end subroutine form_bodies
 
@@ -136,7 +136,7 @@ contains
       self%is_own = .false.
    end subroutine add_to_bodies
 
-   !> [k_s] = [k_b] + sum of [k_int], Eq. (8), in the matrix; an earlier preconditioner is kept while that pays.
+   !> [k_s] = [k_b] + sum of [k_int], Eq. (8), in the matrix. An earlier preconditioner is kept while that pays.
    subroutine form_structure(self, fault)
       class(petsc_solver_type), intent(inout) :: self
       integer, intent(out)                    :: fault
@@ -150,7 +150,7 @@ contains
          if (self%touched%row(k) /= self%touched%column(k)) cycle
          do c = 1, size(values, 1)
             fault = self%number(c, self%parts%order(self%touched%row(k) + 1))
-            if (fault > 0 .and. .not. values(c, c, k) > 0.0_wp) return ! nothing on the diagonal
+            if (fault > 0 .and. .not. values(c, c, k) > 0.0_wp) return ! a zero on the diagonal
          end do
       end do
       fault = 0
@@ -187,7 +187,7 @@ contains
       if (.not. solution%converged) then
          call say_why(self, x, fault)
       else if (self%is_own) then
-         ! few digits, where the first guess was good, say little
+         ! after a good first guess the few digits gained say little
          if (solution%gained >= enough_digits .or. self%pace <= 0.0_wp) &
             self%pace = solution%steps/max(1.0_wp, solution%gained)
          if (solution%steps > many_steps .and. self%n <= small) call take_way(self, by_mumps)
@@ -196,11 +196,11 @@ contains
       end if
    end subroutine solve
 
-   !> X, the load, becomes the solution, in so many STEPS. Where the preconditioner is of an earlier stiffness and does not get there
-   !! it is by a new one, and at last by the factor of MUMPS.
+   !> Replace the load X by the solution; STEPS is the number of steps. If the preconditioner of an earlier stiffness does not converge, a
+   !! new one is built, and at last the factor of MUMPS.
    subroutine solve_somehow(self, noted, x, steps)
       class(petsc_solver_type), intent(inout) :: self
-      integer, intent(in)                     :: noted !! 1: later solutions begin with it; 0
+      integer, intent(in)                     :: noted !! 1: later solutions use this one for their first guess; 0
       real(wp), intent(inout)                 :: x(:)
       integer, intent(out)                    :: steps
       real(wp) :: load(size(self%equations))
@@ -224,7 +224,7 @@ contains
       end do
    end subroutine solve_somehow
 
-   !> From now on preconditioners are made in this WAY.
+   !> Build preconditioners in this WAY from now on.
    subroutine take_way(self, way)
       class(petsc_solver_type), intent(inout) :: self
       integer, intent(in)                     :: way !! by_gamg, by_mumps
@@ -237,10 +237,9 @@ contains
       call broadcast_command(command_way, [way])
    end subroutine take_way
 
-   !> Under a load that excites every motion it is seen what holds the structure hardly or not at all, which loads that do not
-   !! move it that way would hide: FAULT is an equation of such a motion. The load of an equation is of the size of sqrt(k_ii), so
-   !! that units are of no account, and irregular. The inverse of the largest displacement, as a fraction of 1/sqrt(k_ii), stands for
-   !! the weakest pivot.
+   !> Find motions with little or no stiffness, which the loads of the run may not excite: solve for a load that excites every motion.
+   !! FAULT is an equation of such a motion. The load of an equation is irregular and proportional to sqrt(k_ii), so that units do not
+   !! matter. The inverse of the largest displacement, relative to 1/sqrt(k_ii), takes the place of the smallest pivot.
    subroutine probe(self, fault)
       class(petsc_solver_type), intent(inout) :: self
       integer, intent(inout)                  :: fault
@@ -262,8 +261,8 @@ contains
       call broadcast_command(command_forget)
    end subroutine probe
 
-   !> There is no solution, X is what the steps have come to: FAULT is an equation of a motion without stiffness, where X is one,
-   !! x'[k]x <= pivot_tolerance x'[d]x, [d] the diagonal; else no_memory, or no_solution with a COMPLAINT.
+   !> Report that there is no solution; X is the last iterate. FAULT is an equation of a motion without stiffness where X is one,
+   !! x'[k]x <= pivot_tolerance x'[d]x with [d] the diagonal; otherwise no_memory, or no_solution with a COMPLAINT.
    subroutine say_why(self, x, fault)
       class(petsc_solver_type), intent(inout) :: self
       real(wp), intent(in)                    :: x(:)
@@ -294,7 +293,7 @@ contains
       self%complaint = words//'; the structure may be a mechanism, which SOLVER = TREE would name'
    end subroutine say_why
 
-   !> Y = [k_b] X, with the joints out of the matrix for the moment.
+   !> Y = [k_b] X, with the joints temporarily removed from the matrix.
    subroutine multiply(self, x, y)
       class(petsc_solver_type), intent(in) :: self
       real(wp), intent(in)                 :: x(:)
@@ -345,7 +344,7 @@ contains
       call act_on(self, command_multiply, x)
    end subroutine multiply_by_factor
 
-   !> X, by equation, is what all processes do with it.
+   !> Replace X, by equation, by the result of the command WHAT on all processes.
    subroutine act_on(self, what, x, words)
       class(petsc_solver_type), intent(in) :: self
       integer, intent(in)                  :: what !! command_solve, command_multiply, command_diagonal

@@ -16,7 +16,7 @@ module ranks
 
 contains
 
-   !> How many there are, and which one this is.
+   !> Number of processes, and rank of this one.
    subroutine find_ranks()
       call mpi_init()
       call mpi_comm_rank(mpi_comm_world, rank)
@@ -27,15 +27,15 @@ contains
       call mpi_finalize()
    end subroutine leave_ranks
 
-   !> WORDS of rank 0 become those of all.
+   !> Broadcast WORDS of rank 0.
    subroutine tell(words)
       integer, intent(inout) :: words(:)
 
       call mpi_bcast(words, size(words), mpi_integer, 0, mpi_comm_world)
    end subroutine tell
 
-   !> What stands on rank 0 in up to six variables or contiguous arrays of any plain type but character gets to process R: both call
-   !! this, with the same sizes.
+   !> Send up to six variables or contiguous arrays of any intrinsic type but character from rank 0 to process R. Both processes call
+   !! this with the same sizes.
    subroutine pass(r, a, b, c, d, e, f)
       integer, intent(in)               :: r
       class(*), intent(inout)           :: a(..)
@@ -49,7 +49,7 @@ contains
       if (present(f)) call pass_bytes(r, storage_size(f)/8*size(f, kind=long), f)
    end subroutine pass
 
-   !> The same with a text of any length.
+   !> Send a text of any length from rank 0 to process R.
    subroutine pass_text(r, text)
       integer, intent(in)                      :: r
       character(:), allocatable, intent(inout) :: text
@@ -76,7 +76,7 @@ contains
       end if
    end subroutine pass_bytes
 
-   !> OWN: the next COUNTS(rank) of ALL, which rank 0 has, and COUNTS with it.
+   !> Scatter ALL of rank 0: OWN gets its COUNTS(rank) entries. Rank 0 alone needs COUNTS.
    subroutine scatter(all, counts, own)
       real(wp), intent(in)  :: all(:)
       integer, intent(in)   :: counts(:) !! (ranks)
@@ -87,7 +87,7 @@ contains
       call mpi_scatterv(all, counts, first, mpi_double_precision, own, size(own), mpi_double_precision, 0, mpi_comm_world)
    end subroutine scatter
 
-   !> The reverse: ALL of rank 0 from the OWN of each.
+   !> Gather the OWN of each rank into ALL of rank 0.
    subroutine gather(own, counts, all)
       real(wp), intent(in)    :: own(:)
       integer, intent(in)     :: counts(:) !! (ranks)
@@ -110,7 +110,7 @@ contains
       call mpi_allreduce(value, total, 1, mpi_double_precision, mpi_sum, mpi_comm_world)
    end function sum_of_all
 
-   !> No process can go on: say why, leave no incomplete file, end all of them with status 3.
+   !> Abort all processes with status 3: print the reason and leave no incomplete file.
    subroutine give_up(why)
       character(*), intent(in) :: why
 

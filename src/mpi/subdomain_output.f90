@@ -14,19 +14,19 @@ module subdomain_output
 
    public :: writes_by, pass_piece, receive_piece, send_state, write_received, write_own, forget_piece
 
-   type(body_piece_type), allocatable :: piece !! of the other ranks
+   type(body_piece_type), allocatable :: piece !! piece of this process; not of rank 0
    procedure(piece_writer), pointer :: write_piece => null()
 
 contains
 
-   !> From now on pieces are written by WRITER.
+   !> Set the WRITER of the pieces.
    subroutine writes_by(writer)
       procedure(piece_writer) :: writer
 
       write_piece => writer
    end subroutine writes_by
 
-   !> OWN gets from rank 0 to process R, whose piece it is.
+   !> Send the piece OWN from rank 0 to process R.
    subroutine pass_piece(r, own)
       integer, intent(in)                  :: r
       type(body_piece_type), intent(inout) :: own
@@ -49,14 +49,14 @@ contains
       end associate
    end subroutine pass_piece
 
-   !> The piece that rank 0 has sent.
+   !> Receive the piece of this process from rank 0.
    subroutine receive_piece()
       call forget_piece()
       allocate (piece)
       call pass_piece(rank, piece)
    end subroutine receive_piece
 
-   !> Send process R the displacements U and the TEMPERATURE of the NODES of its piece, and what it has to know of its FILE.
+   !> Send process R the displacements U and the TEMPERATURE of the NODES of its piece, and the data of its FILE.
    subroutine send_state(r, nodes, u, temperature, notes, file)
       integer, intent(in)                :: r, nodes(:)
       real(wp), intent(in)               :: u(:, :) !! (dimension, n_nodes) [length]
@@ -73,7 +73,7 @@ contains
       call pass_state(r, own_u, own, own_notes, own_file)
    end subroutine send_state
 
-   !> Write the own piece in the state that rank 0 has sent.
+   !> Write the own piece in the state that rank 0 sends.
    subroutine write_received()
       type(temperature_type) :: temperature
       real(wp), allocatable  :: u(:, :)
@@ -86,7 +86,7 @@ contains
       call agree(ok)
    end subroutine write_received
 
-   !> What a piece is written from gets from rank 0 to process R.
+   !> Send the state of a piece from rank 0 to process R.
    subroutine pass_state(r, u, temperature, notes, file)
       integer, intent(in)                      :: r
       real(wp), contiguous, intent(inout)      :: u(:, :)
@@ -103,7 +103,7 @@ contains
       call pass_text(r, file)
    end subroutine pass_state
 
-   !> Rank 0: write its OWN piece likewise. OK is false where any process could not write its own.
+   !> Rank 0: write the OWN piece. OK is false where any process could not write its piece.
    subroutine write_own(own, nodes, u, temperature, notes, file, ok)
       type(body_piece_type), intent(in)  :: own
       integer, intent(in)                :: nodes(:)
@@ -116,14 +116,14 @@ contains
       call agree(ok)
    end subroutine write_own
 
-   !> Whether it is so in all processes.
+   !> Whether the condition holds on all processes.
    subroutine agree(ok)
       logical, intent(inout) :: ok
 
       ok = sum_of_all(merge(0.0_wp, 1.0_wp, ok)) < 0.5_wp
    end subroutine agree
 
-   !> The TEMPERATURE of these NODES alone.
+   !> The TEMPERATURE restricted to these NODES.
    pure type(temperature_type) function at_nodes(temperature, nodes)
       type(temperature_type), intent(in) :: temperature
       integer, intent(in)                :: nodes(:)

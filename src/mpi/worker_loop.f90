@@ -18,7 +18,7 @@ module worker_loop
 
    public :: broadcast_command, serve, free_worker
 
-   real(wp), parameter :: entry_bytes = 30.0_wp !! measured, of an entry of the matrix: itself, coarser levels, what makes these
+   real(wp), parameter :: entry_bytes = 30.0_wp !! measured memory of an entry of the matrix, with the coarser levels and their construction
 
    integer, parameter, public :: command_end = 0, command_take = 1, command_start = 2, command_touched = 3, command_finish = 4, &
                                  command_read = 5, command_write = 6, command_renew = 7, command_solve = 8, command_multiply = 9, &
@@ -28,12 +28,12 @@ module worker_loop
    type(subdomain_type), public                :: subdomain
    type(distributed_matrix_type), public   :: stiffness
    type(distributed_solution_type), public :: solution
-   logical, public, protected :: is_running = .false. !! there is a matrix
+   logical, public, protected :: is_running = .false. !! a matrix exists
    real(wp), public, protected :: stiffest = 0.0_wp   !! largest entry of its diagonal [force/length]
 
 contains
 
-   !> BLAS takes a buffer at its first call that needs one; where it cannot have that it tries for ever. So it has to be there now.
+   !> Make BLAS take its buffer now: BLAS takes it at its first call that needs one, and without memory tries for ever.
    subroutine reserve_blas()
       real(wp) :: one(1, 1)
       integer  :: info
@@ -43,7 +43,7 @@ contains
       call dpotrf('L', 1, one, 1, info)
    end subroutine reserve_blas
 
-   !> Ends the run where the machine does not have what the rows of SUBDOMAIN need.
+   !> End the run where the machine lacks the memory for the rows of SUBDOMAIN.
    subroutine check_rows(subdomain)
       type(subdomain_type), intent(in) :: subdomain
       character(:), allocatable :: words
@@ -55,7 +55,7 @@ contains
       if (words /= '') call give_up(words)
    end subroutine check_rows
 
-   !> Rank 0: WHAT all are to do, with these WORDS to it; then it does its own part.
+   !> Rank 0: broadcast the command WHAT with its WORDS; then do its own part.
    subroutine broadcast_command(what, words, values)
       integer, intent(in)               :: what               !! order_*
       integer, intent(in), optional     :: words(:)
@@ -76,7 +76,7 @@ contains
       end if
    end subroutine broadcast_command
 
-   !> The other ranks: do what is ordered, until the end.
+   !> Other ranks: serve commands until the end.
    subroutine serve()
       integer  :: head(2)
       integer, allocatable :: words(:)
@@ -92,7 +92,7 @@ contains
       end do
    end subroutine serve
 
-   !> The part of this process in a command.
+   !> Do the part of this process in a command.
    subroutine act(what, words, values)
       integer, intent(in)     :: what, words(:)
       real(wp), intent(inout) :: values(:)
@@ -145,7 +145,7 @@ contains
       end select
    end subroutine act
 
-   !> The touched blocks of the own rows out of WORDS: how many each rank has, then rows and columns of all.
+   !> The touched blocks of the own rows from WORDS: the number of each rank, then rows and columns of all.
    subroutine take_touched(words)
       integer, intent(in) :: words(:)
       integer :: first, n, n_ranks
@@ -162,7 +162,7 @@ contains
       call reserve_touched(subdomain, stiffness)
    end subroutine take_touched
 
-   !> Give back what this process has of the structure.
+   !> Free what this process holds of the structure.
    subroutine free_worker()
       if (is_running) then
          call free_solution(solution)

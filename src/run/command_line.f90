@@ -19,8 +19,8 @@ module command_line
    !> One deck of the command.
    type, extends(input_argument), public :: deck_argument
       type(parameter_type), allocatable :: parameters(:) !! of --set
-      integer :: number = 1, of = 1     !! which run of the command this is, of how many
-      character(:), allocatable :: base !! what the names of its results begin with, folder included; empty: standard output
+      integer :: number = 1, of = 1     !! number of this run, and number of runs of the command
+      character(:), allocatable :: base !! base of the names of the results, with folder; empty: standard output
    end type deck_argument
 
    !> --set NAME=V[,V...]
@@ -45,7 +45,7 @@ module command_line
 contains
 
    !> Read the command. FINISHED is true where nothing is left to do: after --help and --version (STATUS 0), and after
-   !! a wrong command (STATUS 1, said on the standard error).
+   !! a wrong command (STATUS 1, with a message on the standard error).
    subroutine read_command_line(command, finished, status)
       type(command_type), intent(out) :: command
       logical, intent(out)            :: finished
@@ -169,8 +169,8 @@ contains
       settings = [settings, setting_type(text(:equals - 1), text(equals + 1:))]
    end subroutine read_setting
 
-   !> A run of every deck with every combination of values of SETTINGS, the last one changing fastest. Values of which there are several
-   !! become part of the names.
+   !> A run of every deck with every combination of values of SETTINGS, the last setting changing fastest. The values of a setting with
+   !! several values become part of the names.
    subroutine vary(command, settings)
       type(command_type), intent(inout) :: command
       type(setting_type), intent(in)    :: settings(:)
@@ -201,7 +201,7 @@ contains
                   value = value_of(settings(k)%values, which)
                   parameter%value = value
                   if (n(k) == 1) cycle
-                  do i = 1, len(value) ! a file cannot be named with slashes
+                  do i = 1, len(value) ! the name of a file cannot have slashes
                      if (value(i:i) == '/') value(i:i) = '-'
                   end do
                   runs(r)%base = runs(r)%base//'_'//parameter%name//'='//value
@@ -213,7 +213,7 @@ contains
       call move_alloc(runs, command%decks)
    end subroutine vary
 
-   !> Value number WHICH of VALUES, which have commas between them.
+   !> Value number WHICH of the comma-separated VALUES.
    pure recursive function value_of(values, which) result(value)
       character(*), intent(in)  :: values
       integer, intent(in)       :: which
@@ -228,7 +228,7 @@ contains
       end if
    end function value_of
 
-   !> One more of DECKS, the one that ARGUMENT means. (An array constructor would leak its names in gfortran 12.)
+   !> Append the deck that ARGUMENT names to DECKS. (An array constructor would leak its names in gfortran 12.)
    subroutine add_deck(decks, argument)
       type(deck_argument), allocatable, intent(inout) :: decks(:)
       character(*), intent(in) :: argument
@@ -278,8 +278,9 @@ contains
       ok = .true.
    end subroutine name_results
 
-   !> With OUTPUT = VTU the stage 1 of A writes A.1.vtu, which the deck A.1 may write too; likewise A.joint. It is refused
-   !! whether or not they ask for VTU: each would also remove that file as its own of an earlier run.
+   !> Whether A and B could both write one VTU file, with a message: with OUTPUT = VTU, stage 1 of A writes A.1.vtu, which the deck
+   !! A.1 may write too; likewise A.joint. The decks need not ask for VTU: each run also removes that file as its own of an earlier
+   !! run.
    logical function share_vtu(a, b)
       type(deck_argument), intent(in) :: a, b
 
@@ -290,7 +291,7 @@ contains
       if (share_vtu) call complain(program, a%name//' and '//b%name//' could both write '//b%base//'.vtu')
    end function share_vtu
 
-   !> Whether the file with the true path FILE is one that the results of DECK would be written to, however it is named.
+   !> Whether the file with the true path FILE is a result file of DECK under any name.
    logical function is_result_of(file, deck)
       character(*), intent(in)        :: file
       type(deck_argument), intent(in) :: deck
@@ -302,11 +303,11 @@ contains
       if (file == true_path(deck%base//listing_ending)) is_result_of = .true.
       if (file == true_path(deck%base//history_ending)) is_result_of = .true.
       slash = index(deck%base, '/', back=.true.)
-      base = true_path(deck%base(:slash)//'.')//'/'//deck%base(slash + 1:) ! whether or not a file is there
+      base = true_path(deck%base(:slash)//'.')//'/'//deck%base(slash + 1:) ! whether or not there is a file
       if (index(file, base) == 1 .and. is_result_ending(file(len(base) + 1:))) is_result_of = .true.
    end function is_result_of
 
-   !> The entry of NAME in the card manual.
+   !> Print the entry of NAME in the card manual.
    subroutine print_entry(name, status)
       character(*), intent(in) :: name
       integer, intent(out)     :: status
@@ -314,7 +315,7 @@ contains
 
       text = manual_entry(name)
       if (text /= '') then
-         call say(text(:len(text) - 2), status) ! an empty line stands at its end
+         call say(text(:len(text) - 2), status) ! the text ends with an empty line
       else
          call complain(program, 'the manual has no entry '''//name//'''; it has'//trim(manual_names))
          status = 1

@@ -29,11 +29,11 @@ module progress
       private
       logical :: timed = .false.
       integer :: phase = 0
-      integer :: done  = 0, total = 0, before = 0 ! increments; those before this run
+      integer :: done  = 0, total = 0, before = 0 ! increments; before: by an earlier run
       integer(long) :: entered = 0, increments_began = 0, rate = 1
       integer(long) :: ticks(size(phase_name)) = 0
       character(:), allocatable :: deck
-      type(solver_description), public :: solver !! its operations, for the end
+      type(solver_description), public :: solver !! for the operations in the table at the end
    contains
       procedure :: start
       procedure :: enter
@@ -43,37 +43,37 @@ module progress
       procedure :: finish
    end type progress_type
 
-   ! how a run ended that did not come to its last increment, and the exit status that this is
+   ! early ends of a run, and the exit status of each
    integer, parameter, public :: goes_on = 0, is_unreadable = 1, would_overwrite = 2, has_errors = 3, was_checked = 4, &
                                  is_unsolved = 5, is_unwritten = 6, is_refused = 7, was_searched = 8
    integer, parameter, public :: status_of(0:8) = [0, 1, 1, 2, 0, 3, 4, 1, 0]
 
    !> The run of one deck.
    type, public :: run_type
-      type(failure_type) :: failure            !! the structure cannot be solved
+      type(failure_type) :: failure            !! why the structure cannot be solved
       type(deck_argument) :: argument
-      logical :: check_only = .false., is_dated = .false., suggests = .false. !! suggests: --joints
+      logical :: check_only = .false., is_dated = .false., suggests = .false. !! of the command; suggests: --joints
       type(output_file_type) :: suggestions    !! of --joints, for the standard output
       type(deck_error_list) :: errors
       type(results_type) :: results
       type(progress_type) :: progress
       integer :: ending = goes_on
-      logical :: keeps = .false.               !! it ended early, but what there was in equilibrium is a result
-      integer(long) :: deck_sum = 0            !! the checksum of the deck
-      type(restart_stream_type) :: restart     !! the restart file that is taken up, as long as there is any
-      logical :: resumes = .false.             !! there is
-      character(:), allocatable :: problem     !! why it cannot be taken up
-      logical :: misses_restart = .false.      !! one could not be written
+      logical :: keeps = .false.               !! the run ended early, but its last equilibrium is a result
+      integer(long) :: deck_sum = 0            !! checksum of the deck
+      type(restart_stream_type) :: restart     !! the restart file to continue from, while it is read
+      logical :: resumes = .false.             !! there is such a file
+      character(:), allocatable :: problem     !! why the restart file cannot be used
+      logical :: misses_restart = .false.      !! a restart file could not be written
    end type run_type
 
 contains
 
-   !> A run of DECK begins, by reading it.
+   !> Begin a run of DECK with the phase of reading.
    subroutine start(self, deck, quiet, timed, number, of)
       class(progress_type), intent(inout) :: self
       character(*), intent(in)            :: deck
       logical, intent(in)                 :: quiet
-      integer, intent(in)                 :: number, of !! this is run NUMBER of the command, of so many
+      integer, intent(in)                 :: number, of !! run NUMBER of the runs of the command
       logical, intent(in)                 :: timed !! print the seconds of the phases at the end
 
       if (of == 1) call open_line(deck, quiet)
@@ -85,7 +85,7 @@ contains
       self%phase = phase_read
    end subroutine start
 
-   !> The next PHASE begins.
+   !> Begin the next PHASE.
    subroutine enter(self, phase)
       class(progress_type), intent(inout) :: self
       integer, intent(in)                 :: phase
@@ -98,7 +98,7 @@ contains
       if (phase < phase_increments .or. phase >= phase_modes) call show_line(trim(phase_name(phase)), at_once=.true.)
    end subroutine enter
 
-   !> From now on increments are counted, those of PLAN.
+   !> Count the increments of PLAN from now on.
    subroutine expect(self, plan)
       class(progress_type), intent(inout) :: self
       type(stage_plan_type), intent(in)   :: plan
@@ -110,7 +110,7 @@ contains
       call system_clock(self%increments_began)
    end subroutine expect
 
-   !> N increments were done by an earlier run.
+   !> Count N increments of an earlier run.
    subroutine skip(self, n)
       class(progress_type), intent(inout) :: self
       integer, intent(in)                 :: n
@@ -119,7 +119,7 @@ contains
       self%done = n
    end subroutine skip
 
-   !> One more increment is done; the first one of a run is shown however short it was.
+   !> Count one more increment. The first one of a run is always shown.
    subroutine advance(self, stage, increment, increments)
       class(progress_type), intent(inout) :: self
       integer, intent(in)                 :: stage, increment, increments
@@ -137,7 +137,7 @@ contains
       call show_line(words, at_once=self%done == self%before + 1)
    end subroutine advance
 
-   !> The run is over: clear the line, print the times.
+   !> End the run: clear the line, print the times.
    subroutine finish(self)
       class(progress_type), intent(inout) :: self
       real(wp) :: bytes
@@ -158,7 +158,7 @@ contains
       write (error_unit, '(3a, i12, a)') self%deck, ': ', 'memory    ', nint(bytes/1048576.0_wp), ' MiB'
    end subroutine finish
 
-   !> Whether nothing more is to be done for this deck.
+   !> Whether the work on this deck has ended.
    pure logical function is_over(run)
       type(run_type), intent(in) :: run
 

@@ -35,8 +35,8 @@ contains
       name = base//restart_ending
    end function restart_name
 
-   !> Look whether DECK has a restart file that can be taken up. Without one the run begins at the beginning; one that is damaged,
-   !! of another deck or of another version of the program ends it.
+   !> Look for a restart file of DECK. Without one the run begins at the start. A damaged file, or one of another deck or another
+   !! version of the program, ends the run.
    subroutine open_restart_file(deck, run)
       type(deck_type), intent(in)   :: deck
       type(run_type), intent(inout) :: run
@@ -84,7 +84,7 @@ contains
          run%problem = 'the deck has no such stage and increment'
       end if
       if (is_over(run)) return
-      run%restart = restart_stream_type() ! its bytes
+      run%restart = restart_stream_type() ! free its bytes
       call lock_again(model, analysis, system)
       call system%forget_past()
       analysis%goes_on = analysis%increment < size(plan%stages(analysis%stage)%fractions)
@@ -100,7 +100,7 @@ contains
       call say_line(run%argument%name//words)
    end subroutine take_up
 
-   !> Whether PLAN has the stage and the increment that ANALYSIS is at.
+   !> Whether PLAN has the stage and the increment of ANALYSIS.
    pure logical function is_in_plan(plan, analysis)
       type(stage_plan_type), intent(in) :: plan
       type(analysis_type), intent(in)   :: analysis
@@ -109,8 +109,8 @@ contains
       if (is_in_plan) is_in_plan = analysis%increment >= 1 .and. analysis%increment <= size(plan%stages(analysis%stage)%fractions)
    end function is_in_plan
 
-   !> WRITE THE RESTART FILE, at the end of a stage, and of every so many increments where RESTART says how many; nothing else. Where
-   !! it cannot be written the run goes on, an older file stays.
+   !> WRITE THE RESTART FILE at the end of a stage, and after every n increments where RESTART gives n; otherwise do nothing. If it cannot
+   !! be written, the run continues and an older file stays.
    subroutine write_restart(run, deck, plan, system, analysis)
       type(run_type), intent(inout)         :: run
       type(deck_type), intent(in)           :: deck
@@ -134,7 +134,7 @@ contains
       call system%forget_past()
    end subroutine write_restart
 
-   !> Write a file beside the older one, and put it in its place once it is whole.
+   !> Write a new file beside the older one, and replace the older one when the new one is complete.
    subroutine write_state(run, analysis, ok)
       type(run_type), intent(inout)      :: run
       type(analysis_type), intent(inout) :: analysis
@@ -150,7 +150,7 @@ contains
       call stream%start(descriptor, version, run%deck_sum)
       call record_state(stream, analysis, run%results)
       call stream%complete(ok)
-      if (ok) call keep_on_disk(descriptor, ok) ! before the older one goes: a power failure leaves one of the two
+      if (ok) call keep_on_disk(descriptor, ok) ! before the older one is replaced: a power failure leaves one of the two
       call close_file(descriptor, closed)
       if (ok .and. closed) then
          call name_part(part, restart_name(run%argument%base), ok, stays=.true.)
@@ -160,7 +160,7 @@ contains
       end if
    end subroutine write_state
 
-   !> All of the state, written or read.
+   !> Write or read the whole state.
    subroutine record_state(stream, analysis, results)
       type(restart_stream_type), intent(inout) :: stream
       type(analysis_type), intent(inout)       :: analysis
@@ -170,8 +170,8 @@ contains
       call record_results(stream, results)
    end subroutine record_state
 
-   !> Write A, or read it into one that start_analysis has just made for the same model: everything in it but what stands still in
-   !! an increment (condensed, which its first one prints) and what is so only while it is taken up (goes_on).
+   !> Write A, or read it into one that start_analysis has just made for the same model. Two components are left out: condensed, which
+   !! does not change in an increment and which the first increment prints, and goes_on, which is true only while the run resumes.
    subroutine record_analysis(stream, a)
       type(restart_stream_type), intent(inout) :: stream
       type(analysis_type), intent(inout)       :: a

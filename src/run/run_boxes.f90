@@ -50,8 +50,8 @@ module run_boxes
 
 contains
 
-   !> What the chart of the paper does not have, between two increments: natural modes where the increment has completed a stage that
-   !! asks for them, by which nothing of the analysis changes; and the restart file.
+   !> Two boxes that the chart of the paper lacks, between two increments: the natural modes, where the increment completes a stage that
+   !! asks for them, which change nothing in the analysis; and the restart file.
    subroutine go_on(run, deck, model, plan, system, analysis)
       type(run_type), intent(inout)      :: run
       type(deck_type), intent(in)        :: deck
@@ -78,7 +78,7 @@ contains
       call write_restart(run, deck, plan, system, analysis)
    end subroutine go_on
 
-   !> Modes, backbone, response, all printed when they are there: a restart file that is written meanwhile has none of it.
+   !> Compute modes, backbone and response, and print them together: a restart file written meanwhile contains none of them.
    subroutine oscillate(run, deck, model, plan, wanted, system, analysis)
       type(run_type), intent(inout)         :: run
       type(deck_type), intent(in)           :: deck
@@ -116,7 +116,7 @@ contains
 
    contains
 
-      !> The restart file has the loops found so far.
+      !> Write the loops found so far into the restart file.
       subroutine keep(system, analysis)
          class(equation_system), allocatable, intent(inout) :: system
          type(analysis_type), intent(inout)                 :: analysis
@@ -126,8 +126,8 @@ contains
 
    end subroutine oscillate
 
-   !> The command line; where it leaves nothing to do the program ends. Threads, and a watch on the memory. Of several processes one
-   !! goes on, the others work for it from here on.
+   !> Read the command line; end the program where nothing is left to do. Set the threads and the watch on the memory. With several
+   !! processes rank 0 continues, and the others serve it from here on.
    subroutine start_program(command)
       type(command_type), intent(out) :: command
       logical :: finished
@@ -170,7 +170,7 @@ contains
       if (.not. (is_over(run) .or. run%check_only)) call remove_old_results(argument%base)
    end subroutine read_data
 
-   !> Bodies, joints, supports, loads, stages.
+   !> Build bodies, joints, supports, loads and stages.
    subroutine build_structure(run, deck, model, plan)
       type(run_type), intent(inout)      :: run
       type(deck_type), intent(in)        :: deck
@@ -208,7 +208,7 @@ contains
          'that opens drops its shear at once, and NEWTON may find no equilibrium')
    end subroutine build_structure
 
-   !> [k_b] of the bodies, factorised as far as no joint moves it; the listing can be opened then.
+   !> Form [k_b] of the bodies and factorise the part that no joint changes; then the listing can be opened.
    subroutine form_bodies(run, deck, model, plan, system)
       type(run_type), intent(inout)     :: run
       type(deck_type), intent(in)       :: deck
@@ -236,8 +236,8 @@ contains
       if (.not. ok) run%ending = is_unwritten
    end subroutine form_bodies
 
-   !> NORM and SHEAR for a structure at rest, its interference in equilibrium (BACK takes all at once); a restart file that is to be
-   !! taken up has better, and is.
+   !> NORM and SHEAR for a structure at rest, with its interference in equilibrium (BACK takes all loads at once). A restart file
+   !! replaces this state.
    subroutine start_joints(run, deck, model, plan, system, analysis)
       type(run_type), intent(inout)      :: run
       type(deck_type), intent(in)        :: deck
@@ -258,7 +258,7 @@ contains
       if (allocated(analysis%kept)) call go_on(run, deck, model, plan, system, analysis)
    end subroutine start_joints
 
-   !> Whether a stage is left, or some of one that has been taken up.
+   !> Whether a stage is left, or the rest of a stage that has been resumed.
    pure logical function another_stage(run, plan, analysis)
       type(run_type), intent(in)        :: run
       type(stage_plan_type), intent(in) :: plan
@@ -278,7 +278,7 @@ contains
       if (another_increment) another_increment = analysis%increment < size(plan%stages(analysis%stage)%fractions)
    end function another_increment
 
-   !> Print the increment just completed, and the stage that it completes, or the part of it up to where the run ends.
+   !> Print the completed increment, and the stage that it completes, or the part of the stage before an early end.
    subroutine print_increment(run, model, plan, system, analysis)
       type(run_type), intent(inout)      :: run
       type(model_type), intent(in)       :: model
@@ -300,7 +300,7 @@ contains
       call run%progress%enter(phase_increments)
    end subroutine print_increment
 
-   !> The increment, and for that what the bodies do where it is shown.
+   !> Print the increment, and the state of the bodies where OUTPUT asks for it.
    subroutine list_increment(run, model, plan, system, analysis)
       type(run_type), intent(inout)      :: run
       type(model_type), intent(in)       :: model
@@ -312,7 +312,7 @@ contains
 
       run%keeps = run%failure%raised .and. run%ending == goes_on .and. analysis%record%ends_early
       if (is_over(run) .and. .not. run%keeps) return
-      if (run%keeps .and. .not. analysis%record%is_partial) then ! it is printed, but for the tables of the end
+      if (run%keeps .and. .not. analysis%record%is_partial) then ! all is printed but the tables of the end
          call recover_bodies(model, system, analysis)
          return
       end if
@@ -326,7 +326,7 @@ contains
       if (run%keeps .or. analysis%moves .or. shows_bodies(plan, analysis%stage, analysis%increment)) then
          call recover_bodies(model, system, analysis)
       else if (analysis%increment == size(plan%stages(analysis%stage)%fractions)) then
-         u = analysis%u                   ! for the answer of the stage alone: what goes on from here is left as it is
+         u = analysis%u                   ! a copy for the answer of the stage: the analysis continues from the original
          unbalanced = analysis%unbalanced
          call recover_bodies(model, system, analysis)
          analysis%u = u

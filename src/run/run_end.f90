@@ -37,7 +37,7 @@ module run_end
       integer  :: status = 0, counts(3) = 0            ! stages, increments, iterations
       real(wp) :: figures(5) = 0.0_wp                  ! u_max, mises_max, contact, safety, frequency
       logical  :: is_there(5) = .false.
-      integer  :: node = 0                             ! the first that is watched, 0: none
+      integer  :: node = 0                             ! first watched node, 0: none
       real(wp) :: along = 0.0_wp, stiffness = 0.0_wp
       logical  :: is_loaded = .false., moves = .false.
       real(wp) :: seconds = 0.0_wp
@@ -52,8 +52,7 @@ module run_end
 
 contains
 
-   !> The end of a run, the one there is: the results get their names, or what is wrong is said. Nothing else is left on the line
-   !! of the terminal.
+   !> End the current run: name the results or report the error. The progress line is cleared.
    subroutine finish_run(run, deck, model, plan)
       type(run_type), intent(inout)     :: run
       type(deck_type), intent(in)       :: deck
@@ -98,7 +97,7 @@ contains
       exit_status = max(exit_status, status_of(run%ending))
    end subroutine finish_run
 
-   !> What of the deck has no effect, and how NASTRAN would read it otherwise.
+   !> Report the entries without effect, and how NASTRAN would read the deck differently.
    subroutine say_of_deck(run, deck)
       type(run_type), intent(in)  :: run
       type(deck_type), intent(in) :: deck
@@ -108,7 +107,7 @@ contains
          plural(size(deck%control%stages), 'SUBCASE'), ' are stages of one history: each starts from the end of the previous one'
    end subroutine say_of_deck
 
-   !> What is wrong, or that a deck is in order; no result is left of a run that did not come to its end.
+   !> Report the error, or that a deck is in order. A run that did not finish leaves no result.
    subroutine say_how_it_ended(run, deck, model, plan)
       type(run_type), intent(inout)     :: run
       type(deck_type), intent(in)       :: deck
@@ -161,7 +160,7 @@ contains
       end associate
    end subroutine say_how_it_ended
 
-   !> The standard output of the deck NAME is full or closed.
+   !> Report that the standard output of the deck NAME is full or closed.
    subroutine miss_output(name)
       character(*), intent(in) :: name
 
@@ -169,7 +168,7 @@ contains
       exit_status = max(exit_status, status_of(is_unwritten))
    end subroutine miss_output
 
-   !> A run of the COMMAND begins.
+   !> Note the start of a run of COMMAND.
    subroutine start_run_of_batch(command, batch)
       type(command_type), intent(in)  :: command
       type(batch_type), intent(inout) :: batch
@@ -178,7 +177,7 @@ contains
       call system_clock(batch%began)
    end subroutine start_run_of_batch
 
-   !> It has ended: its row.
+   !> Note the end of the run: its row of the summary.
    subroutine end_run_of_batch(run, model, batch)
       type(run_type), intent(in)      :: run
       type(model_type), intent(in)    :: model
@@ -207,7 +206,7 @@ contains
       end associate
    end subroutine end_run_of_batch
 
-   !> All runs of COMMAND have ended: their table. OK is false where it cannot be written, which is said.
+   !> Write the summary of all runs of COMMAND. OK is false, with a message, where it cannot be written.
    subroutine end_batch(command, batch, ok)
       type(command_type), intent(in) :: command
       type(batch_type), intent(in)   :: batch
@@ -251,10 +250,10 @@ contains
       ok = ok .and. shown
    end subroutine end_batch
 
-   !> End with STATUS, or the highest of the decks where that is higher.
+   !> End the program with STATUS, or with the highest status of the decks where that is higher.
    subroutine end_program(status, command, runs)
-      integer, intent(in), optional :: status !! 0
-      type(command_type), intent(in), optional :: command !! and its RUNS, of which a table is made
+      integer, intent(in), optional :: status !! default: 0
+      type(command_type), intent(in), optional :: command !! whose RUNS the summary lists
       type(batch_type), intent(in), optional   :: runs
       logical :: ok
 

@@ -10,7 +10,7 @@ contains
       procedure(piece_writer), pointer :: told
 
       told => write_piece
-      nullify (told) ! there is nobody who would have to know
+      nullify (told) ! nobody has to be told
    end subroutine join_processes
 
    module subroutine leave_processes()
@@ -20,7 +20,7 @@ contains
       integer, intent(in) :: wanted
       class(equation_system), allocatable, intent(out) :: system
 
-      if (wanted < 0) deallocate (system) ! never: there is nothing to choose
+      if (wanted < 0) deallocate (system) ! never true: there is no choice
    end subroutine choose_distributed
 
    module subroutine weigh_distributed(work, system)
@@ -28,7 +28,7 @@ contains
       class(equation_system), allocatable, intent(out) :: system
 
       work%processes = 1
-      if (work%processes < 1) deallocate (system) ! never, likewise
+      if (work%processes < 1) deallocate (system) ! never true
    end subroutine weigh_distributed
 
    module subroutine distribute_bodies(model, system, output)
@@ -36,7 +36,7 @@ contains
       class(equation_system), intent(in) :: system
       class(subdomain_output_type), allocatable, intent(out) :: output
 
-      if (model%n_nodes < 0 .and. system%n < 0) deallocate (output) ! never, likewise
+      if (model%n_nodes < 0 .and. system%n < 0) deallocate (output) ! never true
    end subroutine distribute_bodies
 
    module subroutine memory_of_all(bytes)
