@@ -1,5 +1,5 @@
-!> Bars: two nodes and a stiffness E A/L along the line between them. Springs are bars in all this, with directions of their own,
-!! and the ground for their second node where they have but one.
+!> Bars: stiffness E A/L between two nodes along their line, thermal loads and nodal forces; springs are bars too.
+!! A spring has directions of its own; where it has one node, its second node is the ground.
 module bar_elements
    use kinds, only: wp
    use model_data, only: bar_nodes, bar_type, model_type, temperature_type
@@ -12,7 +12,7 @@ module bar_elements
 
 contains
 
-   !> How much longer BAR is under the displacements of its bar_nodes [length].
+   !> Elongation of BAR under the displacements U of its bar_nodes [length].
    pure real(wp) function bar_elongation(bar, u) result(elongation)
       type(bar_type), intent(in) :: bar
       real(wp), intent(in)       :: u(:, :) !! (dimension, bar_nodes) [length]
@@ -26,7 +26,7 @@ contains
       end associate
    end function bar_elongation
 
-   !> Tension of BAR, held at its length, at this TEMPERATURE: pressure where it is warm [force].
+   !> Tension of BAR at constant length and at this TEMPERATURE: compression where the temperature rises [force].
    pure real(wp) function thermal_pull(bar, temperature) result(tension)
       type(bar_type), intent(in)         :: bar
       type(temperature_type), intent(in) :: temperature
@@ -34,7 +34,7 @@ contains
       tension = -bar%stiffness*bar%expansion*bar_rise(bar, temperature)
    end function thermal_pull
 
-   !> Add to F the nodal forces of the thermal pulls of elastic bars.
+   !> Add to F the thermal nodal forces of the elastic bars.
    pure subroutine add_thermal_pulls(model, is_elastic, temperature, f)
       type(model_type), intent(in)       :: model
       logical, intent(in)                :: is_elastic(:) !! (bars)
@@ -47,7 +47,7 @@ contains
       end do
    end subroutine add_thermal_pulls
 
-   !> Add to F the nodal forces by which bar I pulls its nodes together under a tension N.
+   !> Add to F the nodal forces of bar I under a tension N.
    pure subroutine add_pull(model, i, n, f)
       type(model_type), intent(in) :: model
       integer, intent(in)          :: i
@@ -60,7 +60,7 @@ contains
       end associate
    end subroutine add_pull
 
-   !> Add to F the forces that hold the elastic bars in their displaced shape.
+   !> Add to F the internal forces of the elastic bars under the displacements U.
    pure subroutine add_bar_forces(model, is_elastic, u, f)
       type(model_type), intent(in) :: model
       logical, intent(in)          :: is_elastic(:) !! (bars)
@@ -75,7 +75,7 @@ contains
       end do
    end subroutine add_bar_forces
 
-   !> [k] of bar I between its nodes, components of node 1 first; zero on the ground [force/length].
+   !> [k] of bar I between its nodes, components of node 1 first; zero for the ground [force/length].
    pure function bar_stiffness(model, i) result(k)
       type(model_type), intent(in) :: model
       integer, intent(in)          :: i
@@ -91,7 +91,7 @@ contains
       end associate
    end function bar_stiffness
 
-   !> [k] of bar I between the unknowns of the unknown_nodes of its nodes, components of the first of these first [force/length].
+   !> [k] of bar I between the unknowns of unknown_nodes(its nodes), in the order of these nodes [force/length].
    pure function coupled_bar_stiffness(model, i) result(k)
       type(model_type), intent(in) :: model
       integer, intent(in)          :: i

@@ -1,4 +1,4 @@
-!> The elements of the bodies, each by its kind: stiffness, stresses, forces. The one place that knows which kinds there are.
+!> Stiffness, stresses and nodal forces of the elements of a model; this module selects the routine of each kind.
 module body_elements
    use elasticity, only: max_stresses, n_stresses, plane_strain
    use element_kinds, only: element_table, max_felt_dofs, max_nodes, centre_point
@@ -17,14 +17,14 @@ module body_elements
    public :: coupled_stiffness, element_centre, element_stress, element_nodal_stress, node_stresses, whole_stress, element_weight
    public :: felt_stiffness, internal_forces, element_thermal_forces, add_thermal_forces, law_of
 
-   ! What elements have in sums at nodes is formed by all threads, block by block, where there are more than a few; it is added in the
-   ! order of the elements, whatever the number of threads.
+   ! Element contributions to nodal sums are computed in parallel, block by block, if there are more than a few; they are added in the
+   ! order of the elements, so that the sum does not depend on the number of threads.
    integer, parameter :: block = 8192, few = 512
 
 contains
 
-   !> Stiffness between the unknowns of the coupled_nodes of element E, components of node 1 first [force/length]. K is given room
-   !! where it has too little: dependent nodes couple an element with any number of unknowns. A loop over elements keeps one K.
+   !> [k] between the unknowns of the coupled_nodes of element E, components of node 1 first [force/length]. K is enlarged where
+   !! it is too small, because dependent nodes couple an element with any number of unknowns. A loop over elements reuses K.
    pure subroutine coupled_stiffness(model, e, k)
       type(model_type), intent(in)         :: model
       integer, intent(in)                  :: e
@@ -35,7 +35,7 @@ contains
       if (allocated(model%coupling%of_node)) call onto_unknowns(model, felt_nodes(model, e), k)
    end subroutine coupled_stiffness
 
-   !> Stiffness between the displacements of the felt_nodes of element E, likewise.
+   !> [k] between the displacements of the felt_nodes of element E, components of node 1 first [force/length].
    pure subroutine felt_stiffness(model, e, k)
       type(model_type), intent(in) :: model
       integer, intent(in)          :: e
@@ -49,7 +49,7 @@ contains
       call extend_stiffness(model, e, k)
    end subroutine felt_stiffness
 
-   !> The centre of element E, where element_stress is [length]: of a linear element the mean of its corners.
+   !> The centre of element E, the point of element_stress [length]: of a linear element the mean of its corners.
    pure function element_centre(model, e) result(x)
       type(model_type), intent(in) :: model
       integer, intent(in)          :: e
@@ -65,8 +65,8 @@ contains
       end associate
    end function element_centre
 
-   !> Stress at the centre of element E under the displacements U at this TEMPERATURE: components as in elasticity [pressure]. Of beams
-   !! there is none here: zero.
+   !> Stress at the centre of element E under the displacements U at this TEMPERATURE: components as in elasticity [pressure]. For a
+   !! beam it is zero.
    pure function element_stress(model, e, u, temperature) result(stress)
       type(model_type), intent(in)       :: model
       integer, intent(in)                :: e
@@ -86,7 +86,7 @@ contains
       end associate
    end function element_stress
 
-   !> Stresses at the nodes of element E, as element_stress.
+   !> Stresses at the nodes of element E, with the components of element_stress.
    pure subroutine element_nodal_stress(model, e, u, temperature, stress)
       type(model_type), intent(in)       :: model
       integer, intent(in)                :: e
@@ -107,7 +107,7 @@ contains
       end associate
    end subroutine element_nodal_stress
 
-   !> Of shell E the stresses in its mean plane at its corners and then at its centre; of a beam zero.
+   !> Stresses in the mean plane of shell E at its corners and then at its centre; zero for a beam.
    pure subroutine mean_plane_stress(model, e, u, temperature, stress)
       type(model_type), intent(in)       :: model
       integer, intent(in)                :: e
@@ -125,19 +125,19 @@ contains
       stress = at_height(:, :n + 1, 1)
    end subroutine mean_plane_stress
 
-   !> Stresses at nodes as whole_stress, of every node the mean of those that its elements have there; 0 where it has none.
+   !> Nodal stresses with the components of whole_stress: the mean over the elements at a node; 0 at a node without elements.
    subroutine node_stresses(model, u, temperature, at_node)
       type(model_type), intent(in)       :: model
       real(wp), intent(in)               :: u(:, :)       !! (dimension, n_nodes) [length]
       type(temperature_type), intent(in) :: temperature
       real(wp), intent(out)              :: at_node(:, :) !! (max_stresses, points) [pressure]
       real(wp), allocatable :: shares(:, :, :)            ! (max_stresses, nodes, elements of a block)
-      integer, allocatable  :: n_at(:)                    ! bodies at each node
+      integer, allocatable  :: n_at(:)                    ! number of bodies at each node
       integer :: e, first, i, last
 
       at_node = 0.0_wp
       allocate (n_at(size(at_node, 2)), source=model%first_at(2:size(at_node, 2) + 1) - model%first_at(:size(at_node, 2)))
-      do e = 1, model%n_elements ! shells and beams have tables of their own
+      do e = 1, model%n_elements ! shells and beams have separate tables
          if (is_shell(model, e) .or. is_beam(model, e)) n_at(corners_of(model, e)) = n_at(corners_of(model, e)) - 1
       end do
       allocate (shares(max_stresses, size(model%element_nodes, 1), min(block, model%n_elements)))
@@ -160,7 +160,7 @@ contains
 
    contains
 
-      !> What element E has in the means at its nodes.
+      !> The share of element E in the mean stresses at its nodes.
       pure subroutine find_shares(e, share)
          integer, intent(in)     :: e
          real(wp), intent(inout) :: share(:, :) !! (max_stresses, nodes)
@@ -180,7 +180,7 @@ contains
 
    end subroutine node_stresses
 
-   !> Stress at the centre of element E as (xx, yy, zz, xy, yz, zx), the stress across the plane and along the hoop included.
+   !> Stress at the centre of element E as (xx, yy, zz, xy, yz, zx), with the stress normal to the plane and the hoop stress.
    pure function whole_stress(model, e, u, temperature) result(whole)
       type(model_type), intent(in)       :: model
       integer, intent(in)                :: e
@@ -194,7 +194,7 @@ contains
       end associate
    end function whole_stress
 
-   !> The same from the STRESS somewhere in element E, which is warmer than its reference temperature by RISE there.
+   !> All six stresses from the STRESS at a point of element E, where T - TREF is RISE.
    pure function full_stress(model, e, stress, rise) result(full)
       type(model_type), intent(in) :: model
       integer, intent(in)          :: e
@@ -215,7 +215,7 @@ contains
       end associate
    end function full_stress
 
-   !> Forces on the nodes of element E, no shell or beam, under a body force B per mass, an acceleration with the sign of the force.
+   !> Nodal forces of element E (no shell or beam) under a body force B per mass, an acceleration with the sign of the force.
    pure subroutine element_weight(model, e, b, f)
       type(model_type), intent(in) :: model
       integer, intent(in)          :: e
@@ -226,7 +226,7 @@ contains
                        model%properties(model%element_property(e))%rho*b, f)
    end subroutine element_weight
 
-   !> Forces that hold the bodies in their displaced shape: F = sum of [k] {u} of their elements.
+   !> Internal forces of the bodies: F = sum of [k] {u} over the elements.
    subroutine internal_forces(model, u, f)
       type(model_type), intent(in) :: model
       real(wp), intent(in)         :: u(:, :) !! (dimension, n_nodes) [length]
@@ -261,7 +261,7 @@ contains
       end do
    end subroutine internal_forces
 
-   !> The forces P that hold element E, of its felt_nodes.
+   !> The internal forces P of element E at its felt_nodes.
    pure subroutine element_forces(model, e, u, p)
       type(model_type), intent(in) :: model
       integer, intent(in)          :: e
@@ -281,7 +281,7 @@ contains
       end associate
    end subroutine element_forces
 
-   !> F: what element E at this TEMPERATURE pushes its own_nodes with.
+   !> Thermal nodal forces F of element E at its own_nodes at this TEMPERATURE.
    pure subroutine element_thermal_forces(model, e, temperature, f)
       type(model_type), intent(in)       :: model
       integer, intent(in)                :: e
@@ -297,7 +297,7 @@ contains
       end associate
    end subroutine element_thermal_forces
 
-   !> Add to F what the bodies at this TEMPERATURE push their nodes with.
+   !> Add to F the thermal nodal forces of the bodies at this TEMPERATURE.
    pure subroutine add_thermal_forces(model, temperature, f)
       type(model_type), intent(in)       :: model
       type(temperature_type), intent(in) :: temperature
@@ -314,7 +314,7 @@ contains
       end do
    end subroutine add_thermal_forces
 
-   !> What element E is made of.
+   !> The law of element E: material, thickness and kind.
    pure type(element_law) function law_of(model, e)
       type(model_type), intent(in) :: model
       integer, intent(in)          :: e

@@ -1,5 +1,5 @@
-!> Parts of the bodies: some elements as a model of its own, on nodes numbered anew; and the pieces in which the bodies are shown, every
-!! element in one of them.
+!> Submodels: some elements of a model with nodes numbered anew, and the pieces in which the bodies are written.
+!! Each element is shown in one piece.
 module body_parts
    use lists, only: list_owners
    use model_data, only: corners_of, model_type, n_points, n_sections
@@ -10,15 +10,15 @@ module body_parts
 
    public :: extract, nodes_of_elements, all_shown, cut_piece
 
-   !> What of a model is shown.
+   !> The part of a model that is shown.
    type, public :: shown_type
-      integer :: n_points = 0                 !! the first of its nodes
+      integer :: n_points = 0                 !! number of shown nodes, which come first
       integer, allocatable :: elements(:)     !! ascending
       logical :: is_warm = .false. !! with temperatures
    end type shown_type
 
-   !> A piece: a model that has besides what is shown of it all elements that meet at the shown nodes, so that means over these are
-   !! those of the whole structure. Set of the model are elements, nodes, properties, sections, which elements meet where.
+   !> A piece: a model of the shown elements and of all other elements at the shown nodes, so that nodal means equal those of the whole
+   !! structure. The model contains elements, nodes, properties, sections and the connectivity.
    type, public :: body_piece_type
       type(model_type) :: model
       type(shown_type) :: shown
@@ -37,7 +37,7 @@ contains
       shown%is_warm = has_temperatures(model)
    end function all_shown
 
-   !> PART: these ELEMENTS of MODEL on these NODES, which have to be all of theirs; kinds, properties and places alone are set.
+   !> PART: these ELEMENTS of MODEL on these NODES, which must include all of theirs; only kinds, properties and coordinates are set.
    pure subroutine extract(model, elements, nodes, part)
       type(model_type), intent(in)  :: model
       integer, intent(in)           :: elements(:), nodes(:)
@@ -79,8 +79,8 @@ contains
       nodes = pack([(i, i = 1, model%n_nodes)], has)
    end function nodes_of_elements
 
-   !> The PIECE number R: the elements whose first nodes are of part R, and the points of this part that no element has. NODES are its
-   !! nodes as MODEL numbers them, those that are shown first. What is of no part goes to piece 0.
+   !> The PIECE number R: the elements whose first node belongs to part R, and the points of this part without elements. NODES are its
+   !! nodes in the numbering of MODEL, shown nodes first. Elements and points of no part belong to piece 0.
    pure subroutine cut_piece(model, owner, r, piece, nodes)
       type(model_type), intent(in)       :: model
       integer, intent(in)                :: owner(:) !! (n_nodes) the part of each node, from 0 on; -1: none
@@ -118,7 +118,7 @@ contains
             part%element_section = model%element_section(elements)
             part%node_section = model%node_section(nodes)
             part%sections = model%sections
-            do i = 1, size(part%sections) ! one that PART does not have has no node there
+            do i = 1, size(part%sections) ! a section without elements in PART has no node in PART
                part%sections(i)%node = findloc(nodes, model%sections(i)%node, dim=1)
             end do
          end if

@@ -1,4 +1,4 @@
-!> Coordinate systems: rectangular, cylindrical and spherical, where a point lies and how directions stand there.
+!> Rectangular, cylindrical and spherical coordinate systems: position of a point, and directions at it.
 !! Conventions of NASTRAN: z from A to B, x in the half-plane of C, y across both; cylindrical coordinates are r, theta (degrees from
 !! x), z, spherical ones r, theta (degrees from z), phi (degrees from x about z).
 module coordinate_systems
@@ -22,13 +22,13 @@ module coordinate_systems
 
 contains
 
-   !> The system with origin A, its z through B, C in its x-z plane. Not OK where the three points lie on a line.
+   !> The system with origin A, z axis through B, and C in its x-z plane. OK is false where the three points are collinear.
    pure subroutine make_system(id, kind, a, b, c, system, ok)
       integer, intent(in)                  :: id, kind
       real(wp), intent(in)                 :: a(3), b(3), c(3) !! in global axes [length]
       type(coordinate_system), intent(out) :: system
       logical, intent(out)                 :: ok
-      real(wp), parameter :: straight = 1.0e-10_wp ! sine of the least angle between z and C
+      real(wp), parameter :: straight = 1.0e-10_wp ! sine of the smallest angle between z and C
       real(wp) :: x(3), z(3)
 
       z = b - a
@@ -47,7 +47,7 @@ contains
       system%axes = reshape([x, cross(z, x), z], [3, 3])
    end subroutine make_system
 
-   !> Where the point with these COORDINATES in SYSTEM lies, in global axes [length].
+   !> Position of the point with these COORDINATES in SYSTEM, in global axes [length].
    pure function position_in(system, coordinates) result(x)
       type(coordinate_system), intent(in) :: system
       real(wp), intent(in)                :: coordinates(3) !! x, y, z; r, theta, z; or r, theta, phi [length, degrees]
@@ -67,13 +67,13 @@ contains
    end function position_in
 
    !> Directions of SYSTEM at the point X in global axes, columns: x, y, z; r, theta, z; or r, theta, phi, unit, in global axes.
-   !! Not OK on the axis of a cylindrical or spherical system, where r and theta have no direction.
+   !! OK is false on the axis of a cylindrical or spherical system, where r and theta are undefined.
    pure subroutine directions_at(system, x, directions, ok)
       type(coordinate_system), intent(in) :: system
       real(wp), intent(in)                :: x(3) !! [length]
       real(wp), intent(out)               :: directions(3, 3)
       logical, intent(out)                :: ok
-      real(wp), parameter :: near = 1.0e-9_wp ! of the distance from the origin: on the axis
+      real(wp), parameter :: near = 1.0e-9_wp ! of the distance from the origin: a point nearer to the axis lies on it
       real(wp) :: along(3), local(3), rho, turn(3, 3), r
 
       ok = .true.
@@ -97,7 +97,7 @@ contains
       cosine = sine(90.0_wp - abs(angle))
    end function cosine
 
-   !> Sine of an angle in degrees, likewise.
+   !> Sine of an angle in degrees, exact at multiples of 90.
    elemental real(wp) function sine(angle)
       real(wp), intent(in) :: angle !! [degrees]
       real(wp) :: rest

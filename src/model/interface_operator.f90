@@ -1,6 +1,6 @@
-!> What an interface element hangs on, and what follows from that: the one place that knows it. Each of its two ends is a list of
-!! nodes with weights that add up to 1; end 2 of an element on a rigid base has none. The movement of end 1 against end 2 is the
-!! sum of the weights times the nodes' displacements, those of end 2 negative: the one list (node, weight) says it all.
+!> The operator of an interface element: the nodes and weights of its two ends, its movement, forces and stiffness.
+!! Each end is a list of nodes with weights whose sum is 1; end 2 of an element on a rigid base has no nodes. The movement of end 1
+!! relative to end 2 is the sum of weight times displacement, with negative weights for end 2. No other module uses these lists.
 !!
 !!      end 1    o  o    v_k, sum 1        movement   d = sum v_k u_k - sum w_j u_j
 !!                \/                       force F    -v_k F on the nodes of end 1, +w_j F on those of end 2
@@ -19,12 +19,12 @@ module interface_operator
    type, public :: interface_element
       integer  :: id = 0
       integer  :: joint = 0
-      integer  :: n_1 = 0                    !! nodes of end 1; those behind them are of end 2
-      integer  :: named = 0                  !! the node that names end 1 where several share it, 0: none
+      integer  :: n_1 = 0                    !! number of nodes of end 1; the nodes of end 2 follow
+      integer  :: named = 0                  !! the node reported for end 1 where it has several nodes, 0: none
       integer, allocatable  :: node(:)       !! positions
-      real(wp), allocatable :: weight(:)     !! of the displacement of each: their sum is the movement of end 1 against end 2
-      real(wp), allocatable :: map(:, :, :)  !! (dimension, dimension, nodes) in place of the weights, where nodes are coupled: the
-                                             !! movement is the sum of these times the nodes' unknowns
+      real(wp), allocatable :: weight(:)     !! of each displacement: the weighted sum is the movement of end 1 relative to end 2
+      real(wp), allocatable :: map(:, :, :)  !! (dimension, dimension, nodes) replaces the weights where nodes are coupled: the
+                                             !! movement is the sum of map times the unknowns of the nodes
       real(wp) :: area = 0.0_wp              !! a_i [length^2]
       real(wp) :: gap = 0.0_wp               !! g: closing at which the faces touch; negative: interference [length]
       real(wp) :: axes(3, 3) = 0.0_wp        !! columns: x, y in the joint, z its normal from end 1 to end 2
@@ -32,8 +32,8 @@ module interface_operator
 
 contains
 
-   !> Hang ELEMENT on two facing nodes, each the whole of its end; no NODE_2 (0) is a rigid base, no NODE_1 an element that hangs
-   !! on nothing, of a deck with errors.
+   !> Connect ELEMENT to two facing nodes, one per end. NODE_2 = 0 is a rigid base; NODE_1 = 0 leaves an element without nodes,
+   !! in a deck with errors.
    pure subroutine hang_on(element, node_1, node_2)
       type(interface_element), intent(inout) :: element
       integer, intent(in)                    :: node_1, node_2
@@ -58,7 +58,7 @@ contains
       end if
    end function nodes_of_end
 
-   !> How large the weights of the nodes of END 1 or 2 are.
+   !> The weights of the nodes of END 1 or 2, as positive numbers.
    pure function weights_of_end(element, end) result(weights)
       type(interface_element), intent(in) :: element
       integer, intent(in)                 :: end
@@ -71,8 +71,8 @@ contains
       end if
    end function weights_of_end
 
-   !> The node that output and messages name for END 1 or 2: 0 for a rigid base, -1 where several nodes share the end and none
-   !! stands for them.
+   !> The node that output and messages name for END 1 or 2: 0 for a rigid base, -1 where the end has several nodes and none is
+   !! named.
    pure integer function named_node(element, end) result(node)
       type(interface_element), intent(in) :: element
       integer, intent(in)                 :: end
@@ -85,7 +85,7 @@ contains
       if (end == 1 .and. element%named > 0) node = element%named
    end function named_node
 
-   !> What nodal VALUES are at end 1: of their places, say, the one where the force acts.
+   !> The weighted mean of nodal VALUES at end 1. For coordinates it is the point where the force acts.
    pure function at_first_end(element, values) result(mean)
       type(interface_element), intent(in) :: element
       real(wp), intent(in)                :: values(:, :) !! (components, nodes)
@@ -98,7 +98,7 @@ contains
       end do
    end function at_first_end
 
-   !> Movement of end 1 against end 2 in global axes; its third component is zero in the plane [length].
+   !> Movement of end 1 relative to end 2 in global axes; its third component is zero in the plane [length].
    pure function relative_movement(element, u) result(between)
       type(interface_element), intent(in) :: element
       real(wp), intent(in)                :: u(:, :) !! (dimension, nodes) [length]
@@ -116,7 +116,7 @@ contains
       end do
    end function relative_movement
 
-   !> The same in the element's own axes: tangential x, y, and the closing deflection lambda, Eq. (8) [length].
+   !> The movement in the axes of the element: tangential x, y, and the closing deflection lambda, Eq. (8) [length].
    pure function joint_movement(element, u) result(movement)
       type(interface_element), intent(in) :: element
       real(wp), intent(in)                :: u(:, :) !! (dimension, nodes) [length]
@@ -126,8 +126,8 @@ contains
       movement = matmul(between, element%axes)
    end function joint_movement
 
-   !> Add FORCE, in the element's axes, to the nodal forces F: as it is on end 1, opposed on end 2. The force of an element on its
-   !! nodes is minus that of its stresses.
+   !> Add FORCE, in the axes of the element, to the nodal forces F: with its sign at end 1, with the opposite sign at end 2. The nodal
+   !! force of an element is minus that of its stresses.
    pure subroutine add_force(element, force, f)
       type(interface_element), intent(in) :: element
       real(wp), intent(in)                :: force(3) !! [force]
@@ -136,7 +136,7 @@ contains
       call add_global_force(element, matmul(element%axes, force), f)
    end subroutine add_force
 
-   !> The same for a FORCE in global axes.
+   !> Add FORCE in global axes to the nodal forces F, as add_force.
    pure subroutine add_global_force(element, force, f)
       type(interface_element), intent(in) :: element
       real(wp), intent(in)                :: force(3)
@@ -153,7 +153,7 @@ contains
       end do
    end subroutine add_global_force
 
-   !> Stiffness K of the element's own axes in global axes [force/length].
+   !> The stiffness K, given in the axes of the element, in global axes [force/length].
    pure function global_stiffness(element, k) result(in_global)
       type(interface_element), intent(in) :: element
       real(wp), intent(in)                :: k(3, 3)

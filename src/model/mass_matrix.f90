@@ -1,7 +1,6 @@
-!> The masses of the structure, consistent, or lumped where the deck says so: each as a matrix, of body elements, of bars, and at nodes;
-!! and all of them, what forces the nodes need for an acceleration, F = [m] {a}. Bodies, bars and masses at nodes resist in every
-!! direction alike, so that one number between two nodes does for all components; beams, elements behind the section of a solid bolt and
-!! the inertia of rotations come on top.
+!> Mass matrices of elements, bars and nodal masses, consistent or lumped, and the inertia forces F = [m] {a}.
+!! Bodies, bars and nodal masses have the same inertia in every direction: one number per pair of nodes holds for all components.
+!! Beams, elements behind a pretension section and the inertia of rotations have matrices of their own.
 module mass_matrix
    use body_elements, only: coupled_stiffness, law_of
    use element_kinds, only: max_felt_dofs, max_nodes
@@ -18,20 +17,20 @@ module mass_matrix
    public :: scalar_mass, whole_mass, bar_mass, inertia_at_rotation, n_masses, form_mass, mass_times, total_mass
    public :: coupled_dynamic_stiffness, coupled_bar_mass, coupled_point_mass, mass_nodes
 
-   integer, parameter :: worth_threads = 10000 ! nodes
+   integer, parameter :: worth_threads = 10000 ! number of nodes from which on threads are used
 
-   !> Rows of nodes: between node i and column(first(i):first(i + 1) - 1).
+   !> Sparse rows: node i is connected to column(first(i):first(i + 1) - 1).
    type, public :: mass_matrix_type
       integer, allocatable  :: first(:)      !! (n_nodes + 1)
       integer, allocatable  :: column(:)
       real(wp), allocatable :: value(:)      !! [force time^2/length]
-      integer, allocatable  :: whole(:)      !! elements that are not among these: beams, and those behind sections
-      integer, allocatable  :: turning(:)    !! masses at nodes with rotations: of model%masses
+      integer, allocatable  :: whole(:)      !! elements with matrices of their own: beams, and elements behind sections
+      integer, allocatable  :: turning(:)    !! nodal masses with rotations: positions in model%masses
    end type mass_matrix_type
 
 contains
 
-   !> How many masses there are at nodes.
+   !> The number of nodal masses.
    pure integer function n_masses(model)
       type(model_type), intent(in) :: model
 
@@ -39,7 +38,7 @@ contains
       if (allocated(model%masses)) n_masses = size(model%masses)
    end function n_masses
 
-   !> Mass between the own_nodes of element E, no beam, the same for every component of their displacements [force time^2/length].
+   !> Mass between the own_nodes of element E (no beam), the same for every component of their displacements [force time^2/length].
    pure subroutine scalar_mass(model, e, m)
       type(model_type), intent(in) :: model
       integer, intent(in)          :: e
@@ -64,7 +63,7 @@ contains
       end associate
    end subroutine scalar_mass
 
-   !> M between the felt_nodes of element E, components of node 1 first [force time^2/length].
+   !> [m] between the felt_nodes of element E, components of node 1 first [force time^2/length].
    pure subroutine whole_mass(model, e, m)
       type(model_type), intent(in) :: model
       integer, intent(in)          :: e
@@ -130,7 +129,7 @@ contains
       m = between_unknowns(model, bar_nodes(model%bars(i)), of_components)
    end function coupled_bar_mass
 
-   !> The nodes that MASS moves with: its own, and that of its rotations where there is one.
+   !> The nodes of MASS: its own, and the node of its rotations if there is one.
    pure function mass_nodes(model, mass) result(nodes)
       type(model_type), intent(in)      :: model
       type(point_mass_type), intent(in) :: mass
@@ -140,7 +139,7 @@ contains
       if (rotation_at(model, mass%node) > 0) nodes = [nodes, model%rotations(rotation_at(model, mass%node))%node]
    end function mass_nodes
 
-   !> The inertia of MASS as the node of its rotations feels it, whose components are rotations times an arm: in space about x, y
+   !> The inertia of MASS with respect to the node of its rotations, whose components are rotations times an arm: in space about x, y
    !! and z, in the plane about z alone [force time^2/length].
    pure function inertia_at_rotation(model, mass) result(m)
       type(model_type), intent(in)      :: model
@@ -157,7 +156,7 @@ contains
       end associate
    end function inertia_at_rotation
 
-   !> [m] of MASS between the unknowns of the unknown_nodes of its mass_nodes, components of the first of these first.
+   !> [m] of MASS between the unknowns of unknown_nodes(mass_nodes), in the order of these nodes.
    pure function coupled_point_mass(model, mass) result(m)
       type(model_type), intent(in)      :: model
       type(point_mass_type), intent(in) :: mass
@@ -176,7 +175,7 @@ contains
       end associate
    end function coupled_point_mass
 
-   !> The mass of MODEL.
+   !> Assemble the mass of MODEL.
    subroutine form_mass(model, mass)
       type(model_type), intent(in)        :: model
       type(mass_matrix_type), intent(out) :: mass
@@ -222,7 +221,7 @@ contains
 
    end subroutine form_mass
 
-   !> Whether element E has more mass than one number between two nodes.
+   !> Whether the mass of element E needs more than one number per pair of nodes.
    pure logical function has_own_matrix(model, e)
       type(model_type), intent(in) :: model
       integer, intent(in)          :: e
@@ -230,7 +229,7 @@ contains
       has_own_matrix = section_node(model, e) > 0 .or. is_beam(model, e)
    end function has_own_matrix
 
-   !> Which nodes share an element, or a bar with mass; every node is its own neighbour.
+   !> The sparsity pattern: nodes are connected by an element or by a bar with mass; every node is connected to itself.
    subroutine lay_out(model, mass)
       type(model_type), intent(in)          :: model
       type(mass_matrix_type), intent(inout) :: mass
@@ -281,11 +280,11 @@ contains
 
    end subroutine lay_out
 
-   !> F = [m] {A}. Every node is the work of one thread.
+   !> F = [m] {A}. Each node is computed by one thread.
    subroutine mass_times(model, mass, a, f)
       type(model_type), intent(in)       :: model
       type(mass_matrix_type), intent(in) :: mass
-      real(wp), contiguous, intent(in)   :: a(:, :) !! (dimension, n_nodes) of nodes, those of rotations and sections included
+      real(wp), contiguous, intent(in)   :: a(:, :) !! (dimension, n_nodes), with the nodes of rotations and sections
       real(wp), contiguous, intent(out)  :: f(:, :) !! likewise
       real(wp) :: m(max_felt_dofs, max_felt_dofs), s(3)
       integer  :: i, k, n
@@ -317,9 +316,9 @@ contains
       end do
    end subroutine mass_times
 
-   !> The mass of the structure, where its centre is, and its moments and products of inertia about the axes through the centre,
-   !! (I_xx, I_yy, I_zz, I_xy, I_yz, I_zx), products as the integral of x y dm; all from [m] alone. In the plane I_zz is what its
-   !! bodies have as bodies of the plane. Of a ring the moments are not those of a body in space: zero.
+   !> Total mass, centre of mass, and moments and products of inertia about the axes through the centre, (I_xx, I_yy, I_zz, I_xy, I_yz,
+   !! I_zx), products as the integral of x y dm; all from [m] alone. In a plane model I_zz is that of the plane bodies. In an
+   !! axisymmetric model the moments are zero, because those of its plane are not the moments of a body in space.
    subroutine total_mass(model, mass, total, centre, inertia)
       type(model_type), intent(in)       :: model
       type(mass_matrix_type), intent(in) :: mass

@@ -1,5 +1,5 @@
-!> The structure as it is solved: nodes, bodies, joints, supports, loads, all references resolved to positions.
-!! Built once from a deck; nothing in it changes afterwards.
+!> The structure as it is solved: nodes, elements, joints, supports and loads; references are positions.
+!! It is built once from a deck and does not change afterwards.
 module model_data
    use beam_element, only: beam_law
    use coordinate_systems, only: coordinate_system
@@ -20,109 +20,109 @@ module model_data
    !> Section and material of body elements.
    type, public :: property_type
       integer  :: id = 0
-      integer  :: state = plane_stress       !! of stress: plane_stress ... solid, of elasticity
-      real(wp) :: thickness = 0.0_wp         !! of a plane one [length]
+      integer  :: state = plane_stress       !! of stress: plane_stress ... solid, as in elasticity
+      real(wp) :: thickness = 0.0_wp         !! of a plane body [length]
       real(wp) :: e = 0.0_wp, nu = 0.0_wp    !! [pressure], [-]
       real(wp) :: rho = 0.0_wp               !! mass density [force x time^2/length^4]
       real(wp) :: alpha = 0.0_wp             !! thermal expansion [1/temperature]
-      real(wp) :: reference = 0.0_wp         !! TREF, at which it has no thermal strain [temperature]
+      real(wp) :: reference = 0.0_wp         !! TREF, temperature without thermal strain [temperature]
       real(wp) :: damping = 0.0_wp           !! GE, structural damping [-]
       real(wp) :: strength = 0.0_wp          !! ST, 0: not given [pressure]
       logical  :: incompatible = .false.     !! modes of Wilson and Taylor
-      real(wp) :: extra_mass = 0.0_wp        !! NSM of a shell, a unit of area [force x time^2/length^3]
-      real(wp) :: fibre(2) = 0.0_wp          !! Z1, Z2 of a shell: heights above its mean plane where its stress is told [length]
+      real(wp) :: extra_mass = 0.0_wp        !! NSM of a shell, mass per unit area [force x time^2/length^3]
+      real(wp) :: fibre(2) = 0.0_wp          !! Z1, Z2 of a shell: heights above its mean plane at which stresses are reported [length]
    end type property_type
 
-   !> Shells and beams beside what all elements have. The PLACE of a plane element in space is that of its law among SHELLS, that of a
-   !! line among BEAMS.
+   !> Laws of shells and beams, in addition to the data of all elements. PLACE is the position of a law: in SHELLS for a plane element in
+   !! space, in BEAMS for a line.
    type, public :: structural_type
       integer, allocatable :: place(:)       !! (n_elements) 0: a body
       type(shell_law), allocatable :: shells(:)
       type(beam_law), allocatable  :: beams(:)
    end type structural_type
 
-   !> A marked surface: sides of elements, edges in the plane and faces of solids, each in the order of its element: a plane
-   !! body on the left of the edge, the right-hand normal of a face out of the solid.
+   !> A marked surface: sides of elements, edges in the plane and faces of solids. Each side has the node order of its element: a plane
+   !! body lies on the left of an edge, the right-hand normal of a face points out of the solid.
    type, public :: surface_type
       integer :: id = 0
-      integer :: n  = 0                      !! sides
+      integer :: n  = 0                      !! number of sides
       integer, allocatable :: corners(:)     !! (n) 2, 3 or 4
-      integer, allocatable :: n_nodes(:)     !! (n) corners, and as many mid-side nodes where the side is of second order; of an edge 1
-      integer, allocatable :: nodes(:, :)    !! (most of any, n) its corners, then its mid-side nodes as in element_kinds, 0 behind
+      integer, allocatable :: n_nodes(:)     !! (n) corners, and as many mid-side nodes if the side is second-order; of an edge 1
+      integer, allocatable :: nodes(:, :)    !! (largest number, n) its corners, then its mid-side nodes as in element_kinds, 0 behind
       integer, allocatable :: element(:)     !! (n) the body element that the side belongs to
       integer, allocatable :: other(:)       !! (n) a body element behind the side, 0: none
-      logical :: was_split = .false.         !! a joint was made of it: the other body has the twins of its nodes
+      logical :: was_split = .false.         !! a joint split the surface: the other body has the twins of its nodes
       integer, allocatable :: line(:)        !! (n) of its card in the deck text
    end type surface_type
 
-   real(wp), parameter, public :: whole_share = 0.999_wp !! share of a face or side from which on it is covered as a whole
+   real(wp), parameter, public :: whole_share = 0.999_wp !! share of a face or side above which the whole of it counts as covered
 
-   !> How the sides of a joint that do not match cover each other.
+   !> Coverage of the sides of a joint whose meshes do not match.
    type, public :: joint_cover
-      logical  :: fitted = .false.           !! whether lists were fitted at all
-      real(wp) :: share = 1.0_wp             !! of the area of SIDE1 that SIDE2 covers
+      logical  :: fitted = .false.           !! whether a mortar projection was made
+      real(wp) :: share = 1.0_wp             !! share of the area of SIDE1 that SIDE2 covers
       real(wp) :: farthest = 0.0_wp          !! largest distance of the faces, along the normal of SIDE1 [length]
-      real(wp) :: spacing(2) = 0.0_wp        !! mean area, of edges length, of the faces of SIDE1 and of SIDE2 that take part
+      real(wp) :: spacing(2) = 0.0_wp        !! mean area (of edges: length) of the facing sides of SIDE1 and of SIDE2
    end type joint_cover
 
-   !> One joint: a group of interface elements with the same laws.
    !> Axes and centroid of a joint.
    type, public :: joint_frame
-      logical  :: faces_all_ways = .false.  !! its mean normal says nothing, as that of a pin in its bore
-      logical  :: closed = .false.          !! likewise, on a ring of the part along the axis: the axes are those of the model
-      logical  :: exists(6) = .false.       !! movements that the model and the places of the elements have
+      logical  :: faces_all_ways = .false.  !! the mean normal is no direction of the joint, as for a pin in its bore
+      logical  :: closed = .false.          !! the same, for a ring with the axial part of the normal: the axes are those of the model
+      logical  :: exists(6) = .false.       !! movements that the model and the positions of the elements permit
       real(wp) :: axes(3, 3) = 0.0_wp       !! columns x, y, z
       real(wp) :: centroid(3) = 0.0_wp      !! of the area [length]
-      real(wp) :: extent = 0.0_wp           !! largest distance of an element from it [length]
+      real(wp) :: extent = 0.0_wp           !! largest distance of an element from the centroid [length]
    end type joint_frame
 
+   !> One joint: a group of interface elements with the same laws.
    type, public :: joint_type
       integer  :: id = 0                     !! JID; PJID for a group of CJOINT cards
       integer  :: line = 0                   !! of its card (the first CJOINT) in the deck text
-      integer  :: first = 0, last = -1       !! its interface elements
+      integer  :: first = 0, last = -1       !! first and last of its interface elements
       integer  :: side_1 = 0                 !! position of the surface SIDE1; 0: single elements
       type(joint_cover) :: cover
       type(joint_law) :: law                 !! normal, shear, friction
       logical  :: e_u_given = .false.        !! whether the deck gives the unloading slope
       integer  :: n_reanalyses = 1           !! NREAN after the Coulomb check; -1: until the excess is gone
       real(wp) :: p0 = 0.0_wp                !! initial pressure given by the user, 0: none
-      real(wp) :: p_av = 0.0_wp              !! pressure of the first increment, Eq. (9): that, or by statics [pressure], > 0
-      real(wp) :: area = 0.0_wp              !! A_int, sum of the areas of influence [length^2]
+      real(wp) :: p_av = 0.0_wp              !! pressure of the first increment, Eq. (9): P0, or from statics [pressure], > 0
+      real(wp) :: area = 0.0_wp              !! A_int, sum of the tributary areas [length^2]
       real(wp) :: normal(3) = 0.0_wp         !! mean normal, from side 1 to side 2
       type(joint_frame) :: frame
-      character(8) :: gap_kind = ''          !! of its JGAP, blank: none
-      logical  :: determinate = .false.      !! whether statics alone gives its normal resultant
+      character(8) :: gap_kind = ''          !! of its JGAP, blank: no JGAP
+      logical  :: determinate = .false.      !! whether statics alone determines its normal resultant
       logical, allocatable :: carries(:)     !! (parts) the parts whose load it carries, where determinate
-      real(wp) :: direction = 1.0_wp         !! +1: those parts are on side 1; -1: on side 2
+      real(wp) :: direction = 1.0_wp         !! +1: these parts are on side 1; -1: on side 2
    end type joint_type
 
-   !> How warm everything is. What a material is warmer than its reference temperature is AT - REFERENCE_SHARE TREF: the share is 1
-   !! where the deck gives temperatures, 0 where it gives none (all is at its TREF then), between them on the way.
+   !> Temperatures of the model. T - TREF of a material is AT - REFERENCE_SHARE TREF. The share is 1 where the deck gives temperatures and
+   !! 0 where it gives none (the structure is at TREF then); it varies linearly over a stage between the two.
    type, public :: temperature_type
       real(wp), allocatable :: at(:)         !! (n_nodes) [temperature]; not allocated: none are given
       real(wp) :: reference_share = 0.0_wp   !! [-]
-      real(wp), allocatable :: plate(:, :)   !! (5, shells) what corners are warmer than AT [temperature], and by how much more a unit of
-                                             !! height [temperature/length]; not allocated: no shell has its own
+      real(wp), allocatable :: plate(:, :)   !! (5, shells) corner temperatures relative to AT [temperature], and the gradient over the
+                                             !! thickness [temperature/length]; not allocated: no shell has temperatures of its own
    end type temperature_type
 
-   !> Forces on nodes, displacements of supports, temperatures: the total load at the end of a stage.
+   !> Forces on nodes, displacements of supports and temperatures: the total load at the end of a stage.
    type, public :: stage_load_type
       integer :: n = 0
-      integer, allocatable  :: node(:)       !! (n), a node may stand here more than once
+      integer, allocatable  :: node(:)       !! (n); a node may occur more than once
       real(wp), allocatable :: force(:, :)   !! (3, n)
-      real(wp), allocatable :: moved(:, :)   !! (dimension, n_nodes) of held unknowns [length]; where any move
-      real(wp), allocatable :: beam(:, :)    !! (12, beams) what the ends of beams bear of loads along them [force], [moment]; where any
+      real(wp), allocatable :: moved(:, :)   !! (dimension, n_nodes) of held unknowns [length]; allocated if any is moved
+      real(wp), allocatable :: beam(:, :)    !! (12, beams) end forces of the loads along beams [force], [moment]; if there are any
       type(temperature_type) :: temperature
    end type stage_load_type
 
    integer, parameter, public :: a_point = 1, a_rotation = 2, an_overlap = 3 !! kinds of nodes
    integer, parameter, public :: a_bar = 1, a_spring = 2                     !! kinds of bars; a bolt is a bar with a BOLT card
 
-   !> A bar, which may be a bolt, or a spring: a force that grows with its elongation, direction 2 . u_2 - direction 1 . u_1.
+   !> A bar (a bolt is a bar with a BOLT card) or a spring. Its elongation is direction 2 . u_2 - direction 1 . u_1.
    type, public :: bar_type
       integer  :: id = 0
-      integer  :: nodes(2) = 0               !! of a spring to the ground the second is 0
-      real(wp) :: direction(3, 2) = 0.0_wp   !! at each node, unit: of a bar both from node 1 to node 2
+      integer  :: nodes(2) = 0               !! the second is 0 for a spring to the ground
+      real(wp) :: direction(3, 2) = 0.0_wp   !! unit vector at each node: of a bar both from node 1 to node 2
       real(wp) :: stiffness = 0.0_wp         !! E A/L [force/length]
       logical  :: ground_first = .false.     !! of a spring: its card names the ground as its first node
       integer  :: kind = a_bar
@@ -131,7 +131,7 @@ module model_data
       real(wp) :: preload = 0.0_wp           !! of a bolt [force]
       real(wp) :: area = 0.0_wp              !! of a bar [length^2]
       real(wp) :: strength = 0.0_wp          !! ST of its material, 0: not given [pressure]
-      integer  :: stage = 0                  !! position of the stage that tightens it; a bolt is elastic from its end on
+      integer  :: stage = 0                  !! position of the stage that tightens the bolt; from the end of this stage on it is elastic
       real(wp) :: mass = 0.0_wp              !! (rho A + NSM) L of a bar [force x time^2/length]
       real(wp) :: expansion = 0.0_wp         !! alpha L [length/temperature]
       real(wp) :: reference = 0.0_wp         !! TREF [temperature]
@@ -142,11 +142,11 @@ module model_data
    type, public :: point_mass_type
       integer  :: node = 0
       real(wp) :: mass = 0.0_wp              !! [force x time^2/length]
-      real(wp) :: inertia(3, 3) = 0.0_wp     !! about the node, in global axes, which rotations feel [force x time^2 x length]
+      real(wp) :: inertia(3, 3) = 0.0_wp     !! about the node, in global axes; acts on rotations [force x time^2 x length]
    end type point_mass_type
 
-   !> The section at which a solid bolt is cut. Its nodes move with the marked side; for the elements behind it they are where
-   !! they would be with the overlap g along DIRECTION on top: u + g direction. g is component 1 of a node of its own.
+   !> A pretension section, at which a solid bolt is cut. The nodes of the section move with the marked side. Elements behind the section
+   !! have these nodes displaced by the overlap g along DIRECTION: u + g direction. g is component 1 of a separate node.
    type, public :: section_type
       integer  :: bolt = 0                   !! BOLT id
       integer  :: surface = 0                !! PMARK id
@@ -156,71 +156,71 @@ module model_data
       real(wp) :: area = 0.0_wp              !! [length^2]
       real(wp) :: strength = 0.0_wp          !! ST of its material, 0: not given [pressure]
       real(wp) :: preload = 0.0_wp           !! tension [force]
-      integer  :: stage = 0                  !! position of the stage that tightens it; from its end on g is held as it then is
+      integer  :: stage = 0                  !! position of the stage that tightens it; from the end of this stage on g is held
    end type section_type
 
-   !> The rotations of a node of shells or beams, or of a reference node, which moves with others as a rigid body: they are components
-   !! of a node of their own, x, y, z in space, in the plane the first one alone, about z. What is kept there is the rotation times an
-   !! arm, a displacement, so that all unknowns have one unit; the force on it is the moment by the arm.
+   !> The rotations of a node of shells or beams, or of a reference node, which moves with others as a rigid body. They are the components
+   !! of a separate node: x, y, z in space, the first component (about z) in the plane. The unknown is the rotation times an arm, a
+   !! displacement, so that all unknowns have one unit; the conjugate force is the moment divided by the arm.
    type, public :: rotation_type
       integer  :: point = 0                  !! the node
-      integer  :: node = 0                   !! that of its rotations
-      real(wp) :: arm = 1.0_wp               !! root mean square of the distances of the nodes that move with it, of an element's
-                                             !! nodes from it [length]
-      logical  :: of_element = .false.       !! whether shells or beams have it
+      integer  :: node = 0                   !! the node of its rotations
+      real(wp) :: arm = 1.0_wp               !! root mean square of the distances of the dependent nodes, or of the nodes of
+                                             !! the elements, from it [length]
+      logical  :: of_element = .false.       !! whether it belongs to shells or beams
    end type rotation_type
 
-   !> A node on the face of shells: it stands off POINT, a node of the shells, by a rigid LEVER.
+   !> A node on the face of shells, at a rigid LEVER from POINT, a node of the shells.
    type, public :: face_node_type
       integer  :: point = 0
       integer  :: node = 0
       real(wp) :: lever(3) = 0.0_wp          !! [length]
    end type face_node_type
 
-   !> A node that the deck names by place, NODEAT, or the reference node of an RBE2M or RBE3M.
+   !> A node that the deck defines by position: NODEAT, or the reference node of an RBE2M or RBE3M.
    type, public :: placed_node
       integer  :: id = 0                     !! of NODEAT; 0: a reference node
-      integer  :: element = 0                !! of which rigid element; 0: NODEAT
+      integer  :: element = 0                !! the rigid element of a reference node; 0: NODEAT
       integer  :: surface = 0                !! PMARK, 0: none
       integer  :: node = 0
-      real(wp) :: x(3) = 0.0_wp              !! the place that NODEAT gives [length]
+      real(wp) :: x(3) = 0.0_wp              !! the position that NODEAT gives [length]
    end type placed_node
 
-   !> What holds: an SPC1 card, the SPC cards of one set, the SPCM card of a surface, PS of GRID.
+   !> The source of a support: an SPC1 card, the SPC cards of one set, the SPCM card of a surface, or PS of GRID.
    type, public :: support_group
-      character(4) :: kind = ''              !! SPC, SPC1, SPCM, GRID; FREE: what holds a structure without supports
+      character(4) :: kind = ''              !! SPC, SPC1, SPCM, GRID; FREE: supports added to a free structure
       integer :: id = 0                      !! SPCM: the PMARK; else the set; GRID: 0
       integer :: line = 0                    !! of the (first) card in the deck text
    end type support_group
 
-   !> Nodes whose displacements are not their own unknowns in global axes: see node_coupling.
+   !> Nodes whose displacements are not their own unknowns in global axes, see node_coupling.
    type, public :: node_coupling_type
-      integer :: n = 0                       !! coupled nodes
-      integer, allocatable  :: of_node(:)    !! (n_nodes) which of them a node is, 0: none; not allocated where there is none
+      integer :: n = 0                       !! number of coupled nodes
+      integer, allocatable  :: of_node(:)    !! (n_nodes) position among the coupled nodes, 0: none; not allocated: no node is coupled
       integer, allocatable  :: first(:)      !! (at least n + 1) parts first(k) to first(k + 1) - 1 are of coupled node k:
       integer, allocatable  :: node(:)       !! (at least parts) the unknowns of this node
       real(wp), allocatable :: t(:, :, :)    !! (dimension, dimension, likewise) by this matrix [-]
    end type node_coupling_type
 
    type, public :: model_type
-      integer :: dimension = 2               !! degrees of freedom a node
+      integer :: dimension = 2               !! degrees of freedom per node
       logical :: axisymmetric = .false.      !! about y; loads, areas and forces are those of the whole ring
       integer :: n_nodes = 0
-      integer :: n_filled = 0                !! of these put at the middle of edges, see node_build
-      integer :: first_filled = 0            !! position of the first of them
-      integer, allocatable  :: node_id(:)    !! ascending; behind the last those of rotations, then those of sections, 0
+      integer :: n_filled = 0                !! number of mid-edge nodes that the program added, see node_build
+      integer :: first_filled = 0            !! position of the first of these nodes
+      integer, allocatable  :: node_id(:)    !! ascending; 0 for the nodes of rotations and of sections, which follow
       real(wp), allocatable :: x(:, :)       !! (3, n_nodes) [length]
-      integer, allocatable  :: duplicate(:)  !! (n_nodes) the node that a split surface put opposite, 0: none
-      logical, allocatable  :: used(:)       !! (n_nodes) whether any element holds the node
-      logical, allocatable  :: held(:, :)    !! (dimension, n_nodes) supported, component by component of its unknowns
+      integer, allocatable  :: duplicate(:)  !! (n_nodes) the twin of a node on a split surface, 0: none
+      logical, allocatable  :: used(:)       !! (n_nodes) whether any element has the node
+      logical, allocatable  :: held(:, :)    !! (dimension, n_nodes) supported unknowns
       type(support_group), allocatable :: support_groups(:)
-      logical :: floats = .false.            !! nothing but that one holds it
-      integer, allocatable  :: support_of(:, :) !! (dimension, nodes at that time) the first of these that holds it, 0: none
-      logical, allocatable  :: left_out(:, :) !! (dimension, n_nodes) no unknowns though not supported: components that depend on
-                                             !! others, or are of reference nodes and move nothing; held too; where any are
-      type(node_coupling_type) :: coupling   !! of displacements with unknowns
-      integer, allocatable  :: node_system(:) !! (n_nodes) the system CD of a node, 0: global axes; where any has one
-      type(placed_node), allocatable :: placed(:) !! where the deck names nodes by place; not allocated: nowhere
+      logical :: floats = .false.            !! the structure has no supports but those of FREE
+      integer, allocatable  :: support_of(:, :) !! (dimension, nodes at that time) the first of the groups that supports it, 0: none
+      logical, allocatable  :: left_out(:, :) !! (dimension, n_nodes) no unknown and no support: dependent components, or
+                                             !! components of reference nodes that move nothing; held too; if there are any
+      type(node_coupling_type) :: coupling   !! of displacements to unknowns
+      integer, allocatable  :: node_system(:) !! (n_nodes) the system CD of a node, 0: global axes; allocated if any node has one
+      type(placed_node), allocatable :: placed(:) !! nodes defined by position; not allocated: none
       type(id_table_type)   :: node_table
       integer :: n_elements = 0
       integer, allocatable  :: element_id(:)
@@ -232,35 +232,35 @@ module model_data
       integer, allocatable  :: elements_at(:)        !! are the elements of node i
       type(coordinate_system), allocatable :: systems(:) !! as the deck has them
       type(property_type), allocatable :: properties(:)
-      type(structural_type) :: structural        !! where there are shells or beams
+      type(structural_type) :: structural        !! set if there are shells or beams
       type(surface_type), allocatable  :: surfaces(:)
       type(joint_type), allocatable    :: joints(:)
       type(interface_element), allocatable :: interface(:)
       type(bar_type), allocatable          :: bars(:)
       type(point_mass_type), allocatable   :: masses(:)
-      logical :: lumped = .false.            !! MASS = LUMPED: the mass of elements stands at their nodes
+      logical :: lumped = .false.            !! MASS = LUMPED: the masses of elements are lumped at their nodes
       type(section_type), allocatable      :: sections(:)
       type(rotation_type), allocatable     :: rotations(:)
       type(face_node_type), allocatable    :: faces(:)
-      integer, allocatable  :: face_of(:)            !! (points) which of these a node is, 0: none; where there are any
-      integer, allocatable  :: rotation_of(:)        !! (points) which of these a node has, 0: none; where there are any
-      integer, allocatable  :: node_section(:)       !! (n_nodes) the section that a node lies in, 0: none; where there are any
-      integer, allocatable  :: element_section(:)    !! (n_elements) the section that an element touches from behind, likewise
+      integer, allocatable  :: face_of(:)            !! (points) position of a node in faces, 0: none; if there are any
+      integer, allocatable  :: rotation_of(:)        !! (points) position of a node in rotations, 0: none; if there are any
+      integer, allocatable  :: node_section(:)       !! (n_nodes) the section that contains a node, 0: none; if there are any
+      integer, allocatable  :: element_section(:)    !! (n_elements) the section that an element touches from behind, 0: none
       type(stage_load_type), allocatable   :: stage_loads(:)
-      integer, allocatable  :: part(:)       !! (n_nodes) which connected body a node belongs to
+      integer, allocatable  :: part(:)       !! (n_nodes) the connected body of a node
       integer :: n_parts = 0
    end type model_type
 
 contains
 
-   !> Whether SIDE1 of a joint is coarser than SIDE2: its faces on the mean more than a tenth larger.
+   !> Whether SIDE1 of a joint is coarser than SIDE2: its mean face is more than a tenth larger.
    pure logical function is_coarser(cover)
       type(joint_cover), intent(in) :: cover
 
       is_coarser = cover%spacing(1) > 1.1_wp*cover%spacing(2)
    end function is_coarser
 
-   !> How many bars there are.
+   !> The number of bars.
    pure integer function n_bars(model)
       type(model_type), intent(in) :: model
 
@@ -268,7 +268,7 @@ contains
       if (allocated(model%bars)) n_bars = size(model%bars)
    end function n_bars
 
-   !> How many of the bars are springs.
+   !> The number of springs among the bars.
    pure integer function n_springs(model)
       type(model_type), intent(in) :: model
 
@@ -276,7 +276,7 @@ contains
       if (allocated(model%bars)) n_springs = count(model%bars%kind == a_spring)
    end function n_springs
 
-   !> Whether any spring stands on the ground.
+   !> Whether any spring is connected to the ground.
    pure logical function has_ground_springs(model)
       type(model_type), intent(in) :: model
 
@@ -292,7 +292,7 @@ contains
       nodes = pack(bar%nodes, bar%nodes > 0)
    end function bar_nodes
 
-   !> How many sections of solid bolts there are.
+   !> The number of pretension sections.
    pure integer function n_sections(model)
       type(model_type), intent(in) :: model
 
@@ -320,14 +320,14 @@ contains
       end do
    end function joint_centroid
 
-   !> How many nodes are points of the structure; the nodes of sections follow.
+   !> The number of points of the structure. The nodes of rotations and sections follow the points.
    pure integer function n_points(model)
       type(model_type), intent(in) :: model
 
       n_points = model%n_nodes - n_sections(model) - n_rotations(model)
    end function n_points
 
-   !> What the unknowns of NODE are. Behind the points stand the nodes of rotations, behind these those of sections.
+   !> The kind of the unknowns of NODE. The nodes of rotations follow the points, the nodes of sections follow those.
    pure integer function node_kind(model, node) result(kind)
       type(model_type), intent(in) :: model
       integer, intent(in)          :: node
@@ -337,7 +337,7 @@ contains
       if (node > n_points(model) + n_rotations(model)) kind = an_overlap
    end function node_kind
 
-   !> Which of its kind NODE is: a point, or that of model%rotations or model%sections.
+   !> The position of NODE in its kind: itself for a point, else in model%rotations or model%sections.
    pure integer function place_in_kind(model, node) result(place)
       type(model_type), intent(in) :: model
       integer, intent(in)          :: node
@@ -347,7 +347,7 @@ contains
       if (node_kind(model, node) == an_overlap) place = place - n_rotations(model)
    end function place_in_kind
 
-   !> The point whose rotations NODE is; else itself.
+   !> The point to which the rotations NODE belong; a point gives itself.
    pure integer function point_of(model, node) result(point)
       type(model_type), intent(in) :: model
       integer, intent(in)          :: node
@@ -356,7 +356,7 @@ contains
       if (node_kind(model, node) == a_rotation) point = model%rotations(place_in_kind(model, node))%point
    end function point_of
 
-   !> How many reference nodes with rotations there are.
+   !> The number of nodes of rotations.
    pure integer function n_rotations(model)
       type(model_type), intent(in) :: model
 
@@ -364,7 +364,7 @@ contains
       if (allocated(model%rotations)) n_rotations = size(model%rotations)
    end function n_rotations
 
-   !> Which components of NODE a support holds.
+   !> The components of NODE that are supported.
    pure function supported(model, node) result(held)
       type(model_type), intent(in) :: model
       integer, intent(in)          :: node
@@ -374,7 +374,7 @@ contains
       if (allocated(model%left_out)) held = held .and. .not. model%left_out(:, node)
    end function supported
 
-   !> The number of the node that interface element I names for END 1 or 2: 0 for a rigid base, -1 where several share end 2.
+   !> The number of the node that interface element I names for END 1 or 2: 0 for a rigid base, -1 where the end has several nodes.
    pure integer function joint_node_id(model, i, end) result(id)
       type(model_type), intent(in) :: model
       integer, intent(in)          :: i, end
@@ -419,7 +419,7 @@ contains
       is_beam = model%element_kind(e) == kind_edge2
    end function is_beam
 
-   !> The nodes of element E, of a shell or beam behind them the nodes of their rotations.
+   !> The nodes of element E; for a shell or beam the nodes of their rotations follow.
    pure function own_nodes(model, e) result(nodes)
       type(model_type), intent(in) :: model
       integer, intent(in)          :: e

@@ -1,12 +1,13 @@
-!> How nodes move with the unknowns of the equations, and where their components 1 to 6 stand among these. An ordinary node has its own, its displacements in global axes. Others are
-!! coupled: their displacements are sums over parts, {u} = sum of [T] {q}, each the unknowns q of a node, their own or another's:
-!! of a node with a displacement system CD one part, its own unknowns along the directions of the system. Elements, loads, interface
-!! elements and results know displacements; what they give to the equations, and take from them, goes through here:
+!> Coupling of nodal displacements with the unknowns of the equations, and places of nodal components 1 to 6.
+!! An ordinary node has its own unknowns, its displacements in global axes. The displacements of a coupled node are a sum over parts,
+!! {u} = sum of [T] {q}, with the unknowns q of the node or of other nodes. A node with a displacement system CD has one part: its own
+!! unknowns along the directions of the system. Elements, loads, interface elements and results use displacements; this module
+!! transforms them to and from the unknowns of the equations:
 !!
 !!      {u} = [T] {q}      {f_q} = [T]^T {f}      [k_q] = [T]^T [k] [T]
 !!
-!! Sections of solid bolts as elements see them. An element behind a section has its corners there where they would be with the
-!! overlap g of the section on top, {u_e} = [T] {u, g}: one more unknown, kept as component 1 of the section's own node.
+!! Pretension sections: the corners of an element behind a section include the overlap g of the section, {u_e} = [T] {u, g}. The
+!! unknown g is component 1 of the node of the section.
 module node_coupling
    use coordinate_systems, only: directions_at
    use element_kinds, only: element_table
@@ -22,16 +23,16 @@ module node_coupling
              extend_stiffness, add_section_share, coupling_parts, rotation_at, rotation_component, node_axes, place_of_component, &
              third_axis
 
-   !> A component of a node as unknowns count them: component D of NODE, times SCALE.
+   !> The place of a nodal component among the unknowns: component D of NODE, times SCALE.
    type, public :: component_place
-      integer  :: node = 0       !! 0: there is none
+      integer  :: node = 0       !! 0: the component does not exist
       integer  :: d = 0
-      real(wp) :: scale = 1.0_wp !! the displacement kept there by the component: 1, of a rotation its arm
+      real(wp) :: scale = 1.0_wp !! the stored displacement by the component: 1, for a rotation its arm
    end type component_place
 
 contains
 
-   !> Where the parts of NODE stand in the coupling of MODEL, the first and the last, which is < 0 where the node is not coupled.
+   !> The first and the last part of NODE in the coupling of MODEL; the last is < 0 where the node is not coupled.
    pure function coupling_parts(model, node) result(parts)
       type(model_type), intent(in) :: model
       integer, intent(in)          :: node
@@ -44,7 +45,7 @@ contains
       end associate
    end function coupling_parts
 
-   !> Whether any of NODES is coupled, 0 is none.
+   !> Whether any of NODES is coupled; a node 0 is skipped.
    pure logical function is_coupled(model, nodes)
       type(model_type), intent(in) :: model
       integer, intent(in)          :: nodes(:)
@@ -57,7 +58,7 @@ contains
       end do
    end function is_coupled
 
-   !> Couple NODE, anew where it has been so far: u = sum of T(:, :, k) q of the node MASTERS(k), in COUPLING of N_NODES nodes in all.
+   !> Couple NODE: u = sum of T(:, :, k) q of the node MASTERS(k), in COUPLING of N_NODES nodes. An earlier coupling is replaced.
    pure subroutine couple_node(coupling, n_nodes, node, masters, t)
       type(node_coupling_type), intent(inout) :: coupling
       integer, intent(in)                     :: n_nodes, node, masters(:)
@@ -83,7 +84,7 @@ contains
       coupling%first(n + 1) = parts + size(masters) + 1
    end subroutine couple_node
 
-   !> The nodes whose unknowns NODES move with, each once: NODES themselves where none is coupled.
+   !> The nodes whose unknowns determine NODES, each once: NODES themselves where none is coupled.
    pure function unknown_nodes(model, nodes) result(unknown)
       type(model_type), intent(in) :: model
       integer, intent(in)          :: nodes(:)
@@ -105,7 +106,7 @@ contains
       end do
    end function unknown_nodes
 
-   !> [T] of NODES: their displacements, components of node 1 first, by the unknowns of unknown_nodes, likewise.
+   !> [T] of NODES: their displacements, components of node 1 first, from the unknowns of unknown_nodes in the same order.
    pure function transformation(model, nodes) result(t)
       type(model_type), intent(in) :: model
       integer, intent(in)          :: nodes(:)
@@ -130,13 +131,13 @@ contains
       end do
    end function transformation
 
-   !> [T]^T [k] [T]: the stiffness K between the displacements of NODES becomes that between the unknowns of unknown_nodes. What is
-   !! but rounding in it is zero: a bar has no stiffness across, and whether a node is held there hangs on that.
+   !> [T]^T [k] [T]: transform the stiffness K between the displacements of NODES to the unknowns of unknown_nodes. Entries that are only
+   !! rounding become zero: a bar has no stiffness normal to its axis, and the check for unsupported nodes relies on the zero.
    pure subroutine onto_unknowns(model, nodes, k)
       type(model_type), intent(in) :: model
       integer, intent(in)          :: nodes(:)
-      real(wp), allocatable, intent(inout) :: k(:, :) !! at least as many rows and columns as NODES have components, afterwards
-                                                      !! as the unknowns have too [force/length]
+      real(wp), allocatable, intent(inout) :: k(:, :) !! at least as many rows and columns as NODES have components; enlarged where the
+                                                      !! unknowns need more [force/length]
       real(wp), parameter :: rounding = 16.0_wp*epsilon(1.0_wp) ! of the largest entry
       real(wp), allocatable :: t(:, :), wider(:, :)
 
@@ -153,11 +154,11 @@ contains
       end associate
    end subroutine onto_unknowns
 
-   !> The same of a K that has just as many rows and columns as it needs.
+   !> onto_unknowns for a K of exactly the size that it needs.
    pure function between_unknowns(model, nodes, k) result(q)
       type(model_type), intent(in) :: model
       integer, intent(in)          :: nodes(:)
-      real(wp), intent(in)         :: k(:, :) !! between the components of NODES, what is behind them is left out [force/length]
+      real(wp), intent(in)         :: k(:, :) !! between the components of NODES; rows beyond them are left out [force/length]
       real(wp), allocatable :: q(:, :)
       integer :: n
 
@@ -167,7 +168,7 @@ contains
       q = q(:n, :n)
    end function between_unknowns
 
-   !> Displacements U of all nodes from their unknowns Q.
+   !> Displacements U of all nodes from the unknowns Q.
    pure function displacements(model, q) result(u)
       type(model_type), intent(in) :: model
       real(wp), intent(in)         :: q(:, :) !! (dimension, n_nodes) [length]
@@ -186,7 +187,7 @@ contains
       end do
    end function displacements
 
-   !> Displacements of NODES where the unknowns of node i are Q(:, PLACE(i)).
+   !> Displacements of NODES; the unknowns of node i are Q(:, PLACE(i)).
    pure function displacements_at(model, nodes, place, q) result(u)
       type(model_type), intent(in) :: model
       integer, intent(in)          :: nodes(:)
@@ -201,7 +202,7 @@ contains
       end if
    end function displacements_at
 
-   !> What the unknowns of all nodes feel of the forces F on all nodes: the same work.
+   !> Transform the forces F on all nodes to forces on their unknowns, [T]^T {f}, which do the same work.
    pure function forces_on_unknowns(model, f) result(felt)
       type(model_type), intent(in) :: model
       real(wp), intent(in)         :: f(:, :) !! (dimension, n_nodes) [force]
@@ -224,7 +225,7 @@ contains
       end associate
    end function forces_on_unknowns
 
-   !> Of the forces F on all nodes what acts on held unknowns, in global axes at the nodes of these.
+   !> The part of the forces F on all nodes that acts on held unknowns, in global axes at the nodes of these unknowns.
    pure function held_forces(model, f) result(held)
       type(model_type), intent(in) :: model
       real(wp), intent(in)         :: f(:, :) !! (dimension, n_nodes) [force]
@@ -242,7 +243,7 @@ contains
       end do
    end function held_forces
 
-   !> The interface ELEMENTS of the model as the equations see them: on the nodes whose unknowns they move with.
+   !> The interface ELEMENTS of the model, expressed by the nodes of their unknowns.
    pure subroutine list_on_unknowns(model, elements)
       type(model_type), intent(in)                      :: model
       type(interface_element), allocatable, intent(out) :: elements(:)
@@ -277,7 +278,7 @@ contains
       if (model%element_section(e) > 0) node = model%sections(model%element_section(e))%node
    end function section_node
 
-   !> The nodes whose displacements element E feels: its own, and the node of a section that it touches from behind.
+   !> The nodes whose displacements enter element E: its own nodes, and the node of a section that it touches from behind.
    pure function felt_nodes(model, e) result(nodes)
       type(model_type), intent(in) :: model
       integer, intent(in)          :: e
@@ -296,7 +297,7 @@ contains
       nodes = unknown_nodes(model, felt_nodes(model, e))
    end function coupled_nodes
 
-   !> Displacements of the corners of element E as it feels them: u, at a section that it touches from behind u + g direction.
+   !> Displacements of the corners of element E: u, or u + g direction at a section that the element touches from behind.
    pure function corner_displacements(model, e, u) result(moved)
       type(model_type), intent(in) :: model
       integer, intent(in)          :: e
@@ -316,8 +317,8 @@ contains
       end associate
    end function corner_displacements
 
-   !> [T]^T [k] [T]: the stiffness K of element E between its corners becomes that between its felt_nodes, components of node 1
-   !! first. Of the section's node the first component alone has any.
+   !> [T]^T [k] [T]: transform the stiffness K of element E from its corners to its felt_nodes, components of node 1 first. Only
+   !! the first component of the section node has stiffness.
    pure subroutine extend_stiffness(model, e, k)
       type(model_type), intent(in) :: model
       integer, intent(in)          :: e
@@ -348,8 +349,8 @@ contains
       end associate
    end subroutine extend_stiffness
 
-   !> Forces F on NODES of element E, already in FORCE, do work on the overlap of a section too where the element touches it from
-   !! behind: add that share at the section's node.
+   !> Forces F on NODES of element E, already added to FORCE, also do work on the overlap of a section that the element touches from
+   !! behind: add this work-equivalent force at the node of the section.
    pure subroutine add_section_share(model, e, nodes, f, force)
       type(model_type), intent(in) :: model
       integer, intent(in)          :: e, nodes(:)
@@ -367,7 +368,7 @@ contains
       end associate
    end subroutine add_section_share
 
-   !> Which of the rotations of MODEL are those of POINT; 0: it has none.
+   !> The position of POINT in the rotations of MODEL; 0: it has none.
    pure integer function rotation_at(model, point) result(rotation)
       type(model_type), intent(in) :: model
       integer, intent(in)          :: point
@@ -377,7 +378,7 @@ contains
       if (point <= size(model%rotation_of)) rotation = model%rotation_of(point)
    end function rotation_at
 
-   !> Where the rotation that NASTRAN calls component DIGIT, 4 to 6, stands among those of a node of rotations; 0: nowhere, in the
+   !> The position of rotation DIGIT, 4 to 6 in NASTRAN, among the components of a node of rotations; 0: it does not exist in the
    !! plane.
    pure integer function rotation_component(model, digit) result(d)
       type(model_type), intent(in) :: model
@@ -387,7 +388,7 @@ contains
       if (model%dimension == 2) d = merge(1, 0, digit == 6)
    end function rotation_component
 
-   !> Component DIGIT, 1 to 6, of POINT.
+   !> The place of component DIGIT, 1 to 6, of POINT.
    pure function place_of_component(model, point, digit) result(place)
       type(model_type), intent(in) :: model
       integer, intent(in)          :: point, digit
@@ -401,10 +402,10 @@ contains
       rotation = rotation_at(model, point)
       if (rotation == 0 .or. rotation_component(model, digit) == 0) return
       place = component_place(model%rotations(rotation)%node, rotation_component(model, digit), model%rotations(rotation)%arm)
-      if (model%dimension == 2) place%scale = place%scale*sum(third_axis(model, point)) ! z is one way or the other
+      if (model%dimension == 2) place%scale = place%scale*sum(third_axis(model, point)) ! the z axis of the node may point along -z
    end function place_of_component
 
-   !> The third direction of NODE of a plane model, along z or against it.
+   !> The third direction of NODE of a plane model, along z or -z.
    pure function third_axis(model, node) result(axis)
       type(model_type), intent(in) :: model
       integer, intent(in)          :: node

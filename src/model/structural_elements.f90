@@ -1,5 +1,5 @@
-!> Shells and beams of a model: their matrices between the unknowns of their nodes and of the rotations there. The components of a node
-!! of rotations are rotations times an arm; in the plane the first one alone counts, about z.
+!> Stiffness, mass and nodal forces of shells and beams in terms of the unknowns of nodes and rotation nodes.
+!! The components of a node of rotations are rotations times an arm; in the plane only the first one, about z, is used.
 module structural_elements
    use beam_element, only: beam_mass, beam_nodal_forces, beam_stiffness, beam_thermal_load
    use elasticity, only: max_stresses
@@ -17,7 +17,7 @@ module structural_elements
 
 contains
 
-   !> The nodes of beam E [length].
+   !> The coordinates of the end nodes of beam E [length].
    pure function beam_ends(model, e) result(x)
       type(model_type), intent(in) :: model
       integer, intent(in)          :: e
@@ -26,8 +26,8 @@ contains
       x = model%x(:, model%element_nodes(:2, e))
    end function beam_ends
 
-   !> T: the nodal values (3, 2 corners) of element E, as shell_element and beam_element have them, of which a column is a unit of one
-   !! of the unknowns of its own nodes, components of node 1 first.
+   !> T: the nodal values (3, 2 corners) of element E, as defined in shell_element and beam_element, due to a unit of each unknown
+   !! of its own nodes (one column each), components of node 1 first.
    pure function own_to_values(model, e) result(t)
       type(model_type), intent(in) :: model
       integer, intent(in)          :: e
@@ -50,19 +50,19 @@ contains
       end associate
    end function own_to_values
 
-   !> K between the unknowns from FULL between the nodal values of element E.
+   !> Transform FULL, a matrix between the nodal values of element E, to K between its unknowns.
    pure subroutine between_own(model, e, full, k)
       type(model_type), intent(in) :: model
       integer, intent(in)          :: e
       real(wp), intent(in)         :: full(:, :)
-      real(wp), intent(inout)      :: k(:, :) !! set here, as many rows and columns as there are unknowns
+      real(wp), intent(inout)      :: k(:, :) !! set here; one row and column per unknown
 
       associate (t => own_to_values(model, e))
          k(:size(t, 2), :size(t, 2)) = matmul(matmul(transpose(t), full(:size(t, 1), :size(t, 1))), t)
       end associate
    end subroutine between_own
 
-   !> Forces F on the own nodes from those on the nodal values.
+   !> Transform forces on the nodal values to forces F on the own nodes.
    pure subroutine onto_own(model, e, nodal, f)
       type(model_type), intent(in) :: model
       integer, intent(in)          :: e
@@ -74,7 +74,7 @@ contains
       end associate
    end subroutine onto_own
 
-   !> The nodal values (3, 2 corners) of element E where its own nodes move by U [length], [rad].
+   !> The nodal values (3, 2 corners) of element E for displacements U of its own nodes [length], [rad].
    pure function nodal_values(model, e, u) result(values)
       type(model_type), intent(in) :: model
       integer, intent(in)          :: e
@@ -104,7 +104,7 @@ contains
    end subroutine structural_stiffness
 
    !> Stresses of shell E in global axes, (xx, yy, zz, xy, yz, zx), at the heights Z above its mean plane, at its corners and then at its
-   !! centre, where its own nodes move by U.
+   !! centre, under displacements U of its own nodes.
    pure subroutine structural_stress(model, e, u, temperature, z, stress)
       type(model_type), intent(in) :: model
       integer, intent(in)          :: e
@@ -118,7 +118,7 @@ contains
                           element_slope(model, e, temperature), z, stress)
    end subroutine structural_stress
 
-   !> F: what element E at this TEMPERATURE pushes its own nodes with.
+   !> Thermal nodal forces F of element E at its own nodes at this TEMPERATURE.
    pure subroutine structural_thermal_forces(model, e, temperature, f)
       type(model_type), intent(in) :: model
       integer, intent(in)          :: e
@@ -138,8 +138,8 @@ contains
       call onto_own(model, e, nodal, f)
    end subroutine structural_thermal_forces
 
-   !> Mass between the corners of shell E, the same for every component, or that between its rotations, OF_ROTATIONS: the rotary inertia
-   !! of the thickness, taken for the drilling rotation too [force time^2/length], by the arms.
+   !> Mass between the corners of shell E, the same for every component. With OF_ROTATIONS the mass between its rotations, divided by
+   !! the arms [force time^2/length]: the rotary inertia of the thickness, used for the drilling rotation too.
    pure subroutine shell_mass(model, e, of_rotations, m)
       type(model_type), intent(in) :: model
       integer, intent(in)          :: e

@@ -1,4 +1,4 @@
-!> Temperatures: how much warmer than their reference temperatures elements and bars are.
+!> Temperatures of elements, bars and nodes relative to the reference temperature TREF.
 module temperatures
    use element_kinds, only: element_table
    use kinds, only: wp
@@ -25,7 +25,7 @@ contains
       if (is_shell(model, e)) rise = rise + temperature%plate(:size(rise), model%structural%place(e))
    end function element_rise
 
-   !> How much warmer shell E is a unit of height above its mean plane [temperature/length].
+   !> Gradient of T - TREF over the thickness of shell E [temperature/length].
    pure real(wp) function element_slope(model, e, temperature) result(slope)
       type(model_type), intent(in)       :: model
       integer, intent(in)                :: e
@@ -35,7 +35,7 @@ contains
       if (allocated(temperature%plate)) slope = temperature%plate(5, model%structural%place(e))
    end function element_slope
 
-   !> The mean of T - TREF along BAR; of a spring none [temperature].
+   !> The mean of T - TREF along BAR; zero for a spring [temperature].
    pure real(wp) function bar_rise(bar, temperature) result(rise)
       type(bar_type), intent(in)         :: bar
       type(temperature_type), intent(in) :: temperature
@@ -53,8 +53,8 @@ contains
       has_temperatures = any([(allocated(model%stage_loads(s)%temperature%at), s = 1, size(model%stage_loads))])
    end function has_temperatures
 
-   !> How warm the nodes are [temperature]: where the deck gives no temperatures, TREF, of a node between materials the mean over its
-   !! elements, and on the way from or to a stage that gives none the share of it that is left.
+   !> Nodal temperatures [temperature]. Where the deck gives none they are TREF; at a node between materials, the mean over its elements.
+   !! During a stage that begins or ends without temperatures, TREF counts with the remaining share.
    pure function node_temperatures(model, temperature) result(t)
       type(model_type), intent(in)       :: model
       type(temperature_type), intent(in) :: temperature
@@ -73,7 +73,7 @@ contains
       if (allocated(temperature%at)) t = t + temperature%at
    end function node_temperatures
 
-   !> The temperatures at a FRACTION of the way from BEFORE to AFTER.
+   !> The temperatures at a FRACTION of the way from BEFORE to AFTER, linear in between.
    pure function temperature_between(before, after, fraction) result(now)
       type(temperature_type), intent(in) :: before, after
       real(wp), intent(in)               :: fraction !! [-], 0 to 1
