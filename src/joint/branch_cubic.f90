@@ -1,5 +1,5 @@
-!> The cubic of one branch of a shear law: its value, slope, work and secant, and how it runs along a straight way.
-!! Source: Edelugo, Eqs. (3)-(7) and Fig. 2: coefficients that are straight lines in the pressure.
+!> The cubic of one branch of a shear law: value, slope, secant and work, and its polynomial along a straight path.
+!! Source: Edelugo, Eqs. (3)-(7) and Fig. 2: the coefficients are linear in the pressure.
 module branch_cubic
    use kinds, only: wp
    use numbers, only: enclosed_zero
@@ -41,7 +41,7 @@ contains
       if (a(1) <= 0.0_wp .or. stress <= 0.0_wp) return
       unit = stress/a(1)                                   ! x = d/unit: P/stress = x + q_2 x**2 + q_3 x**3
       q = [1.0_wp, a(2)*unit/a(1), a(3)*unit*unit/a(1)]
-      ! the first zero of P', in the form without cancellation; a cubic that rises up to x = 4 has reached 1 there
+      ! the first zero of P', in the form without cancellation; a cubic that rises up to x = 4 reaches 1 before
       farthest = 4.0_wp
       root = q(2)**2 - 3.0_wp*q(3)
       if (root >= 0.0_wp) then
@@ -53,7 +53,7 @@ contains
       d = unit*enclosed_zero([-1.0_wp, q], [0.0_wp, farthest])
    end function deflection_at
 
-   !> dP/dp at D [-]: the same at every pressure.
+   !> dP/dp at D [-]; it does not depend on the pressure.
    elemental real(wp) function cubic_by_pressure(curve, d) result(slope)
       type(cubic), intent(in) :: curve
       real(wp), intent(in)    :: d
@@ -61,7 +61,7 @@ contains
       slope = d*(curve%coefficients(2, 1) + d*(curve%coefficients(2, 2) + d*curve%coefficients(2, 3)))
    end function cubic_by_pressure
 
-   !> P as a polynomial in the fraction f of a way on which d = D(1) + f D(2), p = P(1) + f P(2): sum of c_k f**k [pressure].
+   !> P as a polynomial in the fraction f of a path on which d = D(1) + f D(2), p = P(1) + f P(2): sum of c_k f**k [pressure].
    pure function value_on_way(curve, d, p) result(c)
       type(cubic), intent(in) :: curve
       real(wp), intent(in)    :: d(2), p(2)
@@ -79,7 +79,7 @@ contains
       c = sum_on_way(curve%coefficients*exponents, one, d, p)
    end function slope_on_way
 
-   !> The sum of (a_k1 + a_k2 p) FIRST d**(k - 1) on that way.
+   !> The sum of (a_k1 + a_k2 p) FIRST d**(k - 1) on that path.
    pure function sum_on_way(a, first, d, p) result(c)
       real(wp), intent(in) :: a(2, 3), first(0:4), d(2), p(2)
       real(wp) :: c(0:4), power(0:4)
@@ -93,7 +93,7 @@ contains
       end do
    end function sum_on_way
 
-   !> A polynomial times FACTOR(1) + FACTOR(2) f; nothing of a fifth power arises here.
+   !> Multiply a polynomial by FACTOR(1) + FACTOR(2) f; no fifth power arises here.
    pure function times(c, factor) result(product)
       real(wp), intent(in) :: c(0:4), factor(2)
       real(wp) :: product(0:4)
@@ -120,7 +120,7 @@ contains
       slope = max(0.0_wp, a(1) + d*(2.0_wp*a(2) + d*3.0_wp*a(3)))
    end function cubic_slope
 
-   !> How that slope changes with d and with p; both zero where it is cut off at zero.
+   !> The derivatives of that slope by d and p; both zero where the slope is cut off at zero.
    pure subroutine cubic_slope_derivatives(curve, d, p, by_d, by_p)
       type(cubic), intent(in) :: curve
       real(wp), intent(in)    :: d, p
@@ -136,7 +136,7 @@ contains
       by_p = a(1) + d*(2.0_wp*a(2) + d*3.0_wp*a(3))
    end subroutine cubic_slope_derivatives
 
-   !> P(d)/d at D under the pressure P, its first slope at d = 0; not below zero [pressure/length].
+   !> P(d)/d at D under the pressure P, at d = 0 the initial slope; not below zero [pressure/length].
    elemental real(wp) function cubic_secant(curve, d, p) result(secant)
       type(cubic), intent(in) :: curve
       real(wp), intent(in)    :: d, p
@@ -156,8 +156,8 @@ contains
       work = d**2*(a(1)/2.0_wp + d*(a(2)/3.0_wp + d*a(3)/4.0_wp))
    end function cubic_work
 
-   !> 8 times that integral less 4 P(D) D: the area of the loop from -D to D by Masing's rule, of which the linear term is no part
-   !! [pressure x length]. Below zero where the curve hardens.
+   !> 8 times that integral less 4 P(D) D: the area of the loop from -D to D by Masing's rule [pressure x length]. The linear
+   !! term does not contribute. The area is negative where the curve hardens.
    elemental real(wp) function cubic_loop(curve, d, p) result(loss)
       type(cubic), intent(in) :: curve
       real(wp), intent(in)    :: d, p

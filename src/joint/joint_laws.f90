@@ -1,5 +1,5 @@
-!> All laws of a joint together, the state of one of its elements, and the Coulomb limit between them; element by element what
-!! the methods ask of them: STEP stiffnesses, NEWTON the exact way, BACK secants.
+!> The laws of a joint together: the state of an interface element, its stiffness, and the Coulomb limit. The methods ask for
+!! these element by element: STEP for stiffnesses, NEWTON for the exact law, BACK for secants.
 module joint_laws
    use branch_cubic, only: cubic_secant, cubic_work
    use kinds, only: wp
@@ -14,9 +14,9 @@ module joint_laws
    public :: friction_limit, friction_excess, exceeds_limit, stand_at_limits
    public :: back_stiffness, loading_work
 
-   real(wp), parameter :: slip_margin = 1.0e-9_wp ! of the limit: rounding does not make a joint slip
-   real(wp), parameter, public :: flag_margin = 1.0e-7_wp  !! of it: what a relief leaves is no slip in the next increment
-   real(wp), parameter, public :: rest_margin = -1.0e-6_wp !! of it: secants that have settled are at the limit they are cut to
+   real(wp), parameter :: slip_margin = 1.0e-9_wp ! of the limit: rounding does not cause slip
+   real(wp), parameter, public :: flag_margin = 1.0e-7_wp  !! of the limit: the remainder after a relief is no slip in the next increment
+   real(wp), parameter, public :: rest_margin = -1.0e-6_wp !! of the limit: settled secants are at the limit to which they are cut
 
    type, public :: joint_law
       type(normal_law) :: normal
@@ -31,12 +31,12 @@ module joint_laws
       type(shear_state)  :: shear(2)
       logical  :: slips = .false.            !! the limit was exceeded in the last increment
       integer, private :: filler = 0         ! as in normal_state
-      real(wp) :: origin(2) = 0.0_wp         !! tangential movement at which delta = 0: where it closed last
+      real(wp) :: origin(2) = 0.0_wp         !! tangential movement at which delta = 0: that of the last closing
    end type element_state
 
 contains
 
-   !> The stiffness (k_sx, k_sy, k_n) of an element that nothing has pressed yet [force/length].
+   !> The stiffness (k_sx, k_sy, k_n) of an element that has never been pressed [force/length].
    pure function stiffness_at_rest(law, area, p_av) result(k)
       type(joint_law), intent(in) :: law
       real(wp), intent(in)        :: area !! a_i [length^2]
@@ -61,12 +61,12 @@ contains
       if (is_virgin(area, state)) p = state%p_av
    end function shear_pressure
 
-   !> What NORM has found for the next increment, an element open or closed, tells its shear where to begin; one that slips stands at the
-   !! limits.
+   !> Where NORM has opened or closed an element for the next increment, set the start of its shear law; a slipping element
+   !! stands at the limits.
    pure subroutine open_or_close(law, was_apart, movement, state)
       type(joint_law), intent(in)        :: law
       logical, intent(in)                :: was_apart   !! before NORM
-      real(wp), intent(in)               :: movement(3) !! of end 1 against end 2, in all [length]
+      real(wp), intent(in)               :: movement(3) !! total movement of end 1 relative to end 2 [length]
       type(element_state), intent(inout) :: state
 
       call rest_when_open(state, movement)
@@ -78,7 +78,7 @@ contains
       if (state%slips) call stand_at_limits(law, state)
    end subroutine open_or_close
 
-   !> An open element transmits no shear, and when it closes it begins anew from where it is.
+   !> An open element transmits no shear. When it closes, its shear law begins anew at the present movement.
    pure subroutine rest_when_open(state, movement)
       type(element_state), intent(inout) :: state
       real(wp), intent(in)               :: movement(3)
@@ -88,18 +88,18 @@ contains
       state%origin = movement(:2)
    end subroutine rest_when_open
 
-   !> Whether an element is open that has a gap: when it closes, its shear deflection counts from where it closes. (Without a gap it
-   !! counts from where the increment begins that closes it; the way there is short.)
+   !> Whether an element is open and has a gap: its shear deflection counts from the point of closing. (Without a gap it counts
+   !! from the beginning of the increment that closes the element; the path up to closing is short.)
    elemental logical function is_apart(state)
       type(element_state), intent(in) :: state
 
       is_apart = state%normal%branch == branch_open .and. state%normal%gap > 0.0_wp
    end function is_apart
 
-   !> The last movement has closed an element: its origin goes to where it closed on the way there, which was straight.
+   !> The last movement has closed an element: set its origin to the point of closing on that straight path.
    pure subroutine begin_at_closing(movement, state)
       real(wp), intent(in)               :: movement(3)
-      type(element_state), intent(inout) :: state    !! its origin where it was open last
+      type(element_state), intent(inout) :: state    !! on entry the origin is where the element was last open
 
       state%origin = movement(:2) - closed_share(state%normal)*(movement(:2) - state%origin)
    end subroutine begin_at_closing
@@ -122,7 +122,7 @@ contains
       if (law%has_friction) exceeds_limit = norm2(state%shear%tau) > friction_limit(law, state%normal%pressure)*(1.0_wp + margin)
    end function exceeds_limit
 
-   !> By how much the shear force exceeds the limit: a vector in the direction of tau, zero within the limit [force].
+   !> The shear force above the limit: a vector in the direction of tau, zero within the limit [force].
    pure function friction_excess(law, area, state) result(excess)
       type(joint_law), intent(in)     :: law
       real(wp), intent(in)            :: area
@@ -135,7 +135,7 @@ contains
       excess = tau*(1.0_wp - friction_limit(law, state%normal%pressure)/norm2(tau))*area
    end function friction_excess
 
-   !> Both directions of an element that slips stand at the point of their loading curves where slip begins.
+   !> Put both directions of a slipping element at the point of their loading curves where slip begins.
    pure subroutine stand_at_limits(law, state)
       type(joint_law), intent(in)        :: law
       type(element_state), intent(inout) :: state
@@ -146,13 +146,13 @@ contains
       end do
    end subroutine stand_at_limits
 
-   !> Follow all laws of one element exactly from its state BEFORE, in equilibrium, to MOVEMENT: the branches, and Coulomb as a
-   !! return to the limit.
+   !> Follow all laws of one element exactly from its state BEFORE, in equilibrium, to MOVEMENT: the branches, and Coulomb
+   !! friction as a return to the limit.
    pure subroutine follow_element(law, area, before, movement, after, tangent, work)
       type(joint_law), intent(in)      :: law
       real(wp), intent(in)             :: area
       type(element_state), intent(in)  :: before
-      real(wp), intent(in)             :: movement(3)   !! of end 1 against end 2, in all [length]
+      real(wp), intent(in)             :: movement(3)   !! total movement of end 1 relative to end 2 [length]
       type(element_state), intent(out) :: after
       real(wp), intent(out)            :: tangent(3, 3) !! d (forces x, y, z)/d movement [force/length], not symmetric
       real(wp), intent(out)            :: work(3)       !! done by shear, by normal forces, on friction [force x length]
@@ -201,23 +201,23 @@ contains
       call stand_at_limits(law, after)
    end subroutine follow_element
 
-   !> Work that an element takes (tangentially, along its normal) on the straight way from its state BEFORE, at the movement FROM, to the
-   !! movement TO [force x length]. follow_element takes the mean of the stresses where slip begins on the way; here that point is found.
-   !! On the way without slip the work is that of the laws, behind it five Gauss points integrate the stress. An element that opens takes
-   !! none from where its pressure is gone, along the line of slope E_u.
+   !> Work of an element (tangential, normal) on the straight path from the movement FROM to TO, from its state BEFORE [force x
+   !! length]. Where slip begins on the path follow_element takes the mean of the stresses; here the point of slip is found. Up
+   !! to that point the work is that of the laws; beyond it five Gauss points integrate the stress. An element that opens does
+   !! no work beyond the point of zero pressure on the line of slope E_u.
    pure function work_along(law, area, before, from, to) result(work)
       type(joint_law), intent(in)     :: law
       real(wp), intent(in)            :: area
       type(element_state), intent(in) :: before
-      real(wp), intent(in)            :: from(3), to(3) !! of end 1 against end 2, in all [length]
+      real(wp), intent(in)            :: from(3), to(3) !! total movement of end 1 relative to end 2 [length]
       real(wp) :: work(2)
       real(wp), parameter :: point(5) = [-0.906179845938664_wp, -0.538469310105683_wp, 0.0_wp, 0.538469310105683_wp, &
                                          0.906179845938664_wp]
       real(wp), parameter :: weight(5) = [0.236926885056189_wp, 0.478628670499366_wp, 0.568888888888889_wp, 0.478628670499366_wp, &
                                           0.236926885056189_wp]
       type(element_state) :: begins, after
-      real(wp), parameter :: near = 1.0e-7_wp ! of the way: the work is wrong by the square of that
-      real(wp), parameter :: shut = 1.0e-9_wp ! likewise: pressed yet
+      real(wp), parameter :: near = 1.0e-7_wp ! of the path: the error of the work is its square
+      real(wp), parameter :: shut = 1.0e-9_wp ! likewise: still pressed
       real(wp) :: tangent(3, 3), part(3), stick, slip, middle, guess, end(3)
       integer  :: i
 
@@ -230,7 +230,7 @@ contains
          work(1) = part(1)
       end if
       if (.not. after%slips) return
-      stick = 0.0_wp ! share of the way
+      stick = 0.0_wp ! fraction of the path
       slip = 1.0_wp
       guess = 1.0_wp - norm2(after%shear%slid - before%shear%slid)/norm2(end(:2) - from(:2))
       do i = 1, 26
@@ -267,8 +267,8 @@ contains
       k(3) = normal_secant(law%normal, area, p)
    end function back_stiffness
 
-   !> Work done by shear, by normal forces, on friction on the way of an element from rest to STATE [force x length]: along the loading
-   !! curves, and what it has slid along the limit.
+   !> Work by shear, by normal forces and on friction of an element on its path from rest to STATE [force x length]: along the
+   !! loading curves, and by sliding along the limit.
    pure function loading_work(law, area, state) result(work)
       type(joint_law), intent(in)     :: law
       real(wp), intent(in)            :: area

@@ -1,5 +1,5 @@
-!> The loading curve of the joint in its normal direction, Eq. (1): lambda = c p**m. NORM, the exact path and the secants of BACK
-!! know of it what stands here; the line of unloading belongs to normal_stiffness.
+!> The loading curve of the joint in its normal direction, Eq. (1): lambda = c p**m. NORM, the exact path and the secants of
+!! BACK use this module. The line of unloading is in normal_stiffness.
 module normal_curve
    use kinds, only: wp
    implicit none
@@ -7,11 +7,12 @@ module normal_curve
 
    public :: loading_deflection, loading_pressure, normal_secant, normal_tangent, curve_work
 
-   real(wp), parameter, public :: pressure_floor = 1.0e-6_wp !! of p_av: the least p that a loading element has
-   !> The least m. The pressure (lambda/c)^(1/m) has 1/m times the relative error of lambda, of 16 digits three less at 1/1000; and it
-   !! overflows where lambda exceeds c by the factor 10^(308 m), twice at 1/1000: further down no iteration would stand its way.
+   real(wp), parameter, public :: pressure_floor = 1.0e-6_wp !! of p_av: the least p of a loading element
+   !> The least m. The pressure (lambda/c)^(1/m) has 1/m times the relative error of lambda: at 1/1000 three of 16 digits are
+   !! lost. The pressure overflows where lambda exceeds c by the factor 10^(308 m), about 2 at 1/1000. With a smaller m no
+   !! iteration would converge.
    real(wp), parameter, public :: least_power = 1.0e-3_wp
-   real(wp), parameter :: largest_pressure = 1.0e110_wp      ! of a trial far off: its square is still a number
+   real(wp), parameter :: largest_pressure = 1.0e110_wp      ! of a distant trial: its square is still finite
 
    type, public :: normal_law
       real(wp) :: c   = 0.0_wp     !! [length/pressure^m], > 0
@@ -45,8 +46,8 @@ contains
       k_n = p**(1.0_wp - law%m)*area/law%c
    end function normal_secant
 
-   !> Tangent of the loading curve at P, Eqs. (11), times AREA [force/length]; it would vanish at p = 0: P counts as no less than
-   !! the floor.
+   !> Tangent of the loading curve at P, Eqs. (11), times AREA [force/length]. P is at least the floor: the tangent at p = 0 is
+   !! zero.
    pure real(wp) function normal_tangent(law, area, p, p_av) result(k_n)
       type(normal_law), intent(in) :: law
       real(wp), intent(in)         :: area, p, p_av

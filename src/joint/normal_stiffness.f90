@@ -1,4 +1,4 @@
-!> The normal law of the joint, and NORM: how the increments meet it (Fig. 6b).
+!> The normal law of the joint, and NORM: the normal stiffness of the next increment (Fig. 6b).
 !!
 !!     p |                                              *
 !!       |                                            *               LOAD    *  from 0 along lambda = c p**m, Eq. (1), through A on
@@ -24,12 +24,12 @@ module normal_stiffness
 
    integer, parameter, public :: branch_load = 1, branch_unload = 2, branch_open = 3, branch_reload = 4
 
-   real(wp), parameter :: rounding = 1.0e-10_wp              ! of its force, or of p_av a_i: a change below is none
+   real(wp), parameter :: rounding = 1.0e-10_wp              ! of its force, or of p_av a_i: a smaller change is rounding
 
    !> State of one interface element in its normal direction.
    type, public :: normal_state
       integer  :: branch   = branch_load
-      integer, private :: filler = 0 ! no undefined bytes between components: states are copied to restart files as they are
+      integer, private :: filler = 0 ! no undefined bytes between components: states are copied to restart files
       real(wp) :: p_av     = 0.0_wp  !! mean pressure of the joint in the first increment [pressure], > 0
       real(wp) :: sigmaf   = 0.0_wp  !! sum of the incremental normal forces before the last increment [force]
       real(wp) :: sumf     = 0.0_wp  !! the same after it, compression positive [force]
@@ -44,8 +44,8 @@ module normal_stiffness
 
 contains
 
-   !> The state of an element at rest that nothing has pressed yet. Behind a gap it is open, and its points A and B are the origin:
-   !! the first that it meets when it closes is the loading curve from there on.
+   !> The state of an element at rest that has never been pressed. An element with a gap is open. Its points A and B are at the
+   !! origin: after closing it follows the loading curve from there.
    elemental type(normal_state) function at_rest(p_av, gap) result(state)
       real(wp), intent(in) :: p_av   !! [pressure], > 0
       real(wp), intent(in) :: gap    !! [length]
@@ -57,14 +57,14 @@ contains
    end function at_rest
 
    !> Normal stiffness of one interface element for the next increment, from what the last one did to it.
-   !! Source: Edelugo, section 4.1-4.2, Fig. 6(b), Eqs. (9), (10), (11). Called once before the first increment, and
-   !! after each increment once its forces and deflections are accumulated. The first increment is the element's own: the first
-   !! that reaches it.
+   !! Source: Edelugo, section 4.1-4.2, Fig. 6(b), Eqs. (9), (10), (11). Called once before the first increment, and after each
+   !! increment once its forces and deflections are accumulated. The first increment of an element is the first in which a force
+   !! acts on it.
    pure subroutine norm(law, area, eq10, state, k_n)
       type(normal_law), intent(in)      :: law
       real(wp), intent(in)              :: area  !! area of influence a_i, > 0 [length^2]
       logical, intent(in)               :: eq10  !! p on the loading curve by Eq. (10) as printed, not SUMF/a_i
-      type(normal_state), intent(inout) :: state !! accumulated; its branch and points A, B are brought up to date
+      type(normal_state), intent(inout) :: state !! accumulated; its branch and points A and B are updated
       real(wp), intent(out)             :: k_n   !! [force/length]
 
       state%pressure = pressure_reached(area, eq10, state)
@@ -86,7 +86,7 @@ contains
       end select
    end subroutine norm
 
-   !> p as the last increment has left it, SUMF/a_i or on the loading curve that of Eq. (10) [pressure].
+   !> p after the last increment: SUMF/a_i, or on the loading curve that of Eq. (10) [pressure].
    pure real(wp) function pressure_reached(area, eq10, state) result(p)
       real(wp), intent(in)           :: area
       logical, intent(in)            :: eq10
@@ -97,9 +97,9 @@ contains
       p = state%k_n*state%lambda/area
    end function pressure_reached
 
-   !> The diamonds of Fig. 6(b), asked one after another of the state that the increment has reached: the branch that the element
-   !! is on for the next increment, with point A where it leaves the loading curve and point B where it opens. A removed element
-   !! carries nothing; the tension that it had is left unbalanced. So no element enters an increment with tension.
+   !> The diamonds of Fig. 6(b), applied in order to the state after the increment: the branch of the element for the next
+   !! increment. Point A is set where the element leaves the loading curve, point B where it opens. A removed element carries no
+   !! force; its former tension is left unbalanced. Hence no element enters an increment with tension.
    pure subroutine ask_diamonds(area, state)
       real(wp), intent(in)              :: area
       type(normal_state), intent(inout) :: state
@@ -135,7 +135,7 @@ contains
       force_falls = state%sumf < state%sigmaf - no_change(area, state)
    end function force_falls
 
-   !> The change of the force of STATE that is rounding [force].
+   !> The largest change of the force of STATE that counts as rounding [force].
    pure real(wp) function no_change(area, state)
       real(wp), intent(in)           :: area
       type(normal_state), intent(in) :: state
@@ -143,36 +143,37 @@ contains
       no_change = rounding*max(abs(state%sumf), abs(state%sigmaf), state%p_av*area)
    end function no_change
 
-   !> Whether the faces touch at an element in this STATE, whether or not they press. NORM and the exact law remove an element only where
-   !! its force has come below zero by more than rounding, so the sign of a pressure that is but rounding does not matter.
+   !> Whether the faces of an element in this STATE touch, with or without pressure. NORM and the exact law remove an element
+   !! only where its force is below zero by more than rounding. The sign of a pressure at the level of rounding therefore does
+   !! not matter.
    elemental logical function touches(state)
       type(normal_state), intent(in) :: state
 
       touches = state%branch /= branch_open
    end function touches
 
-   !> Whether the deflection LAMBDA is at POINT or beyond it, but for the rounding of deflections of this SIZE.
+   !> Whether the deflection LAMBDA has reached POINT, apart from the rounding of deflections of this SIZE.
    elemental logical function has_come_to(point, lambda, size)
       real(wp), intent(in) :: point, lambda, size !! [length]
 
       has_come_to = lambda >= point - rounding*size
    end function has_come_to
 
-   !> The pressure that is but rounding in STATE.
+   !> The largest pressure of STATE that counts as rounding.
    elemental real(wp) function no_pressure(state)
       type(normal_state), intent(in) :: state
 
       no_pressure = rounding*max(state%p_a, state%p_av)
    end function no_pressure
 
-   !> The largest deflection that there has been in STATE, as far as it is known [length].
+   !> The largest deflection so far in STATE, as far as known [length].
    elemental real(wp) function size_of(state)
       type(normal_state), intent(in) :: state
 
       size_of = max(abs(state%lambda_a), abs(state%lambda_b), abs(state%gap))
    end function size_of
 
-   !> Whether nothing is on the element on its loading curve: at first, until a load reaches it, and where it closes past A.
+   !> Whether an element on its loading curve is unloaded: initially, until a load reaches it, and where it closes past A.
    pure logical function is_virgin(area, state)
       real(wp), intent(in)           :: area
       type(normal_state), intent(in) :: state
@@ -181,8 +182,8 @@ contains
    end function is_virgin
 
    !> The exact law over one step, for methods that iterate to equilibrium, from the state BEFORE to the deflection LAMBDA: the
-   !! loading curve beyond point A, the line below it, and nothing once that line has come down to zero. What is at A but for
-   !! rounding is on the loading curve, and what rounding alone moves keeps its branch.
+   !! loading curve beyond point A, the line below it, and zero pressure where that line falls below zero. A point within
+   !! rounding of A is on the loading curve. A movement within rounding keeps the branch.
    pure subroutine follow_normal(law, area, before, lambda, after, slope, work)
       type(normal_law), intent(in)    :: law
       real(wp), intent(in)            :: area   !! a_i [length^2]
@@ -231,14 +232,14 @@ contains
                    - stored_work(law, before%lambda_a, before%p_a, before%pressure))
    end subroutine follow_normal
 
-   !> Which share of the last change of lambda an element was closed that it found open: the part behind point B [-].
+   !> Share of the last change of lambda in which a formerly open element was closed: the part beyond point B [-].
    pure real(wp) function closed_share(state) result(share)
       type(normal_state), intent(in) :: state
 
       share = min(1.0_wp, max(0.0_wp, (state%lambda - state%lambda_b)/max(state%lambda - state%lambda_before, tiny(1.0_wp))))
    end function closed_share
 
-   !> p at LAMBDA on the line of slope E_u through the point A = (LAMBDA_A, P_A) [pressure]; below zero it is open.
+   !> p at LAMBDA on the line of slope E_u through the point A = (LAMBDA_A, P_A) [pressure]; below zero the element is open.
    pure real(wp) function line_pressure(law, lambda_a, p_a, lambda) result(p)
       type(normal_law), intent(in) :: law
       real(wp), intent(in)         :: lambda_a, p_a, lambda
@@ -246,7 +247,7 @@ contains
       p = p_a - law%e_u*(lambda_a - lambda)
    end function line_pressure
 
-   !> The deflection at which the exact law of STATE, on the branch that it is on, has the pressure P: B_i of Fig. 3 [length].
+   !> The deflection at which the exact law of STATE has the pressure P on its present branch: B_i of Fig. 3 [length].
    pure real(wp) function law_deflection(law, state, p) result(lambda)
       type(normal_law), intent(in)   :: law
       type(normal_state), intent(in) :: state !! exact, as follow_normal leaves it
@@ -259,7 +260,7 @@ contains
       end if
    end function law_deflection
 
-   !> SUMF that the last increment of STEP has led to: NORM asks it, and forgets it where it removes the element for it [force].
+   !> SUMF after the last increment of STEP, before NORM sets it to zero for a removed element [force].
    elemental real(wp) function force_reached(state) result(force)
       type(normal_state), intent(in) :: state
 

@@ -1,30 +1,31 @@
-!> Closed loops of shear. Whether the branches of a law close one: loaded to d under a constant pressure, unloaded until tau is gone and
-!! reloaded to d, how far the stress then is from the one that was left; cycles under one load creep by what is missing. What a joint
-!! loses in shear when it oscillates about the state that it is in, one direction of one interface element.
+!> Closed loops of shear: the gap of a test loop, the loss of Masing's loop, and the stiffness under oscillation.
+!! The gap of a loop: a joint is loaded to d under a constant pressure, unloaded until tau is zero and reloaded to d. The gap is
+!! the difference of the stresses at d before and after. Cycles under one load creep by the gap. The loss is that of one
+!! direction of one interface element that oscillates about its present state.
 !!
-!! The skeleton curve is the loading curve from rest at the present pressure, up to its peak, where its slope is zero, or to the Coulomb
-!! limit, whichever comes first; from there on it is constant:
+!! The skeleton curve is the loading curve from rest at the present pressure, up to its peak, where its slope is zero, or to the
+!! Coulomb limit, whichever comes first. Beyond that point the skeleton is constant:
 !!
 !!    tau(d) = a_1 d + a_2 d**2 + a_3 d**3   d <= d_e,      tau(d) = tau(d_e)   beyond
 !!
-!! Masing's rule: both branches of the loop of amplitude d are the skeleton doubled in both directions, begun at the turning point:
+!! Masing's rule: both branches of the loop of amplitude d are the skeleton scaled by two in both directions, from the turning
+!! point:
 !!
 !!    tau = -+ tau(d) +- 2 tau((d +- x)/2)
 !!
-!! Between them lies 8 W(d) - 4 tau(d) d, W the integral of the skeleton from 0 to d: what one cycle loses. For the cubic alone that is
-!! -(4/3) a_2 d**3 - 2 a_3 d**4, nothing for a law that is a line; where the skeleton is constant from d_e on, that of d_e and
-!! 4 tau(d_e) (d - d_e).
+!! The area between them is 8 W(d) - 4 tau(d) d, W the integral of the skeleton from 0 to d: the loss of one cycle. For the
+!! cubic alone the area is -(4/3) a_2 d**3 - 2 a_3 d**4, zero for a linear law. Where the skeleton is constant from d_e on, the
+!! area is that of d_e plus 4 tau(d_e) (d - d_e).
 !!
-!! A curve that hardens (a_2 > 0) has its doubled branches on the wrong side of each other, the one of loading below the one of
-!! relief: the rule gives a loss below zero, work that the joint would do for ever. No joint does; the rule does not hold for such a
-!! curve, and the loss is taken as zero. A curve that hardens first and softens later loses from the amplitude on at which the softening
-!! outweighs.
+!! A curve that hardens (a_2 > 0) has its doubled branches in the wrong order, loading below relief: Masing's rule gives a
+!! negative loss, which is impossible. The rule does not hold for such a curve, and the loss is taken as zero. A curve that
+!! hardens first and softens later has a loss from the amplitude on at which the softening outweighs.
 !! Source: G. Masing, Proc. 2nd Int. Congress of Applied Mechanics, Zurich 1926, p. 332.
 !!
-!! What an interface element resists small oscillation about its present state with. Oscillation turns back all the time: where the
-!! joint has been loaded it unloads first, and goes to and fro on its unloading branches, stiffer than it was on the way there. So the
-!! joint of a structure that shakes is that of unloading, E_u and the slope that the shear unloading branch begins with; the tangent
-!! of loading is what a slowly growing load sees. An element that stands apart has neither.
+!! The stiffness of an interface element under small oscillation about its present state. Oscillation reverses all the time. A
+!! joint that has been loaded unloads first and then stays on its unloading branches, which are stiffer than its loading
+!! branches. The stiffness is therefore that of unloading: E_u and the initial slope of the shear unloading branch. The tangent
+!! of loading belongs to a slowly growing load. An open element has no stiffness.
 module shear_loops
    use branch_cubic, only: cubic, cubic_loop, cubic_secant, cubic_slope, cubic_value, slope_on_way, value_on_way
    use joint_laws, only: element_state, joint_law
@@ -38,23 +39,23 @@ module shear_loops
 
    public :: closure_at, worst_closure, loop_loss, skeleton_end, oscillation_stiffness
 
-   real(wp), parameter, public :: wide_gap = 0.05_wp !! that is warned of
+   real(wp), parameter, public :: wide_gap = 0.05_wp !! a warning is given above it
 
    integer, parameter  :: divisions = 20        ! of the tested range
-   real(wp), parameter :: alike = 1.0e-9_wp     ! gaps of loops that rounding alone tells apart: the first counts
+   real(wp), parameter :: alike = 1.0e-9_wp     ! gaps that differ by less are equal: the first counts
 
-   !> The gap of a loop and where it is.
+   !> The gap of a loop and its place.
    type, public :: loop_closure
-      logical  :: is_known = .false.            !! whether any loop is unloaded to tau = 0 on B
+      logical  :: is_known = .false.            !! whether any loop reaches tau = 0 on branch B
       real(wp) :: share = 0.0_wp                !! |tau of C at d_r - tau_r|/tau_r
-      real(wp) :: p = 0.0_wp, d = 0.0_wp        !! [pressure], [length]; D = 0: of the smallest loops
+      real(wp) :: p = 0.0_wp, d = 0.0_wp        !! [pressure], [length]; D = 0: the limit of small loops
    end type loop_closure
 
    real(wp), parameter, public :: no_limit = huge(1.0_wp) !! of a joint without friction
 
 contains
 
-   !> The widest gap over the tested range; without a largest pressure at P_AV, without a largest deflection of the smallest loops.
+   !> The widest gap over the tested range; without a largest pressure at P_AV, without a largest deflection for small loops.
    pure type(loop_closure) function worst_closure(law, p_av) result(worst)
       type(shear_law), intent(in) :: law
       real(wp), intent(in)        :: p_av !! [pressure]
@@ -75,7 +76,7 @@ contains
       end do
    end function worst_closure
 
-   !> The gap of the loop to D under the pressure P; of the smallest loops, D = 0, it is that of the first slopes: |c_1/b_1 - 1|.
+   !> The gap of the loop to D under the pressure P. D = 0: small loops, the gap is that of the initial slopes, |c_1/b_1 - 1|.
    pure type(loop_closure) function closure_at(law, p, d) result(closure)
       type(shear_law), intent(in) :: law
       real(wp), intent(in)        :: p    !! [pressure]
@@ -93,7 +94,7 @@ contains
       end if
       stress = d*cubic_secant(law%load, d, p)
       if (stress <= 0.0_wp) return
-      unloading = value_on_way(law%unload, [d, -d], [p, 0.0_wp]) ! over f, d falling from d to -d
+      unloading = value_on_way(law%unload, [d, -d], [p, 0.0_wp]) ! over f, d from d to -d
       unloading(0) = stress
       call find_zeros(unloading, 0.0_wp, 2.0_wp, zeros)
       closure%is_known = zeros%n > 0
@@ -101,12 +102,12 @@ contains
                                                  - cubic_value(law%reload, d*(1.0_wp - zeros%x(1)), p))/stress - 1.0_wp)
    end function closure_at
 
-   !> What one cycle of shear loses by area of the joint [pressure x length], not below zero.
+   !> Loss of one cycle of shear per area of the joint [pressure x length], not below zero.
    pure real(wp) function loop_loss(loading, p, limit, amplitude) result(loss)
       type(cubic), intent(in) :: loading   !! curve A of the law
       real(wp), intent(in)    :: p         !! present pressure, >= 0 [pressure]
       real(wp), intent(in)    :: limit     !! Coulomb limit mu p, >= 0, or no_limit [pressure]
-      real(wp), intent(in)    :: amplitude !! d of the shear deflection, its sign does not matter [length]
+      real(wp), intent(in)    :: amplitude !! d of the shear deflection; its sign does not matter [length]
       real(wp) :: d, reach
 
       d = abs(amplitude)
@@ -114,7 +115,7 @@ contains
       loss = max(0.0_wp, cubic_loop(loading, reach, p) + 4.0_wp*cubic_value(loading, reach, p)*(d - reach))
    end function loop_loss
 
-   !> d_e up to which the skeleton curve is the loading curve, no more than FAR [length].
+   !> d_e up to which the skeleton curve is the loading curve, at most FAR [length].
    pure real(wp) function skeleton_end(loading, p, limit, far) result(d)
       type(cubic), intent(in) :: loading
       real(wp), intent(in)    :: p, limit !! as above
@@ -129,15 +130,15 @@ contains
       c = slope_on_way(loading, [0.0_wp, far], [p, 0.0_wp])
       call find_zeros(c(:2), 0.0_wp, 1.0_wp, peaks)
       if (peaks%n > 0) d = peaks%x(1)*far
-      if (cubic_value(loading, d, p) <= limit) return ! rises as far as that
+      if (cubic_value(loading, d, p) <= limit) return ! the curve rises up to d
       c = value_on_way(loading, [0.0_wp, far], [p, 0.0_wp])
       c(0) = -limit
       call find_zeros(c(:3), 0.0_wp, d/far, meetings)
       if (meetings%n > 0) d = meetings%x(1)*far
    end function skeleton_end
 
-   !> K = (k_sx, k_sy, k_n) under the present pressure p and shear deflections d [force/length]: E_u a_i and a_i B'(d; p), the slope of
-   !! the unloading cubic; ON_LOADING dp/dlambda a_i and a_i A'(d; p) of the loading curves.
+   !> K = (k_sx, k_sy, k_n) under the present pressure p and shear deflections d [force/length]: E_u a_i and a_i B'(d; p), the
+   !! slope of the unloading cubic. ON_LOADING: dp/dlambda a_i and a_i A'(d; p) of the loading curves.
    pure function oscillation_stiffness(law, area, state, on_loading) result(k)
       type(joint_law), intent(in)     :: law
       real(wp), intent(in)            :: area       !! a_i [length^2]

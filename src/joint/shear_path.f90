@@ -1,7 +1,8 @@
-!> The exact shear law of the joint over one step, for methods that iterate to equilibrium: the branch polynomials, piece by
-!! piece, each bit of the way along the curve of the pressure that it is made under (Fig. 4b), pressure and deflection
-!! changing in proportion. At constant pressure this is the polynomial itself. Along such a way every curve is a polynomial in
-!! the fraction f of it, so that a piece ends exactly where a branch meets a loading curve.
+!> The exact shear law of the joint over one step, for methods that iterate to equilibrium.
+!! Pressure and deflection change in proportion. The path consists of pieces of the branch polynomials; each part of the path
+!! follows the curve of its current pressure (Fig. 4b). At constant pressure the path is the polynomial itself. Along such a
+!! path every curve is a polynomial in the fraction f of the path. Hence a piece ends exactly where a branch meets a loading
+!! curve.
 module shear_path
    use branch_cubic, only: cubic, cubic_by_pressure, cubic_slope, cubic_slope_derivatives, cubic_value, slope_on_way, value_on_way
    use kinds, only: wp
@@ -14,27 +15,27 @@ module shear_path
 
    public :: follow_shear
 
-   integer, parameter  :: most_pieces = 50      ! more than the turns of all the polynomials of a way can make
-   real(wp), parameter :: rounding = 1.0e-12_wp ! of the way: no shorter piece is begun; of slopes: no difference
+   integer, parameter  :: most_pieces = 50      ! more pieces than the polynomials of a path can have turns
+   real(wp), parameter :: rounding = 1.0e-12_wp ! of the path: no shorter piece is begun; of slopes: no difference
    real(wp), parameter :: gauss_2(2) = 0.5_wp + [-0.5_wp, 0.5_wp]/sqrt(3.0_wp)          ! on 0..1, weights 1/2
    real(wp), parameter :: gauss_3(3) = 0.5_wp + [-0.5_wp, 0.0_wp, 0.5_wp]*sqrt(0.6_wp)  ! on 0..1
    real(wp), parameter :: weight_3(3) = [5.0_wp, 8.0_wp, 5.0_wp]/18.0_wp
 
-   !> The straight way of one step: (delta - delta_0, p) is start + f change at the fraction f of it.
+   !> The straight path of one step: (delta - delta_0, p) is start + f change at the fraction f of the path.
    type :: way_type
       real(wp) :: start(2) = 0.0_wp, change(2) = 0.0_wp
    end type way_type
 
-   !> A piece of it, from the fraction FROM to TO, on which tau follows the slope of one cubic.
+   !> A piece of the path, from the fraction FROM to TO, on which tau follows the slope of one cubic.
    type :: piece_type
       real(wp)    :: from = 0.0_wp, to = 1.0_wp
       type(cubic) :: curve
       real(wp)    :: sense = 1.0_wp          ! its d is sense*(delta - delta_0)
-      logical     :: meets = .false.         ! it ends on the loading curve that the branch goes to
+      logical     :: meets = .false.         ! it ends on the loading curve that the branch approaches
       logical     :: ends_at_a = .false.     ! it ends at d_r
    end type piece_type
 
-   !> What is gathered along the way: derivatives of tau by the ends of the way, and work.
+   !> Sums along the path: derivatives of tau by the end point, and work.
    type :: gain_type
       real(wp) :: by_delta = 0.0_wp, by_p = 0.0_wp, work = 0.0_wp
    end type gain_type
@@ -92,9 +93,9 @@ contains
       work = gain%work
    end subroutine follow_shear
 
-   !> The piece that begins at PIECE%FROM, where STATE has the stress. It ends where the way does, where a slope passes through
-   !! zero, at which it is cut off, at d = 0, where the curve begins that the branch goes to, at d_r, where the branch meets that curve,
-   !! and past d_r where another of the two slopes becomes the steeper one.
+   !> The piece that begins at PIECE%FROM, with the stress of STATE. It ends at the first of these points: the end of the path;
+   !! a zero of a slope, where the slope is cut off; d = 0, where the curve begins that the branch approaches; d_r; the point
+   !! where the branch meets that curve; past d_r the point where the other of the two slopes becomes the steeper one.
    pure subroutine next_piece(law, state, way, piece)
       type(shear_law), intent(in)     :: law
       type(shear_state), intent(in)   :: state
@@ -137,8 +138,8 @@ contains
       call end_at_meeting(excess, least_stress(state, maxval(p)), piece)
    end subroutine next_piece
 
-   !> tau above the curve that the branch goes to, as a polynomial in f: the stress at the beginning of PIECE and the integral of the
-   !! SLOPE from there on, less the curve [pressure].
+   !> tau less the curve that the branch approaches, as a polynomial in f: the stress at the beginning of PIECE plus the
+   !! integral of SLOPE, less the curve [pressure].
    pure function excess_over_goal(law, state, way, piece, slope) result(excess)
       type(shear_law), intent(in)   :: law
       type(shear_state), intent(in) :: state
@@ -155,7 +156,7 @@ contains
       excess = excess - value_on_way(law%load, d, [way%start(2), way%change(2)])
    end function excess_over_goal
 
-   !> Let a piece end at the first zero of the polynomial C, if there is one.
+   !> Let a piece end at the first zero of the polynomial C, if any.
    pure subroutine end_at_zeros(c, piece)
       real(wp), intent(in)            :: c(0:4)
       type(piece_type), intent(inout) :: piece
@@ -165,8 +166,8 @@ contains
       if (zeros%n > 0) piece%to = zeros%x(1)
    end subroutine end_at_zeros
 
-   !> Let a piece end where it first meets its goal: where EXCESS passes through zero, or touches it within LEAST, which it can do
-   !! at its beginning, its end and where EXCESS turns.
+   !> Let a piece end where it first meets its goal: where EXCESS passes through zero or comes within LEAST of it. The latter is
+   !! possible at the beginning, at the end and at the extrema of EXCESS.
    pure subroutine end_at_meeting(excess, least, piece)
       real(wp), intent(in)            :: excess(0:4), least
       type(piece_type), intent(inout) :: piece
@@ -189,9 +190,9 @@ contains
       piece%meets = .false.
    end subroutine end_at_meeting
 
-   !> At d_r, without having met the curve that the branch goes to: above it the branch is the loading branch from here, with an o of
-   !! its own; below it the branch goes on along the steeper slope. d_r stands at another fraction of the way when the end of the way
-   !! moves: with t that fraction, g the slope,
+   !> At d_r the branch has not met the curve that it approaches. Above the curve it becomes the loading branch with an o of its
+   !! own; below, it continues along the steeper slope. The fraction at d_r changes with the end of the path. With t that
+   !! fraction, g the slope,
    !!    d tau_end/d end = ... - t (g_before - g_after).
    pure subroutine pass_a(law, piece, way, state, gain)
       type(shear_law), intent(in)      :: law
@@ -214,8 +215,8 @@ contains
       gain%by_delta = gain%by_delta - piece%to*(own - loading)
    end subroutine pass_a
 
-   !> Pass from the end of a piece onto the loading curve that it meets there. The fraction at which it does changes with the ends
-   !! of the way: with t that fraction, e(t) = 0 the excess over the curve, g the slope, D the change of delta,
+   !> Pass from the end of a piece onto the loading curve that it meets there. The fraction at that point changes with the end
+   !! of the path: with t that fraction, e(t) = 0 the excess over the curve, g the slope, D the change of delta,
    !!    d tau_end/d end = ... + (g_before - g_after) D dt/d end,   dt/d end = -(de/d end)/(de/dt).
    pure subroutine pass_corner(law, piece, way, state, gain)
       type(shear_law), intent(in)      :: law
@@ -241,7 +242,8 @@ contains
       call join_loading(state)
    end subroutine pass_corner
 
-   !> Along one piece: stress, its derivatives, work. tau = integral of g d delta, g the slope; with f the fraction of the way,
+   !> Integrate along one piece: stress, its derivatives, work. tau = integral of g d delta, g the slope; with f the fraction of
+   !! the path,
    !!    d tau/d delta_end = integral of (g + f D dg/d delta) d f,   d tau/d p_end = integral of f D dg/dp d f,
    !! D being the change of delta.
    pure subroutine follow_piece(piece, way, state, gain)

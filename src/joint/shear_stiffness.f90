@@ -1,4 +1,4 @@
-!> The shear law of the joint in one direction, and SHEAR: how the increments meet it (section 4.3).
+!> The shear law of the joint in one direction, and SHEAR: the shear stiffness of the next increment (section 4.3).
 !!
 !!                               tau |                                   L  LOAD    tau = A(d) + o, Eq. (6), from 0 through A on
 !!                             tau_r |. . . . . . . . . .L  L  LRA  L  L
@@ -16,9 +16,9 @@
 !! L  L M  U  U  U                   | -tau_r                            d = s (delta - delta_0); slip moves delta_0. A, B, C are
 !!                                                                       cubics, coefficients straight lines in the pressure (Fig. 2).
 !!
-!! U and R end where they meet the loading curve that they go to (M, and A or before it). A branch that comes to d_r without having
-!! met that curve is the loading branch from there where it is above the curve; below it, it goes on along the steeper of the two
-!! slopes until it meets the curve.
+!! U and R end where they meet the loading curve that they approach (M, and A or a point before it). A branch that reaches d_r
+!! without meeting that curve becomes the loading branch where it is above the curve. Below the curve it continues along the
+!! steeper of the two slopes until it meets the curve.
 module shear_stiffness
    use branch_cubic, only: cubic, cubic_slope, cubic_value, deflection_at
    use kinds, only: wp
@@ -29,9 +29,9 @@ module shear_stiffness
    public :: shear, shear_slope, least_movement, least_stress, turn, goal_sense, is_past_a, join_loading, leave_offset
    public :: cubic_of, curve_deflection, slid_from, stand_at_limit
 
-   real(wp), parameter :: rounding = 1.0e-10_wp ! of the stresses at hand: a change below this is none
-   real(wp), parameter :: past_peaks = 1.0e6_wp ! of a stress along the first slope: a cubic without a peak has it far behind d
-   real(wp), parameter :: touching = 1.0e-11_wp ! of them: what comes so near to a curve meets it
+   real(wp), parameter :: rounding = 1.0e-10_wp ! of the present stresses: a smaller change is rounding
+   real(wp), parameter :: past_peaks = 1.0e6_wp ! along the initial slope: a cubic without a peak reaches that stress far beyond d
+   real(wp), parameter :: touching = 1.0e-11_wp ! of the stresses: a branch this close to a curve meets it
 
    type, public :: shear_law
       logical     :: given = .false.           !! false: no shear stiffness
@@ -45,27 +45,27 @@ module shear_stiffness
       integer  :: branch = branch_load
       integer, private :: filler = 0           ! as in normal_state
       real(wp) :: sense  = 1.0_wp              !! s
-      real(wp) :: delta  = 0.0_wp              !! all that the faces have moved since they closed [length]
+      real(wp) :: delta  = 0.0_wp              !! total movement of the faces since they closed [length]
       real(wp) :: delta_0 = 0.0_wp             !! the origin, which slip moves: d = s (delta - delta_0) [length]
-      real(wp) :: slid   = 0.0_wp              !! how much of delta is sliding [length]
+      real(wp) :: slid   = 0.0_wp              !! sliding part of delta [length]
       real(wp) :: delta_before = 0.0_wp        !! before the last increment
       real(wp) :: tau    = 0.0_wp              !! shear stress [pressure]
       real(wp) :: tau_before = 0.0_wp
       real(wp) :: d_r    = 0.0_wp, tau_r = 0.0_wp !! point A, where the last unloading left the loading curve
-      real(wp) :: offset = 0.0_wp              !! o = tau - A(d; p) of the loading branch, after it as it was at A [pressure]
-      real(wp) :: side   = 0.0_wp              !! of an increment's end: above (+1) or below the curve that the branch goes to
+      real(wp) :: offset = 0.0_wp              !! o = tau - A(d; p) of the loading branch; later its value at A [pressure]
+      real(wp) :: side   = 0.0_wp              !! after an increment: above (+1) or below the curve to which the branch goes
       real(wp) :: k_s    = 0.0_wp              !! stiffness of the last increment [force/length]
    end type shear_state
 
 contains
 
-   !> Shear stiffness of one interface element in one direction for the next increment, from what the last one did to it.
-   !! Source: Edelugo, section 4.3, Eqs. (3)-(7), Fig. 4. The tangent is that of the curve of the current pressure.
+   !> Shear stiffness of one interface element in one direction for the next increment, from its state after the last one.
+   !! Source: Edelugo, section 4.3, Eqs. (3)-(7), Fig. 4. The tangent is that of the curve at the present pressure.
    pure subroutine shear(law, area, pressure, state, k_s)
       type(shear_law), intent(in)      :: law
       real(wp), intent(in)             :: area     !! area of influence a_i, > 0 [length^2]
       real(wp), intent(in)             :: pressure !! p now, >= 0 [pressure]
-      type(shear_state), intent(inout) :: state    !! accumulated; branch, sense and point A are brought up to date
+      type(shear_state), intent(inout) :: state    !! accumulated; branch, sense and point A are updated
       real(wp), intent(out)            :: k_s      !! [force/length], not below zero
 
       k_s = 0.0_wp
@@ -87,7 +87,7 @@ contains
       if (abs(change) > least) call turn(change < 0.0_wp, state)
       if (state%branch == branch_load) return
       if (goal_sense(state)*(state%delta - state%delta_0) < 0.0_wp) return
-      ! on which side of the curve that the branch goes to, behind its beginning at d = 0; 0: met on the straight way
+      ! side of the curve that the branch approaches, beyond its beginning at d = 0; 0: met on the straight path
       d = goal_sense(state)*([state%delta_before, state%delta] - state%delta_0)
       tau = goal_sense(state)*[state%tau_before, state%tau]
       if (d(1) < 0.0_wp) then
@@ -96,28 +96,28 @@ contains
       end if
       excess = tau - cubic_value(law%load, d, pressure) - state%offset
       least = least_stress(state, pressure)
-      if (abs(state%side) > 0.0_wp) excess(1) = sign(huge(1.0_wp), state%side) ! under the pressure that was
+      if (abs(state%side) > 0.0_wp) excess(1) = sign(huge(1.0_wp), state%side) ! under the former pressure
       state%side = sign(1.0_wp, excess(2))
       if (minval(abs(excess)) <= least .or. (excess(1) > 0.0_wp .neqv. excess(2) > 0.0_wp)) state%side = 0.0_wp
       if (.not. abs(state%side) > 0.0_wp .or. (is_past_a(state) .and. state%side > 0.0_wp)) call join_loading(state)
    end subroutine ask_diamonds
 
-   !> d = s (delta - delta_0), the deflection that the cubics are asked at [length].
+   !> d = s (delta - delta_0), the argument of the cubics [length].
    elemental real(wp) function curve_deflection(state) result(d)
       type(shear_state), intent(in) :: state
 
       d = state%sense*(state%delta - state%delta_0)
    end function curve_deflection
 
-   !> Whether a returning branch has come to d_r, in the sense of the loading curve that it goes to.
+   !> Whether a returning branch has reached d_r, in the sense of the loading curve that it approaches.
    pure logical function is_past_a(state)
       type(shear_state), intent(in) :: state
 
       is_past_a = goal_sense(state)*(state%delta - state%delta_0) >= (1.0_wp - rounding)*state%d_r
    end function is_past_a
 
-   !> The branch that begins with a movement, of which STATE holds the place before it: BACK against the sense of the branch, or
-   !! forth. Only what leaves the loading curve sets point A.
+   !> Set the branch that begins with a movement; STATE holds the point before it. BACK: against the sense of the branch. Only a
+   !! branch that leaves the loading curve sets point A.
    pure subroutine turn(back, state)
       logical, intent(in)              :: back
       type(shear_state), intent(inout) :: state
@@ -136,14 +136,14 @@ contains
       if (state%branch /= branch) state%side = 0.0_wp
    end subroutine turn
 
-   !> The sense of the loading curve that an unloading or reloading branch goes to: the other one, its own.
+   !> The sense of the loading curve that a branch approaches: opposite for unloading, its own for reloading.
    pure real(wp) function goal_sense(state) result(sense)
       type(shear_state), intent(in) :: state
 
       sense = merge(-state%sense, state%sense, state%branch == branch_unload)
    end function goal_sense
 
-   !> The branch has come to its end: loading, after unloading of the other sense.
+   !> The branch has reached its end: loading, in the opposite sense after unloading.
    pure subroutine join_loading(state)
       type(shear_state), intent(inout) :: state
 
@@ -151,8 +151,8 @@ contains
       state%branch = branch_load
    end subroutine join_loading
 
-   !> Take up o = tau - A(d; p) while the element is on its loading curve: what it has of its path (0 where p never changed). The
-   !! last one taken up is that of point A.
+   !> Update o = tau - A(d; p) while the element is on its loading curve: the effect of its path (0 where p never changed). The
+   !! last value is that of point A.
    pure subroutine leave_offset(law, pressure, state)
       type(shear_law), intent(in)      :: law
       real(wp), intent(in)             :: pressure
@@ -163,8 +163,8 @@ contains
       state%side = 0.0_wp
    end subroutine leave_offset
 
-   !> The least change of delta that counts as a movement: what is below it is rounding, beside the stresses that the element
-   !! bears or could bear [length].
+   !> The least change of delta that counts as a movement. A smaller change is rounding relative to the present and possible
+   !! stresses of the element [length].
    pure real(wp) function least_movement(law, state, pressure) result(least)
       type(shear_law), intent(in)   :: law
       type(shear_state), intent(in) :: state
@@ -175,7 +175,7 @@ contains
       least = rounding*stress/max(cubic_slope(law%load, 0.0_wp, pressure), tiny(1.0_wp)*1.0e100_wp)
    end function least_movement
 
-   !> A stress that is rounding beside those that the element bears or could bear [pressure].
+   !> The stress that counts as rounding relative to the present and possible stresses of the element [pressure].
    pure real(wp) function least_stress(state, pressure) result(least)
       type(shear_state), intent(in) :: state
       real(wp), intent(in)          :: pressure
@@ -183,8 +183,8 @@ contains
       least = touching*max(abs(state%tau), abs(state%tau_before), abs(state%tau_r), abs(pressure))
    end function least_stress
 
-   !> d tau/d delta on the branch of STATE under the PRESSURE, not below zero [pressure/length]. A returning branch past d_r that has not
-   !! met its curve follows the steeper of the two.
+   !> d tau/d delta on the branch of STATE under the PRESSURE, not below zero [pressure/length]. A returning branch past d_r
+   !! that has not met its curve follows the steeper of the two.
    pure real(wp) function shear_slope(law, state, pressure) result(slope)
       type(shear_law), intent(in)   :: law
       type(shear_state), intent(in) :: state
@@ -195,12 +195,13 @@ contains
       if (is_past_a(state)) slope = max(slope, cubic_slope(law%load, goal_sense(state)*(state%delta - state%delta_0), pressure))
    end function shear_slope
 
-   !> An element that slips stands at point D of the loading curve of the sense in which it slips, where slip begins, and has forgotten
-   !! its branches: the asperities that have slid meet anew (section 4.4). Where the curve peaks below its stress it stands at the peak.
+   !> Put a slipping element at point D of the loading curve in its sense of slip, where slip begins, and clear its branches:
+   !! the asperities meet anew after sliding (section 4.4). Where the curve peaks below the stress, the element stands at the
+   !! peak.
    pure subroutine stand_at_limit(law, pressure, state)
       type(shear_law), intent(in)      :: law
       real(wp), intent(in)             :: pressure
-      type(shear_state), intent(inout) :: state !! its tau is what slip has left
+      type(shear_state), intent(inout) :: state !! its tau is the stress after slip
       real(wp) :: d
 
       if (.not. law%given) return
@@ -211,13 +212,13 @@ contains
       state%d_r = 0.0_wp
       state%tau_r = 0.0_wp
       state%side = 0.0_wp
-      state%delta_before = state%delta ! the increment is no movement along a branch
+      state%delta_before = state%delta ! the increment is not a movement along a branch
       state%tau_before = state%tau
       call leave_offset(law, pressure, state)
    end subroutine stand_at_limit
 
-   !> How far an element slides whose stress slip takes from that of STATE to TAU: the difference over the slope of its branch, on the
-   !! loading branch the mean slope between the two [length].
+   !> Sliding of an element whose stress falls from that of STATE to TAU by slip: the difference over the slope of its branch,
+   !! on the loading branch the mean slope between the two [length].
    pure real(wp) function slid_from(law, pressure, state, tau) result(slid)
       type(shear_law), intent(in)   :: law
       real(wp), intent(in)          :: pressure, tau
@@ -228,7 +229,7 @@ contains
       if (.not. law%given) return
       d = curve_deflection(state)
       if (state%branch == branch_load .and. d > 0.0_wp) then
-         d = min(d, deflection_at(law%load, past_peaks*cubic_slope(law%load, 0.0_wp, pressure)*d, pressure)) ! at the peak tau stays
+         d = min(d, deflection_at(law%load, past_peaks*cubic_slope(law%load, 0.0_wp, pressure)*d, pressure)) ! tau is constant past it
          offset = state%sense*state%tau - cubic_value(law%load, d, pressure)
          slid = state%sense*(curve_deflection(state) - deflection_at(law%load, max(0.0_wp, state%sense*tau - offset), pressure))
       else

@@ -1,5 +1,5 @@
-!> The routines of BLAS and LAPACK that the solvers call (reference: netlib.org/lapack). Arrays are of assumed size, so that an
-!! element passes the block that begins there.
+!> The routines of BLAS and LAPACK that the solvers call. Reference: netlib.org/lapack. Arrays are of assumed size, so that the
+!! actual argument a(i, j) passes the block that begins there.
 module blas_lapack
    use kinds, only: wp
    implicit none
@@ -35,8 +35,8 @@ module blas_lapack
          real(wp), intent(inout) :: y(*)
       end subroutine dgemv
 
-      !> The 1-norm of a matrix from few products with it: begin with KASE = 0; on return KASE = 1 asks for X = A X, 2 for X = A^T X,
-      !! and for the next call, 0: EST is the estimate, of which V = A W, EST = norm(V)/norm(W).
+      !> Estimates the 1-norm of a matrix from a few products with it. Begin with KASE = 0. On return KASE = 1 asks for X = A X,
+      !! KASE = 2 for X = A^T X, each before the next call; KASE = 0 ends the estimate EST = norm(V)/norm(W), V = A W.
       pure subroutine dlacn2(n, v, x, isgn, est, kase, isave)
          import :: wp
          integer, intent(in)     :: n
@@ -53,7 +53,8 @@ module blas_lapack
          integer, intent(out)    :: info
       end subroutine dpotrf
 
-      !> All eigenvalues W, ascending, and eigenvectors, in A then, of A x = w B x (ITYPE = 1); B positive definite, x^T B x = 1.
+      !> All eigenvalues W, ascending, and eigenvectors (returned in A) of A x = w B x (ITYPE = 1); B is positive definite, x^T
+      !! B x = 1.
       subroutine dsygv(itype, jobz, uplo, n, a, lda, b, ldb, w, work, lwork, info)
          import :: wp
          integer, intent(in)     :: itype, n, lda, ldb, lwork

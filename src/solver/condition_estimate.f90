@@ -1,9 +1,9 @@
-!> How many digits the equations of the structure cost: an estimate of the condition of the matrix [k] whose factor the solver
-!! holds. [k] is scaled to [d] [k] [d], d_i = k_ii^(-1/2), so that neither units nor rotations beside displacements count, nor a
-!! soft part that hangs on a stiff one, which costs no digits. A stiff part on a soft support costs digits: the stiffness of its
-!! support is a small difference of large numbers. The scaled matrix has a unit diagonal, and its norm lies between 1 and the
-!! number of unknowns of an element; the condition is therefore taken as the norm of the inverse. (An estimate of the norm of the
-!! matrix itself would depend on rounding: where columns have equal sums, rounding chooses among them.)
+!> An estimate of the condition number of the factorised stiffness matrix [k].
+!! [k] is scaled to [d] [k] [d], d_i = k_ii^(-1/2). The scaling removes the effect of units, of rotations beside displacements
+!! and of a soft part on a stiff one, which costs no digits. A stiff part on a soft support costs digits: the stiffness of its
+!! support is a small difference of large numbers. The scaled matrix has a unit diagonal. Its norm lies between 1 and the number
+!! of unknowns of an element. The condition number is therefore taken as the norm of the inverse. (An estimate of the norm of
+!! the matrix itself would depend on rounding: where columns have equal sums, rounding chooses among them.)
 !! Source: Higham, ACM Trans. Math. Softw. 14 (1988) 381-396, DLACN2 of LAPACK; scaling: van der Sluis, Numer. Math. 14 (1969)
 !! 14-23.
 module condition_estimate
@@ -15,25 +15,26 @@ module condition_estimate
 
    public :: estimate_condition, first_large, watch_condition
 
-   real(wp), parameter, public :: poor_condition = 1.0e12_wp !! above it a run says so
+   real(wp), parameter, public :: poor_condition = 1.0e12_wp !! a larger condition number is reported
    real(wp), parameter :: spread = 300.0_wp ! see watch_condition
-   real(wp), parameter :: near = 0.9283_wp ! of the largest: of a body that moves as a whole it is not rounding that chooses the node
+   real(wp), parameter :: near = 0.9283_wp ! of the largest entry: in a rigid motion rounding must not choose the node
 
    !> An estimate of the condition.
    type, public :: condition_type
       real(wp) :: number = 0.0_wp          !! norm(([d] [k] [d])^-1), the largest column sum [-]
       integer  :: node = 0, direction = 0  !! of the largest component of the displacement that [k] resists least
-      real(wp) :: weakest = 1.0_wp         !! pivot that has been looked at, as equation_system has it
-      logical  :: is_new = .false.         !! it is poor, and has not been told
+      real(wp) :: weakest = 1.0_wp         !! smallest relative pivot examined so far, as in equation_system
+      logical  :: is_new = .false.         !! the condition is poor and has not been reported
       integer, private :: filler = 0       ! no undefined bytes: it is copied to restart files as it is
    end type condition_type
 
 contains
 
-   !> Look at the factor that SYSTEM has, where its weakest pivot makes that worth while. 1/pivot is an entry of the diagonal of
-   !! the inverse of a part of [d] [k] [d], and the largest column sum is at most n times the largest entry: with n equations the
-   !! condition of structures has been found between 1E-4 and 41 n/pivot, of slender beams, bodies on soft bars and all decks.
-   !! A factor is looked at when its pivot is ten times worse than any before: an estimate costs some five solutions.
+   !> Estimate the condition of the factor of SYSTEM where its smallest pivot justifies the cost. 1/pivot is an entry of the
+   !! diagonal of the inverse of a part of [d] [k] [d]. The largest column sum is at most n times the largest entry. With n
+   !! equations the condition of structures was found between 1E-4 and 41 n/pivot, for slender beams, bodies on soft bars and
+   !! all decks. A factor is examined when its pivot is ten times smaller than any before: an estimate costs some five
+   !! solutions.
    subroutine watch_condition(system, condition)
       class(equation_system), intent(in)  :: system
       type(condition_type), intent(inout) :: condition
@@ -70,7 +71,7 @@ contains
       call first_large(system, v, condition%node, condition%direction)
    end subroutine estimate_condition
 
-   !> The first node, in the order of the model, and DIRECTION where V is as good as largest.
+   !> The first node, in the order of the model, and its DIRECTION at which V equals the largest entry within the margin.
    pure subroutine first_large(system, v, node, direction)
       class(equation_system), intent(in) :: system
       real(wp), intent(in)               :: v(:) !! (n) >= 0

@@ -1,5 +1,5 @@
-!> The seam to solvers that work on several processes. What is behind it is decided where the program is linked: src/serial, one
-!! process and no such solver, or src/mpi, PETSc on the processes that mpirun has started.
+!> The interface to solvers that run on several processes. The linker chooses the implementation: src/serial, one process
+!! without such a solver, or src/mpi, PETSc on the processes that mpirun has started.
 module distribution
    use body_parts, only: body_piece_type
    use case_control, only: solver_mumps, solver_petsc, solver_tree
@@ -20,8 +20,8 @@ module distribution
    end type subdomain_output_type
 
    abstract interface
-      !> Write all pieces under the displacements U at this TEMPERATURE, each into the file of its name, which is there and empty. OK is
-      !! false where one could not be written.
+      !> Write all pieces under the displacements U at this TEMPERATURE, each into its file, which exists and is empty. OK is
+      !! false where a file could not be written.
       subroutine write_pieces(self, u, temperature, notes, files, ok)
          import :: subdomain_output_type, temperature_type, wp
          class(subdomain_output_type), intent(in) :: self
@@ -34,7 +34,7 @@ module distribution
    end interface
 
    abstract interface
-      !> Write one PIECE into FILE, likewise: what every process is told to do with its own.
+      !> Write one PIECE into FILE. Every process calls this routine for its own piece.
       subroutine piece_writer(piece, u, temperature, notes, file, ok)
          import :: body_piece_type, temperature_type, wp
          type(body_piece_type), intent(in)  :: piece
@@ -45,59 +45,59 @@ module distribution
       end subroutine piece_writer
    end interface
 
-   !> What is to be done, and by how many.
+   !> The work of a run, and the number of processes that share it.
    type, public :: solver_work_type
       real(wp) :: static_operations = 0.0_wp  !! of TREE, once
       real(wp) :: refactored_operations = 0.0_wp !! of TREE, in every increment
-      real(wp) :: bytes = 0.0_wp             !! that TREE needs
-      real(wp) :: there = 0.0_wp             !! that there are, to the process that it runs in
+      real(wp) :: bytes = 0.0_wp             !! memory that TREE needs
+      real(wp) :: there = 0.0_wp             !! memory available to the process in which TREE runs
       real(wp) :: entries = 0.0_wp           !! of the stiffness matrix
-      integer  :: solutions = 20             !! with another stiffness of the joints each
+      integer  :: solutions = 20             !! number of solutions, each with another joint stiffness
       integer  :: threads = 1, processes = 1
    end type solver_work_type
 
    integer, parameter, public :: weighed(3) = [solver_tree, solver_petsc, solver_mumps]
 
-   ! one core that multiplies matrices by 60 GFlop/s, blocks of 20 to 60 elements along each edge:
+   ! Rates of one core that multiplies matrices at 60 GFlop/s, for blocks of 20 to 60 elements along each edge:
    real(wp), parameter :: tree_rate = 4.0e10_wp        ! operations in fronts [1/s]
-   real(wp), parameter :: mumps_rate = 2.5e10_wp       ! likewise, all of them in every increment
-   real(wp), parameter :: set_up_time = 2.2e-7_wp      ! of GAMG, of an entry [s]
-   real(wp), parameter :: solution_time = 5.0e-8_wp    ! some ten steps, from the best sum of earlier solutions on [s]
-   integer, parameter  :: solutions_a_set_up = 4       ! that a preconditioner serves
-   real(wp), parameter :: gain = 0.8_wp                ! of each further thread or process
+   real(wp), parameter :: mumps_rate = 2.5e10_wp       ! the same of MUMPS, which refactors everything in each increment
+   real(wp), parameter :: set_up_time = 2.2e-7_wp      ! set-up of GAMG, time of an entry [s]
+   real(wp), parameter :: solution_time = 5.0e-8_wp    ! of an entry: some ten steps from the best initial guess [s]
+   integer, parameter  :: solutions_a_set_up = 4       ! number of solutions for which a preconditioner is kept
+   real(wp), parameter :: gain = 0.8_wp                ! relative speed gained by each further thread or process
 
    interface
-      !> At the start of the program: of several processes the first goes on, the others come back from here only at the end of
-      !! the run, and end; WRITE_PIECE is what all do where a piece of the bodies is to be written.
+      !> Called at the start of the program. The first process returns at once. The others serve it, return only at the end of
+      !! the run, and end. WRITE_PIECE is called on all processes to write a piece of the bodies.
       module subroutine join_processes(write_piece)
          procedure(piece_writer) :: write_piece
       end subroutine join_processes
 
-      !> At its end: the other processes end too.
+      !> Called at the end of the program: the other processes end too.
       module subroutine leave_processes()
       end subroutine leave_processes
 
-      !> The solver that case control WANTED where it is one of these; else it is left unallocated.
+      !> The distributed solver that case control WANTED; unallocated where WANTED is none of these.
       module subroutine choose_distributed(wanted, system)
          integer, intent(in) :: wanted !! solver_* of case_control
          class(equation_system), allocatable, intent(out) :: system
       end subroutine choose_distributed
 
-      !> For AUTO: the one of these that does the WORK in less time than TREE, or has the memory that TREE would not have; else it is
-      !! left unallocated.
+      !> For AUTO: the distributed solver that does the WORK in less time than TREE, or whose memory suffices where that of TREE
+      !! does not; otherwise unallocated.
       module subroutine weigh_distributed(work, system)
-         type(solver_work_type), intent(inout) :: work !! how many processes and threads there are is set here
+         type(solver_work_type), intent(inout) :: work !! the numbers of processes and threads are set here
          class(equation_system), allocatable, intent(out) :: system
       end subroutine weigh_distributed
 
-      !> OUTPUT: the bodies of MODEL as the processes of SYSTEM write them; left unallocated where the equations are those of one process.
+      !> OUTPUT: the bodies of MODEL as the processes of SYSTEM write them; unallocated where one process holds the equations.
       module subroutine distribute_bodies(model, system, output)
          type(model_type), intent(in)       :: model
          class(equation_system), intent(in) :: system
          class(subdomain_output_type), allocatable, intent(out) :: output
       end subroutine distribute_bodies
 
-      !> The most memory that each process has had, added up; the others serve.
+      !> The peak memory of each process, summed. The other processes serve.
       module subroutine memory_of_all(bytes)
          real(wp), intent(out) :: bytes
       end subroutine memory_of_all
@@ -105,7 +105,7 @@ module distribution
 
 contains
 
-   !> SECONDS of the solvers WEIGHED, and which is the BEST. Where a factor does not fit into the memory only PETSC is.
+   !> SECONDS of the solvers WEIGHED, and the BEST of them. Where a factor exceeds the memory only PETSC remains.
    pure subroutine weigh_solvers(work, seconds, best)
       type(solver_work_type), intent(in) :: work
       real(wp), intent(out)              :: seconds(size(weighed))
@@ -119,7 +119,7 @@ contains
       best = weighed(minloc(seconds, dim=1, mask=[work%bytes <= work%there, .true., work%bytes <= work%there]))
    end subroutine weigh_solvers
 
-   !> Why it is not TREE, for the listing.
+   !> The reason for a solver other than TREE, for the listing.
    pure function weighing_words(work) result(words)
       type(solver_work_type), intent(in) :: work
       character(:), allocatable :: words

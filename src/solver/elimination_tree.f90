@@ -1,5 +1,5 @@
-!> The elimination tree of a symmetric matrix, from its graph alone: which column waits for which, how many rows each gets; and
-!! supernodes, columns of the factor with the same rows, small ones merged into their parents.
+!> The elimination tree of a symmetric matrix from its graph, the row counts of its factor, and its supernodes. A supernode is a
+!! set of consecutive columns of the factor with the same rows. Small supernodes are merged into their parents.
 !! Sources: Liu, SIAM J. Matrix Anal. Appl. 11 (1990) 134-172; Ashcraft, Grimes, ACM Trans. Math. Softw. 15 (1989) 291-309
 !! (merging); Liu, SIAM Review 34 (1992) 82-109 (order of children).
 module elimination_tree
@@ -18,21 +18,21 @@ module elimination_tree
       integer :: n = 0
       integer, allocatable :: first(:)                           ! (n + 1) columns
       integer, allocatable :: first_row(:), rows(:)              ! rows below the columns
-      integer, allocatable :: parent(:), top(:)                  ! (n) top: the one it was merged into
-      integer, allocatable :: child(:), sibling(:)               ! (n) lists of what was not merged
-      integer, allocatable :: member(:), last_member(:), next(:) ! (n) lists of what was
+      integer, allocatable :: parent(:), top(:)                  ! (n) top: the supernode into which this one was merged
+      integer, allocatable :: child(:), sibling(:)               ! (n) lists of supernodes that were not merged
+      integer, allocatable :: member(:), last_member(:), next(:) ! (n) lists of merged supernodes
       logical, allocatable :: is_refactored(:)
-      real(wp), allocatable :: pivots(:), beyond(:), zeros(:)    ! (n) unknowns; entries that are stored for nothing
+      real(wp), allocatable :: pivots(:), beyond(:), zeros(:)    ! (n) unknowns; rows beyond; zeros stored in the front
       real(wp), allocatable :: peak(:)                           ! (n) entries of update matrices
    end type supernodes_type
 
-   ! A child goes into its parent where no larger share of the front that results is zeros.
+   ! A child is merged into its parent where zeros do not exceed this share of the resulting front.
    integer, parameter  :: merged_pivots(4) = [16, 48, 96, huge(1)]
    real(wp), parameter :: merged_zeros(4) = [1.0_wp, 0.3_wp, 0.1_wp, 0.02_wp]
 
 contains
 
-   !> The elimination tree of the first N_INNER places; what comes behind them is taken as one, number N_INNER + 1.
+   !> The elimination tree of the first N_INNER places. The places behind them count as one node, number N_INNER + 1.
    subroutine find_parents(graph, order, place, n_inner, parent)
       type(node_graph_type), intent(in) :: graph
       integer, intent(in)               :: order(:), place(:), n_inner
@@ -49,7 +49,7 @@ contains
             do
                next = ancestor(r)
                if (next == row) exit
-               ancestor(r) = row              ! the way is shorter next time
+               ancestor(r) = row              ! path compression
                if (next == 0) then
                   parent(r) = row
                   exit
@@ -83,11 +83,11 @@ contains
       order = order(sequence)
    end subroutine order_depth_first
 
-   !> Number trees depth first, children first, from lists of children: NUMBER(i) is that of node i, 0 where no root leads to it;
-   !! SEQUENCE is the other way round.
+   !> Number trees depth first, children first, from lists of children. NUMBER(i) is the number of node i, 0 where no root leads
+   !! to node i. SEQUENCE is the inverse.
    pure subroutine number_depth_first(is_root, child, sibling, number, sequence)
       logical, intent(in)               :: is_root(:)
-      integer, intent(inout)            :: child(:), sibling(:) !! the first child, the next of its parent, 0: none; gone then
+      integer, intent(inout)            :: child(:), sibling(:) !! first child, next child of the parent, 0: none; destroyed
       integer, allocatable, intent(out) :: number(:), sequence(:)
       integer :: first, n, node, root
 
@@ -100,7 +100,7 @@ contains
             do while (child(node) /= 0)
                first = child(node)
                child(node) = sibling(first)
-               sibling(first) = node   ! the way back
+               sibling(first) = node   ! link back to the parent
                node = first
             end do
             n = n + 1
@@ -113,7 +113,7 @@ contains
       sequence = sequence(:n)
    end subroutine number_depth_first
 
-   !> BEYOND(j): rows below the diagonal in column j of the factor. Row i has an entry in column j where j lies on the way up
+   !> BEYOND(j): rows below the diagonal in column j of the factor. Row i has an entry in column j where j lies on the path up
    !! the tree from a neighbour of i to i.
    subroutine count_rows(graph, order, place, parent, beyond)
       type(node_graph_type), intent(in) :: graph
@@ -139,7 +139,7 @@ contains
       end do
    end subroutine count_rows
 
-   !> Columns with the same rows in one supernode each; what comes behind the columns of PARENT is one more.
+   !> Gather columns with the same rows into supernodes. All columns beyond those of PARENT form one more supernode.
    subroutine find_supernodes(graph, order, place, parent, beyond, supers)
       type(node_graph_type), intent(in)    :: graph
       integer, intent(in)                  :: order(:), place(:), parent(:), beyond(:)
@@ -152,7 +152,7 @@ contains
       n = 0
       do j = 1, n_columns
          before = max(1, j - 1)
-         if (j == 1 .or. parent(before) /= j .or. beyond(before) /= beyond(j) + 1) then ! its rows are not those of the one before
+         if (j == 1 .or. parent(before) /= j .or. beyond(before) /= beyond(j) + 1) then ! the rows differ from the last ones
             n = n + 1
             supers%first(n) = j
          end if
@@ -222,7 +222,7 @@ contains
       call sorted_order(rows, places)
    end function sorted_places
 
-   !> Unknowns of the supernodes, and which of them are refactored.
+   !> Count the unknowns of the supernodes, and mark the refactored supernodes.
    subroutine weigh_supernodes(order, weight, in_joint, supers)
       integer, intent(in)                  :: order(:), weight(:)
       logical, intent(in)                  :: in_joint(:)
@@ -245,8 +245,8 @@ contains
       end do
    end subroutine weigh_supernodes
 
-   !> Merge small supernodes into their parents. With KEEP_LAST the last one stays as it is. The children that are left stand in
-   !! the order that needs least room: those first that need much for themselves and leave little behind.
+   !> Merge small supernodes into their parents. With KEEP_LAST the last one stays as it is. The remaining children are ordered
+   !! for the least memory: a child with a high peak and a small update matrix comes first (Liu, 1992).
    subroutine merge_supernodes(supers, keep_last)
       type(supernodes_type), intent(inout) :: supers
       logical, intent(in)                  :: keep_last
@@ -296,7 +296,7 @@ contains
 
    contains
 
-      !> Into the list of children of S, in descending order of peak less what is left.
+      !> Insert NEW into the children of S, in descending order of peak less update matrix.
       subroutine insert(new)
          integer, intent(in) :: new
          integer :: before, at
@@ -318,11 +318,11 @@ contains
 
    end subroutine merge_supernodes
 
-   !> Most entries that stand in update matrices while the subtree of S is eliminated, its children in their order.
+   !> The most entries of update matrices that exist at once while the subtree of S is eliminated, its children in their order.
    pure real(wp) function peak_of(supers, s) result(peak)
       type(supernodes_type), intent(in) :: supers
       integer, intent(in)               :: s
-      real(wp) :: left ! by the children so far
+      real(wp) :: left ! entries of the update matrices of the children so far
       integer  :: c
 
       peak = 0.0_wp
@@ -336,7 +336,7 @@ contains
       peak = max(peak, left + update_entries(supers, s))
    end function peak_of
 
-   !> Entries of the update matrix that S leaves.
+   !> Entries of the update matrix of S.
    pure real(wp) function update_entries(supers, s)
       type(supernodes_type), intent(in) :: supers
       integer, intent(in)               :: s

@@ -1,10 +1,10 @@
-!> What a solver of the equations is: SKYLINE and TREE extend this type, and so would a third one, which is a file of its own and a
-!! line in solver_choice. Used through the module equations, in one order: start, form_bodies; condense for every load; in every
+!> The abstract type of an equation solver, which SKYLINE and TREE extend. A third solver needs a file of its own and a line in
+!! solver_choice. The module equations calls a solver in one order: start, form_bodies; condense for every load; in every
 !! increment form_structure, then solve and multiply as often as needed; recover for all nodes.
 !!
-!! A solver numbers the unknowns, and the increments solve for some of these EQUATIONS: all, or those that are left when the
-!! bodies have been condensed. Vectors go over all equations, and are set or read at these alone unless it says otherwise.
-!! FAULT is 0, no_memory, no_solution, or an equation without stiffness.
+!! A solver numbers the unknowns. The increments solve for some of these EQUATIONS: all, or those that remain after condensation
+!! of the bodies. A vector has one entry for each equation; only the entries at the EQUATIONS are set or read unless stated
+!! otherwise. FAULT is 0, no_memory, no_solution, or an equation without stiffness.
 module equation_solver
    use failures, only: failure_type
    use interface_operator, only: interface_element
@@ -18,72 +18,70 @@ module equation_solver
 
    integer, parameter, public :: no_memory = -1                !! as FAULT: an allocation failed
    integer, parameter, public :: no_solution = -2              !! as FAULT: the solver has a COMPLAINT
-   integer, parameter, public :: exact_digits = 11             !! of a solution that nothing corrects: its residual is below
-                                                               !! 10**(-digits) of the load
-   real(wp), parameter, public :: pivot_tolerance = 1.0e-12_wp !! of the diagonal entry: below it there is no stiffness
+   integer, parameter, public :: exact_digits = 11             !! of a direct solution: residual < 10**(-digits) of the load
+   real(wp), parameter, public :: pivot_tolerance = 1.0e-12_wp !! relative to the diagonal entry; below: no stiffness
 
-   !> A solver in numbers, for the listing and --times.
+   !> The data of a solver for the listing and --times.
    type, public :: solver_description
-      character(:), allocatable :: name              !! and its way, as the listing has it
-      character(:), allocatable :: reason            !! why AUTO has taken it, where that is no matter of course
-      character(40) :: words(3) = ''                 !! what NUMBERS count; '' behind the last
+      character(:), allocatable :: name              !! name and variant, as in the listing
+      character(:), allocatable :: reason            !! why AUTO chose this solver, where the choice needs a reason
+      character(40) :: words(3) = ''                 !! what NUMBERS count; '' behind the last of them
       integer(long) :: numbers(3) = 0
-      real(wp) :: static_operations  = 0.0_wp         !! multiplications and additions of what is factorised once
-      real(wp) :: refactored_operations = 0.0_wp         !! of what is factorised in every increment
+      real(wp) :: static_operations  = 0.0_wp         !! multiplications and additions of the single static factorisation
+      real(wp) :: refactored_operations = 0.0_wp         !! the same of the factorisation in each increment
       real(wp) :: assembly_time     = 0.0_wp         !! of the elements, all threads together [s]
-      integer(long) :: solutions = 0                 !! so far, by steps of an iteration on several processes
-      integer(long) :: steps = 0                     !! of all of them
-      integer  :: most_steps = 0                     !! of one
+      integer(long) :: solutions = 0                 !! number of iterative solutions on several processes so far
+      integer(long) :: steps = 0                     !! iteration steps of all these solutions
+      integer  :: most_steps = 0                     !! most steps of one solution
    end type solver_description
 
-   !> What is asked of a solver with the stiffness that it has.
+   !> The demands on a solver under the present stiffness.
    type, public :: solver_options
-      logical :: one_solution = .false.              !! with this k_int the increment solves but once
-      integer :: digits = exact_digits               !! that the next solution needs, where a solver iterates
+      logical :: one_solution = .false.              !! the increment solves only once with this k_int
+      integer :: digits = exact_digits               !! digits that the next solution needs, for an iterative solver
    end type solver_options
 
    !> A direction in which a coupled system was solved.
    type, public :: solver_direction
       real(wp), allocatable :: u(:, :)               !! (dimension, retained) [length]
-      real(wp), allocatable :: force(:, :)           !! the stiffness that is factorised times it [force]
-      real(wp), allocatable :: product(:, :)         !! that of the coupled system times it [force]
+      real(wp), allocatable :: force(:, :)           !! product of the factorised stiffness and u [force]
+      real(wp), allocatable :: product(:, :)         !! product of the coupled stiffness and u [force]
    end type solver_direction
 
-   !> Coupled systems that have been solved with the factor there is as preconditioner, in steps of conjugate residuals.
+   !> Statistics of coupled systems solved by conjugate residuals, with the present factor as preconditioner.
    type, public :: coupled_tally
-      real(wp) :: tolerance = 1.0e-4_wp              !! of the residual
+      real(wp) :: tolerance = 1.0e-4_wp              !! relative to the residual of u = 0
       integer :: most_steps = 25                     !! with a new factor
-      integer :: price = 0                           !! steps that cost what a factorisation does; 0: it is always cheaper
-      logical :: serves = .false.                    !! whether there is a factor of the bodies as they are
-      real(wp) :: own = 0.0_wp                       !! steps for a digit with the factor of the system's own symmetric part
-      integer :: extra = 0                           !! above these, in the last system
-      integer :: spent = 0, solved = 0               !! in all since the factorisation, that included, for so many systems
-      type(solver_direction), allocatable :: kept(:) !! of the last systems since the factorisation
+      integer :: price = 0                           !! steps that cost as much as a factorisation; 0: never worth while
+      logical :: serves = .false.                    !! whether a factor of the present bodies exists
+      real(wp) :: own = 0.0_wp                       !! steps per digit with the factor of the system's own symmetric part
+      integer :: extra = 0                           !! steps beyond these in the last system
+      integer :: spent = 0, solved = 0               !! cost in steps since and with the last factorisation; systems solved
+      type(solver_direction), allocatable :: kept(:) !! directions of the last systems since the factorisation
    end type coupled_tally
 
    type, abstract, public :: equation_system
       integer :: n = 0                               !! unknowns
       integer, allocatable  :: number(:, :)          !! (dimension, n_nodes) equation, 0: held or without element
-      integer, allocatable  :: node(:), direction(:) !! (n) what an equation belongs to
+      integer, allocatable  :: node(:), direction(:) !! (n) node and direction of each equation
       integer, allocatable  :: equations(:)          !! that the increments solve for, ascending
-      integer, allocatable  :: retained(:)           !! nodes that the increments see, ascending: those of the equations, and of
-                                                     !! interface elements
-      integer, allocatable  :: retained_index(:)     !! (n_nodes) where a node stands among the retained ones, 0: nowhere
+      integer, allocatable  :: retained(:)           !! nodes of the equations and of interface elements, ascending
+      integer, allocatable  :: retained_index(:)     !! (n_nodes) position of a node among the retained ones, 0: not retained
       integer, allocatable  :: locked(:)             !! equations whose unknowns have been held since they were numbered
-      type(interface_element), allocatable :: interface(:) !! the model's, each NODE a place among the retained ones
+      type(interface_element), allocatable :: interface(:) !! of the model, each NODE a position among the retained nodes
       real(wp) :: stiffest = 0.0_wp                  !! largest diagonal entry of [k_b] [force/length]
       real(wp), allocatable :: k_int(:, :, :)        !! (3, 3, n) between the ends of interface elements now, global axes
                                                      !! [force/length]
-      integer :: factorisations = 20                 !! that are to be expected
+      integer :: factorisations = 20                 !! expected number of factorisations
       type(solver_options) :: options                !! set anew with every k_int
-      type(coupled_tally) :: coupled                 !! how solve_coupled has fared
-      real(wp) :: shift = 0.0_wp                     !! sigma: in place of [k_b] there is [k_b] - sigma [m], set before it is formed
-                                                     !! [1/time^2]; above zero the factor is one with signs, [l] [s] [l]^T
-      integer :: n_negative = 0                      !! pivots below zero of the factor there is: so many eigenvalues of
-                                                     !! [k] {x} = lambda [m] {x} are below sigma (Sylvester)
-      real(wp) :: weakest = 1.0_wp                   !! least pivot of the factor there is, as a share of its diagonal entry
-                                                     !! before any elimination; 1: there is no factor
-      character(:), allocatable :: formed_in         !! stage and increment of this k_int, for messages
+      type(coupled_tally) :: coupled                 !! statistics of solve_coupled
+      real(wp) :: shift = 0.0_wp                     !! sigma: [k_b] - sigma [m] takes the place of [k_b]; set before the bodies
+                                                     !! are formed [1/time^2]. Above zero the factor has signs, [l] [s] [l]^T
+      integer :: n_negative = 0                      !! negative pivots of the present factor: the number of eigenvalues of [k]
+                                                     !! {x} = lambda [m] {x} below sigma (Sylvester)
+      real(wp) :: weakest = 1.0_wp                   !! smallest pivot of the present factor relative to the original diagonal
+                                                     !! entry; 1: no factor
+      character(:), allocatable :: formed_in         !! stage and increment of the present k_int, for messages
       character(:), allocatable :: complaint         !! why there is no solution
       type(solver_description) :: description        !! of the solver, once it has started
    contains
@@ -99,7 +97,7 @@ module equation_solver
    end type equation_system
 
    abstract interface
-      !> Order and number the unknowns, say which EQUATIONS and RETAINED nodes are left to the increments; no matrix yet.
+      !> Order and number the unknowns; set the EQUATIONS and RETAINED nodes. No matrix is formed yet.
       subroutine start_solver(self, model, graph, failure)
          import :: equation_system, failure_type, model_type, node_graph_type
          class(equation_system), intent(inout) :: self
@@ -108,7 +106,7 @@ module equation_solver
          type(failure_type), intent(inout)     :: failure
       end subroutine start_solver
 
-      !> [k_b] of the elements, and what is done with it once; STIFFEST.
+      !> Form [k_b] of the elements and STIFFEST, and factorise the static part.
       subroutine form_bodies(self, model, fault)
          import :: equation_system, model_type
          class(equation_system), intent(inout) :: self
@@ -116,7 +114,7 @@ module equation_solver
          integer, intent(out)                  :: fault
       end subroutine form_bodies
 
-      !> Add the symmetric matrix K of the equations ROWS, which are retained, 0: held, to [k_b].
+      !> Add the symmetric matrix K to [k_b]. Its ROWS are equations of retained nodes, 0: held.
       subroutine add_to_bodies(self, rows, k)
          import :: equation_system, wp
          class(equation_system), intent(inout) :: self
@@ -124,15 +122,15 @@ module equation_solver
          real(wp), intent(in)                  :: k(:, :)
       end subroutine add_to_bodies
 
-      !> [k_s] = [k_b] + sum of K_INT, Eq. (8), ready to solve; where OPTIONS want one solution an earlier factor may do
-      !! for that. The unknowns of LOCKED equations are held.
+      !> Form [k_s] = [k_b] + sum of K_INT, Eq. (8), ready to solve. Where OPTIONS ask for one solution only, an earlier factor
+      !! may serve. The unknowns of LOCKED equations are held.
       subroutine form_structure(self, fault)
          import :: equation_system
          class(equation_system), intent(inout) :: self
          integer, intent(out)                  :: fault
       end subroutine form_structure
 
-      !> X, the load, becomes the solution; zero where LOCKED. Where only now the stiffness is factorised that may fail.
+      !> Replace the load X by the solution; zero where LOCKED. A deferred factorisation may fail here.
       subroutine solve_vector(self, x, fault)
          import :: equation_system, wp
          class(equation_system), intent(inout) :: self
@@ -140,7 +138,7 @@ module equation_solver
          integer, intent(out)                  :: fault
       end subroutine solve_vector
 
-      !> Y = [k_b] X, the other equations condensed into it.
+      !> Y = [k_b] X, with [k_b] condensed on the EQUATIONS.
       subroutine multiply_vector(self, x, y)
          import :: equation_system, wp
          class(equation_system), intent(in) :: self
@@ -148,15 +146,16 @@ module equation_solver
          real(wp), intent(inout)            :: y(:)
       end subroutine multiply_vector
 
-      !> The diagonal of the matrix [k] that the factor there is is of, over all equations.
+      !> The diagonal, over all equations, of the matrix [k] whose factor the solver holds.
       function diagonal_of_matrix(self) result(diagonal)
          import :: equation_system, wp
          class(equation_system), intent(in) :: self
          real(wp) :: diagonal(self%n)
       end function diagonal_of_matrix
 
-      !> X, over all equations, becomes [k]^-1 X (solve_by_factor) or [k] X (multiply_by_factor) by the factor there is, that of an
-      !! earlier stiffness as well; where LOCKED zero or without meaning. The solver remains as it is.
+      !> Replace X, over all equations, by [k]^-1 X (solve_by_factor) or [k] X (multiply_by_factor). [k] is the matrix of the
+      !! present factor, which may be that of an earlier stiffness. Where LOCKED, X is zero or undefined. The solver is not
+      !! changed.
       subroutine use_of_factor(self, x)
          import :: equation_system, wp
          class(equation_system), intent(in)  :: self
@@ -191,7 +190,7 @@ contains
       self%direction = self%direction(:self%n)
    end subroutine number_unknowns
 
-   !> From now on the unknown of EQUATION is held: every solution has zero there.
+   !> Hold the unknown of EQUATION from now on: every solution is zero there.
    subroutine lock(self, equation)
       class(equation_system), intent(inout) :: self
       integer, intent(in)                   :: equation
@@ -200,7 +199,7 @@ contains
       self%coupled%serves = .false.
    end subroutine lock
 
-   !> Which components of retained nodes no solution moves: (dimension, retained).
+   !> Which components of retained nodes are held: (dimension, retained).
    pure function held_now(self) result(held)
       class(equation_system), intent(in) :: self
       logical :: held(size(self%number, 1), size(self%retained))
@@ -214,7 +213,8 @@ contains
       end do
    end function held_now
 
-   !> X: of the load F on all equations what is felt at the EQUATIONS, at the others what recover needs. Here all of it is felt.
+   !> Condense the load F on all equations: X at the EQUATIONS is the condensed load, elsewhere the data for recover. In the
+   !! abstract type X is F.
    subroutine condense(self, f, x)
       class(equation_system), intent(in) :: self
       real(wp), intent(in)               :: f(:) !! (n) [force]
@@ -223,7 +223,7 @@ contains
       x(self%equations) = f(self%equations)
    end subroutine condense
 
-   !> The displacements X of all equations: those at the EQUATIONS from U, the others by what condense left in X.
+   !> The displacements X of all equations: at the EQUATIONS from U, elsewhere from what condense left in X.
    subroutine recover(self, u, x)
       class(equation_system), intent(in) :: self
       real(wp), intent(in)               :: u(:) !! (n) [length], read at the EQUATIONS
@@ -232,8 +232,8 @@ contains
       x(self%equations) = u(self%equations)
    end subroutine recover
 
-   !> What the increments so far have left, a factor or solutions, is of no use from now on: what follows is the same to the last
-   !! digit as in a run that begins here. Here nothing is left.
+   !> Discard factors and solutions of earlier increments, so that all further results equal, to the last digit, those of a run
+   !! that begins here. The abstract type has nothing to discard.
    subroutine forget_past(self)
       class(equation_system), intent(inout) :: self
 
@@ -242,7 +242,7 @@ contains
       self%weakest = 1.0_wp
    end subroutine forget_past
 
-   !> FAULT, an equation without stiffness or no_memory, in words.
+   !> Put FAULT, an equation without stiffness or no_memory, into words.
    subroutine report_fault(self, model, fault, where, failure)
       class(equation_system), intent(in) :: self
       type(model_type), intent(in)       :: model

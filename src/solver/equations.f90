@@ -1,6 +1,6 @@
-!> The equations of the structure, whichever solver has them: what the increments see of it. That is nodes and forces on nodes, and
-!! of these only the retained ones: all nodes with SKYLINE, with TREE those that are left when the bodies have been condensed.
-!! Arrays over retained nodes are (dimension, retained), those over all nodes (dimension, n_nodes).
+!> The equations of the structure, independent of the solver, as the increments use them. The increments see forces and
+!! displacements of the retained nodes: with SKYLINE all nodes, with TREE the nodes that remain after condensation of the
+!! bodies. Arrays over retained nodes are (dimension, retained), those over all nodes (dimension, n_nodes).
 module equations
    use bar_elements, only: coupled_bar_stiffness
    use case_control, only: solver_auto
@@ -22,14 +22,14 @@ module equations
    public :: equation_system, start_equations, form_body_stiffness, add_bar, lock_unknown, condense_load, &
              form_structure_stiffness, solve_equations, forces_in_bodies, recover_displacements, solve_coupled
 
-   integer, parameter  :: digits = 7              ! of a step, where it is iterated itself
+   integer, parameter  :: digits = 7              ! of an iterative solution within an iteration
    integer, parameter  :: most_kept = 24          ! directions of earlier coupled systems
-   real(wp), parameter :: dependent = 1.0e-10_wp  ! of a direction: less is nothing new
+   real(wp), parameter :: dependent = 1.0e-10_wp  ! of a direction: a smaller remainder adds nothing new
 
 contains
 
-   !> Choose the solver, order and number the unknowns. SOLVER as in case control; so many FACTORISATIONS are to be expected. With a
-   !! SHIFT the bodies are [k_b] - sigma [m].
+   !> Choose the solver; order and number the unknowns. SOLVER as in case control; FACTORISATIONS is their expected number. With
+   !! a SHIFT the bodies are [k_b] - sigma [m].
    subroutine start_equations(model, system, failure, solver, factorisations, shift)
       type(model_type), intent(in)      :: model
       class(equation_system), allocatable, intent(out) :: system
@@ -55,7 +55,7 @@ contains
       allocate (system%locked(0))
       call system%start(model, graph, failure)
       if (failure%raised) return
-      allocate (system%retained_index(model%n_nodes), source=0) ! where they stand among themselves, and the interface elements on them
+      allocate (system%retained_index(model%n_nodes), source=0) ! positions, also in the interface elements
       system%retained_index(system%retained) = [(i, i = 1, size(system%retained))]
       call list_on_unknowns(model, system%interface)
       do i = 1, size(system%interface)
@@ -64,7 +64,7 @@ contains
       allocate (system%k_int(3, 3, size(system%interface)))
    end subroutine start_equations
 
-   !> [k_b] of all bodies, bars included; what no joint moves is eliminated where the solver does so.
+   !> Form [k_b] of all bodies, bars included. A solver that condenses the bodies factorises their static part here.
    subroutine form_body_stiffness(model, system, failure)
       type(model_type), intent(in)          :: model
       class(equation_system), intent(inout) :: system
@@ -104,7 +104,7 @@ contains
       system%coupled%serves = .false.
    end subroutine add_bar
 
-   !> Hold component D of NODE, a retained one, from now on: it keeps its equation, and every solution has zero there.
+   !> Hold component D of the retained NODE from now on. Its equation remains; every solution is zero there.
    subroutine lock_unknown(node, d, system)
       integer, intent(in)                   :: node, d
       class(equation_system), intent(inout) :: system
@@ -112,7 +112,7 @@ contains
       if (system%number(d, node) > 0) call system%lock(system%number(d, node))
    end subroutine lock_unknown
 
-   !> G: what retained nodes feel of the nodal forces F.
+   !> G: the nodal forces F condensed on the retained nodes.
    subroutine condense_load(system, f, g)
       class(equation_system), intent(in) :: system
       real(wp), intent(in)               :: f(:, :) !! of all nodes [force]
@@ -125,8 +125,8 @@ contains
       call put(system, felt, g)
    end subroutine condense_load
 
-   !> [k_s] = [k_b] + sum of [k_int], Eq. (8), ready to solve, once where ONE_SOLUTION says so. A structure without stiffness in
-   !! some direction is a failure that names the node; WHERE says in which increment.
+   !> Form [k_s] = [k_b] + sum of [k_int], Eq. (8), ready to solve; ONE_SOLUTION: to be solved only once. A direction without
+   !! stiffness is a failure that names the node. WHERE names the increment.
    subroutine form_structure_stiffness(model, k_int, where, system, failure, one_solution)
       type(model_type), intent(in)          :: model
       real(wp), intent(in)                  :: k_int(:, :, :) !! (3, 3, n) of interface elements, in their axes [force/length]
@@ -147,9 +147,9 @@ contains
       call system%report_fault(model, fault, system%formed_in, failure)
    end subroutine form_structure_stiffness
 
-   !> Displacements U of retained nodes under the forces F on them; held components are MOVED, which the forces in the bodies count
-   !! for already, or stay zero, as locked ones do. Where only now the stiffness is factorised that may be a failure. DIGITS are
-   !! enough where the caller corrects the solution: for solvers that iterate.
+   !> Displacements U of retained nodes under the forces F on them. Held components move by MOVED, whose effect F already
+   !! contains, or stay zero, as locked ones do. A deferred factorisation may fail here. DIGITS suffice for an iterative solver
+   !! where the caller corrects the solution.
    subroutine solve_equations(model, system, f, u, failure, moved, digits)
       type(model_type), intent(in)          :: model
       class(equation_system), intent(inout) :: system
@@ -195,7 +195,7 @@ contains
       if (moves) u = u + moved
    end subroutine solve_equations
 
-   !> F = [k_b] {U} on the free components of retained nodes, the others condensed into it; zero on held ones.
+   !> F = [k_b] {U} on the free components of retained nodes, [k_b] condensed on these; zero on held components.
    subroutine forces_in_bodies(system, u, f)
       class(equation_system), intent(in) :: system
       real(wp), intent(in)               :: u(:, :) !! of retained nodes [length]
@@ -227,7 +227,7 @@ contains
       end do
    end subroutine recover_displacements
 
-   !> X(equation), where the increments solve, of an ARRAY over retained nodes; not touched elsewhere.
+   !> X(equation), at the EQUATIONS only, from an ARRAY over retained nodes.
    subroutine gather(system, array, x)
       class(equation_system), intent(in) :: system
       real(wp), intent(in)               :: array(:, :)
@@ -240,7 +240,7 @@ contains
       end do
    end subroutine gather
 
-   !> An ARRAY over retained nodes of X(equation); zero on held components.
+   !> An ARRAY over retained nodes from X(equation); zero on held components.
    subroutine put(system, x, array)
       class(equation_system), intent(in) :: system
       real(wp), intent(in)               :: x(:)
@@ -254,11 +254,11 @@ contains
       end do
    end subroutine put
 
-   !> Displacements U of the retained nodes with ([k_b] + sum of (K_INT + REST)) U = F on the free components, K_INT being symmetric:
-   !! by conjugate residuals with a factor as preconditioner. That is the one there is while its steps beyond those of a new one cost
-   !! less than a factorisation, and no more each time than on the average since it was made; else that of [k_b] + sum of K_INT.
-   !! The residual is brought below the tolerance of the system's tally times that of U = 0, or as far as its most steps go: the caller
-   !! iterates anyway.
+   !> Displacements U of the retained nodes with ([k_b] + sum of (K_INT + REST)) U = F on the free components, K_INT symmetric,
+   !! by conjugate residuals with a factor as preconditioner. The present factor is kept while two conditions hold: its steps
+   !! beyond those of a new factor cost less than a factorisation, and they are no more than the average since it was made.
+   !! Otherwise [k_b] + sum of K_INT is factorised. The residual is reduced below the tolerance of the system's tally times the
+   !! residual of U = 0, or as far as the limit of steps allows: the caller iterates anyway.
    subroutine solve_coupled(model, k_int, rest, f, where, system, u, failure)
       type(model_type), intent(in)          :: model
       real(wp), intent(in)                  :: k_int(:, :, :), rest(:, :, :) !! (3, 3, n) of elements, in their axes [force/length]
@@ -298,10 +298,11 @@ contains
       end associate
    end subroutine solve_coupled
 
-   !> U with ([k] + sum of CHANGE) U = F by generalised conjugate residuals, [k] being the stiffness in SYSTEM, in so many STEPS; more than
-   !! MOST_STEPS where these have not brought the residual below the tolerance of the tally times that of U = 0. Directions of earlier
-   !! systems with the same [k] are kept: as [k] times a direction is known, they cost no solution. Sources: Eisenstat, Elman, Schultz,
-   !! SIAM J. Numer. Anal. 20 (1983) 345-357, preconditioned from the right; Parks et al., SIAM J. Sci. Comput. 28 (2006) 1651-1674.
+   !> Solve ([k] + sum of CHANGE) U = F by generalised conjugate residuals in STEPS steps, [k] being the stiffness in SYSTEM.
+   !! STEPS exceeds MOST_STEPS where the residual is not below the tolerance of the tally times the residual of U = 0.
+   !! Directions of earlier systems with the same [k] are kept: their products with [k] are known, so they cost no solution.
+   !! Sources: Eisenstat, Elman, Schultz, SIAM J. Numer. Anal. 20 (1983) 345-357, preconditioned from the right; Parks et al.,
+   !! SIAM J. Sci. Comput. 28 (2006) 1651-1674.
    subroutine iterate_coupled(model, system, change, f, most_steps, u, steps, failure)
       type(model_type), intent(in)          :: model
       class(equation_system), intent(inout) :: system
@@ -328,7 +329,7 @@ contains
       allocate (directions(n_kept + most_steps))
       if (n_kept > 0) directions(:n_kept) = system%coupled%kept
       n = 0
-      do i = 1, n_kept ! places of those without use are taken by the next ones
+      do i = 1, n_kept ! new directions replace useless ones
          if (i > n + 1) directions(n + 1) = directions(i)
          call add_direction(directions(:n + 1))
       end do
@@ -343,16 +344,16 @@ contains
          if (failure%raised) return
          i = n
          call add_direction(directions(:n + 1))
-         if (n == i) steps = most_steps ! no direction leads on
+         if (n == i) steps = most_steps ! no direction reduces the residual
       end do
       system%coupled%kept = directions(max(0, n - most_kept) + 1:n)
 
    contains
 
-      !> The last of these DIRECTIONS becomes one of N orthogonal ones, and takes from LEFT what it can, unless nothing of it is left.
+      !> Orthogonalise the last of these DIRECTIONS against the others and reduce LEFT along it, unless nothing new remains of it.
       subroutine add_direction(directions)
          type(solver_direction), intent(inout) :: directions(:)
-         real(wp) :: length, share, product(size(f, 1), size(f, 2)) ! of the whole stiffness with the direction
+         real(wp) :: length, share, product(size(f, 1), size(f, 2)) ! product of the whole stiffness and the direction
          integer  :: j
 
          associate (new => directions(size(directions)))

@@ -1,6 +1,6 @@
-!> An increment with the factor of an earlier one as preconditioner of conjugate gradients, where the joints have changed little since
-!! and a few steps cost less than a factorisation: whether to, by costs counted in steps; the first guess, the sum of earlier
-!! solutions of least energy; the steps.
+!> Reuse of an earlier factor as preconditioner of conjugate gradients in an increment. Reuse pays where the joints have changed
+!! little and a few steps cost less than a factorisation. The module decides on reuse by costs counted in steps, computes the
+!! first guess, which is the combination of earlier solutions of least energy, and does the steps.
 !! Sources: Hestenes, Stiefel, J. Res. NBS 49 (1952) 409-436, preconditioned as in Golub, Van Loan, Matrix Computations, 11.5;
 !! Fischer, Comput. Methods Appl. Mech. Engrg. 163 (1998) 193-204 (the first guess).
 module factor_reuse
@@ -14,32 +14,32 @@ module factor_reuse
    public :: may_reuse, note_factor, note_steps, note_failure, note_solution, guess_solution, find_least_energy, &
              iterate_refactored, price_in_steps
 
-   real(wp), parameter :: step_operations = 75.0_wp !! that a step costs for every entry of the refactored fronts
-   integer, parameter  :: first_wait = 4            !! solutions that are not tried after steps were in vain
-   integer, parameter  :: fewest_steps = 8          !! a factorisation that costs less is not worth the trouble
-   integer, parameter  :: few = 3                   !! steps after which it can be told how many there will be
+   real(wp), parameter :: step_operations = 75.0_wp !! operations of a step per entry of the refactored fronts
+   integer, parameter  :: first_wait = 4            !! solutions without a trial after steps have failed
+   integer, parameter  :: fewest_steps = 8          !! a factorisation that costs less than these steps is not avoided
+   integer, parameter  :: few = 3                   !! steps after which the total number can be predicted
    integer, parameter  :: most_kept = 5             !! earlier solutions
-   real(wp), parameter :: dependent = 1.0e-12_wp    !! energy, as a share, below which nothing new is left of a direction
+   real(wp), parameter :: dependent = 1.0e-12_wp    !! relative energy below which a direction adds nothing new
 
    type, public :: factor_reuse_type
-      integer :: most_steps = 0                     !! that cost what a factorisation does; 0: it is always cheaper
-      logical :: has_factor = .false.               !! that is of use
-      integer, private :: spent = 0, solved = 0     ! since the last factorisation, that included
+      integer :: most_steps = 0                     !! steps that cost as much as a factorisation; 0: never worth while
+      logical :: has_factor = .false.               !! a useful factor exists
+      integer, private :: spent = 0, solved = 0     ! since the last factorisation, which is included
       integer, private :: last = 0                  ! steps of the last solution
-      integer, private :: pause = 0, wait = first_wait ! how often not to try after steps were in vain
+      integer, private :: pause = 0, wait = first_wait ! solutions to pass without a trial after steps have failed
    contains
       procedure :: set_costs
    end type factor_reuse_type
 
    type, public :: earlier_solutions_type
-      integer :: n = 0                              !! kept, the last one first
+      integer :: n = 0                              !! number kept, the latest first
       real(wp), allocatable, private :: u(:, :)     ! (refactored unknowns, most_kept)
       real(wp), allocatable, private :: f(:, :)     ! [k_b] u
    end type earlier_solutions_type
 
 contains
 
-   !> A factorisation takes so many OPERATIONS, on so many ENTRIES.
+   !> Set the cost of a factorisation: OPERATIONS on ENTRIES.
    subroutine set_costs(self, operations, entries)
       class(factor_reuse_type), intent(inout) :: self
       real(wp), intent(in)                    :: operations, entries
@@ -47,7 +47,8 @@ contains
       self%most_steps = price_in_steps(operations, entries)
    end subroutine set_costs
 
-   !> Steps that cost what a factorisation of so many OPERATIONS does, each going through so many ENTRIES; 0: it is always cheaper.
+   !> Number of steps, each through all ENTRIES, that cost as much as a factorisation of OPERATIONS; 0: a factorisation is
+   !! always cheaper.
    pure integer function price_in_steps(operations, entries) result(price)
       real(wp), intent(in) :: operations, entries
 
@@ -55,7 +56,7 @@ contains
       if (price < fewest_steps) price = 0
    end function price_in_steps
 
-   !> Whether to go on with the factor: until a solution takes more steps than have been spent on each since the factorisation.
+   !> Whether to keep the factor: until a solution takes more steps than the average cost per solution since the factorisation.
    subroutine may_reuse(self, yes)
       class(factor_reuse_type), intent(inout) :: self
       logical, intent(out)                    :: yes
@@ -64,7 +65,7 @@ contains
       self%pause = max(0, self%pause - 1)
    end subroutine may_reuse
 
-   !> There is a new factor.
+   !> Record a new factor.
    subroutine note_factor(self)
       class(factor_reuse_type), intent(inout) :: self
 
@@ -74,7 +75,7 @@ contains
       self%last = 0
    end subroutine note_factor
 
-   !> A solution with the old factor took so many STEPS.
+   !> Record the STEPS of a solution with the old factor.
    subroutine note_steps(self, steps)
       class(factor_reuse_type), intent(inout) :: self
       integer, intent(in)                     :: steps
@@ -85,7 +86,7 @@ contains
       self%wait = first_wait
    end subroutine note_steps
 
-   !> The steps were in vain: do not try for a while, longer every time.
+   !> Record steps that failed: pause the trials, longer each time.
    subroutine note_failure(self)
       class(factor_reuse_type), intent(inout) :: self
 
@@ -93,7 +94,7 @@ contains
       self%wait = min(64, 2*self%wait)
    end subroutine note_failure
 
-   !> X solves ([k_b] + sum of [k_int]) x = b on the refactored equations.
+   !> Record that X solves ([k_b] + sum of [k_int]) x = b on the refactored equations.
    subroutine note_solution(tree, k_int, b, x, earlier)
       type(front_tree_type), intent(in)           :: tree
       real(wp), intent(in)                        :: k_int(:, :, :) !! (3, 3, n) of interface elements [force/length]
@@ -114,9 +115,9 @@ contains
       earlier%f(:, 1) = b - of_joints(tree%equations)
    end subroutine note_solution
 
-   !> X on the refactored equations, not touched elsewhere: with it the energy x'([k_b] + sum of [k_int]) x/2 - b'x is least of all
-   !! sums of earlier solutions; zero where there is none. With it comes RESIDUAL = b - ([k_b] + sum of [k_int]) x, and WORK =
-   !! x'([k_b] + sum of [k_int]) x.
+   !> X on the refactored equations: the combination of earlier solutions with the least energy x'([k_b] + sum of [k_int]) x/2 -
+   !! b'x; zero where there is no earlier solution. Other entries are not changed. RESIDUAL = b - ([k_b] + sum of [k_int]) x,
+   !! and WORK = x'([k_b] + sum of [k_int]) x.
    subroutine guess_solution(tree, k_int, earlier, b, x, residual, work)
       type(front_tree_type), intent(in)        :: tree
       real(wp), intent(in)                     :: k_int(:, :, :) !! (3, 3, n) [force/length]
@@ -150,11 +151,10 @@ contains
       end associate
    end subroutine guess_solution
 
-   !> Of some directions the sum that comes nearest to a solution, in the energy of its matrix: SHARE c that makes c'ENERGY c/2 -
-   !! WORK'c least. Directions orthogonal in energy are made one after another, the first one first, and one of which nothing new is
-   !! left is left out.
+   !> The combination of directions nearest to a solution in the energy norm: SHARE c that minimises c'ENERGY c/2 - WORK'c. The
+   !! directions are orthogonalised in energy one after another. A direction that adds nothing new is left out.
    pure subroutine find_least_energy(energy, work, share)
-      real(wp), intent(in)  :: energy(:, :) !! (n, n) symmetric, no eigenvalue below zero [force*length]
+      real(wp), intent(in)  :: energy(:, :) !! (n, n) symmetric, positive semidefinite [force*length]
       real(wp), intent(in)  :: work(:)      !! (n) [force*length]
       real(wp), intent(out) :: share(:)     !! (n) [-]
       real(wp) :: direction(size(work), size(work)), left
@@ -166,7 +166,7 @@ contains
          n = n + 1
          direction(:, n) = 0.0_wp
          direction(j, n) = 1.0_wp
-         do pass = 1, 2                               ! the second one takes away what rounding has left
+         do pass = 1, 2                               ! the second pass removes rounding errors
             do i = 1, n - 1
                direction(:, n) = direction(:, n) - dot_product(direction(:, i), matmul(energy, direction(:, n)))*direction(:, i)
             end do
@@ -181,25 +181,25 @@ contains
       end do
    end subroutine find_least_energy
 
-   !> Solve ([k] + sum of CHANGE) d = r on the refactored equations, [k] what the tree has the factor of, and add d to X. Beside
-   !! r = [k] z, the product p = [k] d goes along with the direction d: no step multiplies by a matrix other than CHANGE. STEPS
-   !! is how many it took, more than MOST_STEPS where that was not enough: X is of no use then. Enough is where d leaves of the
-   !! ENERGY, of what X had, and of d, no more than the square of TOLERANCE, a share of a length.
+   !> Solve ([k] + sum of CHANGE) d = r on the refactored equations, [k] being the factorised matrix of the tree, and add d to
+   !! X. The recurrence carries z with r = [k] z and the product p = [k] d, so that a step multiplies by no matrix other than
+   !! CHANGE. STEPS is the number of steps; above MOST_STEPS the iteration has failed and X is useless. The iteration has
+   !! converged where the energy left is at most TOLERANCE**2 times the energy of X on entry, ENERGY, plus that of d.
    subroutine iterate_refactored(tree, change, energy, tolerance, most_steps, r, x, steps)
       type(front_tree_type), intent(in) :: tree
       real(wp), intent(in)              :: change(:, :, :) !! (3, 3, n) of interface elements since [k] [force/length]
       real(wp), intent(in)              :: energy          !! [force*length], twice the work
       real(wp), intent(in)              :: tolerance
       integer, intent(in)               :: most_steps
-      real(wp), intent(inout)           :: r(:)            !! (n) [force], what is left of it on return
-      real(wp), intent(inout)           :: x(:)            !! (n) [length], not touched elsewhere
+      real(wp), intent(inout)           :: r(:)            !! (n) [force], the residual on return
+      real(wp), intent(inout)           :: x(:)            !! (n) [length], other entries not changed
       integer, intent(out)              :: steps
       real(wp), allocatable :: z(:), direction(:), of_factor(:), product(:)
       real(wp) :: alpha, before, enough, now, start
 
       allocate (z(tree%n), direction(tree%n), of_factor(tree%n), product(tree%n))
       associate (e => tree%equations)
-         z(e) = r(e)                ! what stands at locked equations meets zeros: solve_refactored leaves none else there
+         z(e) = r(e)                ! entries at locked equations meet zeros: solve_refactored leaves zero there
          call solve_refactored(tree, z)
          now = dot_product(r(e), z(e))
          start = now
@@ -221,7 +221,7 @@ contains
             before = now
             now = dot_product(r(e), z(e))
             if (now <= enough) return
-            if (steps >= few .and. log(start/enough)*steps > log(start/now)*most_steps) exit ! that will take too long
+            if (steps >= few .and. log(start/enough)*steps > log(start/now)*most_steps) exit ! the prediction exceeds the limit
             direction(e) = z(e) + now/before*direction(e)
             of_factor(e) = r(e) + now/before*of_factor(e)
          end do

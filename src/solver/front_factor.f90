@@ -1,5 +1,5 @@
-!> Factorisation in a tree of fronts: once for static ones, in every increment for the others. Independent subtrees
-!! are tasks of OpenMP; every addition has its place in one order, whatever the number of threads.
+!> Factorisation in a tree of fronts: static fronts once, the others in every increment. Independent subtrees are tasks of
+!! OpenMP. Every addition has its place in one order, whatever the number of threads.
 module front_factor
    use equation_solver, only: no_memory, pivot_tolerance
    use front_kernel, only: eliminate, large, top_row
@@ -16,11 +16,11 @@ module front_factor
 
    public :: factorise_static, factorise_refactored, add_to_refactored
 
-   integer, parameter  :: strip = 128                  ! columns that are given back together
+   integer, parameter  :: strip = 128                  ! columns whose memory is given back together
 
 contains
 
-   !> Add the symmetric matrix K of the EQUATIONS (0: held) to FRONT, of which all of them are rows.
+   !> Add the symmetric matrix K of the EQUATIONS (0: held) to FRONT, whose rows include all of them.
    pure subroutine add_matrix(front, equations, k)
       type(front_type), intent(inout) :: front
       integer, intent(in)             :: equations(:)
@@ -58,14 +58,14 @@ contains
       if (place > front%p) place = front%p + first_not_below(front%rows, equation)
    end function place_in
 
-   !> Add to FRONT what the elimination of CHILD left, of it the columns FROM to UNTIL.
+   !> Add columns FROM to UNTIL of the update matrix of CHILD to FRONT.
    pure subroutine add_update(child, front, from, until)
       type(front_type), intent(in)    :: child
       type(front_type), intent(inout) :: front
       integer, intent(in)             :: from, until
       integer :: column, first, i, j, k, last, row, this
 
-      this = 1                                       ! the run that column J is in
+      this = 1                                       ! the run that contains column J
       do j = from, until
          do while (j >= child%run(this + 1))
             this = this + 1
@@ -92,8 +92,8 @@ contains
       end do
    end subroutine add_update
 
-   !> Eliminate all static fronts, and keep what the others begin with. FAULT is 0, no_memory, or the first equation
-   !! without stiffness.
+   !> Eliminate all static fronts, and keep the initial contents of the refactored fronts. FAULT is 0, no_memory, or the first
+   !! equation without stiffness.
    subroutine factorise_static(model, tree, fault)
       type(model_type), intent(in)         :: model
       type(front_tree_type), intent(inout) :: tree
@@ -113,7 +113,7 @@ contains
       fault = first_fault(faults)
    end subroutine factorise_static
 
-   !> What went wrong first in the order of elimination, 0: nothing.
+   !> The first fault in the order of elimination, 0: none.
    pure integer function first_fault(faults) result(fault)
       integer, intent(in) :: faults(:)
 
@@ -122,13 +122,13 @@ contains
       if (any(faults == no_memory)) fault = no_memory
    end function first_fault
 
-   !> Eliminate all static fronts, those of MODEL, or all that are REFACTORED, with the stiffnesses K. (An optional array would be
-   !! shared by the tasks with bounds that are not set where it is absent.)
+   !> Eliminate all static fronts of MODEL, or all REFACTORED fronts with the stiffnesses K. (K is not optional: tasks would
+   !! share an absent array with undefined bounds.)
    subroutine eliminate_fronts(tree, faults, refactored, k, model)
       type(front_tree_type), intent(inout)   :: tree
       integer, allocatable, intent(out)      :: faults(:)  !! (fronts)
       logical, intent(in)                    :: refactored
-      real(wp), intent(in)                   :: k(:, :, :) !! of no element where they are static
+      real(wp), intent(in)                   :: k(:, :, :) !! of size zero where the fronts are static
       type(model_type), intent(in), optional :: model
       integer :: f
 
@@ -145,7 +145,7 @@ contains
       !$omp end parallel
    end subroutine eliminate_fronts
 
-   !> Eliminate front F after those of its subtree that are refactored as it is, or static.
+   !> Eliminate front F after the fronts of its subtree of the same kind, refactored or static.
    recursive subroutine eliminate_subtree(tree, f, faults, k, model)
       type(front_tree_type), intent(inout)   :: tree
       integer, intent(in)                    :: f
@@ -186,7 +186,7 @@ contains
       end associate
    end subroutine eliminate_subtree
 
-   !> What FRONT begins with: its elements, and what its static children leave.
+   !> Assemble FRONT: its elements, and the update matrices of its static children.
    subroutine start_front(model, tree, front, fault)
       type(model_type), intent(in)         :: model
       type(front_tree_type), intent(inout) :: tree
@@ -220,8 +220,8 @@ contains
       fault = 0
    end subroutine start_front
 
-   !> Add to FRONT what the elimination of CHILD left, and nothing of that is left then. That of a large one is given back as it is
-   !! added: together the two never take much more memory than one of them.
+   !> Add the update matrix of CHILD to FRONT and free it. A large update matrix is freed strip by strip: the two together never
+   !! take much more memory than one of them.
    subroutine take_update(child, front)
       type(front_type), intent(inout) :: child, front
       integer(long) :: first, last
@@ -240,8 +240,8 @@ contains
       deallocate (child%update, child%diagonal)
    end subroutine take_update
 
-   !> Zero, as far as the kernel touches it. Of a large one the pages are given back, they are zero when they come again: of these
-   !! the memory is taken when they are written, see take_update.
+   !> Set to zero what the kernel touches. The pages of a large matrix are given back instead; they read as zero when they
+   !! return. Their memory is taken when they are written, see take_update.
    subroutine set_to_zero(m, n, a)
       integer, intent(in)     :: m, n
       real(wp), intent(inout) :: a(m, n)
@@ -261,7 +261,7 @@ contains
       end do
    end subroutine set_to_zero
 
-   !> Zero in a(:FIRST) and a(LAST:).
+   !> Set a(:FIRST) and a(LAST:) to zero.
    pure subroutine set_ends_to_zero(n, first, last, a)
       integer(long), intent(in) :: n, first, last
       real(wp), intent(inout)   :: a(n)
@@ -270,7 +270,7 @@ contains
       a(last:) = 0.0_wp
    end subroutine set_ends_to_zero
 
-   !> Keep what refactored FRONT begins with.
+   !> Keep the initial content of refactored FRONT.
    subroutine keep_start(model, tree, front, fault)
       type(model_type), intent(in)         :: model
       type(front_tree_type), intent(inout) :: tree
@@ -306,7 +306,8 @@ contains
       end do
    end subroutine factorise_refactored
 
-   !> What refactored FRONT begins with in an increment: what was kept, its interface elements, and what its refactored children leave.
+   !> Assemble refactored FRONT in an increment: what was kept, its interface elements, and the update matrices of its
+   !! refactored children.
    subroutine restart_front(tree, front, k, fault)
       type(front_tree_type), intent(inout) :: tree
       type(front_type), intent(inout)      :: front
@@ -339,7 +340,7 @@ contains
       end do
    end subroutine restart_front
 
-   !> Add the symmetric matrix K of the EQUATIONS (0: held; else each once), all of refactored fronts, for good.
+   !> Add the symmetric matrix K to refactored fronts permanently. Its EQUATIONS (0: held; others distinct) belong to these.
    subroutine add_to_refactored(tree, equations, k)
       type(front_tree_type), intent(inout) :: tree
       integer, intent(in)                  :: equations(:)

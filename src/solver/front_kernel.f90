@@ -1,14 +1,14 @@
-!> The elimination of the first P unknowns of a dense symmetric front of P + R, by blocks that BLAS and LAPACK work on:
+!> Elimination of the first P unknowns of a dense symmetric front of P + R, in blocks, by BLAS and LAPACK.
 !!
 !!        | A11      |      A11 = L11 L11^T,  L21 = A21 L11^-T,  A22 becomes A22 - L21 L21^T
 !!        | A21  A22 |
 !!
-!! panel = (A11 over A21), (P + R, P); update = A22, (R, R); lower triangles throughout, with squares on the diagonal: what lies
-!! above them is neither read nor written, so that of large fronts it takes no memory. The blocks are the same for any number
-!! of threads, and each is the work of one: so are the digits.
+!! panel = (A11 over A21), (P + R, P); update = A22, (R, R). Both are lower triangles with square blocks on the diagonal.
+!! Entries above these blocks are neither read nor written, so that in large fronts they take no memory. The blocks do not
+!! depend on the number of threads, and each block is the work of one thread: the digits do not depend on it either.
 !!
-!! A front that is not positive definite has a factor with signs, A = L S L^T, S diagonal of +1 and -1: L21 = A21 L11^-T S, and
-!! of what is subtracted, L S L^T = L L^T - 2 L_- L_-^T with the columns L_- whose sign is -1; in a structure these are few.
+!! The factor of a front that is not positive definite has signs, A = L S L^T, S diagonal of +1 and -1: L21 = A21 L11^-T S. The
+!! subtracted product is L S L^T = L L^T - 2 L_- L_-^T, L_- the columns whose sign is -1. A structure has few of these.
 module front_kernel
    use blas_lapack, only: dgemm, dpotrf, dtrsm
    use kinds, only: long, wp
@@ -17,7 +17,7 @@ module front_kernel
 
    public :: eliminate, top_row, touched_entries, substitute, substitute_back
 
-   integer(long), parameter, public :: large = 8388608_long !! entries of a matrix whose pages are worth to be given back
+   integer(long), parameter, public :: large = 8388608_long !! entries of a matrix whose pages are worth giving back
 
    integer, parameter :: narrow = 96       ! columns that are eliminated together
    integer, parameter :: wide   = 4*narrow ! columns of the update matrix that are one task
@@ -25,16 +25,16 @@ module front_kernel
    integer, parameter :: alone  = 300      ! rows up to which a front is not worth tasks
 
    integer, parameter :: together = 4        ! columns
-   integer, parameter :: small_rows = 1024        ! rows up to which a front is not worth tasks of its own; beyond that they are
+   integer, parameter :: small_rows = 1024        ! rows up to which a front is not split into tasks
    integer, parameter :: block = 256         ! columns whose unknowns are found together,
-   integer, parameter :: strip_rows = 1024   ! so many rows of them a task forward,
-   integer, parameter :: strip_columns = 64  ! so many columns of them a task back
+   integer, parameter :: strip_rows = 1024   ! rows of them in a task of the forward substitution
+   integer, parameter :: strip_columns = 64  ! columns of them in a task of the back substitution
 
 contains
 
-   !> Eliminate in place. FAULT is 0, or the first unknown whose pivot is not above TOLERANCE times its entry in DIAGONAL:
-   !! it has no stiffness left, and the front is not complete.
-   !! Where NEGATIVE is there a pivot may be below zero: the factor has signs then, and these are the columns of -1.
+   !> Eliminate in place. FAULT is 0, or the first unknown whose pivot is not above TOLERANCE times its entry in DIAGONAL: the
+   !! unknown has no stiffness left, and the front is not complete. If NEGATIVE is present, a pivot may be below zero; NEGATIVE
+   !! lists the columns whose sign is -1.
    subroutine eliminate(p, r, panel, update, diagonal, tolerance, fault, negative)
       integer, intent(in)     :: p, r
       real(wp), intent(inout) :: panel(p + r, p), update(r, r)
@@ -62,7 +62,7 @@ contains
 
    contains
 
-      !> Take from the columns FIRST to LAST of the panel what the columns before do to them.
+      !> Subtract from columns FIRST to LAST of the panel the products of the columns before.
       subroutine subtract_products(first, last)
          integer, intent(in) :: first, last
          integer :: i, m
@@ -124,8 +124,8 @@ contains
          of_negative = panel(:, negative)
       end subroutine eliminate_block
 
-      !> A22 - L21 L21^T in columns FIRST to LAST: what lies below the square on the diagonal as one block, the square in narrow
-      !! ones, which DGEMM does faster than DSYRK although it fills the upper triangle in vain.
+      !> A22 - L21 L21^T in columns FIRST to LAST. The part below the square on the diagonal is one block. The square is
+      !! computed in narrow blocks: DGEMM is faster than DSYRK although it also fills the upper triangle.
       subroutine update_columns(first, last)
          integer, intent(in) :: first, last
          integer :: column, width
@@ -143,8 +143,8 @@ contains
 
    end subroutine eliminate
 
-   !> A = L S L^T in place, of the columns FIRST to LAST of a front: those whose sign is -1 are put behind NEGATIVE. A pivot that is
-   !! zero leaves zero on the diagonal and its column as it is.
+   !> A = L S L^T in place, for columns FIRST to LAST of a front. Columns whose sign is -1 are appended to NEGATIVE. A zero
+   !! pivot leaves zero on the diagonal and its column unchanged.
    pure subroutine factorise_with_signs(first, last, a, negative)
       integer, intent(in)                 :: first, last
       real(wp), intent(inout)             :: a(first:last, first:last) !! lower triangle
@@ -164,7 +164,7 @@ contains
       end do
    end subroutine factorise_with_signs
 
-   !> The first row that is touched in column J of a panel or an update matrix; from there on it has to be set.
+   !> The first row that is touched in column J of a panel or an update matrix; rows from there on must be set.
    elemental integer function top_row(j)
       integer, intent(in) :: j
 
@@ -179,7 +179,7 @@ contains
       touched_entries = m*n - 0.5_wp*max(0.0_wp, n - page - narrow)**2
    end function touched_entries
 
-   !> Forward: the first P of W become y, the others what is left for the rows beyond. Called within a task.
+   !> Forward substitution: the first P of W become y, the others are reduced. Called within a task.
    subroutine substitute(n, p, panel, w)
       integer, intent(in)     :: n, p
       real(wp), intent(in)    :: panel(n, p) !! lower triangle, and all below it
@@ -203,7 +203,7 @@ contains
       end do
    end subroutine substitute
 
-   !> Back: the first P of W become x; the others are known. Called within a task.
+   !> Back substitution: the first P of W become x; the others are known. Called within a task.
    subroutine substitute_back(n, p, panel, w)
       integer, intent(in)     :: n, p
       real(wp), intent(in)    :: panel(n, p)
@@ -231,7 +231,7 @@ contains
 
    !> L y = w in the first P of M rows, w - L y in the others.
    pure subroutine solve_lower(n, m, p, l, w)
-      integer, intent(in)     :: n       !! rows from one column to the next
+      integer, intent(in)     :: n       !! leading dimension
       integer, intent(in)     :: m, p
       real(wp), intent(in)    :: l(n, *)
       real(wp), intent(inout) :: w(m)

@@ -1,5 +1,5 @@
-!> The fronts of a multifrontal factorisation: which nodes each eliminates, which rows it has beyond them, whose child it is.
-!! Everything here is symbolic and counts nodes; WEIGHT(node) is how many unknowns a node has.
+!> The fronts of a multifrontal factorisation: pivot nodes, rows beyond the pivots, parents. The layout is symbolic and counts
+!! nodes; WEIGHT(node) is the number of unknowns of a node.
 !! Source: Liu, SIAM Review 34 (1992) 82-109.
 module front_layout
    use elimination_tree, only: count_rows, find_parents, find_supernodes, merge_supernodes, number_depth_first, order_depth_first, &
@@ -12,34 +12,34 @@ module front_layout
 
    public :: choose_layout, lay_out_fronts, postpone_joints, front_operations, bytes_needed
 
-   real(wp), parameter :: entry_operations = 25.0_wp      !! what it costs to move one entry of a front, in operations on it
+   real(wp), parameter :: entry_operations = 25.0_wp      !! cost of moving one entry of a front, in operations
    integer, parameter  :: part_nodes(3) = [200, 800, 3200] !! sizes of subtrees that are tried
-   integer, parameter  :: many = 20000                    !! nodes whose layouts are worth a thread each
+   integer, parameter  :: many = 20000                    !! nodes from which on each layout has a thread of its own
 
    !> Fronts stand in the order of elimination: children before parents, a subtree without gaps.
    type, public :: front_layout_type
       integer :: n = 0                          !! fronts
       integer, allocatable :: order(:)          !! (nodes) in order of elimination
       integer, allocatable :: first_pivot(:)    !! (n + 1) front f eliminates order(first_pivot(f):first_pivot(f+1)-1)
-      integer, allocatable :: first_row(:)      !! (n + 1) and has the rows beyond
+      integer, allocatable :: first_row(:)      !! (n + 1) its rows beyond the pivots begin here
       integer, allocatable :: rows(:)           !! rows(first_row(f):first_row(f+1)-1), ascending places in order
       integer, allocatable :: parent(:)         !! (n) 0: none
       logical, allocatable :: is_refactored(:)          !! (n) whether a node of a joint is eliminated in its subtree
       real(wp) :: static_operations  = 0.0_wp    !! of one factorisation of the static fronts
-      real(wp) :: refactored_operations = 0.0_wp    !! of the others
-      real(wp) :: factor_entries = 0.0_wp       !! of all panels, whole
-      real(wp) :: panel_entries  = 0.0_wp       !! of all panels, what takes memory
+      real(wp) :: refactored_operations = 0.0_wp    !! of one factorisation of the refactored fronts
+      real(wp) :: factor_entries = 0.0_wp       !! entries of all panels in full
+      real(wp) :: panel_entries  = 0.0_wp       !! entries of all panels that take memory
       real(wp) :: refactored_entries = 0.0_wp       !! entries of the refactored fronts, whole lower triangles
-      real(wp) :: solved_entries = 0.0_wp           !! of these, those of the factor, which a solution goes through
-      real(wp) :: kept_entries   = 0.0_wp       !! lower triangles that static fronts leave to those that do
-      real(wp) :: peak_entries   = 0.0_wp       !! most that stand in update matrices at once, one subtree after the other
-      real(wp) :: most_entries   = 0.0_wp       !! most that stand in panels, update matrices and what refactored fronts begin with
+      real(wp) :: solved_entries = 0.0_wp           !! of these, entries of the factor, which a solution uses
+      real(wp) :: kept_entries   = 0.0_wp       !! lower triangles that static fronts leave to refactored fronts
+      real(wp) :: peak_entries   = 0.0_wp       !! peak of update matrices, subtrees one after the other
+      real(wp) :: most_entries   = 0.0_wp       !! peak of panels, update matrices and initial contents of refactored fronts
    end type front_layout_type
 
 contains
 
-   !> The LAYOUT with least work for so many FACTORISATIONS, and in words which WAY it has with the joints. Parts are tried only
-   !! where joints inside take less than joints last.
+   !> Choose the LAYOUT with least work for FACTORISATIONS factorisations; WAY names its treatment of the joints. Layouts by
+   !! parts are tried only where joints inside cost less than joints last.
    subroutine choose_layout(graph, order, weight, in_joint, factorisations, layout, way)
       type(node_graph_type), intent(in)      :: graph
       integer, intent(in)                    :: order(:), weight(:), factorisations
@@ -82,8 +82,7 @@ contains
                    + factorisations*(layout%refactored_operations + entry_operations*layout%refactored_entries)
    end function total_work
 
-   !> What stands at once, and the elements of refactored fronts, which are kept entry by entry and with two indices, those of a
-   !! regular mesh.
+   !> Peak memory, with the elements of refactored fronts, which are kept entry by entry with two indices, as for a regular mesh.
    pure real(wp) function bytes_needed(layout, n, dimension)
       type(front_layout_type), intent(in) :: layout
       integer, intent(in)                 :: n         !! unknowns
@@ -94,18 +93,17 @@ contains
       bytes_needed = 8.0_wp*layout%most_entries + 16.0_wp*of_elements
    end function bytes_needed
 
-   !> Lay out the fronts of GRAPH eliminated along ORDER. With JOINTS_LAST the nodes with IN_JOINT go to the end, all into one
-   !! front.
+   !> Lay out the fronts of GRAPH along ORDER. With JOINTS_LAST the nodes with IN_JOINT come last, all in one front.
    subroutine lay_out_fronts(graph, order, weight, in_joint, joints_last, layout)
       type(node_graph_type), intent(in)    :: graph
-      integer, intent(in)                  :: order(:)     !! nodes; those that it leaves out are no part of the matrix
+      integer, intent(in)                  :: order(:)     !! nodes; nodes that are left out are no part of the matrix
       integer, intent(in)                  :: weight(:)    !! (graph%n)
       logical, intent(in)                  :: in_joint(:)  !! (graph%n)
       logical, intent(in)                  :: joints_last
       type(front_layout_type), intent(out) :: layout
       type(supernodes_type) :: supers
       integer, allocatable  :: place(:), parent(:), beyond(:), number(:), sequence(:), new_place(:)
-      integer :: i, n_inner ! places up to here have columns of their own
+      integer :: i, n_inner ! places up to n_inner have columns of their own
 
       allocate (layout%order, source=order)
       n_inner = size(order)
@@ -123,14 +121,14 @@ contains
       call find_supernodes(graph, layout%order, place, parent, beyond, supers)
       call weigh_supernodes(layout%order, weight, in_joint, supers)
       call merge_supernodes(supers, joints_last)
-      call number_depth_first(supers%parent == 0, supers%child, supers%sibling, number, sequence) ! what is left of the supernodes
+      call number_depth_first(supers%parent == 0, supers%child, supers%sibling, number, sequence) ! remaining supernodes
       layout%n = size(sequence)
       call number_columns(supers, sequence, new_place, layout)
       call link_fronts(supers, number, sequence, new_place, layout)
    end subroutine lay_out_fronts
 
-   !> In every subtree of at most LARGEST nodes the nodes with IN_JOINT go to the end of ORDER: what is behind them is condensed
-   !! onto them, as joints last do it for whole bodies.
+   !> In every subtree of at most LARGEST nodes move the nodes with IN_JOINT to the end of its part of ORDER. The other nodes of
+   !! the subtree are condensed onto them, as in joints last for whole bodies.
    subroutine postpone_joints(graph, in_joint, largest, order)
       type(node_graph_type), intent(in) :: graph
       logical, intent(in)               :: in_joint(:) !! (graph%n)
@@ -167,7 +165,8 @@ contains
       operations = p*(p*p/3.0_wp + p*r + r*r)
    end function front_operations
 
-   !> The columns of every front in one run, in the order of the fronts; what the fronts are worth. NEW_PLACE(old place).
+   !> Number the columns of every front consecutively, in the order of the fronts, and count the work of the fronts.
+   !! NEW_PLACE(old place).
    subroutine number_columns(supers, sequence, new_place, layout)
       type(supernodes_type), intent(in)      :: supers
       integer, intent(in)                    :: sequence(:)
@@ -215,7 +214,7 @@ contains
       layout%order = new_order
    end subroutine number_columns
 
-   !> The rows of every front beyond its columns, its parent, and what stands in update matrices.
+   !> Set the rows of every front beyond its columns and its parent, and count entries of update matrices.
    subroutine link_fronts(supers, number, sequence, new_place, layout)
       type(supernodes_type), intent(in)      :: supers
       integer, intent(in)                    :: number(:), sequence(:), new_place(:)
@@ -223,7 +222,7 @@ contains
       integer  :: f, s
       real(wp) :: rows
       real(wp) :: panel(layout%n), update(layout%n) ! entries that take memory
-      real(wp) :: filled(layout%n), whole(layout%n) ! entries that refactored fronts begin with, and of them in all
+      real(wp) :: filled(layout%n), whole(layout%n) ! initial entries of refactored fronts, and all their entries
 
       allocate (layout%rows(layout%first_row(layout%n + 1) - 1), layout%parent(layout%n))
       layout%parent = 0
@@ -247,23 +246,23 @@ contains
             filled(number(s)) = filled(number(s)) + 0.5_wp*rows*(rows + 1.0_wp)
       end do
       layout%kept_entries = sum(filled)
-      ! with two indices each, or the whole front where that is less
+      ! two indices for each entry, or the whole front where that takes less memory
       layout%most_entries = most_standing(layout, panel, update, sum(merge(panel + update, 2.0_wp*filled, filled > 0.25_wp*whole)))
    end subroutine link_fronts
 
-   !> Most entries that stand at once, with so many in the PANEL and in the UPDATE matrix of every front: static ones are
-   !! eliminated one after the other, and what they leave to refactored ones is KEPT; then these are eliminated.
+   !> The most entries that exist at once, given those of PANEL and UPDATE matrix of every front. Static fronts are eliminated
+   !! first, one after the other, and leave KEPT entries to the refactored ones, which are eliminated next.
    pure real(wp) function most_standing(layout, panel, update, kept) result(most)
       type(front_layout_type), intent(in) :: layout
       real(wp), intent(in)                :: panel(:), update(:), kept
-      real(wp) :: left(layout%n)           ! to a front by its children
-      real(wp) :: of_large(layout%n)       ! of these by large ones: memory that the front takes over
+      real(wp) :: left(layout%n)           ! update entries that the children leave to a front
+      real(wp) :: of_large(layout%n)       ! of these, entries of large matrices, whose memory the front takes over
       real(wp) :: now, own
       integer  :: f, pass
 
       most = 0.0_wp
       now = 0.0_wp
-      do pass = 1, 2                       ! static ones, then the others
+      do pass = 1, 2                       ! static fronts, then refactored ones
          left = 0.0_wp
          of_large = 0.0_wp
          if (pass == 2) now = sum(panel) + kept

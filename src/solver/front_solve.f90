@@ -1,8 +1,8 @@
-!> Right-hand sides and solutions in a tree of fronts, factorised by front_factor: L y = b, L^T x = y, in the two parts that the
-!! increments need, the static fronts and those that do. A factor with signs, L S L^T, has S L^T x = y.
+!> Forward and back substitution in a tree of fronts factorised by front_factor: L y = b, L^T x = y. Static and refactored
+!! fronts are solved separately, as the increments need. A factor with signs, L S L^T, has S L^T x = y.
 !!
-!! Independent subtrees are tasks of OpenMP. On the way up every front keeps what it leaves for the rows beyond it until its parent
-!! takes that from all its children, in their order: no digit depends on the number of threads.
+!! Independent subtrees are tasks of OpenMP. On the way up every front keeps its contributions to the rows beyond until its
+!! parent adds those of all its children in their order: no digit depends on the number of threads.
 module front_solve
    use blas_lapack, only: dgemv, dtrmv
    use front_tree, only: begins, block_times_vector, front_tree_type, front_type, task_work
@@ -15,7 +15,7 @@ module front_solve
 
 contains
 
-   !> Carry X, loads on all equations, over to the refactored equations: L y = x on the static fronts. There X is y then.
+   !> Condense X, loads on all equations, on the refactored equations: L y = x on the static fronts, where X becomes y.
    subroutine eliminate_static(tree, x)
       type(front_tree_type), intent(in) :: tree
       real(wp), intent(inout)           :: x(tree%n)
@@ -23,8 +23,8 @@ contains
       call sweep(tree, .false., .true., x)
    end subroutine eliminate_static
 
-   !> The other way: X holds y of eliminate_static on the static fronts and the solution on those that do; it is the
-   !! solution everywhere then.
+   !> Recover the static unknowns: X holds y of eliminate_static on the static fronts and the solution on the refactored ones.
+   !! On return X is the solution everywhere.
    subroutine recover_static(tree, x)
       type(front_tree_type), intent(in) :: tree
       real(wp), intent(inout)           :: x(tree%n)
@@ -32,7 +32,7 @@ contains
       call sweep(tree, .false., .false., x)
    end subroutine recover_static
 
-   !> Solve for the refactored equations; X is not touched on the others.
+   !> Solve for the refactored equations; X is not changed on the others.
    subroutine solve_refactored(tree, x)
       type(front_tree_type), intent(in) :: tree
       real(wp), intent(inout)           :: x(tree%n)
@@ -41,13 +41,13 @@ contains
       call sweep(tree, .true., .false., x)
    end subroutine solve_refactored
 
-   !> L y = x (UP), or L^T x = y with X known beyond these, in the REFACTORED fronts, or the static ones; what is left by these for
-   !! fronts of the other kind is added to X there.
+   !> L y = x (UP), or L^T x = y with X known beyond, in the REFACTORED or the static fronts. Contributions to fronts of the
+   !! other kind are added to X there.
    subroutine sweep(tree, refactored, up, x)
       type(front_tree_type), intent(in) :: tree
       logical, intent(in)               :: refactored, up
       real(wp), intent(inout)           :: x(tree%n)
-      real(wp), allocatable :: left(:) ! what fronts leave for the rows beyond
+      real(wp), allocatable :: left(:) ! contributions of fronts to the rows beyond
       integer :: f
 
       allocate (left(merge(tree%n_left, 0, up)))
@@ -90,7 +90,7 @@ contains
       if (up) call forward(tree, f, x, left)
    end subroutine sweep_subtree
 
-   !> L y = x in front F, X and what the children LEFT together; what y does to the rows beyond is left likewise.
+   !> L y = x in front F, from X and the contributions LEFT by its children. The contributions of F are left likewise.
    subroutine forward(tree, f, x, left)
       type(front_tree_type), intent(in) :: tree
       integer, intent(in)               :: f
@@ -109,7 +109,7 @@ contains
             end associate
          end do
          where (tree%locked(first:first + p - 1)) w(:p) = 0.0_wp
-         if (any(abs(w(:p)) > 0.0_wp)) call substitute(p + r, p, front%panel, w) ! loads act on few fronts, and on those above them
+         if (any(abs(w(:p)) > 0.0_wp)) call substitute(p + r, p, front%panel, w) ! loads act on few fronts and their ancestors
          x(first:first + p - 1) = w(:p)
          left(front%left + 1:front%left + r) = w(p + 1:)
       end associate
@@ -142,7 +142,8 @@ contains
       end associate
    end subroutine apply_signs
 
-   !> Y = [k_b] X on the refactored equations, the others condensed into it, interface elements left out; Y is not touched on them.
+   !> Y = [k_b] X on the refactored equations, [k_b] condensed on them, without interface elements; other entries of Y are not
+   !! changed.
    subroutine refactored_times_vector(tree, x, y)
       type(front_tree_type), intent(in) :: tree
       real(wp), intent(in)              :: x(tree%n)
@@ -164,7 +165,7 @@ contains
       end do
    end subroutine refactored_times_vector
 
-   !> X = L S L^T X on all equations, zero where they are locked: the product with the matrix that the factor is of.
+   !> X = L S L^T X on all equations, zero where locked: the product with the factorised matrix.
    subroutine factor_times_vector(tree, x)
       type(front_tree_type), intent(in) :: tree
       real(wp), intent(inout)           :: x(tree%n)
@@ -172,7 +173,7 @@ contains
       integer  :: f
 
       where (tree%locked) x = 0.0_wp
-      do f = 1, size(tree%fronts) ! L^T x: the rows beyond are those of fronts that follow
+      do f = 1, size(tree%fronts) ! L^T x: the rows beyond belong to later fronts
          associate (front => tree%fronts(f), p => tree%fronts(f)%p, r => tree%fronts(f)%r, first => tree%fronts(f)%first)
             call dtrmv('L', 'T', 'N', p, front%panel, p + r, x(first), 1)
             work(:r) = x(front%rows)

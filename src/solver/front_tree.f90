@@ -1,5 +1,5 @@
-!> The tree of dense fronts of a multifrontal factorisation. Static fronts have no unknown of a joint in their subtree;
-!! they are eliminated once. The others are assembled and eliminated again and again.
+!> The tree of dense fronts of a multifrontal factorisation. Static fronts have no unknown of a joint in their subtree; they are
+!! factorised once. The other fronts are refactored in every increment.
 !! Sources: Duff, Reid, ACM Trans. Math. Softw. 9 (1983) 302-325; Liu, SIAM Review 34 (1992) 82-109.
 module front_tree
    use blas_lapack, only: dgemv, dsymv
@@ -24,10 +24,10 @@ module front_tree
       integer, allocatable  :: row(:), column(:)
    end type kept_block
 
-   real(wp), parameter, public :: task_work = 2.0e6_wp !! operations of the factorisation of a subtree that is worth a task
-   real(wp), parameter :: parallel_work = 5.0e7_wp  ! operations of a factorisation that is worth more than one thread
+   real(wp), parameter, public :: task_work = 2.0e6_wp !! operations in a subtree from which on it is a task
+   real(wp), parameter :: parallel_work = 5.0e7_wp  ! operations of a factorisation from which on it uses several threads
 
-   !> What a refactored front begins with in every increment: all that stays the same.
+   !> The initial content of a refactored front, which is the same in every increment.
    type :: front_start
       type(kept_block) :: panel, update
       real(wp), allocatable :: diagonal(:)        ! (p + r)
@@ -37,20 +37,19 @@ module front_tree
       integer :: first = 0                        !! equation of its first pivot
       integer :: p = 0, r = 0                     !! pivots, rows beyond them
       integer :: parent = 0                       !! 0: none
-      integer :: left = 0                         !! behind which place what it leaves for the rows beyond stands in a solution
+      integer :: left = 0                         !! offset of its contributions to the rows beyond in a solution
       logical :: is_refactored = .false.
       integer, allocatable  :: children(:)
       integer, allocatable  :: rows(:)            !! (r) equations beyond the pivots, ascending
       integer, allocatable  :: in_parent(:)       !! (r) their places in the front of the parent
       integer, allocatable  :: run(:)             !! where runs of places without gaps begin, and r + 1
-      integer, allocatable  :: elements(:)        !! whose first equation it eliminates
+      integer, allocatable  :: elements(:)        !! elements whose first equation this front eliminates
       integer, allocatable  :: springs(:)         !! interface elements likewise
       real(wp), allocatable :: panel(:, :)        !! (p + r, p), then the columns of the factor
-      real(wp), allocatable :: update(:, :)       !! (r, r) what is left for the parent; gone once that has it
-      real(wp), allocatable :: diagonal(:)        !! (p + r) of the matrix before any elimination, as far as the subtree knows it;
-                                                  !! gone likewise
+      real(wp), allocatable :: update(:, :)       !! (r, r) update matrix for the parent; freed once the parent has added it
+      real(wp), allocatable :: diagonal(:)        !! (p + r) of the original matrix, as assembled in the subtree; freed likewise
       integer, allocatable :: negative(:)         !! of a factor with signs: the pivots of this front whose sign is -1
-      real(wp) :: weakest = 1.0_wp                !! least pivot, as a share of its diagonal entry before any elimination
+      real(wp) :: weakest = 1.0_wp                !! smallest pivot relative to the original diagonal entry
       type(front_start), allocatable :: start     !! of a refactored front
       real(wp) :: work = 0.0_wp                   !! operations of its subtree
    end type front_type
@@ -59,22 +58,22 @@ module front_tree
       integer :: n = 0                            !! equations
       real(wp) :: shift = 0.0_wp                  !! sigma, as equation_system has it
       integer, allocatable :: number(:, :)        !! (dimension, n_nodes) equation of a component, 0: held
-      integer, allocatable :: of_equation(:)      !! (n) front that eliminates it
+      integer, allocatable :: of_equation(:)      !! (n) front that eliminates the equation
       type(interface_equations_type) :: joints
-      real(wp), allocatable :: diagonal(:)        !! (n) of the matrix that the factor is of
-      logical, allocatable :: locked(:)           !! (n) unknowns that do not change any more; of refactored fronts
+      real(wp), allocatable :: diagonal(:)        !! (n) of the factorised matrix
+      logical, allocatable :: locked(:)           !! (n) locked unknowns, of refactored fronts only
       type(front_type), allocatable :: fronts(:)  !! children before parents
       integer, allocatable :: refactored(:)           !! refactored ones, ascending
       integer, allocatable :: equations(:)        !! that they eliminate, ascending
-      integer :: most_rows = 0                    !! pivots and rows beyond them of the largest
+      integer :: most_rows = 0                    !! most rows of a front, pivots included
       integer :: n_left = 0                       !! rows beyond the pivots of all fronts together
-      logical :: is_parallel = .false.            !! whether the model is worth more than one thread
+      logical :: is_parallel = .false.            !! whether the model uses more than one thread
       real(wp) :: assembly_time = 0.0_wp          !! of the elements, all threads together [s]
    end type front_tree_type
 
 contains
 
-   !> Keep A, set as the kernel wants it. OK is false where there is no memory for it.
+   !> Keep A, of which the kernel touches the lower part. OK is false where memory is missing.
    subroutine keep_block(a, block, ok)
       real(wp), intent(in)          :: a(:, :)
       type(kept_block), intent(out) :: block
@@ -109,7 +108,7 @@ contains
       end do
    end subroutine keep_block
 
-   !> A = BLOCK, as far as the kernel touches it.
+   !> A = BLOCK, in the part that the kernel touches.
    pure subroutine restore_block(block, a)
       type(kept_block), intent(in) :: block
       real(wp), intent(inout)      :: a(block%n_rows, block%n_columns)
@@ -152,7 +151,7 @@ contains
          end do
          return
       end if
-      ! entries stand column by column, and so do the new ones: merged
+      ! the existing and the new entries are both sorted by columns: merge them
       old = block
       n = size(old%values, kind=long) + sum([(count(rows >= columns(j)), j = 1, size(columns))])
       deallocate (block%values, block%row, block%column)
@@ -179,7 +178,7 @@ contains
 
    contains
 
-      !> One more entry, or more in the last one where that stands at the same place.
+      !> Append an entry, or add to the last one where the place is the same.
       subroutine append(row, column, value)
          integer, intent(in)  :: row, column
          real(wp), intent(in) :: value
@@ -198,7 +197,7 @@ contains
 
    end subroutine add_to_block
 
-   !> Y = Y + BLOCK X, the block as part of a symmetric matrix over the unknowns of its rows.
+   !> Y = Y + BLOCK X, BLOCK being part of a symmetric matrix over the unknowns of its rows.
    subroutine block_times_vector(block, x, y)
       type(kept_block), intent(in) :: block
       real(wp), intent(in)         :: x(block%n_rows)
@@ -224,7 +223,7 @@ contains
       end if
    end subroutine block_times_vector
 
-   !> The tree of LAYOUT with the equations NUMBER: no matrix yet.
+   !> The tree of LAYOUT with the equations NUMBER; no matrix is formed yet.
    subroutine start_front_tree(model, number, layout, tree)
       type(model_type), intent(in)        :: model
       integer, intent(in)                 :: number(:, :)   !! numbered along layout%order
@@ -286,7 +285,7 @@ contains
                   front%in_parent(i) = parent%p + k
                end if
             end do
-            ! a run begins where the place in the parent is not right behind the one before, or is the first beyond its pivots
+            ! a run ends where the next place in the parent is not consecutive, or is the first beyond the pivots of the parent
             front%run = [pack([(i, i=1, front%r)], front%in_parent /= [0, front%in_parent(:front%r - 1) + 1] .or. &
                                                    front%in_parent == parent%p + 1), front%r + 1]
          end associate
@@ -306,7 +305,8 @@ contains
       tree%most_rows = maxval(tree%fronts%p + tree%fronts%r)
    end subroutine start_front_tree
 
-   !> Every element, and every interface element, to the front that eliminates its first equation: the others are rows there.
+   !> Assign every element and interface element to the front that eliminates its first equation. The other equations are rows
+   !! of that front.
    subroutine hand_out_elements(model, tree)
       type(model_type), intent(in)         :: model
       type(front_tree_type), intent(inout) :: tree
@@ -342,7 +342,7 @@ contains
       f = merge(0, tree%of_equation(min(f, tree%n)), f > tree%n)
    end function front_of
 
-   !> Whether front F is REFACTORED, or static, and its parent is none of these.
+   !> Whether front F is REFACTORED (or static) and its parent is of the other kind.
    pure logical function begins(tree, f, refactored)
       type(front_tree_type), intent(in) :: tree
       integer, intent(in)               :: f
@@ -352,8 +352,7 @@ contains
       if (begins .and. tree%fronts(f)%parent > 0) begins = tree%fronts(tree%fronts(f)%parent)%is_refactored .neqv. refactored
    end function begins
 
-   !> The largest diagonal entry of the matrix without the joints, when the static fronts have been eliminated and those
-   !! that do have not.
+   !> The largest diagonal entry of the matrix without the joints, after the elimination of the static fronts only.
    pure real(wp) function largest_diagonal(tree) result(largest)
       type(front_tree_type), intent(in) :: tree
       real(wp), allocatable :: diagonal(:)

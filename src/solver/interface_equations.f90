@@ -1,5 +1,5 @@
-!> Interface elements as the equations see them: which equations each couples, with which weights, and what its stiffness is
-!! between them: s_a s_b [k] for the nodes a and b, s their weights; of coupled nodes [M_a]^T [k] [M_b], M their maps.
+!> The equations of interface elements: numbers, weights and assembled stiffness matrices. The matrix of an element has the
+!! blocks s_a s_b [k] for nodes a and b with weights s, and [M_a]^T [k] [M_b] for coupled nodes with maps M.
 module interface_equations
    use interface_operator, only: interface_element
    use kinds, only: wp
@@ -13,15 +13,15 @@ module interface_equations
       integer, allocatable, private  :: first(:)     ! (n + 1) the nodes of element i are first(i) to first(i + 1) - 1
       integer, allocatable, private  :: equation(:, :) ! (dimension, all nodes of all elements), 0: held
       real(wp), allocatable, private :: weight(:)
-      logical, allocatable, private  :: is_mapped(:) ! (n) by map, not by weight
-      real(wp), allocatable, private :: map(:, :, :) ! (dimension, dimension, all nodes of all elements), where any is
+      logical, allocatable, private  :: is_mapped(:) ! (n) coupled by maps, not by weights
+      real(wp), allocatable, private :: map(:, :, :) ! (dimension, dimension, all nodes of all elements), if any is mapped
    contains
       procedure :: rows_of, matrix_of
    end type interface_equations_type
 
 contains
 
-   !> The equations of all ELEMENTS where NUMBER says which component has which.
+   !> List the equations of all ELEMENTS. NUMBER gives the equation of each component.
    pure subroutine list_interface_equations(elements, number, equations)
       type(interface_element), intent(in)         :: elements(:)
       integer, intent(in)                         :: number(:, :) !! (dimension, n_nodes), 0: held
@@ -49,7 +49,7 @@ contains
       end do
    end subroutine list_interface_equations
 
-   !> The equations of element I, 0 for what is held: the components of its first node, of the next, ...
+   !> The equations of element I, 0 for held components: components of the first node, of the next, ...
    pure function rows_of(self, i) result(rows)
       class(interface_equations_type), intent(in) :: self
       integer, intent(in)                         :: i
@@ -60,7 +60,7 @@ contains
       end associate
    end function rows_of
 
-   !> Stiffness of element I between its rows_of, where K is that between its ends.
+   !> Stiffness of element I between the equations rows_of, from the stiffness K between its ends.
    pure function matrix_of(self, i, k) result(matrix)
       class(interface_equations_type), intent(in) :: self
       integer, intent(in)                         :: i

@@ -1,5 +1,5 @@
-!> What is needed against what the machine has. Of a model it is told from its cards before a node is made: what no order of
-!! elimination changes. A factor is looked at when its layout is known, and before it is made.
+!> Comparison of the memory that a run needs with that of the machine. The need of a model follows from its cards before a node
+!! is made: the part that does not depend on the order of elimination. The need of a factor follows from its layout.
 module memory_need
    use bulk_data, only: block_card
    use deck_input, only: deck_type
@@ -12,11 +12,11 @@ module memory_need
 
    public :: check_model_size, check_memory, nodes_of_block, shortage
 
-   real(wp), parameter :: node_bytes = 500.0_wp !! of a node, its elements, the graph, arrays over nodes; a factor takes far more
+   real(wp), parameter :: node_bytes = 500.0_wp !! per node, with its elements, the graph and nodal arrays; a factor takes far more
 
 contains
 
-   !> A failure where the memory does not hold the nodes of the deck's blocks and GRID cards.
+   !> Fail where the nodes of the deck's blocks and GRID cards exceed the memory.
    subroutine check_model_size(deck, failure)
       type(deck_type), intent(in)       :: deck
       type(failure_type), intent(inout) :: failure
@@ -28,7 +28,7 @@ contains
       if (words /= '') call failure%raise(words)
    end subroutine check_model_size
 
-   !> Nodes of the block of CARD, of second order with those at the middle of its edges.
+   !> Nodes of the block of CARD; second order adds those at the middle of the edges.
    elemental real(wp) function nodes_of_block(card) result(nodes)
       type(block_card), intent(in) :: card
       real(wp) :: along(3) ! nodes along x, y, z
@@ -40,7 +40,7 @@ contains
       end associate
    end function nodes_of_block
 
-   !> A failure where so many BYTES for the factor of N equations are more than can be had; its message says what would fit.
+   !> Fail where the factor of N equations, BYTES, exceeds the available memory; the message gives the size that fits.
    subroutine check_memory(n, dimension, bytes, failure)
       integer, intent(in)               :: n          !! unknowns
       integer, intent(in)               :: dimension  !! of the model
@@ -56,7 +56,7 @@ contains
                                              'would fit')
    end subroutine check_memory
 
-   !> WORDS that say what NEEDS so many BYTES and what the machine has, and the SHARE that can be had; '' where all can.
+   !> WORDS that compare the BYTES of NEEDS with the memory, and the SHARE that is available; '' where the memory suffices.
    subroutine shortage(needs, bytes, words, share)
       character(*), intent(in)               :: needs
       real(wp), intent(in)                   :: bytes

@@ -1,10 +1,11 @@
-!> The order of elimination: nested dissection of the node graph. METIS dissects; large graphs of plane meshes it sees coarsely
-!! first, nodes by fours: the separators of the coarse graph, thinned, are as good as those of the fine one, and the whole takes
-!! half the time. In space they are worse, by a tenth of the operations, and the order is a small part of the whole.
+!> The elimination order by nested dissection of the node graph. METIS dissects. Large graphs of plane meshes are coarsened
+!! first, four nodes to one: the thinned separators of the coarse graph are as good as those of the fine one, and the time is
+!! halved. For solid meshes the separators of the coarse graph cost a tenth more operations, and ordering is a small part of the
+!! total: their graphs are not coarsened.
 !!
-!! Separators cut a graph in two, the halves again, and so on: a binary tree, its places numbered as in a heap, the children of h
-!! are 2h and 2h + 1. Inner places hold the separators, the leaves what is left between them. Neighbours stand in places of which
-!! one is above the other.
+!! Separators cut a graph in two, then the halves, and so on. The result is a binary tree, numbered as a heap: the children of
+!! place h are 2h and 2h + 1. Inner places hold the separators, the leaves the remaining nodes. Of the places of two neighbours,
+!! one is an ancestor of the other.
 !! Source of the coarse graph: heavy-edge matching, Karypis, Kumar, SIAM J. Sci. Comput. 20 (1998) 359-392, section 3.1.
 !! METIS 5.1: Karypis, Kumar, SIAM J. Sci. Comput. 20 (1998) 359-392.
 module nested_dissection
@@ -19,7 +20,7 @@ module nested_dissection
    integer, parameter :: n_options = 40         ! METIS_NOPTIONS
    integer, parameter :: compress = 13          ! METIS_OPTION_COMPRESS, from 1 on
    integer, parameter :: metis_ok = 1           ! METIS_OK
-   integer, parameter :: words = 8              ! of a node or a link that METIS is given room for
+   integer, parameter :: words = 8              ! words of memory per node or link for METIS
 
    interface
       integer(c_int32_t) function metis_set_default_options(options) bind(c, name='METIS_SetDefaultOptions')
@@ -31,7 +32,7 @@ module nested_dissection
          bind(c, name='METIS_NodeND')
          import :: c_int32_t, c_ptr
          integer(c_int32_t), intent(in)    :: n, first(*), neighbours(*)  !! from 0 on
-         type(c_ptr), value                :: weights, options            !! null: as METIS has them by itself
+         type(c_ptr), value                :: weights, options            !! null: defaults of METIS
          integer(c_int32_t), intent(out)   :: old_of_new(*), new_of_old(*)
       end function metis_node_nd
 
@@ -55,12 +56,12 @@ module nested_dissection
    end interface
 
    integer, parameter :: large = 20000      ! nodes from which on a graph is coarsened
-   integer, parameter :: flat = 10          ! neighbours of a node, on the average, up to which a mesh is taken for a plane one
-   integer, parameter :: part_nodes = 700   ! that are not dissected coarsely
+   integer, parameter :: flat = 10          ! average number of neighbours up to which a mesh is taken as plane
+   integer, parameter :: part_nodes = 700   ! largest part that is not coarsened
 
 contains
 
-   !> ORDER(k) is the k-th node of GRAPH to be eliminated, by nested dissection. OK is false where METIS has not the memory.
+   !> ORDER(k) is the k-th node of GRAPH to be eliminated, by nested dissection. OK is false where METIS lacks memory.
    subroutine order_by_metis(graph, order, ok)
       type(node_graph_type), intent(in) :: graph
       integer, allocatable, intent(out) :: order(:)
@@ -74,7 +75,7 @@ contains
       if (ok) order = old_of_new + 1
    end subroutine order_by_metis
 
-   !> Whether there is the memory that METIS takes for GRAPH.
+   !> Whether METIS has the memory for GRAPH.
    logical function has_room(graph)
       type(node_graph_type), intent(in) :: graph
       integer, allocatable :: room(:, :)
@@ -84,8 +85,8 @@ contains
       has_room = status == 0
    end function has_room
 
-   !> Cut GRAPH by separators into N_PARTS, a power of 2: PLACE of every node in the tree of nested_dissection; all in place 1 where
-   !! METIS does not say which nodes the separators are. OK is false where there is not the memory: METIS would end the program.
+   !> Cut GRAPH by separators into N_PARTS, a power of 2: PLACE of every node in the tree of separators; 1 for all where METIS
+   !! returns no separators. OK is false where memory is missing: METIS would end the program.
    subroutine separate_by_metis(graph, n_parts, place, ok)
       type(node_graph_type), intent(in) :: graph
       integer, intent(in)               :: n_parts
@@ -97,7 +98,7 @@ contains
       ok = has_room(graph)
       if (.not. ok) return
       status = metis_set_default_options(options)
-      options(compress) = 0   ! sizes would count what is left of the nodes
+      options(compress) = 0   ! with compression the sizes would count compressed nodes
       sizes = 0
       ok = metis_node_ndp(graph%n, graph%first - 1, graph%neighbours - 1, c_null_ptr, n_parts, options, old_of_new, new_of_old, &
                           sizes) == metis_ok
@@ -109,7 +110,7 @@ contains
 
    contains
 
-      !> The nodes of the subtree of place TOP: METIS orders its second half first, the separator last.
+      !> Assign the nodes of the subtree of place TOP: METIS orders its second half first, the separator last.
       recursive subroutine hand_out(top)
          integer, intent(in) :: top
 
@@ -125,7 +126,7 @@ contains
 
    end subroutine separate_by_metis
 
-   !> PART, 0 to N_PARTS - 1, of every node of GRAPH: parts of like size with few links between them. OK as above.
+   !> PART, 0 to N_PARTS - 1, of every node of GRAPH: parts of similar size with few links between them. OK as above.
    subroutine part_by_metis(graph, n_parts, part, ok)
       type(node_graph_type), intent(in) :: graph
       integer, intent(in)               :: n_parts
@@ -142,8 +143,8 @@ contains
                            c_null_ptr, c_null_ptr, c_null_ptr, cut, part) == metis_ok
    end subroutine part_by_metis
 
-   !> ORDER(k) is the k-th node to be eliminated, of those with TAKEN(node): the others are left out of the graph.
-   !! OK is false where METIS has not the memory.
+   !> ORDER(k) is the k-th node to be eliminated, of the nodes with TAKEN(node). The graph leaves the others out. OK is false
+   !! where METIS lacks memory.
    subroutine dissect(graph, taken, order, ok)
       type(node_graph_type), intent(in)  :: graph
       logical, intent(in)                :: taken(:)
@@ -164,8 +165,8 @@ contains
       if (ok) order = nodes(order)
    end subroutine dissect
 
-   !> ORDER as above. A coarse graph is cut into parts of no more than MOST_NODES of GRAPH, on the average; METIS orders them one
-   !! by one. The separators follow their parts.
+   !> ORDER as above. A coarse graph is cut into parts of MOST_NODES of GRAPH on average at most. METIS orders them one by one.
+   !! The separators follow their parts.
    subroutine dissect_coarsely(graph, most_nodes, order, ok)
       type(node_graph_type), intent(in) :: graph
       integer, intent(in)               :: most_nodes
@@ -195,7 +196,7 @@ contains
 
    contains
 
-      !> The nodes of the subtree of place TOP.
+      !> Order the nodes of the subtree of place TOP.
       recursive subroutine order_subtree(top)
          integer, intent(in)   :: top
          type(node_graph_type) :: part
@@ -219,7 +220,7 @@ contains
 
    end subroutine dissect_coarsely
 
-   !> WEIGHT of every link to a neighbour: one, and one for every neighbour that both have.
+   !> WEIGHT of every link: 1 plus the number of common neighbours of its ends.
    subroutine weigh_links(graph, weight)
       type(node_graph_type), intent(in) :: graph
       integer, allocatable, intent(out) :: weight(:) !! as graph%neighbours
@@ -243,14 +244,14 @@ contains
       !$omp end parallel
    end subroutine weigh_links
 
-   !> A graph with half the nodes: every node is joined with the neighbour, not joined yet, to which its link weighs most; the
-   !! COARSE graph has the links between them, their weights added up.
+   !> Halve a graph by heavy-edge matching: each node is paired with the unmatched neighbour of the heaviest link. The links of
+   !! the COARSE graph carry the sums of weights.
    pure subroutine coarsen(graph, weight, coarse, coarse_weight, of_node)
       type(node_graph_type), intent(in)  :: graph
       integer, intent(in)                :: weight(:)        !! as graph%neighbours
       type(node_graph_type), intent(out) :: coarse
       integer, allocatable, intent(out)  :: coarse_weight(:) !! as coarse%neighbours
-      integer, allocatable, intent(out)  :: of_node(:)       !! (graph%n) what of COARSE a node is in
+      integer, allocatable, intent(out)  :: of_node(:)       !! (graph%n) node of COARSE
       integer, allocatable :: members(:, :), at(:)
       integer :: best, c, i, j, k, m, most, n
 
@@ -274,7 +275,7 @@ contains
 
       allocate (coarse%first(coarse%n + 1), coarse%neighbours(size(graph%neighbours)))
       allocate (coarse_weight(size(graph%neighbours)), source=0)
-      allocate (at(coarse%n), source=0)               ! where a neighbour stands in the list
+      allocate (at(coarse%n), source=0)               ! position of a neighbour in the list
       n = 0
       do c = 1, coarse%n
          coarse%first(c) = n + 1
@@ -298,8 +299,8 @@ contains
       coarse_weight = coarse_weight(:n)
    end subroutine coarsen
 
-   !> Separators of a coarse graph are thick in the fine one: PLACE(node). Every node that does not have neighbours on both sides
-   !! of its separator goes down to the side where it has some, and on, until it separates or is in a leaf.
+   !> Thin the separators of a coarse graph, which are thick in the fine one: PLACE(node). A node without neighbours on both
+   !! sides of its separator moves down to the side with neighbours, until it separates or is in a leaf.
    pure subroutine thin_separators(graph, n_leaves, place)
       type(node_graph_type), intent(in) :: graph
       integer, intent(in)               :: n_leaves  !! a power of 2; they are places n_leaves to 2 n_leaves - 1

@@ -1,5 +1,5 @@
-!> Which nodes share an element: the graph that orderings work on; and its profile ordering, reverse Cuthill-McKee from a
-!! pseudo-peripheral node.
+!> The graph of nodes that share an element, and its reverse Cuthill-McKee ordering. The ordering begins at a pseudo-peripheral
+!! node.
 !! Sources: Cuthill, McKee (Proc. 24th ACM Conf., 1969); George, Liu, Computer Solution of Large Sparse Positive
 !! Definite Systems, 1981, chapter 4 (the start node, and why reversed).
 module node_graph
@@ -17,12 +17,12 @@ module node_graph
       integer :: n = 0
       integer, allocatable :: first(:)      !! (n + 1)
       integer, allocatable :: neighbours(:)
-      logical :: with_masses = .false.      !! masses at nodes couple what these move with: a shift may come
+      logical :: with_masses = .false.      !! nodal masses couple their nodes: a shift is possible
    end type node_graph_type
 
 contains
 
-   !> The graph of all nodes of MODEL; time and memory linear in its size. WITH_MASSES, those at nodes couple what these move with.
+   !> The graph of all nodes of MODEL; time and memory are linear in its size. WITH_MASSES, nodal masses couple their nodes.
    subroutine build_node_graph(model, graph, with_masses)
       type(model_type), intent(in)  :: model
       type(node_graph_type), intent(out) :: graph
@@ -61,7 +61,7 @@ contains
 
    contains
 
-      !> The rotations of a shell or beam.
+      !> Visit the rotations of a shell or beam.
       subroutine visit_rotations(e)
          integer, intent(in) :: e
          integer :: j
@@ -77,7 +77,7 @@ contains
          integer, intent(in) :: candidate
 
          other = candidate
-         if (other == 0) return ! behind the last of a list, or no section
+         if (other == 0) return ! end of a list, or no section
          if (mark(other) == node) return
          mark(other) = node
          n = n + 1
@@ -86,8 +86,8 @@ contains
 
    end subroutine build_node_graph
 
-   !> JOINED(:, n): the nodes whose unknowns interface elements and bars couple; WITH_MASSES those of masses at nodes; and WITH_BODIES
-   !! body elements with nodes that move with the unknowns of others; 0 behind the last.
+   !> JOINED(:, n): the nodes that interface elements and bars couple; WITH_MASSES also nodal masses; WITH_BODIES also body
+   !! elements with coupled nodes; 0 behind the last.
    subroutine list_joined(model, with_masses, with_bodies, joined)
       type(model_type), intent(in)      :: model
       logical, intent(in)               :: with_masses, with_bodies
@@ -130,11 +130,11 @@ contains
 
    end subroutine list_joined
 
-   !> The PART of GRAPH with NODES alone, numbered in their sequence.
+   !> The PART of GRAPH with NODES only, numbered in their sequence.
    pure subroutine part_of_graph(graph, nodes, number, part)
       type(node_graph_type), intent(in)  :: graph
       integer, intent(in)                :: nodes(:)
-      integer, intent(inout)             :: number(:) !! (graph%n) room to work in: zero, and zero again on return
+      integer, intent(inout)             :: number(:) !! (graph%n) work space: zero on entry and on return
       type(node_graph_type), intent(out) :: part
       integer :: i, k, m
 
@@ -172,8 +172,8 @@ contains
       order = order(graph%n:1:-1)
    end subroutine reverse_cuthill_mckee
 
-   !> A node as far out as can be found cheaply in the piece of NODE: go to a node of least degree in the last level of
-   !! its level structure as long as that makes the structure longer. LEVEL is left as it came.
+   !> A pseudo-peripheral node of the piece of NODE: go to a node of least degree in the last level of the level structure as
+   !! long as the structure becomes longer. LEVEL is unchanged on return.
    integer function peripheral_node(graph, node, level) result(start)
       type(node_graph_type), intent(in) :: graph
       integer, intent(in)          :: node
@@ -200,8 +200,8 @@ contains
       end do
    end function peripheral_node
 
-   !> Breadth first from START: the nodes that it reaches, with LEVEL 0 so far, stand in QUEUE behind the first N, and get levels 1, 2,
-   !! ...; the neighbours of each node BY_DEGREE, in ascending order.
+   !> Breadth-first search from START: nodes that are reached, with LEVEL 0 on entry, are appended to QUEUE behind the first N
+   !! and get levels 1, 2, ...; neighbours in ascending order, BY_DEGREE of their degree.
    subroutine reach(graph, start, by_degree, level, queue, n)
       type(node_graph_type), intent(in) :: graph
       integer, intent(in)    :: start

@@ -1,5 +1,5 @@
-!> Symmetric matrices in a skyline, and their active-column Cholesky factor. One that is not positive definite has a factor with
-!! signs, A = U^T S U, S diagonal of +1 and -1.
+!> Symmetric matrices in skyline storage, and their active-column Cholesky factor. The factor of a matrix that is not positive
+!! definite has signs, A = U^T S U, S diagonal of +1 and -1.
 !!
 !! Column j of the upper triangle is stored from its first nonzero row m_j down to the diagonal, column after column:
 !!
@@ -26,7 +26,7 @@ module skyline
 
 contains
 
-   !> A zero matrix whose column j begins in row FIRST_ROW(j). OK is false where the memory is not there.
+   !> A zero matrix whose column j begins in row FIRST_ROW(j). OK is false where memory is missing.
    subroutine start_skyline(first_row, matrix, ok)
       integer, intent(in)               :: first_row(:) !! (n), 1 <= first_row(j) <= j
       type(skyline_matrix), intent(out) :: matrix
@@ -55,7 +55,7 @@ contains
       matrix%values(place) = matrix%values(place) + value
    end subroutine add_to_skyline
 
-   !> Y = A X for a matrix that is not factorised.
+   !> Y = A X for a matrix not yet factorised.
    pure subroutine skyline_times_vector(matrix, x, y)
       type(skyline_matrix), intent(in) :: matrix
       real(wp), intent(in)             :: x(:) !! (n)
@@ -163,14 +163,14 @@ contains
       end do
    end subroutine solve_skyline
 
-   !> X = U^T S U X, U and S from factorise_skyline: the product with the matrix that the factor is of.
+   !> X = U^T S U X, U and S from factorise_skyline: the product with the factorised matrix.
    pure subroutine factor_times_vector(factor, x)
       type(skyline_matrix), intent(in) :: factor
       real(wp), intent(inout)          :: x(:) !! (n)
       integer(long) :: column
       integer :: j, first
 
-      do j = 1, factor%n          ! U x, column after column: of x only what follows is still needed
+      do j = 1, factor%n          ! U x, column by column: later columns need only later entries of x
          column = factor%diagonal(j) - j
          first = int(factor%diagonal(j - 1) + 1 - column)
          if (first < j) x(first:j - 1) = x(first:j - 1) + x(j)*factor%values(column + first:column + j - 1)

@@ -1,5 +1,5 @@
-!> The solver SKYLINE, the method of the period: [k_b] of the bodies formed once in a profile; in every increment
-!! [k_s] = [k_b] + sum of [k_int] formed and factorised, all of it.
+!> The solver SKYLINE, the profile method of the period. [k_b] of the bodies is formed once in a profile. In every increment the
+!! whole of [k_s] = [k_b] + sum of [k_int] is formed and factorised.
 module skyline_solver
    use equation_solver, only: equation_system, pivot_tolerance
    use failures, only: failure_type
@@ -19,7 +19,7 @@ module skyline_solver
 
    type, extends(equation_system), public :: skyline_solver_type
       integer(long) :: profile = 0                  !! entries in the skyline
-      integer(long) :: profile_as_numbered = 0      !! what they would be in the order of the node numbers
+      integer(long) :: profile_as_numbered = 0      !! the same in the order of the node numbers
       integer, allocatable :: first_row(:)          !! (n) of every column
       type(interface_equations_type) :: joints
       type(skyline_matrix) :: body                  !! [k_b]
@@ -32,7 +32,7 @@ module skyline_solver
 
 contains
 
-   !> Number the unknowns and lay out the profile: reverse Cuthill-McKee, or the nodes' own order where that is tighter.
+   !> Number the unknowns and lay out the profile: reverse Cuthill-McKee, or the order of the nodes where its profile is smaller.
    subroutine lay_out(self, model, graph)
       class(skyline_solver_type), intent(inout) :: self
       type(model_type), intent(in)              :: model
@@ -51,7 +51,7 @@ contains
       self%profile = self%profile_as_numbered
    end subroutine lay_out
 
-   !> Lay out the profile, where that has not been done, and make room for the matrix. All equations are left to the increments.
+   !> Lay out the profile, if not yet done, and allocate the matrix. The increments solve for all equations.
    subroutine start(self, model, graph, failure)
       class(skyline_solver_type), intent(inout) :: self
       type(model_type), intent(in)              :: model
@@ -142,7 +142,7 @@ contains
       call scatter(self%body, rows, k)
    end subroutine add_to_bodies
 
-   !> [k_s] = [k_b] + sum of [k_int], Eq. (8), factorised. The locked equations take no part.
+   !> [k_s] = [k_b] + sum of [k_int], Eq. (8), factorised without the locked equations.
    subroutine form_structure(self, fault)
       class(skyline_solver_type), intent(inout) :: self
       integer, intent(out)                      :: fault

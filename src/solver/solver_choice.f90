@@ -14,15 +14,15 @@ module solver_choice
 
    public :: choose_solver
 
-   ! AUTO takes SKYLINE for small structures, where the time does not matter and the method can be read, and for narrow ones,
-   ! where it is the faster:
+   ! AUTO takes SKYLINE for small structures, where time does not matter and the method is easy to read, and for narrow ones,
+   ! where SKYLINE is faster:
    integer, parameter :: small = 1000           ! unknowns
-   integer, parameter :: narrow = 16            ! entries in a column, on the average
-   integer, parameter :: most_tried = 100000    ! unknowns up to which the profile is looked at
+   integer, parameter :: narrow = 16            ! average entries in a column
+   integer, parameter :: most_tried = 100000    ! unknowns up to which the profile is examined
 
 contains
 
-   !> The solver that case control WANTED, for N unknowns and so many FACTORISATIONS.
+   !> The solver that case control WANTED, for N unknowns and FACTORISATIONS expected factorisations.
    subroutine choose_solver(model, graph, n, wanted, factorisations, system)
       type(model_type), intent(in)      :: model
       type(node_graph_type), intent(in) :: graph
@@ -46,7 +46,7 @@ contains
          call move_alloc(candidate, system)
       else if (is_skyline) then
          allocate (skyline_solver_type :: system)
-      else                        ! TREE, its fronts laid out; for AUTO one that its operations and its memory speak for
+      else                        ! TREE with its fronts laid out; for AUTO its operations and memory decide
          allocate (tree)
          tree%factorisations = factorisations
          call tree%lay_out(model, graph)

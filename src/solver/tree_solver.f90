@@ -1,8 +1,8 @@
-!> The solver TREE: the fronts of a nested dissection, of which only those on the way from the joints to the root are refactored. The same
-!! dissection is laid out in up to three ways, and the one with least work over all increments is taken:
-!! joints last: the bodies are condensed onto the joints, one dense front with all their unknowns is left;
-!! joints inside: they stay where the dissection puts them;
-!! joints last in parts: in every subtree up to some size they come last, the bodies are condensed piece by piece.
+!> The solver TREE: nested dissection; only fronts on the paths from the joints to the root are refactored. The dissection is
+!! laid out in up to three ways. The way with least work over all increments is chosen:
+!! joints last: the bodies are condensed onto the joints; one dense front with all joint unknowns remains;
+!! joints inside: the joint unknowns stay where the dissection puts them;
+!! joints last in parts: in every subtree up to some size the joint unknowns come last; the bodies are condensed piece by piece.
 module tree_solver
    use equation_solver, only: equation_system
    use factor_reuse, only: earlier_solutions_type, factor_reuse_type, guess_solution, iterate_refactored, may_reuse, &
@@ -21,24 +21,24 @@ module tree_solver
    implicit none
    private
 
-   real(wp), parameter :: step_tolerance = 1.0e-13_wp !! of conjugate gradients: share of the energy of the solution, as a length
+   real(wp), parameter :: step_tolerance = 1.0e-13_wp !! of conjugate gradients: relative, in the energy norm
 
-   !> What is known of the stiffness now, beside the factor in the fronts.
+   !> The state of the present stiffness, beside the factor in the fronts.
    type :: interface_factor_type
-      logical :: is_own = .false.                     !! whether the factor is that of the stiffness now, not an earlier one
-      logical :: is_awaited = .false.                 !! whether the one solution that is wanted is still to come
-      real(wp), allocatable :: k_int(:, :, :)         !! (3, 3, n) of interface elements, that the factor is of [force/length]
-      type(factor_reuse_type) :: reuse                !! when to use an earlier one
-      type(earlier_solutions_type) :: earlier         !! with which conjugate gradients begin
+      logical :: is_own = .false.                     !! whether the factor is that of the present stiffness, not an earlier one
+      logical :: is_awaited = .false.                 !! whether the one solution asked for is still to come
+      real(wp), allocatable :: k_int(:, :, :)         !! (3, 3, n) of interface elements in the factorised stiffness [force/length]
+      type(factor_reuse_type) :: reuse                !! decides when to use an earlier factor
+      type(earlier_solutions_type) :: earlier         !! for the first guess of conjugate gradients
    end type interface_factor_type
 
    type, extends(equation_system), public :: tree_solver_type
       type(front_tree_type) :: fronts
-      type(interface_factor_type) :: factor          !! of the stiffness with the joints, and what is known of it
-      character(:), allocatable :: way            !! in which the joints are laid out
-      real(wp) :: bytes = 0.0_wp                  !! that are needed
+      type(interface_factor_type) :: factor          !! factor of the stiffness with the joints, and its state
+      character(:), allocatable :: way            !! layout of the joints, in words
+      real(wp) :: bytes = 0.0_wp                  !! memory needed
       logical  :: is_laid_out = .false.
-      type(front_layout_type), private :: layout  !! until start
+      type(front_layout_type), private :: layout  !! freed by start
    contains
       procedure :: lay_out, start, form_bodies, add_to_bodies, lock, condense, form_structure, solve, multiply, recover, forget_past
       procedure :: diagonal_of_factor, solve_by_factor, multiply_by_factor
@@ -46,8 +46,8 @@ module tree_solver
 
 contains
 
-   !> Order, and lay out the fronts for as many factorisations with new stiffnesses of the joints as are expected; IS_LAID_OUT stays
-   !! false where there is no memory to order.
+   !> Order the nodes and lay out the fronts for the expected number of factorisations. IS_LAID_OUT stays false where memory is
+   !! missing.
    subroutine lay_out(self, model, graph)
       class(tree_solver_type), intent(inout) :: self
       type(model_type), intent(in)           :: model
@@ -65,7 +65,7 @@ contains
       self%description%refactored_operations = self%layout%refactored_operations
    end subroutine lay_out
 
-   !> Number the unknowns. The equations of the refactored fronts are left to the increments.
+   !> Number the unknowns. The increments solve for the equations of the refactored fronts.
    subroutine start(self, model, graph, failure)
       class(tree_solver_type), intent(inout) :: self
       type(model_type), intent(in)           :: model
@@ -98,8 +98,8 @@ contains
       self%retained = pack([(i, i = 1, model%n_nodes)], in_joint)
    end subroutine start
 
-   !> The nodes whose stiffness changes in the run, or is added to the bodies: those of interface elements, of bars, and WITH_MASSES
-   !! those of masses at nodes.
+   !> Mark the nodes whose stiffness changes in the run or is added to the bodies: nodes of interface elements and bars, and
+   !! WITH_MASSES those of nodal masses.
    subroutine mark_joints(model, with_masses, in_joint)
       type(model_type), intent(in)      :: model
       logical, intent(in)               :: with_masses
@@ -112,7 +112,7 @@ contains
       if (n_sections(model) > 0) in_joint(model%sections%node) = .true.
    end subroutine mark_joints
 
-   !> [k_b]; the static fronts are eliminated.
+   !> Form [k_b] and factorise the static fronts.
    subroutine form_bodies(self, model, fault)
       class(tree_solver_type), intent(inout) :: self
       type(model_type), intent(in)           :: model
@@ -143,7 +143,7 @@ contains
       call forget(self)
    end subroutine lock
 
-   !> What the refactored fronts feel of F; at the other equations L y = f, for recover.
+   !> Condense F on the refactored fronts; at the other equations L y = f, for recover.
    subroutine condense(self, f, x)
       class(tree_solver_type), intent(in) :: self
       real(wp), intent(in)                :: f(:)
@@ -153,7 +153,7 @@ contains
       call eliminate_static(self%fronts, x)
    end subroutine condense
 
-   !> Factorise the refactored fronts with the joints as they are now, unless an earlier factor may do.
+   !> Refactor the fronts with the present joint stiffness, unless an earlier factor serves.
    subroutine form_structure(self, fault)
       class(tree_solver_type), intent(inout) :: self
       integer, intent(out)                   :: fault
@@ -187,7 +187,7 @@ contains
       call note_factor(self%factor%reuse)
    end subroutine factorise
 
-   !> By the factor; where that is an earlier one by conjugate gradients, and only where these do not get there by a new factor.
+   !> Solve by the factor. An earlier factor preconditions conjugate gradients; where these fail, the fronts are refactored.
    subroutine solve(self, x, fault)
       class(tree_solver_type), intent(inout) :: self
       real(wp), intent(inout)                :: x(:)
@@ -221,7 +221,7 @@ contains
       self%factor%is_awaited = .false.
    end subroutine solve
 
-   !> The bodies, or what is held, are others now: neither the factor nor solutions are of use any more.
+   !> The bodies or the held unknowns have changed: discard the factor and earlier solutions.
    subroutine forget(self)
       class(tree_solver_type), intent(inout) :: self
 
@@ -229,7 +229,7 @@ contains
       self%factor%earlier%n = 0
    end subroutine forget
 
-   !> As at the start, the costs of a factorisation aside.
+   !> Return to the initial state, but keep the costs of a factorisation.
    subroutine forget_past(self)
       class(tree_solver_type), intent(inout) :: self
 

@@ -1,6 +1,6 @@
-!> The unknowns of a node: in words, for messages, and how they go when the structure moves as a rigid body. Those of a point are its
-!! displacements, along global axes or along its system CD; those of a node of rotations are the rotation times its arm; a section
-!! does not open.
+!> The unknowns of a node: their names in messages, and their values in a rigid-body motion. The unknowns of a point are its
+!! displacements, along global axes or along its system CD. Those of a node of rotations are the rotation times its arm. A
+!! pretension section does not open in a rigid-body motion.
 module unknowns
    use kinds, only: wp
    use model_data, only: a_point, a_rotation, an_overlap, model_type, node_kind, place_in_kind
@@ -14,7 +14,7 @@ module unknowns
 
 contains
 
-   !> That the unknown in direction D of NODE, which may be the rotations of a node or the section of a bolt, has no stiffness.
+   !> Words that the unknown in direction D of NODE has no stiffness; NODE may be a node of rotations or a pretension section.
    pure function what_is_loose(model, node, d) result(words)
       type(model_type), intent(in) :: model
       integer, intent(in)          :: node, d
@@ -28,7 +28,7 @@ contains
       end if
    end function what_is_loose
 
-   !> The same unknown, as a place that something is at.
+   !> The same unknown, named as a place.
    pure function unknown_name(model, node, d) result(words)
       type(model_type), intent(in) :: model
       integer, intent(in)          :: node, d
@@ -50,7 +50,7 @@ contains
       if (node_kind(model, node) == a_rotation) point = model%rotations(place_in_kind(model, node))%point
    end function point_of
 
-   !> 'node 7', or of a section 'BOLT 3'.
+   !> 'node 7', or for a pretension section 'BOLT 3'.
    pure function owner_name(model, node) result(name)
       type(model_type), intent(in) :: model
       integer, intent(in)          :: node
@@ -63,8 +63,8 @@ contains
       end if
    end function owner_name
 
-   !> 'direction X', or that of the system that the node has, 'direction 1 of its system 7'; of a node of rotations 'rotation about X',
-   !! in the plane about Z alone.
+   !> 'direction X', or with a system CD 'direction 1 of its system 7'; for a node of rotations 'rotation about X', in the plane
+   !! about Z only.
    pure function direction_name(model, node, d) result(words)
       type(model_type), intent(in) :: model
       integer, intent(in)          :: node, d
@@ -83,7 +83,7 @@ contains
       if (is_rotation) words = 'rotation about '//words
    end function direction_name
 
-   !> Three in the plane, six in space: along the axes, then about them.
+   !> Number of rigid-body motions, three in the plane, six in space: along the axes, then about them.
    pure integer function n_motions(dimension)
       integer, intent(in) :: dimension
 
@@ -135,7 +135,7 @@ contains
       case (a_rotation)
          associate (point => point_of(model, node), arm => model%rotations(place_in_kind(model, node))%arm)
             if (d == 2) then
-               q(rotation_component(model, 6), 3) = arm ! about z, whichever way the system CD has it
+               q(rotation_component(model, 6), 3) = arm ! about z, whatever the system CD
             else
                q(:, 4:) = arm*transpose(node_axes(model, point))
             end if
