@@ -131,7 +131,8 @@ contains
 
       do k = 1, size(model%masses)
          associate (node => model%masses(k)%node)
-            force(:, node) = force(:, node) + model%masses(k)%mass*acceleration_at(field, model%x(:, node))
+            force(:, node) = force(:, node) + model%masses(k)%mass*acceleration_at(field, model%x(:, node)) &
+                             + matmul(model%masses(k)%directed, acceleration_at(field, model%x(:, node)))
          end associate
       end do
    end subroutine add_mass_weights

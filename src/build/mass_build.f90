@@ -1,11 +1,11 @@
-!> Masses: CONM2 at nodes, how elements have theirs, and whether there is any mass where the structure shall oscillate.
+!> Masses: CONM2 and CMASS2 at nodes, how elements have theirs, and whether there is any mass where the structure shall oscillate.
 module mass_build
    use bulk_data, only: mass_card
    use deck_check, only: checked_deck
    use displacement_systems, only: find_directions, find_system
    use kinds, only: wp
-   use model_data, only: model_type, n_bars
-   use node_coupling, only: rotation_at
+   use model_data, only: model_type, n_bars, point_mass_type
+   use node_coupling, only: component_place, node_axes, place_of_component, rotation_at
    use text_tools, only: integer_text
    implicit none
    private
@@ -38,9 +38,14 @@ contains
          associate (card => deck%bulk%mass(i), node => model%node_table%find(deck%bulk%mass(i)%node))
             if (node == 0) cycle
             if (.not. model%used(node)) &
-               call deck%field_error(card%line, 'G', 'node '//integer_text(card%node)//' belongs to no element')
+               call deck%field_error(card%line, trim(merge('G1', 'G ', card%component > 0)), 'node '// &
+                                     integer_text(card%node)//' belongs to no element')
             n = n + 1
             model%masses(n)%node = node
+            if (card%component > 0) then
+               call set_direction(deck, model, card, model%masses(n))
+               cycle
+            end if
             model%masses(n)%mass = deck%bulk%parameters%mass_factor*card%mass
             call find_inertia(deck, model, card, model%x(:, node), model%masses(n)%inertia)
             if (all(abs(card%offset) <= 0.0_wp)) cycle
@@ -56,6 +61,29 @@ contains
       end do
       model%masses = model%masses(:n)
    end subroutine build_masses
+
+   !> MASS of CARD, a CMASS2, along a component of its node; of a rotation it is a moment of inertia.
+   subroutine set_direction(deck, model, card, mass)
+      type(checked_deck), intent(in)       :: deck
+      type(model_type), intent(in)         :: model
+      type(mass_card), intent(in)          :: card
+      type(point_mass_type), intent(inout) :: mass
+      real(wp) :: axes(3, 3), along(3, 3)
+      type(component_place) :: place
+
+      place = place_of_component(model, mass%node, card%component)
+      if (place%node == 0) then
+         call deck%field_error(card%line, 'C1', 'node '//integer_text(card%node)//' has no component '// &
+                               integer_text(card%component))
+         return
+      end if
+      axes = node_axes(model, mass%node)
+      associate (axis => axes(:, modulo(card%component - 1, 3) + 1))
+         along = deck%bulk%parameters%mass_factor*card%mass*spread(axis, 2, 3)*spread(axis, 1, 3)
+      end associate
+      if (card%component <= 3) mass%directed = along
+      if (card%component > 3) mass%inertia = along
+   end subroutine set_direction
 
    !> The INERTIA of CARD about its node, turned from its system into global axes [force x time^2 x length]: I11, I22, I33 on the
    !! diagonal, -I21, -I31, -I32 beside it, I21 the integral of x_1 x_2 over the mass.
@@ -115,7 +143,9 @@ contains
          if (model%properties(model%element_property(e))%rho > 0.0_wp) has_mass(model%part(model%element_nodes(1, e))) = .true.
       end do
       do i = 1, size(model%masses)
-         if (model%masses(i)%mass > 0.0_wp) has_mass(model%part(model%masses(i)%node)) = .true.
+         associate (mass => model%masses(i))
+            if (mass%mass > 0.0_wp .or. any(mass%directed > 0.0_wp)) has_mass(model%part(mass%node)) = .true.
+         end associate
       end do
       do i = 1, n_bars(model)
          if (model%bars(i)%mass > 0.0_wp) has_mass(model%part(model%bars(i)%nodes)) = .true. ! springs have none

@@ -224,7 +224,8 @@ contains
       end do
       do i = 1, size(deck%bulk%mass)
          associate (card => deck%bulk%mass(i))
-            if (is_missing(card%node)) call deck%field_error(card%line, 'G', there_is_no(card%node))
+            if (is_missing(card%node)) call deck%field_error(card%line, trim(merge('G1', 'G ', card%component > 0)), &
+                                                             there_is_no(card%node))
          end associate
       end do
 

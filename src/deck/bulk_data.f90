@@ -114,9 +114,10 @@ module bulk_data
       real(wp) :: damping = 0.0_wp                      ! GE of a PELAS
    end type spring_property_card
 
-   !> CONM2: a mass at a node.
+   !> CONM2: a mass at a node; CMASS2: a mass that resists along one component of it.
    type, public :: mass_card
       integer  :: line = 0, id = 0, node = 0
+      integer  :: component = 0                         ! of a CMASS2, 0: CONM2
       real(wp) :: mass = 0.0_wp
       integer  :: system = 0                            ! CID of offset and inertia, 0: global axes
       real(wp) :: offset(3) = 0.0_wp                    ! X1 to X3: of the centre of mass from the node

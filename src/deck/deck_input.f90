@@ -56,7 +56,7 @@ contains
       call cards%add_kinds(['CONROD'], read_conrod)
       call cards%add_kinds(['CELAS1', 'CELAS2', 'CBUSH '], read_spring)
       call cards%add_kinds(['PELAS', 'PBUSH'], read_spring_property)
-      call cards%add_kinds(['CONM2'], read_mass)
+      call cards%add_kinds(['CONM2 ', 'CMASS2'], read_mass)
       call cards%add_kinds(['MAT1'], read_mat1)
       call cards%add_kinds(['SPC ', 'SPC1', 'SPCM'], read_support)
       call cards%add_kinds(['SPCADD'], read_sum)

@@ -246,19 +246,27 @@ contains
       end do
    end subroutine check_rest
 
-   !> CONM2: mass M at node G, with its moments of inertia about it. It stands at its node: an offset would need rotations.
+   !> CONM2: mass M at node G, beside it by X1 to X3, with moments of inertia about its centre. CMASS2: mass M that resists the component
+   !! C1 of node G1 alone, of a rotation a moment of inertia.
    subroutine read_mass(card, bulk)
       type(card_fields_type), intent(inout) :: card
       type(bulk_data_type), intent(inout)   :: bulk
 
       associate (mass => bulk%mass(card%i))
          call card%field('EID', mass%id)
-         call card%field('G', mass%node)
-         call card%field('CID', mass%system, default=0, least=0)
-         call card%field('M', mass%mass, not_negative)
-         call card%field(['X1', 'X2', 'X3'], mass%offset, default=0.0_wp)
-         call card%blank(['-'])
-         call card%field(['I11', 'I21', 'I22', 'I31', 'I32', 'I33'], mass%inertia, default=0.0_wp)
+         if (card%name == 'CMASS2') then
+            call card%field('M', mass%mass, not_negative)
+            call card%field('G1', mass%node)
+            call card%field('C1', mass%component, least=1, most=6)
+            call card%blank(['G2', 'C2'])
+         else
+            call card%field('G', mass%node)
+            call card%field('CID', mass%system, default=0, least=0)
+            call card%field('M', mass%mass, not_negative)
+            call card%field(['X1', 'X2', 'X3'], mass%offset, default=0.0_wp)
+            call card%blank(['-'])
+            call card%field(['I11', 'I21', 'I22', 'I31', 'I32', 'I33'], mass%inertia, default=0.0_wp)
+         end if
          call card%finish(mass%line)
       end associate
    end subroutine read_mass

@@ -25,7 +25,7 @@ module mass_matrix
       integer, allocatable  :: column(:)
       real(wp), allocatable :: value(:)      !! [force time^2/length]
       integer, allocatable  :: whole(:)      !! elements with matrices of their own: beams, and elements behind sections
-      integer, allocatable  :: turning(:)    !! nodal masses with rotations: positions in model%masses
+      integer, allocatable  :: turning(:)    !! masses at nodes with rotations, and CMASS2: positions in model%masses
    end type mass_matrix_type
 
 contains
@@ -166,8 +166,9 @@ contains
 
       d = model%dimension
       of_components = 0.0_wp
+      of_components(:d, :d) = mass%directed(:d, :d)
       do c = 1, d
-         of_components(c, c) = mass%mass
+         of_components(c, c) = of_components(c, c) + mass%mass
       end do
       associate (nodes => mass_nodes(model, mass))
          if (size(nodes) == 2) of_components(d + 1:, d + 1:) = inertia_at_rotation(model, mass)
@@ -198,7 +199,7 @@ contains
       do i = 1, n_masses(model)
          associate (node => model%masses(i)%node)
             call add([node], reshape([model%masses(i)%mass], [1, 1]))
-            if (rotation_at(model, node) > 0) mass%turning = [mass%turning, i]
+            if (rotation_at(model, node) > 0 .or. any(model%masses(i)%directed > 0.0_wp)) mass%turning = [mass%turning, i]
          end associate
       end do
 
@@ -309,6 +310,8 @@ contains
       end do
       do i = 1, size(mass%turning)
          associate (point => model%masses(mass%turning(i)))
+            f(:, point%node) = f(:, point%node) + matmul(point%directed(:size(a, 1), :size(a, 1)), a(:, point%node))
+            if (rotation_at(model, point%node) == 0) cycle
             associate (node => model%rotations(rotation_at(model, point%node))%node)
                f(:, node) = f(:, node) + matmul(inertia_at_rotation(model, point), a(:, node))
             end associate

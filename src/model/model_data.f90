@@ -138,10 +138,11 @@ module model_data
       real(wp) :: damping = 0.0_wp           !! GE, structural damping [-]
    end type bar_type
 
-   !> CONM2: a mass at a node.
+   !> CONM2: a mass at a node. CMASS2: a mass that resists along one direction.
    type, public :: point_mass_type
       integer  :: node = 0
       real(wp) :: mass = 0.0_wp              !! [force x time^2/length]
+      real(wp) :: directed(3, 3) = 0.0_wp    !! resists along some directions only [force x time^2/length]
       real(wp) :: inertia(3, 3) = 0.0_wp     !! about the node, in global axes; acts on rotations [force x time^2 x length]
    end type point_mass_type
 
