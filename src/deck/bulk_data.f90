@@ -16,39 +16,39 @@ module bulk_data
 
    type, public :: grid_card
       integer  :: line = 0, id = 0, ps = 0
-      integer  :: cp = 0, cd = 0                        ! systems of X and of displacements, 0: global axes
+      integer  :: cp = 0, cd = 0                        ! systems of the coordinates X and of displacements, 0: global axes
       real(wp) :: x(3) = 0.0_wp
-      logical  :: doubtful = .false.                    ! some field could not be read
+      logical  :: doubtful = .false.                    ! a field could not be read
    end type grid_card
 
-   !> A coordinate system, by three points in system REFERENCE (CORD2) or by three NODES (CORD1): its origin, one on z, one in x-z.
+   !> A coordinate system, by three points in system REFERENCE (CORD2) or by three NODES (CORD1): the origin, a point on z, one in x-z.
    type, public :: system_card
       integer  :: line = 0, id = 0
       integer  :: kind = 0                              ! of coordinate_systems
       integer  :: reference = 0                         ! 0: global axes
       real(wp) :: points(3, 3) = 0.0_wp
-      integer  :: nodes(3) = 0                          ! 0: the points
+      integer  :: nodes(3) = 0                          ! 0: given by points
       integer  :: field = 1                             ! data field of the id
    end type system_card
 
    integer, parameter, public :: edge_cbar = 0, edge_crod = -1, edge_cbeam = -2 !! kinds of edge
 
-   !> An element with nodes: bodies, faces of marked surfaces.
+   !> An element with nodes: an element of a body, or a face of a marked surface.
    type, public :: element_card
       integer :: line = 0, id = 0, property = 0
-      integer :: kind = 0                               ! of element_kinds; of an edge one of those above
-      integer :: nodes(max_nodes) = 0                   ! corners, then mid-side nodes: 0 where the field is blank
+      integer :: kind = 0                               ! of element_kinds; for an edge one of the kinds above
+      integer :: nodes(max_nodes) = 0                   ! corners, then mid-side nodes; 0 where the field is blank
    end type element_card
 
-   !> The edges CBAR, CBEAM and CROD: marks, beams, or a CROD that is a bolt. NODES: its ends; the third, G0 of a CBAR, may be the middle
-   !! of a marked edge.
+   !> The edges CBAR, CBEAM and CROD: marks, beams, or a CROD that is a bolt. NODES are its ends; the third node, G0 of a CBAR, may be
+   !! the mid-side node of a marked edge.
    type, extends(element_card), public :: edge_card
       real(wp) :: orientation(3) = 0.0_wp               ! X1, X2, X3 where there is no G0
       integer  :: pins(2) = 0                           ! PA, PB
       real(wp) :: offset(3, 2) = 0.0_wp                 ! WA, WB
    end type edge_card
 
-   !> What the card of a shell has beside its nodes: the place of the element_card, ZOFFS and T1 to T4.
+   !> Additional data of a shell card: the position of its element_card, ZOFFS and T1 to T4.
    type, public :: plate_card
       integer  :: element = 0
       real(wp) :: offset = 0.0_wp, thickness(4) = 0.0_wp ! 0: that of the PSHELL
@@ -59,18 +59,18 @@ module bulk_data
       integer  :: line = 0, id = 0, material = 0
       character(6) :: name = ''
       type(beam_section) :: section
-      real(wp) :: extra_mass = 0.0_wp                   ! NSM, by length
+      real(wp) :: extra_mass = 0.0_wp                   ! NSM, per length
    end type beam_property_card
 
-   !> PLOAD1: the load P at X, from X(1) to X(2).
+   !> PLOAD1: the load P at the positions X(1) and X(2).
    type, public :: beam_load_card
       integer  :: line = 0, set = 0, element = 0
-      integer  :: kind = 1                              ! 1 to 3 a force, 4 to 6 a moment in global axes, 7 to 12 in those of the beam
+      integer  :: kind = 1                              ! 1 to 3 a force, 4 to 6 a moment in global axes, 7 to 12 in beam axes
       logical  :: is_fraction = .false., is_projected = .false.
       real(wp) :: x(2) = 0.0_wp, p(2) = 0.0_wp
    end type beam_load_card
 
-   !> PSHELL, PAXIS and PSOLID alike.
+   !> PSHELL, PAXIS and PSOLID.
    type, public :: property_card
       integer  :: line = 0, id = 0, material = 0
       integer  :: state = plane_stress                  ! of elasticity
@@ -79,30 +79,30 @@ module bulk_data
       integer  :: bending = 0, shear = 0                ! MID2 and MID3 of a PSHELL, 0: blank
       real(wp) :: inertia_ratio = 1.0_wp                ! 12I/T**3
       real(wp) :: shear_ratio = 5.0_wp/6.0_wp           ! TS/T
-      real(wp) :: extra_mass = 0.0_wp                   ! NSM, by area
+      real(wp) :: extra_mass = 0.0_wp                   ! NSM, per area
       real(wp) :: fibre(2) = 0.0_wp                     ! Z1, Z2
       logical  :: fibre_given(2) = .false.
    end type property_card
 
    type, public :: prod_card
       integer  :: line = 0, id = 0, material = 0
-      real(wp) :: area = 0.0_wp, extra_mass = 0.0_wp    ! the second NSM, by length
+      real(wp) :: area = 0.0_wp, extra_mass = 0.0_wp    ! the second is NSM, per length
    end type prod_card
 
-   !> CONROD: a bar with its own section.
+   !> CONROD: a bar with its own cross-section.
    type, public :: conrod_card
       integer  :: line = 0, id = 0, nodes(2) = 0, material = 0
-      real(wp) :: area = 0.0_wp, extra_mass = 0.0_wp    ! the second NSM, by length
+      real(wp) :: area = 0.0_wp, extra_mass = 0.0_wp    ! the second is NSM, per length
    end type conrod_card
 
    !> CELAS1, CELAS2 (between component COMPONENTS(1) of node 1 and COMPONENTS(2) of node 2) and CBUSH (along three axes).
    type, public :: spring_card
       integer  :: line = 0, id = 0, nodes(2) = 0        ! 0: the ground
-      integer  :: property = 0                          ! of PELAS or PBUSH; 0: a CELAS2
+      integer  :: property = 0                          ! PELAS or PBUSH; 0: a CELAS2
       integer  :: components(2) = 0
       logical  :: is_bush = .false.
       integer  :: system = -1                           ! CID of a CBUSH, 0: global axes, -1: blank
-      real(wp) :: stiffness = 0.0_wp, damping = 0.0_wp  ! of a CELAS2, K and GE
+      real(wp) :: stiffness = 0.0_wp, damping = 0.0_wp  ! of a CELAS2: K and GE
    end type spring_card
 
    !> PELAS (the first stiffness) and PBUSH.
@@ -120,83 +120,83 @@ module bulk_data
       integer  :: component = 0                         ! of a CMASS2, 0: CONM2
       real(wp) :: mass = 0.0_wp
       integer  :: system = 0                            ! CID of offset and inertia, 0: global axes
-      real(wp) :: offset(3) = 0.0_wp                    ! X1 to X3: of the centre of mass from the node
+      real(wp) :: offset(3) = 0.0_wp                    ! X1 to X3: from the node to the centre of mass
       real(wp) :: inertia(6) = 0.0_wp                   ! I11, I21, I22, I31, I32, I33, about the centre of mass
    end type mass_card
 
    type, public :: mat1_card
       integer  :: line = 0, id = 0
-      logical  :: bars_only = .false.                   ! E alone is given
+      logical  :: bars_only = .false.                   ! only E is given
       real(wp) :: e = 0.0_wp, nu = 0.0_wp, rho = 0.0_wp
       real(wp) :: alpha = 0.0_wp, reference = 0.0_wp    ! A and TREF
       real(wp) :: damping = 0.0_wp                      ! GE
       real(wp) :: strength = 0.0_wp                     ! ST, 0: blank
    end type mat1_card
 
-   !> SPC, SPC1 and SPCM alike: nodes FIRST(k) to LAST(k), or all nodes of a marked surface.
+   !> SPC, SPC1 and SPCM: the nodes FIRST(k) to LAST(k), or all nodes of a marked surface.
    type, extends(id_ranges), public :: support_card
       integer :: line = 0, set = 0, components = 0
       integer :: surface = 0                            ! PMARK id, 0: the nodes below
       real(wp) :: value = 0.0_wp                        ! D of an SPC, which has one node
    end type support_card
 
-   !> RBE2, RBAR: the NODES move with the reference node as a rigid body, each in its DIRECTIONS; RBE3: the COMPONENTS of the reference node
-   !! are the mean of the NODES, each with its WEIGHT in its DIRECTIONS.
+   !> RBE2, RBAR: the NODES move with the reference node as a rigid body, each in its DIRECTIONS. RBE3: the COMPONENTS of the reference
+   !! node are the weighted mean of the NODES, each with its WEIGHT in its DIRECTIONS.
    type, public :: rigid_card
       integer :: line = 0, id = 0
       logical :: is_mean = .false.                      ! RBE3
       integer :: node = 0, components = 0               ! the reference node; RBE2, RBAR: the components are the directions
-      integer :: node_at = 2, components_at = 3         ! their data fields
-      integer :: surface = 0                            ! RBE2M, RBE3M: the nodes are those of this PMARK; 0: listed
+      integer :: node_at = 2, components_at = 3         ! data fields of both
+      integer :: surface = 0                            ! RBE2M, RBE3M: PMARK of the nodes; 0: listed
       integer, allocatable  :: nodes(:), directions(:), at(:) ! AT(k): data field of NODES(k)
       real(wp), allocatable :: weight(:)
-      integer, allocatable  :: um_nodes(:), um_components(:), um_at(:) ! of an RBE3 with UM: what depends in place of the COMPONENTS
+      integer, allocatable  :: um_nodes(:), um_components(:), um_at(:) ! RBE3 with UM: dependent in place of COMPONENTS
       real(wp) :: alpha = 0.0_wp                        ! coefficient of thermal expansion
       integer  :: alpha_at = 0                          ! its data field
    end type rigid_card
 
-   !> NODEAT: another number for the node that is nearest to X.
+   !> NODEAT: a second number for the node nearest to X.
    type, public :: place_card
-      integer  :: line = 0, id = 0, surface = 0         ! SURFACE: a PMARK whose nodes alone are looked at; 0: all
+      integer  :: line = 0, id = 0, surface = 0         ! SURFACE: a PMARK to whose nodes the search is limited; 0: all
       real(wp) :: x(3) = 0.0_wp
    end type place_card
 
-   !> MPC: the sum of FACTOR(k) times COMPONENT(k) of NODE(k) is zero; the first term depends on the others.
+   !> MPC: the sum of FACTOR(k) times COMPONENT(k) of NODE(k) is zero; the first term is dependent.
    type, public :: equation_card
       integer :: line = 0, set = 0
       integer, allocatable  :: node(:), component(:), at(:) ! AT(k): data field of NODE(k)
       real(wp), allocatable :: factor(:)
    end type equation_card
 
-   !> SPCADD, MPCADD: the union of SETS of supports, of equations.
+   !> SPCADD, MPCADD: the union of SETS of supports or of constraint equations.
    type, public :: set_sum_card
       integer :: line = 0, set = 0
       integer, allocatable :: sets(:), at(:)            ! AT(k): data field of SETS(k)
    end type set_sum_card
 
-   !> FORCE (a vector), FORCE1 (a force from node ENDS(1) to ENDS(2)), FORCE2 (across two such lines), MOMENT.
+   !> FORCE (a vector), FORCE1 (a force from node ENDS(1) to ENDS(2)), FORCE2 (normal to two such lines) and MOMENT.
    type, public :: force_card
       integer  :: line = 0, set = 0, node = 0
       integer  :: system = 0                            ! CID of the vector, 0: global axes
-      integer  :: ends(4) = 0                           ! 0: the vector
+      integer  :: ends(4) = 0                           ! 0: given by the vector
       real(wp) :: force(3) = 0.0_wp                     ! FORCE1, FORCE2: the first component is the force
       logical  :: is_moment = .false.
    end type force_card
 
    integer, parameter, public :: of_edge = 1, of_face = 2, of_nodes = 3, of_marks = 4 !! what a pressure card names
 
-   !> PLOADE (the edge of element FIRST between its corners G1 and G2), PLOAD4 (the face of element FIRST at G1 and G3 or G4, or the
-   !! faces marked by the elements FIRST to LAST), PLOAD2 (the faces marked by the elements of several RANGES) and PLOAD (the face with
-   !! the corners).
+   !> PLOADE: the edge of element FIRST between its corners G1 and G2. PLOAD4: the face of element FIRST at G1 and G3 or G4, or the
+   !! faces marked by the elements FIRST to LAST. PLOAD2: the faces marked by the elements of several RANGES. PLOAD: the face with the
+   !! given corners.
    type, public :: pressure_card
       integer  :: line = 0, set = 0, first = 0, last = 0, kind = of_edge, corners(4) = 0
       type(id_ranges) :: ranges
-      real(wp) :: pressure(4) = 0.0_wp                  ! positive into the body, at the corners from G1 on
+      real(wp) :: pressure(4) = 0.0_wp                  ! positive into the body, at the corners from G1
       integer  :: system = 0                            ! CID of the direction, 0: global axes
       real(wp) :: direction(3) = 0.0_wp                 ! of PLOAD4; zero: along the normal
    end type pressure_card
 
-   !> PLOADM and FORCEM: pressure, or a total force spread evenly, on a marked surface.
+   !> PLOADM and FORCEM: pressure, or an evenly distributed total force, on a marked surface.
    type, public :: surface_load_card
       integer  :: line = 0, set = 0, surface = 0
       logical  :: is_pressure = .false.                 ! PLOADM
@@ -209,10 +209,10 @@ module bulk_data
       integer  :: system = 0                            ! CID, 0: global axes
       real(wp) :: acceleration(3) = 0.0_wp
       logical  :: is_spin = .false.                     ! RFORCE
-      integer  :: node = 0                              ! on its axis, 0: the origin
+      integer  :: node = 0                              ! on the axis, 0: the origin
       real(wp) :: spin(3) = 0.0_wp                      ! angular velocity [rad/time]
       real(wp) :: spin_rate(3) = 0.0_wp                 ! angular acceleration [rad/time^2]
-      type(id_ranges) :: nodes                          ! of ACCEL1: the masses at these alone; else not allocated
+      type(id_ranges) :: nodes                          ! of ACCEL1: acts on the masses of these nodes; not allocated: on all
    end type gravity_card
 
    !> SPCD: a displacement prescribed at a held component, in a load set.
@@ -222,12 +222,12 @@ module bulk_data
       real(wp) :: value = 0.0_wp
    end type displacement_card
 
-   !> TEMP, the temperature of a node, and TEMPD, that of all nodes without one.
+   !> TEMP: the temperature of a node. TEMPD: the temperature of all nodes without a TEMP.
    type, public :: temperature_card
       integer  :: line = 0, set = 0
       logical  :: is_default = .false.                  ! TEMPD
       integer  :: node = 0                              ! of a TEMP
-      integer  :: field = 0                             ! data field of the node, of a TEMPD of the set
+      integer  :: field = 0                             ! data field of the node, for a TEMPD of the set
       real(wp) :: value = 0.0_wp
    end type temperature_card
 
@@ -236,7 +236,7 @@ module bulk_data
       integer :: line = 0, surfaces(2) = 0
    end type tie_card
 
-   !> TEMPP1: the MEAN temperature over the thickness of shells, and by how much it is warmer a unit of length along the normal.
+   !> TEMPP1: the MEAN temperature over the thickness of shells, and its gradient along the normal.
    type, public :: plate_temperature_card
       integer  :: line = 0, set = 0
       type(id_ranges) :: ranges                         ! of elements
@@ -261,13 +261,13 @@ module bulk_data
    type, public :: block_card
       integer  :: line = 0, id = 0, property = 0, dimension = 2
       integer  :: divisions(3) = [1, 1, 0]              ! of a BLOCK2 along sides 1-2 and 1-4, and 0
-      real(wp) :: corner(3, 4) = 0.0_wp                 ! of a BLOCK3 two opposite ones
-      real(wp) :: grading(3) = 1.0_wp                   ! last division over first
+      real(wp) :: corner(3, 4) = 0.0_wp                 ! of a BLOCK3 two opposite corners
+      real(wp) :: grading(3) = 1.0_wp                   ! ratio of the last division to the first
       integer  :: first_node = 1, first_element = 1
       integer  :: marks(6) = 0                          ! PMARK of sides 1-2, 2-3, 3-4, 4-1, or x low, x high, y low, ...
       integer  :: weld = 0                              ! block whose coincident nodes are used
-      integer  :: order = 1                             ! of its elements
-      logical  :: doubtful = .false.                    ! some field could not be read
+      integer  :: order = 1                             ! of the elements
+      logical  :: doubtful = .false.                    ! a field could not be read
    end type block_card
 
    type, public :: pmark_card
@@ -308,19 +308,19 @@ module bulk_data
    type, public :: jgap_card
       integer  :: line = 0, joint = 0
       character(8) :: kind = ''                         ! CONST, PLANE, TABLE, NODES, TRUE
-      real(wp) :: g0 = 0.0_wp, slope(2) = 0.0_wp, crown(2) = 0.0_wp ! of PLANE, the first of CONST too
+      real(wp) :: g0 = 0.0_wp, slope(2) = 0.0_wp, crown(2) = 0.0_wp ! of PLANE; the first of CONST too
       integer, allocatable  :: node(:)                  ! of NODES
       real(wp), allocatable :: x(:, :)                  ! (3, n) points of TABLE
       real(wp), allocatable :: gap(:)                   ! of NODES and TABLE
-      integer, allocatable  :: at(:)                    ! data field where each of them begins
+      integer, allocatable  :: at(:)                    ! first data field of each entry
    end type jgap_card
 
    type, public :: jincr_card
       integer :: line = 0, id = 0
-      real(wp), allocatable :: fractions(:)                ! of the stage's load change, add up to 1
+      real(wp), allocatable :: fractions(:)                ! of the stage's load change; their sum is 1
    end type jincr_card
 
-   !> EIGRL: which natural frequencies, how their shapes are scaled.
+   !> EIGRL: the range of natural frequencies and the scaling of the mode shapes.
    type, public :: eigrl_card
       integer  :: line = 0, id = 0
       logical  :: has_lowest = .false., has_highest = .false.
@@ -329,17 +329,17 @@ module bulk_data
       logical  :: unit_mass = .true.                    ! NORM = MASS
    end type eigrl_card
 
-   !> JAMPL: N amplitudes of MODE in geometric progression, from LARGEST down to RATIO times that.
+   !> JAMPL: N amplitudes of MODE in geometric progression, from LARGEST to RATIO times LARGEST.
    type, public :: jampl_card
       integer  :: line = 0, id = 0, mode = 0, n = 0
       real(wp) :: largest = 0.0_wp, ratio = 0.0_wp
-      integer  :: cycles = 0                            ! at most, beyond the second loop
+      integer  :: cycles = 0                            ! largest number, after the second loop
       integer  :: increments = 0                        ! from rest to a turning point
-      integer  :: node = 0                              ! whose displacement the amplitude is, 0: of the one that moves most
-      real(wp) :: tolerance = 0.0_wp                    ! of the loss
+      integer  :: node = 0                              ! node whose displacement is the amplitude, 0: the node that moves most
+      real(wp) :: tolerance = 0.0_wp                    ! of the loss factor
    end type jampl_card
 
-   !> FREQ4: N frequencies from 1 - SPREAD to 1 + SPREAD times that of every mode from LOWEST to HIGHEST.
+   !> FREQ4: N frequencies from 1 - SPREAD to 1 + SPREAD times the frequency of every mode from LOWEST to HIGHEST.
    type, public :: freq4_card
       integer  :: line = 0, set = 0, n = 0
       real(wp) :: lowest = 0.0_wp, highest = 0.0_wp, spread = 0.0_wp
@@ -349,20 +349,20 @@ module bulk_data
    type, public :: freq1_card
       integer  :: line = 0, set = 0, n = 0
       real(wp) :: first = 0.0_wp, step = 0.0_wp
-      real(wp) :: last = 0.0_wp                         ! above zero: of a FREQ2
+      real(wp) :: last = 0.0_wp                         ! of a FREQ2; 0: a FREQ1
    end type freq1_card
 
-   !> TABDMP1: damping over frequency, in ascending order.
+   !> TABDMP1: damping as a function of frequency, in ascending order.
    type, public :: tabdmp1_card
       integer      :: line = 0, id = 0
       character(8) :: kind = 'G'                        ! G, CRIT, Q
       real(wp), allocatable :: frequency(:), value(:)
    end type tabdmp1_card
 
-   !> All of them.
+   !> All cards of a deck.
    type, public :: bulk_data_type
-      integer :: n_cards = 0                               !! of all kinds
-      type(ignored_entries_type) :: ignored                       !! entries without effect, of case control too
+      integer :: n_cards = 0                               !! number of cards of all kinds
+      type(ignored_entries_type) :: ignored                       !! entries without effect, also of case control
       type(parameters_type) :: parameters                  !! of PARAM
       type(grid_card), allocatable         :: grid(:)
       type(grid_card)                      :: grid_defaults !! CP, CD and PS of GRDSET

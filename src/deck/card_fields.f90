@@ -13,21 +13,21 @@ module card_fields
 
    public :: number_of
 
-   !> Numbers of things, FIRST(k) THRU LAST(k).
+   !> Ranges of identification numbers, FIRST(k) THRU LAST(k).
    type, public :: id_ranges
       integer, allocatable :: first(:), last(:), at(:) !! AT(k): data field of FIRST(k)
    end type id_ranges
 
    type, public :: card_fields_type
       character(8) :: name = ''
-      integer :: line = 0                            !! where the card begins
-      integer :: n = 0                               !! last data field that is filled
-      integer :: i = 0                               !! entry of its array that it fills; a routine that fills more goes on counting
-      type(card_type) :: card                        !! its fields as they stand
-      character(8), allocatable :: names(:)          !! of its fields, as far as cards of its kind were read
+      integer :: line = 0                            !! first line of the card
+      integer :: n = 0                               !! last filled data field
+      integer :: i = 0                               !! index of the array entry to fill; a routine that fills several increases it
+      type(card_type) :: card                        !! the fields as they stand
+      character(8), allocatable :: names(:)          !! names of the fields, as far as cards of this kind have been read
       type(deck_error_list), pointer :: errors => null()
-      integer, private :: k = 0                      ! field that was taken last
-      integer, private :: errors_before = 0          ! the first one was taken
+      integer, private :: k = 0                      ! field taken last
+      integer, private :: errors_before = 0          ! number of errors before the first field was taken
    contains
       procedure :: begin
       procedure, private :: integer_field, integer_fields, real_field, real_fields
@@ -39,7 +39,7 @@ module card_fields
 
 contains
 
-   !> Which of the NAMES of fields is FIELD; the source must not ask for another one.
+   !> Position of FIELD among the NAMES of fields. A name that is not there is an error of the source.
    pure integer function number_of(names, field)
       character(8), intent(in) :: names(:)
       character(*), intent(in) :: field
@@ -48,7 +48,7 @@ contains
       if (number_of == 0) error stop 'no card has a field '//field
    end function number_of
 
-   !> The card was read, its fields are to be taken.
+   !> Begin with the first field of a card that has been read.
    subroutine begin(self)
       class(card_fields_type), intent(inout) :: self
 
@@ -61,7 +61,7 @@ contains
       self%errors_before = self%errors%n
    end subroutine begin
 
-   !> Go on to the next field, that with this NAME, and see whether it IS_GIVEN.
+   !> Advance to the next field, NAME, and find whether it IS_GIVEN.
    subroutine go_on(self, name, is_given)
       type(card_fields_type), intent(inout) :: self
       character(*), intent(in)              :: name
@@ -73,7 +73,7 @@ contains
       if (self%k > size(self%names)) self%names = [character(8) :: self%names, name]
    end subroutine go_on
 
-   !> The next field is the integer VALUE, an id from 1 on where LEAST and MOST say nothing else. Without DEFAULT it must be filled.
+   !> Take the integer VALUE from the next field, an id of at least 1 unless LEAST and MOST are present. It is required without DEFAULT.
    subroutine integer_field(self, name, value, default, least, most)
       class(card_fields_type), intent(inout) :: self
       character(*), intent(in)               :: name !! as in the card manual
@@ -105,7 +105,7 @@ contains
       end if
    end subroutine integer_field
 
-   !> The next fields, alike.
+   !> Take the next fields by the same rule.
    subroutine integer_fields(self, names, values, default, least, most)
       class(card_fields_type), intent(inout) :: self
       character(*), intent(in)               :: names(:)
@@ -118,12 +118,12 @@ contains
       end do
    end subroutine integer_fields
 
-   !> The next field is the real VALUE in RANGE, where WHOLE an integer is one too. Without DEFAULT it must be filled.
+   !> Take the real VALUE in RANGE from the next field; with WHOLE it may be an integer. It is required without DEFAULT.
    subroutine real_field(self, name, value, range, default, whole)
       class(card_fields_type), intent(inout) :: self
       character(*), intent(in)               :: name
       real(wp), intent(out)                  :: value
-      type(real_range), intent(in), optional :: range   !! left out: any
+      type(real_range), intent(in), optional :: range   !! default: any
       real(wp), intent(in), optional         :: default
       logical, intent(in), optional          :: whole
       type(real_range) :: within
@@ -161,7 +161,7 @@ contains
       if (present(default)) value = default
    end subroutine real_field
 
-   !> The next fields, alike.
+   !> Take the next fields by the same rule.
    subroutine real_fields(self, names, values, range, default, whole)
       class(card_fields_type), intent(inout) :: self
       character(*), intent(in)               :: names(:)
@@ -176,7 +176,7 @@ contains
       end do
    end subroutine real_fields
 
-   !> The next field is a list of NASTRAN's components: different digits of 1 to 6. Without DEFAULT it must be filled.
+   !> Take a list of NASTRAN's components from the next field: different digits of 1 to 6. It is required without DEFAULT.
    subroutine components(self, name, value, default)
       class(card_fields_type), intent(inout) :: self
       character(*), intent(in)               :: name
@@ -192,7 +192,7 @@ contains
       end if
    end subroutine components
 
-   !> The next field is one of the WORDS, '|ARITH|GEOM|LIST|'; blank it is the first.
+   !> Take one of the WORDS, '|ARITH|GEOM|LIST|', from the next field; a blank field is the first word.
    subroutine word(self, name, words, value)
       class(card_fields_type), intent(inout) :: self
       character(*), intent(in)               :: name, words
@@ -211,7 +211,7 @@ contains
       end if
    end subroutine word
 
-   !> The next fields must stay blank, NAMES says what NASTRAN has there; a zero is a blank too.
+   !> The next fields must stay blank; NAMES are their names in NASTRAN. A zero counts as blank.
    subroutine blank(self, names)
       class(card_fields_type), intent(inout) :: self
       character(*), intent(in)               :: names(:)
@@ -228,7 +228,7 @@ contains
       end do
    end subroutine blank
 
-   !> The next fields are left to the card's own routine, or have no effect whatever stands in them.
+   !> Skip the next fields: the routine of the card takes them, or they have no effect.
    subroutine skip(self, names)
       class(card_fields_type), intent(inout) :: self
       character(*), intent(in)               :: names(:)
@@ -240,7 +240,7 @@ contains
       end do
    end subroutine skip
 
-   !> Behind the fields taken the card must be blank. LINE is where it begins.
+   !> The card must be blank after the fields taken. LINE is its first line.
    subroutine finish(self, line)
       class(card_fields_type), intent(inout) :: self
       integer, intent(out)                   :: line
@@ -273,14 +273,14 @@ contains
       if (given) given = self%card%fields(k)%length > 0
    end function given
 
-   !> Whether anything was found wrong with the entries of the card so far.
+   !> Whether an entry of the card so far was wrong.
    pure logical function is_faulty(self)
       class(card_fields_type), intent(in) :: self
 
       is_faulty = self%errors%n > self%errors_before
    end function is_faulty
 
-   !> An error about the field with this NAME.
+   !> Add an error about the field NAME.
    subroutine error(self, name, message)
       class(card_fields_type), intent(inout) :: self
       character(*), intent(in)               :: name, message
@@ -288,7 +288,7 @@ contains
       call self%error_at(number_of(self%names, name), name//': '//message)
    end subroutine error
 
-   !> An error about data field K.
+   !> Add an error about data field K.
    subroutine error_at(self, k, message)
       class(card_fields_type), intent(inout) :: self
       integer, intent(in)                    :: k
@@ -297,7 +297,7 @@ contains
       call self%card%field_error(k, message, self%errors)
    end subroutine error_at
 
-   !> An error about data field K, NAME, that says of its entry what the WORDS say.
+   !> Add an error about data field K, NAME: its entry, followed by WORDS.
    subroutine wrong_entry(self, k, name, words)
       class(card_fields_type), intent(inout) :: self
       integer, intent(in)                    :: k
@@ -306,7 +306,7 @@ contains
       call self%error_at(k, trim(name)//': '''//trim(self%card%fields(k)%text)//''' '//words)
    end subroutine wrong_entry
 
-   !> The integer in data field K, NAME. Not OK, and said so with what was EXPECTED, where it is none.
+   !> The integer in data field K, NAME. If there is none, OK is false and an error says what was EXPECTED.
    subroutine integer_at(self, k, name, expected, value, ok)
       class(card_fields_type), intent(inout) :: self
       integer, intent(in)                    :: k
@@ -326,7 +326,7 @@ contains
       end associate
    end subroutine integer_at
 
-   !> The number of a node in data field K, NAME, likewise; one below 1 is an error, but OK.
+   !> The node number in data field K, NAME. A number below 1 is an error, but OK stays true.
    subroutine node_at(self, k, name, expected, node, ok)
       class(card_fields_type), intent(inout) :: self
       integer, intent(in)                    :: k
@@ -338,14 +338,14 @@ contains
       if (ok .and. node < 1) call self%error_at(k, name//': '''//integer_text(node)//''' is no node number')
    end subroutine node_at
 
-   !> The real in data field K, likewise.
+   !> The real in data field K. If there is none in the range, OK is false with an error.
    subroutine real_at(self, k, name, expected, value, ok, required)
       class(card_fields_type), intent(inout) :: self
       integer, intent(in)                    :: k
       character(*), intent(in)               :: name, expected
       real(wp), intent(out)                  :: value
       logical, intent(out)                   :: ok
-      logical, intent(in), optional          :: required !! true: where the field is blank that is said
+      logical, intent(in), optional          :: required !! true: a blank field is an error
       integer :: whole
       logical :: is_integer
 
@@ -374,8 +374,8 @@ contains
       end associate
    end subroutine real_at
 
-   !> The components in data field K, NAME, OR_BLANK as the words for it go on; with MOST a single one from 1 to MOST. Zero where they
-   !! are wrong, and said so.
+   !> The components in data field K, NAME; OR_BLANK ends the words for what is expected. With MOST it is a single component from 1 to
+   !! MOST. Zero, with an error, where they are wrong.
    subroutine components_at(self, k, name, or_blank, value, most)
       class(card_fields_type), intent(inout) :: self
       integer, intent(in)                    :: k
@@ -407,8 +407,8 @@ contains
       value = 0
    end subroutine components_at
 
-   !> The numbers in the data fields from FROM on, and those between, G1 THRU G2. NAME: what the manual calls such a field; WHAT it is:
-   !! 'a node number'.
+   !> The numbers in the data fields from FROM on, with ranges G1 THRU G2. NAME is the name of the field in the manual, WHAT describes
+   !! it: 'a node number'.
    subroutine list_ranges(self, from, name, what, ranges)
       class(card_fields_type), intent(inout) :: self
       integer, intent(in)                    :: from
@@ -449,8 +449,8 @@ contains
       ranges%at = ranges%at(:n)
    end subroutine list_ranges
 
-   !> Of numbers beyond all measure a stiffness, an area, a volume is none any more: such a VALUE in data field K is not OK, and said
-   !! so. One that must be above zero, IS_POSITIVE, must not vanish beside others either.
+   !> Check that VALUE in data field K is not so large that a stiffness, area or volume overflows, and, with IS_POSITIVE, not so small
+   !! that it vanishes beside others. Otherwise OK is false with an error.
    subroutine check_size(self, k, name, is_positive, value, ok)
       type(card_fields_type), intent(inout) :: self
       integer, intent(in)                   :: k
@@ -468,7 +468,7 @@ contains
       end if
    end subroutine check_size
 
-   !> Whether TEXT consists of LETTERS only, begins and ends like a number.
+   !> Whether TEXT consists of LETTERS only and begins and ends like a number.
    pure logical function is_number_shape(text, letters)
       character(*), intent(in) :: text, letters
 
@@ -477,7 +477,7 @@ contains
                         scan(text(len_trim(text):len_trim(text)), '0123456789.') == 1
    end function is_number_shape
 
-   !> The direction of WHAT, the three fields from that called FIRST on, must not be zero.
+   !> The direction of WHAT, in three fields from FIRST on, must not be zero.
    subroutine check_direction(self, first, what, direction)
       class(card_fields_type), intent(inout) :: self
       character(*), intent(in)               :: first, what

@@ -9,27 +9,27 @@ module card_reader
    implicit none
    private
 
-   integer, parameter :: many_lines = 5000            ! of a deck that is worth two threads
+   integer, parameter :: many_lines = 5000            ! length of a deck from which two threads pay
 
-   !> One kind of card, and the routine that reads a card of it; kinds that one array holds share a routine.
+   !> One kind of card, and the routine that reads it. The kinds of one array share a routine.
    type, public :: card_kind
       character(8) :: name = ''
-      character(8), allocatable :: fields(:)         !! names of its data fields, as far as its cards were read
-      integer, private :: routine = 0                ! the same for all kinds that share one
-      integer, private :: n = 0                      ! cards of this kind
+      character(8), allocatable :: fields(:)         !! names of the data fields, as far as cards of this kind have been read
+      integer, private :: routine = 0                ! the same for kinds that share a routine
+      integer, private :: n = 0                      ! number of cards of this kind
       procedure(read_one), pointer, nopass, private :: read => null()
    end type card_kind
 
-   !> The kinds of card, and where cards of them begin.
+   !> The kinds of card, and the lines where cards begin.
    type, public :: card_reader_type
-      type(card_kind), allocatable :: kinds(:)       !! all that there are
-      integer(int8), allocatable, private :: kind_at(:) ! (lines) of the card that begins there, 0: none that is known
+      type(card_kind), allocatable :: kinds(:)       !! all kinds
+      integer(int8), allocatable, private :: kind_at(:) ! (lines) kind of the card that begins there, 0: none or unknown
    contains
       procedure :: start, add_kinds, note_card, n_of, read_all
    end type card_reader_type
 
    abstract interface
-      !> Takes the fields of CARD into entry CARD%I of its array of BULK.
+      !> Stores the fields of CARD in entry CARD%I of its array of BULK.
       subroutine read_one(card, bulk)
          import :: bulk_data_type, card_fields_type
          type(card_fields_type), intent(inout) :: card
@@ -39,7 +39,7 @@ module card_reader
 
 contains
 
-   !> Nothing is known of a deck of N_LINES yet.
+   !> Begin a deck of N_LINES.
    subroutine start(self, n_lines)
       class(card_reader_type), intent(inout) :: self
       integer, intent(in)                    :: n_lines
@@ -48,7 +48,7 @@ contains
       self%kind_at = 0
    end subroutine start
 
-   !> The kinds with these NAMES are read by READ.
+   !> Add the kinds NAMES, which READ reads.
    subroutine add_kinds(self, names, read)
       class(card_reader_type), intent(inout) :: self
       character(*), intent(in)               :: names(:)
@@ -64,7 +64,7 @@ contains
       end do
    end subroutine add_kinds
 
-   !> A card of the name NAME begins on LINE; not IS_KNOWN where there is no such kind.
+   !> Note that a card NAME begins on LINE; IS_KNOWN is false where there is no such kind.
    pure subroutine note_card(self, name, line, is_known)
       class(card_reader_type), intent(inout) :: self
       character(8), intent(in)               :: name
@@ -81,7 +81,7 @@ contains
       end do
    end subroutine note_card
 
-   !> Cards noted of the kind NAME and of those that its array holds too.
+   !> Number of noted cards of the kind NAME and of the kinds in the same array.
    pure integer function n_of(self, name) result(n)
       class(card_reader_type), intent(in) :: self
       character(*), intent(in)            :: name
@@ -92,9 +92,9 @@ contains
       n = sum(self%kinds%n, mask=self%kinds%routine == self%kinds(k)%routine)
    end function n_of
 
-   !> Fill the arrays of BULK, each with the cards noted, in the order of the deck TEXT; what is wrong goes to ERRORS. The first routine,
-   !! that of the nodes, has about half of a long deck: it is the work of one thread, the others that of another. The errors stand as
-   !! if they had come one after the other.
+   !> Fill the arrays of BULK with the noted cards, in the order of the deck TEXT; errors go to ERRORS. The first routine, that of the
+   !! nodes, reads about half of a long deck: one thread runs it, a second thread runs the others. The errors have the order of a
+   !! serial run.
    subroutine read_all(self, text, bulk, errors)
       class(card_reader_type), intent(inout)       :: self
       type(deck_text_type), intent(in)             :: text
@@ -113,7 +113,7 @@ contains
       call errors%add_all(others)
    end subroutine read_all
 
-   !> Read all cards of the ROUTINE of that number, where there is one.
+   !> Read all cards of routine number ROUTINE.
    subroutine read_by(kinds, routine, kind_at, text, bulk, errors)
       type(card_kind), intent(inout)               :: kinds(:)
       integer, intent(in)                          :: routine

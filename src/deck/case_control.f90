@@ -21,8 +21,8 @@ module case_control
    integer, parameter, public :: solver_auto = 1, solver_skyline = 2, solver_tree = 3, &
                                  solver_petsc = 4, solver_mumps = 5                                !! SOLVER =
 
-   integer, parameter  :: own_set = -1 ! of --watch
-   real(wp), parameter :: newton_tolerance = 1.0e-10_wp, back_tolerance = 1.0e-6_wp ! TOL that is not given
+   integer, parameter  :: own_set = -1 ! number of the set of --watch
+   real(wp), parameter :: newton_tolerance = 1.0e-10_wp, back_tolerance = 1.0e-6_wp ! default TOL
 
    type, public :: case_control_type
       character(:), allocatable :: title
@@ -30,15 +30,15 @@ module case_control
       integer :: method = method_step
       integer :: pressure = pressure_sumf
       logical :: carry = .false.
-      logical :: average = .true.                        !! BACK: two consecutive sets of results
+      logical :: average = .true.                        !! BACK: average two consecutive sets of results
       integer :: solver = solver_auto
-      real(wp) :: tolerance = newton_tolerance           !! NEWTON: unbalanced share of the largest load; BACK: change of pressures
-      integer :: restart = no_restart                    !! increments of a stage from restart file to restart file
+      real(wp) :: tolerance = newton_tolerance           !! NEWTON: unbalanced force relative to the largest load; BACK: change of pressures
+      integer :: restart = no_restart                    !! increments of a stage between restart files
       logical :: echo  = .true.
-      logical :: echo_asked = .false.                    !! by ECHO: however many cards there are
+      logical :: echo_asked = .false.                    !! by ECHO: for any number of cards
       logical :: of_nastran = .false.                    !! SOL or CEND: the deck was written for NASTRAN
-      logical :: lumped = .false.                        !! MASS = LUMPED: the mass of elements stands at their nodes
-      logical :: mass_is_given = .false.                 !! MASS is
+      logical :: lumped = .false.                        !! MASS = LUMPED: the mass of elements is lumped at their nodes
+      logical :: mass_is_given = .false.                 !! MASS is given
       integer :: model = 0, model_line = 0               !! MODEL, 0: not given
       type(number_set), allocatable :: sets(:)
       type(parameters_type) :: parameters                !! of PARAM
@@ -50,13 +50,13 @@ module case_control
 
 contains
 
-   !> The program has the solvers PETSC and MUMPS.
+   !> Whether the program has the solvers PETSC and MUMPS.
    subroutine offer_petsc()
       has_petsc = .true.
    end subroutine offer_petsc
 
-   !> Read from line CURSOR of TEXT up to BEGIN BULK; CURSOR is left on the line behind it, FOUND_BULK tells whether
-   !! it was there.
+   !> Read from line CURSOR of TEXT up to BEGIN BULK. CURSOR then is the line after BEGIN BULK; FOUND_BULK tells whether there is
+   !! one.
    subroutine read_case_control(text, cursor, control, found_bulk, errors)
       type(deck_text_type), intent(in)     :: text
       integer, intent(inout)               :: cursor
@@ -86,7 +86,7 @@ contains
                             index(line, achar(9)), index(line, achar(9)))
             cycle
          end if
-         if (goes_on) then ! the list of an entry without effect
+         if (goes_on) then ! the continued list of an entry without effect
             goes_on = line(len(line):) == ','
             cycle
          end if
@@ -102,7 +102,7 @@ contains
          end if
          control%of_nastran = control%of_nastran .or. entry%key == 'SOL' .or. entry%key == 'CEND'
          if (entry%key == 'METHOD' .and. entry%value /= '' .and. verify(entry%value, '0123456789') == 0) entry%key = 'MODES'
-         in_plots = entry%key == 'OUTPUT' .and. entry%describers /= '' ! NASTRAN's plots: all lines up to BEGIN BULK
+         in_plots = entry%key == 'OUTPUT' .and. entry%describers /= '' ! NASTRAN's plot requests: all lines up to BEGIN BULK
          if (in_plots .or. (entry%key == 'OUTPUT' .and. entry%value == '')) then
             call control%ignored%add('OUTPUT')
          else if (entry%key == 'SET') then
@@ -120,7 +120,7 @@ contains
       call note_idle_sets(control)
    end subroutine read_case_control
 
-   !> The nodes of LIST, numbers with commas, are watched in all stages too: by a set with a number that no deck can give.
+   !> Watch the nodes of LIST, numbers with commas, in all stages. They form a set whose number no deck can use.
    pure subroutine watch_also(control, list)
       type(case_control_type), intent(inout) :: control
       character(*), intent(in)               :: list
@@ -136,7 +136,7 @@ contains
       end do
    end subroutine watch_also
 
-   !> Sets that no OUTPUT, no WATCH and no RESPONSE names have no effect.
+   !> Note the sets that no OUTPUT, WATCH or RESPONSE names as entries without effect.
    pure subroutine note_idle_sets(control)
       type(case_control_type), intent(inout) :: control
       integer :: i, s
@@ -165,7 +165,7 @@ contains
 
    end subroutine note_idle_sets
 
-   !> What one line of case control says.
+   !> Interpret one line of case control.
    subroutine read_entry(entry, control, common, errors)
       type(entry_type), intent(in)           :: entry
       type(case_control_type), intent(inout) :: control
@@ -175,7 +175,7 @@ contains
       logical :: ok
 
       n = size(control%stages)
-      if (n > 0 .and. any(entry%key == ['TITLE', 'ECHO '])) then ! that of a subcase
+      if (n > 0 .and. any(entry%key == ['TITLE', 'ECHO '])) then ! of a subcase
          call control%ignored%add(entry%key)
          return
       end if
@@ -195,7 +195,7 @@ contains
       select case (entry%key)
       case ('SUBCASE')
          call start_stage(entry, control, common, errors)
-      case ('SOL') ! statics, and modes, by their numbers and names; old decks write 1,0
+      case ('SOL') ! numbers and names of statics and modes; old decks write 1,0
          choice = scan(entry%value//',', ', ')
          if (index('|1|3|24|101|103|106|SESTATIC|SESTATICS|STATIC|STATICS|NLSTATIC|SEMODES|MODES|', &
                    '|'//upper(entry%value(:choice - 1))//'|') == 0 .or. choice == 1) &
@@ -285,7 +285,7 @@ contains
       call move_alloc(longer, control%stages)
    end subroutine start_stage
 
-   !> Without SUBCASE there is one stage; all stages stand on the same supports: [k_b] is formed once.
+   !> Without SUBCASE there is one stage. All stages have the same supports: [k_b] is formed once.
    subroutine check_stages(control, common, errors)
       type(case_control_type), intent(inout) :: control
       type(stage_type), intent(in)           :: common !! the only stage of a deck without SUBCASE

@@ -12,32 +12,32 @@ module case_entries
 
    public :: cut_entry, check_repeated, choose, read_number, value_error, read_set, find_set, numbers_in_set, read_limit
 
-   !> Keys that hold for all stages, and those of a stage.
+   !> Keys for all stages, and keys of a stage.
    character(8), parameter, public :: global_keys(13) = [character(8) :: 'SOL', 'TITLE', 'UNITS', 'METHOD', 'TOL', 'PRESSURE', &
       'CARRY', 'AVERAGE', 'SOLVER', 'ECHO', 'RESTART', 'MASS', 'MODEL']
    character(11), parameter, public :: stage_keys(16) = [character(11) :: 'SPC', 'MPC', 'LABEL', 'LOAD', 'INCR', 'OUTPUT', &
       'TEMPERATURE', 'WATCH', 'MODES', 'STIFFNESS', 'AMPLITUDE', 'BACKBONE', 'FREQUENCY', 'DLOAD', 'SDAMPING', 'RESPONSE']
-   character(11), parameter :: short_keys(3) = [character(11) :: 'TEMPERATURE', 'FREQUENCY', 'SDAMPING'] ! four letters will do
+   character(11), parameter :: short_keys(3) = [character(11) :: 'TEMPERATURE', 'FREQUENCY', 'SDAMPING'] ! may be shortened to four letters
 
-   !> A key with a number, and the line it stands on (0: not given).
+   !> A key with a number, and its line (0: not given).
    type, public :: set_reference
       integer :: id = 0, line = 0
    end type set_reference
 
-   !> The line as it is being read, cut into key and value.
+   !> One line of case control, cut into key and value.
    type, public :: entry_type
       integer :: line = 0
       character(:), allocatable :: key, value
-      character(:), allocatable :: describers !! what stands in parentheses behind the key, empty without them
+      character(:), allocatable :: describers !! text in parentheses after the key, or empty
       integer :: first = 0, last = 0  !! columns of the value
    end type entry_type
 
    type, public :: number_set
       integer :: id = 0, line = 0
-      character(:), allocatable :: text !! what follows the equals sign, with its continuation lines
+      character(:), allocatable :: text !! text after the equals sign, with continuation lines
    end type number_set
 
-   !> Nodes that case control names: those of a SET, or those of a marked surface.
+   !> Nodes named in case control: those of a SET or of a marked surface.
    type, public :: limit_type
       logical :: is_mark = .false.
       integer :: id = 0, line = 0
@@ -48,7 +48,7 @@ module case_entries
 
 contains
 
-   !> 'UNITS = MM, KGF' into key and value; a blank serves for the equals sign. 'STRESS(PLOT) = ALL' has a describer too.
+   !> Cut 'UNITS = MM, KGF' into key and value. A blank may replace the equals sign. 'STRESS(PLOT) = ALL' also has a describer.
    subroutine cut_entry(line, at, entry)
       character(*), intent(in)      :: line
       integer, intent(in)           :: at
@@ -88,7 +88,7 @@ contains
       entry%first = min(entry%first, entry%last)
    end subroutine cut_entry
 
-   !> No key twice in the same place (above the stages, or in the same stage).
+   !> No key may appear twice in the same place (above the stages, or in one stage).
    subroutine check_repeated(entry, keys_seen, errors)
       type(entry_type), intent(in)             :: entry
       character(:), allocatable, intent(inout) :: keys_seen
@@ -103,7 +103,7 @@ contains
       end if
    end subroutine check_repeated
 
-   !> The value must be one of WORDS, '|A|B|': CHOICE is which, and stays where it is none.
+   !> CHOICE is the position of the value among WORDS, '|A|B|'. Any other value is an error, and CHOICE keeps its value.
    subroutine choose(entry, words, choice, errors)
       type(entry_type), intent(in)         :: entry
       character(*), intent(in)             :: words
@@ -119,7 +119,7 @@ contains
       end if
    end subroutine choose
 
-   !> The value of ENTRY is not what was EXPECTED.
+   !> Report that the value of ENTRY is not what was EXPECTED.
    subroutine value_error(entry, expected, errors)
       type(entry_type), intent(in)         :: entry
       character(*), intent(in)             :: expected
@@ -133,7 +133,7 @@ contains
       end if
    end subroutine value_error
 
-   !> The value of ENTRY as the number of a set or a stage, 1 and up.
+   !> The value of ENTRY as the number of a set or a stage, at least 1.
    subroutine read_number(entry, reference, errors)
       type(entry_type), intent(in)         :: entry
       type(set_reference), intent(out)     :: reference
@@ -149,10 +149,10 @@ contains
       end if
    end subroutine read_number
 
-   !> Append the set of ENTRY to SETS: where a line ends with a comma the next one goes on, CURSOR is left behind it.
+   !> Append the set of ENTRY to SETS. A comma at the end of a line continues the set; CURSOR then is the line after the set.
    subroutine read_set(text, entry, cursor, sets, errors)
       type(deck_text_type), intent(in)       :: text
-      type(entry_type), intent(in)           :: entry  !! its value is '5 = 1, 2,'
+      type(entry_type), intent(in)           :: entry  !! with a value such as '5 = 1, 2,'
       integer, intent(inout)                 :: cursor
       type(number_set), allocatable, intent(inout) :: sets(:)
       type(deck_error_list), intent(inout)   :: errors
@@ -178,7 +178,7 @@ contains
       sets = [sets, set]
    end subroutine read_set
 
-   !> Where the set with this ID is, the last of them; 0: nowhere.
+   !> Position of the last set with this ID; 0: none.
    pure integer function find_set(sets, id) result(at)
       type(number_set), allocatable, intent(in) :: sets(:)
       integer, intent(in) :: id
@@ -187,7 +187,7 @@ contains
       if (allocated(sets)) at = findloc(sets%id, id, dim=1, back=.true.)
    end function find_set
 
-   !> Which of NUMBERS are in SET, and the marked surfaces that it names.
+   !> Which of NUMBERS are in SET, and its marked surfaces.
    subroutine numbers_in_set(set, numbers, are_in, marks, errors)
       type(number_set), intent(in)         :: set
       integer, intent(in)                  :: numbers(:)
@@ -235,7 +235,7 @@ contains
 
    contains
 
-      !> A number of its own, or behind EXCEPT one of the range before it that is not meant.
+      !> Note a number or, after EXCEPT, exclude it from the range before.
       subroutine take_number(word, ok)
          character(*), intent(in) :: word
          logical, intent(out)     :: ok
@@ -256,7 +256,7 @@ contains
 
    end subroutine numbers_in_set
 
-   !> The next WORD of TEXT from AT on, empty behind the last; blanks and commas stand between them.
+   !> The next WORD of TEXT from AT on, empty at the end; blanks and commas separate words.
    pure subroutine next_word(text, at, word)
       character(*), intent(in)               :: text
       integer, intent(inout)                 :: at
@@ -272,7 +272,7 @@ contains
       at = first + length
    end subroutine next_word
 
-   !> Append WORD, 'SET 5' or 'PMARK 20' in capitals, to LIMITS; OK is false where it is neither.
+   !> Append WORD, 'SET 5' or 'PMARK 20' in capitals, to LIMITS; OK is false where WORD is neither.
    pure subroutine read_limit(word, line, limits, ok)
       character(*), intent(in) :: word
       integer, intent(in)      :: line !! of the entry

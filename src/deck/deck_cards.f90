@@ -11,9 +11,9 @@ module deck_cards
    public :: read_card, add_field_error, card_name, is_continuation, check_first_field
 
    integer, parameter :: field_width = 32 !! longest entry of a field (free field only)
-   integer, parameter :: blank = iachar(' '), asterisk = iachar('*') ! codes are compared at once, characters by a call of the library
+   integer, parameter :: blank = iachar(' '), asterisk = iachar('*') ! character codes are compared inline, characters by a library call
 
-   !> One entry of a card and where it stands.
+   !> One entry of a card and its position.
    type, public :: card_field
       character(field_width) :: text = ''  ! raised to capitals, left-justified
       integer :: length = 0                ! of the text
@@ -21,23 +21,23 @@ module deck_cards
       integer :: first = 0, last = 0       ! columns of the field
    end type card_field
 
-   !> One card: its name and its data fields 1..n, field 1 being NASTRAN's field 2; each line of a card (each pair
-   !! of lines in large field) gives eight, blank ones included up to the last entry.
+   !> One card: its name and its data fields 1 to n; field 1 is NASTRAN's field 2. Each line of a card (each pair of lines in large
+   !! field) gives eight fields, blank ones included up to the last entry.
    type, public :: card_type
       character(8) :: name = ''
       integer :: line = 0                    !! index of its first line
       integer :: n    = 0
       type(card_field), allocatable :: fields(:)
-      character(8) :: marker = ''            !! what stands in field 10 of the line that was cut last
-      logical, private :: half = .false.     ! that line is large field and waits for its second half
+      character(8) :: marker = ''            !! field 10 of the line cut last
+      logical, private :: half = .false.     ! that line is in large field and its second half is missing
    contains
       procedure :: where_is, field_error
    end type card_type
 
 contains
 
-   !> Read the card that begins on line CURSOR of TEXT (a line that is no continuation) with all its continuations;
-   !! CURSOR is left on the line behind it. Faults of form go to ERRORS.
+   !> Read the card that begins on line CURSOR of TEXT (not a continuation) with all its continuations. CURSOR then is the line after
+   !! the card. Errors of format go to ERRORS.
    subroutine read_card(text, cursor, card, errors)
       type(deck_text_type), intent(in)     :: text
       integer, intent(inout)               :: cursor
@@ -55,7 +55,7 @@ contains
       card%name = card_name(text%files(file)%bytes(first:last), comma)
       errors_before = errors%n
       call check_first_field(text%files(file)%bytes(first:last), comma, cursor, errors)
-      if (errors%n > errors_before) card%name = '' ! not to be understood
+      if (errors%n > errors_before) card%name = '' ! the card cannot be interpreted
       do
          call cut_line(text%files(file)%bytes(first:last), comma, cursor, text%has_tabs, card, errors)
          cursor = cursor + 1
@@ -74,8 +74,8 @@ contains
       end do
    end subroutine read_card
 
-   !> Add an error about data field K of the card that begins on line LINE, found long after it was read: the card is
-   !! cut once more to point at the columns. NAME is what the message calls the field.
+   !> Add an error about data field K of the card on line LINE, found long after the card was read: the card is cut once more to find
+   !! the columns. NAME is the name of the field in the message.
    subroutine add_field_error(text, line, k, name, message, errors)
       type(deck_text_type), intent(in)     :: text
       integer, intent(in)                  :: line, k
@@ -90,10 +90,10 @@ contains
       call card%field_error(k, name//': '//message, errors)
    end subroutine add_field_error
 
-   !> The name in field 1 of LINE (its card part), without the * of large field; blank for a continuation.
+   !> The name in field 1 of LINE (without comment), without the * of large field; blank for a continuation.
    pure function card_name(line, comma) result(name)
       character(*), intent(in)      :: line
-      integer, intent(in), optional :: comma !! column of the first comma, 0: none; left out, it is looked for
+      integer, intent(in), optional :: comma !! column of the first comma, 0: none; default: searched
       character(8) :: name
       integer :: i, first, last, n, code
 
@@ -114,7 +114,7 @@ contains
       end do
    end function card_name
 
-   !> Whether LINE carries on the card before it: +, * or blank in field 1.
+   !> Whether LINE continues the card before it: +, * or blank in field 1.
    pure logical function is_continuation(line, comma)
       character(*), intent(in)      :: line
       integer, intent(in), optional :: comma !! as above
@@ -142,7 +142,7 @@ contains
       if (last < 0) last = min(8, len(line))
    end function end_of_first_field
 
-   !> Nothing but the name, and perhaps the * of large field, may stand in field 1 of LINE, whose first comma is in column COMMA.
+   !> Field 1 of LINE may hold only the name and the * of large field; the first comma is in column COMMA.
    subroutine check_first_field(line, comma, at, errors)
       character(*), intent(in)             :: line
       integer, intent(in)                  :: comma, at
@@ -162,7 +162,7 @@ contains
       end associate
    end subroutine check_first_field
 
-   !> Whether FIELD holds one word of at most eight characters, none of them a *: of most cards it does.
+   !> Whether FIELD is one word of at most eight characters without *, as in most cards.
    pure logical function is_name_alone(field)
       character(*), intent(in) :: field
       integer :: i, length
@@ -182,7 +182,7 @@ contains
       is_name_alone = length <= 8
    end function is_name_alone
 
-   !> The name that the user gave a continuation (`+AB`) must be the one in field 10 of the line before, MARKER.
+   !> The user's name of a continuation (`+AB`) must be that in field 10 of the line before, MARKER.
    subroutine check_marker(line, comma, at, marker, errors)
       character(*), intent(in)             :: line
       integer, intent(in)                  :: comma, at
@@ -202,13 +202,13 @@ contains
       end if
    end subroutine check_marker
 
-   !> Cut one line into fields and put them at the end of CARD. Fixed fields: eight of 8 columns, or four of 16, behind the name; columns
-   !! 73-80 are the continuation mark. Free field: entries between commas, eight or four of them, and one more for the mark.
+   !> Cut one line into fields and append them to CARD. Fixed fields: eight of 8 columns, or four of 16, after the name; columns 73-80
+   !! are the continuation mark. Free field: eight or four entries between commas, and one more for the mark.
    recursive subroutine cut_line(line, comma, at, has_tabs, card, errors)
       character(*), intent(in)             :: line     !! its card part
-      integer, intent(in)                  :: comma    !! column of its first comma, 0: none
-      integer, intent(in)                  :: at       !! its index in the deck text
-      logical, intent(in)                  :: has_tabs !! there may be tabs in it
+      integer, intent(in)                  :: comma    !! column of the first comma, 0: none
+      integer, intent(in)                  :: at       !! index in the deck text
+      logical, intent(in)                  :: has_tabs !! the line may contain tabs
       type(card_type), intent(inout)       :: card
       type(deck_error_list), intent(inout) :: errors
       character(:), allocatable :: plain
@@ -225,7 +225,7 @@ contains
          end if
       end if
       large = index(line(:merge(comma - 1, min(8, len(line)), comma > 0)), '*') > 0
-      do while (card%half .and. .not. large .and. modulo(card%n, 8) /= 0) ! the second half of a large-field line is not there
+      do while (card%half .and. .not. large .and. modulo(card%n, 8) /= 0) ! the second half of a large-field line is missing
          call push(card, '', at, 0, 0, errors)
       end do
       card%marker = ''
@@ -261,7 +261,7 @@ contains
       end if
    end subroutine cut_line
 
-   !> TEXT with its tabs as blanks up to the next field, so that one tab makes one error.
+   !> TEXT with each tab replaced by blanks up to the next field, so that one tab makes one error.
    pure function without_tabs(text) result(plain)
       character(*), intent(in)  :: text
       character(:), allocatable :: plain
@@ -278,7 +278,7 @@ contains
       end do
    end function without_tabs
 
-   !> One more field: ENTRY without the blanks around it, in capitals.
+   !> Append a field: ENTRY without surrounding blanks, in capitals.
    subroutine push(card, entry, at, first, last, errors)
       type(card_type), intent(inout)       :: card
       character(*), intent(in)             :: entry
@@ -319,7 +319,7 @@ contains
                                                        integer_text(field_width)//' characters', first, last)
    end subroutine push
 
-   !> Words for data field K: 'CQUAD4, field 7'; NASTRAN counts 2 to 9 on every line of a card.
+   !> The name of data field K in messages: 'CQUAD4, field 7'. NASTRAN counts fields 2 to 9 on every line of a card.
    pure function where_is(self, k) result(words)
       class(card_type), intent(in) :: self
       integer, intent(in)          :: k
@@ -329,7 +329,7 @@ contains
       if (k > 8) words = words//' of continuation '//integer_text((k - 1)/8)
    end function where_is
 
-   !> An error about data field K, its place and columns taken from the card.
+   !> Add an error about data field K with its place and columns.
    subroutine field_error(self, k, message, errors)
       class(card_type), intent(in)         :: self
       integer, intent(in)                  :: k

@@ -13,14 +13,14 @@ module deck_check
    implicit none
    private
 
-   !> The parts of a deck, and where what is wrong in it goes.
+   !> The parts of a deck, and the list of its errors.
    type, public :: checked_deck
       type(deck_text_type), pointer     :: text => null()
       type(case_control_type), pointer  :: control => null()
       type(bulk_data_type), pointer     :: bulk => null()
       type(deck_error_list), pointer    :: errors => null()
       type(card_kind), pointer, private :: kinds(:) => null()
-      type(rigid_card), allocatable     :: rigid(:) !! those of BULK; of marked surfaces with their nodes when these are known
+      type(rigid_card), allocatable     :: rigid(:) !! those of BULK; nodes of marked surfaces are added when known
    contains
       procedure :: start
       procedure, private :: kind_of_line, named_field_error, numbered_field_error
@@ -30,14 +30,14 @@ module deck_check
       procedure :: report_repeated
    end type checked_deck
 
-   ! the cards that nodes, elements, properties and marked surfaces come from
+   ! the cards of nodes, elements, properties and marked surfaces
    character(8), parameter :: mesh_cards(*) = [character(8) :: 'GRID', 'GRDSET', 'CORD1R', 'CORD1C', 'CORD1S', 'CORD2R', 'CORD2C', &
       'CORD2S', 'BLOCK2', 'BLOCK3', 'CTRIA3', 'CTRIA6', 'CQUAD4', 'CQUAD8', 'CTETRA', 'CPENTA', 'CHEXA', 'CBAR', 'CROD', 'CONROD', &
       'NODEAT', 'PSHELL', 'PAXIS', 'PSOLID', 'PROD', 'PMARK', 'MAT1']
 
 contains
 
-   !> Check DECK, what is wrong goes to ERRORS. Both outlive SELF.
+   !> Begin the check of DECK; errors go to ERRORS. Both must outlive SELF.
    subroutine start(self, deck, errors)
       class(checked_deck), intent(inout)           :: self
       type(deck_type), intent(in), target          :: deck
@@ -52,7 +52,7 @@ contains
       if (allocated(deck%bulk%rigid)) self%rigid = deck%bulk%rigid
    end subroutine start
 
-   !> Which kind of card begins on LINE.
+   !> Kind of the card that begins on LINE.
    integer function kind_of_line(self, line) result(kind)
       class(checked_deck), intent(in) :: self
       integer, intent(in)             :: line
@@ -60,22 +60,22 @@ contains
       kind = findloc(self%kinds%name, card_name(self%text%card_part(line)), dim=1)
    end function kind_of_line
 
-   !> Add an error about the FIELD, by its name in the table, of the card that begins on LINE.
+   !> Add an error about the field FIELD of the card that begins on LINE.
    subroutine named_field_error(self, line, field, message, called)
       class(checked_deck), intent(in)    :: self
       integer, intent(in)                :: line
       character(*), intent(in)           :: field, message
-      character(*), intent(in), optional :: called !! in the message, where not by its name
+      character(*), intent(in), optional :: called !! name in the message, default: FIELD
 
       call self%field_error(line, number_of(self%kinds(self%kind_of_line(line))%fields, field), message, called)
    end subroutine named_field_error
 
-   !> The same about data field K. NOUN: what it names, in front of its name.
+   !> Add an error about data field K. NOUN, a word for the entry, precedes the name.
    subroutine numbered_field_error(self, line, k, message, called, noun)
       class(checked_deck), intent(in)    :: self
       integer, intent(in)                :: line, k
       character(*), intent(in)           :: message
-      character(*), intent(in), optional :: called !! as above; must be given where the table does not reach so far
+      character(*), intent(in), optional :: called !! name in the message; required beyond the table of fields
       character(*), intent(in), optional :: noun
       character(:), allocatable :: name
 
@@ -88,7 +88,7 @@ contains
       call add_field_error(self%text, line, k, name, message, self%errors)
    end subroutine numbered_field_error
 
-   !> Every id of its kind once among the cards that are few; properties and PMARK share theirs, as properties do in NASTRAN.
+   !> Find repeated ids of the kinds with few cards. Properties and PMARK share their ids, as properties do in NASTRAN.
    subroutine check_ids(self)
       class(checked_deck), intent(in) :: self
       integer :: direction, i
@@ -137,7 +137,7 @@ contains
 
    contains
 
-      !> The PJOINT that a card names; 0 where that could not be read.
+      !> Report a PJOINT ID that is not in the deck; ID is 0 where it could not be read.
       subroutine check_law(line, id)
          integer, intent(in) :: line, id
 
@@ -147,7 +147,7 @@ contains
 
    end subroutine check_ids
 
-   !> Whether one of the errors so far is about what the mesh is made of: then what stands on the mesh cannot be put together.
+   !> Whether an error so far concerns the cards of the mesh: then nothing that depends on the mesh can be built.
    logical function mesh_is_faulty(self) result(is_faulty)
       class(checked_deck), intent(in) :: self
       character(8) :: name
@@ -165,13 +165,13 @@ contains
       end do
    end function mesh_is_faulty
 
-   !> Say which of the numbers ID(n), given on the cards of LINE(n), are given twice; a card that gives many is named once.
+   !> Report the repeated numbers among ID(n), given on the cards of LINE(n). A card with many numbers is reported once.
    subroutine report_repeated(self, noun, id, line, n_cards)
       class(checked_deck), intent(in) :: self
-      character(*), intent(in)       :: noun    !! what they are the numbers of
+      character(*), intent(in)       :: noun    !! what the numbers identify
       integer, intent(in)            :: id(:), line(:)
-      integer, intent(in), optional  :: n_cards !! the first so many are given one by one, in data field 1 of their cards, the
-                                                      !! others by blocks, nodes from N1 and elements from E1 on; left out: all
+      integer, intent(in), optional  :: n_cards !! number of cards with their number in data field 1; the
+                                                      !! others are blocks, with nodes from N1 and elements from E1; default: all
       type(id_table_type)  :: table
       integer, allocatable :: again(:), order(:)
       integer :: k, last

@@ -3,8 +3,8 @@ module deck_errors
    implicit none
    private
 
-   !> One error: where (index of the line in the deck text, 0 for the deck as a whole; columns first to last,
-   !! 0 for the whole line) and what.
+   !> One error: its message and its place (index of the line in the deck text, 0 for the deck as a whole; columns first to last, 0 for
+   !! the whole line).
    type, public :: deck_error
       integer :: line = 0, first = 0, last = 0
       character(:), allocatable :: message
@@ -21,7 +21,7 @@ module deck_errors
 
 contains
 
-   !> Add one error. The same words about the same place are said once.
+   !> Add one error. A message about the same place appears once.
    subroutine add(self, line, message, first, last)
       class(deck_error_list), intent(inout) :: self
       integer, intent(in)                   :: line    !! index in the deck text, 0: the deck as a whole
@@ -48,7 +48,7 @@ contains
       self%items(self%n) = item
    end subroutine add
 
-   !> Add what OTHERS has, in its order.
+   !> Append the errors of OTHERS.
    subroutine add_all(self, others)
       class(deck_error_list), intent(inout) :: self
       type(deck_error_list), intent(in)     :: others

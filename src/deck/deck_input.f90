@@ -28,16 +28,16 @@ module deck_input
       type(deck_text_type)    :: text
       type(case_control_type) :: control
       type(bulk_data_type)    :: bulk
-      logical :: is_whole = .false. !! false: a part of the deck is missing, what refers to it cannot be checked
-      type(card_kind), allocatable :: kinds(:) !! of card, with their tables
+      logical :: is_whole = .false. !! false: a part of the deck is missing, so that references to it cannot be checked
+      type(card_kind), allocatable :: kinds(:) !! of card, with their field tables
    end type deck_type
 
-   character(*), parameter :: end_of_data = 'ENDDATA', behind_end = 'text behind ENDDATA' ! the second as an entry without effect
+   character(*), parameter :: end_of_data = 'ENDDATA', behind_end = 'text behind ENDDATA' ! BEHIND_END as an entry without effect
 
 contains
 
-   !> Every card that there is, and the routine that reads it: a new one is a line here, or a name on the line of the others that
-   !! its array holds. GRID stands first, see read_all. No routine needs what another one has read.
+   !> All cards and the routines that read them. A new card is a line here, or a name in the line of the cards in the same array. GRID
+   !! stands first, see read_all. No routine depends on what another has read.
    subroutine list_cards(cards)
       type(card_reader_type), intent(inout) :: cards
 
@@ -90,7 +90,7 @@ contains
       call cards%add_kinds(['PARAM'], read_parameter)
    end subroutine list_cards
 
-   !> Every array of BULK as long as its cards will make it at most.
+   !> Allocate every array of BULK for the largest number of entries that its cards can give.
    subroutine make_room(cards, bulk)
       type(card_reader_type), intent(in)  :: cards
       type(bulk_data_type), intent(inout) :: bulk
@@ -114,14 +114,14 @@ contains
          bulk%freq1(cards%n_of('FREQ1')), bulk%freq4(cards%n_of('FREQ4')), bulk%tabdmp1(cards%n_of('TABDMP1')))
    end subroutine make_room
 
-   !> Read the deck PATH. READABLE is false where the file itself cannot be read; what is wrong in it goes to ERRORS.
+   !> Read the deck PATH. READABLE is false where the file cannot be read; errors in the deck go to ERRORS.
    subroutine read_deck(path, deck, errors, readable, parameters, watched)
       character(*), intent(in)             :: path
       type(deck_type), intent(out)         :: deck
       type(deck_error_list), intent(inout) :: errors
       logical, intent(out)                 :: readable
       type(parameter_type), intent(in), optional :: parameters(:) !! of --set; default: none
-      character(*), intent(in), optional   :: watched             !! numbers of nodes with commas, of --watch; default and '': none
+      character(*), intent(in), optional   :: watched             !! of --watch: node numbers with commas; default and '': none
 
       call read_deck_text(path, deck%text, errors, readable, parameters)
       if (readable) call read_lines(deck, errors)
@@ -131,7 +131,7 @@ contains
       deck%text%options = '--watch '//watched
    end subroutine read_deck
 
-   !> Read the deck whose file would hold these BYTES; what is wrong in it goes to ERRORS.
+   !> Read the deck with these BYTES, as in a file; errors in the deck go to ERRORS.
    subroutine read_deck_of_text(bytes, deck, errors)
       character(*), intent(in)           :: bytes
       type(deck_type), intent(out)       :: deck
@@ -141,7 +141,7 @@ contains
       call read_lines(deck, errors)
    end subroutine read_deck_of_text
 
-   !> Case control and bulk data of the deck whose text is there.
+   !> Read case control and bulk data of the deck text.
    subroutine read_lines(deck, errors)
       type(deck_type), intent(inout), target       :: deck
       type(deck_error_list), intent(inout), target :: errors
@@ -164,7 +164,7 @@ contains
       call find_cards(deck%text, cursor, cards, deck%bulk, errors)
       call make_room(cards, deck%bulk)
       call cards%read_all(deck%text, deck%bulk, errors)
-      associate (bulk => deck%bulk) ! the arrays whose cards may fill one entry or several are cut to those that were filled
+      associate (bulk => deck%bulk) ! the arrays whose cards may fill one entry or several are cut to the filled entries
          bulk%system = bulk%system(:count(bulk%system%line > 0))
          bulk%spring_property = bulk%spring_property(:count(bulk%spring_property%line > 0))
          bulk%support = bulk%support(:count(bulk%support%line > 0))
@@ -180,8 +180,8 @@ contains
       deck%is_whole = is_whole
    end subroutine read_lines
 
-   !> Note where the cards from line CURSOR to ENDDATA begin; BULK counts them, those that nobody knows too, and those without
-   !! effect, as is what stands behind ENDDATA.
+   !> Note where the cards from line CURSOR to ENDDATA begin. BULK counts all cards, also unknown ones and those without effect. Text
+   !! behind ENDDATA has no effect.
    subroutine find_cards(text, cursor, cards, bulk, errors)
       type(deck_text_type), intent(in)      :: text
       integer, intent(inout)                :: cursor
@@ -190,8 +190,8 @@ contains
       type(deck_error_list), intent(inout)  :: errors
       integer(long) :: first, last
       integer :: comma, file
-      integer :: ended_file ! the file whose ENDDATA was read last, 1 the deck itself
-      logical :: is_open    ! a card is, and may be continued
+      integer :: ended_file ! file whose ENDDATA was read last, 1: the deck itself
+      logical :: is_open    ! a card may be continued
 
       ended_file = 0
       is_open = .false.
@@ -201,7 +201,7 @@ contains
             cursor = cursor + 1
          else if (ended_file == 1 .or. file == ended_file) then
             call bulk%ignored%add(behind_end)
-            do while (cursor <= text%n) ! once a file
+            do while (cursor <= text%n) ! once for each file
                if (ended_file /= 1 .and. text%file_number(cursor) /= ended_file) exit
                cursor = cursor + 1
             end do
@@ -210,7 +210,7 @@ contains
             cursor = cursor + 1
          else if (is_include(text%files(file)%bytes(first:last))) then
             is_open = .false.
-            cursor = cursor + 1     ! its lines follow in the deck text
+            cursor = cursor + 1     ! the lines of the file follow in the deck text
          else if (card_name(text%files(file)%bytes(first:last), comma) == end_of_data) then
             is_open = .false.
             ended_file = file
@@ -224,10 +224,10 @@ contains
       if (ended_file /= 1) call errors%add(0, 'no ENDDATA: the deck may be truncated; expected ENDDATA after the last card')
    end subroutine find_cards
 
-   !> Note the card that begins with LINE, line CURSOR of TEXT, which is left on a line behind it.
+   !> Note the card that begins with LINE, line CURSOR of TEXT. CURSOR then is a later line.
    subroutine find_card(line, comma, text, cursor, cards, bulk, errors)
       character(*), intent(in)              :: line
-      integer, intent(in)                   :: comma !! column of its first comma, 0: none
+      integer, intent(in)                   :: comma !! column of the first comma, 0: none
       type(deck_text_type), intent(in)      :: text
       integer, intent(inout)                :: cursor
       type(card_reader_type), intent(inout) :: cards
@@ -246,7 +246,7 @@ contains
          call bulk%ignored%add(trim(card_name(line, comma)))
          cursor = cursor + 1
       else
-         call read_card(text, cursor, card, errors) ! for what else is wrong with it
+         call read_card(text, cursor, card, errors) ! finds the other errors of the card
          if (card%name == 'CQUAD9') then
             call errors%add(card%line, 'CQUAD9 is a complete element of nine nodes; expected a CQUAD8, no node inside'// &
                             complete_remedy, 1, 8)
@@ -256,7 +256,7 @@ contains
       end if
    end subroutine find_card
 
-   !> Add to the entries without effect of BULK its properties and coordinate systems that no other card names.
+   !> Add the unused properties and coordinate systems of BULK to its entries without effect.
    subroutine count_unused(bulk)
       type(bulk_data_type), intent(inout) :: bulk
 
@@ -279,7 +279,7 @@ contains
 
    contains
 
-      !> Cards with these numbers ID, each CALLED so, of which none is among NAMES.
+      !> Add the cards with numbers ID, CALLED so, that are not among NAMES.
       subroutine count_unnamed(id, names, called)
          integer, intent(in)      :: id(:), names(:)
          character(6), intent(in) :: called(:)
@@ -299,7 +299,7 @@ contains
 
    end subroutine count_unused
 
-   !> LIST without the entries that repeat the one before: a mesh has long runs of one property.
+   !> LIST without consecutive repetitions: a mesh has long runs of one property.
    pure function without_repeats(list) result(shorter)
       integer, intent(in)  :: list(:)
       integer, allocatable :: shorter(:)

@@ -9,23 +9,23 @@ module deck_parameters
 
    character(*), parameter :: letters = 'ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_'
 
-   !> NAME=VALUE of the command.
+   !> NAME=VALUE of the command line.
    type, public :: parameter_type
       character(:), allocatable :: name, value
-      logical :: is_used = .false. !! the deck has it
+      logical :: is_used = .false. !! the deck uses it
    end type parameter_type
 
 contains
 
-   !> Whether NAME may stand between the braces: letters, digits, underscores.
+   !> Whether NAME is valid between the braces: letters, digits, underscores.
    pure logical function is_parameter_name(name)
       character(*), intent(in) :: name
 
       is_parameter_name = len(name) > 0 .and. verify(name, letters) == 0
    end function is_parameter_name
 
-   !> Put the values of PARAMETERS into BYTES, the lines of a file, outside of comments. Columns behind a value stay where they are, as
-   !! far as blanks behind it allow. FAULT says which has no value, or does not fit; '' where all is well.
+   !> Put the values of PARAMETERS into BYTES, the lines of a file, outside of comments. Columns after a value keep their place as far
+   !! as blanks after the value allow. FAULT names a parameter without a value or room; '' where there is no error.
    subroutine fill_parameters(bytes, parameters, fault)
       character(:), allocatable, intent(inout) :: bytes
       type(parameter_type), intent(inout)      :: parameters(:)
@@ -51,7 +51,7 @@ contains
       call move_alloc(filled, bytes)
    end subroutine fill_parameters
 
-   !> The same of one LINE, number N of its file.
+   !> Put the values into one LINE, number N of its file.
    subroutine fill_line(line, n, parameters, fault)
       character(:), allocatable, intent(inout) :: line
       integer, intent(in)                      :: n

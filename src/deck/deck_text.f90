@@ -14,16 +14,16 @@ module deck_text
    public :: read_deck_text, deck_text_of_bytes, checksum_of, scan_line, is_include
 
    integer, parameter :: max_files = 500 ! a deck and its INCLUDE files
-   integer, parameter :: max_depth = 20  ! of INCLUDE in INCLUDE
+   integer, parameter :: max_depth = 20  ! depth of nested INCLUDE
 
-   !> Where a line stands. Its card part is the line without its comment ($ to the end) and without blanks at its end.
+   !> Place of a line. Its card part is the line without its comment ($ to the end) and without trailing blanks.
    type, public :: line_place
       integer(long) :: start  = 0 !! byte of its file, from 1
       integer       :: length = 0 !! of the card part
       integer       :: comma  = 0 !! column of the first comma in the card part, 0: none
    end type line_place
 
-   ! what a byte means
+   ! classes of bytes
    integer, parameter :: plain = 0, line_feed = 1, carriage_return = 2, tab = 3, dollar = 4, comma = 5, control = 6
    integer :: code
    integer(int8), parameter :: meaning(0:255) = int([(control, code = 0, 8), tab, line_feed, control, control, carriage_return, &
@@ -34,26 +34,26 @@ module deck_text
       character(:), allocatable :: path      ! as the user wrote it
       character(:), allocatable :: true_path
       character(:), allocatable :: bytes
-      integer :: parent = 0                  ! the file that holds the INCLUDE; 0: the deck itself
+      integer :: parent = 0                  ! file with the INCLUDE; 0: this is the deck itself
    end type source_file
 
-   !> Lines FIRST and on, up to the next part, stand in FILE, the first of them as its line NUMBER.
+   !> A part of the deck: lines FIRST to the next part stand in FILE, the first of them as line NUMBER of the file.
    type :: part_type
       integer :: first = 0, file = 0, number = 0
    end type part_type
 
-   !> All lines of a deck, found once and never copied: line i is some bytes of the file that its part names.
+   !> All lines of a deck, located once and never copied: line i is a range of bytes in the file of its part.
    type, public :: deck_text_type
       integer :: n = 0       !! number of lines
       integer :: n_files = 0
-      logical :: is_text = .true.  !! false: some file holds bytes that are no text, or the deck is empty
-      logical :: has_tabs = .false. !! some line has a tab outside of comments
+      logical :: is_text = .true.  !! false: a file contains bytes that are not text, or the deck is empty
+      logical :: has_tabs = .false. !! a line has a tab outside of comments
       type(source_file), allocatable         :: files(:)
       type(line_place), allocatable, private :: lines(:)
       type(part_type), allocatable, private  :: parts(:)
       integer, private                       :: n_parts = 0
       type(parameter_type), allocatable      :: parameters(:) !! of --set
-      character(:), allocatable              :: options       !! of the command, that change what is asked; not allocated: none
+      character(:), allocatable              :: options       !! of the command, that change the problem; not allocated: none
    contains
       procedure :: line => whole_line
       procedure :: card_part
@@ -65,8 +65,8 @@ module deck_text
 
 contains
 
-   !> Read the deck PATH and what it includes. READABLE is false where PATH itself cannot be read (then TEXT holds
-   !! nothing); everything else that is wrong goes to ERRORS.
+   !> Read the deck PATH and its INCLUDE files. READABLE is false where PATH itself cannot be read (TEXT is then empty). All other
+   !! errors go to ERRORS.
    subroutine read_deck_text(path, text, errors, readable, parameters)
       character(*), intent(in)             :: path
       type(deck_text_type), intent(out)    :: text
@@ -86,8 +86,8 @@ contains
       end do
    end subroutine read_deck_text
 
-   !> The deck with these BYTES, lines and line ends as a file holds them. It is named 'text'; what it includes is looked for in
-   !! the current folder.
+   !> Read the deck from BYTES, lines and line ends as in a file. Its name is 'text'; its INCLUDE files are relative to the current
+   !! folder.
    subroutine deck_text_of_bytes(bytes, text, errors)
       character(*), intent(in)             :: bytes
       type(deck_text_type), intent(out)    :: text
@@ -99,7 +99,7 @@ contains
       call add_lines(text, 1, 0, errors)
    end subroutine deck_text_of_bytes
 
-   !> The checksum of all files of TEXT, in the order in which they were opened, each with its length.
+   !> The checksum of all files of TEXT, in the order of opening, each with its length.
    integer(long) function checksum_of(text) result(sum)
       type(deck_text_type), intent(in) :: text
       character(20) :: length
@@ -114,7 +114,7 @@ contains
       end do
    end function checksum_of
 
-   !> Line I as it stands in its file, without the line end.
+   !> Line I as in its file, without the line end.
    function whole_line(self, i) result(line)
       class(deck_text_type), intent(in) :: self
       integer, intent(in)               :: i
@@ -134,7 +134,7 @@ contains
       end associate
    end function whole_line
 
-   !> Line I without its comment ($ to the end) and without blanks at its end: a copy. See FIND.
+   !> A copy of line I without its comment ($ to the end) and without trailing blanks. See FIND.
    function card_part(self, i) result(line)
       class(deck_text_type), intent(in) :: self
       integer, intent(in)               :: i
@@ -146,8 +146,8 @@ contains
       line = self%files(file)%bytes(first:last)
    end function card_part
 
-   !> Where the card part of line I stands: FILES(FILE)%BYTES(FIRST:LAST), to be handed on as it is. COMMA is the column of
-   !! the first comma in it, 0 where there is none.
+   !> The card part of line I without a copy: FILES(FILE)%BYTES(FIRST:LAST). COMMA is the column of its first comma, 0 where there is
+   !! none.
    pure subroutine find(self, i, file, first, last, comma)
       class(deck_text_type), intent(in) :: self
       integer, intent(in)               :: i
@@ -160,7 +160,7 @@ contains
       comma = self%lines(i)%comma
    end subroutine find
 
-   !> Where line I stands, for a message: 'beam.bdf, line 14'.
+   !> The place of line I for a message: 'beam.bdf, line 14'.
    function place(self, i) result(words)
       class(deck_text_type), intent(in) :: self
       integer, intent(in)               :: i
@@ -175,7 +175,7 @@ contains
       end if
    end function place
 
-   !> The file that line I stands in: 1 the deck itself, 2 and up its INCLUDE files.
+   !> The file of line I: 1 the deck itself, 2 and up its INCLUDE files.
    pure integer function file_number(self, i)
       class(deck_text_type), intent(in) :: self
       integer, intent(in)               :: i
@@ -183,7 +183,7 @@ contains
       file_number = self%parts(self%part_of(i))%file
    end function file_number
 
-   !> The part that holds line I.
+   !> The part with line I.
    pure integer function part_of(self, i) result(part)
       class(deck_text_type), intent(in) :: self
       integer, intent(in)               :: i
@@ -246,7 +246,7 @@ contains
          if (text%files(me)%bytes(1:3) == char(239)//char(187)//char(191)) start = 4 ! UTF-8 byte order mark
       end if
       number = 0
-      starts_part = .true. ! with the file, and behind the lines of another one
+      starts_part = .true. ! at the start of the file, and after the lines of another file
       do while (start <= length)
          number = number + 1
          if (starts_part) then
@@ -271,7 +271,7 @@ contains
       end do
    end subroutine add_lines
 
-   !> Where the last line read is an INCLUDE, read that file here and now.
+   !> Where the last line read is an INCLUDE, read that file at once.
    recursive subroutine follow_include(text, me, depth, followed, errors)
       type(deck_text_type), intent(inout)  :: text
       integer, intent(in)                  :: me, depth
@@ -311,17 +311,17 @@ contains
                                           ''' cannot be read: no such file, or not a file')
    end subroutine follow_include
 
-   !> The line of BYTES that begins at START, each byte looked at once.
+   !> Scan the line of BYTES that begins at START; each byte is examined once.
    pure subroutine scan_line(bytes, start, line, next, has_tab, bad)
       character(*), intent(in)      :: bytes
       integer(long), intent(in)     :: start
       type(line_place), intent(out) :: line
-      integer(long), intent(out)    :: next    !! where the line behind it begins
+      integer(long), intent(out)    :: next    !! start of the next line
       logical, intent(out)          :: has_tab !! in the card part
       integer, intent(out)          :: bad     !! code of the first byte that no text file holds (a control character other
                                                !! than a tab), -1: none
       integer(long) :: i, finish
-      logical :: in_card ! the card part goes on
+      logical :: in_card ! still in the card part
 
       bad = -1
       has_tab = .false.
@@ -342,7 +342,7 @@ contains
             in_card = .false.
          case (carriage_return)
             if (bad < 0 .and. i < len(bytes, long) .and. bytes(i + 1:min(i + 1, len(bytes, long))) /= achar(10)) &
-               bad = iachar(bytes(i:i)) ! it does not stand at the end of its line
+               bad = iachar(bytes(i:i)) ! it does not end its line
             if (in_card) finish = i - 1
             in_card = .false.
          case (line_feed)
@@ -354,13 +354,13 @@ contains
          end select
       end do
       do while (finish >= start)
-         if (iachar(bytes(finish:finish)) /= iachar(' ')) exit ! characters would be compared by a call of the library
+         if (iachar(bytes(finish:finish)) /= iachar(' ')) exit ! a comparison of characters would call the library
          finish = finish - 1
       end do
       line%length = int(finish - start + 1)
    end subroutine scan_line
 
-   !> Whether LINE (its card part) is an INCLUDE: the word, then a blank, a quote or an equals sign.
+   !> Whether LINE (its card part) is an INCLUDE: the word, followed by a blank, a quote or an equals sign.
    pure logical function is_include(line)
       character(*), intent(in) :: line
       integer :: first
@@ -369,13 +369,13 @@ contains
       first = verify(line, ' ')
       if (first == 0) return
       if (len(line) < first + 6) return
-      if (line(first:first) /= 'I' .and. line(first:first) /= 'i') return ! most lines
+      if (line(first:first) /= 'I' .and. line(first:first) /= 'i') return ! the usual case
       if (upper(line(first:first + 6)) /= 'INCLUDE') return
       is_include = .true.
       if (len(line) > first + 6) is_include = scan(line(first + 7:first + 7), ' ''"=') == 1
    end function is_include
 
-   !> The file name in what follows the word INCLUDE: in quotes of either kind, or bare.
+   !> The file name in the text after INCLUDE: in single or double quotes, or bare.
    pure function included_path(words) result(path)
       character(*), intent(in)  :: words
       character(:), allocatable :: path

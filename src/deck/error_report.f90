@@ -10,25 +10,25 @@ module error_report
    public :: print_errors
 
    integer, parameter :: most_printed = 200
-   integer, parameter :: most_of_kind = 10 ! errors whose messages differ in numbers and in quoted text only
-   character(*), parameter :: no_card = 'is not a card of' ! such an error is said once a name
-   integer, parameter :: widest = 100 ! columns of a deck line that are shown
+   integer, parameter :: most_of_kind = 10 ! printed errors whose messages differ only in numbers and quoted text
+   character(*), parameter :: no_card = 'is not a card of' ! such an error is printed once for each name
+   integer, parameter :: widest = 100 ! printed columns of a deck line
 
    type :: kind_type
-      character(:), allocatable :: words   ! what its messages have in common
+      character(:), allocatable :: words   ! common part of its messages
       integer :: n = 0                     ! errors
-      integer :: most = most_of_kind       ! of these printed
+      integer :: most = most_of_kind       ! largest number printed
       integer :: printed = 0               ! so far
-      integer :: last = 0                  ! number of the one printed last
+      integer :: last = 0                  ! number of the error printed last
    end type kind_type
 
 contains
 
-   !> Print the errors on UNIT in the order of the lines they are about; of one kind ten, of one unknown card the first.
+   !> Print the errors on UNIT in the order of their lines; at most ten of one kind, and one for each unknown card.
    subroutine print_errors(unit, kind, outcome, text, errors)
       integer, intent(in)               :: unit
-      character(*), intent(in)          :: kind    !! 'DECK', what the errors are of
-      character(*), intent(in)          :: outcome !! 'nothing solved', what follows from them
+      character(*), intent(in)          :: kind    !! what the errors are in: 'DECK'
+      character(*), intent(in)          :: outcome !! the consequence: 'nothing solved'
       type(deck_text_type), intent(in)  :: text
       type(deck_error_list), intent(in) :: errors
       type(kind_type), allocatable :: kinds(:)
@@ -66,7 +66,7 @@ contains
       write (unit, '(5a)') text%place(0), ': ', plural(errors%n, 'error'), ', ', outcome
    end subroutine print_errors
 
-   !> The kinds of ERRORS, and of each in this ORDER which one it is.
+   !> The kinds of ERRORS, and the kind of each error in this ORDER.
    subroutine sort_into_kinds(errors, order, kinds, kind_of)
       type(deck_error_list), intent(in)         :: errors
       integer, intent(in)                       :: order(:)
@@ -91,7 +91,7 @@ contains
       kinds = kinds(:n)
    end subroutine sort_into_kinds
 
-   !> MESSAGE without its numbers, its blanks and what it quotes; whole where a card is unknown.
+   !> MESSAGE without numbers, blanks and quoted text; the whole message for an unknown card.
    pure function kind_words(message) result(words)
       character(*), intent(in)  :: message
       character(:), allocatable :: words
@@ -111,7 +111,7 @@ contains
       words = words(:n)
    end function kind_words
 
-   !> LINE as it may be printed: cut where it is very long, control characters as '?'.
+   !> LINE for print: a long line is cut, control characters become '?'.
    pure function shown(line) result(words)
       character(*), intent(in)  :: line
       character(:), allocatable :: words
@@ -125,7 +125,7 @@ contains
       words = trim(words)
    end function shown
 
-   !> Carets under columns FIRST to LAST of LINE, drawn in to what is not blank there.
+   !> Carets under columns FIRST to LAST of LINE, without the blanks at both ends.
    pure function mark(line, first, last) result(words)
       character(*), intent(in)  :: line
       integer, intent(in)       :: first, last

@@ -11,17 +11,17 @@ module field_rules
 
    public :: parse_integer, parse_real, integer_words, real_words, in_range, is_component_list, list_of
 
-   integer, parameter :: most_digits = 15, max_exact = 22 ! so many digits and 10**22 are exact in real(wp)
+   integer, parameter :: most_digits = 15, max_exact = 22 ! numbers of so many digits, and 10**22, are exact in real(wp)
    integer :: k
    real(wp), parameter :: power_of_ten(0:max_exact) = [(10.0_wp**k, k = 0, max_exact)]
 
-   real(wp), parameter, public :: largest_size = 1.0e75_wp   !! of a number in a deck: its fourth power is still one
-   real(wp), parameter, public :: smallest_size = 1.0e-75_wp !! of one that must be above zero
+   real(wp), parameter, public :: largest_size = 1.0e75_wp   !! of a number in a deck: its fourth power is still finite
+   real(wp), parameter, public :: smallest_size = 1.0e-75_wp !! of a number that must be positive
 
-   !> What a real number may be.
+   !> Range of a real number.
    type, public :: real_range
       real(wp) :: least = -huge(1.0_wp), most = huge(1.0_wp)
-      logical  :: above = .false., below = .false. !! LEAST itself is out, MOST is
+      logical  :: above = .false., below = .false. !! LEAST itself is excluded, MOST is excluded
    end type real_range
 
    type(real_range), parameter, public :: any_real = real_range(), positive = real_range(0.0_wp, above=.true.), &
@@ -29,7 +29,7 @@ module field_rules
    character(*), parameter, public :: component_words = 'a list of components, different digits of 1 to 6'
 
    interface
-      !> The number in TEXT, which a null character ends, correctly rounded; behind it is END, null: nobody asks.
+      !> The correctly rounded number in TEXT, which a null character ends. END may be null.
       pure real(c_double) function strtod(text, end) bind(c, name='strtod')
          import :: c_char, c_double, c_ptr
          character(kind=c_char), intent(in) :: text(*)
@@ -39,7 +39,7 @@ module field_rules
 
 contains
 
-   !> The integer in TEXT (no blanks inside or in front). OK is false for anything else, and beyond 32 bits.
+   !> The integer in TEXT (no blanks inside or in front). OK is false for anything else and for more than 32 bits.
    pure subroutine parse_integer(text, value, ok)
       character(*), intent(in) :: text
       integer, intent(out)     :: value
@@ -66,9 +66,8 @@ contains
       ok = .true.
    end subroutine parse_integer
 
-   !> The real number in TEXT. It needs a decimal point or an E or D, as in NASTRAN: `12` is an integer.
-   !! OK is false for anything else, for a number too large for a real64, and for one so small that it would
-   !! turn into zero. The value is correctly rounded.
+   !> The real number in TEXT, correctly rounded. It needs a decimal point or an E or D, as in NASTRAN: `12` is an integer. OK is false
+   !! for anything else, for a number too large for a real64, and for a nonzero number that would become zero.
    pure subroutine parse_real(text, value, ok)
       character(*), intent(in) :: text
       real(wp), intent(out)    :: value
@@ -115,15 +114,15 @@ contains
          return
       end if
       plain = text(:length)//c_null_char
-      if (i <= length) plain = text(:i - 1)//'E'//text(i + verify(text(i:i), '+-'):length)//c_null_char ! the letter may be D, or none
+      if (i <= length) plain = text(:i - 1)//'E'//text(i + verify(text(i:i), '+-'):length)//c_null_char ! the letter may be D or missing
       value = strtod(plain, c_null_ptr)
       ok = ieee_is_finite(value) .and. .not. (abs(value) < tiny(value) .and. digits > 0)
    end subroutine parse_real
 
-   !> What stands behind the mantissa: E or D and an integer, or a signed integer alone.
+   !> The exponent after the mantissa: E or D and an integer, or a signed integer alone.
    pure subroutine parse_exponent(text, point, exponent, ok)
       character(*), intent(in) :: text
-      logical, intent(in)      :: point !! whether the mantissa has a decimal point
+      logical, intent(in)      :: point !! the mantissa has a decimal point
       integer, intent(out)     :: exponent
       logical, intent(out)     :: ok
 
@@ -138,7 +137,7 @@ contains
       ok = ok .and. abs(exponent) < 10000
    end subroutine parse_exponent
 
-   !> len_trim(TEXT), without a call of the library: for a comparison with a blank the compiler would put one in.
+   !> len_trim(TEXT) without a library call: for a comparison with a blank the compiler would generate one.
    pure integer function filled_length(text) result(length)
       character(*), intent(in) :: text
 
@@ -149,10 +148,10 @@ contains
       end do
    end function filled_length
 
-   !> What an integer from LEAST to MOST is called, OR_BLANK where the field may be empty.
+   !> The words for an integer from LEAST to MOST; OR_BLANK: the field may be empty.
    pure function integer_words(least, most, or_blank) result(words)
       integer, intent(in)           :: least
-      integer, intent(in), optional :: most !! none: no limit
+      integer, intent(in), optional :: most !! default: no limit
       logical, intent(in)           :: or_blank
       character(:), allocatable     :: words
 
@@ -164,7 +163,7 @@ contains
       if (or_blank) words = words//', or blank'
    end function integer_words
 
-   !> What a real in RANGE is called, likewise.
+   !> The words for a real in RANGE; OR_BLANK: the field may be empty.
    pure function real_words(range, or_blank) result(words)
       type(real_range), intent(in) :: range
       logical, intent(in)          :: or_blank
@@ -189,7 +188,7 @@ contains
       if (range%below) in_range = in_range .and. value < range%most
    end function in_range
 
-   !> WORDS = '|STEP|BACK|' as a list with this SEPARATOR between them.
+   !> WORDS = '|STEP|BACK|' as a list with this SEPARATOR.
    pure function list_of(words, separator) result(list)
       character(*), intent(in)  :: words, separator
       character(:), allocatable :: list

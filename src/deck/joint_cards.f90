@@ -16,9 +16,9 @@ module joint_cards
 
    public :: read_jgap, read_joint, read_cjoint, read_pjoint, read_jnorm, read_jshear, read_jincr
 
-   integer, parameter :: list_from = 9 ! the data field where the lists of TABLE and NODES begin: the first continuation
+   integer, parameter :: list_from = 9 ! data field where the lists of TABLE and NODES begin: the first continuation
    integer, parameter :: most_increments = 100000, most_reanalyses = 1000
-   real(wp), parameter :: most_p0 = 1.0e30_wp ! above, the joint leaves no digits to the bodies
+   real(wp), parameter :: most_p0 = 1.0e30_wp ! above this pressure the stiffness of the joint leaves no digits to the bodies
 
 contains
 
@@ -63,8 +63,8 @@ contains
       end do
    end subroutine check_blank
 
-   !> The points of TABLE: X, Y, Z, G four by four; a coordinate left blank is zero, four blank fields are no point. The nodes of NODES:
-   !! G1 and its gap, two by two; two blank fields are no node.
+   !> The points of TABLE: X, Y, Z, G in groups of four; a blank coordinate is zero, four blank fields are no point. The nodes of NODES:
+   !! G1 and its gap in pairs; two blank fields are no node.
    subroutine read_gaps(card, jgap)
       type(card_fields_type), intent(inout) :: card
       type(jgap_card), intent(inout)        :: jgap
@@ -90,8 +90,7 @@ contains
       end do
    end subroutine read_gaps
 
-   !> Where in the list of the card the groups of LENGTH fields begin that are not blank, and room for what they say; there must be
-   !! some.
+   !> Find the nonblank groups of LENGTH fields in the list of the card, and allocate their data. At least one group must be there.
    subroutine list_groups(card, length, jgap)
       type(card_fields_type), intent(inout) :: card
       integer, intent(in)                   :: length
@@ -109,7 +108,7 @@ contains
       if (n == 0) call card%error('KIND', card%text_at(2)//', but no list follows in continuation lines')
    end subroutine list_groups
 
-   !> JOINT: interface elements between two marked surfaces, or one marked surface and a rigid base.
+   !> JOINT: interface elements between two marked surfaces, or between a marked surface and a rigid base.
    subroutine read_joint(card, bulk)
       type(card_fields_type), intent(inout) :: card
       type(bulk_data_type), intent(inout)   :: bulk
@@ -128,7 +127,7 @@ contains
       end associate
    end subroutine read_joint
 
-   !> CJOINT: one interface element given outright.
+   !> CJOINT: one interface element given directly.
    subroutine read_cjoint(card, bulk)
       type(card_fields_type), intent(inout) :: card
       type(bulk_data_type), intent(inout)   :: bulk
@@ -179,8 +178,8 @@ contains
       end associate
    end subroutine read_jnorm
 
-   !> JSHEAR: the shear law of one direction. The card has the loading coefficients A; the first continuation has those of
-   !! unloading (B), the second those of reloading (C), either left blank as loading; the third the tested range.
+   !> JSHEAR: the shear law of one direction. The card has the loading coefficients A. The first continuation has the coefficients of
+   !! unloading (B), the second those of reloading (C); a blank one is as loading. The third has the tested range.
    subroutine read_jshear(card, bulk)
       type(card_fields_type), intent(inout) :: card
       type(bulk_data_type), intent(inout)   :: bulk
@@ -193,7 +192,7 @@ contains
       logical  :: lacks(2:3)
 
       as_given = card%card
-      do k = 8, 24, 8 ! a continuation line that begins in field 2 is put where it stands under A11, in field 3
+      do k = 8, 24, 8 ! a continuation that begins in field 2 stands under A11, in field 3
          n = merge(6, 2, k < 24)
          if (k + 1 + n > card%n) cycle
          associate (fields => card%card%fields(k + 1:k + 1 + n))
@@ -225,7 +224,7 @@ contains
       end associate
    end subroutine read_jshear
 
-   !> JINCR: the increments of a stage, turned into shares that add up to 1; they stay one where there is an error.
+   !> JINCR: the increments of a stage as fractions that add up to 1; an error leaves one increment.
    subroutine read_jincr(card, bulk)
       type(card_fields_type), intent(inout) :: card
       type(bulk_data_type), intent(inout)   :: bulk
@@ -239,7 +238,7 @@ contains
          call card%field('SID', jincr%id)
          call card%field('N', n, default=0, most=most_increments)
          call card%word('PROG', '|ARITH|GEOM|LIST|', progression)
-         if (card%text_at(3) == 'LIST') then ! the shares follow
+         if (card%text_at(3) == 'LIST') then ! the fractions follow
             jincr%line = card%line
             if (.not. card%is_faulty()) call read_list(card, n, jincr%fractions)
             return
@@ -261,7 +260,7 @@ contains
       end associate
    end subroutine read_jincr
 
-   !> The SHARES of PROG = LIST; they add up to 1 (to 1E-4: then they are scaled to do so). N of them where it is given.
+   !> The SHARES of PROG = LIST, N of them where N is given. Their sum must be 1 within 1E-4 and is scaled to 1.
    subroutine read_list(card, n, fractions)
       type(card_fields_type), intent(inout) :: card
       integer, intent(in)                   :: n

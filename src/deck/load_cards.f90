@@ -16,10 +16,10 @@ module load_cards
 contains
 
    !> N fractions s_k = FIRST + (k - 1) d with sum 1: d = 2 (1 - N FIRST) / (N (N - 1)).
-   !! OK is false where the last share would not be positive (FIRST >= 2/N).
+   !! OK is false where the last fraction would not be positive (FIRST >= 2/N).
    pure subroutine arithmetic_fractions(n, first, fractions, ok)
-      integer, intent(in)                :: n     !! increments, 1 or more
-      real(wp), intent(in)               :: first !! share of the first one, 0 < FIRST <= 1 (N = 1: not used)
+      integer, intent(in)                :: n     !! number of increments, at least 1
+      real(wp), intent(in)               :: first !! the first fraction, 0 < FIRST <= 1 (N = 1: not used)
       real(wp), allocatable, intent(out) :: fractions(:)
       logical, intent(out)               :: ok
       real(wp) :: step
@@ -83,8 +83,8 @@ contains
       end do
    end function geometric_sum
 
-   !> FORCE: the vector F (N1, N2, N3) at one node, in system CID; the direction is not made a unit vector, as in NASTRAN. MOMENT:
-   !! likewise. FORCE1: F along the line from G1 to G2; FORCE2: F along the vector product of the lines G1-G2 and G3-G4.
+   !> FORCE: the vector F (N1, N2, N3) at one node in system CID; as in NASTRAN, the direction is not normalised. MOMENT likewise.
+   !! FORCE1: F along the line from G1 to G2. FORCE2: F along the vector product of the lines G1-G2 and G3-G4.
    subroutine read_force(card, bulk)
       type(card_fields_type), intent(inout) :: card
       type(bulk_data_type), intent(inout)   :: bulk
@@ -114,13 +114,13 @@ contains
       end associate
    end subroutine read_force
 
-   !> PLOAD4: pressure on a face of a solid, positive into it: P1 at G1, P2 to P4 at the next corners as the right hand goes
-   !! about the outward normal, where blank as P1. The face is named by G1 and, for CHEXA and CPENTA, the opposite corner G3; for
-   !! CTETRA G4 is the corner that the face does not have. Faces that elements mark are named by these, EID or EID THRU EID2, and
-   !! the pressure acts along their normals. A direction N1, N2, N3 in system CID makes of the pressure a traction along it.
+   !> PLOAD4: pressure on a face of a solid, positive into the body: P1 at G1, P2 to P4 at the next corners in the right-hand sense
+   !! about the outward normal; a blank value is P1. G1 names the face with, for CHEXA and CPENTA, the opposite corner G3; for CTETRA
+   !! G4 is the corner that is not on the face. The elements EID, or EID THRU EID2, name marked faces; the pressure then acts along their
+   !! normals. A direction N1, N2, N3 in system CID turns the pressure into a traction along it.
    !! PLOADE: pressure on the edge G1-G2 of a plane or axisymmetric element, positive into the body.
-   !! PLOAD2: pressure on faces that elements mark, EID1, EID2, ... or EID1 THRU EID2, along their normals.
-   !! PLOAD: pressure on the face with the corners G1 to G3 or G4, along the right-hand normal as these go round.
+   !! PLOAD2: pressure on the faces marked by the elements EID1, EID2, ... or EID1 THRU EID2, along their normals.
+   !! PLOAD: pressure on the face with the corners G1 to G3 or G4, along its right-hand normal.
    subroutine read_pressure(card, bulk)
       type(card_fields_type), intent(inout) :: card
       type(bulk_data_type), intent(inout)   :: bulk
@@ -165,7 +165,7 @@ contains
       end associate
    end subroutine read_pressure
 
-   !> Data fields 7 and 8 of a PLOAD4: two corners of a face, or THRU and the last of the elements that mark faces.
+   !> Data fields 7 and 8 of a PLOAD4: two corners of a face, or THRU and the last element of the range that marks faces.
    subroutine read_face(card, pressure)
       type(card_fields_type), intent(inout) :: card
       type(pressure_card), intent(inout)    :: pressure
@@ -188,7 +188,7 @@ contains
       end if
    end subroutine read_face
 
-   !> PLOADM: pressure on a marked surface, positive into the body. FORCEM: a total force F (N1, N2, N3), spread evenly over it.
+   !> PLOADM: pressure on a marked surface, positive into the body. FORCEM: a total force F (N1, N2, N3), evenly distributed over it.
    subroutine read_surface_load(card, bulk)
       type(card_fields_type), intent(inout) :: card
       type(bulk_data_type), intent(inout)   :: bulk
@@ -253,7 +253,7 @@ contains
       call card%field('CID', gravity%system, default=0, least=0)
       call card%field('A', a, default=0.0_wp)
       call card%field(['R1', 'R2', 'R3'], direction, default=0.0_wp)
-      call card%field('METHOD', method, default=1, most=2) ! both as the mass is distributed
+      call card%field('METHOD', method, default=1, most=2) ! both methods follow the distribution of the mass
       call card%field('RACC', rate, default=0.0_wp)
       call card%field('MB', body, default=0, least=-1, most=0)
       call card%finish(gravity%line)
@@ -301,8 +301,7 @@ contains
       end associate
    end subroutine read_load
 
-   !> BOLT: the CROD EID, or the solid cut at the surface PMARK, tightened to PRELOAD in SUBCASE STAGE and locked in the later
-   !! ones.
+   !> BOLT: the CROD EID, or the solid cut at the surface PMARK, tightened to PRELOAD in SUBCASE STAGE and locked in later stages.
    subroutine read_bolt(card, bulk)
       type(card_fields_type), intent(inout) :: card
       type(bulk_data_type), intent(inout)   :: bulk

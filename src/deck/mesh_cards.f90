@@ -21,12 +21,12 @@ module mesh_cards
    character(*), parameter, public :: complete_remedy = ' (in Gmsh set Mesh.SecondOrderIncomplete = 1)'
 
    real(wp), parameter :: most_elements = 2.0e7_wp         ! of a block
-   integer, parameter  :: most_first = huge(1) - 200000000 ! N1 and E1: the numbers of a block have room behind them
+   integer, parameter  :: most_first = huge(1) - 200000000 ! N1 and E1: leaves room for the numbers of a block
 
 contains
 
-   !> CORD1: one or two systems, each by its origin, a node on its z and one in its x-z plane. CORD2: the same by coordinates in
-   !! system RID.
+   !> CORD1: one or two systems, each given by its origin, a node on its z axis and one in its x-z plane. CORD2: the same by coordinates
+   !! in system RID.
    subroutine read_system(card, bulk)
       type(card_fields_type), intent(inout) :: card
       type(bulk_data_type), intent(inout)   :: bulk
@@ -59,7 +59,7 @@ contains
       end associate
    end subroutine read_system
 
-   !> GRDSET: what GRID has where its CP, CD and PS are blank; there is one at most.
+   !> GRDSET: defaults for blank CP, CD and PS of GRID; one card at most.
    subroutine read_grid_defaults(card, bulk)
       type(card_fields_type), intent(inout) :: card
       type(bulk_data_type), intent(inout)   :: bulk
@@ -87,7 +87,7 @@ contains
       end associate
    end subroutine fill_grid_defaults
 
-   !> GRID: a node. Gmsh writes whole coordinates without a decimal point in large field, so integers are taken here.
+   !> GRID: a node. In large field Gmsh writes whole coordinates without a decimal point, so that integers are accepted here.
    subroutine read_grid(card, bulk)
       type(card_fields_type), intent(inout) :: card
       type(bulk_data_type), intent(inout)   :: bulk
@@ -104,9 +104,9 @@ contains
       end associate
    end subroutine read_grid
 
-   !> CTRIA3, CTRIA6, CQUAD4, CQUAD8, CTETRA, CPENTA and CHEXA, the body elements; in a model of solids, faces of marked surfaces
-   !! are those of the plane too. Any mid-side node makes the element one of second order. THETA turns the axes of a material, which
-   !! is isotropic here: read without effect. ZOFFS and thicknesses at corners are those of shells, of second order they must be blank.
+   !> CTRIA3, CTRIA6, CQUAD4, CQUAD8, CTETRA, CPENTA and CHEXA: elements of bodies. In a model of solids plane elements are faces of
+   !! marked surfaces. Any mid-side node makes an element second order. THETA turns material axes and has no effect on an isotropic
+   !! material. ZOFFS and corner thicknesses belong to shells and must be blank in second-order elements.
    subroutine read_element(card, bulk)
       type(card_fields_type), intent(inout) :: card
       type(bulk_data_type), intent(inout)   :: bulk
@@ -115,7 +115,7 @@ contains
       type(plate_card) :: plate
       character(:), allocatable :: flag
 
-      kind = findloc(element_table%card, card%name, dim=1, back=.true.) ! of second order, where there is one
+      kind = findloc(element_table%card, card%name, dim=1, back=.true.) ! the second-order kind where there is one
       associate (element => bulk%element(card%i), n => element_table(kind)%n_nodes, corners => element_table(kind)%n_corners)
          call card%field('EID', element%id)
          call card%field('PID', element%property)
@@ -143,7 +143,7 @@ contains
             call card%blank(['ZOFFS'])
          end if
          element%line = card%line
-         if (kind == kind_hexa20) then ! complete: nodes inside its faces and itself, as Gmsh writes it
+         if (kind == kind_hexa20) then ! complete second order, with face and centre nodes, as Gmsh writes it
             call check_end(card, n, 27, element%nodes(corners + 1:))
          else if (kind == kind_penta15) then
             call check_end(card, n, 18, element%nodes(corners + 1:))
@@ -154,7 +154,7 @@ contains
       end associate
    end subroutine read_element
 
-   !> Nothing may stand behind the last of the N nodes of a solid; an element of COMPLETE nodes is told from a slip of the pen, and its
+   !> The fields after the last of the N nodes of a solid must be blank. An element of COMPLETE nodes gets a message of its own, and its
    !! MID_SIDE nodes, which have another order, are dropped.
    subroutine check_end(card, n, complete, mid_side)
       type(card_fields_type), intent(inout) :: card
@@ -176,8 +176,8 @@ contains
       end if
    end subroutine check_end
 
-   !> CBAR, CBEAM: a beam, or with the PID of a PMARK an edge of a marked surface, whose orientation vector (Gmsh writes one) has no
-   !! meaning, and of an edge of second order Gmsh writes the mid-side node in its place. CROD: such an edge, or with a PROD a bar,
+   !> CBAR, CBEAM: a beam, or with the PID of a PMARK an edge of a marked surface. The orientation vector of such an edge (Gmsh writes
+   !! one) has no meaning; in a second-order edge Gmsh writes the mid-side node in its place. CROD: such an edge, or with a PROD a bar
    !! such as a bolt.
    subroutine read_edge(card, bulk)
       type(card_fields_type), intent(inout) :: card
@@ -217,9 +217,9 @@ contains
       call card%finish(bulk%pmark(card%i)%line)
    end subroutine read_pmark
 
-   !> BLOCK2: a quadrilateral block of NX by NY elements between four corners; corners 2 and 4 left blank make it a
-   !! rectangle with corners 1 and 3 on its diagonal.
-   !! BLOCK3: a box of NX by NY by NZ elements between two opposite corners; nodes go up z first, then y, then x.
+   !> BLOCK2: a quadrilateral block of NX by NY elements between four corners; blank corners 2 and 4 make it a rectangle with corners 1
+   !! and 3 on its diagonal.
+   !! BLOCK3: a box of NX by NY by NZ elements between two opposite corners; nodes are numbered along z first, then y, then x.
    subroutine read_block(card, bulk)
       type(card_fields_type), intent(inout) :: card
       type(bulk_data_type), intent(inout)   :: bulk
@@ -267,8 +267,8 @@ contains
       end associate
    end subroutine read_block
 
-   !> Size and numbers of a block. Of too many elements one is left, so that the rest of the deck can be checked; no number passes
-   !! what an integer holds.
+   !> Size and numbers of a block. A block with too many elements is reduced to one element, so that the rest of the deck can be
+   !! checked; no number overflows an integer.
    subroutine check_block(card, block)
       type(card_fields_type), intent(inout) :: card
       type(block_card), intent(inout)       :: block
@@ -283,7 +283,7 @@ contains
       end associate
       if (block%first_node > most_first) call card%error('N1', 'the last node number would exceed 2147483647')
       if (block%first_element > most_first) call card%error('E1', 'the last element number would exceed 2147483647')
-      instead = merge(most_first, 1, block%dimension == 2) ! a deck of solids is mostly one block, from 1 on
+      instead = merge(most_first, 1, block%dimension == 2) ! a deck of solids is mostly one block, numbered from 1
       if (block%first_node > most_first) block%first_node = instead
       if (block%first_element > most_first) block%first_element = instead
    end subroutine check_block

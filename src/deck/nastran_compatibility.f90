@@ -16,19 +16,19 @@ module nastran_compatibility
 
    integer, parameter :: name_length = 40
 
-   !> An entry of which it is not known yet whether it has an effect.
+   !> An entry whose effect depends on the stages.
    type :: waiting_entry
       character(name_length) :: name = ''
-      integer :: n = 1                        ! of this name
-      integer :: line = 0                     ! of the first in the deck text
-      logical :: needs_response = .false.     ! it has an effect with FREQUENCY only; else with MODES
-      character(:), allocatable :: refusal    ! why the effect that it would have is an error, empty: it is not
+      integer :: n = 1                        ! number of entries of this name
+      integer :: line = 0                     ! line of the first in the deck text
+      logical :: needs_response = .false.     ! has an effect with FREQUENCY only; otherwise with MODES
+      character(:), allocatable :: refusal    ! error message where the entry has an effect; empty: no error
    end type waiting_entry
 
-   !> What has no effect in one deck.
+   !> The entries without effect of one deck.
    type, public :: ignored_entries_type
-      integer :: n = 0                                        !! entries
-      character(name_length), allocatable, private :: names(:) ! of them, each once, in the order of their appearance
+      integer :: n = 0                                        !! number of entries
+      character(name_length), allocatable, private :: names(:) ! distinct names in the order of appearance
       type(waiting_entry), allocatable, private :: waiting(:)
    contains
       procedure :: wait, settle
@@ -36,19 +36,19 @@ module nastran_compatibility
       procedure :: words
    end type ignored_entries_type
 
-   !> What the PARAMs of a deck ask for.
+   !> The parameters given by the PARAM cards of a deck.
    type, public :: parameters_type
       real(wp) :: mass_factor = 1.0_wp        !! WTMASS: densities are multiplied by it
       real(wp) :: damping = 0.0_wp            !! G: overall structural damping [-]
-      integer  :: mass_line = 0               !! of COUPMASS, 0: not given
+      integer  :: mass_line = 0               !! line of COUPMASS, 0: not given
       logical  :: lumped = .false.            !! COUPMASS below 1
-      logical  :: is_structural = .false.     !! KDAMP = -1: damping of SDAMPING is structural
+      logical  :: is_structural = .false.     !! KDAMP = -1: the damping of SDAMPING is structural
    end type parameters_type
 
-   real(wp), parameter     :: all_frequencies = 1.0e30_wp ! HFREQ of NASTRAN where it is not given
+   real(wp), parameter     :: all_frequencies = 1.0e30_wp ! default of HFREQ in NASTRAN
    character(*), parameter :: which_modes = 'expected none: V1, V2 and ND of EIGRL say which modes take part'
 
-   ! of the executive control and of the case control
+   ! of executive control and case control
    character(12), parameter :: control_words(65) = [character(12) :: &
       'SCREEN', 'FORMAT', &
       'ID', 'TIME', 'NASTRAN', 'INIT', 'ASSIGN', 'DIAG', 'GEOMCHECK', 'ECHOON', 'ECHOOFF', 'SUBTITLE', 'LINE', &
@@ -57,7 +57,7 @@ module nastran_compatibility
       'SPCFORCES', 'MPCFORCES', 'OLOAD', 'GPFORCE', 'GPSTRESS', 'GPSTRAIN', 'GPSDCON', 'ELSDCON', 'GPKE', 'ESE', 'EKE', &
       'EDE', 'STRFIELD', 'SURFACE', 'VOLUME', 'BOUTPUT', 'DATAREC', 'THERMAL', 'FLUX', 'HOUTPUT', 'ENTHALPY', 'MEFFMASS', &
       'MODALKE', 'OTIME', 'OFREQUENCY', 'OMODES', 'PLOTID', 'SETP', 'XYPLOT', 'XYPRINT', 'SEALL', 'VUGRID']
-   ! of the bulk data: plots, and properties and materials of elements that there are none of
+   ! of the bulk data: plots, and properties and materials of unsupported elements
    character(8), parameter :: card_names(41) = [character(8) :: &
       'MAT4', 'MAT5', 'DTI', &
       'PLOTEL', 'PLOTEL3', 'PLOTEL4', 'PLOTEL6', 'PLOTEL8', 'ECHOON', 'ECHOOFF', 'NLPARM', 'PBCOMP', &
@@ -67,7 +67,7 @@ module nastran_compatibility
 
 contains
 
-   !> The word of case control without effect that KEY is, four letters of it or more; empty: none.
+   !> The word of case control without effect that KEY stands for, in at least four letters; empty: none.
    pure function control_habit(key) result(word)
       character(*), intent(in)  :: key !! in capitals
       character(:), allocatable :: word
@@ -87,8 +87,8 @@ contains
       is_idle_card = any(card_names == name)
    end function is_idle_card
 
-   !> Take the PARAM called NAME with this VALUE on LINE into PARAMETERS, or among the entries without effect, IDLE. Where it asks for
-   !! another answer, or its value is wrong, EXPECTED says what of it would be understood.
+   !> Store the PARAM NAME with this VALUE on LINE in PARAMETERS, or among the entries without effect, IGNORED. Where the PARAM would
+   !! change the answer in an unsupported way, or its value is wrong, EXPECTED is the expected value.
    pure subroutine take_parameter(name, value, line, parameters, ignored, expected)
       character(*), intent(in)               :: name, value !! in capitals, no blanks in front
       integer, intent(in)                    :: line
@@ -141,7 +141,7 @@ contains
 
    contains
 
-      !> Why the value is refused, empty where it is that of a PARAM that is not given.
+      !> WORDS where the value is refused; empty where it is the default of the PARAM.
       pure function refusal(is_default, words)
          logical, intent(in)       :: is_default
          character(*), intent(in)  :: words
@@ -153,7 +153,7 @@ contains
 
    end subroutine take_parameter
 
-   !> What a line says that is none of the program's own keys: it has no effect, or is not known.
+   !> Interpret a line without a key of the program: it has no effect, or is unknown.
    subroutine read_habit(entry, parameters, ignored, errors)
       type(entry_type), intent(in)           :: entry
       type(parameters_type), intent(inout)   :: parameters
@@ -189,7 +189,7 @@ contains
       end select
    end subroutine read_habit
 
-   !> ECHO = NO or NONE, or any of the words by which NASTRAN prints the deck, in whatever order, to whatever file.
+   !> ECHO = NO or NONE, or any of NASTRAN's words for printing the deck, in any order, to any file.
    subroutine read_echo(entry, is_on, errors)
       type(entry_type), intent(in)         :: entry
       logical, intent(out)                 :: is_on
@@ -203,7 +203,7 @@ contains
       is_on = index(off, word) == 0
    end subroutine read_echo
 
-   !> One more entry that is called NAME.
+   !> Count one more entry NAME.
    pure subroutine add(self, name)
       class(ignored_entries_type), intent(inout) :: self
       character(*), intent(in)               :: name
@@ -213,7 +213,8 @@ contains
       if (all(self%names /= name)) self%names = [character(name_length) :: self%names, name]
    end subroutine add
 
-   !> The entry NAME on LINE has an effect where the structure oscillates, or responds to a load; with a REFUSAL that is an error.
+   !> Note the entry NAME on LINE, which has an effect in a stage with MODES or, if NEEDS_RESPONSE, with FREQUENCY. With a
+   !! REFUSAL the effect is an error.
    pure subroutine wait(self, name, line, needs_response, refusal)
       class(ignored_entries_type), intent(inout) :: self
       character(*), intent(in)               :: name
@@ -238,7 +239,7 @@ contains
       self%waiting = [self%waiting, entry]
    end subroutine wait
 
-   !> Now it is known whether any stage has MODES, and FREQUENCY.
+   !> Decide the noted entries, now that it is known whether any stage has MODES and FREQUENCY.
    subroutine settle(self, has_modes, has_response, errors)
       class(ignored_entries_type), intent(inout) :: self
       logical, intent(in)                    :: has_modes, has_response

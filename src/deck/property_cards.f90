@@ -18,13 +18,13 @@ module property_cards
 
    character(2), parameter :: point_names(8) = ['C1', 'C2', 'D1', 'D2', 'E1', 'E2', 'F1', 'F2']
    character(4), parameter :: dimension_names(6) = ['DIM1', 'DIM2', 'DIM3', 'DIM4', 'DIM5', 'DIM6']
-   integer, parameter      :: first_of_station = 17 ! data field of a PBEAM, and how many fields a station has
+   integer, parameter      :: first_of_station = 17 ! first data field of a PBEAM station, and number of its fields
    character(3), parameter, public :: load_types(12) = [character(3) :: 'FX', 'FY', 'FZ', 'MX', 'MY', 'MZ', 'FXE', 'FYE', 'FZE', &
                                                         'MXE', 'MYE', 'MZE']
 
 contains
 
-   !> TEMP: temperatures T of up to three nodes G. TEMPD: of all nodes that have none in set SID, up to four sets.
+   !> TEMP: temperatures T of up to three nodes G. TEMPD: temperature of all nodes without a TEMP in set SID, for up to four sets.
    subroutine read_temperature(card, bulk)
       type(card_fields_type), intent(inout) :: card
       type(bulk_data_type), intent(inout)   :: bulk
@@ -60,8 +60,8 @@ contains
       end do
    end subroutine read_temperature
 
-   !> TEMPP1: the mean temperature TBAR of shells and its slope TPRIME along their normals. TS1 and TS2, which NASTRAN uses for stresses
-   !! alone, mean nothing here.
+   !> TEMPP1: the mean temperature TBAR of shells and its gradient TPRIME along their normals. TS1 and TS2, which NASTRAN uses for
+   !! stresses only, have no effect.
    subroutine read_plate_temperature(card, bulk)
       type(card_fields_type), intent(inout) :: card
       type(bulk_data_type), intent(inout)   :: bulk
@@ -82,9 +82,9 @@ contains
       end associate
    end subroutine read_plate_temperature
 
-   !> PSHELL: in the plane a membrane of thickness T; MID2 = -1 plane strain, else plane stress; MODES = YES on a continuation line
-   !! adds the incompatible modes of Wilson and Taylor; what bending out of the plane has means nothing there. In space a shell:
-   !! MID1 membrane, MID2 and 12I/T**3 bending, MID3 and TS/T transverse shear, Z1 and Z2 where its stress is told.
+   !> PSHELL: in the plane a membrane of thickness T; MID2 = -1 is plane strain, otherwise plane stress. MODES = YES on a continuation
+   !! adds the incompatible modes of Wilson and Taylor; bending data have no effect there. In space a shell: MID1 membrane, MID2 and
+   !! 12I/T**3 bending, MID3 and TS/T transverse shear, Z1 and Z2 the fibres of stress output.
    subroutine read_pshell(card, bulk)
       type(card_fields_type), intent(inout) :: card
       type(bulk_data_type), intent(inout)   :: bulk
@@ -135,9 +135,9 @@ contains
       end associate
    end subroutine read_paxis
 
-   !> PSOLID: solids. CHEXA of 8 and CPENTA of 6 nodes have incompatible modes, as NASTRAN's have bubble functions, but where ISOP
-   !! asks for full integration. NASTRAN's reduced shear without bubble functions is not there: like them, the modes take the shear
-   !! from bending that does not belong to it. Output and the system of an isotropic material have no effect.
+   !> PSOLID: solids. CHEXA of 8 and CPENTA of 6 nodes have incompatible modes, as NASTRAN's have bubble functions, unless ISOP selects
+   !! full integration. NASTRAN's reduced shear integration without bubble functions is not available; the incompatible modes also
+   !! remove parasitic shear in bending. Output requests and the system of an isotropic material have no effect.
    subroutine read_psolid(card, bulk)
       type(card_fields_type), intent(inout) :: card
       type(bulk_data_type), intent(inout)   :: bulk
@@ -157,7 +157,7 @@ contains
       end associate
    end subroutine read_psolid
 
-   !> PROD: a bar of cross-section A; J and C are of torsion, which a bar of this kind does not feel.
+   !> PROD: a bar of cross-section A. J and C are for torsion, which this bar does not have.
    subroutine read_prod(card, bulk)
       type(card_fields_type), intent(inout) :: card
       type(bulk_data_type), intent(inout)   :: bulk
@@ -172,7 +172,7 @@ contains
       end associate
    end subroutine read_prod
 
-   !> CONROD: a CROD with its PROD on one card.
+   !> CONROD: a CROD and its PROD on one card.
    subroutine read_conrod(card, bulk)
       type(card_fields_type), intent(inout) :: card
       type(bulk_data_type), intent(inout)   :: bulk
@@ -188,8 +188,8 @@ contains
       end associate
    end subroutine read_conrod
 
-   !> MAT1: of E, G and NU two are enough, G = E/(2 (1 + NU)), and for bars E; all three must agree within one per cent. Of the
-   !! stress limits that of tension is what bolts are compared with; the system of the material means nothing to an isotropic one.
+   !> MAT1: two of E, G and NU suffice, with G = E/(2 (1 + NU)); E suffices for bars. All three must agree within one per cent. Of the
+   !! stress limits, the limit in tension is compared with bolt stresses. The material system has no effect on an isotropic material.
    subroutine read_mat1(card, bulk)
       type(card_fields_type), intent(inout) :: card
       type(bulk_data_type), intent(inout)   :: bulk
@@ -212,7 +212,7 @@ contains
       associate (e => bulk%mat1(card%i)%e, nu => bulk%mat1(card%i)%nu, bars_only => bulk%mat1(card%i)%bars_only, &
                  has_e => card%given('E'), has_g => card%given('G'), has_nu => card%given('NU'))
          bars_only = has_e .and. .not. (has_g .or. has_nu)
-         if (card%is_faulty() .or. bars_only) return ! of the three the one that is left blank follows
+         if (card%is_faulty() .or. bars_only) return ! the blank one of the three follows
          if (.not. (has_e .or. (has_g .and. has_nu))) then
             call card%error('E', 'expected two of E, G and NU; for bars E alone suffices')
          else if (.not. has_e) then
@@ -228,8 +228,7 @@ contains
       end associate
    end subroutine read_mat1
 
-   !> PARAM: numbers that steer NASTRAN, a name and one value or two, of any kind. Most have no effect here, some would change the
-   !! answer.
+   !> PARAM: a name and one or two values of any kind. Most PARAMs of NASTRAN have no effect here, some would change the answer.
    subroutine read_parameter(card, bulk)
       type(card_fields_type), intent(inout) :: card
       type(bulk_data_type), intent(inout)   :: bulk
@@ -245,7 +244,7 @@ contains
       if (expected /= '') call card%error('V1', ''''//card%text_at(2)//''' for '//card%text_at(1)//', expected '//expected)
    end subroutine read_parameter
 
-   !> PBAR and PBEAM: a section by its numbers; PBARL and PBEAML: by its dimensions.
+   !> PBAR and PBEAM give a section by its properties, PBARL and PBEAML by its dimensions.
    subroutine read_beam_property(card, bulk)
       type(card_fields_type), intent(inout) :: card
       type(bulk_data_type), intent(inout)   :: bulk
@@ -258,7 +257,7 @@ contains
       end select
    end subroutine read_beam_property
 
-   !> PBAR: K1 and K2 left blank, a beam is rigid in transverse shear, as in NASTRAN.
+   !> PBAR: with K1 and K2 blank a beam is rigid in transverse shear, as in NASTRAN.
    subroutine read_pbar(card, property)
       type(card_fields_type), intent(inout)    :: card
       type(beam_property_card), intent(inout) :: property
@@ -279,8 +278,8 @@ contains
       end associate
    end subroutine read_pbar
 
-   !> PBEAM: the section at end A; stations further on must have the same. K1 and K2 left blank are 1. The shear centre is the centroid:
-   !! warping (CW), taper in shear (S1, S2), NSI and the offsets M and N of mass and neutral axis must be blank.
+   !> PBEAM: the section at end A; other stations must have the same section. Blank K1 and K2 are 1. The shear centre is the centroid:
+   !! warping (CW), shear relief (S1, S2), NSI and the offsets M and N of mass and neutral axis must be blank.
    subroutine read_pbeam(card, property)
       type(card_fields_type), intent(inout)    :: card
       type(beam_property_card), intent(inout) :: property
@@ -324,7 +323,7 @@ contains
 
    contains
 
-      !> What field K of a station is at end A.
+      !> Value of station field K at end A.
       pure real(wp) function at_end_a(k)
          integer, intent(in) :: k
 
@@ -349,7 +348,7 @@ contains
       section%point = reshape(points, [2, 4])
    end subroutine read_points
 
-   !> I12 squared is below I1 I2: a section that can be.
+   !> I12 squared must be below I1 I2 for a possible section.
    subroutine check_inertia(card, section)
       type(card_fields_type), intent(inout) :: card
       type(beam_section), intent(in)        :: section
@@ -393,9 +392,9 @@ contains
       if (.not. ok) call card%error('DIM1', 'these dimensions give no valid '//trim(section_names(i))//'; expected '//expected)
    end subroutine read_dimensions
 
-   !> PLOAD1: a force or moment along a beam, global (FX ... MZ) or in its axes (FXE ... MZE), between X1 and X2 linear from P1 to P2; X2
-   !! blank or equal to X1: at X1 alone. SCALE: X is a length or a fraction of the beam, the load one a unit of the beam's length or, with
-   !! PR, of its length projected onto the plane across the load.
+   !> PLOAD1: a force or moment along a beam, in global axes (FX ... MZ) or beam axes (FXE ... MZE), linear from P1 at X1 to P2 at X2; a
+   !! concentrated load where X2 is blank or equals X1. SCALE: X is a length or a fraction of the beam; the load is per unit length of
+   !! the beam or, with PR, of its projection on the plane normal to the load.
    subroutine read_beam_load(card, bulk)
       type(card_fields_type), intent(inout) :: card
       type(bulk_data_type), intent(inout)   :: bulk

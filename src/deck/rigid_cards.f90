@@ -52,7 +52,7 @@ contains
             call card%components('CM', rigid%components)
             call card%field('GM1', node)
             last = card%n
-            if (last > 4 .and. is_real(card%text_at(last))) then ! ALPHA, or the first of two, the other TREF
+            if (last > 4 .and. is_real(card%text_at(last))) then ! ALPHA, with TREF in the next field or without
                first = merge(last - 1, last, is_real(card%text_at(last - 1)))
                call read_expansion(card, first, last, rigid)
                last = first - 1
@@ -62,7 +62,7 @@ contains
       end associate
    end subroutine read_rigid
 
-   !> RBE2M, RBE3M: an RBE2 or RBE3 of the nodes of surface PID. Without GN or REFGRID the reference node is a new one.
+   !> RBE2M, RBE3M: an RBE2 or RBE3 with the nodes of surface PID. Without GN or REFGRID the reference node is a new node.
    subroutine read_rigid_surface(card, rigid, bulk)
       type(card_fields_type), intent(inout) :: card
       type(rigid_card), intent(inout)       :: rigid
@@ -78,13 +78,13 @@ contains
       if (rigid%is_mean .and. any([(has_component(directions, c), c = 4, 6)])) call bulk%ignored%add('456 in C of RBE3')
       call card%field('PID', rigid%surface)
       call card%finish(rigid%line)
-      rigid%nodes = [integer ::]                   ! name_surface_nodes finds them
+      rigid%nodes = [integer ::]                   ! name_surface_nodes adds them
       rigid%at = [merge(5, 4, rigid%is_mean)]
       rigid%directions = [directions]
       rigid%weight = [real(wp) ::]
    end subroutine read_rigid_surface
 
-   !> NODEAT: the node nearest to a place, on surface PID where that is given.
+   !> NODEAT: the node nearest to a place, on surface PID if given.
    subroutine read_place(card, bulk)
       type(card_fields_type), intent(inout) :: card
       type(bulk_data_type), intent(inout)   :: bulk
@@ -97,7 +97,7 @@ contains
       end associate
    end subroutine read_place
 
-   !> SHELLTO: a marked edge of shells and the marked face that it moves with.
+   !> SHELLTO: a marked edge of shells and the marked face with which it moves.
    subroutine read_tie(card, bulk)
       type(card_fields_type), intent(inout) :: card
       type(bulk_data_type), intent(inout)   :: bulk
@@ -106,8 +106,8 @@ contains
       call card%finish(bulk%tie(card%i)%line)
    end subroutine read_tie
 
-   !> RBAR: of nodes GA and GB one is independent, all its six components in CNA or CNB; the components CMA or CMB of the other, blank all
-   !! six, move with it as a rigid body.
+   !> RBAR: one of the nodes GA and GB is independent, with all six components in CNA or CNB. The components CMA or CMB of the other
+   !! node, all six where blank, move with it as a rigid body.
    subroutine read_rigid_bar(card, rigid)
       type(card_fields_type), intent(inout) :: card
       type(rigid_card), intent(inout)       :: rigid
@@ -139,7 +139,7 @@ contains
       rigid%weight = [1.0_wp]
    end subroutine read_rigid_bar
 
-   !> ALPHA in data field K, and TREF behind it where that is not behind field LAST.
+   !> ALPHA in data field K, and TREF after it unless that is beyond field LAST.
    subroutine read_expansion(card, k, last, rigid)
       type(card_fields_type), intent(inout) :: card
       integer, intent(in)                   :: k, last
@@ -152,8 +152,8 @@ contains
       if (k < last) call card%real_at(k + 1, 'TREF', 'a real number', reference, ok)
    end subroutine read_expansion
 
-   !> The groups of an RBE3 from data field 5 on: WEIGHT, DIRECTIONS and the nodes of the first one, which is decoded so far; behind
-   !! its nodes a real begins the next one.
+   !> The groups of an RBE3 from data field 5 on. WEIGHT, DIRECTIONS and nodes of the first group are decoded so far; after its nodes a
+   !! real begins the next group.
    subroutine read_groups(card, weight, directions, rigid)
       type(card_fields_type), intent(inout) :: card
       real(wp), intent(in)                  :: weight
@@ -186,8 +186,8 @@ contains
       end do
    end subroutine read_groups
 
-   !> What stands behind the groups, from the word in data field K on: UM and pairs of a node and its components, ALPHA and its value,
-   !! and perhaps TREF.
+   !> The entries after the groups, from the word in data field K on: UM with pairs of a node and its components, ALPHA and its value,
+   !! and TREF or nothing.
    subroutine read_tail(card, k, rigid)
       type(card_fields_type), intent(inout) :: card
       integer, intent(in)                   :: k
@@ -208,7 +208,7 @@ contains
       end do
    end subroutine read_tail
 
-   !> The pairs behind UM in data field AT, which is left at the next word, or behind the card.
+   !> The pairs after UM in data field AT. AT then is the next word, or beyond the card.
    subroutine read_dependent(card, at, rigid)
       type(card_fields_type), intent(inout) :: card
       integer, intent(inout)                :: at
@@ -233,14 +233,14 @@ contains
       end do
    end subroutine read_dependent
 
-   !> Whether TEXT is a word, a letter first.
+   !> Whether TEXT begins with a letter.
    pure logical function is_word(text)
       character(*), intent(in) :: text
 
       is_word = scan(text, 'ABCDEFGHIJKLMNOPQRSTUVWXYZ') == 1
    end function is_word
 
-   !> Whether TEXT is no integer but has the point of a real number.
+   !> Whether TEXT is not an integer but has the decimal point of a real number.
    pure logical function is_real(text)
       character(*), intent(in) :: text
       integer :: number
@@ -250,7 +250,7 @@ contains
       is_real = .not. ok .and. index(text, '.') > 0
    end function is_real
 
-   !> The nodes in the data fields FIRST to LAST, all with the same DIRECTIONS and WEIGHT, behind those that RIGID has.
+   !> Append the nodes in the data fields FIRST to LAST to RIGID, all with the same DIRECTIONS and WEIGHT.
    subroutine read_list(card, first, last, directions, weight, rigid)
       type(card_fields_type), intent(inout) :: card
       integer, intent(in)                   :: first, last, directions

@@ -16,29 +16,29 @@ module stage_entries
    integer, parameter :: modes = 1, stiffness = 2, frequency = 5, dload = 6, response = 8 ! of KEYS
    character(11), parameter :: keys(*) = stage_keys(findloc(stage_keys, 'MODES', dim=1):)
 
-   !> How one stage asks the structure to oscillate.
+   !> The vibration entries of one stage.
    type, public :: vibration_entries_type
-      integer  :: line(size(keys)) = 0        !! on which each of the keys stands, 0: not given
+      integer  :: line(size(keys)) = 0        !! line of each key, 0: not given
       type(set_reference) :: modes            !! EIGRL
       logical  :: free = .false.              !! MODES(FREE)
       logical  :: on_loading = .false.        !! STIFFNESS = LOAD
       real(wp) :: amplitude = 0.0_wp          !! [length], 0: not given
       type(set_reference) :: backbone         !! JAMPL
       type(set_reference) :: frequency        !! FREQ1, FREQ4
-      type(set_reference) :: load             !! set of the load that oscillates
+      type(set_reference) :: load             !! set of the oscillating load
       type(set_reference) :: damping          !! TABDMP1
-      type(limit_type), allocatable :: response(:) !! nodes whose response is asked; not allocated: none
+      type(limit_type), allocatable :: response(:) !! nodes of the response; not allocated: none
    end type vibration_entries_type
 
-   !> OUTPUT of a stage: what is printed of it.
+   !> OUTPUT of a stage.
    type, public :: output_request
       integer :: level = output_last
       logical :: plot = .false., vtu = .false.
-      logical :: steps = .false.          !! files for ParaView after every increment
+      logical :: steps = .false.          !! VTU files after every increment
       logical :: stress = .false.         !! principal stresses and von Mises in the listing
-      logical :: state = .false.          !! what the interface elements remember
+      logical :: state = .false.          !! state variables of the interface elements
       logical :: condensed = .false.      !! [k_b] condensed on the interface
-      logical :: along_cd = .false.       !! vectors at nodes along their systems CD
+      logical :: along_cd = .false.       !! nodal vectors in their systems CD
    end type output_request
 
    !> One SUBCASE: a stage of the load history.
@@ -47,17 +47,17 @@ module stage_entries
       character(:), allocatable :: label
       type(set_reference) :: load         !! total load at the end of the stage; none: no load
       type(set_reference) :: increments, supports
-      type(set_reference) :: temperature  !! at the end of the stage; none: all is at its TREF
-      type(set_reference) :: equations    !! between components, MPC
+      type(set_reference) :: temperature  !! at the end of the stage; none: TREF everywhere
+      type(set_reference) :: equations    !! constraint equations, MPC
       type(output_request) :: output
-      type(limit_type), allocatable :: only(:) !! not allocated: the tables have all nodes and elements
-      type(limit_type), allocatable :: watch(:) !! nodes whose movement the answer gives; not allocated: none
+      type(limit_type), allocatable :: only(:) !! not allocated: tables of all nodes and elements
+      type(limit_type), allocatable :: watch(:) !! nodes whose displacement the answer gives; not allocated: none
       type(vibration_entries_type) :: vibration !! MODES and what goes with it
    end type stage_type
 
 contains
 
-   !> One entry of a stage into STAGE.
+   !> Store one entry of a stage in STAGE.
    subroutine read_stage_entry(entry, stage, errors)
       type(entry_type), intent(in)         :: entry
       type(stage_type), intent(inout)      :: stage
@@ -98,7 +98,7 @@ contains
             call parse_real(upper(entry%value), asked%amplitude, ok)
             if (ok) ok = asked%amplitude >= smallest_size .and. asked%amplitude <= largest_size
             if (ok) return
-            asked%amplitude = 1.0_wp ! that nothing more is said of it
+            asked%amplitude = 1.0_wp ! a valid value prevents further messages
             call value_error(entry, 'a real number above 0, the largest displacement of the oscillation', errors)
          case ('BACKBONE')
             call read_number(entry, asked%backbone, errors)
@@ -121,7 +121,7 @@ contains
       type(entry_type), intent(in)         :: entry
       type(stage_type), intent(inout)      :: stage
       type(deck_error_list), intent(inout) :: errors
-      character(*), parameter :: beside = 'PLOT, STRESS, VTU, STEPS, STATE, CONDENSED, CD, SET N, PMARK N' ! not in place of a level
+      character(*), parameter :: beside = 'PLOT, STRESS, VTU, STEPS, STATE, CONDENSED, CD, SET N, PMARK N' ! may stand beside a level
       character(:), allocatable :: rest, word
       integer :: comma, levels
       logical :: ok, twice
@@ -164,7 +164,7 @@ contains
 
    contains
 
-      !> A word that stands beside a level, not in place of one.
+      !> A word that may stand beside a level, but not replace it.
       subroutine switch_on(switch)
          logical, intent(inout) :: switch
 
@@ -175,7 +175,7 @@ contains
 
    end subroutine read_output
 
-   !> RESPONSE = SET 5, PMARK 20, and WATCH likewise: words between commas.
+   !> RESPONSE = SET 5, PMARK 20, and WATCH likewise: words with commas.
    subroutine read_nodes(entry, nodes, errors)
       type(entry_type), intent(in)         :: entry
       type(limit_type), allocatable, intent(inout) :: nodes(:)
@@ -195,29 +195,29 @@ contains
       if (.not. ok) call value_error(entry, 'SET N or PMARK N, several with commas between them: the nodes to be written', errors)
    end subroutine read_nodes
 
-   !> What goes together stands together: of the stages, whose entries above the first SUBCASE have come down into each, the entries
-   !! of its own. What stands above them all has no effect in a stage without MODES, or without FREQUENCY, but one must have it.
+   !> Check that each vibration entry has the key it needs. An entry above the first SUBCASE has been copied into each stage. It has no
+   !! effect in a stage without MODES, or without FREQUENCY, but one stage must have the key.
    subroutine check_vibration(asked, line, errors)
       type(vibration_entries_type), intent(in) :: asked(:) !! of each stage
-      integer, intent(in)                      :: line(:)  !! of its SUBCASE, 0: there is none
+      integer, intent(in)                      :: line(:)  !! line of its SUBCASE, 0: none
       type(deck_error_list), intent(inout)     :: errors
       character(:), allocatable :: lacking
       integer :: key, need, s, said
 
       lacking = ''
-      said = 0 ! line of the FREQUENCY of which it was said last what it needs beside it
+      said = 0 ! line of the last FREQUENCY reported as incomplete
       do s = 1, size(asked)
          do key = stiffness, response
             need = merge(modes, frequency, key <= frequency)
             associate (at => asked(s)%line(key), has_it => asked%line(need) > 0)
                if (at == 0 .or. has_it(s)) cycle
-               if (at < line(s) .and. (s > 1 .or. any(has_it))) cycle ! said of the first stage, or has an effect elsewhere
+               if (at < line(s) .and. (s > 1 .or. any(has_it))) cycle ! reported in the first stage, or effective elsewhere
                call errors%add(at, trim(keys(key))//': has no effect without '//trim(keys(need))//', which is not given')
             end associate
          end do
          associate (at => asked(s)%line)
             if (at(frequency) == 0 .or. at(modes) == 0 .or. at(frequency) == said) cycle
-            lacking = '' ! damping may be that of materials, of which nothing is known here
+            lacking = '' ! DAMPING is not required: damping may come from materials, which are unknown here
             if (at(dload) == 0) lacking = ', DLOAD (the set of the load that oscillates)'
             if (at(response) == 0) lacking = lacking//', RESPONSE (the nodes to be written)'
             if (lacking == '') cycle

@@ -14,8 +14,8 @@ module support_cards
 
 contains
 
-   !> SPC: one or two nodes held in the components C at the displacement D. SPC1: components C of the
-   !! nodes G1, G2, ..., or G1 THRU G2. SPCM: components C of all nodes of the marked surface PID.
+   !> SPC: one or two nodes held in the components C at the displacement D. SPC1: components C of the nodes G1, G2, ..., or G1 THRU G2.
+   !! SPCM: components C of all nodes of the marked surface PID.
    subroutine read_support(card, bulk)
       type(card_fields_type), intent(inout) :: card
       type(bulk_data_type), intent(inout)   :: bulk
@@ -47,7 +47,7 @@ contains
       end associate
    end subroutine read_support
 
-   !> SPCADD: the supports of all sets S1, S2, ...; MPCADD: their equations.
+   !> SPCADD: the supports of all sets S1, S2, ...; MPCADD: their constraint equations.
    subroutine read_sum(card, bulk)
       type(card_fields_type), intent(inout) :: card
       type(bulk_data_type), intent(inout)   :: bulk
@@ -82,7 +82,7 @@ contains
       end do
    end subroutine add_up
 
-   !> SPCD: displacements of held components, in a load set: the total at the end of the stage, as for forces.
+   !> SPCD: displacements of held components in a load set; as for forces, the total at the end of the stage.
    subroutine read_displacement(card, bulk)
       type(card_fields_type), intent(inout) :: card
       type(bulk_data_type), intent(inout)   :: bulk
@@ -94,7 +94,7 @@ contains
       card%i = card%i + n - 1
    end subroutine read_displacement
 
-   !> The fields of SPC and SPCD alike: N nodes, one or two.
+   !> The fields of SPC and SPCD: N nodes, one or two.
    subroutine read_moved(card, moved, n)
       type(card_fields_type), intent(inout) :: card
       type(displacement_card), intent(out)  :: moved(2)
@@ -120,9 +120,9 @@ contains
          call card%error('G2', 'node, components C2 and displacement D2 go together')
    end subroutine read_moved
 
-   !> CELAS1: a spring between component C1 of node G1 and C2 of G2, with a PELAS; CELAS2: with K. A node left blank is the ground.
-   !! CBUSH: springs along the three axes of system CID between GA and GB or the ground, with a PBUSH. Where along the line between
-   !! them it stands, S, has no effect: it acts between the displacements of its nodes, and between their rotations.
+   !> CELAS1: a spring between component C1 of node G1 and C2 of G2, with a PELAS; CELAS2: with K. A blank node is the ground. CBUSH:
+   !! springs along the three axes of system CID between GA and GB or the ground, with a PBUSH. The position S on the line between the
+   !! nodes has no effect: the springs connect the displacements of the nodes, and their rotations.
    subroutine read_spring(card, bulk)
       type(card_fields_type), intent(inout) :: card
       type(bulk_data_type), intent(inout)   :: bulk
@@ -162,7 +162,7 @@ contains
       end associate
    end subroutine read_spring
 
-   !> A CELAS has a node, and a component at every node that it has.
+   !> A CELAS must have a node, and a component at every node.
    subroutine check_ends(card, spring)
       type(card_fields_type), intent(inout) :: card
       type(spring_card), intent(in)         :: spring
@@ -187,8 +187,8 @@ contains
       end do
    end subroutine check_ends
 
-   !> PELAS: the stiffnesses K of one or two springs; PBUSH: K1, K2, K3 of a CBUSH along its axes, K4, K5, K6 about
-   !! them. Factors of stresses have no effect.
+   !> PELAS: the stiffnesses K of one or two springs. PBUSH: K1, K2, K3 of a CBUSH along its axes, K4, K5, K6 about them. Stress factors
+   !! have no effect.
    subroutine read_spring_property(card, bulk)
       type(card_fields_type), intent(inout) :: card
       type(bulk_data_type), intent(inout)   :: bulk
@@ -227,8 +227,8 @@ contains
       end associate
    end subroutine read_spring_property
 
-   !> Behind the stiffnesses of a PBUSH may stand lines of damping, B and GE, of stress recovery, RCV, and of mass, M, which counts.
-   !! Damping of a CBUSH is not done: where a structure responds to a load it is an error.
+   !> After the stiffnesses a PBUSH may have lines of damping (B, GE), stress recovery (RCV) and mass (M, which counts). Damping of a
+   !! CBUSH is not supported and is an error in a stage with FREQUENCY.
    subroutine check_rest(card, bulk)
       type(card_fields_type), intent(inout) :: card
       type(bulk_data_type), intent(inout)   :: bulk

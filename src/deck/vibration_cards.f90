@@ -10,14 +10,14 @@ module vibration_cards
 
    public :: read_eigrl, read_jampl, read_freq1, read_freq4, read_tabdmp1
 
-   integer, parameter :: most_frequencies = 100000 ! of one FREQ1, and of one mode by FREQ4
-   integer, parameter :: most_amplitudes = 1000    ! of one JAMPL, and increments to one of them
+   integer, parameter :: most_frequencies = 100000 ! of one FREQ1, and of one mode of a FREQ4
+   integer, parameter :: most_amplitudes = 1000    ! of one JAMPL, and increments to one amplitude
    integer, parameter :: list_from = 9             ! data field in which the list of a TABDMP1 begins
 
 contains
 
-   !> EIGRL: the modes between V1 and V2, ND of them at the most, scaled by NORM. How Lanczos' method is steered and what it prints
-   !! is its own affair here.
+   !> EIGRL: the modes between V1 and V2, at most ND of them, scaled by NORM. The controls of Lanczos' method and of its printout have no
+   !! effect.
    subroutine read_eigrl(card, bulk)
       type(card_fields_type), intent(inout) :: card
       type(bulk_data_type), intent(inout)   :: bulk
@@ -38,7 +38,7 @@ contains
       end associate
    end subroutine read_eigrl
 
-   !> JAMPL: the amplitudes at which BACKBONE follows a mode through its loops.
+   !> JAMPL: the amplitudes at which BACKBONE follows a mode through its hysteresis loops.
    subroutine read_jampl(card, bulk)
       type(card_fields_type), intent(inout) :: card
       type(bulk_data_type), intent(inout)   :: bulk
@@ -89,7 +89,7 @@ contains
       end associate
    end subroutine read_freq1
 
-   !> FREQ4: NFM frequencies, an odd number so that the mode itself is one of them, spread by FSPD about every mode from F1 to F2.
+   !> FREQ4: NFM frequencies, an odd number so that the natural frequency is one of them, within FSPD of every mode from F1 to F2.
    subroutine read_freq4(card, bulk)
       type(card_fields_type), intent(inout) :: card
       type(bulk_data_type), intent(inout)   :: bulk
@@ -106,7 +106,7 @@ contains
       end associate
    end subroutine read_freq4
 
-   !> TABDMP1: pairs of a frequency and the damping there, closed by ENDT. TYPE says what the damping is.
+   !> TABDMP1: pairs of frequency and damping, ended by ENDT. TYPE is the kind of damping.
    subroutine read_tabdmp1(card, bulk)
       type(card_fields_type), intent(inout) :: card
       type(bulk_data_type), intent(inout)   :: bulk
@@ -122,7 +122,7 @@ contains
       end associate
    end subroutine read_tabdmp1
 
-   !> The pairs up to ENDT; one with SKIP in it is none, nor are two blank fields.
+   !> Read the pairs up to ENDT. A pair with SKIP or with two blank fields does not count.
    subroutine read_pairs(card, table)
       type(card_fields_type), intent(inout) :: card
       type(tabdmp1_card), intent(inout)     :: table
@@ -157,7 +157,7 @@ contains
       end do
    end subroutine read_pairs
 
-   !> The real in data field K, NAME, which must be at least LEAST.
+   !> The real in data field K, NAME, at least LEAST.
    subroutine read_entry(card, k, name, expected, least, value)
       type(card_fields_type), intent(inout) :: card
       integer, intent(in)                   :: k
@@ -170,8 +170,8 @@ contains
       if (ok .and. value < least) call card%wrong_entry(k, name, 'is out of range, expected '//expected)
    end subroutine read_entry
 
-   !> Two points at the least, all ascending or all descending, which is turned round; where the value jumps a frequency stands twice,
-   !! but not at the ends.
+   !> At least two points, in ascending or descending order; descending points are reversed. At a jump a frequency may appear twice, but
+   !! not at the ends.
    subroutine check_order(card, table)
       type(card_fields_type), intent(inout) :: card
       type(tabdmp1_card), intent(inout)     :: table
